@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What is installed, and how other projects find it: CMake's find_package(pnpbs) and pkg-config.
+# The shared library needs nothing from its users: neither names Kokkos, MPI or C++.
+
+include(CMakePackageConfigHelpers)
+set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc/pnpbs")
+set(data_dir "${CMAKE_INSTALL_DATAROOTDIR}/pnpbs")
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pnpbs")
+
+# ------------------------------------------------------------------ library, headers, command ---
+install(DIRECTORY include/pnpbs DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+        FILES_MATCHING PATTERN "*.h")
+# A shared Kokkos or an MPI outside the system's folders is found again where it was linked.
+set_target_properties(pnpbs PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+if(PNPBS_KOKKOS_IS_SHARED)
+  # By name, because CMake leaves out what lies inside the source tree (.deps).
+  set_target_properties(pnpbs PROPERTIES INSTALL_RPATH "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
+endif()
+install(
+  TARGETS pnpbs
+  EXPORT pnpbsTargets
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+if(PNPBS_INSTALL_STATIC)
+  install(TARGETS pnpbs_core ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+endif()
+
+file(RELATIVE_PATH bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+if(TARGET pnpbs-cli)
+  # Relative, so that an installed tree may be moved.
+  set_target_properties(pnpbs-cli PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
+  install(TARGETS pnpbs-cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()
+
+# ------------------------------------------------------------------ CMake package ---------------
+configure_package_config_file(
+  cmake/pnpbsConfig.cmake.in "${PROJECT_BINARY_DIR}/pnpbsConfig.cmake"
+  INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
+# While the major version is 0, a new minor version may change the interface.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/pnpbsConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/pnpbsConfig.cmake"
+              "${PROJECT_BINARY_DIR}/pnpbsConfigVersion.cmake" DESTINATION "${package_dir}")
+install(EXPORT pnpbsTargets NAMESPACE pnpbs:: DESTINATION "${package_dir}")
+
+# ------------------------------------------------------------------ pkg-config ------------------
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+  set(PNPBS_PC_PREFIX "${CMAKE_INSTALL_PREFIX}")
+  set(PNPBS_PC_LIBDIR "${CMAKE_INSTALL_FULL_LIBDIR}")
+  set(PNPBS_PC_INCLUDEDIR "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+else()
+  # From the place of the file itself, so that an installed tree may be moved.
+  file(RELATIVE_PATH up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+  string(REGEX REPLACE "/$" "" up "${up}")
+  set(PNPBS_PC_PREFIX "\${pcfiledir}/${up}")
+  set(PNPBS_PC_LIBDIR "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+  set(PNPBS_PC_INCLUDEDIR "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
+# What only `pkg-config --static` asks for, and only where there is a static library.
+set(PNPBS_PC_LIBS_PRIVATE "")
+if(PNPBS_INSTALL_STATIC)
+  foreach(part kokkossimd kokkosalgorithms kokkoscontainers kokkoscore)
+    if(TARGET Kokkos::${part})
+      get_target_property(part_type Kokkos::${part} TYPE)
+      if(part_type MATCHES "^(STATIC|SHARED)_LIBRARY$")
+        string(APPEND PNPBS_PC_LIBS_PRIVATE " $<TARGET_FILE:Kokkos::${part}>")
+      endif()
+    endif()
+  endforeach()
+  if(PNPBS_HAVE_MPI)
+    string(REPLACE ";" " " mpi_libraries "${MPI_C_LIBRARIES}")
+    string(APPEND PNPBS_PC_LIBS_PRIVATE " ${mpi_libraries}")
+  endif()
+  string(APPEND PNPBS_PC_LIBS_PRIVATE " -fopenmp -lstdc++ -ldl -lm")
+endif()
+configure_file(pkgconfig/pnpbs.pc.in "${PROJECT_BINARY_DIR}/pnpbs.pc.configured" @ONLY)
+file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs.pc"
+     INPUT "${PROJECT_BINARY_DIR}/pnpbs.pc.configured")
+install(FILES "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs.pc"
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+
+# ------------------------------------------------------------------ texts, examples -------------
+install(FILES LICENSE DESTINATION "${doc_dir}")
+if(EXISTS "${PROJECT_SOURCE_DIR}/README.md")
+  install(FILES README.md DESTINATION "${doc_dir}")
+endif()
+install(DIRECTORY examples/data examples/c DESTINATION "${data_dir}/examples"
+        PATTERN ".clang-format" EXCLUDE)

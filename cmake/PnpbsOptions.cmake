@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What a user may choose, and the compiler flags that follow from it.
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug, RelWithDebInfo" FORCE)
+endif()
+
+option(PNPBS_ENABLE_MPI "Let contexts be made on an MPI communicator" ON)
+option(PNPBS_BUILD_CLI "Build the command pnpbs" ON)
+option(PNPBS_BUILD_TESTS "Build the tests" OFF)
+option(PNPBS_INSTALL_STATIC "Install libpnpbs.a as well; its users link Kokkos and C++ themselves"
+       OFF)
+option(PNPBS_FETCH_KOKKOS "Download and build the official Kokkos release if none is found" OFF)
+option(PNPBS_WARNINGS_AS_ERRORS "Stop at the first compiler warning" OFF)
+set(PNPBS_ARCH
+    ""
+    CACHE STRING "Processor to compile for: empty for the compiler's default, native, x86-64-v3, ...")
+set(PNPBS_SANITIZE
+    ""
+    CACHE STRING "Sanitizers to build with, as -fsanitize takes them, e.g. address,undefined")
+
+set(CMAKE_C_STANDARD 99)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+set(CMAKE_C_EXTENSIONS OFF)
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# Warnings for everything that is ours.
+add_library(pnpbs_warnings INTERFACE)
+target_compile_options(pnpbs_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC bug 105651: false alarms inside std::string's operator+.
+  target_compile_options(pnpbs_warnings INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
+endif()
+if(PNPBS_WARNINGS_AS_ERRORS)
+  target_compile_options(pnpbs_warnings INTERFACE -Werror)
+endif()
+
+# How the library's own code is compiled. Results must not depend on where a node lies in memory,
+# so no -ffast-math and no contraction into fused multiply-adds: a vector loop and its remainder
+# then give the same bits. The two flags about maths functions change no value; without them
+# square roots and comparisons keep the loops from being vectorised.
+add_library(pnpbs_arithmetic INTERFACE)
+target_compile_options(pnpbs_arithmetic INTERFACE -ffp-contract=off -fno-math-errno
+                                                  -fno-trapping-math -fopenmp-simd)
+# Some projects and distributions build Release with -O2; the vector loops want -O3.
+target_compile_options(pnpbs_arithmetic
+                       INTERFACE $<$<CONFIG:Release>:-O3> $<$<CONFIG:RelWithDebInfo>:-O3>)
+if(PNPBS_ARCH)
+  target_compile_options(pnpbs_arithmetic INTERFACE -march=${PNPBS_ARCH})
+endif()
+
+# Sanitizers go into every target, the tests' included.
+if(PNPBS_SANITIZE)
+  add_compile_options(-fsanitize=${PNPBS_SANITIZE} -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${PNPBS_SANITIZE})
+endif()

@@ -1,0 +1,433 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * PNPBS - parallel node placement by bubble simulation: the C interface.
+ *
+ * Glossary
+ *   node        a point to compute on; the centre of a bubble
+ *   spacing     d(x) > 0, the wanted distance between neighbouring nodes about x, in the
+ *               unit of the coordinates; a bubble's diameter
+ *   boundary    the curves that bound the domain; each is cut into boundary edges between
+ *               consecutive boundary nodes, and every boundary edge is an edge of the
+ *               Delaunay triangulation that the stars describe
+ *   tag         an integer that marks what a node or boundary edge lies on; 0 for inner nodes
+ *   adjacency   all nodes within `adjacency_radius` times the mean spacing of the pair
+ *   star        a node's neighbours in the constrained Delaunay triangulation, in order
+ *               around it
+ *
+ * Conventions of every function
+ *   status      a pnpbs_status is returned: 0 done; > 0 an outcome whose results are valid;
+ *               < 0 an error: nothing changed, the message is in pnpbs_last_error.
+ *   collective  "Collective" functions must be called by all ranks of the context, in the same
+ *               order, and return the same status on all of them. "Local" ones need not.
+ *   arrays      are the caller's, are read or filled during the call, and are never kept.
+ *               Coordinates are interleaved, [n][dim] with dim = 2 in the plane.
+ *               Counts, ids, indices and offsets are 64-bit; indices and offsets are 0-based.
+ *   strings     we return belong to the library and stay valid until the next call on the
+ *               same context (tables: for ever); strings we take are copied.
+ *   callbacks   come on the calling thread, never two at once. From inside one, only queries
+ *               of the library work; anything else returns PNPBS_ERROR_STATE.
+ *   threads     one host thread at a time per context; contexts are independent.
+ *   side effects  nothing is printed, no signal handler is installed, the process never ends.
+ *
+ * Source of the method: Y. Nie, W. Zhang, N. Qi, Y. Li, "Parallel node placement method by
+ * bubble simulation", Comput. Phys. Commun. 185 (2014) 798-808 ("the paper").
+ */
+#ifndef PNPBS_PNPBS_H
+#define PNPBS_PNPBS_H
+
+#include <stdint.h>
+
+#define PNPBS_VERSION_MAJOR 0
+#define PNPBS_VERSION_MINOR 1
+#define PNPBS_VERSION_PATCH 0
+#define PNPBS_VERSION_STRING "0.1.0"
+
+#if defined(_WIN32) || !defined(__GNUC__)
+#define PNPBS_API
+#else
+#define PNPBS_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---------------------------------------------------------------- status and errors ----- */
+
+/** The one list of outcomes and errors: X(name, value, text). */
+#define PNPBS_STATUS_LIST(X)                                                                     \
+  X(PNPBS_OK, 0, "done")                                                                         \
+  X(PNPBS_NOT_CONVERGED, 1, "the step limit was reached before the bubbles rested")              \
+  X(PNPBS_STOPPED, 2, "stopped by the monitor")                                                  \
+  X(PNPBS_ERROR_ARGUMENT, -1, "invalid argument")                                                \
+  X(PNPBS_ERROR_HANDLE, -2, "not a live handle")                                                 \
+  X(PNPBS_ERROR_STATE, -3, "call not allowed in this state")                                     \
+  X(PNPBS_ERROR_DOMAIN, -4, "invalid domain")                                                    \
+  X(PNPBS_ERROR_SPACING, -5, "invalid spacing")                                                  \
+  X(PNPBS_ERROR_KEY, -6, "unknown option or statistic")                                          \
+  X(PNPBS_ERROR_CAPACITY, -7, "array too small")                                                 \
+  X(PNPBS_ERROR_FILE, -8, "cannot read file")                                                    \
+  X(PNPBS_ERROR_CALLBACK, -9, "a callback asked to stop with an error")                          \
+  X(PNPBS_ERROR_MEMORY, -10, "out of memory")                                                    \
+  X(PNPBS_ERROR_MPI, -11, "MPI is not usable")                                                   \
+  X(PNPBS_ERROR_KOKKOS, -12, "Kokkos is not usable")                                             \
+  X(PNPBS_ERROR_UNSUPPORTED, -13, "not supported by this build")                                 \
+  X(PNPBS_ERROR_INTERNAL, -14, "internal error")
+
+typedef enum pnpbs_status {
+#define PNPBS_STATUS_ENUM(name, value, text) name = value,
+  PNPBS_STATUS_LIST(PNPBS_STATUS_ENUM)
+#undef PNPBS_STATUS_ENUM
+} pnpbs_status;
+
+/** Opaque handles. The value is a registry key, never an address: a stale or foreign one is
+ *  answered with PNPBS_ERROR_HANDLE. NULL is never a live handle. Children keep their parents
+ *  alive, so handles may be destroyed in any order. */
+typedef struct pnpbs_context_handle *pnpbs_context;
+typedef struct pnpbs_domain_handle *pnpbs_domain;
+typedef struct pnpbs_placement_handle *pnpbs_placement;
+
+/** What a status means, in a few words. Local. Never NULL. */
+PNPBS_API const char *pnpbs_status_string(pnpbs_status status);
+
+/** The message of the last error on `context` (or on its children); with NULL, of the calling
+ *  thread, for failed creates and dead handles. Local. "" if there was none. */
+PNPBS_API const char *pnpbs_last_error(pnpbs_context context);
+
+/** The version of the library at run time. Any pointer may be NULL. Local. */
+PNPBS_API pnpbs_status pnpbs_version(int32_t *major, int32_t *minor, int32_t *patch);
+
+/** What the library was built with, one "name: value" per line: version, compiler, Kokkos and
+ *  its back ends, linkage, MPI. Local; valid for ever. */
+PNPBS_API const char *pnpbs_build_info(void);
+
+/** The MPI library we were built with, e.g. "Open MPI 4.1.4"; "" in a build without MPI.
+ *  Local; calls no MPI function; valid for ever. */
+PNPBS_API const char *pnpbs_mpi_library(void);
+
+/* ---------------------------------------------------------------- context --------------- */
+
+/** A context for one process; calls no MPI function, ever. Local.
+ *  @param[out] context  the new handle; NULL on failure */
+PNPBS_API pnpbs_status pnpbs_context_create_serial(pnpbs_context *context);
+
+/** A context on a duplicate of the MPI communicator with the Fortran handle `comm`
+ *  (MPI_Comm_c2f). Collective. Errors: PNPBS_ERROR_UNSUPPORTED in a build without MPI or for
+ *  more than one rank (in this version), PNPBS_ERROR_MPI if MPI is not initialised, already
+ *  finalised, or `comm` is MPI_COMM_NULL. */
+PNPBS_API pnpbs_status pnpbs_context_create_f(int32_t comm, pnpbs_context *context);
+
+/** Ends the context and sets *context to NULL; takes NULL. Its domains and placements live on
+ *  until they are destroyed. Collective. */
+PNPBS_API pnpbs_status pnpbs_context_destroy(pnpbs_context *context);
+
+/** Ends Kokkos if PNPBS started it. Optional: otherwise Kokkos stays up until the process ends.
+ *  Kokkos cannot start twice, so computing calls fail afterwards. Local. */
+PNPBS_API pnpbs_status pnpbs_finalize(void);
+
+/** Sets an option that placements created later on this context start with (see the options
+ *  table, pnpbs_option_info). `threads` can only be set here, and only before the first
+ *  placement of the process is created. Local. Errors: PNPBS_ERROR_KEY (the message has the
+ *  nearest known name), PNPBS_ERROR_ARGUMENT (the message has the range).
+ *  @param[in] value  as text; numbers parse the same in every locale */
+PNPBS_API pnpbs_status pnpbs_context_set(pnpbs_context context, const char *key,
+                                         const char *value);
+PNPBS_API pnpbs_status pnpbs_context_set_int64(pnpbs_context context, const char *key,
+                                               int64_t value);
+PNPBS_API pnpbs_status pnpbs_context_set_double(pnpbs_context context, const char *key,
+                                                double value);
+
+/* ---------------------------------------------------------------- tables ---------------- */
+
+/** Number of options. Local. */
+PNPBS_API pnpbs_status pnpbs_option_count(int32_t *count);
+
+/** One row of the options table. Local; any output may be NULL; strings valid for ever.
+ *  @param[in]  index          0 .. count-1
+ *  @param[out] type           "integer", "real", "choice"
+ *  @param[out] default_value  as text
+ *  @param[out] range          e.g. "1 .. 1000000" or "paper | default"
+ *  @param[out] help           one line */
+PNPBS_API pnpbs_status pnpbs_option_info(int32_t index, const char **name, const char **type,
+                                         const char **default_value, const char **range,
+                                         const char **help);
+
+/** Number of statistics. Local. */
+PNPBS_API pnpbs_status pnpbs_statistic_count(int32_t *count);
+
+/** One row of the statistics table (the report's keys). Local; outputs may be NULL.
+ *  @param[out] type  "integer", "real" or "string": which get function to use
+ *  @param[out] help  one line, with the unit */
+PNPBS_API pnpbs_status pnpbs_statistic_info(int32_t index, const char **name, const char **type,
+                                            const char **help);
+
+/* ---------------------------------------------------------------- domain ---------------- */
+
+/** Role of a curve. A BOUNDARY curve separates inside from outside: the inside is what lies
+ *  behind an odd number of boundary curves (holes and islands nest to any depth). An INNER
+ *  curve lies in the domain, and the nodes follow it. */
+#define PNPBS_BOUNDARY 0
+#define PNPBS_INNER 1
+
+/** A curve by its parameter: fills xy[n][2] for t[n]. Must be a pure function, continuous and
+ *  with no self-intersection. Return 0, or nonzero to fail the call with
+ *  PNPBS_ERROR_CALLBACK. */
+typedef int32_t (*pnpbs_curve_fn)(int64_t n, const double *t, double *xy, void *user);
+
+/** An empty domain. Local.
+ *  @param[in] dim  2 (3 comes later: PNPBS_ERROR_UNSUPPORTED) */
+PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
+                                           pnpbs_domain *domain);
+
+/** Destroys the handle and sets it to NULL; takes NULL. Local. */
+PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
+
+/** Adds straight segments through n vertices. Local.
+ *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER
+ *  @param[in] closed        nonzero: a segment leads from the last vertex to the first; the
+ *                           first vertex is not repeated
+ *  @param[in] xy            [n][2]
+ *  @param[in] tags          [number of segments], nonzero, or NULL for 1
+ *  @param[in] corner_angle  degrees, 0 .. 180. 0: every vertex becomes a node. Otherwise only
+ *                           vertices where the direction turns by more than this do, as do the
+ *                           ends of open polylines and vertices where curves meet; between them
+ *                           the polyline stands for a smooth curve. */
+PNPBS_API pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role,
+                                                 int32_t closed, int64_t n, const double *xy,
+                                                 const int32_t *tags, double corner_angle);
+
+/** Adds a circular arc; its ends join curves that end at the same point (within 1e-9 of the
+ *  domain's size). Local.
+ *  @param[in] centre          [2]
+ *  @param[in] radius          > 0
+ *  @param[in] begin,end       angles in radians; |end - begin| = 2 pi makes a full circle */
+PNPBS_API pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role,
+                                            const double *centre, double radius, double begin,
+                                            double end, int32_t tag);
+
+/** Adds a general curve given by a callback on begin <= t <= end. The callback is called during
+ *  this function and whenever a placement is initialised, so it and `user` must outlive the
+ *  placements made on the domain. A curve whose ends coincide is closed. Smooth inside: corners
+ *  are where curves meet. Local. */
+PNPBS_API pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role,
+                                              pnpbs_curve_fn curve, void *user, double begin,
+                                              double end, int32_t tag);
+
+/** Adds a planar straight-line graph as Triangle means it: what the segments enclose is the
+ *  domain, except the regions that contain a hole point; a loop without a hole point and any
+ *  open chain are inner curves. Every vertex becomes a node. Shared vertices and T-junctions
+ *  (within 1e-12 of the domain's size) are legal. Once a graph was added, this rule holds for
+ *  all curves of the domain. Local.
+ *  @param[in] xy            [vertices][2]
+ *  @param[in] vertex_tags   [vertices] or NULL; 0 = take the segment's
+ *  @param[in] segment_ends  [segments][2], 0-based vertex indices
+ *  @param[in] segment_tags  [segments] or NULL for 1
+ *  @param[in] hole_points   [holes][2]; may be NULL if holes is 0 */
+PNPBS_API pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices,
+                                             const double *xy, const int32_t *vertex_tags,
+                                             int64_t segments, const int64_t *segment_ends,
+                                             const int32_t *segment_tags, int64_t holes,
+                                             const double *hole_points);
+
+/** Removes from the domain the region around a point (between curves of either role). Local. */
+PNPBS_API pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double *point);
+
+/** Adds nodes that must appear exactly. Local.
+ *  @param[in] xy    [n][2], inside the domain or on a vertex of its curves
+ *  @param[in] tags  [n], nonzero, or NULL for 1 */
+PNPBS_API pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n,
+                                                    const double *xy, const int32_t *tags);
+
+/** Reads a file of Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
+ *  markers kept as tags) and adds it as pnpbs_domain_add_pslg does. Local. Errors:
+ *  PNPBS_ERROR_FILE with file, line and what was expected. */
+PNPBS_API pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
+
+/** The same from memory. @param[in] name  what to call the text in messages */
+PNPBS_API pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text,
+                                               int64_t length, const char *name);
+
+/** Checks the whole geometry: duplicate vertices, self-intersections, unclosed boundary curves,
+ *  hole points outside or on a curve, fixed nodes outside or too close. Placements check too;
+ *  asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the vertex or
+ *  segment. */
+PNPBS_API pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
+
+/** Bounding box of the curves. Local. @param[out] low,high  [dim] */
+PNPBS_API pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high);
+
+/** Area of the inside. Local; checks the domain first. */
+PNPBS_API pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);
+
+/** Straight segments that show the domain (curves finely sampled), for pictures. Local.
+ *  Ask with capacity 0 for the count.
+ *  @param[out] count     number of segments
+ *  @param[out] segments  [count][2][dim], or NULL
+ *  @param[out] tags      [count], or NULL */
+PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity,
+                                                 int64_t *count, double *segments,
+                                                 int32_t *tags);
+
+/* ---------------------------------------------------------------- placement ------------- */
+
+/** Spacing callback: fills d[n] for xyz[n][dim]. n may be 0. Must be a pure function of the
+ *  point; may be asked anywhere in the domain's bounding box that lies inside the domain or on
+ *  its boundary. Return 0, or nonzero to fail the call with PNPBS_ERROR_CALLBACK. */
+typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *xyz, double *d,
+                                    void *user);
+
+/** Progress, told at fixed step numbers. Return 0 to go on, nonzero to stop: the call in
+ *  progress then ends with PNPBS_STOPPED and its nodes are valid.
+ *  @param fraction   of the work of the call in progress, 0 .. 1
+ *  @param step       steps done so far
+ *  @param nodes      nodes there are now
+ *  @param max_speed  largest scaled speed (spacings per unit time) */
+typedef int32_t (*pnpbs_monitor_fn)(double fraction, int64_t step, int64_t nodes,
+                                    double max_speed, void *user);
+
+/** A placement of nodes in `domain`, with the options of its context. The domain is taken as it
+ *  is at initialise. Collective. */
+PNPBS_API pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
+                                              pnpbs_placement *placement);
+
+/** Destroys the handle and sets it to NULL; takes NULL. Local. */
+PNPBS_API pnpbs_status pnpbs_placement_destroy(pnpbs_placement *placement);
+
+/** Sets an option of this placement; otherwise as pnpbs_context_set. Local. */
+PNPBS_API pnpbs_status pnpbs_placement_set(pnpbs_placement placement, const char *key,
+                                           const char *value);
+PNPBS_API pnpbs_status pnpbs_placement_set_int64(pnpbs_placement placement, const char *key,
+                                                 int64_t value);
+PNPBS_API pnpbs_status pnpbs_placement_set_double(pnpbs_placement placement, const char *key,
+                                                  double value);
+
+/** The spacing everywhere the same. On a live placement the spacing is replaced: the nodes there
+ *  are stay, and the next run starts from them. Collective.
+ *  Errors: PNPBS_ERROR_SPACING for zero, negative, not finite. */
+PNPBS_API pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d);
+
+/** The spacing from a callback, which must stay valid as long as the placement uses it.
+ *  Collective. Bad values are found when it is asked, in initialise or run: the error names the
+ *  point and the number of nodes it would have meant. */
+PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
+                                                            pnpbs_spacing_fn spacing,
+                                                            void *user);
+
+/** The spacing from values on a rectangular grid, copied; linear in each direction between them,
+ *  constant beyond the grid's edge. Collective.
+ *  @param[in] size    [dim] number of grid points in each direction, >= 1
+ *  @param[in] origin  [dim] the first grid point
+ *  @param[in] step    [dim] > 0, distance of grid points
+ *  @param[in] values  [size[1]][size[0]] (x fastest) */
+PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement,
+                                                        const int64_t *size,
+                                                        const double *origin,
+                                                        const double *step,
+                                                        const double *values);
+
+/** Sets the monitor, or removes it (NULL). Local. */
+PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
+                                                   pnpbs_monitor_fn monitor, void *user);
+
+/** Inner nodes to start from instead of the initial fill, copied; the boundary is laid by the
+ *  library. Points outside the domain or too close to its boundary are left out (statistic
+ *  `dropped`). Clears the nodes there are. Collective.
+ *  @param[in] xy   [n][dim]
+ *  @param[in] ids  [n], distinct, >= 0, or NULL for ids of the library's choice */
+PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
+                                                 const double *xy, const int64_t *ids);
+
+/** Checks domain and spacing, builds the background tree, lays the boundary nodes and the
+ *  initial inner nodes. Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK, _MEMORY. */
+PNPBS_API pnpbs_status pnpbs_placement_initialise(pnpbs_placement placement);
+
+/** Advances the simulation by n steps, with the events (refresh of d, population, stop test)
+ *  that fall on them. Initialises first if need be. Collective.
+ *  Returns PNPBS_OK if the bubbles rest (stop test met), PNPBS_NOT_CONVERGED if they still move,
+ *  PNPBS_STOPPED. */
+PNPBS_API pnpbs_status pnpbs_placement_step(pnpbs_placement placement, int64_t n);
+
+/** One population adjustment, now: deletes where the overlap ratio is too large, inserts where
+ *  it is too small (equation (3) of the paper). Collective. Outputs may be NULL. */
+PNPBS_API pnpbs_status pnpbs_placement_adjust_population(pnpbs_placement placement,
+                                                         int64_t *inserted, int64_t *deleted);
+
+/** The whole job: initialise if need be, steps until the stop test is met or `steps` are done,
+ *  finish. Afterwards it starts a new schedule from the nodes there are. Collective.
+ *  Returns PNPBS_OK, PNPBS_NOT_CONVERGED (the best state is kept), PNPBS_STOPPED. */
+PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
+
+/** Number of nodes of this rank. Local. */
+PNPBS_API pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t *nodes);
+
+/** Copies the nodes of this rank out, in their local order; any array may be NULL. Local.
+ *  @param[in]  capacity  nodes the arrays have room for; too small is PNPBS_ERROR_CAPACITY
+ *  @param[out] xy        [nodes][dim]
+ *  @param[out] ids       [nodes] global ids, the same for any number of ranks and threads
+ *  @param[out] tags      [nodes] 0 inner, otherwise the tag of the boundary, curve or fixed node
+ *  @param[out] spacing   [nodes] d at the node */
+PNPBS_API pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity,
+                                                 double *xy, int64_t *ids, int32_t *tags,
+                                                 double *spacing);
+
+/** Number of entries of all adjacency lists. Collective. */
+PNPBS_API pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement,
+                                                      int64_t *entries);
+
+/** Adjacency lists in compressed rows: the neighbours of local node i are
+ *  neighbours[offsets[i] .. offsets[i+1]-1], local indices in the order of global ids; directly
+ *  usable for node-based local mesh generation. Pairs that a boundary separates are not
+ *  neighbours. Collective.
+ *  @param[in] capacity  entries `neighbours` has room for
+ *  @param[out] offsets  [nodes + 1] */
+PNPBS_API pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement,
+                                                     int64_t capacity, int64_t *offsets,
+                                                     int64_t *neighbours);
+
+/** Number of entries of all Delaunay stars. Collective. */
+PNPBS_API pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int64_t *entries);
+
+/** Each node's star in the constrained Delaunay triangulation of the domain, counter-clockwise.
+ *  Collective.
+ *  @param[out] offsets     [nodes + 1]
+ *  @param[out] neighbours  [entries] local indices
+ *  @param[out] triangle    [entries] 1 if the node, this neighbour and the next one around (the
+ *                          first one after the last) are a triangle of the domain, 0 if a gap
+ *                          outside the domain lies between them; may be NULL */
+PNPBS_API pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int64_t capacity,
+                                                 int64_t *offsets, int64_t *neighbours,
+                                                 int8_t *triangle);
+
+/** Triangles of the stars, each once, counter-clockwise. Collective. Ask with capacity 0 for the
+ *  count. @param[out] triangles  [count][3] local indices, or NULL */
+PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement,
+                                                     int64_t capacity, int64_t *count,
+                                                     int64_t *triangles);
+
+/** Boundary edges: consecutive nodes on boundary and inner curves. Local. Ask with capacity 0
+ *  for the count. @param[out] edges [count][2] local indices, or NULL
+ *  @param[out] tags [count], or NULL */
+PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement,
+                                                          int64_t capacity, int64_t *count,
+                                                          int64_t *edges, int32_t *tags);
+
+/** A statistic by key (see pnpbs_statistic_info). Collective (some are computed when asked).
+ *  Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type differs. */
+PNPBS_API pnpbs_status pnpbs_placement_get_int64(pnpbs_placement placement, const char *key,
+                                                 int64_t *value);
+PNPBS_API pnpbs_status pnpbs_placement_get_double(pnpbs_placement placement, const char *key,
+                                                  double *value);
+PNPBS_API pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, const char *key,
+                                                  const char **value);
+
+/** Warnings about domain and spacing, gathered at initialise (a feature smaller than the
+ *  spacing, an unused vertex, ...). Local. */
+PNPBS_API pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t *count);
+PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
+                                                   const char **text);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,228 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what this machine lacks to build and run PNPBS, and builds Kokkos where there is none.
+# Run it as often as you like: what is there already is left alone.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+default_kokkos=4.7.0
+
+usage() {
+  cat <<TEXT
+usage: scripts/setup.sh [--tests] [--kokkos VERSION]...
+
+  --tests           also install what the tests need
+  --kokkos VERSION  also build this Kokkos, static, into .deps/kokkos-VERSION; with "-shared"
+                    behind the version a shared one. Known versions: 4.7.0, 4.5.1
+
+Packages are installed with apt-get, as root or through sudo; otherwise the script lists what is
+missing. If CMake finds no Kokkos from 4.5 on, $default_kokkos is built into .deps/kokkos, from source
+that comes from PyPI (pip's own settings say which index is asked). CC, CXX and CMAKE_PREFIX_PATH
+are respected.
+TEXT
+}
+
+with_tests=no
+more_kokkos=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --tests) with_tests=yes ;;
+    --kokkos)
+      [ $# -gt 1 ] || { usage >&2; exit 2; }
+      more_kokkos+=("$2")
+      shift
+      ;;
+    -h | --help)
+      usage
+      exit 0
+      ;;
+    *)
+      echo "setup.sh: unknown option '$1'" >&2
+      usage >&2
+      exit 2
+      ;;
+  esac
+  shift
+done
+
+say() { printf '== %s\n' "$*"; }
+
+# ---------------------------------------------------------------- packages ------------------
+# Each need is a question to the machine and the Debian package that answers it, so that a
+# compiler, MPI or CMake from elsewhere is as good as Debian's.
+have() { command -v "$1" > /dev/null 2>&1; }
+cxx() { have "${CXX:-c++}" && have "${CC:-cc}"; }
+header() { echo "#include <$1>" | "${CXX:-c++}" -std=c++20 -E -x c++ - > /dev/null 2>&1; }
+module() { have pkg-config && pkg-config --exists "$1"; }
+new_cmake() {
+  have cmake || return 1
+  local v
+  v=$(cmake --version | sed -n '1s/[^0-9]*\([0-9]*\)\.\([0-9]*\).*/\1 \2/p')
+  # shellcheck disable=SC2086  # two words on purpose
+  set -- $v
+  [ "$1" -gt 3 ] || { [ "$1" -eq 3 ] && [ "$2" -ge 22 ]; }
+}
+new_venv() { have python3 && python3 -c 'import venv, ensurepip' 2> /dev/null; }
+certificates() { [ -e /etc/ssl/certs/ca-certificates.crt ] || [ ! -e /etc/debian_version ]; }
+no_kokkos() { ! find_kokkos; }
+
+# Does CMake find a Kokkos that is new enough, be it the user's or the one built here?
+find_kokkos() {
+  if [ -e .deps/kokkos/lib/cmake/Kokkos/KokkosConfig.cmake ]; then return 0; fi
+  cxx && new_cmake || return 1
+  local dir
+  dir=$(mktemp -d)
+  printf '%s\n' 'cmake_minimum_required(VERSION 3.22)' 'project(probe CXX)' \
+    'find_package(Kokkos 4.5 REQUIRED CONFIG)' > "$dir/CMakeLists.txt"
+  local found=0
+  cmake -S "$dir" -B "$dir/build" > /dev/null 2>&1 || found=1
+  rm -rf "$dir"
+  return $found
+}
+
+missing() {
+  # The compiler first: the questions about headers need it.
+  cxx || echo g++
+  have make || have ninja || echo ninja-build
+  new_cmake || echo cmake
+  have pkg-config || echo pkg-config
+  have mpicc || echo libopenmpi-dev
+  have mpirun || echo openmpi-bin
+  header CLI/CLI.hpp || echo libcli11-dev
+  header nlohmann/json.hpp || echo nlohmann-json3-dev
+  module muparser || echo libmuparser-dev
+  module cairo || echo libcairo2-dev
+  if [ $with_tests = yes ]; then
+    have ninja || echo ninja-build
+    have make || echo make
+    have clang-format || echo clang-format
+    module check || echo check
+    header CGAL/Constrained_Delaunay_triangulation_2.h || echo libcgal-dev
+  fi
+  if [ $with_tests = yes ] || [ ${#more_kokkos[@]} -gt 0 ] || no_kokkos; then
+    new_venv || echo python3-venv
+    certificates || echo ca-certificates
+  fi
+}
+
+packages=$(missing | sort -u | tr '\n' ' ')
+packages=${packages% }
+if [ -n "$packages" ]; then
+  as_root=()
+  if [ "$(id -u)" != 0 ]; then as_root=(sudo); fi
+  if ! have apt-get || { [ ${#as_root[@]} -gt 0 ] && ! have sudo; }; then
+    {
+      echo "setup.sh: missing on this machine (Debian's names): $packages"
+      echo "setup.sh: install them, or run this script as root or with sudo on Debian or Ubuntu."
+    } >&2
+    exit 1
+  fi
+  say "installing $packages"
+  # shellcheck disable=SC2086  # a list of words
+  if ! { "${as_root[@]}" apt-get update -qq &&
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y -qq --no-install-recommends $packages > /dev/null; }; then
+    echo "setup.sh: apt-get could not install these; missing: $packages" >&2
+    exit 1
+  fi
+  packages=$(missing | sort -u | tr '\n' ' ')
+  if [ -n "${packages% }" ]; then
+    echo "setup.sh: still missing or too old after installing: $packages" >&2
+    exit 1
+  fi
+fi
+
+# ---------------------------------------------------------------- Python --------------------
+# An environment of our own: pip for the source packages, and the readers that the tests use.
+python_environment() {
+  if [ ! -x .deps/venv/bin/pip ]; then
+    say "making a Python environment in .deps/venv"
+    python3 -m venv .deps/venv
+  fi
+}
+
+if [ $with_tests = yes ]; then
+  if ! cmp -s tests/requirements.txt .deps/venv/installed.txt; then
+    python_environment
+    say "installing the tests' Python packages into .deps/venv"
+    .deps/venv/bin/pip install -q -r tests/requirements.txt
+    cp tests/requirements.txt .deps/venv/installed.txt
+  fi
+fi
+
+# ---------------------------------------------------------------- Kokkos --------------------
+# Two source packages on PyPI carry the Kokkos releases we build; a machine that reaches nothing
+# but package registries gets them there.
+build_kokkos() { # version, static or shared, prefix
+  local version=$1 kind=$2 prefix=$3 package package_version sum folder
+  case $version in
+    4.7.0)
+      package=pygenten package_version=0.1.5 folder=tpls/kokkos
+      sum=e620f05c742905e2db705d875f1cac92ef0ed453f9e6734e9beda26cc0f9cce7
+      ;;
+    4.5.1)
+      package=pycompadre package_version=1.7.6 folder=kokkos
+      sum=c766ec4d445ce076069be4b8c51a23ffac4ee79ea949ca86446bfd8c299b154c
+      ;;
+    *)
+      echo "setup.sh: no source known for Kokkos '$version' (4.7.0 and 4.5.1 are)" >&2
+      exit 2
+      ;;
+  esac
+  local downloads=$PWD/.deps/downloads
+  local archive=$downloads/$package-$package_version.tar.gz
+  mkdir -p "$downloads"
+  if ! echo "$sum  $archive" | sha256sum --check --status 2> /dev/null; then
+    python_environment
+    say "downloading Kokkos $version (in $package $package_version from PyPI)"
+    # With the hash in a file, pip checks it before it runs anything of the package.
+    echo "$package==$package_version --hash=sha256:$sum" > "$downloads/$package.txt"
+    .deps/venv/bin/pip download -q --no-deps --no-binary "$package" --require-hashes \
+      -r "$downloads/$package.txt" -d "$downloads"
+    echo "$sum  $archive" | sha256sum --check --status
+  fi
+
+  say "building Kokkos $version, $kind, into ${prefix#"$PWD"/}"
+  local work
+  work=$(mktemp -d)
+  rm -rf .deps/new
+  tar -xzf "$archive" -C "$work" "$package-$package_version/$folder"
+  local shared=OFF generator=()
+  if [ "$kind" = shared ]; then shared=ON; fi
+  if have ninja; then generator=(-G Ninja); fi
+  # No Kokkos_ARCH_*: Kokkos would hand its -march on to everything that links it. What is hot is
+  # in headers and compiled with our own flags.
+  if ! {
+    cmake -S "$work/$package-$package_version/$folder" -B "$work/build" "${generator[@]}" \
+      -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_STANDARD=20 -DCMAKE_CXX_EXTENSIONS=OFF \
+      -DBUILD_SHARED_LIBS=$shared -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
+      -DKokkos_ENABLE_OPENMP=ON -DKokkos_ENABLE_SERIAL=ON \
+      -DKokkos_ENABLE_TESTS=OFF -DKokkos_ENABLE_EXAMPLES=OFF -DKokkos_ENABLE_BENCHMARKS=OFF \
+      -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_INSTALL_PREFIX="$prefix" &&
+      cmake --build "$work/build" --parallel "$(nproc)" &&
+      DESTDIR="$PWD/.deps/new" cmake --install "$work/build"
+  } > "$work/log" 2>&1; then
+    tail -n 40 "$work/log" >&2
+    echo "setup.sh: building Kokkos failed; the whole log: $work/log" >&2
+    exit 1
+  fi
+  # Installed aside and moved: a prefix is there only when it is complete.
+  rm -rf "$prefix"
+  mv "$PWD/.deps/new$prefix" "$prefix"
+  rm -rf "$work" "$PWD/.deps/new"
+}
+
+if no_kokkos; then
+  build_kokkos $default_kokkos static "$PWD/.deps/kokkos"
+fi
+for wanted in ${more_kokkos[@]+"${more_kokkos[@]}"}; do
+  prefix=$PWD/.deps/kokkos-$wanted
+  if [ ! -e "$prefix/lib/cmake/Kokkos/KokkosConfig.cmake" ]; then
+    case $wanted in
+      *-shared) build_kokkos "${wanted%-shared}" shared "$prefix" ;;
+      *) build_kokkos "$wanted" static "$prefix" ;;
+    esac
+  fi
+done
+
+say "PNPBS has what it needs"

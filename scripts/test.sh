@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# On a fresh machine, everything up to the last test: installs what is missing, builds the
+# library in every configuration that is promised, and tests each.
+#
+# The main configuration runs all tests. The others run those that can differ in them, chosen by
+# label (a test's folder under tests, or a word of its own):
+#   kokkos-4.5.1   the oldest Kokkos we promise
+#   kokkos-shared  a shared Kokkos, as a user would bring it, adopted from a host program
+#   no-mpi         without MPI, and the static library
+#   sanitize       address and undefined-behaviour sanitizers, mutated inputs included
+# usage: scripts/test.sh [configuration]...     (all by default; "main" is the first)
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+root=$PWD
+
+wanted=("$@")
+if [ ${#wanted[@]} -eq 0 ]; then
+  wanted=(main kokkos-4.5.1 kokkos-shared no-mpi sanitize)
+fi
+started=$SECONDS
+failed=()
+summary=()
+say() { printf '\n== %s (after %d s)\n' "$*" $((SECONDS - started)); }
+
+say "setting up"
+scripts/setup.sh --tests --kokkos 4.5.1 --kokkos 4.7.0-shared
+
+if command -v ninja > /dev/null; then export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}; fi
+export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
+export CTEST_PARALLEL_LEVEL=${CTEST_PARALLEL_LEVEL:-$(nproc)}
+
+say "checking the format"
+# Versions of clang-format differ in taste; 14 is the one the files are written with.
+if clang-format --version | grep -q 'version 14\.'; then
+  find include src tests examples \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cpp' \) \
+    -print0 | xargs -0 clang-format --dry-run --Werror || failed+=(format)
+else
+  echo "left out: not clang-format 14"
+fi
+
+configure_and_build() { # name, options of CMake
+  local name=$1 log
+  shift
+  log=$(mktemp)
+  say "building $name"
+  if ! cmake -B "build/$name" -DPNPBS_WARNINGS_AS_ERRORS=ON "$@" > "$log" 2>&1; then
+    cat "$log"
+    exit 1
+  fi
+  rm -f "$log"
+  cmake --build "build/$name"
+}
+
+run_tests() { # name, options of ctest
+  local name=$1 log=build/$1/ctest.log
+  shift
+  say "testing $name"
+  if ! ctest --test-dir "build/$name" --output-on-failure --no-tests=error "$@" | tee "$log"; then
+    failed+=("$name")
+  fi
+  summary+=("$(printf '%-14s %s' "$name" "$(grep -E 'tests (passed|failed)' "$log" || true)")")
+}
+
+for configuration in "${wanted[@]}"; do
+  case $configuration in
+    main)
+      configure_and_build release --preset release
+      run_tests release
+      ;;
+    kokkos-4.5.1)
+      configure_and_build kokkos-4.5.1 -DPNPBS_BUILD_TESTS=ON -DPNPBS_BUILD_CLI=OFF \
+        -DKokkos_ROOT="$root/.deps/kokkos-4.5.1"
+      run_tests kokkos-4.5.1 -L '^(core|api|linkage)$'
+      ;;
+    kokkos-shared)
+      configure_and_build kokkos-shared -DPNPBS_BUILD_TESTS=ON -DPNPBS_BUILD_CLI=OFF \
+        -DKokkos_ROOT="$root/.deps/kokkos-4.7.0-shared"
+      run_tests kokkos-shared -L '^(api|linkage|install)$'
+      ;;
+    no-mpi)
+      configure_and_build no-mpi -DPNPBS_BUILD_TESTS=ON -DPNPBS_ENABLE_MPI=OFF \
+        -DPNPBS_INSTALL_STATIC=ON
+      run_tests no-mpi -L '^(api|linkage|install)$'
+      ;;
+    sanitize)
+      configure_and_build sanitize --preset sanitize
+      run_tests sanitize -LE '^(install|bench)$'
+      ;;
+    *)
+      echo "test.sh: unknown configuration '$configuration'" >&2
+      exit 2
+      ;;
+  esac
+done
+
+say "done"
+printf '%s\n' "${summary[@]}"
+if [ ${#failed[@]} -gt 0 ]; then
+  echo "Failed: ${failed[*]}"
+  exit 1
+fi

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Status, errors, versions and contexts of the C interface.
+#include <array>
+#include <cstring>
+#include <exception>
+
+#include "api/guard.hpp"
+#include "core/build_config.hpp"
+#include "core/execution.hpp"
+#include "core/kokkos_runtime.hpp"
+
+namespace pnpbs::api {
+
+std::string& thread_error() {
+  static thread_local std::string message;
+  return message;
+}
+
+namespace {
+
+void keep_message(Context* context, const char* text) noexcept {
+  try {
+    thread_error() = text;
+    if (context) context->last_error = text;
+  } catch (...) {  // no memory for the message: the status must do
+  }
+}
+
+void set_context_option(Context& context, const char* key, const auto& assign) {
+  require_pointer(key, "key");
+  require_not_in_callback(context);
+  if (std::strcmp(key, "threads") == 0 && kokkos_was_started())
+    throw Error(PNPBS_ERROR_STATE,
+                "option threads: Kokkos already runs in this process with " +
+                    std::to_string(thread_count()) +
+                    " threads; set it before the first placement is created");
+  Options changed = context.options;  // an error must change nothing
+  assign(changed);
+  context.options = std::move(changed);
+}
+
+pnpbs_status create_context(pnpbs_context* handle, const auto& make_communicator) {
+  return guarded([&] {
+    require_pointer(handle, "context");
+    *handle = nullptr;
+    auto context = std::make_shared<Context>();
+    context->communicator = make_communicator();
+    *handle = contexts().add(std::move(context));
+    return PNPBS_OK;
+  });
+}
+
+}  // namespace
+
+pnpbs_status report_failure(Context* context) noexcept {
+  try {
+    throw;
+  } catch (const Error& error) {
+    keep_message(context, error.what());
+    return error.status();
+  } catch (const std::bad_alloc&) {
+    keep_message(context, "out of memory: fewer nodes (a larger spacing) or more memory is needed");
+    return PNPBS_ERROR_MEMORY;
+  } catch (const std::length_error&) {
+    keep_message(context, "out of memory: an array would be larger than can be addressed");
+    return PNPBS_ERROR_MEMORY;
+  } catch (const std::exception& error) {
+    keep_message(context, error.what());
+    return PNPBS_ERROR_INTERNAL;
+  } catch (...) {
+    keep_message(context, "a callback threw something that is no std::exception");
+    return PNPBS_ERROR_CALLBACK;
+  }
+}
+
+}  // namespace pnpbs::api
+
+using namespace pnpbs;
+using namespace pnpbs::api;
+
+const char* pnpbs_status_string(pnpbs_status status) {
+  switch (status) {
+#define PNPBS_STATUS_CASE(name, value, text) \
+  case name:                                 \
+    return text;
+    PNPBS_STATUS_LIST(PNPBS_STATUS_CASE)
+#undef PNPBS_STATUS_CASE
+  }
+  return "unknown status";
+}
+
+const char* pnpbs_last_error(pnpbs_context context) {
+  try {
+    const auto object = contexts().find(context);
+    if (object) {
+      object->returned_text = object->last_error;
+      return object->returned_text.c_str();
+    }
+  } catch (...) {
+  }
+  return thread_error().c_str();
+}
+
+pnpbs_status pnpbs_version(int32_t* major, int32_t* minor, int32_t* patch) {
+  if (major) *major = PNPBS_VERSION_MAJOR;
+  if (minor) *minor = PNPBS_VERSION_MINOR;
+  if (patch) *patch = PNPBS_VERSION_PATCH;
+  return PNPBS_OK;
+}
+
+const char* pnpbs_build_info(void) {
+  static const std::string text =
+      std::string("version: ") + PNPBS_VERSION_STRING + "\ncompiler: " + PNPBS_BUILD_COMPILER +
+      "\nbuild: " + PNPBS_BUILD_TYPE + "\nKokkos: " + PNPBS_KOKKOS_VERSION_TEXT +
+      "\nKokkos back end: " + Exec::name() + "\nKokkos linkage: " + PNPBS_KOKKOS_LINKAGE +
+      "\nMPI: " + (PNPBS_HAVE_MPI ? PNPBS_MPI_LIBRARY_TEXT : "none") + "\n";
+  return text.c_str();
+}
+
+const char* pnpbs_mpi_library(void) { return PNPBS_HAVE_MPI ? PNPBS_MPI_LIBRARY_TEXT : ""; }
+
+pnpbs_status pnpbs_context_create_serial(pnpbs_context* context) {
+  return create_context(context, [] { return serial_communicator(); });
+}
+
+pnpbs_status pnpbs_context_create_f(int32_t comm, pnpbs_context* context) {
+  return create_context(context, [&] { return mpi_communicator(comm); });
+}
+
+pnpbs_status pnpbs_context_destroy(pnpbs_context* context) {
+  if (!context || !*context) return PNPBS_OK;
+  return guarded(*context, [&](Context& object) {
+    require_not_in_callback(object);
+    contexts().remove(*context);
+    *context = nullptr;
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_finalize(void) {
+  return guarded([] {
+    end_kokkos();
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_context_set(pnpbs_context context, const char* key, const char* value) {
+  return guarded(context, [&](Context& object) {
+    require_pointer(value, "value");
+    set_context_option(object, key, [&](Options& o) { o.set(key, value); });
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_context_set_int64(pnpbs_context context, const char* key, int64_t value) {
+  return guarded(context, [&](Context& object) {
+    set_context_option(object, key, [&](Options& o) { o.set_integer(key, value); });
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_context_set_double(pnpbs_context context, const char* key, double value) {
+  return guarded(context, [&](Context& object) {
+    set_context_option(object, key, [&](Options& o) { o.set_real(key, value); });
+    return PNPBS_OK;
+  });
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The way from a C call into the library and back: exceptions become a status and a message.
+#pragma once
+
+#include <new>
+#include <string>
+
+#include "api/handles.hpp"
+
+namespace pnpbs::api {
+
+// The calling thread's last message, for calls that have no live context.
+std::string& thread_error();
+
+// Turns the exception in flight into a status; puts the message where last_error finds it.
+pnpbs_status report_failure(Context* context) noexcept;
+
+inline void require_pointer(const void* pointer, const char* argument) {
+  if (!pointer)
+    throw Error(PNPBS_ERROR_ARGUMENT, std::string("argument ") + argument + " is NULL");
+}
+
+inline void require_count(std::int64_t count, const char* argument) {
+  if (count < 0)
+    throw Error(PNPBS_ERROR_ARGUMENT, std::string("argument ") + argument + " = " +
+                                          std::to_string(count) + " is negative");
+}
+
+inline void require_not_in_callback(const Context& context) {
+  if (context.computing)
+    throw Error(PNPBS_ERROR_STATE,
+                "a computation on this context is in progress: from inside a callback only "
+                "queries are allowed");
+}
+
+// Marks the context as computing while callbacks may run.
+class Computing {
+ public:
+  explicit Computing(Context& context) : context_(context) {
+    require_not_in_callback(context);
+    context_.computing = true;
+  }
+  Computing(const Computing&) = delete;
+  Computing& operator=(const Computing&) = delete;
+  ~Computing() { context_.computing = false; }
+
+ private:
+  Context& context_;
+};
+
+// A call without a live context.
+template <class Body>
+pnpbs_status guarded(const Body& body) noexcept {
+  try {
+    return body();
+  } catch (...) {
+    return report_failure(nullptr);
+  }
+}
+
+inline Context& context_of(Context& object) { return object; }
+template <class Object>
+Context& context_of(Object& object) {
+  return *object.context;
+}
+
+// A call on a handle: body(object).
+template <class Handle, class Body>
+pnpbs_status guarded(Handle handle, const Body& body) noexcept {
+  Context* context = nullptr;
+  try {
+    const auto object = require(handle);
+    context = &context_of(*object);
+    try {
+      return body(*object);
+    } catch (...) {
+      return report_failure(context);
+    }
+  } catch (...) {
+    return report_failure(nullptr);
+  }
+}
+
+}  // namespace pnpbs::api

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "api/handles.hpp"
+
+#include <atomic>
+
+namespace pnpbs::api {
+
+std::uintptr_t next_key() {
+  static std::atomic<std::uintptr_t> counter{0};
+  // Not small integers, which uninitialised handles often hold.
+  return 0x50420000u + ++counter;
+}
+
+// Never destroyed: objects may outlive the static destructors of this library, when the host
+// destroys its own at exit; and Kokkos Views must not be freed after Kokkos has ended.
+Registry<Context, pnpbs_context>& contexts() {
+  static auto* registry = new Registry<Context, pnpbs_context>;
+  return *registry;
+}
+Registry<Domain, pnpbs_domain>& domains() {
+  static auto* registry = new Registry<Domain, pnpbs_domain>;
+  return *registry;
+}
+Registry<PlacementObject, pnpbs_placement>& placements() {
+  static auto* registry = new Registry<PlacementObject, pnpbs_placement>;
+  return *registry;
+}
+
+namespace {
+
+template <class Object>
+std::shared_ptr<Object> require_live(std::shared_ptr<Object> object, const char* kind) {
+  if (!object)
+    throw Error(PNPBS_ERROR_HANDLE, std::string("the ") + kind +
+                                        " handle is not live: it was never created, or it was "
+                                        "destroyed");
+  return object;
+}
+
+}  // namespace
+
+std::shared_ptr<Context> require(pnpbs_context handle) {
+  return require_live(contexts().find(handle), "context");
+}
+std::shared_ptr<Domain> require(pnpbs_domain handle) {
+  return require_live(domains().find(handle), "domain");
+}
+std::shared_ptr<PlacementObject> require(pnpbs_placement handle) {
+  return require_live(placements().find(handle), "placement");
+}
+
+}  // namespace pnpbs::api

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the handles stand for. A handle's value is a key of the registry, counted up and never used
+// again, so that a stale one is recognised.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/options.hpp"
+#include "core/placement.hpp"
+#include "geometry/plane_domain.hpp"
+#include "parallel/communicator.hpp"
+
+namespace pnpbs::api {
+
+struct Context {
+  std::shared_ptr<Communicator> communicator;
+  Options options;
+  std::string last_error;
+  std::string returned_text;  // the last string handed out
+  bool computing = false;     // a call that may run callbacks is in progress
+};
+
+struct Domain {
+  std::shared_ptr<Context> context;
+  std::shared_ptr<PlaneDomain> plane = std::make_shared<PlaneDomain>();
+};
+
+struct PlacementObject {
+  std::shared_ptr<Context> context;
+  Placement placement;
+};
+
+// One for each kind of object. All keys of the process come from one counter, so that a handle of
+// another kind is recognised, too.
+std::uintptr_t next_key();
+
+template <class Object, class Handle>
+class Registry {
+ public:
+  Handle add(std::shared_ptr<Object> object) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::uintptr_t key = next_key();
+    objects_[key] = std::move(object);
+    return reinterpret_cast<Handle>(key);
+  }
+  std::shared_ptr<Object> find(Handle handle) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = objects_.find(reinterpret_cast<std::uintptr_t>(handle));
+    return found == objects_.end() ? nullptr : found->second;
+  }
+  void remove(Handle handle) {
+    std::shared_ptr<Object> last;  // declared first: destroyed after the lock is gone
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = objects_.find(reinterpret_cast<std::uintptr_t>(handle));
+    if (found == objects_.end()) return;
+    last = std::move(found->second);
+    objects_.erase(found);
+  }
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (auto& [key, object] : objects_) visit(*object);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::uintptr_t, std::shared_ptr<Object>> objects_;
+};
+
+Registry<Context, pnpbs_context>& contexts();
+Registry<Domain, pnpbs_domain>& domains();
+Registry<PlacementObject, pnpbs_placement>& placements();
+
+std::shared_ptr<Context> require(pnpbs_context handle);
+std::shared_ptr<Domain> require(pnpbs_domain handle);
+std::shared_ptr<PlacementObject> require(pnpbs_placement handle);
+
+}  // namespace pnpbs::api

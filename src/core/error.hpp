@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Errors are exceptions inside the library; src/api turns them into status and message.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "pnpbs/pnpbs.h"
+
+namespace pnpbs {
+
+class Error : public std::runtime_error {
+ public:
+  Error(pnpbs_status status, const std::string& message)
+      : std::runtime_error(message), status_(status) {}
+  pnpbs_status status() const { return status_; }
+
+ private:
+  pnpbs_status status_;
+};
+
+// A number as messages and reports show it: shortest text that reads back as the same double,
+// with a point in every locale.
+std::string number_text(double value);
+
+}  // namespace pnpbs

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where kernels run: the host's threads through Kokkos. The one place that knows which Kokkos
+// versions there are (4.5 to 5.x have the same calls for what we use).
+#pragma once
+
+#include <Kokkos_Core.hpp>
+#include <cstdint>
+#include <string>
+
+namespace pnpbs {
+
+using Exec = Kokkos::DefaultHostExecutionSpace;
+
+template <class T>
+using View = Kokkos::View<T*, Kokkos::HostSpace>;
+
+// Runs body(i) for 0 <= i < n. Bodies must not depend on each other: that, and reductions over
+// integers and maxima only, make results the same for any number of threads.
+template <class Body>
+void for_each(const char* label, std::int64_t n, const Body& body) {
+  Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, n),
+                       body);
+}
+
+// The largest of body(i), or `floor` if there is none.
+template <class Body>
+double largest_of(const char* label, std::int64_t n, double floor, const Body& body) {
+  double result = floor;
+  Kokkos::parallel_reduce(
+      label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, n),
+      [&](std::int64_t i, double& most) {
+        const double value = body(i);
+        if (value > most) most = value;
+      },
+      Kokkos::Max<double>(result));
+  return result > floor ? result : floor;
+}
+
+// Sum of the integers body(i), modulo 2^64.
+template <class Body>
+std::uint64_t sum_of(const char* label, std::int64_t n, const Body& body) {
+  std::uint64_t result = 0;
+  Kokkos::parallel_reduce(
+      label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, n),
+      [&](std::int64_t i, std::uint64_t& sum) { sum += static_cast<std::uint64_t>(body(i)); },
+      result);
+  return result;
+}
+
+template <class T>
+View<T> make_view(const std::string& label, std::int64_t n) {
+  return View<T>(Kokkos::view_alloc(Kokkos::WithoutInitializing, label),
+                 static_cast<std::size_t>(n));
+}
+
+// Makes room for n entries and keeps the first `kept`.
+template <class T>
+void grow(View<T>& view, std::int64_t n, std::int64_t kept) {
+  if (static_cast<std::int64_t>(view.extent(0)) >= n) return;
+  View<T> larger = make_view<T>(view.label(), n);
+  const View<T> old = view;
+  for_each("pnpbs::grow", kept, [=](std::int64_t i) { larger(i) = old(i); });
+  view = larger;
+}
+
+// Sums of doubles that come out the same in any order: each term is rounded to a multiple of
+// 2^-32 first. Terms must stay below 2^20 in size for sums over 2^11 million nodes.
+inline std::int64_t fixed_point(double value) {
+  return static_cast<std::int64_t>(value * 4294967296.0);
+}
+inline double from_fixed_point(std::uint64_t sum) {
+  return static_cast<double>(static_cast<std::int64_t>(sum)) / 4294967296.0;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Initial inner nodes (section 2.1 of the paper): a hexagonal lattice, that is rhombic cells of 60
+// and 120 degrees. Where d varies, patches of the background tree over which it is nearly constant
+// each have their own lattice, all of one orientation and anchored in one point.
+#pragma once
+
+#include <vector>
+
+#include "geometry/domain_map.hpp"
+
+namespace pnpbs {
+
+// In Morton order of the leaves.
+std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds);
+
+}  // namespace pnpbs

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One level of the simulation: a spacing, the boundary laid at it, the background tree, the nodes
+// and all that is found from them. The operations are the steps of the method; when they happen
+// is the placement's business.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/settings.hpp"
+#include "core/timers.hpp"
+#include "forces/schemes.hpp"
+#include "geometry/boundary_fans.hpp"
+#include "geometry/domain_map.hpp"
+#include "geometry/plane_domain.hpp"
+#include "neighbors/adjacency_list.hpp"
+#include "neighbors/buckets.hpp"
+#include "neighbors/near_edges.hpp"
+#include "spacing/spacing.hpp"
+#include "stars/delaunay_stars.hpp"
+
+namespace pnpbs {
+
+// A node as it comes from outside or from an earlier level.
+struct GivenNode {
+  Point<2> position;
+  std::int64_t id;  // -1: give it one
+};
+
+struct PopulationCounts {
+  std::int64_t inserted = 0;
+  std::int64_t deleted = 0;
+};
+
+struct Speeds {
+  double largest = 0, mean = 0;  // scaled: spacings per unit of time
+};
+
+class Level {
+ public:
+  Level(std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const Spacing<2>> spacing,
+        const Settings& settings, Timers& timers);
+
+  // --- making the level ---
+  void lay_boundary_and_tree();
+  void fill();                                             // inner nodes from nothing
+  std::int64_t take(const std::vector<GivenNode>& given);  // or these; returns how many were left out
+  // Boundary nodes of an earlier level keep their ids where they stay in place.
+  void keep_boundary_ids(const Level& earlier);
+
+  // --- the time loop ---
+  bool lists_may_miss_a_pair() const;
+  void rebuild_lists() { rebuild_lists(settings_.list_radius); }
+  void move();
+  void finish_by_runge_kutta();
+
+  // --- events ---
+  void refresh_spacing();
+  PopulationCounts adjust_population();
+  Speeds speeds() const;
+  void renew_stars();
+  void sweep(std::int64_t times);
+
+  // --- for extraction: lists with this radius, fresh at the present positions ---
+  void rebuild_lists(double radius);
+
+  const Nodes<2>& nodes() const { return nodes_; }
+  const Boundary& boundary() const { return boundary_; }
+  const DomainMap& map() const { return map_; }
+  const AdjacencyList<2>& lists() const { return lists_; }
+  const DelaunayStars& stars() const { return stars_; }
+  const Settings& settings() const { return settings_; }
+  std::int64_t next_id() const { return next_id_; }
+  std::int64_t rebuilds() const { return rebuilds_; }
+  std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }
+  std::vector<GivenNode> inner_nodes() const;
+
+ private:
+  SpacingEvaluator evaluator() const;
+  void number_and_store(std::vector<GivenNode> inner);
+  bool fits(const Point<2>& x, double d) const;
+  bool has_no_room(std::int64_t i) const;
+  void take_next_positions();
+  void set_padding();
+  template <class Law>
+  void move_by(const Law& law, bool runge_kutta);
+
+  std::shared_ptr<const PlaneDomain> domain_;
+  std::shared_ptr<const Spacing<2>> spacing_;
+  Settings settings_;
+  Timers& timers_;
+
+  Boundary boundary_;
+  BoundaryFans fans_;
+  DomainMap map_;
+  std::vector<std::int64_t> boundary_ids_;  // of the boundary nodes, -1 until numbered
+  Nodes<2> nodes_;
+  std::int64_t next_id_ = 0;
+
+  Buckets<2> buckets_;
+  NearEdges near_edges_;
+  AdjacencyList<2> lists_;
+  DelaunayStars stars_;
+
+  Field<2> next_;         // positions after the move in progress
+  Field<2> listed_;       // positions at which the lists were made
+  Stages<2> stages_;
+  double travelled_ = 0;  // largest way of a node since then, in units of its d
+  bool lists_valid_ = false;
+  std::int64_t rebuilds_ = 0;
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A placement: nodes in a domain, and the time loop that brings them to rest.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/level.hpp"
+#include "core/options.hpp"
+#include "parallel/communicator.hpp"
+
+namespace pnpbs {
+
+enum class Outcome { converged, not_converged, stopped };
+
+// Why a run ended, for the report.
+enum class StopReason { none, rest, step_limit, monitor };
+
+struct NearestNeighbourError {
+  double mean = 0, deviation = 0, least = 0;  // of nearest-neighbour distance over d
+};
+
+class Placement {
+ public:
+  // fraction done of the call in progress, step, nodes, largest scaled speed -> true to stop
+  using Monitor = std::function<bool(double, std::int64_t, std::int64_t, double)>;
+
+  Placement(std::shared_ptr<const Communicator> comm, std::shared_ptr<PlaneDomain> domain,
+            Options options)
+      : comm_(std::move(comm)), domain_(std::move(domain)), options_(std::move(options)) {}
+
+  Options& options() { return options_; }
+  const Options& options() const { return options_; }
+  void set_spacing(std::shared_ptr<const Spacing<2>> spacing);
+  void set_nodes(std::vector<GivenNode> nodes);
+  void forget_nodes();  // lets go of everything that lives in Kokkos' memory
+  void set_monitor(Monitor monitor) { monitor_ = std::move(monitor); }
+
+  void initialise();
+  Outcome step(std::int64_t n);
+  Outcome run();
+  PopulationCounts adjust_population();
+
+  // --- results; nodes are handed out in the order of their ids ---
+  bool has_nodes() const { return level_ != nullptr; }
+  std::int64_t count() const { return level_ ? level_->nodes().count : 0; }
+  const Level& level() const { return *level_; }
+  // Memory index of each node in the order of ids, and the inverse. Preparing the lists (at their
+  // extraction radius) or the stars prepares the order, too. The order alone changes nothing of
+  // the level and may be asked for from a callback.
+  void prepare_order();
+  void prepare_lists();
+  void prepare_stars();
+  std::int64_t node_at(std::int64_t place) const { return by_id_[static_cast<std::size_t>(place)]; }
+  std::int64_t place_of(std::int64_t node) const { return place_[static_cast<std::size_t>(node)]; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  // --- statistics ---
+  const Timers& timers() const { return timers_; }
+  const Communicator& communicator() const { return *comm_; }
+  std::int64_t steps_done() const { return steps_done_; }
+  std::int64_t rebuilds() const { return rebuilds_before_ + (level_ ? level_->rebuilds() : 0); }
+  std::int64_t inserted() const { return inserted_; }
+  std::int64_t deleted() const { return deleted_; }
+  std::int64_t dropped() const { return dropped_; }
+  StopReason stop_reason() const { return stop_reason_; }
+  Speeds speeds() const { return level_ ? level_->speeds() : Speeds{}; }
+  NearestNeighbourError spacing_error();
+  std::uint64_t hash() const;
+
+ private:
+  void make_level();
+  void begin_schedule();
+  bool bubbles_rest() const;
+  Outcome advance(std::int64_t until, double share);
+  void event();
+  void control_population();
+  bool monitor_stops(double fraction);
+  void finish();
+  void nodes_changed();
+  PopulationCounts count_population_change(PopulationCounts change);
+
+  std::shared_ptr<const Communicator> comm_;
+  std::shared_ptr<PlaneDomain> domain_;
+  Options options_;
+  std::shared_ptr<const Spacing<2>> spacing_;
+  Monitor monitor_;
+  std::unique_ptr<Level> level_;
+  std::vector<GivenNode> given_;   // nodes to start from instead of a fill
+  bool start_from_given_ = false;
+  bool spacing_replaced_ = false;  // since the level was made
+
+  std::int64_t schedule_step_ = 0;  // in the run in progress
+  bool schedule_ended_ = false;
+  bool population_settled_ = false;
+  int quiet_events_ = 0;  // that changed too little to pay, in a row
+  Speeds last_speeds_;
+  std::int64_t steps_done_ = 0, inserted_ = 0, deleted_ = 0, dropped_ = 0, rebuilds_before_ = 0;
+  StopReason stop_reason_ = StopReason::none;
+  std::vector<std::string> warnings_;
+  Timers timers_;
+
+  enum class Fresh { nothing, order, lists, stars };
+  Fresh fresh_ = Fresh::nothing;  // how much of the extraction is up to date
+  std::vector<std::int32_t> by_id_, place_;
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/settings.hpp"
+
+#include <cmath>
+
+namespace pnpbs {
+
+Settings::Settings(const Options& o)
+    : cubic_law(o.choice("law") == "cubic"),
+      predictor_corrector(o.choice("scheme") == "predictor_corrector"),
+      runge_kutta_finish(o.choice("finish") == "runge_kutta"),
+      rest_length(o.real("rest_length")),
+      steps(o.integer("steps")),
+      event_interval(o.integer("event_interval")),
+      population_pays(o.real("population_pays")),
+      tolerance_mean(o.real("tolerance_mean")),
+      tolerance_max(o.real("tolerance_max")),
+      sweeps(o.integer("sweeps")),
+      list_radius(o.real("list_radius")),
+      adjacency_radius(o.real("adjacency_radius")),
+      growth_limit(o.real("growth_limit")),
+      max_nodes(o.integer("max_nodes")) {
+  motion.dt = o.real("time_step");
+  motion.damping = o.real("damping");
+  motion.most = o.real("max_move");
+  population.delete_above = o.real("delete_above");
+  population.insert_below = o.real("insert_below");
+  population_until = static_cast<std::int64_t>(
+      std::floor(o.real("population_share") * static_cast<double>(steps)));
+  sweep.weight = o.real("sweep_weight");
+  // The lists must reach beyond the force, or they could never be kept for a step.
+  const double least_radius = force_range() + 0.1;
+  if (list_radius < least_radius) list_radius = least_radius;
+}
+
+}  // namespace pnpbs

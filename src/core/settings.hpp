@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of a placement as the numbers the method works with.
+#pragma once
+
+#include <cstdint>
+
+#include "core/options.hpp"
+#include "forces/pair_laws.hpp"
+#include "forces/population.hpp"
+#include "forces/schemes.hpp"
+#include "stars/sweep.hpp"
+
+namespace pnpbs {
+
+struct Settings {
+  explicit Settings(const Options& options);
+
+  bool cubic_law;             // equation (2) of the paper; otherwise the linear push
+  bool predictor_corrector;   // otherwise one force evaluation per step
+  bool runge_kutta_finish;
+  double rest_length;
+  Motion motion;
+  std::int64_t steps;
+  std::int64_t event_interval;
+  std::int64_t population_until;  // step number
+  double population_pays;         // share of the nodes
+  PopulationRule population;
+  double tolerance_mean, tolerance_max;  // scaled speeds
+  std::int64_t sweeps;
+  SweepRule sweep;
+  double list_radius, adjacency_radius;
+  double growth_limit;
+  std::int64_t max_nodes;
+
+  double force_range() const { return cubic_law ? CubicLaw{}.range : rest_length; }
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/statistics.hpp"
+
+#include <sys/resource.h>
+
+#include <cstdio>
+
+#include "core/error.hpp"
+#include "core/kokkos_runtime.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using P = Placement&;
+
+StatisticRow integer(const char* name, std::int64_t (*get)(P), const char* help) {
+  return {name, help, get, nullptr, nullptr, false};
+}
+StatisticRow real(const char* name, double (*get)(P), const char* help) {
+  return {name, help, nullptr, get, nullptr, false};
+}
+StatisticRow text(const char* name, std::string (*get)(P), const char* help) {
+  return {name, help, nullptr, nullptr, get, false};
+}
+
+StatisticRow computed(StatisticRow row) {
+  row.computes = true;
+  return row;
+}
+
+template <Phase phase>
+double seconds(P p) {
+  return p.timers().seconds(phase);
+}
+
+// Of the process; ru_maxrss is in KiB on Linux (getrusage(2)).
+std::int64_t peak_memory(P) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+std::string stop_reason(P p) {
+  switch (p.stop_reason()) {
+    case StopReason::rest: return "rest";
+    case StopReason::step_limit: return "step limit";
+    case StopReason::monitor: return "monitor";
+    case StopReason::none: break;
+  }
+  return "none";
+}
+
+std::string hash(P p) {
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(p.hash()));
+  return digits;
+}
+
+}  // namespace
+
+const std::vector<StatisticRow>& statistic_table() {
+  static const std::vector<StatisticRow> table = {
+      integer("nodes", [](P p) { return p.count(); }, "nodes of all kinds"),
+      integer("boundary_nodes",
+              [](P p) { return p.has_nodes() ? p.level().boundary_nodes() : std::int64_t{0}; },
+              "nodes on boundary and inner curves, and fixed nodes"),
+      integer("steps", [](P p) { return p.steps_done(); }, "time steps done"),
+      integer("rebuilds", [](P p) { return p.rebuilds(); }, "times the adjacency lists were made"),
+      integer("inserted", [](P p) { return p.inserted(); }, "nodes inserted by population control"),
+      integer("deleted", [](P p) { return p.deleted(); }, "nodes deleted by population control"),
+      integer("dropped", [](P p) { return p.dropped(); },
+              "nodes given by the user that lie outside or too close to the boundary"),
+      real("seconds.boundary", seconds<Phase::boundary>, "laying the boundary nodes"),
+      real("seconds.tree", seconds<Phase::tree>, "background tree and samples of d"),
+      real("seconds.fill", seconds<Phase::fill>, "initial inner nodes"),
+      real("seconds.spacing", seconds<Phase::spacing>, "evaluating d at the nodes; growth limit"),
+      real("seconds.lists", seconds<Phase::lists>, "buckets and adjacency lists"),
+      real("seconds.motion", seconds<Phase::motion>, "forces and time steps"),
+      real("seconds.population", seconds<Phase::population>, "population control"),
+      real("seconds.stars", seconds<Phase::stars>, "Delaunay stars"),
+      real("seconds.sweeps", seconds<Phase::sweeps>, "finishing sweeps"),
+      real("seconds.total", seconds<Phase::total>,
+           "from domain and spacing given to nodes in hand, no files"),
+      integer("memory.peak_bytes", peak_memory, "largest memory of the process so far"),
+      computed(real("d_error.mean", [](P p) { return p.spacing_error().mean; },
+           "nearest-neighbour distance over d: mean")),
+      computed(real("d_error.deviation", [](P p) { return p.spacing_error().deviation; },
+           "nearest-neighbour distance over d: standard deviation")),
+      computed(real("d_error.least", [](P p) { return p.spacing_error().least; },
+           "nearest-neighbour distance over d: least")),
+      real("speed.largest", [](P p) { return p.speeds().largest; },
+           "largest scaled speed, spacings per unit of time"),
+      real("speed.mean", [](P p) { return p.speeds().mean; }, "mean scaled speed"),
+      text("stop_reason", stop_reason, "rest, step limit, monitor or none"),
+      text("hash", hash,
+           "64 bits over ids, coordinate bits and tags; the same for any ranks and threads"),
+      text("version", [](P) { return std::string(PNPBS_VERSION_STRING); }, "of the library"),
+      integer("ranks", [](P p) { return std::int64_t{p.communicator().size()}; },
+              "processes placing together"),
+      integer("threads", [](P) { return thread_count(); }, "threads of this process"),
+  };
+  return table;
+}
+
+const StatisticRow& find_statistic(const std::string& key) {
+  std::vector<std::string> names;
+  for (const StatisticRow& row : statistic_table()) {
+    if (key == row.name) return row;
+    names.emplace_back(row.name);
+  }
+  throw Error(PNPBS_ERROR_KEY, "unknown statistic \"" + key + "\"; the nearest known one is \"" +
+                                   nearest_name(key, names) + "\"");
+}
+
+}  // namespace pnpbs

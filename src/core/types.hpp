@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points and boxes in 2 or 3 dimensions, and the Kokkos types all parts share.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace pnpbs {
+
+template <int Dim>
+using Point = std::array<double, Dim>;
+
+template <int Dim>
+struct Box {
+  Point<Dim> low;
+  Point<Dim> high;
+};
+
+template <int Dim>
+inline double squared_distance(const Point<Dim>& a, const Point<Dim>& b) {
+  double sum = 0;
+  for (int k = 0; k < Dim; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return sum;
+}
+
+template <int Dim>
+inline double distance(const Point<Dim>& a, const Point<Dim>& b) {
+  return std::sqrt(squared_distance<Dim>(a, b));
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "forces/population.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "forces/overlap_ratio.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// What a node brings to the contest; defect 0 is no candidate.
+struct Bid {
+  double defect = 0;
+  std::int64_t id = -1;
+
+  bool beats(const Bid& other) const {
+    return defect > other.defect || (defect == other.defect && id > other.id);
+  }
+};
+
+enum class Action : char { none, remove, insert };
+
+// The free place beside a sparse bubble: one spacing away, on the side away from its neighbours.
+template <int Dim>
+bool free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
+                Point<Dim>& place) {
+  const Point<Dim> x = nodes.position(i);
+  Point<Dim> crowd{};
+  lists.for_neighbours(i, [&](std::int64_t j) {
+    const Point<Dim> y = nodes.position(j);
+    const double gap = distance<Dim>(x, y);
+    if (gap == 0) return;
+    const double weight = 1 / (gap * gap);
+    for (int k = 0; k < Dim; ++k) crowd[k] += weight * (y[k] - x[k]);
+  });
+  double length = 0;
+  for (int k = 0; k < Dim; ++k) length += crowd[k] * crowd[k];
+  length = std::sqrt(length);
+  for (int k = 0; k < Dim; ++k) {
+    // No neighbours at all, or a perfectly balanced few: any fixed direction will do.
+    const double direction = length > 0 ? -crowd[k] / length : (k == 0 ? 1.0 : 0.0);
+    place[k] = x[k] + nodes.d(i) * direction;
+  }
+  return true;
+}
+
+// Is there room at `place` among the neighbours of i and theirs?
+template <int Dim>
+bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
+              const Point<Dim>& place, double least_gap) {
+  bool room = true;
+  const auto test = [&](std::int64_t j) {
+    const double desired = 0.5 * (nodes.d(i) + nodes.d(j));
+    if (distance<Dim>(nodes.position(j), place) < least_gap * desired) room = false;
+  };
+  lists.for_neighbours(i, [&](std::int64_t j) {
+    test(j);
+    if (room) lists.for_neighbours(j, test);
+  });
+  return room;
+}
+
+template <int Dim>
+Bid strongest_around(const AdjacencyList<Dim>& lists, const View<Bid>& bids, std::int64_t i) {
+  Bid best = bids(i);
+  lists.for_neighbours(i, [&](std::int64_t j) {
+    if (bids(j).beats(best)) best = bids(j);
+  });
+  return best;
+}
+
+}  // namespace
+
+template <int Dim>
+PopulationChange<Dim> choose_population_change(
+    const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const PopulationRule& rule,
+    const std::function<bool(std::int64_t)>& must_go,
+    const std::function<bool(const Point<Dim>&, double)>& fits) {
+  View<Bid> bids = make_view<Bid>("pnpbs::population::bids", nodes.count);
+  View<Bid> seen = make_view<Bid>("pnpbs::population::seen", nodes.count);
+  View<Action> action = make_view<Action>("pnpbs::population::action", nodes.count);
+  for_each("pnpbs::population::bid", nodes.count, [&](std::int64_t i) {
+    bids(i) = Bid{};
+    action(i) = Action::none;
+    if (!nodes.moves(i)) return;
+    const double ratio = overlap_ratio<Dim>(nodes, lists, i);
+    double defect = 0;
+    if (must_go(i)) {
+      defect = std::numeric_limits<double>::max();
+      action(i) = Action::remove;
+    } else if (ratio > rule.delete_above) {
+      defect = ratio - rule.ideal;
+      action(i) = Action::remove;
+    } else if (ratio < rule.insert_below) {
+      Point<Dim> place;
+      if (free_place<Dim>(nodes, lists, i, place) &&
+          has_room<Dim>(nodes, lists, i, place, rule.least_gap) && fits(place, nodes.d(i))) {
+        defect = rule.ideal - ratio;
+        action(i) = Action::insert;
+      }
+    }
+    if (action(i) != Action::none) bids(i) = Bid{defect, nodes.id(i)};
+  });
+  for_each("pnpbs::population::first_hop", nodes.count,
+           [&](std::int64_t i) { seen(i) = strongest_around<Dim>(lists, bids, i); });
+
+  PopulationChange<Dim> change;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (action(i) == Action::none || strongest_around<Dim>(lists, seen, i).id != nodes.id(i))
+      continue;
+    if (action(i) == Action::remove) {
+      change.deleted.push_back(static_cast<std::int32_t>(i));
+    } else {
+      Point<Dim> place;
+      free_place<Dim>(nodes, lists, i, place);
+      change.born.push_back({place, nodes.id(i), nodes.d(i)});
+    }
+  }
+  return change;
+}
+
+template PopulationChange<2> choose_population_change<2>(
+    const Nodes<2>&, const AdjacencyList<2>&, const PopulationRule&,
+    const std::function<bool(std::int64_t)>&,
+    const std::function<bool(const Point<2>&, double)>&);
+template PopulationChange<3> choose_population_change<3>(
+    const Nodes<3>&, const AdjacencyList<3>&, const PopulationRule&,
+    const std::function<bool(std::int64_t)>&,
+    const std::function<bool(const Point<3>&, double)>&);
+
+}  // namespace pnpbs

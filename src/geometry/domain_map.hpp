@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The background tree of a level together with what lies in its leaves: boundary edges, the side
+// on which the domain is, samples of d. Answers "is x inside?" and "which edges are near x?".
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/boundary.hpp"
+#include "tree/background_tree.hpp"
+
+namespace pnpbs {
+
+class DomainMap {
+ public:
+  // Refines the tree until leaves are at most kLeafSpacings times d wide (so at least half of that
+  // where d allows) and hold few boundary nodes. d is asked inside the domain only, at five points
+  // of each cell, and at the boundary nodes: dips of d between them are not seen.
+  // Throws Error(PNPBS_ERROR_SPACING) when d would mean more than max_nodes nodes.
+  void build(const Box<2>& bounds, const Boundary& boundary, const SpacingEvaluator& spacing,
+             std::int64_t max_nodes);
+
+  static constexpr double kLeafSpacings = 4;
+
+  const BackgroundTree<2>& tree() const { return tree_; }
+  const Boundary& boundary() const { return *boundary_; }
+
+  bool leaf_outside(std::int32_t leaf) const { return side(leaf) == Side::outside; }
+  bool leaf_has_edges(std::int32_t leaf) const {
+    return edge_offset_[index(leaf)] < edge_offset_[index(leaf) + 1];
+  }
+  // d that holds the right number of nodes in the leaf, and the least and largest of its samples.
+  double leaf_spacing(std::int32_t leaf) const { return leaf_spacing_[index(leaf)]; }
+  double leaf_least_spacing(std::int32_t leaf) const { return leaf_least_[index(leaf)]; }
+  double leaf_largest_spacing(std::int32_t leaf) const { return leaf_largest_[index(leaf)]; }
+
+  // Is x strictly inside the domain? (On a boundary edge: no.)
+  bool inside(const Point<2>& x) const { return inside_in_leaf(tree_.leaf_at(x), x); }
+  bool inside_in_leaf(std::int32_t leaf, const Point<2>& x) const;
+
+  // Calls visit(edge index) for every boundary edge that may come within `reach` of x; an edge can
+  // come more than once.
+  template <class Visit>
+  void for_edges_near(const Point<2>& x, double reach, const Visit& visit) const {
+    const Box<2> box{{x[0] - reach, x[1] - reach}, {x[0] + reach, x[1] + reach}};
+    tree_.for_leaves_in(box, [&](std::int32_t leaf) {
+      for (std::int32_t e = edge_offset_[index(leaf)]; e < edge_offset_[index(leaf) + 1]; ++e)
+        visit(leaf_edges_[static_cast<std::size_t>(e)]);
+    });
+  }
+
+  const Point<2>& edge_begin(std::int32_t e) const {
+    return boundary_->nodes[index(edge(e).begin)].position;
+  }
+  const Point<2>& edge_end(std::int32_t e) const {
+    return boundary_->nodes[index(edge(e).end)].position;
+  }
+  const BoundaryEdge& edge(std::int32_t e) const { return boundary_->edges[index(e)]; }
+
+  // Distance from x to the nearest boundary edge, or `reach` if none is nearer.
+  double clearance(const Point<2>& x, double reach) const;
+
+ private:
+  enum class Side : char { outside, crossed, inside };
+  struct Growth;  // what is known of the cells while the tree grows
+
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  Side side(std::int32_t leaf) const { return side_[index(leaf)]; }
+  void keep_leaves(const Growth& growth);
+
+  BackgroundTree<2> tree_;
+  const Boundary* boundary_ = nullptr;
+  std::vector<Side> side_;                 // of the leaves
+  std::vector<Point<2>> reference_;        // a point in each leaf ...
+  std::vector<char> reference_inside_;     // ... and whether it lies inside
+  std::vector<double> leaf_spacing_, leaf_least_, leaf_largest_;
+  std::vector<std::int32_t> edge_offset_;  // edges of each leaf
+  std::vector<std::int32_t> leaf_edges_;
+};
+
+}  // namespace pnpbs

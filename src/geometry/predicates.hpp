@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exact signs of determinants: a floating-point filter first, exact expansions where it cannot
+// decide. Method: J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
+// geometric predicates", Discrete Comput. Geom. 18 (1997) 305-363. The filters are inline: they
+// decide almost always, and are asked hundreds of millions of times.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/types.hpp"
+
+namespace pnpbs {
+
+namespace predicates {
+
+// Exact, slow, for every finite input.
+int orientation_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c);
+int in_circle_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d);
+int break_tie(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d,
+              std::int64_t id_a, std::int64_t id_b, std::int64_t id_c, std::int64_t id_d);
+
+constexpr double kHalfUlp = 0x1p-53;
+constexpr double kOrientationBound = (3 + 16 * kHalfUlp) * kHalfUlp;
+constexpr double kInCircleBound = (10 + 96 * kHalfUlp) * kHalfUlp;
+// Far above what products lose that fall below the normal range: below it, nothing is decided
+// without the exact arithmetic. (Overflow gives inf or NaN, which decide nothing either.)
+constexpr double kUnderflowGuard = 0x1p-960;
+
+}  // namespace predicates
+
+// > 0 if a, b, c turn counter-clockwise, < 0 clockwise, 0 exactly on a line.
+inline int orientation(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  const double left = (a[0] - c[0]) * (b[1] - c[1]);
+  const double right = (a[1] - c[1]) * (b[0] - c[0]);
+  const double determinant = left - right;
+  const double error = predicates::kOrientationBound * (std::fabs(left) + std::fabs(right)) +
+                       predicates::kUnderflowGuard;
+  if (determinant > error) return 1;
+  if (-determinant > error) return -1;
+  return predicates::orientation_exact(a, b, c);
+}
+
+// For a, b, c counter-clockwise: > 0 if d lies inside their circumcircle, < 0 outside, 0 exactly
+// on it.
+inline int in_circle(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d) {
+  const double ax = a[0] - d[0], ay = a[1] - d[1];
+  const double bx = b[0] - d[0], by = b[1] - d[1];
+  const double cx = c[0] - d[0], cy = c[1] - d[1];
+  const double bc = bx * cy, cb = by * cx;
+  const double ca = cx * ay, ac = cy * ax;
+  const double ab = ax * by, ba = ay * bx;
+  const double lift_a = ax * ax + ay * ay;
+  const double lift_b = bx * bx + by * by;
+  const double lift_c = cx * cx + cy * cy;
+  const double determinant = lift_a * (bc - cb) + lift_b * (ca - ac) + lift_c * (ab - ba);
+  const double permanent = lift_a * (std::fabs(bc) + std::fabs(cb)) +
+                           lift_b * (std::fabs(ca) + std::fabs(ac)) +
+                           lift_c * (std::fabs(ab) + std::fabs(ba));
+  const double error = predicates::kInCircleBound * permanent +
+                       predicates::kUnderflowGuard * (1 + lift_a + lift_b + lift_c);
+  if (determinant > error) return 1;
+  if (-determinant > error) return -1;
+  return predicates::in_circle_exact(a, b, c, d);
+}
+
+// The same, but never 0 for distinct ids and not all on a line: a tie is broken by perturbing
+// the points' lifted heights |x|^2 by amounts that fall steeply with the id (the smallest id is
+// lifted most), so that all ranks decide alike and the triangulation conforms. Antisymmetric
+// under swapping two points (with their ids), invariant under even permutations.
+inline int in_circle_perturbed(const Point<2>& a, const Point<2>& b, const Point<2>& c,
+                               const Point<2>& d, std::int64_t id_a, std::int64_t id_b,
+                               std::int64_t id_c, std::int64_t id_d) {
+  const int sign = in_circle(a, b, c, d);
+  if (sign != 0) return sign;
+  return predicates::break_tie(a, b, c, d, id_a, id_b, id_c, id_d);
+}
+
+// Do the open segments ab and cd cross in one point that is inside both? (Touching ends and
+// overlaps on a line are no crossing.)
+inline bool cross_properly(const Point<2>& a, const Point<2>& b, const Point<2>& c,
+                           const Point<2>& d) {
+  return orientation(a, b, c) * orientation(a, b, d) < 0 &&
+         orientation(c, d, a) * orientation(c, d, b) < 0;
+}
+
+}  // namespace pnpbs

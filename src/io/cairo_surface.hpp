@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cairo's output led into a sink. Cairo is C: exceptions of the sink must not pass through it,
+// so they are kept and thrown again afterwards.
+#pragma once
+
+#include <cairo.h>
+
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "io/sink.hpp"
+
+namespace pnpbs::io {
+
+class CairoStream {
+ public:
+  explicit CairoStream(Sink& sink) : sink_(sink) {}
+
+  static cairo_status_t write(void* self, const unsigned char* data, unsigned int length) {
+    auto* stream = static_cast<CairoStream*>(self);
+    try {
+      stream->sink_.bytes(data, length);
+      return CAIRO_STATUS_SUCCESS;
+    } catch (...) {
+      stream->failure_ = std::current_exception();
+      return CAIRO_STATUS_WRITE_ERROR;
+    }
+  }
+
+  void check(cairo_status_t status) const {
+    if (failure_) std::rethrow_exception(failure_);
+    if (status != CAIRO_STATUS_SUCCESS) {
+      throw std::runtime_error(std::string("cannot draw the picture: ") +
+                               cairo_status_to_string(status));
+    }
+  }
+
+ private:
+  Sink& sink_;
+  std::exception_ptr failure_;
+};
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+
+}  // namespace pnpbs::io

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <random>
+#include <stdexcept>
+#include <system_error>
+
+namespace pnpbs::io {
+namespace {
+
+[[noreturn]] void fail(const std::string& what, int error) {
+  throw std::runtime_error("cannot write " + what + ": " + std::strerror(error));
+}
+
+// Renaming onto a symbolic link would replace the link: find the file it means.
+std::string behind_links(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path target = std::filesystem::canonical(path, error);
+  return error ? path : target.string();
+}
+
+std::string unused_name_beside(const std::string& target) {
+  static std::random_device random;
+  const std::filesystem::path folder = std::filesystem::path(target).parent_path();
+  const std::string name = ".pnpbs-" + std::to_string(::getpid()) + "-" + std::to_string(random());
+  return (folder / name).string();
+}
+
+// A file that is replaced keeps its permissions.
+void copy_permissions(const std::string& from, int to) {
+  struct stat status;
+  if (::stat(from.c_str(), &status) == 0) ::fchmod(to, status.st_mode & 07777);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path) : path_(path), target_(behind_links(path)) {}
+
+std::string OutputFile::quoted() const {
+  return is_standard_output() ? "standard output" : "'" + path_ + "'";
+}
+
+bool OutputFile::written_aside() const {
+  std::error_code error;
+  const auto type = std::filesystem::status(target_, error).type();
+  return !is_standard_output() && (type == std::filesystem::file_type::regular ||
+                                   type == std::filesystem::file_type::not_found);
+}
+
+void OutputFile::check() const {
+  if (is_standard_output()) return;
+  std::error_code error;
+  if (std::filesystem::is_directory(target_, error)) fail(quoted(), EISDIR);
+  if (std::filesystem::exists(target_, error) && ::access(target_.c_str(), W_OK) != 0) {
+    fail(quoted(), errno);
+  }
+  if (!written_aside()) return;
+  const std::filesystem::path target(target_);
+  if (target.filename().empty() || target.filename().string().size() > NAME_MAX) {
+    fail(quoted(), target.filename().empty() ? EISDIR : ENAMETOOLONG);
+  }
+  std::unique_ptr<Temporary> trial;
+  ::close(open_aside(trial));
+}
+
+int OutputFile::open_aside(std::unique_ptr<Temporary>& temporary) const {
+  // Listed before it is created, so that no signal finds it unlisted.
+  temporary = std::make_unique<Temporary>(unused_name_beside(target_));
+  const int descriptor = ::open(temporary->path(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) {
+    temporary->keep();  // it is not ours
+    fail(quoted(), errno);
+  }
+  copy_permissions(target_, descriptor);
+  return descriptor;
+}
+
+int OutputFile::open_target() {
+  if (is_standard_output()) return ::dup(STDOUT_FILENO);
+  if (written_aside()) return open_aside(temporary_);
+  return ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+}
+
+void OutputFile::write(const std::function<void(Sink&)>& writer,
+                       const std::function<void()>& before_write) {
+  const int descriptor = open_target();
+  if (descriptor < 0) fail(quoted(), errno);
+  try {
+    Sink sink(descriptor, quoted(), before_write);
+    writer(sink);
+    sink.flush();
+  } catch (...) {
+    ::close(descriptor);
+    temporary_.reset();
+    throw;
+  }
+  if (::close(descriptor) != 0) fail(quoted(), errno);
+}
+
+void OutputFile::publish() {
+  if (!temporary_) return;
+  if (std::rename(temporary_->path(), target_.c_str()) != 0) fail(quoted(), errno);
+  temporary_->keep();
+  temporary_.reset();
+}
+
+}  // namespace pnpbs::io

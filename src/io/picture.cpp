@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A picture of the nodes for people: discs sized by d on the curves of the domain, and below
+// them a scale bar and what the colours mean.
+#include "io/picture.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "io/palette.hpp"
+
+namespace pnpbs::io {
+namespace {
+
+constexpr int spacing_classes = 48;        // discs of one class share colour and size
+constexpr double disc_over_spacing = 0.6;  // diameter over d
+constexpr double dense_disc = 0.85;        // the same where pixels are few
+constexpr double boundary_disc = 0.45;
+constexpr double disc_in_bubble = 0.22;
+constexpr double least_disc = 1.1;          // pixels
+constexpr double edges_from_spacing = 7.0;  // pixels; below, triangle edges would be a grey mist
+
+void set_colour(cairo_t* cairo, const Colour& c, double opacity = 1) {
+  cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
+}
+
+// ------------------------------------------------------------------------ spacing -----------
+
+// Classes of spacing, equal in ratio.
+class SpacingScale {
+ public:
+  explicit SpacingScale(const std::vector<double>& spacing) {
+    if (spacing.empty()) return;
+    const auto [least, largest] = std::ranges::minmax_element(spacing);
+    least_ = *least;
+    largest_ = *largest;
+  }
+  double least() const { return least_; }
+  double largest() const { return largest_; }
+  bool uniform() const { return largest_ < 1.02 * least_; }
+  double fraction(double d) const { return uniform() ? 0.4 : std::log(d / least_) / span(); }
+  double at(double fraction) const { return least_ * std::exp(fraction * span()); }
+  int class_of(double d) const {
+    if (uniform()) return 0;
+    return std::clamp(static_cast<int>(fraction(d) * spacing_classes), 0, spacing_classes - 1);
+  }
+  double class_spacing(int index) const { return at((index + 0.5) / spacing_classes); }
+
+ private:
+  double span() const { return std::log(largest_ / least_); }
+  double least_ = 1, largest_ = 1;
+};
+
+// ------------------------------------------------------------------------ nodes -------------
+
+// The length of the shortest triangle edge at each node, at most d: room for its disc.
+std::vector<double> room_at(const NodeSet& nodes) {
+  std::vector<double> room = nodes.spacing;
+  for (std::size_t t = 0; t < nodes.triangle_count(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = static_cast<std::size_t>(nodes.triangles[3 * t + k]);
+      const auto b = static_cast<std::size_t>(nodes.triangles[3 * t + (k + 1) % 3]);
+      const double length =
+          std::hypot(nodes.xy[2 * b] - nodes.xy[2 * a], nodes.xy[2 * b + 1] - nodes.xy[2 * a + 1]);
+      room[a] = std::min(room[a], length);
+      room[b] = std::min(room[b], length);
+    }
+  }
+  return room;
+}
+
+// Nodes by class of their size, inner and boundary nodes apart.
+class NodeClasses {
+ public:
+  NodeClasses(const NodeSet& nodes, const std::vector<double>& size, bool boundary)
+      : scale_(size), members_(spacing_classes) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if ((nodes.tags[i] != 0) == boundary) {
+        members_[static_cast<std::size_t>(scale_.class_of(size[i]))].push_back(i);
+      }
+    }
+  }
+  double size(int index) const { return scale_.class_spacing(index); }
+  const std::vector<std::size_t>& members(int index) const {
+    return members_[static_cast<std::size_t>(index)];
+  }
+
+ private:
+  SpacingScale scale_;
+  std::vector<std::vector<std::size_t>> members_;
+};
+
+class Painter {
+ public:
+  Painter(cairo_t* cairo, const NodeSet& nodes, const PictureFrame& frame)
+      : cairo_(cairo),
+        nodes_(nodes),
+        frame_(frame),
+        scale_(nodes.spacing),
+        inner_(nodes, nodes.spacing, false),
+        boundary_(nodes, room_at(nodes), true) {
+    cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
+  }
+
+  void triangles();
+  void bubbles();
+  void outline();
+  void discs(double inner_over_spacing, double boundary_over_spacing);
+  void legend();
+
+ private:
+  double x(std::size_t node) const { return frame_.x(nodes_.xy[2 * node]); }
+  double y(std::size_t node) const { return frame_.y(nodes_.xy[2 * node + 1]); }
+  Colour colour_of(double spacing) const { return spacing_colour(scale_.fraction(spacing)); }
+  void bubble(std::size_t node);
+  void discs_of(const std::vector<std::size_t>& members, const Colour& colour, double diameter);
+  void scale_bar(double left, double base);
+  void colour_bar(double left, double base, double width);
+  double key(double left, double base, const std::string& meaning, const Colour& colour);
+  double text(double x, double y, const std::string& text, double align);
+  void dot(double x, double y);
+
+  cairo_t* cairo_;
+  const NodeSet& nodes_;
+  const PictureFrame& frame_;
+  SpacingScale scale_;
+  NodeClasses inner_, boundary_;
+};
+
+// A line of no length with round ends: the shortest way to say "disc" in a file.
+void Painter::dot(double x, double y) {
+  cairo_move_to(cairo_, x, y);
+  cairo_close_path(cairo_);
+}
+
+void Painter::triangles() {
+  if (nodes_.triangles.empty()) return;
+  if (frame_.pixels(frame_.typical_spacing) < edges_from_spacing) return;
+  for (std::size_t t = 0; t < nodes_.triangle_count(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = static_cast<std::size_t>(nodes_.triangles[3 * t + k]);
+      const auto b = static_cast<std::size_t>(nodes_.triangles[3 * t + (k + 1) % 3]);
+      if (a > b) continue;  // inner edges come in both directions; the outline has the others
+      cairo_move_to(cairo_, x(a), y(a));
+      cairo_line_to(cairo_, x(b), y(b));
+    }
+  }
+  set_colour(cairo_, triangle_edge);
+  cairo_set_line_width(cairo_, frame_.line_width * 0.6);
+  cairo_stroke(cairo_);
+}
+
+void Painter::bubble(std::size_t node) {
+  cairo_new_sub_path(cairo_);
+  cairo_arc(cairo_, x(node), y(node), 0.5 * frame_.pixels(nodes_.spacing[node]), 0,
+            2 * std::numbers::pi);
+}
+
+void Painter::bubbles() {
+  for (const NodeClasses* classes : {&boundary_, &inner_}) {
+    for (int c = 0; c < spacing_classes; ++c) {
+      if (classes->members(c).empty()) continue;
+      for (const std::size_t node : classes->members(c)) bubble(node);
+      const Colour colour = classes == &inner_ ? colour_of(inner_.size(c)) : boundary_node;
+      set_colour(cairo_, colour, 0.10);
+      cairo_fill_preserve(cairo_);
+      set_colour(cairo_, colour, 0.55);
+      cairo_set_line_width(cairo_, 0.6 * frame_.line_width);
+      cairo_stroke(cairo_);
+    }
+  }
+}
+
+void Painter::outline() {
+  for (std::size_t s = 0; s + 3 < nodes_.outline.size(); s += 4) {
+    const double* ends = &nodes_.outline[s];
+    cairo_move_to(cairo_, frame_.x(ends[0]), frame_.y(ends[1]));
+    cairo_line_to(cairo_, frame_.x(ends[2]), frame_.y(ends[3]));
+  }
+  set_colour(cairo_, ink);
+  cairo_set_line_width(cairo_, frame_.line_width);
+  cairo_stroke(cairo_);
+}
+
+void Painter::discs(double inner_over_spacing, double boundary_over_spacing) {
+  // Large ones first: where sizes meet, the small ones stay visible.
+  for (int c = spacing_classes - 1; c >= 0; --c) {
+    discs_of(inner_.members(c), colour_of(inner_.size(c)),
+             inner_over_spacing * frame_.pixels(inner_.size(c)));
+  }
+  for (int c = spacing_classes - 1; c >= 0; --c) {
+    discs_of(boundary_.members(c), boundary_node,
+             boundary_over_spacing * frame_.pixels(boundary_.size(c)));
+  }
+}
+
+void Painter::discs_of(const std::vector<std::size_t>& members, const Colour& colour,
+                       double diameter) {
+  if (members.empty()) return;
+  for (const std::size_t node : members) dot(x(node), y(node));
+  set_colour(cairo_, colour);
+  cairo_set_line_width(cairo_, std::max(least_disc, diameter));
+  cairo_stroke(cairo_);
+}
+
+// ------------------------------------------------------------------------ legend ------------
+
+// Three digits are enough for a legend.
+std::string short_number(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
+  return {text, end.ptr};
+}
+
+// 103 214 instead of 103214.
+std::string grouped(std::size_t count) {
+  std::string digits = std::to_string(count);
+  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) {
+    digits.insert(static_cast<std::size_t>(at), 1, ' ');
+  }
+  return digits;
+}
+
+// The largest of 1, 2, 5 times a power of ten that is at most `value`.
+double round_below(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  const double digit = value / power;
+  return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
+}
+
+// Returns where the text ends.
+double Painter::text(double x, double y, const std::string& text, double align) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo_, text.c_str(), &extents);
+  const double left = x - align * extents.x_advance;
+  cairo_move_to(cairo_, left, y);
+  set_colour(cairo_, ink);
+  cairo_show_text(cairo_, text.c_str());
+  return left + extents.x_advance;
+}
+
+void Painter::scale_bar(double left, double base) {
+  const double length = round_below(frame_.from_pixels(0.22 * frame_.width));
+  const double right = left + frame_.pixels(length);
+  const double tick = 0.35 * frame_.font_size;
+  cairo_move_to(cairo_, left, base - tick);
+  cairo_line_to(cairo_, left, base);
+  cairo_line_to(cairo_, right, base);
+  cairo_line_to(cairo_, right, base - tick);
+  set_colour(cairo_, ink);
+  cairo_set_line_width(cairo_, 1.2 * frame_.line_width);
+  cairo_stroke(cairo_);
+  text(0.5 * (left + right), base - 0.6 * frame_.font_size, short_number(length), 0.5);
+}
+
+void Painter::colour_bar(double left, double base, double width) {
+  const double height = 0.55 * frame_.font_size;
+  cairo_pattern_t* gradient = cairo_pattern_create_linear(left, 0, left + width, 0);
+  for (int step = 0; step <= 16; ++step) {
+    const Colour c = spacing_colour(step / 16.0);
+    cairo_pattern_add_color_stop_rgb(gradient, step / 16.0, c.red, c.green, c.blue);
+  }
+  cairo_rectangle(cairo_, left, base - height, width, height);
+  cairo_set_source(cairo_, gradient);
+  cairo_fill(cairo_);
+  cairo_pattern_destroy(gradient);
+  const double above = base - height - 0.45 * frame_.font_size;
+  text(left, above, "d = " + short_number(scale_.least()), 0);
+  text(left + 0.5 * width, above, short_number(scale_.at(0.5)), 0.5);
+  text(left + width, above, short_number(scale_.largest()), 1);
+}
+
+// A disc and what it means; returns where that ends.
+double Painter::key(double left, double base, const std::string& meaning, const Colour& colour) {
+  const double size = 0.6 * frame_.font_size;
+  dot(left + 0.5 * size, base - 0.55 * size);
+  set_colour(cairo_, colour);
+  cairo_set_line_width(cairo_, size);
+  cairo_stroke(cairo_);
+  return text(left + 1.5 * size, base, meaning, 0);
+}
+
+void Painter::legend() {
+  cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo_, frame_.font_size);
+  const double base = frame_.height - frame_.margin;
+  const double middle = 0.3 * frame_.width;
+  scale_bar(frame_.margin, base);
+  double end = middle + 0.28 * frame_.width;
+  if (scale_.uniform()) {
+    end = text(middle, base, "d = " + short_number(scale_.least()), 0) + frame_.font_size;
+    end = key(end, base, "inner", colour_of(scale_.least()));
+  } else {
+    colour_bar(middle, base, end - middle);
+  }
+  key(end + frame_.font_size, base, "boundary", boundary_node);
+  text(frame_.width - frame_.margin, base, grouped(nodes_.size()) + " nodes", 1);
+}
+
+}  // namespace
+
+// ------------------------------------------------------------------------ the whole ---------
+
+namespace {
+
+// Small discs look pale: the fewer pixels there are between nodes, the more of them are filled.
+double disc_size(const PictureFrame& frame) {
+  const double pixels = frame.pixels(frame.typical_spacing);
+  return std::lerp(dense_disc, disc_over_spacing, std::clamp((pixels - 4) / 8, 0.0, 1.0));
+}
+
+}  // namespace
+
+void draw_picture(cairo_t* cairo, const NodeSet& nodes, const PictureFrame& frame,
+                  const PictureStyle& style) {
+  set_colour(cairo, paper);
+  cairo_paint(cairo);
+  Painter painter(cairo, nodes, frame);
+  if (style.bubbles) {
+    painter.bubbles();
+    painter.outline();
+    painter.discs(disc_in_bubble, disc_in_bubble);
+  } else {
+    painter.triangles();
+    painter.outline();
+    painter.discs(disc_size(frame), boundary_disc);
+  }
+  painter.legend();
+}
+
+}  // namespace pnpbs::io

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that must not outlive the process unless they are published: a list that a signal
+// handler can walk.
+#pragma once
+
+#include <string>
+
+namespace pnpbs::io {
+
+// The name of a file that is removed when this object, or the process, ends.
+class Temporary {
+ public:
+  explicit Temporary(const std::string& path);
+  ~Temporary();
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  const char* path() const;
+  void keep();  // it has its final name now
+
+ private:
+  struct Entry;
+  Entry* entry_;
+  friend void remove_temporaries();
+};
+
+// Removes every file still on the list. Async-signal-safe.
+void remove_temporaries();
+
+}  // namespace pnpbs::io

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/buckets.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace pnpbs {
+
+namespace {
+
+// d may grow in a bucket by this factor before its links are made anew.
+constexpr double kRoomForGrowth = 1.25;
+
+template <int Dim>
+double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
+  double sum = 0;
+  for (int k = 0; k < Dim; ++k) {
+    const double gap = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+}  // namespace
+
+template <int Dim>
+void Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius) {
+  find_buckets(tree, nodes);
+  order_nodes(tree.leaf_count(), nodes);
+  if (gather_spacings(tree, nodes, radius)) link_neighbours(tree);
+}
+
+template <int Dim>
+void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes) {
+  if (static_cast<std::int64_t>(bucket_of_.extent(0)) < nodes.capacity())
+    bucket_of_ = make_view<std::int32_t>("pnpbs::Buckets::bucket_of", nodes.capacity());
+  const View<std::int32_t> bucket = bucket_of_;
+  for_each("pnpbs::Buckets::find", nodes.count,
+           [&, bucket](std::int64_t i) { bucket(i) = tree.leaf_at(nodes.position(i)); });
+}
+
+// Counting sort; stable, so that nodes which stay keep their order.
+template <int Dim>
+void Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
+  start_.assign(static_cast<std::size_t>(buckets) + 1, 0);
+  bool ordered = true;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    ++start_[index(bucket_of_(i)) + 1];
+    ordered = ordered && (i == 0 || bucket_of_(i - 1) <= bucket_of_(i));
+  }
+  for (std::int32_t b = 0; b < buckets; ++b) start_[index(b) + 1] += start_[index(b)];
+  if (ordered) return;
+  if (static_cast<std::int64_t>(from_.extent(0)) < nodes.capacity())
+    from_ = make_view<std::int32_t>("pnpbs::Buckets::from", nodes.capacity());
+  std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    from_(next[index(bucket_of_(i))]++) = static_cast<std::int32_t>(i);
+  nodes.permute(from_, nodes.count);
+  for (std::int32_t b = 0; b < buckets; ++b)
+    for (std::int32_t i = start_[index(b)]; i < start_[index(b) + 1]; ++i) bucket_of_(i) = b;
+}
+
+// Returns whether the links must be made anew, because a bubble became larger than they allow.
+template <int Dim>
+bool Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes,
+                                   double radius) {
+  const std::int32_t buckets = tree.leaf_count();
+  bool outgrown = reach_.size() != static_cast<std::size_t>(buckets);
+  if (outgrown) reach_.assign(static_cast<std::size_t>(buckets), 0);
+  least_.assign(static_cast<std::size_t>(buckets), std::numeric_limits<double>::infinity());
+  for (std::int32_t b = 0; b < buckets; ++b) {
+    double largest = 0;
+    for (std::int32_t i = begin(b); i < end(b); ++i) {
+      largest = std::max(largest, nodes.d(i));
+      least_[index(b)] = std::min(least_[index(b)], nodes.d(i));
+    }
+    if (radius * largest > reach_[index(b)]) {
+      reach_[index(b)] = radius * largest * kRoomForGrowth;
+      outgrown = true;
+    }
+  }
+  return outgrown;
+}
+
+// Every bucket looks as far as its own largest bubble; a pair is linked if either sees the other,
+// and the two together reach across the gap.
+template <int Dim>
+void Buckets<Dim>::link_neighbours(const BackgroundTree<Dim>& tree) {
+  const std::int32_t buckets = tree.leaf_count();
+  std::vector<std::pair<std::int32_t, std::int32_t>> links;
+  for (std::int32_t a = 0; a < buckets; ++a) {
+    links.emplace_back(a, a);
+    if (reach_[index(a)] == 0) continue;
+    const Box<Dim> own = tree.cell_box(tree.leaf_cell(a));
+    Box<Dim> around = own;
+    for (int k = 0; k < Dim; ++k) {
+      around.low[k] -= reach_[index(a)];
+      around.high[k] += reach_[index(a)];
+    }
+    tree.for_leaves_in(around, [&](std::int32_t b) {
+      if (a == b || reach_[index(b)] > reach_[index(a)]) return;
+      if (reach_[index(b)] == reach_[index(a)] && b < a) return;
+      const double reach = 0.5 * (reach_[index(a)] + reach_[index(b)]);
+      if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > reach * reach) return;
+      links.emplace_back(a, b);
+      links.emplace_back(b, a);
+    });
+  }
+  offset_.assign(static_cast<std::size_t>(buckets) + 1, 0);
+  for (const auto& link : links) ++offset_[index(link.first) + 1];
+  for (std::int32_t b = 0; b < buckets; ++b) offset_[index(b) + 1] += offset_[index(b)];
+  neighbours_.resize(links.size());
+  std::vector<std::int32_t> next(offset_.begin(), offset_.end() - 1);
+  for (const auto& link : links)
+    neighbours_[index(next[index(link.first)]++)] = link.second;
+  for (std::int32_t b = 0; b < buckets; ++b)
+    std::sort(neighbours_.begin() + offset_[index(b)], neighbours_.begin() + offset_[index(b) + 1]);
+}
+
+template class Buckets<2>;
+template class Buckets<3>;
+
+}  // namespace pnpbs

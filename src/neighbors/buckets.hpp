@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Multilayer buckets: the leaves of the background tree, each layer of the tree for bubbles of
+// its size, and for each bucket the buckets whose bubbles may meet its own (section 2.3).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/nodes.hpp"
+#include "tree/background_tree.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class Buckets {
+ public:
+  // Sorts the nodes in memory by bucket, and sees to it that the neighbour buckets of each reach
+  // all bubbles within radius * (d_i + d_j) / 2.
+  void sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius);
+
+  // Forgets the neighbour buckets: the tree has changed.
+  void reset() { reach_.clear(); }
+
+  std::int32_t bucket_of(std::int64_t node) const { return bucket_of_(node); }
+  std::int32_t begin(std::int32_t bucket) const { return start_[index(bucket)]; }
+  std::int32_t end(std::int32_t bucket) const { return start_[index(bucket) + 1]; }
+
+  // Calls visit(other) for the bucket itself and all that may interact with it, in Morton order.
+  template <class Visit>
+  void for_neighbours(std::int32_t bucket, const Visit& visit) const {
+    for (std::int32_t k = offset_[index(bucket)]; k < offset_[index(bucket) + 1]; ++k)
+      visit(neighbours_[static_cast<std::size_t>(k)]);
+  }
+
+  // Least spacing of the nodes in a bucket (infinity if empty).
+  double least_spacing(std::int32_t bucket) const { return least_[index(bucket)]; }
+
+ private:
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  void find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes);
+  void order_nodes(std::int32_t buckets, Nodes<Dim>& nodes);
+  bool gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes, double radius);
+  void link_neighbours(const BackgroundTree<Dim>& tree);
+
+  View<std::int32_t> bucket_of_;
+  std::vector<std::int32_t> start_;       // first node of each bucket
+  std::vector<double> reach_;             // radius * largest d the links of a bucket allow for
+  std::vector<double> least_;             // least d of the nodes in it
+  std::vector<std::int32_t> offset_;      // neighbour buckets, compressed rows
+  std::vector<std::int32_t> neighbours_;
+  View<std::int32_t> from_;
+};
+
+extern template class Buckets<2>;
+extern template class Buckets<3>;
+
+}  // namespace pnpbs

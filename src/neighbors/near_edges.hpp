@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The boundary edges near each node: they separate pairs, and inner nodes keep off them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/nodes.hpp"
+#include "geometry/boundary_fans.hpp"
+#include "geometry/domain_map.hpp"
+#include "neighbors/buckets.hpp"
+
+namespace pnpbs {
+
+class NearEdges {
+ public:
+  // Once per level: which edges come near which leaf.
+  void prepare(const DomainMap& map, double radius);
+
+  // At every rebuild of the lists: the edges within radius * d_i of each node.
+  void build(const Nodes<2>& nodes, const Buckets<2>& buckets, const DomainMap& map);
+
+  bool any(std::int64_t i) const { return any_(i) != 0; }
+
+  std::span<const std::int32_t> edges_of(std::int64_t i) const {
+    return {chunk_of(i).edges.data() + begin(i), static_cast<std::size_t>(end(i) - begin(i))};
+  }
+
+  // Does no boundary edge separate nodes i and j? For pairs within radius * (d_i + d_j) / 2.
+  bool visible(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
+               std::int64_t i, std::int64_t j) const {
+    // Whatever lies between the two is within their distance of either, and that is at most
+    // radius times the larger spacing.
+    const std::int64_t wide = nodes.d(i) >= nodes.d(j) ? i : j;
+    return !any(wide) || way_between_is_free(nodes, map, fans, i, j, wide);
+  }
+
+ private:
+  bool way_between_is_free(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
+                           std::int64_t i, std::int64_t j, std::int64_t wide) const;
+
+  static constexpr std::int64_t kChunkNodes = 512;
+  struct Chunk {
+    std::vector<std::int32_t> edges;
+    std::array<std::int32_t, kChunkNodes + 1> offset{};
+  };
+  const Chunk& chunk_of(std::int64_t i) const {
+    return chunks_[static_cast<std::size_t>(i / kChunkNodes)];
+  }
+  std::int32_t begin(std::int64_t i) const {
+    return chunk_of(i).offset[static_cast<std::size_t>(i % kChunkNodes)];
+  }
+  std::int32_t end(std::int64_t i) const {
+    return chunk_of(i).offset[static_cast<std::size_t>(i % kChunkNodes) + 1];
+  }
+
+  double radius_ = 0;
+  std::vector<double> leaf_reach_;          // how far from the leaf its edges were gathered
+  std::vector<std::int32_t> leaf_offset_;   // edges near each leaf
+  std::vector<std::int32_t> leaf_edges_;
+  std::vector<Chunk> chunks_;
+  View<char> any_;
+};
+
+// Does the straight way between two nodes stay inside the domain, as far as `edges` (all that can
+// lie between them) tell? Boundary nodes are given by their index, inner ones by -1.
+template <class Edges>
+bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>& x,
+                 std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
+                 const Edges& edges);
+
+}  // namespace pnpbs
+
+#include "geometry/predicates.hpp"
+
+namespace pnpbs {
+
+template <class Edges>
+bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>& x,
+                 std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
+                 const Edges& edges) {
+  if (boundary_x >= 0 && boundary_y >= 0 && fans.joined(boundary_x, boundary_y)) return true;
+  if (boundary_x >= 0 && !fans.leads_inside(map.boundary(), boundary_x, y)) return false;
+  if (boundary_y >= 0 && !fans.leads_inside(map.boundary(), boundary_y, x)) return false;
+  for (std::int32_t e : edges)
+    if (cross_properly(x, y, map.edge_begin(e), map.edge_end(e))) return false;
+  return true;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/growth_limit.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace pnpbs {
+
+GrowthLimitedSpacing::GrowthLimitedSpacing(const PlaneDomain& domain,
+                                           std::shared_ptr<const Spacing<2>> raw, double growth,
+                                           std::int64_t max_nodes)
+    : raw_(std::move(raw)), growth_(growth) {
+  const SpacingEvaluator checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+    evaluate_spacing<2>(*raw_, domain.area(), n, x, d);
+  };
+  boundary_ = lay_boundary(domain, checked, max_nodes);
+  map_.build(domain.bounds(), boundary_, checked, max_nodes);
+  link_leaves();
+  sample_leaves(domain.area());
+  relax();
+}
+
+void GrowthLimitedSpacing::link_leaves() {
+  const BackgroundTree<2>& tree = map_.tree();
+  offset_.assign(1, 0);
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    if (!map_.leaf_outside(leaf)) {
+      Box<2> box = tree.cell_box(tree.leaf_cell(leaf));
+      const double rim = 1e-6 * tree.cell_side(tree.leaf_cell(leaf));
+      for (int k = 0; k < 2; ++k) {
+        box.low[k] -= rim;
+        box.high[k] += rim;
+      }
+      tree.for_leaves_in(box, [&](std::int32_t other) {
+        if (other != leaf && !map_.leaf_outside(other)) next_to_.push_back(other);
+      });
+    }
+    offset_.push_back(static_cast<std::int32_t>(next_to_.size()));
+  }
+}
+
+// What the samples in a leaf allow in its middle.
+void GrowthLimitedSpacing::sample_leaves(double measure) {
+  const BackgroundTree<2>& tree = map_.tree();
+  at_centre_.assign(static_cast<std::size_t>(tree.leaf_count()),
+                    std::numeric_limits<double>::infinity());
+  std::vector<Point<2>> points;
+  std::vector<std::int32_t> leaves;
+  const double quarters[5][2] = {{0.5, 0.5}, {0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}};
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    if (map_.leaf_outside(leaf)) continue;
+    const Box<2> box = tree.cell_box(tree.leaf_cell(leaf));
+    const double side = tree.cell_side(tree.leaf_cell(leaf));
+    for (const auto& quarter : quarters) {
+      const Point<2> x{box.low[0] + quarter[0] * side, box.low[1] + quarter[1] * side};
+      if (!map_.inside_in_leaf(leaf, x)) continue;
+      points.push_back(x);
+      leaves.push_back(leaf);
+    }
+  }
+  for (const BoundaryNode& node : boundary_.nodes) {
+    points.push_back(node.position);
+    leaves.push_back(tree.leaf_at(node.position));
+  }
+  std::vector<double> d(points.size());
+  evaluate_spacing<2>(*raw_, measure, static_cast<std::int64_t>(points.size()), points.data(),
+                      d.data());
+  for (std::size_t s = 0; s < points.size(); ++s) {
+    double& value = at_centre_[static_cast<std::size_t>(leaves[s])];
+    value = std::min(value, d[s] + growth_ * distance<2>(points[s], centre(leaves[s])));
+  }
+}
+
+// The min-plus fixpoint over touching leaves (Dijkstra). It is unique: rounding is monotone, and so
+// is every step.
+void GrowthLimitedSpacing::relax() {
+  using Entry = std::pair<double, std::int32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf)
+    if (at_centre_[static_cast<std::size_t>(leaf)] < std::numeric_limits<double>::infinity())
+      queue.emplace(at_centre_[static_cast<std::size_t>(leaf)], leaf);
+  while (!queue.empty()) {
+    const auto [value, leaf] = queue.top();
+    queue.pop();
+    if (value > at_centre_[static_cast<std::size_t>(leaf)]) continue;
+    for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
+         k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k) {
+      const std::int32_t other = next_to_[static_cast<std::size_t>(k)];
+      const double reached = value + growth_ * distance<2>(centre(leaf), centre(other));
+      if (reached >= at_centre_[static_cast<std::size_t>(other)]) continue;
+      at_centre_[static_cast<std::size_t>(other)] = reached;
+      queue.emplace(reached, other);
+    }
+  }
+}
+
+double GrowthLimitedSpacing::limit_at(const Point<2>& x) const {
+  const std::int32_t leaf = map_.tree().leaf_at(x);
+  double limit = at_centre_[static_cast<std::size_t>(leaf)] + growth_ * distance<2>(x, centre(leaf));
+  for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
+       k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k) {
+    const std::int32_t other = next_to_[static_cast<std::size_t>(k)];
+    limit = std::min(limit, at_centre_[static_cast<std::size_t>(other)] +
+                                growth_ * distance<2>(x, centre(other)));
+  }
+  return limit;
+}
+
+void GrowthLimitedSpacing::evaluate(std::int64_t n, const Point<2>* x, double* d) const {
+  raw_->evaluate(n, x, d);
+  for (std::int64_t i = 0; i < n; ++i) {
+    // Written so that bad values (not a number) stay and are reported.
+    const double limit = limit_at(x[i]);
+    if (d[i] > limit) d[i] = limit;
+  }
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A spacing whose growth is limited: d grows by at most g per unit of length on the way through
+// the domain. d_limited(x) = min over y of (d(y) + g |x - y|), found once on the background tree.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/boundary.hpp"
+#include "geometry/domain_map.hpp"
+#include "geometry/plane_domain.hpp"
+#include "spacing/spacing.hpp"
+
+namespace pnpbs {
+
+class GrowthLimitedSpacing : public Spacing<2> {
+ public:
+  GrowthLimitedSpacing(const PlaneDomain& domain, std::shared_ptr<const Spacing<2>> raw,
+                       double growth, std::int64_t max_nodes);
+  void evaluate(std::int64_t n, const Point<2>* x, double* d) const override;
+
+ private:
+  void link_leaves();
+  void sample_leaves(double measure);
+  void relax();
+  double limit_at(const Point<2>& x) const;
+  Point<2> centre(std::int32_t leaf) const {
+    return map_.tree().cell_centre(map_.tree().leaf_cell(leaf));
+  }
+
+  std::shared_ptr<const Spacing<2>> raw_;
+  double growth_;
+  Boundary boundary_;  // at the unlimited spacing
+  DomainMap map_;
+  std::vector<double> at_centre_;           // limited d at the middle of each leaf
+  std::vector<std::int32_t> offset_, next_to_;  // leaves that touch
+};
+
+}  // namespace pnpbs

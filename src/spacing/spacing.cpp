@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/execution.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+void ConstantSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>*, double* d) const {
+  std::fill(d, d + n, d_);
+}
+
+template <int Dim>
+void CallbackSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
+  const std::int32_t answer = function_(n, n > 0 ? x->data() : nullptr, d);
+  if (answer != 0)
+    throw Error(PNPBS_ERROR_CALLBACK, "the spacing callback returned " + std::to_string(answer) +
+                                          " for a batch of " + std::to_string(n) +
+                                          " points; it must return 0");
+}
+
+template <int Dim>
+double GridSpacing<Dim>::at(const Point<Dim>& x) const {
+  std::array<std::int64_t, Dim> cell;
+  Point<Dim> weight;
+  for (int k = 0; k < Dim; ++k) {
+    const double last = static_cast<double>(size_[k] - 1);
+    const double t = std::clamp((x[k] - origin_[k]) / step_[k], 0.0, last);
+    cell[k] = std::min(static_cast<std::int64_t>(t), std::max<std::int64_t>(size_[k] - 2, 0));
+    weight[k] = t - static_cast<double>(cell[k]);
+  }
+  double sum = 0;
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    double share = 1;
+    std::int64_t index = 0;
+    for (int k = Dim - 1; k >= 0; --k) {
+      const int upper = (corner >> k) & 1;
+      share *= upper ? weight[k] : 1 - weight[k];
+      index = index * size_[k] + std::min(cell[k] + upper, size_[k] - 1);
+    }
+    if (share > 0) sum += share * values_[static_cast<std::size_t>(index)];
+  }
+  return sum;
+}
+
+template <int Dim>
+void GridSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
+  for_each("pnpbs::GridSpacing::evaluate", n, [=, this](std::int64_t i) { d[i] = at(x[i]); });
+}
+
+namespace {
+
+template <int Dim>
+std::string point_text(const Point<Dim>& x) {
+  std::string text = "(";
+  for (int k = 0; k < Dim; ++k) text += (k ? ", " : "") + number_text(x[k]);
+  return text + ")";
+}
+
+// Nodes that spacing d means in a domain of this measure: 2/sqrt(3) per d^2 (hexagonal lattice),
+// 1.575 per d^3 (body-centred cubic, mean Delaunay edge d).
+template <int Dim>
+double meant_nodes(double d, double measure) {
+  return Dim == 2 ? 1.1547005383792515 * measure / (d * d) : 1.575 * measure / (d * d * d);
+}
+
+}  // namespace
+
+template <int Dim>
+void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t n,
+                      const Point<Dim>* x, double* d) {
+  constexpr double kMostNodes = 1e15;  // more than any machine holds, even if meant only nearby
+  spacing.evaluate(n, x, d);
+  for (std::int64_t i = 0; i < n; ++i) {
+    if (std::isfinite(d[i]) && d[i] > 0 && meant_nodes<Dim>(d[i], measure) < kMostNodes) continue;
+    std::string message = "spacing d = " + number_text(d[i]) + " at " + point_text<Dim>(x[i]);
+    if (!std::isfinite(d[i]))
+      message += " is not finite; any number of nodes could be meant";
+    else if (d[i] <= 0)
+      message += " would mean infinitely many nodes; d must be greater than 0";
+    else
+      message += " would mean about " + number_text(std::round(meant_nodes<Dim>(d[i], measure))) +
+                 " nodes in the domain; use a larger d";
+    throw Error(PNPBS_ERROR_SPACING, message);
+  }
+}
+
+template void evaluate_spacing<2>(const Spacing<2>&, double, std::int64_t, const Point<2>*,
+                                  double*);
+template void evaluate_spacing<3>(const Spacing<3>&, double, std::int64_t, const Point<3>*,
+                                  double*);
+template class ConstantSpacing<2>;
+template class ConstantSpacing<3>;
+template class CallbackSpacing<2>;
+template class CallbackSpacing<3>;
+template class GridSpacing<2>;
+template class GridSpacing<3>;
+
+}  // namespace pnpbs

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The spacing function d(x): what the user gives, and what growth limit makes of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class Spacing {
+ public:
+  virtual ~Spacing() = default;
+  // Fills d[n] at x[n]. Throws Error if the user's callback fails. Values are as the user has
+  // them: checked by evaluate_spacing.
+  virtual void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const = 0;
+};
+
+template <int Dim>
+class ConstantSpacing : public Spacing<Dim> {
+ public:
+  explicit ConstantSpacing(double d) : d_(d) {}
+  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+
+ private:
+  double d_;
+};
+
+// A batch callback; 0 is success.
+template <int Dim>
+class CallbackSpacing : public Spacing<Dim> {
+ public:
+  using Function = std::function<std::int32_t(std::int64_t n, const double* x, double* d)>;
+  explicit CallbackSpacing(Function function) : function_(std::move(function)) {}
+  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+
+ private:
+  Function function_;
+};
+
+// Values on a rectangular grid, x fastest; linear in each direction between the grid points,
+// constant beyond the rim.
+template <int Dim>
+class GridSpacing : public Spacing<Dim> {
+ public:
+  GridSpacing(const std::array<std::int64_t, Dim>& size, const Point<Dim>& origin,
+              const Point<Dim>& step, std::vector<double> values)
+      : size_(size), origin_(origin), step_(step), values_(std::move(values)) {}
+  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+
+ private:
+  double at(const Point<Dim>& x) const;
+
+  std::array<std::int64_t, Dim> size_;
+  Point<Dim> origin_, step_;
+  std::vector<double> values_;
+};
+
+// Evaluates d and checks it: an Error(PNPBS_ERROR_SPACING) names the point, the value and the
+// number of nodes that it would mean in a domain of this area (volume).
+template <int Dim>
+void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t n,
+                      const Point<Dim>* x, double* d);
+
+extern template class ConstantSpacing<2>;
+extern template class ConstantSpacing<3>;
+extern template class CallbackSpacing<2>;
+extern template class CallbackSpacing<3>;
+extern template class GridSpacing<2>;
+extern template class GridSpacing<3>;
+
+}  // namespace pnpbs

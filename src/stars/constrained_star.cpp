@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stars/constrained_star.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/predicates.hpp"
+#include "stars/hull_star.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using Entry = DelaunayStars::Entry;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class GiftWrap {
+ public:
+  GiftWrap(const StarInput& input, std::int64_t i, double reach)
+      : in_(input), centre_(node(i)), boundary_(input.nodes.boundary_node(i)), reach_(reach) {
+    gather();
+  }
+
+  // False if nodes beyond the reach may matter.
+  bool wrap(std::vector<Entry>& star) {
+    if (boundary_ >= 0 && in_.fans.begin(boundary_) != in_.fans.end(boundary_))
+      return wrap_sectors(star);
+    const int first = nearest_visible();
+    if (first < 0) return false;
+    return wrap_from(first, around_[index(first)].node, star);
+  }
+
+ private:
+  static std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+  StarPoint node(std::int64_t j) const {
+    return {in_.nodes.position(j), in_.nodes.id(j), static_cast<std::int32_t>(j)};
+  }
+
+  void gather() {
+    const Point<2>& x = centre_.position;
+    const Box<2> box{{x[0] - reach_, x[1] - reach_}, {x[0] + reach_, x[1] + reach_}};
+    in_.map.tree().for_leaves_in(box, [&](std::int32_t leaf) {
+      for (std::int32_t j = in_.buckets.begin(leaf); j < in_.buckets.end(leaf); ++j) {
+        const double gap = squared_distance<2>(x, in_.nodes.position(j));
+        if (j != centre_.node && gap > 0 && gap <= reach_ * reach_) around_.push_back(node(j));
+      }
+    });
+    in_.map.for_edges_near(x, reach_, [&](std::int32_t e) { edges_.push_back(e); });
+    std::sort(edges_.begin(), edges_.end());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    sees_centre_.assign(around_.size(), -1);
+  }
+
+  bool way_is_free_between(const StarPoint& a, const StarPoint& b) const {
+    return way_is_free(in_.map, in_.fans, a.position, in_.nodes.boundary_node(a.node), b.position,
+                       in_.nodes.boundary_node(b.node), edges_);
+  }
+
+  bool sees_centre(int k) {
+    signed char& known = sees_centre_[index(k)];
+    if (known < 0) known = way_is_free_between(centre_, around_[index(k)]);
+    return known != 0;
+  }
+
+  bool is_edge(const StarPoint& a, const StarPoint& b) const {
+    const std::int32_t p = in_.nodes.boundary_node(a.node), q = in_.nodes.boundary_node(b.node);
+    return p >= 0 && q >= 0 && in_.fans.joined(p, q);
+  }
+
+  int nearest_visible() {
+    int nearest = -1;
+    double least = kInfinity;
+    for (int k = 0; k < static_cast<int>(around_.size()); ++k) {
+      const double gap = squared_distance<2>(centre_.position, around_[index(k)].position);
+      const bool nearer = gap < least || (gap == least && around_[index(k)].id <
+                                                              around_[index(nearest)].id);
+      if (!nearer || !sees_centre(k)) continue;
+      least = gap;
+      nearest = k;
+    }
+    return nearest;
+  }
+
+  // The neighbour that follows a counter-clockwise, or -1.
+  int next_after(const StarPoint& a) {
+    int best = -1;
+    for (int k = 0; k < static_cast<int>(around_.size()); ++k) {
+      const StarPoint& p = around_[index(k)];
+      if (p.node == a.node) continue;
+      if (orientation(centre_.position, a.position, p.position) <= 0) continue;
+      if (best >= 0) {
+        const StarPoint& b = around_[index(best)];
+        if (in_circle_perturbed(centre_.position, a.position, b.position, p.position, centre_.id,
+                                a.id, b.id, p.id) <= 0)
+          continue;
+      }
+      if (sees_centre(k) && way_is_free_between(a, p)) best = k;
+    }
+    return best;
+  }
+
+  // How far from the centre a node could lie that would spoil triangle (centre, a, b). Beyond a
+  // boundary edge nothing is seen. In the part of the circle cut off by a side that the circle's
+  // middle is not beyond, nothing is farther than the ends of that side.
+  double needed_reach(const StarPoint& a, const StarPoint& b) const {
+    const Point<2>&i = centre_.position, &p = a.position, &q = b.position;
+    const double to_a = distance<2>(i, p), to_b = distance<2>(i, q);
+    const double diameter = circle_diameter(i, p, q);
+    const auto angle_is_acute = [](const Point<2>& at, const Point<2>& u, const Point<2>& w) {
+      return (u[0] - at[0]) * (w[0] - at[0]) + (u[1] - at[1]) * (w[1] - at[1]) > 0;
+    };
+    const bool acute_i = angle_is_acute(i, p, q), acute_a = angle_is_acute(p, q, i),
+               acute_b = angle_is_acute(q, i, p);
+    double need = std::max(to_a, to_b);
+    if (!is_edge(a, b) && (!acute_i || (acute_a && acute_b))) need = std::max(need, diameter);
+    if (!is_edge(centre_, a) && !acute_b) need = std::max(need, diameter);
+    if (!is_edge(centre_, b) && !acute_a) need = std::max(need, diameter);
+    return need;
+  }
+
+  // Wraps from neighbour `first` on until node `last` has come; appends all but the last.
+  bool wrap_from(int first, std::int32_t last, std::vector<Entry>& star) {
+    StarPoint a = around_[index(first)];
+    for (std::size_t guard = 0; guard <= around_.size(); ++guard) {
+      const int k = next_after(a);
+      if (k < 0) return false;
+      const StarPoint b = around_[index(k)];
+      if (needed_reach(a, b) > reach_) return false;
+      star.push_back({static_cast<std::uint32_t>(a.node), 1});
+      if (b.node == last) return true;
+      a = b;
+    }
+    return false;
+  }
+
+  int find_boundary_node(std::int32_t boundary_node) const {
+    for (int k = 0; k < static_cast<int>(around_.size()); ++k)
+      if (in_.nodes.boundary_node(around_[index(k)].node) == boundary_node) return k;
+    return -1;
+  }
+
+  // A boundary node: sector by sector, each from one boundary edge to the next.
+  bool wrap_sectors(std::vector<Entry>& star) {
+    const std::int32_t begin = in_.fans.begin(boundary_), end = in_.fans.end(boundary_);
+    for (std::int32_t s = begin; s < end; ++s) {
+      const FanEdge& from = in_.fans.edge(s);
+      const FanEdge& to = in_.fans.edge(s + 1 < end ? s + 1 : begin);
+      const int first = find_boundary_node(from.other), last = find_boundary_node(to.other);
+      if (first < 0 || last < 0) return false;
+      if (!from.inside_after) {
+        star.push_back({static_cast<std::uint32_t>(around_[index(first)].node), 0});
+        continue;
+      }
+      if (!wrap_from(first, around_[index(last)].node, star)) return false;
+    }
+    return true;
+  }
+
+  const StarInput& in_;
+  StarPoint centre_;
+  std::int32_t boundary_;
+  double reach_;
+  std::vector<StarPoint> around_;
+  std::vector<std::int32_t> edges_;
+  std::vector<signed char> sees_centre_;  // -1 not asked yet
+};
+
+}  // namespace
+
+void constrained_star(const StarInput& input, std::int64_t i, double first_reach,
+                      std::vector<Entry>& star) {
+  const std::size_t before = star.size();
+  const double everything = 2 * input.map.tree().side();
+  for (double reach = first_reach;; reach *= 1.5) {
+    star.resize(before);
+    if (GiftWrap(input, i, reach).wrap(star)) return;
+    if (reach > everything) break;
+  }
+  // Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
+  if (star.size() > before) star.back().triangle = 0;
+}
+
+}  // namespace pnpbs

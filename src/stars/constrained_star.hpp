@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The star of a node at or near the boundary, or with a gap beside it: gift wrapping around the
+// node. After neighbour a comes the visible node b to the left of the way to a whose circle
+// through the node, a and b holds no other visible one. Boundary edges are edges of the
+// triangulation whatever lies in their circles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "stars/delaunay_stars.hpp"
+
+namespace pnpbs {
+
+// Appends the star of node i to `star`, looking as far as needed.
+void constrained_star(const StarInput& input, std::int64_t i, double first_reach,
+                      std::vector<DelaunayStars::Entry>& star);
+
+}  // namespace pnpbs

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the user asks for.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pnpbs::tool {
+
+struct Arguments {
+  std::string domain;        // a file, or "-"
+  std::string spacing;       // a formula; empty if spacing_grid is set
+  std::string spacing_grid;  // a file
+  std::vector<std::string> outputs;
+  std::string format;  // of standard output and of unknown extensions
+  std::string report;  // a file, "-", or empty
+  std::vector<std::pair<std::string, std::string>> options;  // key and value for the library
+  bool bubbles = false;
+  bool quiet = false;
+};
+
+// Parses the command line. What only wants information (--help, --version, ...) is answered
+// here, on standard output; then the result is false. Throws BadInput.
+bool parse_arguments(int argc, char** argv, Arguments& arguments);
+
+}  // namespace pnpbs::tool

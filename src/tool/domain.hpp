@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading the domain from a file or from standard input.
+#pragma once
+
+#include <string>
+
+#include "tool/library.hpp"
+
+namespace pnpbs::tool {
+
+// path "-" is standard input. Throws Failure.
+void read_domain(const std::string& path, pnpbs_domain domain, pnpbs_context context);
+
+}  // namespace pnpbs::tool

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the command ends.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace pnpbs::tool {
+
+enum class ExitCode { done = 0, failed = 1, bad_input = 2, not_converged = 3, interrupted = 130 };
+
+// Thrown to end the command with a message for standard error.
+class Failure : public std::runtime_error {
+ public:
+  Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+class BadInput : public Failure {
+ public:
+  explicit BadInput(const std::string& message) : Failure(ExitCode::bad_input, message) {}
+};
+
+class Interrupted : public Failure {
+ public:
+  Interrupted() : Failure(ExitCode::interrupted, "interrupted, nothing was written") {}
+};
+
+}  // namespace pnpbs::tool

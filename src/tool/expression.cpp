@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/expression.hpp"
+
+#include <muParser.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tool/exit.hpp"
+#include "tool/names.hpp"
+
+namespace pnpbs::tool {
+namespace {
+
+double hypot_of(double a, double b) { return std::hypot(a, b); }
+double pow_of(double a, double b) { return std::pow(a, b); }
+double mod_of(double a, double b) { return std::fmod(a, b); }
+double floor_of(double a) { return std::floor(a); }
+double ceil_of(double a) { return std::ceil(a); }
+double cbrt_of(double a) { return std::cbrt(a); }
+
+void define_names(mu::Parser& parser) {
+  parser.DefineFun("hypot", hypot_of);
+  parser.DefineFun("pow", pow_of);
+  parser.DefineFun("mod", mod_of);
+  parser.DefineFun("floor", floor_of);
+  parser.DefineFun("ceil", ceil_of);
+  parser.DefineFun("cbrt", cbrt_of);
+  parser.DefineConst("pi", std::numbers::pi);
+  parser.DefineConst("e", std::numbers::e);
+}
+
+std::vector<std::string> known_names(const mu::Parser& parser) {
+  std::vector<std::string> names{"x", "y"};
+  for (const auto& [name, function] : parser.GetFunDef()) names.push_back(name);
+  for (const auto& [name, value] : parser.GetConst()) names.push_back(name);
+  return names;
+}
+
+// How many letters begin before the byte at `position`: in UTF-8, some bytes only continue one.
+std::size_t letters_before(const std::string& text, std::size_t position) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position),
+                    [](unsigned char c) { return (c & 0xC0) != 0x80; }));
+}
+
+// The text on one line, and below it a mark under the byte at `position`.
+[[noreturn]] void fail(const std::string& text, std::size_t position, const std::string& what) {
+  const std::size_t column = letters_before(text, std::min(position, text.size()));
+  std::string line = text;
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' '; }, ' ');
+  throw BadInput("--spacing, position " + std::to_string(column + 1) + ": " + what + "\n  " + line +
+                 "\n  " + std::string(column, ' ') + "^");
+}
+
+// muParser would assign to variables, and return the last of several values.
+void refuse_what_is_no_formula(const std::string& text) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(text, 0, "empty expression");
+  for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1)) {
+    const bool comparison =
+        (at > 0 && std::string("<>!=").find(text[at - 1]) != std::string::npos) ||
+        (at + 1 < text.size() && text[at + 1] == '=');
+    if (!comparison) fail(text, at, "a formula assigns nothing (== compares)");
+  }
+}
+
+std::string trimmed(std::string token) {
+  const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
+  while (!token.empty() && is_space(token.back())) token.pop_back();
+  return token;
+}
+
+std::string about_unknown(const std::string& token, const mu::Parser& parser) {
+  const auto first = static_cast<unsigned char>(token.empty() ? ' ' : token[0]);
+  if (parser.GetFunDef().contains(token))
+    return "'" + token + "' needs its arguments in parentheses";
+  if (std::isdigit(first)) return "'" + token + "' is no number";
+  if (!std::isalpha(first) && first != '_') return "unexpected '" + token + "'";
+  return "unknown name '" + token + "'" + did_you_mean(token, known_names(parser));
+}
+
+std::string in_words(const mu::Parser::exception_type& error, const mu::Parser& parser) {
+  const std::string token = trimmed(error.GetToken());
+  switch (error.GetCode()) {
+    case mu::ecUNASSIGNABLE_TOKEN:
+      return about_unknown(token, parser);
+    case mu::ecUNEXPECTED_EOF:
+      return "the expression ends too early";
+    case mu::ecMISSING_PARENS:
+      return "a closing parenthesis is missing";
+    case mu::ecUNEXPECTED_OPERATOR:
+      return "unexpected operator '" + token + "'";
+    case mu::ecUNEXPECTED_PARENS:
+      return "unexpected parenthesis '" + token + "'";
+    case mu::ecUNEXPECTED_ARG_SEP:
+      return "unexpected comma";
+    case mu::ecUNEXPECTED_VAL:
+    case mu::ecUNEXPECTED_VAR:
+    case mu::ecUNEXPECTED_FUN:
+      return "an operator is missing before '" + token + "'";
+    case mu::ecTOO_MANY_PARAMS:
+      return "too many arguments for '" + token + "'";
+    case mu::ecTOO_FEW_PARAMS:
+      return "too few arguments for '" + token + "'";
+    default: {
+      std::string message = error.GetMsg();
+      while (!message.empty() && message.back() == '.') message.pop_back();
+      return message;
+    }
+  }
+}
+
+}  // namespace
+
+struct Expression::Parser {
+  mu::Parser parser;
+  double x = 0, y = 0;
+};
+
+Expression::Expression(const std::string& text) : parser_(std::make_unique<Parser>()) {
+  refuse_what_is_no_formula(text);
+  mu::Parser& parser = parser_->parser;
+  try {
+    define_names(parser);
+    parser.DefineVar("x", &parser_->x);
+    parser.DefineVar("y", &parser_->y);
+    parser.SetExpr(text);
+    parser.Eval();
+  } catch (const mu::Parser::exception_type& error) {
+    fail(text, static_cast<std::size_t>(std::max(0, error.GetPos())), in_words(error, parser));
+  }
+  if (parser.GetNumResults() != 1) {
+    fail(text, text.find(','), "one value is wanted, not several (decimals come after a point)");
+  }
+}
+
+Expression::~Expression() = default;
+
+bool Expression::is_constant() const { return parser_->parser.GetUsedVar().empty(); }
+
+double Expression::at(double x, double y) const {
+  parser_->x = x;
+  parser_->y = y;
+  return parser_->parser.Eval();
+}
+
+// One by one on purpose: muParser's own bulk mode is no faster on one thread, and starts OpenMP
+// threads that get in the way of the library's.
+void Expression::at(std::int64_t n, const double* xy, double* values) const {
+  for (std::int64_t i = 0; i < n; ++i) values[i] = at(xy[2 * i], xy[2 * i + 1]);
+}
+
+std::string expression_help() {
+  mu::Parser parser;
+  define_names(parser);
+  std::string list;
+  for (const auto& [name, function] : parser.GetFunDef()) list += (list.empty() ? "" : " ") + name;
+  return "x, y, pi, e, numbers, + - * / ^ ( ), comparisons, a ? b : c, and the functions " + list;
+}
+
+}  // namespace pnpbs::tool

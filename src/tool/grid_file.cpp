@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/grid_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include "tool/exit.hpp"
+
+namespace pnpbs::tool {
+namespace {
+
+constexpr double most_points = 1e9;
+
+// Words of a text file and the line each is on.
+class Words {
+ public:
+  explicit Words(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    if (!file_) throw BadInput("cannot read '" + path + "': " + std::strerror(errno));
+  }
+
+  bool next(std::string& word) {
+    word.clear();
+    for (int c = file_.get(); c != std::char_traits<char>::eof(); c = file_.get()) {
+      if (std::isspace(c)) {
+        if (!word.empty()) {
+          file_.unget();
+          return true;
+        }
+        line_ += c == '\n';
+      } else {
+        if (word.size() >= 64) fail("a number", word + "...");
+        word.push_back(static_cast<char>(c));
+      }
+    }
+    return !word.empty();
+  }
+
+  double number(const std::string& word, const char* expected) const {
+    double value = 0;
+    const char* end = word.data() + word.size();
+    const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
+    const auto result = std::from_chars(begin, end, value);
+    if (result.ec != std::errc() || result.ptr != end) fail(expected, "'" + word + "'");
+    return value;
+  }
+
+  [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
+    throw BadInput(path_ + ":" + std::to_string(line_) + ": expected " + expected + ", found " +
+                   found);
+  }
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  std::int64_t line_ = 1;
+};
+
+bool begins_with_letter(const std::string& word) {
+  return std::isalpha(static_cast<unsigned char>(word[0])) != 0;
+}
+
+std::string in_small_letters(std::string word) {
+  std::ranges::transform(word, word.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return word;
+}
+
+using Header = std::map<std::string, double>;
+
+// Reads name and value pairs; leaves the first word of the values in `word`.
+Header read_header(Words& words, std::string& word) {
+  constexpr std::array<std::string_view, 8> known{"ncols",     "nrows",       "xllcorner",
+                                                  "yllcorner", "xllcenter",   "yllcenter",
+                                                  "cellsize",  "nodata_value"};
+  Header header;
+  while (words.next(word) && begins_with_letter(word)) {
+    const std::string name = in_small_letters(word);
+    if (name == "nan" || name == "inf") break;
+    if (std::ranges::find(known, name) == known.end()) {
+      words.fail("ncols, nrows, xllcorner or xllcenter, cellsize, nodata_value", "'" + word + "'");
+    }
+    std::string value;
+    if (!words.next(value)) words.fail("a value of " + word, "the end of the file");
+    header[name] = words.number(value, "a number");
+  }
+  return header;
+}
+
+double value_of(const Header& header, const Words& words, const std::string& name) {
+  const auto found = header.find(name);
+  if (found == header.end()) words.fail(name + " in the header", "none");
+  return found->second;
+}
+
+std::int64_t count_of(const Header& header, const Words& words, const std::string& name) {
+  const double value = value_of(header, words, name);
+  if (!(value >= 1 && value <= most_points && value == std::floor(value))) {
+    words.fail(name + " to be a whole number from 1 to 1e9", std::to_string(value));
+  }
+  return static_cast<std::int64_t>(value);
+}
+
+double origin_of(const Header& header, const Words& words, const std::string& letter, double step) {
+  const auto centre = header.find(letter + "llcenter");
+  if (centre != header.end()) return centre->second;
+  return value_of(header, words, letter + "llcorner") + 0.5 * step;
+}
+
+// Grows with what the file really holds: a header may promise anything.
+std::vector<double> read_values(Words& words, std::string word, std::int64_t count) {
+  std::vector<double> values;
+  for (bool more = !word.empty(); more; more = words.next(word)) {
+    if (static_cast<std::int64_t>(values.size()) == count) words.fail("no more values", word);
+    values.push_back(words.number(word, "a spacing"));
+  }
+  if (static_cast<std::int64_t>(values.size()) < count) {
+    words.fail(std::to_string(count) + " values", "only " + std::to_string(values.size()));
+  }
+  return values;
+}
+
+void turn_upside_down(std::vector<double>& values, std::int64_t columns) {
+  const auto rows = static_cast<std::int64_t>(values.size()) / columns;
+  for (std::int64_t row = 0; row < rows / 2; ++row) {
+    std::swap_ranges(values.begin() + row * columns, values.begin() + (row + 1) * columns,
+                     values.begin() + (rows - 1 - row) * columns);
+  }
+}
+
+// Spreads values from the cells that have one, step by step.
+void fill_gaps(Grid& grid, double no_data, const Words& words) {
+  std::deque<std::int64_t> front;
+  std::vector<bool> known(grid.values.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    known[i] = grid.values[i] != no_data;
+    if (known[i]) front.push_back(static_cast<std::int64_t>(i));
+  }
+  if (front.empty()) words.fail("data", "no cell that has any");
+  if (front.size() == known.size()) return;
+  for (; !front.empty(); front.pop_front()) {
+    const std::int64_t column = front[0] % grid.size[0], row = front[0] / grid.size[0];
+    const auto visit = [&](bool exists, std::int64_t offset) {
+      const auto to = static_cast<std::size_t>(front[0] + offset);
+      if (!exists || known[to]) return;
+      known[to] = true;
+      grid.values[to] = grid.values[static_cast<std::size_t>(front[0])];
+      front.push_back(front[0] + offset);
+    };
+    visit(column > 0, -1);
+    visit(column + 1 < grid.size[0], 1);
+    visit(row > 0, -grid.size[0]);
+    visit(row + 1 < grid.size[1], grid.size[0]);
+  }
+}
+
+}  // namespace
+
+Grid read_grid(const std::string& path) {
+  Words words(path);
+  std::string word;
+  const Header header = read_header(words, word);
+  Grid grid;
+  grid.size[0] = count_of(header, words, "ncols");
+  grid.size[1] = count_of(header, words, "nrows");
+  if (static_cast<double>(grid.size[0]) * static_cast<double>(grid.size[1]) > most_points) {
+    words.fail("at most 1e9 grid points", "more");
+  }
+  grid.step = value_of(header, words, "cellsize");
+  if (!(grid.step > 0 && std::isfinite(grid.step))) {
+    words.fail("cellsize to be positive", std::to_string(grid.step));
+  }
+  grid.origin[0] = origin_of(header, words, "x", grid.step);
+  grid.origin[1] = origin_of(header, words, "y", grid.step);
+  grid.values = read_values(words, word, grid.size[0] * grid.size[1]);
+  turn_upside_down(grid.values, grid.size[0]);
+  const auto no_data = header.find("nodata_value");
+  fill_gaps(grid, no_data == header.end() ? -9999.0 : no_data->second, words);
+  return grid;
+}
+
+}  // namespace pnpbs::tool

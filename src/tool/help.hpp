@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Help that is generated from the library's tables.
+#pragma once
+
+#include <string>
+
+namespace pnpbs::tool {
+
+std::string help_tables();      // formats, formulas, options of the library, exit codes
+std::string statistics_text();  // the keys of the report
+std::string version_text();
+
+}  // namespace pnpbs::tool

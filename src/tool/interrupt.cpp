@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/interrupt.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+
+#include "io/temporaries.hpp"
+#include "tool/exit.hpp"
+
+namespace pnpbs::tool {
+namespace {
+
+std::atomic<bool> deferred{false};
+std::atomic<bool> asked{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void on_signal(int /*number*/) {
+  if (deferred && !asked.exchange(true)) return;
+  io::remove_temporaries();
+  ::_exit(static_cast<int>(ExitCode::interrupted));
+}
+
+// A signal that our caller ignores (nohup, background jobs) stays ignored.
+void handle(int number) {
+  struct sigaction action {};
+  if (::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
+  action = {};
+  action.sa_handler = on_signal;
+  ::sigaction(number, &action, nullptr);
+}
+
+}  // namespace
+
+void handle_interrupts() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) handle(number);
+  // A reader that goes away shall be an error of write, so that files are cleaned up.
+  struct sigaction ignore {};
+  ignore.sa_handler = SIG_IGN;
+  ::sigaction(SIGPIPE, &ignore, nullptr);
+}
+
+void defer_interrupts() { deferred = true; }
+
+bool interrupted() { return asked; }
+
+void give_up_if_interrupted() {
+  if (interrupted()) throw Interrupted();
+}
+
+}  // namespace pnpbs::tool

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ctrl-C and its kin. While the command reads, a signal ends it at once; while it computes or
+// writes, the first signal asks it to stop and the second ends it at once. Temporary files are
+// removed either way.
+#pragma once
+
+namespace pnpbs::tool {
+
+void handle_interrupts();
+
+// From here on the first signal only asks.
+void defer_interrupts();
+
+bool interrupted();
+
+// Throws Interrupted if a signal has come.
+void give_up_if_interrupted();
+
+}  // namespace pnpbs::tool

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/library.hpp"
+
+#include "tool/exit.hpp"
+#include "tool/interrupt.hpp"
+
+namespace pnpbs::tool {
+namespace {
+
+ExitCode exit_code_of(pnpbs_status error) {
+  switch (error) {
+    case PNPBS_ERROR_ARGUMENT:
+    case PNPBS_ERROR_DOMAIN:
+    case PNPBS_ERROR_SPACING:
+    case PNPBS_ERROR_KEY:
+    case PNPBS_ERROR_FILE:
+      return ExitCode::bad_input;
+    default:
+      return ExitCode::failed;
+  }
+}
+
+}  // namespace
+
+pnpbs_status check(pnpbs_status status, pnpbs_context context) {
+  if (status >= 0) return status;
+  give_up_if_interrupted();  // our callbacks fail when that happens
+  std::string message = pnpbs_last_error(context);
+  if (message.empty()) message = pnpbs_status_string(status);
+  throw Failure(exit_code_of(status), message);
+}
+
+std::vector<LibraryOption> library_options() {
+  std::int32_t count = 0;
+  check(pnpbs_option_count(&count), nullptr);
+  std::vector<LibraryOption> options;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const char *name, *type, *default_value, *range, *help;
+    check(pnpbs_option_info(i, &name, &type, &default_value, &range, &help), nullptr);
+    options.push_back({name, type, default_value, range, help});
+  }
+  return options;
+}
+
+std::vector<LibraryStatistic> library_statistics() {
+  std::int32_t count = 0;
+  check(pnpbs_statistic_count(&count), nullptr);
+  std::vector<LibraryStatistic> statistics;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const char *name, *type, *help;
+    check(pnpbs_statistic_info(i, &name, &type, &help), nullptr);
+    statistics.push_back({name, type, help});
+  }
+  return statistics;
+}
+
+std::vector<std::string> warnings_of(pnpbs_context context, pnpbs_placement placement) {
+  std::int32_t count = 0;
+  check(pnpbs_placement_warning_count(placement, &count), context);
+  std::vector<std::string> warnings;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const char* text = "";
+    check(pnpbs_placement_get_warning(placement, i, &text), context);
+    warnings.emplace_back(text);
+  }
+  return warnings;
+}
+
+}  // namespace pnpbs::tool

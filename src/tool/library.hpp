@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The C interface with owned handles, and errors as exceptions.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pnpbs/pnpbs.h"
+
+namespace pnpbs::tool {
+
+template <typename Handle, pnpbs_status (*destroy)(Handle*)>
+class Owned {
+ public:
+  Owned() = default;
+  ~Owned() { destroy(&handle_); }
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  operator Handle() const { return handle_; }
+  Handle* out() { return &handle_; }
+
+ private:
+  Handle handle_ = nullptr;
+};
+
+using Context = Owned<pnpbs_context, pnpbs_context_destroy>;
+using Domain = Owned<pnpbs_domain, pnpbs_domain_destroy>;
+using Placement = Owned<pnpbs_placement, pnpbs_placement_destroy>;
+
+// Throws Failure with the library's message if status is an error; returns outcomes.
+pnpbs_status check(pnpbs_status status, pnpbs_context context);
+
+struct LibraryOption {
+  std::string name, type, default_value, range, help;
+};
+std::vector<LibraryOption> library_options();
+
+struct LibraryStatistic {
+  std::string name, type, help;
+};
+std::vector<LibraryStatistic> library_statistics();
+
+std::vector<std::string> warnings_of(pnpbs_context context, pnpbs_placement placement);
+
+}  // namespace pnpbs::tool

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/progress.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <string_view>
+
+#include "tool/interrupt.hpp"
+#include "tool/numbers.hpp"
+
+namespace pnpbs::tool {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto between_redraws = 100ms;
+constexpr int narrowest_bar = 10;
+constexpr int widest_bar = 40;
+
+bool can_redraw_lines() {
+  const char* terminal = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) && !(terminal && std::string_view(terminal) == "dumb");
+}
+
+int terminal_width() {
+  winsize size{};
+  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+std::string bar(double fraction, int width) {
+  const int done = static_cast<int>(fraction * width);
+  std::string text(static_cast<std::size_t>(done), '=');
+  if (done < width) text += '>';
+  text.resize(static_cast<std::size_t>(width), ' ');
+  return "[" + text + "]";
+}
+
+std::string percent(double fraction) {
+  const std::string number = std::to_string(static_cast<int>(100 * fraction));
+  return std::string(3 - std::min<std::size_t>(3, number.size()), ' ') + number + " %";
+}
+
+}  // namespace
+
+Progress::Progress(bool wanted) : shown_(wanted && can_redraw_lines()) {}
+
+void Progress::watch(pnpbs_placement placement) {
+  pnpbs_placement_set_monitor(placement, monitor, this);
+}
+
+std::int32_t Progress::monitor(double fraction, std::int64_t step, std::int64_t nodes,
+                               double max_speed, void* user) {
+  try {
+    static_cast<Progress*>(user)->update(fraction, step, nodes, max_speed);
+  } catch (...) {
+    // A run is worth more than its progress bar.
+  }
+  return interrupted() ? 1 : 0;
+}
+
+void Progress::update(double fraction, std::int64_t step, std::int64_t nodes, double max_speed) {
+  const auto now = Clock::now();
+  if (!shown_ || now - last_ < between_redraws) return;
+  last_ = now;
+  fraction = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0;
+  const double elapsed = std::chrono::duration<double>(now - begin_).count();
+  std::string right = " step " + std::to_string(step) + ", " + grouped(nodes) + " nodes, speed " +
+                      short_number(max_speed, 2);
+  if (fraction > 0.02) right += ", " + duration(elapsed * (1 - fraction) / fraction) + " left";
+  const std::string left = percent(fraction) + " ";
+  const int room = terminal_width() - static_cast<int>(left.size() + right.size()) - 3;
+  draw(left + (room < narrowest_bar ? "" : bar(fraction, std::min(room, widest_bar))) + right);
+}
+
+void Progress::say(const std::string& what) {
+  if (shown_) draw(what);
+}
+
+// One line that is overwritten by the next; cut, because a line that wraps cannot be.
+void Progress::draw(const std::string& line) {
+  const auto width = static_cast<std::size_t>(std::max(1, terminal_width() - 1));
+  std::cerr << "\r" << line.substr(0, width) << "\033[K" << std::flush;
+  drawn_ = true;
+}
+
+void Progress::clear() {
+  if (drawn_) std::cerr << "\r\033[K" << std::flush;
+  drawn_ = false;
+}
+
+}  // namespace pnpbs::tool

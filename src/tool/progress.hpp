@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The progress bar on standard error, for terminals only.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "pnpbs/pnpbs.h"
+
+namespace pnpbs::tool {
+
+class Progress {
+ public:
+  explicit Progress(bool wanted);
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  // Also lets an interrupt stop the run. This object must outlive the placement.
+  void watch(pnpbs_placement placement);
+
+  void say(const std::string& what);
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  static std::int32_t monitor(double fraction, std::int64_t step, std::int64_t nodes,
+                              double max_speed, void* user);
+  void update(double fraction, std::int64_t step, std::int64_t nodes, double max_speed);
+  void draw(const std::string& line);
+
+  bool shown_;
+  bool drawn_ = false;
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point last_{};
+};
+
+}  // namespace pnpbs::tool

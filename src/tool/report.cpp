@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/report.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace pnpbs::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct AsJson {
+  Json operator()(std::monostate) const { return nullptr; }
+  Json operator()(std::int64_t value) const { return value; }
+  Json operator()(double value) const { return value; }  // null if not finite
+  Json operator()(const std::string& value) const { return value; }
+};
+
+// "seconds.total" becomes an entry of the object "seconds". A name that is also the beginning
+// of others keeps its dots.
+void insert(Json& object, const std::string& name, const Json& value) {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string::npos) {
+    object[name] = value;
+    return;
+  }
+  Json& inner = object[name.substr(0, dot)];
+  if (inner.is_null() || inner.is_object()) {
+    insert(inner, name.substr(dot + 1), value);
+  } else {
+    object[name] = value;
+  }
+}
+
+Json options_of(const Arguments& arguments) {
+  Json options = Json::object();
+  for (const auto& [key, value] : arguments.options) options[key] = value;
+  return options;
+}
+
+}  // namespace
+
+std::string report_text(const Arguments& arguments, const Statistics& statistics,
+                        const std::vector<std::string>& warnings) {
+  Json report;
+  report["domain"] = arguments.domain;
+  if (arguments.spacing_grid.empty()) {
+    report["spacing"] = arguments.spacing;
+  } else {
+    report["spacing_grid"] = arguments.spacing_grid;
+  }
+  report["options"] = options_of(arguments);
+  for (const auto& [name, value] : statistics.all())
+    insert(report, name, std::visit(AsJson(), value));
+  report["warnings"] = warnings;
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace pnpbs::tool

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report: what was asked, what came of it, as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tool/arguments.hpp"
+#include "tool/statistics.hpp"
+
+namespace pnpbs::tool {
+
+std::string report_text(const Arguments& arguments, const Statistics& statistics,
+                        const std::vector<std::string>& warnings);
+
+}  // namespace pnpbs::tool

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The background tree: a quadtree (octree) over the domain's bounding box. It is anchored to the
+// box and refined by d and the boundary alone, so it is the same on every rank. Its leaves are the
+// buckets in which nodes are found; d is sampled on it; the partition cuts it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class BackgroundTree {
+ public:
+  static constexpr int kChildren = 1 << Dim;
+  static constexpr int kMaxDepth = 30;
+
+  struct Cell {
+    std::array<std::uint32_t, Dim> index;  // position among the cells of its depth
+    std::int32_t depth;
+    std::int32_t first_child;  // the children are consecutive, in Morton order; -1 for a leaf
+    std::int32_t leaf;         // place among the leaves in Morton order; -1 for others
+  };
+
+  // Is asked for all cells of one depth at once; sets split[c] for cells first .. last-1.
+  using Splitter = std::function<void(const BackgroundTree& tree, std::int32_t first,
+                                      std::int32_t last, std::vector<char>& split)>;
+
+  BackgroundTree() = default;
+
+  // The root is a square (cube) a little larger than the box, so that every point of the box lies
+  // strictly inside.
+  void build(const Box<Dim>& box, const Splitter& splitter) {
+    side_ = 0;
+    for (int k = 0; k < Dim; ++k) side_ = std::max(side_, box.high[k] - box.low[k]);
+    for (int k = 0; k < Dim; ++k) origin_[k] = box.low[k] - side_ / 2048;
+    side_ += side_ / 1024;
+    cells_.assign(1, Cell{{}, 0, -1, -1});
+    std::int32_t first = 0;
+    std::vector<char> split;
+    for (int depth = 0; depth < kMaxDepth && first < cell_count(); ++depth) {
+      const std::int32_t last = cell_count();
+      split.assign(static_cast<std::size_t>(last - first), 0);
+      splitter(*this, first, last, split);
+      for (std::int32_t c = first; c < last; ++c)
+        if (split[static_cast<std::size_t>(c - first)]) add_children(c);
+      first = last;
+    }
+    number_leaves();
+  }
+
+  std::int32_t cell_count() const { return static_cast<std::int32_t>(cells_.size()); }
+  std::int32_t leaf_count() const { return static_cast<std::int32_t>(leaves_.size()); }
+  const Cell& cell(std::int32_t c) const { return cells_[static_cast<std::size_t>(c)]; }
+  std::int32_t leaf_cell(std::int32_t leaf) const {
+    return leaves_[static_cast<std::size_t>(leaf)];
+  }
+  const Point<Dim>& origin() const { return origin_; }
+  double side() const { return side_; }
+  double cell_side(std::int32_t c) const { return std::ldexp(side_, -cell(c).depth); }
+
+  Box<Dim> cell_box(std::int32_t c) const {
+    const double s = cell_side(c);
+    Box<Dim> box;
+    for (int k = 0; k < Dim; ++k) {
+      box.low[k] = origin_[k] + s * cell(c).index[k];
+      box.high[k] = origin_[k] + s * (cell(c).index[k] + 1.0);
+    }
+    return box;
+  }
+
+  Point<Dim> cell_centre(std::int32_t c) const {
+    const double s = cell_side(c);
+    Point<Dim> centre;
+    for (int k = 0; k < Dim; ++k) centre[k] = origin_[k] + s * (cell(c).index[k] + 0.5);
+    return centre;
+  }
+
+  // The leaf that holds x; points beyond the root belong to the leaf at its rim.
+  std::int32_t leaf_at(const Point<Dim>& x) const {
+    std::array<std::uint32_t, Dim> fine;  // position among the cells of the largest depth
+    const double scale = std::ldexp(1.0, kMaxDepth) / side_;
+    for (int k = 0; k < Dim; ++k) {
+      const double t = (x[k] - origin_[k]) * scale;
+      fine[k] = t <= 0                               ? 0u
+                : t >= std::ldexp(1.0, kMaxDepth) - 1 ? (1u << kMaxDepth) - 1u
+                                                      : static_cast<std::uint32_t>(t);
+    }
+    std::int32_t c = 0;
+    for (int shift = kMaxDepth - 1; cell(c).first_child >= 0; --shift) {
+      int child = 0;
+      for (int k = 0; k < Dim; ++k) child |= static_cast<int>((fine[k] >> shift) & 1u) << k;
+      c = cell(c).first_child + child;
+    }
+    return cell(c).leaf;
+  }
+
+  // Is x in the half-open box of this leaf? Decided with the arithmetic of leaf_at.
+  bool leaf_holds(std::int32_t leaf, const Point<Dim>& x) const {
+    const Cell& c = cell(leaf_cell(leaf));
+    const double scale = std::ldexp(1.0, kMaxDepth) / side_;
+    for (int k = 0; k < Dim; ++k) {
+      const double t = (x[k] - origin_[k]) * scale;
+      const double low = std::ldexp(static_cast<double>(c.index[k]), kMaxDepth - c.depth);
+      const double high = std::ldexp(c.index[k] + 1.0, kMaxDepth - c.depth);
+      if (!(t >= low && t < high)) return false;
+    }
+    return true;
+  }
+
+  // Calls visit(leaf) for all leaves whose closed box meets the closed box given, in Morton order.
+  template <class Visit>
+  void for_leaves_in(const Box<Dim>& box, const Visit& visit) const {
+    visit_cell(0, box, visit);
+  }
+
+ private:
+  void add_children(std::int32_t c) {
+    cells_[static_cast<std::size_t>(c)].first_child = cell_count();
+    const Cell parent = cell(c);
+    for (int child = 0; child < kChildren; ++child) {
+      Cell next{{}, parent.depth + 1, -1, -1};
+      for (int k = 0; k < Dim; ++k) next.index[k] = 2 * parent.index[k] + ((child >> k) & 1);
+      cells_.push_back(next);
+    }
+  }
+
+  void number_leaves() {
+    leaves_.clear();
+    std::vector<std::int32_t> stack{0};
+    while (!stack.empty()) {
+      const std::int32_t c = stack.back();
+      stack.pop_back();
+      if (cell(c).first_child < 0) {
+        cells_[static_cast<std::size_t>(c)].leaf = leaf_count();
+        leaves_.push_back(c);
+      } else {
+        for (int child = kChildren - 1; child >= 0; --child)
+          stack.push_back(cell(c).first_child + child);
+      }
+    }
+  }
+
+  template <class Visit>
+  void visit_cell(std::int32_t c, const Box<Dim>& box, const Visit& visit) const {
+    const Box<Dim> own = cell_box(c);
+    for (int k = 0; k < Dim; ++k)
+      if (own.high[k] < box.low[k] || own.low[k] > box.high[k]) return;
+    if (cell(c).first_child < 0) {
+      visit(cell(c).leaf);
+      return;
+    }
+    for (int child = 0; child < kChildren; ++child)
+      visit_cell(cell(c).first_child + child, box, visit);
+  }
+
+  Point<Dim> origin_{};
+  double side_ = 1;
+  std::vector<Cell> cells_;
+  std::vector<std::int32_t> leaves_;
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,83 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs into an empty prefix, moves the prefix, and there does what users do: builds the
+# examples with pkg-config and with CMake, in C alone, and runs them and the command.
+# usage: install.sh <build folder> <C compiler> <C++ compiler> <cmake>
+set -eu
+build=$1 cc=$2 cxx=$3 cmake=$4
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+unset DESTDIR
+
+say() { printf '== %s\n' "$*"; }
+
+"$cmake" --install "$build" --prefix "$work/first" > "$work/install.log"
+mv "$work/first" "$work/moved"
+prefix=$work/moved
+pc_folder=$(dirname "$(find "$prefix" -name pnpbs.pc)")
+export OMP_NUM_THREADS=2
+
+# An example's own words: "<what>: <number>, expected <number>", or "expected about <number>".
+run_and_compare() {
+  "$1" > "$work/output"
+  sed 's/^/   /' "$work/output"
+  awk '
+    match($0, /: [-0-9.]+, expected (about )?[-0-9.]+$/) {
+      split(substr($0, RSTART + 2), part, ", expected ")
+      about = sub(/^about /, "", part[2])
+      allowed = about ? 0.04 * part[2] + 1e-12 : 0
+      difference = part[1] - part[2]
+      if (difference < 0) difference = -difference
+      if (difference > allowed) { print "   WRONG: " $0; bad = 1 }
+      checked++
+    }
+    END { exit bad || !checked }' "$work/output"
+}
+
+say "headers, each by itself"
+for header in "$prefix"/include/pnpbs/*.h; do
+  case $header in *pnpbs_mpi.h) continue ;; esac
+  echo "#include <pnpbs/$(basename "$header")>" > "$work/header.c"
+  "$cc" -std=c99 -Wall -Wextra -pedantic-errors -Werror -I "$prefix/include" \
+    -fsyntax-only "$work/header.c"
+  "$cxx" -std=c++11 -Wall -Wextra -pedantic-errors -Werror -I "$prefix/include" \
+    -fsyntax-only -x c++ "$work/header.c"
+done
+
+for source in "$prefix"/share/pnpbs/examples/c/*/; do
+  name=$(basename "$source")
+
+  say "$name with pkg-config"
+  cp -r "$source" "$work/$name"
+  make -s -C "$work/$name" CC="$cc" CFLAGS="-std=c99 -O2 -Wall -Wextra -pedantic -Werror" \
+    PKG_CONFIG_PATH="$pc_folder"
+  run_and_compare "$work/$name/$name"
+
+  say "$name with CMake"
+  "$cmake" -S "$source" -B "$work/$name/cmake" -DCMAKE_C_COMPILER="$cc" \
+    -DCMAKE_PREFIX_PATH="$prefix" > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
+  "$cmake" --build "$work/$name/cmake" > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
+  run_and_compare "$work/$name/cmake/$name"
+done
+
+archive=$(find "$prefix" -name libpnpbs.a)
+if [ -n "$archive" ]; then
+  say "smallest with the static library"
+  # The compiler prefers a shared library that lies beside.
+  mkdir "$work/static"
+  cp "$archive" "$work/static"
+  # shellcheck disable=SC2046  # words on purpose
+  "$cc" -std=c99 "$prefix/share/pnpbs/examples/c/smallest/smallest.c" \
+    $(PKG_CONFIG_PATH=$pc_folder pkg-config --cflags pnpbs) -o "$work/smallest_static" \
+    -L "$work/static" $(PKG_CONFIG_PATH=$pc_folder pkg-config --static --libs-only-l pnpbs) \
+    $(PKG_CONFIG_PATH=$pc_folder pkg-config --static --libs-only-other pnpbs)
+  run_and_compare "$work/smallest_static"
+fi
+
+if [ -x "$prefix/bin/pnpbs" ]; then
+  say "the command"
+  "$prefix/bin/pnpbs" --version
+  "$prefix/bin/pnpbs" --quiet --domain "$prefix/share/pnpbs/examples/data/lake_victoria.poly" \
+    --spacing 5 --output "$work/lake.node" || [ $? = 3 ]
+  [ -s "$work/lake.node" ]
+fi

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the tests run the command: each test in an empty folder of its own."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import unittest
+
+COMMAND = os.environ["PNPBS_COMMAND"]
+DATA = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"]) / "examples" / "data"
+LAKE = DATA / "lake_victoria.poly"
+
+DONE, FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 0, 1, 2, 3, 130
+
+# A unit square with a square hole; markers 1 outside, 2 inside.
+SQUARE = """\
+8 2 0 0
+1 0 0
+2 1 0
+3 1 1
+4 0 1
+5 0.4 0.4
+6 0.6 0.4
+7 0.6 0.6
+8 0.4 0.6
+8 1
+1 1 2 1
+2 2 3 1
+3 3 4 1
+4 4 1 1
+5 5 6 2
+6 6 7 2
+7 7 8 2
+8 8 5 2
+1
+1 0.5 0.5
+"""
+SQUARE_AREA = 0.96
+
+
+def receive_signals():
+    """What runs in the background ignores them, and would hand that on."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+class CommandTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.square = self.folder / "square.poly"
+        self.square.write_text(SQUARE)
+
+    def start(self, *arguments, environment=None, **streams):
+        streams.setdefault("stdout", subprocess.PIPE)
+        streams.setdefault("stderr", subprocess.PIPE)
+        return subprocess.Popen(
+            [COMMAND, *map(str, arguments)],
+            cwd=self.folder,
+            env=dict(os.environ, **(environment or {})),
+            preexec_fn=receive_signals,
+            **streams,
+        )
+
+    def run_command(self, *arguments, code=DONE, stdin=b"", **more):
+        """Runs it to its end; returns what it wrote, as bytes."""
+        process = self.start(*arguments, stdin=subprocess.PIPE, **more)
+        out, err = process.communicate(stdin)
+        self.assertEqual(process.returncode, code, err.decode(errors="replace"))
+        return out, err
+
+    def place(self, *arguments, domain=None, spacing="0.06", **more):
+        """A run on the square unless told otherwise."""
+        return self.run_command(
+            "--domain", domain or self.square, "--spacing", spacing, *arguments, **more
+        )
+
+    def refuse(self, *arguments, code=BAD_INPUT, **more):
+        """A run that must fail, write no file and say why; returns what it says."""
+        before = self.files()
+        out, err = self.run_command(*arguments, code=code, **more)
+        self.assertEqual(out, b"")
+        self.assertEqual(self.files(), before)
+        message = err.decode()
+        self.assertTrue(message.startswith("pnpbs: "), message)
+        return message
+
+    def files(self):
+        """All files in the folder, hidden ones too."""
+        return sorted(os.listdir(self.folder))

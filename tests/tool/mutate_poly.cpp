@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Damaged .poly files by the hundred. Whatever a file holds, reading and checking it must answer
+// with nodes or with a message; never with a crash, a hang or nodes that make no sense.
+//
+// The text under test lies in mutate_poly.poly in the working folder, for the case of a crash.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "check_runner.h"
+#include "pnpbs/pnpbs.h"
+
+namespace {
+
+constexpr int mutations_per_seed = 600;
+constexpr int nodes_across = 15;    // spacing: the domain's longer side by this
+constexpr int full_run_every = 10;  // the others do a few steps
+
+const char* const square_with_hole = R"(# a square with a hole
+8 2 0 1
+1 0 0 1
+2 1 0 1
+3 1 1 1
+4 0 1 1
+5 0.3 0.3 2
+6 0.6 0.3 2
+7 0.6 0.6 2
+8 0.3 0.6 2
+8 1
+1 1 2 1
+2 2 3 1
+3 3 4 1
+4 4 1 1
+5 5 6 2
+6 6 7 2
+7 7 8 2
+8 8 5 2
+1
+1 0.45 0.45
+)";
+
+// Vertices numbered from 0; segment 4 begins in the middle of segment 0, segment 5 hangs on it.
+const char* const t_junction = R"(7 2 1 0
+0 -1 -1 0.5
+1 1 -1 0.5
+2 1 1 0.5
+3 -1 1 0.5
+4 0 -1 0.5
+5 0.1 0.3 0.5
+6 0.6 0.2 0.5
+6 0
+0 0 1
+1 1 2
+2 2 3
+3 3 0
+4 4 5
+5 5 6
+0
+)";
+
+std::string lake() {
+  std::ifstream file(PNPBS_SOURCE_DIR "/examples/data/lake_victoria.poly");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// ------------------------------------------------------------------------ damage ------------
+
+class Damage {
+ public:
+  explicit Damage(std::uint64_t seed) : random_(seed) {}
+
+  std::string to(std::string text) {
+    for (std::size_t hits = 1 + below(6) / 4; hits > 0; --hits) text = hit(std::move(text));
+    return text;
+  }
+
+ private:
+  // Not std::uniform_int_distribution: its numbers differ between standard libraries.
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
+
+  std::string hit(std::string text) {
+    if (text.empty()) return text;
+    switch (below(10)) {
+      case 0:
+        text[below(text.size())] ^= static_cast<char>(1U << below(8));
+        return text;
+      case 1:
+        text[below(text.size())] = static_cast<char>(below(256));
+        return text;
+      case 2:
+        return text.substr(0, below(text.size()));
+      case 3:
+        return with_lines_damaged(text);
+      case 4:
+      case 5:
+      case 6:
+        return with_a_number_replaced(text);
+      default:
+        return with_a_digit_replaced(text);
+    }
+  }
+
+  std::string with_lines_damaged(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    if (lines.empty()) return text;
+    const std::size_t a = below(lines.size()), b = below(lines.size());
+    const auto at = [&lines](std::size_t i) {
+      return lines.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    switch (below(3)) {
+      case 0:
+        lines.erase(at(a));
+        break;
+      case 1:
+        lines.insert(at(b), std::string(lines[a]));
+        break;
+      default:
+        std::swap(lines[a], lines[b]);
+    }
+    std::string result;
+    for (const std::string& line : lines) result += line + "\n";
+    return result;
+  }
+
+  std::string with_a_number_replaced(std::string text) {
+    static constexpr std::array words{"nan",
+                                      "-nan",
+                                      "inf",
+                                      "-inf",
+                                      "1e308",
+                                      "-1e308",
+                                      "1e-308",
+                                      "-1",
+                                      "0",
+                                      "1",
+                                      "2",
+                                      "3",
+                                      "0.5",
+                                      "1e16",
+                                      "7e22",
+                                      "",
+                                      "x",
+                                      "1e",
+                                      "-",
+                                      "0x10",
+                                      "1,5",
+                                      "4294967296",
+                                      "9223372036854775807",
+                                      "9223372036854775808",
+                                      "99999999999999999999999999",
+                                      "1e400",
+                                      "0.1 0.2"};
+    const char* const digits = "0123456789.-e";
+    const std::size_t begin = text.find_first_of(digits, below(text.size()));
+    if (begin == std::string::npos) return text;
+    const std::size_t end = std::min(text.find_first_not_of(digits, begin), text.size());
+    return text.replace(begin, end - begin, words[below(words.size())]);
+  }
+
+  // Mostly harmless to the format, but not to the geometry.
+  std::string with_a_digit_replaced(std::string text) {
+    const std::size_t at = text.find_first_of("0123456789", below(text.size()));
+    if (at != std::string::npos) text[at] = static_cast<char>('0' + below(10));
+    return text;
+  }
+
+  std::mt19937_64 random_;
+};
+
+// ------------------------------------------------------------------------ examination -------
+
+struct Tally {
+  int refused_text = 0, refused_domain = 0, refused_spacing = 0, placed = 0;
+};
+
+// A refusal must be one of those expected here, and say something.
+void expect_refusal(pnpbs_context context, pnpbs_status status,
+                    std::initializer_list<pnpbs_status> expected) {
+  ck_assert_msg(std::find(expected.begin(), expected.end(), status) != expected.end(),
+                "unexpected status %d: %s", static_cast<int>(status), pnpbs_last_error(context));
+  ck_assert_msg(pnpbs_last_error(context)[0] != '\0', "a refusal without a message");
+}
+
+void examine_nodes(pnpbs_placement placement, const double* low, const double* high) {
+  std::int64_t count = 0;
+  ck_assert_int_eq(pnpbs_placement_count(placement, &count), PNPBS_OK);
+  ck_assert_int_gt(count, 2);
+  const auto size = static_cast<std::size_t>(count);
+  std::vector<double> xy(2 * size), spacing(size);
+  std::vector<std::int64_t> ids(size);
+  ck_assert_int_eq(
+      pnpbs_placement_get_nodes(placement, count, xy.data(), ids.data(), nullptr, spacing.data()),
+      PNPBS_OK);
+  for (std::size_t i = 0; i < 2 * size; ++i) {
+    ck_assert(std::isfinite(xy[i]));
+    ck_assert(xy[i] >= low[i % 2] && xy[i] <= high[i % 2]);
+  }
+  ck_assert(std::all_of(spacing.begin(), spacing.end(), [](double d) { return d > 0; }));
+  ck_assert_uint_eq(std::set<std::int64_t>(ids.begin(), ids.end()).size(), size);
+
+  std::int64_t triangles = 0;
+  ck_assert_int_eq(pnpbs_placement_get_triangles(placement, 0, &triangles, nullptr), PNPBS_OK);
+  std::vector<std::int64_t> corners(3 * static_cast<std::size_t>(triangles));
+  ck_assert_int_eq(pnpbs_placement_get_triangles(placement, triangles, &triangles, corners.data()),
+                   PNPBS_OK);
+  ck_assert(std::all_of(corners.begin(), corners.end(),
+                        [count](std::int64_t node) { return node >= 0 && node < count; }));
+}
+
+void examine_placement(pnpbs_context context, pnpbs_domain domain, bool full_run, Tally& tally) {
+  double low[2], high[2];
+  ck_assert_int_eq(pnpbs_domain_bounds(domain, low, high), PNPBS_OK);
+  const double d = std::max(high[0] - low[0], high[1] - low[1]) / nodes_across;
+  pnpbs_placement placement = nullptr;
+  ck_assert_int_eq(pnpbs_placement_create(context, domain, &placement), PNPBS_OK);
+  pnpbs_status status = pnpbs_placement_set_spacing_constant(placement, d);
+  if (status >= 0) status = pnpbs_placement_initialise(placement);
+  if (status >= 0) {
+    status = full_run ? pnpbs_placement_run(placement) : pnpbs_placement_step(placement, 15);
+    ck_assert_msg(status == PNPBS_OK || status == PNPBS_NOT_CONVERGED, "status %d: %s",
+                  static_cast<int>(status), pnpbs_last_error(context));
+    examine_nodes(placement, low, high);
+    ++tally.placed;
+  } else {
+    expect_refusal(context, status, {PNPBS_ERROR_SPACING, PNPBS_ERROR_DOMAIN});
+    ++tally.refused_spacing;
+  }
+  pnpbs_placement_destroy(&placement);
+}
+
+void examine(pnpbs_context context, const std::string& text, bool full_run, Tally& tally) {
+  pnpbs_domain domain = nullptr;
+  ck_assert_int_eq(pnpbs_domain_create(context, 2, &domain), PNPBS_OK);
+  const pnpbs_status parsed = pnpbs_domain_parse_poly(
+      domain, text.data(), static_cast<std::int64_t>(text.size()), "mutated.poly");
+  if (parsed != PNPBS_OK) {
+    expect_refusal(context, parsed, {PNPBS_ERROR_FILE, PNPBS_ERROR_DOMAIN});
+    ++tally.refused_text;
+  } else if (const pnpbs_status checked = pnpbs_domain_check(domain); checked != PNPBS_OK) {
+    expect_refusal(context, checked, {PNPBS_ERROR_DOMAIN});
+    ++tally.refused_domain;
+  } else {
+    examine_placement(context, domain, full_run, tally);
+  }
+  pnpbs_domain_destroy(&domain);
+}
+
+Tally examine_mutations(const std::string& seed_text, std::uint64_t seed) {
+  pnpbs_context context = nullptr;
+  ck_assert_int_eq(pnpbs_context_create_serial(&context), PNPBS_OK);
+  Damage damage(seed);
+  Tally tally;
+  examine(context, seed_text, true, tally);
+  ck_assert_msg(tally.placed == 1, "the undamaged text: %s", pnpbs_last_error(context));
+  for (int i = 0; i < mutations_per_seed; ++i) {
+    const std::string text = damage.to(seed_text);
+    std::ofstream(PNPBS_TEST_WORK_DIR "/mutate_poly.poly", std::ios::binary) << text;
+    examine(context, text, i % full_run_every == 0, tally);
+  }
+  pnpbs_context_destroy(&context);
+  std::printf("%d texts refused, %d domains refused, %d spacings refused, %d placed\n",
+              tally.refused_text, tally.refused_domain, tally.refused_spacing, tally.placed);
+  return tally;
+}
+
+// The damage must reach every stage, or the test tests nothing.
+void expect_variety(const Tally& tally) {
+  ck_assert_int_gt(tally.refused_text, 50);
+  ck_assert_int_gt(tally.refused_domain, 20);
+  ck_assert_int_gt(tally.placed, 50);
+}
+
+START_TEST(mutated_square) { expect_variety(examine_mutations(square_with_hole, 1)); }
+END_TEST
+
+START_TEST(mutated_t_junction) { expect_variety(examine_mutations(t_junction, 2)); }
+END_TEST
+
+START_TEST(mutated_lake) { expect_variety(examine_mutations(lake(), 3)); }
+END_TEST
+
+Suite* suite() {
+  Suite* all = suite_create("mutate_poly");
+  TCase* cases = tcase_create("mutations");
+  tcase_set_timeout(cases, 0);
+  tcase_add_test(cases, mutated_square);
+  tcase_add_test(cases, mutated_t_junction);
+  tcase_add_test(cases, mutated_lake);
+  suite_add_tcase(all, cases);
+  return all;
+}
+
+}  // namespace
+
+int main() { return run_suite(suite()); }

@@ -1,0 +1,315 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the command writes, read back by other people's readers."""
+
+import csv
+import json
+import os
+import re
+import stat
+import struct
+import subprocess
+import unittest
+import xml.etree.ElementTree
+import zlib
+
+import meshio
+import numpy
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+from command import COMMAND, DATA, LAKE, SQUARE_AREA, CommandTest
+
+
+def read_with_vtk(path):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    errors = []
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append("error"))
+    reader.SetFileName(str(path))
+    reader.Update()
+    assert not errors, f"VTK does not like {path}"
+    return reader.GetOutput()
+
+
+def point_array(grid, name):
+    return vtk_to_numpy(grid.GetPointData().GetArray(name))
+
+
+def read_node(path):
+    """By Triangle's definition; # begins a comment. Returns points and markers."""
+    lines = [line.split("#")[0].split() for line in path.read_text().splitlines()]
+    lines = [line for line in lines if line]
+    count, dimension, attributes, markers = map(int, lines[0])
+    assert dimension == 2 and markers == 1 and len(lines) == 1 + count
+    assert [int(line[0]) for line in lines[1:]] == list(range(1, count + 1))
+    assert all(len(line) == 1 + dimension + attributes + markers for line in lines[1:])
+    points = numpy.array([[float(word) for word in line[1:3]] for line in lines[1:]])
+    return points, numpy.array([int(line[-1]) for line in lines[1:]])
+
+
+def read_csv(path):
+    with open(path, newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {name: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def read_png(data):
+    """Width, height and rows of a PNG without palette, unfiltered rows checked for size only."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, pixels, header = 8, b"", None
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        body = data[at + 8 : at + 8 + length]
+        (checksum,) = struct.unpack(">I", data[at + 8 + length : at + 12 + length])
+        assert checksum == zlib.crc32(kind + body)
+        if kind == b"IHDR":
+            header = struct.unpack(">IIBBBBB", body)
+        if kind == b"IDAT":
+            pixels += body
+        at += 12 + length
+    width, height, depth, colour = header[:4]
+    assert depth == 8 and colour in (2, 6)
+    raw = zlib.decompress(pixels)
+    assert len(raw) == height * (1 + width * (3 if colour == 2 else 4))
+    return width, height, raw
+
+
+class Agreement(CommandTest):
+    """All formats of one run tell the same nodes."""
+
+    def setUp(self):
+        super().setUp()
+        names = ["a.vtu", "a.node", "a.csv", "a.svg", "a.png"]
+        outputs = [word for name in names for word in ("--output", name)]
+        self.place(*outputs, "--report", "a.json", spacing="0.05 + 0.05*x")
+        self.assertEqual(self.files(), sorted([*names, "a.json", "square.poly"]))
+        self.report = json.loads((self.folder / "a.json").read_text())
+        self.grid = read_with_vtk(self.folder / "a.vtu")
+
+    def test_all(self):
+        # One test, because one run serves them all.
+        self.check_vtu()
+        self.check_meshio()
+        self.check_node()
+        self.check_csv()
+        self.check_svg()
+        self.check_png()
+
+    def check_vtu(self):
+        points = vtk_to_numpy(self.grid.GetPoints().GetData())
+        self.assertEqual(len(points), self.report["nodes"])
+        self.assertTrue((points[:, 2] == 0).all())
+        ids = point_array(self.grid, "id")
+        self.assertEqual(len(set(ids)), len(ids))
+        self.assertEqual(set(point_array(self.grid, "tag")), {0, 1, 2})
+        spacing = point_array(self.grid, "spacing")
+        numpy.testing.assert_allclose(spacing, 0.05 + 0.05 * points[:, 0], rtol=1e-3)
+        self.check_triangles(points)
+
+    def check_triangles(self, points):
+        cells = self.grid.GetCells()
+        corners = vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, 3)
+        self.assertEqual({self.grid.GetCellType(i) for i in range(len(corners))}, {vtk.VTK_TRIANGLE})
+        a, b, c = (points[corners[:, k], :2] for k in range(3))
+        u, v, w = b - a, c - a, c - b
+        twice = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+        self.assertTrue((twice > 0).all())
+        self.assertAlmostEqual(twice.sum() / 2, SQUARE_AREA, places=9)
+        lengths = [numpy.linalg.norm(side, axis=1) for side in (u, v, w)]
+        quality = 4 * twice**2 / (numpy.prod(lengths, axis=0) * numpy.sum(lengths, axis=0))
+        written = vtk_to_numpy(self.grid.GetCellData().GetArray("quality"))
+        numpy.testing.assert_allclose(written, quality, rtol=1e-5)
+
+    def check_meshio(self):
+        mesh = meshio.read(self.folder / "a.vtu")
+        numpy.testing.assert_array_equal(
+            mesh.points, vtk_to_numpy(self.grid.GetPoints().GetData())
+        )
+        self.assertEqual([block.type for block in mesh.cells], ["triangle"])
+        self.assertEqual(len(mesh.cells[0].data), self.grid.GetNumberOfCells())
+        numpy.testing.assert_array_equal(mesh.point_data["id"], point_array(self.grid, "id"))
+
+    def check_node(self):
+        points, markers = read_node(self.folder / "a.node")
+        numpy.testing.assert_array_equal(
+            points, vtk_to_numpy(self.grid.GetPoints().GetData())[:, :2]
+        )
+        numpy.testing.assert_array_equal(markers, point_array(self.grid, "tag"))
+
+    def check_csv(self):
+        table = read_csv(self.folder / "a.csv")
+        points = vtk_to_numpy(self.grid.GetPoints().GetData())
+        numpy.testing.assert_array_equal(table["x"], points[:, 0])
+        numpy.testing.assert_array_equal(table["y"], points[:, 1])
+        for name in ("id", "tag", "spacing"):
+            numpy.testing.assert_array_equal(table[name], point_array(self.grid, name))
+
+    def check_svg(self):
+        root = xml.etree.ElementTree.parse(self.folder / "a.svg").getroot()
+        self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+        box = list(map(float, root.get("viewBox").split()))
+        self.assertGreater(min(box[2:]), 300)
+        dots = sum(p.get("d", "").count("Z") for p in root.iter("{http://www.w3.org/2000/svg}path"))
+        self.assertGreaterEqual(dots, self.report["nodes"])
+
+    def check_png(self):
+        width, height, raw = read_png((self.folder / "a.png").read_bytes())
+        self.assertTrue(300 < width < 4000 and 300 < height < 4000)
+        self.assertGreater(len(set(raw)), 100)  # no blank page
+
+
+class Report(CommandTest):
+    def test_has_every_statistic(self):
+        self.place("--report", "r.json", "--set", "steps=40")
+        report = json.loads((self.folder / "r.json").read_text())
+        names = [line.split()[0] for line in self.statistics() if line[2:3].strip()]
+        self.assertGreater(len(names), 15)
+        for name in names:
+            value = report
+            for key in name.split("."):
+                self.assertIn(key, value, name)
+                value = value[key]
+
+    def statistics(self):
+        return self.run_command("--list-statistics")[0].decode().splitlines()
+
+    def test_tells_what_was_asked_and_what_came(self):
+        self.place("--report", "r.json", "--set", "steps=200", "--growth-limit", "0.5")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(report["domain"], str(self.square))
+        self.assertEqual(report["spacing"], "0.06")
+        self.assertEqual(report["options"], {"steps": "200", "growth_limit": "0.5"})
+        self.assertIsInstance(report["warnings"], list)
+        self.assertGreater(report["nodes"], 200)
+        self.assertGreater(report["boundary_nodes"], 50)
+        self.assertGreater(report["steps"], 0)
+        self.assertGreater(report["seconds"]["total"], 0)
+        self.assertIsInstance(report["stop_reason"], str)
+        self.assertRegex(report["hash"], re.compile("^(0x)?[0-9a-f]{16}$"))
+
+    def test_warnings_are_told_and_kept(self):
+        _, err = self.place("--report", "r.json", domain=LAKE, spacing="30")
+        report = json.loads((self.folder / "r.json").read_text())
+        told = [line for line in err.decode().splitlines() if line.startswith("pnpbs: warning: ")]
+        self.assertGreater(len(told), 0)
+        self.assertEqual(told, ["pnpbs: warning: " + w for w in report["warnings"]])
+
+    def test_same_nodes_for_any_number_of_threads(self):
+        hashes = set()
+        for threads in (1, 2):
+            self.place("--report", "r.json", "--threads", threads, spacing="0.03+0.05*y")
+            hashes.add(json.loads((self.folder / "r.json").read_text())["hash"])
+        self.assertEqual(len(hashes), 1)
+
+
+class StandardStreams(CommandTest):
+    def test_domain_from_standard_input(self):
+        self.place("--output", "a.csv", "--output", "b.node")
+        text = self.square.read_bytes()
+        out, _ = self.place("--output", "-", "--format", "csv", domain="-", stdin=text)
+        self.assertEqual(out, (self.folder / "a.csv").read_bytes())
+
+    def test_each_format_to_standard_output(self):
+        for name in ("vtu", "node", "csv", "svg", "png"):
+            with self.subTest(name):
+                self.place("--output", "a." + name)
+                out, err = self.place("--output", "-", "--format", name)
+                if name != "vtu":  # may be compared, but says nothing about pictures
+                    self.assertEqual(len(out) > 100, True)
+                self.assertEqual(out, (self.folder / ("a." + name)).read_bytes())
+                self.assertEqual(err, b"")
+
+    def test_report_to_standard_output(self):
+        out, _ = self.place("--report", "-", "--output", "a.csv")
+        self.assertGreater(json.loads(out)["nodes"], 0)
+
+    def test_summary_for_people(self):
+        out, err = self.place("--output", "a.csv")
+        nodes = len(read_csv(self.folder / "a.csv")["id"])
+        self.assertIn(f"{nodes:,}".replace(",", " "), out.decode())
+        self.assertIn("a.csv", out.decode())
+        self.assertTrue(3 <= len(out.splitlines()) <= 6)
+        self.assertEqual(err, b"")
+
+    def test_quiet(self):
+        self.assertEqual(self.place("--quiet", "-o", "a.csv"), (b"", b""))
+
+    def test_reader_that_goes_away(self):
+        process = self.start("--domain", LAKE, "--spacing", "3", "-o", "-", "--format", "csv",
+                             "-o", "a.csv")
+        process.stdout.close()
+        err = process.stderr.read()
+        process.stderr.close()
+        self.assertEqual(process.wait(), 1)
+        self.assertIn(b"standard output", err)
+        self.assertEqual(self.files(), ["square.poly"])
+
+    def test_closed_standard_output(self):
+        script = f"'{COMMAND}' --domain square.poly --spacing 0.1 -o a.csv -q >&- 2>&-"
+        self.assertEqual(subprocess.run(script, shell=True, cwd=self.folder).returncode, 0)
+        self.assertEqual(len(read_csv(self.folder / "a.csv")), 5)
+
+
+class Replacing(CommandTest):
+    def test_keeps_permissions_and_links(self):
+        target = self.folder / "real.csv"
+        target.write_text("old")
+        target.chmod(0o640)
+        (self.folder / "link.csv").symlink_to("real.csv")
+        self.place("--output", "link.csv")
+        self.assertTrue((self.folder / "link.csv").is_symlink())
+        self.assertEqual(stat.S_IMODE(target.stat().st_mode), 0o640)
+        self.assertGreater(len(read_csv(target)["id"]), 100)
+
+    def test_new_files_follow_the_mask(self):
+        mask = os.umask(0o027)
+        try:
+            self.place("--output", "a.csv")
+        finally:
+            os.umask(mask)
+        self.assertEqual(stat.S_IMODE((self.folder / "a.csv").stat().st_mode), 0o640)
+
+    def test_failure_leaves_the_old_file(self):
+        (self.folder / "a.csv").write_text("old")
+        message = self.refuse("--domain", self.square, "--spacing", "0.06", "--output", "a.csv",
+                              "--report", "/dev/full", code=1)
+        self.assertIn("/dev/full", message)
+        self.assertEqual((self.folder / "a.csv").read_text(), "old")
+
+    def test_devices_are_written_directly(self):
+        self.place("--output", "/dev/null", "--format", "vtu")
+        self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
+
+
+class Pictures(CommandTest):
+    def test_bubbles(self):
+        self.place("-o", "a.svg")
+        self.place("-o", "b.svg", "--bubbles")
+        plain, bubbles = ((self.folder / n).read_text() for n in ("a.svg", "b.svg"))
+        xml.etree.ElementTree.fromstring(bubbles)
+        self.assertGreater(bubbles.count(" C "), plain.count(" C ") + 1000)
+
+    def test_odd_shapes(self):
+        strip = "4 2 0 0\n1 0 0\n2 1000 0\n3 1000 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n"
+        (self.folder / "strip.poly").write_text(strip)
+        self.place("-o", "strip.png", domain="strip.poly", spacing="0.5")
+        width, height, _ = read_png((self.folder / "strip.png").read_bytes())
+        self.assertTrue(width < 4000 and 50 < height < 400)
+
+    def test_many_nodes_stay_small(self):
+        self.place("-o", "a.svg", "-o", "a.png", domain=DATA / "great_lakes.poly",
+                   spacing="3", environment={"OMP_NUM_THREADS": "1"})
+        self.assertLess((self.folder / "a.svg").stat().st_size, 6e6)
+        self.assertLess((self.folder / "a.png").stat().st_size, 6e6)
+
+
+class Locale(CommandTest):
+    def test_decimal_comma_changes_nothing(self):
+        written = set()
+        for locale in ("C", "de_DE.UTF-8"):
+            self.place("-o", "a.csv", spacing="0.05+0.025*x", environment={"LC_ALL": locale})
+            written.add((self.folder / "a.csv").read_bytes())
+        self.assertEqual(len(written), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Usage, and input that is wrong: a message that helps, exit code 2, no file."""
+
+import json
+import os
+import random
+import unittest
+
+from command import LAKE, NOT_CONVERGED, SQUARE, CommandTest
+
+GRID = """\
+ncols 3
+nrows 2
+xllcenter 0
+yllcenter 0
+cellsize 0.5
+nodata_value -9999
+0.1 0.1 0.1
+0.05 0.05 0.05
+"""
+
+
+class Usage(CommandTest):
+    def test_help_lists_options_and_formats(self):
+        text = self.run_command("--help")[0].decode()
+        for word in ("--domain", "--spacing", "--set", ".vtu", "hypot", "growth_limit", "130"):
+            self.assertIn(word, text)
+        self.assertLessEqual(max(map(len, text.splitlines())), 100)
+
+    def test_version(self):
+        self.assertRegex(self.run_command("--version")[0].decode(), r"^pnpbs \d+\.\d+\.\d+\n")
+
+    def test_unknown_options_get_the_nearest_name(self):
+        for wrong, right in [("--ouput", "--output"), ("--Spacing=1", "--spacing"),
+                             ("--repotr", "--report"), ("--bubble", "--bubbles")]:
+            with self.subTest(wrong):
+                message = self.refuse("--domain", self.square, "--spacing", "0.1", wrong, "x.csv")
+                self.assertIn(f"did you mean {right}?", message)
+        self.assertIn("unknown option --xyzzy\n", self.refuse("--xyzzy"))
+
+    def test_stray_words(self):
+        self.assertIn("'lake.poly'", self.refuse("lake.poly"))
+
+    def test_something_is_missing(self):
+        self.assertIn("--domain", self.refuse("--spacing", "1"))
+        self.assertIn("--spacing", self.refuse("--domain", self.square))
+        self.assertIn("--output", self.refuse("--domain", self.square, "--spacing", "1", "-o"))
+        self.refuse()
+
+    def test_contradictions(self):
+        ask = ("--domain", self.square, "--spacing", "0.1")
+        self.assertIn("exclude", self.refuse(*ask, "--spacing-grid", "g.asc"))
+        self.assertIn("twice", self.refuse(*ask, "-o", "a.csv", "-o", "./a.csv"))
+        self.assertIn("twice", self.refuse(*ask, "-o", "-", "--format", "csv", "--report", "-"))
+        self.refuse(*ask, "--spacing", "0.2")
+
+    def test_library_options(self):
+        ask = ("--domain", self.square, "--spacing", "0.1", "-o", "a.csv", "--set")
+        self.assertIn("steps", self.refuse(*ask, "stpes=3"))
+        self.assertIn("KEY=VALUE", self.refuse(*ask, "steps"))
+        self.assertIn("KEY=VALUE", self.refuse(*ask, "=3"))
+        for value in ("", "x", "1.5", "-1", "1e99", "nan"):
+            self.assertIn("steps", self.refuse(*ask, "steps=" + value))
+        self.assertIn("growth_limit", self.refuse(*ask, "growth_limit=0,5"))
+
+    def test_step_limit(self):
+        self.place("--steps", "1", "--set", "sweeps=0", "-o", "a.csv", code=NOT_CONVERGED)
+        self.assertIn("a.csv", self.files())
+
+
+class Outputs(CommandTest):
+    def test_unknown_formats(self):
+        ask = ("--domain", self.square, "--spacing", "0.1", "--output")
+        self.assertIn("vtu", self.refuse(*ask, "a.xyz"))
+        self.assertIn("vtu", self.refuse(*ask, "a"))
+        self.assertIn("--format", self.refuse(*ask, "-"))
+        self.assertIn("did you mean csv?", self.refuse(*ask, "-", "--format", "cvs"))
+        self.place("--output", "b.xyz", "--format", "node")
+        self.assertIn("b.xyz", self.files())
+
+    def test_unwritable_files_are_found_before_the_run(self):
+        (self.folder / "folder.csv").mkdir()
+        for path in ("missing/a.csv", "folder.csv", "/proc/a.csv", "square.poly/a.csv",
+                     "x" * 300 + ".csv", ""):
+            with self.subTest(path):
+                # A spacing that would keep the machine busy.
+                self.refuse("--domain", LAKE, "--spacing", "0.02", "--output", path)
+        self.assertIn("missing/r.json", self.refuse("--domain", LAKE, "--spacing", "0.02",
+                                                    "--report", "missing/r.json"))
+
+    def test_read_only_folder(self):
+        if os.geteuid() == 0:
+            self.skipTest("root may write everywhere")
+        self.folder.chmod(0o500)
+        self.addCleanup(self.folder.chmod, 0o700)
+        self.refuse("--domain", self.square, "--spacing", "0.1", "--output", "a.csv")
+
+
+class Expressions(CommandTest):
+    def refuse_spacing(self, text):
+        return self.refuse("--domain", self.square, "--spacing", text, "-o", "a.csv")
+
+    def test_errors_show_the_place(self):
+        cases = [
+            ("1 + 0.02*hypt(x,y)", 10, "did you mean hypot?"),
+            ("1 +", 4, "ends"),
+            ("(1 + x", 7, "parenthesis"),
+            ("1 + x)", 6, "parenthesis"),
+            ("0,1 + x", 2, "point"),
+            ("1 + z", 5, "'z'"),
+            ("x = 1", 3, "=="),
+            ("0.1 0.2", 5, "operator"),
+            ("hypot(x)", 8, "few"),
+            ("sin", 1, "parentheses"),
+            ("x ? 1", None, ""),
+            ('"x"', None, ""),
+            ("é + $", 1, "é"),
+            ("", None, "--spacing"),
+            ("  ", 1, "empty"),
+        ]
+        for text, position, word in cases:
+            with self.subTest(text):
+                message = self.refuse_spacing(text)
+                self.assertIn(word, message)
+                if position:
+                    first, line, mark = message.splitlines()
+                    self.assertIn(f"position {position}:", first)
+                    self.assertEqual(line[2:], text)
+                    self.assertEqual(mark.index("^") - 2, min(position - 1, len(text)))
+
+    def test_values_that_are_no_spacing(self):
+        for text in ("0", "-1", "nan", "x - 0.5", "1/x", "0/0*x", "1e-300", "sqrt(x-2)", "1e-9+x-x"):
+            with self.subTest(text):
+                self.assertNotIn("internal", self.refuse_spacing(text))
+
+    def test_long_ones(self):
+        self.refuse_spacing("(" * 5000)
+        self.refuse_spacing("1+" * 50000 + "1")
+
+    def test_equal_ways_to_say_it(self):
+        results = set()
+        for text in ("0.1", " 0.1 ", "1/10", "0.2*cos(pi/3)*0 + 1e-1", "x>1e9 ? 5 : 0.1"):
+            self.place("-o", "a.node", spacing=text)
+            results.add((self.folder / "a.node").read_bytes())
+        self.assertEqual(len(results), 1)
+
+    def test_functions(self):
+        # Each term is 1 when it does what its name says.
+        terms = ("hypot(3,4)/5", "pow(2,3)/8", "min(1,2,3)", "max(-1,0,1)", "abs(-1)", "sqrt(1)",
+                 "exp(0)", "log(e)", "floor(1.9)", "ceil(0.1)", "mod(7,3)", "ln(e)", "log10(10)", "log2(2)",
+                 "cbrt(1)", "cos(0)", "sin(pi/2)", "2^0", "atan2(0,1)+1")
+        spacing = "0.1*(" + " + ".join(terms) + f")/{len(terms)}"
+        self.place("--report", "a.json", spacing=spacing)
+        self.place("--report", "b.json", spacing="0.1")
+        reports = [json.loads((self.folder / n).read_text()) for n in ("a.json", "b.json")]
+        self.assertAlmostEqual(reports[0]["nodes"], reports[1]["nodes"], delta=3)
+
+
+class Grids(CommandTest):
+    def place_on(self, text, *arguments, **more):
+        (self.folder / "g.asc").write_text(text)
+        return self.run_command("--domain", self.square, "--spacing-grid", "g.asc", *arguments,
+                                **more)
+
+    def refuse_grid(self, text):
+        (self.folder / "g.asc").write_text(text)
+        return self.refuse("--domain", self.square, "--spacing-grid", "g.asc", "-o", "a.csv")
+
+    def test_northern_row_comes_first(self):
+        self.place_on(GRID, "-o", "a.csv")
+        rows = [line.split(",") for line in (self.folder / "a.csv").read_text().splitlines()[1:]]
+        for _, _, y, _, spacing in rows:
+            self.assertAlmostEqual(float(spacing), 0.05 + 0.1 * min(float(y), 0.5), delta=0.002)
+
+    def test_corner_and_centre(self):
+        self.place_on(GRID, "-o", "a.node")
+        corner = GRID.replace("xllcenter 0", "XLLCORNER -0.25").replace("yllcenter 0",
+                                                                        "yllcorner -0.25")
+        self.place_on(corner, "-o", "b.node")
+        self.assertEqual((self.folder / "a.node").read_bytes(),
+                         (self.folder / "b.node").read_bytes())
+
+    # One value per row, so that it does not matter which of a row's values a gap takes.
+    def test_gaps_take_the_nearest_value(self):
+        self.place_on(GRID, "-o", "a.node")
+        gaps = GRID.replace("0.1 0.1 0.1", "0.1 0.1 -9999").replace("0.05 0.05 0.05",
+                                                                    "-9999 0.05 -9999")
+        self.place_on(gaps, "-o", "b.node")
+        self.assertEqual((self.folder / "a.node").read_bytes(),
+                         (self.folder / "b.node").read_bytes())
+
+    def test_bad_grids_name_the_line(self):
+        self.assertIn("g.asc:8:", self.refuse_grid(GRID.replace("0.05 0.05 0.05", "0.05 x 0.05")))
+        self.assertIn("g.asc:1:", self.refuse_grid("nclos 3\n"))
+        self.assertIn("6 values", self.refuse_grid(GRID.replace(" 0.05\n", "\n")))
+        self.assertIn("no more", self.refuse_grid(GRID + "0.1\n"))
+        self.assertIn("ncols", self.refuse_grid(GRID.replace("ncols 3\n", "")))
+        self.assertIn("cellsize", self.refuse_grid(GRID.replace("cellsize 0.5", "cellsize 0")))
+        self.assertIn("nrows", self.refuse_grid(GRID.replace("nrows 2", "nrows 1e300")))
+        self.refuse_grid(GRID.replace("ncols 3", "ncols 900000000"))
+        self.refuse_grid("")
+        self.refuse_grid("\0" * 1000)
+        self.refuse_grid(GRID.replace("0.05", "-9999").replace("0.1", "-9999"))
+        self.refuse_grid(GRID.replace("0.05", "0"))
+        self.refuse_grid(GRID.replace("0.05", "nan"))
+        self.assertIn("missing.asc", self.refuse("--domain", self.square, "--spacing-grid",
+                                                 "missing.asc"))
+
+
+class Domains(CommandTest):
+    """The library's own tests go through all that can be wrong; here, how the command takes it."""
+
+    def refuse_domain(self, data):
+        (self.folder / "bad.poly").write_bytes(data)
+        from_file = self.refuse("--domain", "bad.poly", "--spacing", "0.1", "-o", "a.csv")
+        from_stream = self.refuse("--domain", "-", "--spacing", "0.1", "-o", "a.csv", stdin=data)
+        self.assertEqual(from_file.replace("bad.poly", "standard input"), from_stream)
+        return from_file
+
+    def test_bad_files(self):
+        square = SQUARE.encode()
+        for data in (b"", b"\n\n#\n", b"8 2 0 0\n1 0 0\n", square[: len(square) // 2],
+                     bytes(random.Random(1).randrange(256) for _ in range(5000)),
+                     b"\0" * 5000, b"9" * 100000, b"99999999999999999999 2 0 0\n",
+                     b"1000000000000 2 0 0\n1 0 0\n",
+                     square.replace(b"1 1 2 1", b"1 1 99 1"),
+                     square.replace(b"2 1 0\n", b"2 nan 0\n"),
+                     square.replace(b"2 1 0\n", b"2 1e999 0\n"),
+                     square.replace(b"3 1 1\n4 0 1\n", b"4 0 1\n3 1 1\n"),
+                     square.replace(b"4 4 1 1\n", b""), b"-1 2 0 0\n0 0\n0\n"):
+            with self.subTest(data[:40]):
+                self.refuse_domain(data)
+
+    def test_missing_file_and_folder(self):
+        self.assertIn("nowhere.poly", self.refuse("--domain", "nowhere.poly", "--spacing", "0.1"))
+        self.refuse("--domain", self.folder, "--spacing", "0.1")
+        self.refuse("--domain", "/dev/null", "--spacing", "0.1")
+
+    def test_crossing_segments_are_named(self):
+        bow_tie = b"4 2 0 0\n1 0 0\n2 1 1\n3 1 0\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n"
+        self.assertIn("segment", self.refuse_domain(bow_tie))
+
+
+if __name__ == "__main__":
+    unittest.main()
