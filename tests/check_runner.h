@@ -9,6 +9,9 @@
 #include <check.h>
 #include <stdlib.h>
 
+/* Check's old name for ck_abort_msg, a macro; the C++ library has functions of that name. */
+#undef fail
+
 static inline int run_suite(Suite* suite) {
   SRunner* runner = srunner_create(suite);
   int failed;

@@ -92,6 +92,9 @@ pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
     *placement = nullptr;
     require_not_in_callback(object);
     const auto of = require(domain);
+    if (of->context.get() != &object)
+      throw Error(PNPBS_ERROR_ARGUMENT,
+                  "argument domain belongs to another context: create it on this one");
     start_kokkos(object.options.integer("threads"), object.communicator->ranks_on_node(),
                  forget_all_nodes);
     auto made = std::make_shared<PlacementObject>(PlacementObject{

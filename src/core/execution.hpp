@@ -5,6 +5,8 @@
 
 #include <Kokkos_Core.hpp>
 #include <cstdint>
+#include <exception>
+#include <mutex>
 #include <string>
 
 namespace pnpbs {
@@ -20,6 +22,23 @@ template <class Body>
 void for_each(const char* label, std::int64_t n, const Body& body) {
   Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, n),
                        body);
+}
+
+// The same for bodies that may throw (a list that finds no memory): no exception may leave a
+// parallel region, so the first one waits until all is done.
+template <class Body>
+void for_each_guarded(const char* label, std::int64_t n, const Body& body) {
+  std::exception_ptr failure;
+  std::mutex first;
+  for_each(label, n, [&](std::int64_t i) {
+    try {
+      body(i);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(first);
+      if (!failure) failure = std::current_exception();
+    }
+  });
+  if (failure) std::rethrow_exception(failure);
 }
 
 // The largest of body(i), or `floor` if there is none.

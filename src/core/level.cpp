@@ -45,8 +45,20 @@ void Level::lay_boundary_and_tree() {
   }
   const PhaseTimer timer(timers_, Phase::tree);
   map_.build(domain_->bounds(), boundary_, evaluator(), settings_.max_nodes);
-  near_edges_.prepare(map_, std::max(settings_.list_radius, settings_.adjacency_radius));
+  near_edges_.prepare(map_, widest_radius());
   buckets_.reset();
+}
+
+void Level::change_settings(const Settings& settings) {
+  const double before = widest_radius();
+  settings_ = settings;
+  if (widest_radius() == before) return;
+  near_edges_.prepare(map_, widest_radius());
+  lists_valid_ = false;
+}
+
+double Level::widest_radius() const {
+  return std::max(settings_.list_radius, settings_.adjacency_radius);
 }
 
 void Level::keep_boundary_ids(const Level& earlier) {
@@ -146,7 +158,7 @@ bool Level::lists_may_miss_a_pair() const {
 
 void Level::rebuild_lists(double radius) {
   const PhaseTimer timer(timers_, Phase::lists);
-  buckets_.sort(map_.tree(), nodes_, std::max(settings_.list_radius, settings_.adjacency_radius));
+  buckets_.sort(map_.tree(), nodes_, widest_radius());
   near_edges_.build(nodes_, buckets_, map_);
   lists_.build(nodes_, buckets_, radius, [this](std::int64_t i, std::int64_t j) {
     return near_edges_.visible(nodes_, map_, fans_, i, j);
@@ -223,13 +235,16 @@ void Level::take_next_positions() {
 void Level::refresh_spacing() {
   const PhaseTimer timer(timers_, Phase::spacing);
   constexpr std::int64_t kBatch = 1 << 16;  // bounds the memory for the points handed out
-  std::vector<Point<2>> x(static_cast<std::size_t>(std::min(kBatch, nodes_.count)));
+  const auto batch = static_cast<std::size_t>(std::min(kBatch, nodes_.count));
+  std::vector<Point<2>> x(batch);
+  std::vector<double> d(batch);  // the nodes' own d stays as it is if the callback fails
   for (std::int64_t first = 0; first < nodes_.count; first += kBatch) {
     const std::int64_t n = std::min(kBatch, nodes_.count - first);
     for_each("pnpbs::Level::refresh_spacing", n, [&](std::int64_t i) {
       x[static_cast<std::size_t>(i)] = nodes_.position(first + i);
     });
-    evaluate_spacing<2>(*spacing_, domain_->area(), n, x.data(), nodes_.d.data() + first);
+    evaluate_spacing<2>(*spacing_, domain_->area(), n, x.data(), d.data());
+    std::copy(d.begin(), d.begin() + n, nodes_.d.data() + first);
   }
   lists_valid_ = false;
 }

@@ -46,6 +46,8 @@ class Level {
   void lay_boundary_and_tree();
   void fill();                                             // inner nodes from nothing
   std::int64_t take(const std::vector<GivenNode>& given);  // or these; returns how many were left out
+  // For the steps to come; the growth limit belongs to the spacing and is not among them.
+  void change_settings(const Settings& settings);
   // Boundary nodes of an earlier level keep their ids where they stay in place.
   void keep_boundary_ids(const Level& earlier);
 
@@ -78,6 +80,7 @@ class Level {
 
  private:
   SpacingEvaluator evaluator() const;
+  double widest_radius() const;
   void number_and_store(std::vector<GivenNode> inner);
   bool fits(const Point<2>& x, double d) const;
   bool has_no_room(std::int64_t i) const;

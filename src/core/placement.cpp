@@ -45,6 +45,15 @@ void Placement::initialise() {
   make_level();
 }
 
+// A level for the present spacing, with the present options.
+void Placement::prepare_level() {
+  const Settings settings(options_);
+  if (!level_ || spacing_replaced_ || settings.growth_limit != level_->settings().growth_limit)
+    make_level();
+  else
+    level_->change_settings(settings);
+}
+
 // Lays the boundary at the present spacing and puts in the inner nodes: those of the level before
 // if there is one, those given, or a fill.
 void Placement::make_level() {
@@ -59,7 +68,9 @@ void Placement::make_level() {
     spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, spacing_, settings.growth_limit,
                                                      settings.max_nodes);
   }
-  auto next = std::make_unique<Level>(domain_, spacing, settings, timers_);
+  // A copy: the caller may go on to change the domain.
+  auto next = std::make_unique<Level>(std::make_shared<PlaneDomain>(*domain_), spacing, settings,
+                                      timers_);
   next->lay_boundary_and_tree();
   std::int64_t left_out = 0;
   if (level_) {
@@ -94,7 +105,7 @@ void Placement::begin_schedule() {
 Outcome Placement::run() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  if (!level_ || spacing_replaced_) make_level();
+  prepare_level();
   if (schedule_ended_) begin_schedule();
   const Outcome outcome = advance(level_->settings().steps, 0.95);
   schedule_ended_ = true;
@@ -105,7 +116,7 @@ Outcome Placement::run() {
 Outcome Placement::step(std::int64_t n) {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  if (!level_ || spacing_replaced_) make_level();
+  prepare_level();
   if (schedule_ended_) begin_schedule();
   const std::int64_t until = schedule_step_ > kNoLimit - n ? kNoLimit : schedule_step_ + n;
   const Outcome outcome = advance(until, 1.0);
@@ -201,7 +212,7 @@ void Placement::finish() {
 PopulationCounts Placement::adjust_population() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  if (!level_ || spacing_replaced_) make_level();
+  prepare_level();
   nodes_changed();
   return count_population_change(level_->adjust_population());
 }

@@ -72,6 +72,7 @@ class Placement {
   std::uint64_t hash() const;
 
  private:
+  void prepare_level();
   void make_level();
   void begin_schedule();
   bool bubbles_rest() const;

@@ -81,7 +81,7 @@ PopulationChange<Dim> choose_population_change(
   View<Bid> bids = make_view<Bid>("pnpbs::population::bids", nodes.count);
   View<Bid> seen = make_view<Bid>("pnpbs::population::seen", nodes.count);
   View<Action> action = make_view<Action>("pnpbs::population::action", nodes.count);
-  for_each("pnpbs::population::bid", nodes.count, [&](std::int64_t i) {
+  for_each_guarded("pnpbs::population::bid", nodes.count, [&](std::int64_t i) {
     bids(i) = Bid{};
     action(i) = Action::none;
     if (!nodes.moves(i)) return;

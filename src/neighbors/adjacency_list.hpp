@@ -206,8 +206,8 @@ void AdjacencyList<Dim>::build(const Nodes<Dim>& nodes, const Buckets<Dim>& buck
   radius_ = radius;
   const std::int64_t chunks = (block_count() + kChunkBlocks - 1) / kChunkBlocks;
   chunks_.resize(static_cast<std::size_t>(chunks));
-  for_each("pnpbs::AdjacencyList::build", chunks,
-           [&](std::int64_t c) { build_chunk(nodes, buckets, visible, c); });
+  for_each_guarded("pnpbs::AdjacencyList::build", chunks,
+                   [&](std::int64_t c) { build_chunk(nodes, buckets, visible, c); });
 }
 
 }  // namespace pnpbs

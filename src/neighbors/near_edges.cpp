@@ -34,7 +34,7 @@ void NearEdges::build(const Nodes<2>& nodes, const Buckets<2>& buckets, const Do
   chunks_.resize(static_cast<std::size_t>(chunks));
   if (static_cast<std::int64_t>(any_.extent(0)) < nodes.capacity())
     any_ = make_view<char>("pnpbs::NearEdges::any", nodes.capacity());
-  for_each("pnpbs::NearEdges::build", chunks, [&](std::int64_t c) {
+  for_each_guarded("pnpbs::NearEdges::build", chunks, [&](std::int64_t c) {
     Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
     chunk.edges.clear();
     for (std::int64_t k = 0; k < kChunkNodes; ++k) {

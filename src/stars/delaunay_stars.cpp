@@ -24,7 +24,7 @@ void DelaunayStars::build(const StarInput& input) {
   const Nodes<2>& nodes = input.nodes;
   const std::int64_t chunks = (nodes.count + kChunkNodes - 1) / kChunkNodes;
   chunks_.resize(static_cast<std::size_t>(chunks));
-  for_each("pnpbs::DelaunayStars::build", chunks, [&](std::int64_t c) {
+  for_each_guarded("pnpbs::DelaunayStars::build", chunks, [&](std::int64_t c) {
     Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
     chunk.entries.clear();
     std::vector<StarPoint> around;
