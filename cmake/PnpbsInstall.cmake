@@ -29,6 +29,7 @@ if(TARGET pnpbs-cli)
   # Relative, so that an installed tree may be moved.
   set_target_properties(pnpbs-cli PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
   install(TARGETS pnpbs-cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(FILES "${PROJECT_SOURCE_DIR}/docs/pnpbs.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
 endif()
 
 # ------------------------------------------------------------------ CMake package ---------------

@@ -55,23 +55,23 @@ extern "C" {
 /* ---------------------------------------------------------------- status and errors ----- */
 
 /** The one list of outcomes and errors: X(name, value, text). */
-#define PNPBS_STATUS_LIST(X)                                                                     \
-  X(PNPBS_OK, 0, "done")                                                                         \
-  X(PNPBS_NOT_CONVERGED, 1, "the step limit was reached before the bubbles rested")              \
-  X(PNPBS_STOPPED, 2, "stopped by the monitor")                                                  \
-  X(PNPBS_ERROR_ARGUMENT, -1, "invalid argument")                                                \
-  X(PNPBS_ERROR_HANDLE, -2, "not a live handle")                                                 \
-  X(PNPBS_ERROR_STATE, -3, "call not allowed in this state")                                     \
-  X(PNPBS_ERROR_DOMAIN, -4, "invalid domain")                                                    \
-  X(PNPBS_ERROR_SPACING, -5, "invalid spacing")                                                  \
-  X(PNPBS_ERROR_KEY, -6, "unknown option or statistic")                                          \
-  X(PNPBS_ERROR_CAPACITY, -7, "array too small")                                                 \
-  X(PNPBS_ERROR_FILE, -8, "cannot read file")                                                    \
-  X(PNPBS_ERROR_CALLBACK, -9, "a callback asked to stop with an error")                          \
-  X(PNPBS_ERROR_MEMORY, -10, "out of memory")                                                    \
-  X(PNPBS_ERROR_MPI, -11, "MPI is not usable")                                                   \
-  X(PNPBS_ERROR_KOKKOS, -12, "Kokkos is not usable")                                             \
-  X(PNPBS_ERROR_UNSUPPORTED, -13, "not supported by this build")                                 \
+#define PNPBS_STATUS_LIST(X)                                                        \
+  X(PNPBS_OK, 0, "done")                                                            \
+  X(PNPBS_NOT_CONVERGED, 1, "the step limit was reached before the bubbles rested") \
+  X(PNPBS_STOPPED, 2, "stopped by the monitor")                                     \
+  X(PNPBS_ERROR_ARGUMENT, -1, "invalid argument")                                   \
+  X(PNPBS_ERROR_HANDLE, -2, "not a live handle")                                    \
+  X(PNPBS_ERROR_STATE, -3, "call not allowed in this state")                        \
+  X(PNPBS_ERROR_DOMAIN, -4, "invalid domain")                                       \
+  X(PNPBS_ERROR_SPACING, -5, "invalid spacing")                                     \
+  X(PNPBS_ERROR_KEY, -6, "unknown option or statistic")                             \
+  X(PNPBS_ERROR_CAPACITY, -7, "array too small")                                    \
+  X(PNPBS_ERROR_FILE, -8, "cannot read file")                                       \
+  X(PNPBS_ERROR_CALLBACK, -9, "a callback asked to stop with an error")             \
+  X(PNPBS_ERROR_MEMORY, -10, "out of memory")                                       \
+  X(PNPBS_ERROR_MPI, -11, "MPI is not usable")                                      \
+  X(PNPBS_ERROR_KOKKOS, -12, "Kokkos is not usable")                                \
+  X(PNPBS_ERROR_UNSUPPORTED, -13, "not supported by this build")                    \
   X(PNPBS_ERROR_INTERNAL, -14, "internal error")
 
 typedef enum pnpbs_status {
@@ -130,8 +130,7 @@ PNPBS_API pnpbs_status pnpbs_finalize(void);
  *  placement of the process is created. Local. Errors: PNPBS_ERROR_KEY (the message has the
  *  nearest known name), PNPBS_ERROR_ARGUMENT (the message has the range).
  *  @param[in] value  as text; numbers parse the same in every locale */
-PNPBS_API pnpbs_status pnpbs_context_set(pnpbs_context context, const char *key,
-                                         const char *value);
+PNPBS_API pnpbs_status pnpbs_context_set(pnpbs_context context, const char *key, const char *value);
 PNPBS_API pnpbs_status pnpbs_context_set_int64(pnpbs_context context, const char *key,
                                                int64_t value);
 PNPBS_API pnpbs_status pnpbs_context_set_double(pnpbs_context context, const char *key,
@@ -192,18 +191,17 @@ PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
  *                           vertices where the direction turns by more than this do, as do the
  *                           ends of open polylines and vertices where curves meet; between them
  *                           the polyline stands for a smooth curve. */
-PNPBS_API pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role,
-                                                 int32_t closed, int64_t n, const double *xy,
-                                                 const int32_t *tags, double corner_angle);
+PNPBS_API pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed,
+                                                 int64_t n, const double *xy, const int32_t *tags,
+                                                 double corner_angle);
 
 /** Adds a circular arc; its ends join curves that end at the same point (within 1e-9 of the
  *  domain's size). Local.
  *  @param[in] centre          [2]
  *  @param[in] radius          > 0
  *  @param[in] begin,end       angles in radians; |end - begin| = 2 pi makes a full circle */
-PNPBS_API pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role,
-                                            const double *centre, double radius, double begin,
-                                            double end, int32_t tag);
+PNPBS_API pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const double *centre,
+                                            double radius, double begin, double end, int32_t tag);
 
 /** Adds a general curve given by a callback on begin <= t <= end. The callback is called during
  *  this function and whenever a placement is initialised, so it and `user` must outlive the
@@ -265,8 +263,7 @@ PNPBS_API pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure
  *  @param[out] segments  [count][2][dim], or NULL
  *  @param[out] tags      [count], or NULL */
 PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity,
-                                                 int64_t *count, double *segments,
-                                                 int32_t *tags);
+                                                 int64_t *count, double *segments, int32_t *tags);
 
 /* ---------------------------------------------------------------- placement ------------- */
 
@@ -282,8 +279,8 @@ typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *xyz, d
  *  @param step       steps done so far
  *  @param nodes      nodes there are now
  *  @param max_speed  largest scaled speed (spacings per unit time) */
-typedef int32_t (*pnpbs_monitor_fn)(double fraction, int64_t step, int64_t nodes,
-                                    double max_speed, void *user);
+typedef int32_t (*pnpbs_monitor_fn)(double fraction, int64_t step, int64_t nodes, double max_speed,
+                                    void *user);
 
 /** A placement of nodes in `domain`, with the options of its context. The domain is taken as it
  *  is at initialise. Collective. */
@@ -310,8 +307,7 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement plac
  *  Collective. Bad values are found when it is asked, in initialise or run: the error names the
  *  point and the number of nodes it would have meant. */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
-                                                            pnpbs_spacing_fn spacing,
-                                                            void *user);
+                                                            pnpbs_spacing_fn spacing, void *user);
 
 /** The spacing from values on a rectangular grid, copied; linear in each direction between them,
  *  constant beyond the grid's edge. Collective.
@@ -320,10 +316,8 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement plac
  *  @param[in] step    [dim] > 0, distance of grid points
  *  @param[in] values  [size[1]][size[0]] (x fastest) */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement,
-                                                        const int64_t *size,
-                                                        const double *origin,
-                                                        const double *step,
-                                                        const double *values);
+                                                        const int64_t *size, const double *origin,
+                                                        const double *step, const double *values);
 
 /** Sets the monitor, or removes it (NULL). Local. */
 PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
@@ -333,7 +327,7 @@ PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
  *  library. Points outside the domain or too close to its boundary are left out (statistic
  *  `dropped`). Clears the nodes there are. Collective.
  *  @param[in] xy   [n][dim]
- *  @param[in] ids  [n], distinct, >= 0, or NULL for ids of the library's choice */
+ *  @param[in] ids  [n], distinct, 0 .. 2^62, or NULL for ids of the library's choice */
 PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
                                                  const double *xy, const int64_t *ids);
 
@@ -371,8 +365,7 @@ PNPBS_API pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int6
                                                  double *spacing);
 
 /** Number of entries of all adjacency lists. Collective. */
-PNPBS_API pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement,
-                                                      int64_t *entries);
+PNPBS_API pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t *entries);
 
 /** Adjacency lists in compressed rows: the neighbours of local node i are
  *  neighbours[offsets[i] .. offsets[i+1]-1], local indices in the order of global ids; directly
@@ -380,9 +373,8 @@ PNPBS_API pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement,
  *  neighbours. Collective.
  *  @param[in] capacity  entries `neighbours` has room for
  *  @param[out] offsets  [nodes + 1] */
-PNPBS_API pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement,
-                                                     int64_t capacity, int64_t *offsets,
-                                                     int64_t *neighbours);
+PNPBS_API pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t capacity,
+                                                     int64_t *offsets, int64_t *neighbours);
 
 /** Number of entries of all Delaunay stars. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int64_t *entries);
@@ -400,9 +392,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int6
 
 /** Triangles of the stars, each once, counter-clockwise. Collective. Ask with capacity 0 for the
  *  count. @param[out] triangles  [count][3] local indices, or NULL */
-PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement,
-                                                     int64_t capacity, int64_t *count,
-                                                     int64_t *triangles);
+PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t capacity,
+                                                     int64_t *count, int64_t *triangles);
 
 /** Boundary edges: consecutive nodes on boundary and inner curves. Local. Ask with capacity 0
  *  for the count. @param[out] edges [count][2] local indices, or NULL

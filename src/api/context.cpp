@@ -29,13 +29,14 @@ void keep_message(Context* context, const char* text) noexcept {
 void set_context_option(Context& context, const char* key, const auto& assign) {
   require_pointer(key, "key");
   require_not_in_callback(context);
-  if (std::strcmp(key, "threads") == 0 && kokkos_was_started())
-    throw Error(PNPBS_ERROR_STATE,
-                "option threads: Kokkos already runs in this process with " +
-                    std::to_string(thread_count()) +
-                    " threads; set it before the first placement is created");
   Options changed = context.options;  // an error must change nothing
   assign(changed);
+  const std::int64_t threads = changed.integer("threads");
+  if (std::strcmp(key, "threads") == 0 && kokkos_was_started() && threads != thread_count())
+    throw Error(PNPBS_ERROR_STATE, "option threads = " + std::to_string(threads) +
+                                       ": Kokkos already runs in this process with " +
+                                       std::to_string(thread_count()) +
+                                       " threads; set it before the first placement is created");
   context.options = std::move(changed);
 }
 

@@ -38,8 +38,9 @@ pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim, pnpbs_domai
     require_pointer(domain, "domain");
     *domain = nullptr;
     if (dim == 3)
-      throw Error(PNPBS_ERROR_UNSUPPORTED, "argument dim = 3: this version places nodes in the "
-                                           "plane only; use 2");
+      throw Error(PNPBS_ERROR_UNSUPPORTED,
+                  "argument dim = 3: this version places nodes in the "
+                  "plane only; use 2");
     if (dim != 2)
       throw Error(PNPBS_ERROR_ARGUMENT, "argument dim = " + std::to_string(dim) + " must be 2");
     auto object = std::make_shared<Domain>();
@@ -60,8 +61,7 @@ pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) {
 }
 
 pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed, int64_t n,
-                                       const double* xy, const int32_t* tags,
-                                       double corner_angle) {
+                                       const double* xy, const int32_t* tags, double corner_angle) {
   return change_domain(domain, [&](PlaneDomain& plane) {
     require_count(n, "n");
     require_pointer(xy, "xy");
@@ -175,8 +175,8 @@ pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity, in
     *count = needed;
     if (capacity == 0 && !segments && !tags) return PNPBS_OK;
     if (capacity < needed)
-      throw Error(PNPBS_ERROR_CAPACITY, "argument capacity = " + std::to_string(capacity) +
-                                            "; " + std::to_string(needed) + " are needed");
+      throw Error(PNPBS_ERROR_CAPACITY, "argument capacity = " + std::to_string(capacity) + "; " +
+                                            std::to_string(needed) + " are needed");
     std::size_t s = 0;
     for (const BoundaryCurve& curve : plane.curves())
       for (std::size_t p = 0; p + 1 < curve.points.size(); ++p, ++s) {

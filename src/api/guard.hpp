@@ -16,8 +16,7 @@ std::string& thread_error();
 pnpbs_status report_failure(Context* context) noexcept;
 
 inline void require_pointer(const void* pointer, const char* argument) {
-  if (!pointer)
-    throw Error(PNPBS_ERROR_ARGUMENT, std::string("argument ") + argument + " is NULL");
+  if (!pointer) throw Error(PNPBS_ERROR_ARGUMENT, std::string("argument ") + argument + " is NULL");
 }
 
 inline void require_count(std::int64_t count, const char* argument) {

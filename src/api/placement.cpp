@@ -13,9 +13,12 @@ namespace {
 
 pnpbs_status status_of(Outcome outcome) {
   switch (outcome) {
-    case Outcome::converged: return PNPBS_OK;
-    case Outcome::stopped: return PNPBS_STOPPED;
-    case Outcome::not_converged: break;
+    case Outcome::converged:
+      return PNPBS_OK;
+    case Outcome::stopped:
+      return PNPBS_STOPPED;
+    case Outcome::not_converged:
+      break;
   }
   return PNPBS_NOT_CONVERGED;
 }
@@ -67,9 +70,8 @@ std::int64_t adjacency_entries(const Placement& placement) {
 
 std::int64_t star_entries(const Placement& placement) {
   const Level& level = placement.level();
-  return static_cast<std::int64_t>(
-      sum_of("pnpbs::star_entries", level.nodes().count,
-             [&](std::int64_t i) { return level.stars().size(i); }));
+  return static_cast<std::int64_t>(sum_of("pnpbs::star_entries", level.nodes().count,
+                                          [&](std::int64_t i) { return level.stars().size(i); }));
 }
 
 // Calls visit(place of i, place of j, place of k) for every triangle once: by its least place.
@@ -182,10 +184,10 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
     const std::int64_t n = size[0] * size[1];
     for (std::int64_t i = 0; i < n; ++i)
       if (!std::isfinite(values[i]) || values[i] <= 0)
-        throw Error(PNPBS_ERROR_SPACING,
-                    "argument values[" + std::to_string(i / size[0]) + "][" +
-                        std::to_string(i % size[0]) + "] = " + number_text(values[i]) +
-                        ": the spacing must be finite and greater than 0");
+        throw Error(PNPBS_ERROR_SPACING, "argument values[" + std::to_string(i / size[0]) + "][" +
+                                             std::to_string(i % size[0]) +
+                                             "] = " + number_text(values[i]) +
+                                             ": the spacing must be finite and greater than 0");
     p.set_spacing(std::make_shared<GridSpacing<2>>(
         std::array<std::int64_t, 2>{size[0], size[1]}, Point<2>{origin[0], origin[1]},
         Point<2>{step[0], step[1]}, std::vector<double>(values, values + n)));
@@ -212,15 +214,16 @@ pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n, con
   return compute(placement, [&](Placement& p) {
     require_count(n, "n");
     if (n > 0) require_pointer(xy, "xy");
+    constexpr std::int64_t kLargestId = std::int64_t{1} << 62;  // leaves numbers for new nodes
     std::vector<GivenNode> nodes;
     for (std::int64_t i = 0; i < n; ++i) {
       if (!std::isfinite(xy[2 * i]) || !std::isfinite(xy[2 * i + 1]))
         throw Error(PNPBS_ERROR_ARGUMENT, "argument xy[" + std::to_string(i) + "] = (" +
                                               number_text(xy[2 * i]) + ", " +
                                               number_text(xy[2 * i + 1]) + ") must be finite");
-      if (ids && ids[i] < 0)
+      if (ids && (ids[i] < 0 || ids[i] > kLargestId))
         throw Error(PNPBS_ERROR_ARGUMENT, "argument ids[" + std::to_string(i) + "] = " +
-                                              std::to_string(ids[i]) + " is negative");
+                                              std::to_string(ids[i]) + " must be in 0 .. 2^62");
       nodes.push_back({{xy[2 * i], xy[2 * i + 1]}, ids ? ids[i] : -1});
     }
     if (ids) {
@@ -310,8 +313,8 @@ pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t ca
     std::int64_t at = 0;
     for (std::int64_t place = 0; place < p.count(); ++place) {
       offsets[place] = at;
-      p.level().lists().for_neighbours(
-          p.node_at(place), [&](std::int64_t j) { neighbours[at++] = p.place_of(j); });
+      p.level().lists().for_neighbours(p.node_at(place),
+                                       [&](std::int64_t j) { neighbours[at++] = p.place_of(j); });
     }
     offsets[p.count()] = at;
     return PNPBS_OK;
@@ -401,7 +404,7 @@ namespace {
 
 template <class Value, class Getter>
 pnpbs_status get_statistic(pnpbs_placement placement, const char* key, Value* value,
-                           const char* type, Getter StatisticRow::* getter) {
+                           const char* type, Getter StatisticRow::*getter) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(key, "key");
     require_pointer(value, "value");
@@ -418,21 +421,18 @@ pnpbs_status get_statistic(pnpbs_placement placement, const char* key, Value* va
 
 }  // namespace
 
-pnpbs_status pnpbs_placement_get_int64(pnpbs_placement placement, const char* key,
-                                       int64_t* value) {
+pnpbs_status pnpbs_placement_get_int64(pnpbs_placement placement, const char* key, int64_t* value) {
   return get_statistic(placement, key, value, "integer", &StatisticRow::integer);
 }
 
-pnpbs_status pnpbs_placement_get_double(pnpbs_placement placement, const char* key,
-                                        double* value) {
+pnpbs_status pnpbs_placement_get_double(pnpbs_placement placement, const char* key, double* value) {
   return get_statistic(placement, key, value, "real", &StatisticRow::real);
 }
 
 pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, const char* key,
                                         const char** value) {
   std::string text;
-  const pnpbs_status status =
-      get_statistic(placement, key, &text, "string", &StatisticRow::text);
+  const pnpbs_status status = get_statistic(placement, key, &text, "string", &StatisticRow::text);
   if (status != PNPBS_OK) return status;
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(value, "value");

@@ -50,8 +50,8 @@ void check_environment() {
                                           "mend it");
     for (const char* number : known_numbers) {
       int parsed = 0;
-      if (name == number && !positive_integer(value, parsed) && !(name != known_numbers[0] &&
-                                                                  value == "0"))
+      if (name == number && !positive_integer(value, parsed) &&
+          !(name != known_numbers[0] && value == "0"))
         throw Error(PNPBS_ERROR_KOKKOS, "the environment variable " + name + " is \"" + value +
                                             "\"; Kokkos takes a positive integer there: unset or "
                                             "mend it");
@@ -61,8 +61,8 @@ void check_environment() {
       std::string lower = value;
       for (char& c : lower)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-      if (name == flag && std::find(std::begin(allowed), std::end(allowed), lower) ==
-                              std::end(allowed))
+      if (name == flag &&
+          std::find(std::begin(allowed), std::end(allowed), lower) == std::end(allowed))
         throw Error(PNPBS_ERROR_KOKKOS, "the environment variable " + name + " is \"" + value +
                                             "\"; Kokkos takes true or false there: unset or mend "
                                             "it");

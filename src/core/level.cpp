@@ -15,8 +15,8 @@
 
 namespace pnpbs {
 
-Level::Level(std::shared_ptr<const PlaneDomain> domain,
-             std::shared_ptr<const Spacing<2>> spacing, const Settings& settings, Timers& timers)
+Level::Level(std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const Spacing<2>> spacing,
+             const Settings& settings, Timers& timers)
     : domain_(std::move(domain)),
       spacing_(std::move(spacing)),
       settings_(settings),
@@ -240,9 +240,8 @@ void Level::refresh_spacing() {
   std::vector<double> d(batch);  // the nodes' own d stays as it is if the callback fails
   for (std::int64_t first = 0; first < nodes_.count; first += kBatch) {
     const std::int64_t n = std::min(kBatch, nodes_.count - first);
-    for_each("pnpbs::Level::refresh_spacing", n, [&](std::int64_t i) {
-      x[static_cast<std::size_t>(i)] = nodes_.position(first + i);
-    });
+    for_each("pnpbs::Level::refresh_spacing", n,
+             [&](std::int64_t i) { x[static_cast<std::size_t>(i)] = nodes_.position(first + i); });
     evaluate_spacing<2>(*spacing_, domain_->area(), n, x.data(), d.data());
     std::copy(d.begin(), d.begin() + n, nodes_.d.data() + first);
   }
@@ -252,8 +251,8 @@ void Level::refresh_spacing() {
 bool Level::has_no_room(std::int64_t i) const {
   double gap = kFarAway;
   for (std::int32_t e : near_edges_.edges_of(i))
-    gap = std::min(gap, distance_to_segment(map_.edge_begin(e), map_.edge_end(e),
-                                            nodes_.position(i)));
+    gap = std::min(gap,
+                   distance_to_segment(map_.edge_begin(e), map_.edge_end(e), nodes_.position(i)));
   return gap < kLeastClearance * nodes_.d(i);
 }
 
@@ -315,12 +314,9 @@ void Level::sweep(std::int64_t times) {
     rebuild_lists();
     renew_stars();
     const PhaseTimer timer(timers_, Phase::sweeps);
-    const View<char> moved = make_view<char>("pnpbs::Level::moved", nodes_.count);
-    const View<char> back = make_view<char>("pnpbs::Level::back", nodes_.count);
-    for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s) {
-      pnpbs::sweep(nodes_, stars_, near_edges_, map_, settings_.sweep, next_, moved, back);
-      std::swap(nodes_.x, next_);
-    }
+    const View<char> allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count);
+    for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s)
+      pnpbs::sweep(nodes_, stars_, near_edges_, map_, settings_.sweep, next_, allowed);
     lists_valid_ = false;
   }
 }

@@ -44,8 +44,9 @@ class Level {
 
   // --- making the level ---
   void lay_boundary_and_tree();
-  void fill();                                             // inner nodes from nothing
-  std::int64_t take(const std::vector<GivenNode>& given);  // or these; returns how many were left out
+  void fill();  // inner nodes from nothing
+  std::int64_t take(
+      const std::vector<GivenNode>& given);  // or these; returns how many were left out
   // For the steps to come; the growth limit belongs to the spacing and is not among them.
   void change_settings(const Settings& settings);
   // Boundary nodes of an earlier level keep their ids where they stay in place.
@@ -106,8 +107,8 @@ class Level {
   AdjacencyList<2> lists_;
   DelaunayStars stars_;
 
-  Field<2> next_;         // positions after the move in progress
-  Field<2> listed_;       // positions at which the lists were made
+  Field<2> next_;    // positions after the move in progress
+  Field<2> listed_;  // positions at which the lists were made
   Stages<2> stages_;
   double travelled_ = 0;  // largest way of a node since then, in units of its d
   bool lists_valid_ = false;

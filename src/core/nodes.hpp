@@ -89,8 +89,7 @@ struct Nodes {
   }
 
   template <class T>
-  static void permute_array(View<T>& view, const View<std::int32_t>& from,
-                            std::int64_t new_count) {
+  static void permute_array(View<T>& view, const View<std::int32_t>& from, std::int64_t new_count) {
     View<T> ordered = make_view<T>(view.label(), static_cast<std::int64_t>(view.extent(0)));
     const View<T> old = view;
     for_each("pnpbs::Nodes::permute", new_count,

@@ -69,8 +69,8 @@ void Placement::make_level() {
                                                      settings.max_nodes);
   }
   // A copy: the caller may go on to change the domain.
-  auto next = std::make_unique<Level>(std::make_shared<PlaneDomain>(*domain_), spacing, settings,
-                                      timers_);
+  auto next =
+      std::make_unique<Level>(std::make_shared<PlaneDomain>(*domain_), spacing, settings, timers_);
   next->lay_boundary_and_tree();
   std::int64_t left_out = 0;
   if (level_) {
@@ -218,8 +218,10 @@ PopulationCounts Placement::adjust_population() {
 }
 
 PopulationCounts Placement::count_population_change(PopulationCounts change) {
-  change.inserted = static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(change.inserted)));
-  change.deleted = static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(change.deleted)));
+  change.inserted =
+      static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(change.inserted)));
+  change.deleted =
+      static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(change.deleted)));
   inserted_ += change.inserted;
   deleted_ += change.deleted;
   return change;
@@ -285,9 +287,8 @@ NearestNeighbourError Placement::spacing_error() {
   error.mean = mean_of(ratio);
   error.deviation = std::sqrt(
       mean_of([&](std::int64_t i) { return (ratio(i) - error.mean) * (ratio(i) - error.mean); }));
-  error.least = -comm_->largest(
-      largest_of("pnpbs::spacing_error::least", nodes.count, -kFarAway,
-                 [&](std::int64_t i) { return -ratio(i); }));
+  error.least = -comm_->largest(largest_of("pnpbs::spacing_error::least", nodes.count, -kFarAway,
+                                           [&](std::int64_t i) { return -ratio(i); }));
   return error;
 }
 

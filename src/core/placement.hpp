@@ -90,7 +90,7 @@ class Placement {
   std::shared_ptr<const Spacing<2>> spacing_;
   Monitor monitor_;
   std::unique_ptr<Level> level_;
-  std::vector<GivenNode> given_;   // nodes to start from instead of a fill
+  std::vector<GivenNode> given_;  // nodes to start from instead of a fill
   bool start_from_given_ = false;
   bool spacing_replaced_ = false;  // since the level was made
 

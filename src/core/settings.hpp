@@ -15,8 +15,8 @@ namespace pnpbs {
 struct Settings {
   explicit Settings(const Options& options);
 
-  bool cubic_law;             // equation (2) of the paper; otherwise the linear push
-  bool predictor_corrector;   // otherwise one force evaluation per step
+  bool cubic_law;            // equation (2) of the paper; otherwise the linear push
+  bool predictor_corrector;  // otherwise one force evaluation per step
   bool runge_kutta_finish;
   double rest_length;
   Motion motion;

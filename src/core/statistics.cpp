@@ -43,10 +43,14 @@ std::int64_t peak_memory(P) {
 
 std::string stop_reason(P p) {
   switch (p.stop_reason()) {
-    case StopReason::rest: return "rest";
-    case StopReason::step_limit: return "step limit";
-    case StopReason::monitor: return "monitor";
-    case StopReason::none: break;
+    case StopReason::rest:
+      return "rest";
+    case StopReason::step_limit:
+      return "step limit";
+    case StopReason::monitor:
+      return "monitor";
+    case StopReason::none:
+      break;
   }
   return "none";
 }
@@ -61,16 +65,23 @@ std::string hash(P p) {
 
 const std::vector<StatisticRow>& statistic_table() {
   static const std::vector<StatisticRow> table = {
-      integer("nodes", [](P p) { return p.count(); }, "nodes of all kinds"),
-      integer("boundary_nodes",
-              [](P p) { return p.has_nodes() ? p.level().boundary_nodes() : std::int64_t{0}; },
-              "nodes on boundary and inner curves, and fixed nodes"),
-      integer("steps", [](P p) { return p.steps_done(); }, "time steps done"),
-      integer("rebuilds", [](P p) { return p.rebuilds(); }, "times the adjacency lists were made"),
-      integer("inserted", [](P p) { return p.inserted(); }, "nodes inserted by population control"),
-      integer("deleted", [](P p) { return p.deleted(); }, "nodes deleted by population control"),
-      integer("dropped", [](P p) { return p.dropped(); },
-              "nodes given by the user that lie outside or too close to the boundary"),
+      integer(
+          "nodes", [](P p) { return p.count(); }, "nodes of all kinds"),
+      integer(
+          "boundary_nodes",
+          [](P p) { return p.has_nodes() ? p.level().boundary_nodes() : std::int64_t{0}; },
+          "nodes on boundary and inner curves, and fixed nodes"),
+      integer(
+          "steps", [](P p) { return p.steps_done(); }, "time steps done"),
+      integer(
+          "rebuilds", [](P p) { return p.rebuilds(); }, "times the adjacency lists were made"),
+      integer(
+          "inserted", [](P p) { return p.inserted(); }, "nodes inserted by population control"),
+      integer(
+          "deleted", [](P p) { return p.deleted(); }, "nodes deleted by population control"),
+      integer(
+          "dropped", [](P p) { return p.dropped(); },
+          "nodes given by the user that lie outside or too close to the boundary"),
       real("seconds.boundary", seconds<Phase::boundary>, "laying the boundary nodes"),
       real("seconds.tree", seconds<Phase::tree>, "background tree and samples of d"),
       real("seconds.fill", seconds<Phase::fill>, "initial inner nodes"),
@@ -83,22 +94,31 @@ const std::vector<StatisticRow>& statistic_table() {
       real("seconds.total", seconds<Phase::total>,
            "from domain and spacing given to nodes in hand, no files"),
       integer("memory.peak_bytes", peak_memory, "largest memory of the process so far"),
-      computed(real("d_error.mean", [](P p) { return p.spacing_error().mean; },
-           "nearest-neighbour distance over d: mean")),
-      computed(real("d_error.deviation", [](P p) { return p.spacing_error().deviation; },
-           "nearest-neighbour distance over d: standard deviation")),
-      computed(real("d_error.least", [](P p) { return p.spacing_error().least; },
-           "nearest-neighbour distance over d: least")),
-      real("speed.largest", [](P p) { return p.speeds().largest; },
-           "largest scaled speed, spacings per unit of time"),
-      real("speed.mean", [](P p) { return p.speeds().mean; }, "mean scaled speed"),
-      text("stop_reason", stop_reason, "rest, step limit, monitor or none"),
+      computed(real(
+          "d_error.mean", [](P p) { return p.spacing_error().mean; },
+          "nearest-neighbour distance over d: mean")),
+      computed(real(
+          "d_error.deviation", [](P p) { return p.spacing_error().deviation; },
+          "nearest-neighbour distance over d: standard deviation")),
+      computed(real(
+          "d_error.least", [](P p) { return p.spacing_error().least; },
+          "nearest-neighbour distance over d: least")),
+      real(
+          "speed.largest", [](P p) { return p.speeds().largest; },
+          "largest scaled speed, spacings per unit of time"),
+      real(
+          "speed.mean", [](P p) { return p.speeds().mean; }, "mean scaled speed"),
+      text("stop_reason", stop_reason,
+           "why the last run or step call ended: rest, step limit, monitor, or none"),
       text("hash", hash,
            "64 bits over ids, coordinate bits and tags; the same for any ranks and threads"),
-      text("version", [](P) { return std::string(PNPBS_VERSION_STRING); }, "of the library"),
-      integer("ranks", [](P p) { return std::int64_t{p.communicator().size()}; },
-              "processes placing together"),
-      integer("threads", [](P) { return thread_count(); }, "threads of this process"),
+      text(
+          "version", [](P) { return std::string(PNPBS_VERSION_STRING); }, "of the library"),
+      integer(
+          "ranks", [](P p) { return std::int64_t{p.communicator().size()}; },
+          "processes placing together"),
+      integer(
+          "threads", [](P) { return thread_count(); }, "threads of this process"),
   };
   return table;
 }

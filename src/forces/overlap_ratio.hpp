@@ -16,8 +16,7 @@ double overlap_ratio(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, s
   const double radius = 0.5 * nodes.d(i);
   double sum = 0;
   lists.for_neighbours(i, [&](std::int64_t j) {
-    const double term =
-        2 * radius + 0.5 * nodes.d(j) - distance<Dim>(x, nodes.position(j));
+    const double term = 2 * radius + 0.5 * nodes.d(j) - distance<Dim>(x, nodes.position(j));
     sum += term > 0 ? term : 0.0;
   });
   return sum / radius;

@@ -123,11 +123,9 @@ PopulationChange<Dim> choose_population_change(
 
 template PopulationChange<2> choose_population_change<2>(
     const Nodes<2>&, const AdjacencyList<2>&, const PopulationRule&,
-    const std::function<bool(std::int64_t)>&,
-    const std::function<bool(const Point<2>&, double)>&);
+    const std::function<bool(std::int64_t)>&, const std::function<bool(const Point<2>&, double)>&);
 template PopulationChange<3> choose_population_change<3>(
     const Nodes<3>&, const AdjacencyList<3>&, const PopulationRule&,
-    const std::function<bool(std::int64_t)>&,
-    const std::function<bool(const Point<3>&, double)>&);
+    const std::function<bool(std::int64_t)>&, const std::function<bool(const Point<3>&, double)>&);
 
 }  // namespace pnpbs

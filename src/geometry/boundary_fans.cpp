@@ -42,9 +42,9 @@ void BoundaryFans::build(const Boundary& boundary) {
     if (e.begin == e.end) continue;
     const std::int32_t index = static_cast<std::int32_t>(k);
     edges_[static_cast<std::size_t>(next[static_cast<std::size_t>(e.begin)]++)] = {e.end, index,
-                                                                                  e.left_inside};
-    edges_[static_cast<std::size_t>(next[static_cast<std::size_t>(e.end)]++)] = {
-        e.begin, index, e.right_inside};
+                                                                                   e.left_inside};
+    edges_[static_cast<std::size_t>(next[static_cast<std::size_t>(e.end)]++)] = {e.begin, index,
+                                                                                 e.right_inside};
   }
   for (std::size_t n = 0; n < boundary.nodes.size(); ++n) {
     const Point<2> centre = boundary.nodes[n].position;

@@ -11,9 +11,9 @@
 namespace pnpbs {
 
 struct FanEdge {
-  std::int32_t other;    // boundary node at the far end
-  std::int32_t edge;     // index of the edge
-  bool inside_after;     // is the sector counter-clockwise of this edge inside?
+  std::int32_t other;  // boundary node at the far end
+  std::int32_t edge;   // index of the edge
+  bool inside_after;   // is the sector counter-clockwise of this edge inside?
 };
 
 class BoundaryFans {
@@ -21,9 +21,7 @@ class BoundaryFans {
   void build(const Boundary& boundary);
 
   std::int32_t begin(std::int32_t node) const { return offset_[static_cast<std::size_t>(node)]; }
-  std::int32_t end(std::int32_t node) const {
-    return offset_[static_cast<std::size_t>(node) + 1];
-  }
+  std::int32_t end(std::int32_t node) const { return offset_[static_cast<std::size_t>(node) + 1]; }
   const FanEdge& edge(std::int32_t k) const { return edges_[static_cast<std::size_t>(k)]; }
 
   bool joined(std::int32_t a, std::int32_t b) const;

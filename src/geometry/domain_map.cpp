@@ -179,11 +179,12 @@ struct DomainMap::Growth {
     }
     if (nodes <= static_cast<double>(max_nodes)) return;
     const Point<2> x = tree.cell_centre(finest);
-    throw Error(PNPBS_ERROR_SPACING,
-                "spacing d = " + number_text(cells[index(finest)].least) + " near (" +
-                    number_text(x[0]) + ", " + number_text(x[1]) + ") would mean about " +
-                    number_text(std::round(nodes)) + " nodes or more; the option max_nodes allows " +
-                    std::to_string(max_nodes) + ": use a larger spacing or a larger max_nodes");
+    throw Error(PNPBS_ERROR_SPACING, "spacing d = " + number_text(cells[index(finest)].least) +
+                                         " near (" + number_text(x[0]) + ", " + number_text(x[1]) +
+                                         ") would mean about " + number_text(std::round(nodes)) +
+                                         " nodes or more; the option max_nodes allows " +
+                                         std::to_string(max_nodes) +
+                                         ": use a larger spacing or a larger max_nodes");
   }
 };
 

@@ -70,9 +70,9 @@ class DomainMap {
 
   BackgroundTree<2> tree_;
   const Boundary* boundary_ = nullptr;
-  std::vector<Side> side_;                 // of the leaves
-  std::vector<Point<2>> reference_;        // a point in each leaf ...
-  std::vector<char> reference_inside_;     // ... and whether it lies inside
+  std::vector<Side> side_;              // of the leaves
+  std::vector<Point<2>> reference_;     // a point in each leaf ...
+  std::vector<char> reference_inside_;  // ... and whether it lies inside
   std::vector<double> leaf_spacing_, leaf_least_, leaf_largest_;
   std::vector<std::int32_t> edge_offset_;  // edges of each leaf
   std::vector<std::int32_t> leaf_edges_;

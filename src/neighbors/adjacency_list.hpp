@@ -10,6 +10,7 @@
 #include <cstring>
 #include <vector>
 
+#include "core/chunked_rows.hpp"
 #include "core/nodes.hpp"
 #include "neighbors/buckets.hpp"
 
@@ -35,10 +36,8 @@ class AdjacencyList {
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
 
   ListBlock block(std::int64_t b) const {
-    const Chunk& chunk = chunks_[static_cast<std::size_t>(b / kChunkBlocks)];
-    const std::int32_t begin = chunk.offset[static_cast<std::size_t>(b % kChunkBlocks)];
-    const std::int32_t end = chunk.offset[static_cast<std::size_t>(b % kChunkBlocks) + 1];
-    return {chunk.entries.data() + begin, (end - begin) / kLanes};
+    const std::span<const std::int32_t> entries = blocks_.row(b);
+    return {entries.data(), static_cast<std::int32_t>(entries.size()) / kLanes};
   }
 
   // Calls visit(j) for the neighbours of node i, by increasing id.
@@ -53,13 +52,6 @@ class AdjacencyList {
   }
 
  private:
-  static constexpr int kChunkBlocks = 64;  // blocks built by one thread at a time
-
-  struct Chunk {
-    std::vector<std::int32_t> entries;
-    std::array<std::int32_t, kChunkBlocks + 1> offset{};
-  };
-
   // Nodes near one bucket, copied together so that the distance tests run over plain arrays.
   struct Candidates {
     std::int32_t bucket = -1;
@@ -68,7 +60,7 @@ class AdjacencyList {
     std::vector<std::uint8_t> is_near;
     std::vector<std::int32_t> node;  // and eight more, so that whole groups can be read
     std::int32_t count = 0;
-    std::int32_t first_own = 0;      // place of the bucket's own first node
+    std::int32_t first_own = 0;  // place of the bucket's own first node
 
     void gather(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, std::int32_t of_bucket);
     // Fills hits with the nodes within radius of node i, itself left out; returns how many.
@@ -78,13 +70,23 @@ class AdjacencyList {
   };
 
   static void sort_by_id(const Nodes<Dim>& nodes, std::int32_t* first, std::int32_t* last);
+  // Writes the lists of the nodes of one block after the other.
   template <class Visible>
-  void build_chunk(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, const Visible& visible,
-                   std::int64_t c);
+  struct BlockWriter {
+    const Nodes<Dim>& nodes;
+    const Buckets<Dim>& buckets;
+    double radius;
+    const Visible& visible;
+    Candidates candidates{};
+    std::vector<std::int32_t> hits{}, all{};
+
+    void operator()(std::int64_t block, std::vector<std::int32_t>& out);
+    void list(std::int64_t i);
+  };
 
   std::int64_t count_ = 0;
   double radius_ = 0;
-  std::vector<Chunk> chunks_;
+  ChunkedRows<std::int32_t, 64> blocks_;
 };
 
 template <int Dim>
@@ -157,57 +159,51 @@ void AdjacencyList<Dim>::sort_by_id(const Nodes<Dim>& nodes, std::int32_t* first
   }
 }
 
+// Appends the list of node i to `all`.
 template <int Dim>
 template <class Visible>
-void AdjacencyList<Dim>::build_chunk(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets,
-                                     const Visible& visible, std::int64_t c) {
-  Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-  chunk.entries.clear();
-  const std::int32_t pad = static_cast<std::int32_t>(count_);
-  Candidates candidates;
-  std::vector<std::int32_t> hits, all;
-  std::array<std::int32_t, kLanes + 1> start{};
-  for (int b = 0; b < kChunkBlocks; ++b) {
-    chunk.offset[static_cast<std::size_t>(b)] = static_cast<std::int32_t>(chunk.entries.size());
-    const std::int64_t first = (c * kChunkBlocks + b) * kLanes;
-    std::int32_t longest = 0;
-    all.clear();
-    for (int lane = 0; lane < kLanes; ++lane) {
-      start[static_cast<std::size_t>(lane)] = static_cast<std::int32_t>(all.size());
-      const std::int64_t i = first + lane;
-      if (i >= count_) continue;
-      if (buckets.bucket_of(i) != candidates.bucket)
-        candidates.gather(nodes, buckets, buckets.bucket_of(i));
-      const std::int32_t found = candidates.find(nodes, i, buckets.begin(candidates.bucket), radius_, hits);
-      for (std::int32_t h = 0; h < found; ++h) {
-        const std::int32_t j = hits[static_cast<std::size_t>(h)];
-        if (visible(i, j)) all.push_back(j);
-      }
-      sort_by_id(nodes, all.data() + start[static_cast<std::size_t>(lane)],
-                 all.data() + all.size());
-      longest = std::max(longest, static_cast<std::int32_t>(all.size()) -
-                                      start[static_cast<std::size_t>(lane)]);
-    }
-    start[kLanes] = static_cast<std::int32_t>(all.size());
-    for (std::int32_t k = 0; k < longest; ++k)
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const std::int32_t at = start[lane] + k;
-        chunk.entries.push_back(at < start[lane + 1] ? all[static_cast<std::size_t>(at)] : pad);
-      }
+void AdjacencyList<Dim>::BlockWriter<Visible>::list(std::int64_t i) {
+  const std::int32_t bucket = buckets.bucket_of(i);
+  if (bucket != candidates.bucket) candidates.gather(nodes, buckets, bucket);
+  const std::int32_t found = candidates.find(nodes, i, buckets.begin(bucket), radius, hits);
+  const std::size_t first = all.size();
+  for (std::int32_t h = 0; h < found; ++h) {
+    const std::int32_t j = hits[static_cast<std::size_t>(h)];
+    if (visible(i, j)) all.push_back(j);
   }
-  chunk.offset[kChunkBlocks] = static_cast<std::int32_t>(chunk.entries.size());
+  sort_by_id(nodes, all.data() + first, all.data() + all.size());
 }
 
 template <int Dim>
 template <class Visible>
-void AdjacencyList<Dim>::build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets,
-                               double radius, const Visible& visible) {
+void AdjacencyList<Dim>::BlockWriter<Visible>::operator()(std::int64_t block,
+                                                          std::vector<std::int32_t>& out) {
+  const std::int32_t pad = static_cast<std::int32_t>(nodes.count);
+  std::array<std::size_t, kLanes + 1> start{};
+  std::size_t longest = 0;
+  all.clear();
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const std::int64_t i = block * kLanes + static_cast<std::int64_t>(lane);
+    if (i < nodes.count) list(i);
+    start[lane + 1] = all.size();
+    longest = std::max(longest, start[lane + 1] - start[lane]);
+  }
+  for (std::size_t k = 0; k < longest; ++k)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t at = start[lane] + k;
+      out.push_back(at < start[lane + 1] ? all[at] : pad);
+    }
+}
+
+template <int Dim>
+template <class Visible>
+void AdjacencyList<Dim>::build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
+                               const Visible& visible) {
   count_ = nodes.count;
   radius_ = radius;
-  const std::int64_t chunks = (block_count() + kChunkBlocks - 1) / kChunkBlocks;
-  chunks_.resize(static_cast<std::size_t>(chunks));
-  for_each_guarded("pnpbs::AdjacencyList::build", chunks,
-                   [&](std::int64_t c) { build_chunk(nodes, buckets, visible, c); });
+  blocks_.build("pnpbs::AdjacencyList::build", block_count(), [&] {
+    return BlockWriter<Visible>{nodes, buckets, radius, visible};
+  });
 }
 
 }  // namespace pnpbs

@@ -112,8 +112,7 @@ void Buckets<Dim>::link_neighbours(const BackgroundTree<Dim>& tree) {
   for (std::int32_t b = 0; b < buckets; ++b) offset_[index(b) + 1] += offset_[index(b)];
   neighbours_.resize(links.size());
   std::vector<std::int32_t> next(offset_.begin(), offset_.end() - 1);
-  for (const auto& link : links)
-    neighbours_[index(next[index(link.first)]++)] = link.second;
+  for (const auto& link : links) neighbours_[index(next[index(link.first)]++)] = link.second;
   for (std::int32_t b = 0; b < buckets; ++b)
     std::sort(neighbours_.begin() + offset_[index(b)], neighbours_.begin() + offset_[index(b) + 1]);
 }

@@ -43,10 +43,10 @@ class Buckets {
   void link_neighbours(const BackgroundTree<Dim>& tree);
 
   View<std::int32_t> bucket_of_;
-  std::vector<std::int32_t> start_;       // first node of each bucket
-  std::vector<double> reach_;             // radius * largest d the links of a bucket allow for
-  std::vector<double> least_;             // least d of the nodes in it
-  std::vector<std::int32_t> offset_;      // neighbour buckets, compressed rows
+  std::vector<std::int32_t> start_;   // first node of each bucket
+  std::vector<double> reach_;         // radius * largest d the links of a bucket allow for
+  std::vector<double> least_;         // least d of the nodes in it
+  std::vector<std::int32_t> offset_;  // neighbour buckets, compressed rows
   std::vector<std::int32_t> neighbours_;
   View<std::int32_t> from_;
 };

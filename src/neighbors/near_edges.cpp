@@ -30,35 +30,25 @@ void NearEdges::prepare(const DomainMap& map, double radius) {
 }
 
 void NearEdges::build(const Nodes<2>& nodes, const Buckets<2>& buckets, const DomainMap& map) {
-  const std::int64_t chunks = (nodes.count + kChunkNodes - 1) / kChunkNodes;
-  chunks_.resize(static_cast<std::size_t>(chunks));
   if (static_cast<std::int64_t>(any_.extent(0)) < nodes.capacity())
     any_ = make_view<char>("pnpbs::NearEdges::any", nodes.capacity());
-  for_each_guarded("pnpbs::NearEdges::build", chunks, [&](std::int64_t c) {
-    Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-    chunk.edges.clear();
-    for (std::int64_t k = 0; k < kChunkNodes; ++k) {
-      chunk.offset[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk.edges.size());
-      const std::int64_t i = c * kChunkNodes + k;
-      if (i >= nodes.count) continue;
-      const std::size_t leaf = static_cast<std::size_t>(buckets.bucket_of(i));
-      const double reach = radius_ * nodes.d(i);
-      const Point<2> x = nodes.position(i);
-      const auto keep_if_near = [&](std::int32_t e) {
-        if (distance_to_segment(map.edge_begin(e), map.edge_end(e), x) <= reach)
-          chunk.edges.push_back(e);
-      };
-      if (reach <= leaf_reach_[leaf]) {
-        for (std::int32_t e = leaf_offset_[leaf]; e < leaf_offset_[leaf + 1]; ++e)
-          keep_if_near(leaf_edges_[static_cast<std::size_t>(e)]);
-      } else {
-        map.for_edges_near(x, reach, keep_if_near);
-      }
-      any_(i) = static_cast<std::int32_t>(chunk.edges.size()) >
-                chunk.offset[static_cast<std::size_t>(k)];
+  const auto write = [&](std::int64_t i, std::vector<std::int32_t>& out) {
+    const std::size_t before = out.size();
+    const std::size_t leaf = static_cast<std::size_t>(buckets.bucket_of(i));
+    const double reach = radius_ * nodes.d(i);
+    const Point<2> x = nodes.position(i);
+    const auto keep_if_near = [&](std::int32_t e) {
+      if (distance_to_segment(map.edge_begin(e), map.edge_end(e), x) <= reach) out.push_back(e);
+    };
+    if (reach <= leaf_reach_[leaf]) {
+      for (std::int32_t e = leaf_offset_[leaf]; e < leaf_offset_[leaf + 1]; ++e)
+        keep_if_near(leaf_edges_[static_cast<std::size_t>(e)]);
+    } else {
+      map.for_edges_near(x, reach, keep_if_near);
     }
-    chunk.offset[kChunkNodes] = static_cast<std::int32_t>(chunk.edges.size());
-  });
+    any_(i) = out.size() > before;
+  };
+  edges_.build("pnpbs::NearEdges::build", nodes.count, [&] { return write; });
 }
 
 bool NearEdges::way_between_is_free(const Nodes<2>& nodes, const DomainMap& map,

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/chunked_rows.hpp"
 #include "core/nodes.hpp"
 #include "geometry/boundary_fans.hpp"
 #include "geometry/domain_map.hpp"
@@ -23,9 +24,7 @@ class NearEdges {
 
   bool any(std::int64_t i) const { return any_(i) != 0; }
 
-  std::span<const std::int32_t> edges_of(std::int64_t i) const {
-    return {chunk_of(i).edges.data() + begin(i), static_cast<std::size_t>(end(i) - begin(i))};
-  }
+  std::span<const std::int32_t> edges_of(std::int64_t i) const { return edges_.row(i); }
 
   // Does no boundary edge separate nodes i and j? For pairs within radius * (d_i + d_j) / 2.
   bool visible(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
@@ -40,26 +39,11 @@ class NearEdges {
   bool way_between_is_free(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
                            std::int64_t i, std::int64_t j, std::int64_t wide) const;
 
-  static constexpr std::int64_t kChunkNodes = 512;
-  struct Chunk {
-    std::vector<std::int32_t> edges;
-    std::array<std::int32_t, kChunkNodes + 1> offset{};
-  };
-  const Chunk& chunk_of(std::int64_t i) const {
-    return chunks_[static_cast<std::size_t>(i / kChunkNodes)];
-  }
-  std::int32_t begin(std::int64_t i) const {
-    return chunk_of(i).offset[static_cast<std::size_t>(i % kChunkNodes)];
-  }
-  std::int32_t end(std::int64_t i) const {
-    return chunk_of(i).offset[static_cast<std::size_t>(i % kChunkNodes) + 1];
-  }
-
   double radius_ = 0;
-  std::vector<double> leaf_reach_;          // how far from the leaf its edges were gathered
-  std::vector<std::int32_t> leaf_offset_;   // edges near each leaf
+  std::vector<double> leaf_reach_;         // how far from the leaf its edges were gathered
+  std::vector<std::int32_t> leaf_offset_;  // edges near each leaf
   std::vector<std::int32_t> leaf_edges_;
-  std::vector<Chunk> chunks_;
+  ChunkedRows<std::int32_t> edges_;
   View<char> any_;
 };
 

@@ -83,8 +83,9 @@ std::shared_ptr<Communicator> mpi_communicator(std::int32_t fortran_handle) {
   int initialized = 0, finalized = 0;
   MPI_Initialized(&initialized);
   if (!initialized)
-    throw Error(PNPBS_ERROR_MPI, "MPI is not initialised: call MPI_Init first, or use "
-                                 "pnpbs_context_create_serial");
+    throw Error(PNPBS_ERROR_MPI,
+                "MPI is not initialised: call MPI_Init first, or use "
+                "pnpbs_context_create_serial");
   MPI_Finalized(&finalized);
   if (finalized) throw Error(PNPBS_ERROR_MPI, "MPI is already finalised");
   const MPI_Comm comm = MPI_Comm_f2c(static_cast<MPI_Fint>(fortran_handle));

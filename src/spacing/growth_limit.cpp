@@ -48,7 +48,8 @@ void GrowthLimitedSpacing::sample_leaves(double measure) {
                     std::numeric_limits<double>::infinity());
   std::vector<Point<2>> points;
   std::vector<std::int32_t> leaves;
-  const double quarters[5][2] = {{0.5, 0.5}, {0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}};
+  const double quarters[5][2] = {
+      {0.5, 0.5}, {0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}};
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     if (map_.leaf_outside(leaf)) continue;
     const Box<2> box = tree.cell_box(tree.leaf_cell(leaf));
@@ -98,7 +99,8 @@ void GrowthLimitedSpacing::relax() {
 
 double GrowthLimitedSpacing::limit_at(const Point<2>& x) const {
   const std::int32_t leaf = map_.tree().leaf_at(x);
-  double limit = at_centre_[static_cast<std::size_t>(leaf)] + growth_ * distance<2>(x, centre(leaf));
+  double limit =
+      at_centre_[static_cast<std::size_t>(leaf)] + growth_ * distance<2>(x, centre(leaf));
   for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
        k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k) {
     const std::int32_t other = next_to_[static_cast<std::size_t>(k)];

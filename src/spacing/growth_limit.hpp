@@ -32,7 +32,7 @@ class GrowthLimitedSpacing : public Spacing<2> {
   double growth_;
   Boundary boundary_;  // at the unlimited spacing
   DomainMap map_;
-  std::vector<double> at_centre_;           // limited d at the middle of each leaf
+  std::vector<double> at_centre_;               // limited d at the middle of each leaf
   std::vector<std::int32_t> offset_, next_to_;  // leaves that touch
 };
 

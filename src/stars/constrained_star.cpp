@@ -73,8 +73,8 @@ class GiftWrap {
     double least = kInfinity;
     for (int k = 0; k < static_cast<int>(around_.size()); ++k) {
       const double gap = squared_distance<2>(centre_.position, around_[index(k)].position);
-      const bool nearer = gap < least || (gap == least && around_[index(k)].id <
-                                                              around_[index(nearest)].id);
+      const bool nearer =
+          gap < least || (gap == least && around_[index(k)].id < around_[index(nearest)].id);
       if (!nearer || !sees_centre(k)) continue;
       least = gap;
       nearest = k;

@@ -18,44 +18,46 @@ double least_spacing_around(const Buckets<2>& buckets, std::int32_t bucket) {
   return least;
 }
 
+// Finds the stars of consecutive nodes.
+class StarWriter {
+ public:
+  explicit StarWriter(const StarInput& input) : in_(input) {}
+
+  void operator()(std::int64_t i, std::vector<DelaunayStars::Entry>& out) {
+    const Nodes<2>& nodes = in_.nodes;
+    if (in_.buckets.bucket_of(i) != bucket_) {
+      bucket_ = in_.buckets.bucket_of(i);
+      least_ = least_spacing_around(in_.buckets, bucket_);
+    }
+    // The lists hold every node nearer than this.
+    const double reach = 0.5 * in_.lists.radius() * (nodes.d(i) + least_);
+    if (!in_.near_edges.any(i) && add_hull_star(i, reach, out)) return;
+    constrained_star(in_, i, std::max(reach, nodes.d(i)), out);
+  }
+
+ private:
+  StarPoint point(std::int64_t j) const {
+    return {in_.nodes.position(j), in_.nodes.id(j), static_cast<std::int32_t>(j)};
+  }
+
+  bool add_hull_star(std::int64_t i, double reach, std::vector<DelaunayStars::Entry>& out) {
+    around_.clear();
+    in_.lists.for_neighbours(i, [&](std::int64_t j) { around_.push_back(point(j)); });
+    if (!hull_star(point(i), reach, around_)) return false;
+    for (const StarPoint& p : around_) out.push_back({static_cast<std::uint32_t>(p.node), 1});
+    return true;
+  }
+
+  const StarInput& in_;
+  std::vector<StarPoint> around_;
+  std::int32_t bucket_ = -1;
+  double least_ = 0;  // spacing in the buckets around
+};
+
 }  // namespace
 
 void DelaunayStars::build(const StarInput& input) {
-  const Nodes<2>& nodes = input.nodes;
-  const std::int64_t chunks = (nodes.count + kChunkNodes - 1) / kChunkNodes;
-  chunks_.resize(static_cast<std::size_t>(chunks));
-  for_each_guarded("pnpbs::DelaunayStars::build", chunks, [&](std::int64_t c) {
-    Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-    chunk.entries.clear();
-    std::vector<StarPoint> around;
-    std::int32_t bucket = -1;
-    double least = 0;
-    for (std::int64_t k = 0; k < kChunkNodes; ++k) {
-      chunk.offset[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk.entries.size());
-      const std::int64_t i = c * kChunkNodes + k;
-      if (i >= nodes.count) continue;
-      if (input.buckets.bucket_of(i) != bucket) {
-        bucket = input.buckets.bucket_of(i);
-        least = least_spacing_around(input.buckets, bucket);
-      }
-      // The lists hold every node nearer than this.
-      const double reach = 0.5 * input.lists.radius() * (nodes.d(i) + least);
-      bool found = false;
-      if (!input.near_edges.any(i)) {
-        around.clear();
-        input.lists.for_neighbours(i, [&](std::int64_t j) {
-          around.push_back({nodes.position(j), nodes.id(j), static_cast<std::int32_t>(j)});
-        });
-        found = hull_star({nodes.position(i), nodes.id(i), static_cast<std::int32_t>(i)}, reach,
-                          around);
-        if (found)
-          for (const StarPoint& p : around)
-            chunk.entries.push_back({static_cast<std::uint32_t>(p.node), 1});
-      }
-      if (!found) constrained_star(input, i, std::max(reach, nodes.d(i)), chunk.entries);
-    }
-    chunk.offset[kChunkNodes] = static_cast<std::int32_t>(chunk.entries.size());
-  });
+  stars_.build("pnpbs::DelaunayStars::build", input.nodes.count, [&] { return StarWriter(input); });
 }
 
 }  // namespace pnpbs

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/chunked_rows.hpp"
 #include "core/nodes.hpp"
 #include "geometry/boundary_fans.hpp"
 #include "geometry/domain_map.hpp"
@@ -27,6 +28,11 @@ struct StarInput {
 
 class DelaunayStars {
  public:
+  struct Entry {
+    std::uint32_t node : 31;
+    std::uint32_t triangle : 1;
+  };
+
   void build(const StarInput& input);
 
   // Calls visit(j, triangle) for the neighbours of node i, counter-clockwise; `triangle` tells
@@ -34,50 +40,26 @@ class DelaunayStars {
   // the first.
   template <class Visit>
   void for_neighbours(std::int64_t i, const Visit& visit) const {
-    const Chunk& chunk = chunk_of(i);
-    for (std::int32_t k = begin(i); k < end(i); ++k) {
-      const Entry entry = chunk.entries[static_cast<std::size_t>(k)];
+    for (const Entry entry : stars_.row(i))
       visit(static_cast<std::int64_t>(entry.node), entry.triangle != 0);
-    }
   }
 
   // Calls visit(j, k) for the triangles (i, j, k) around node i.
   template <class Visit>
   void for_triangles(std::int64_t i, const Visit& visit) const {
-    const Chunk& chunk = chunk_of(i);
-    for (std::int32_t k = begin(i); k < end(i); ++k) {
-      const Entry entry = chunk.entries[static_cast<std::size_t>(k)];
-      const std::int32_t after = k + 1 < end(i) ? k + 1 : begin(i);
-      if (entry.triangle)
-        visit(static_cast<std::int64_t>(entry.node),
-              static_cast<std::int64_t>(chunk.entries[static_cast<std::size_t>(after)].node));
-    }
+    const std::span<const Entry> star = stars_.row(i);
+    for (std::size_t k = 0; k < star.size(); ++k)
+      if (star[k].triangle)
+        visit(static_cast<std::int64_t>(star[k].node),
+              static_cast<std::int64_t>(star[k + 1 < star.size() ? k + 1 : 0].node));
   }
 
-  std::int32_t size(std::int64_t i) const { return end(i) - begin(i); }
-
-  struct Entry {
-    std::uint32_t node : 31;
-    std::uint32_t triangle : 1;
-  };
+  std::int32_t size(std::int64_t i) const {
+    return static_cast<std::int32_t>(stars_.row(i).size());
+  }
 
  private:
-  static constexpr std::int64_t kChunkNodes = 512;
-  struct Chunk {
-    std::vector<Entry> entries;
-    std::array<std::int32_t, kChunkNodes + 1> offset{};
-  };
-  const Chunk& chunk_of(std::int64_t i) const {
-    return chunks_[static_cast<std::size_t>(i / kChunkNodes)];
-  }
-  std::int32_t begin(std::int64_t i) const {
-    return chunk_of(i).offset[static_cast<std::size_t>(i % kChunkNodes)];
-  }
-  std::int32_t end(std::int64_t i) const {
-    return chunk_of(i).offset[static_cast<std::size_t>(i % kChunkNodes) + 1];
-  }
-
-  std::vector<Chunk> chunks_;
+  ChunkedRows<Entry> stars_;
 };
 
 }  // namespace pnpbs

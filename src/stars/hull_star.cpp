@@ -9,8 +9,7 @@
 namespace pnpbs {
 
 double circle_diameter(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-  const double twice_area =
-      (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   if (twice_area == 0) return std::numeric_limits<double>::infinity();
   return std::sqrt(squared_distance<2>(a, b)) * std::sqrt(squared_distance<2>(b, c)) *
          std::sqrt(squared_distance<2>(c, a)) / std::fabs(twice_area);
@@ -22,10 +21,9 @@ namespace {
 int half(const StarPoint& centre, const StarPoint& first, const StarPoint& p) {
   const int turn = orientation(centre.position, first.position, p.position);
   if (turn != 0) return turn > 0 ? 0 : 1;
-  const double along = (p.position[0] - centre.position[0]) *
-                           (first.position[0] - centre.position[0]) +
-                       (p.position[1] - centre.position[1]) *
-                           (first.position[1] - centre.position[1]);
+  const double along =
+      (p.position[0] - centre.position[0]) * (first.position[0] - centre.position[0]) +
+      (p.position[1] - centre.position[1]) * (first.position[1] - centre.position[1]);
   return along > 0 ? 0 : 1;
 }
 

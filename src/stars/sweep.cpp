@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stars/sweep.hpp"
 
+#include <algorithm>
+
 #include "forces/schemes.hpp"
 #include "stars/triangle_quality.hpp"
 
@@ -32,45 +34,46 @@ Point<2> proposed_place(const Nodes<2>& nodes, const DelaunayStars& stars,
   return kept.room ? kept.position : x;
 }
 
-bool spoils_a_triangle(const Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule& rule,
-                       const std::array<View<double>, 2>& next, std::int64_t i) {
-  bool spoiled = false;
+// Worst quality of triangle (i, j, k) when i has moved and the others have or have not.
+double worst_if_moved(const Nodes<2>& nodes, const std::array<View<double>, 2>& proposed,
+                      std::int64_t i, std::int64_t j, std::int64_t k) {
+  const Point<2> a = at(proposed, i);
+  const Point<2> b[2] = {nodes.position(j), at(proposed, j)};
+  const Point<2> c[2] = {nodes.position(k), at(proposed, k)};
+  return std::min({triangle_quality(a, b[0], c[0]), triangle_quality(a, b[0], c[1]),
+                   triangle_quality(a, b[1], c[0]), triangle_quality(a, b[1], c[1])});
+}
+
+// May node i go to its proposed place, whatever its neighbours do? Then no order, and no rounds,
+// come into the decision.
+bool may_move(const Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule& rule,
+              const std::array<View<double>, 2>& proposed, std::int64_t i) {
+  bool allowed = true;
   stars.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-    if (spoiled) return;
-    const double after = triangle_quality(at(next, i), at(next, j), at(next, k));
+    if (!allowed) return;
+    const double after = worst_if_moved(nodes, proposed, i, j, k);
     if (after >= rule.bad_below) return;
-    spoiled = after <
-              triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k));
+    allowed = after >= triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k));
   });
-  return spoiled;
+  return allowed;
 }
 
 }  // namespace
 
 void sweep(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-           const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& next,
-           const View<char>& moved, const View<char>& back) {
+           const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& proposed,
+           const View<char>& allowed) {
   for_each("pnpbs::sweep::propose", nodes.count, [&](std::int64_t i) {
-    const Point<2> x = nodes.position(i);
     const Point<2> y = proposed_place(nodes, stars, near_edges, map, rule, i);
-    next[0](i) = y[0];
-    next[1](i) = y[1];
-    moved(i) = y != x;
+    proposed[0](i) = y[0];
+    proposed[1](i) = y[1];
   });
-  for (;;) {
-    const std::uint64_t spoilers =
-        sum_of("pnpbs::sweep::guard", nodes.count, [&](std::int64_t i) -> std::uint64_t {
-          back(i) = moved(i) && spoils_a_triangle(nodes, stars, rule, next, i);
-          return back(i) ? 1 : 0;
-        });
-    if (spoilers == 0) return;
-    for_each("pnpbs::sweep::back", nodes.count, [&](std::int64_t i) {
-      if (!back(i)) return;
-      moved(i) = 0;
-      next[0](i) = nodes.x[0](i);
-      next[1](i) = nodes.x[1](i);
-    });
-  }
+  for_each("pnpbs::sweep::guard", nodes.count, [&](std::int64_t i) {
+    allowed(i) = nodes.moves(i) && may_move(nodes, stars, rule, proposed, i);
+  });
+  for_each("pnpbs::sweep::go", nodes.count, [&](std::int64_t i) {
+    if (allowed(i)) nodes.set_position(i, at(proposed, i));
+  });
 }
 
 }  // namespace pnpbs

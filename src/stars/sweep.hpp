@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A finishing sweep: every inner node goes part of the way to the mean of its Delaunay neighbours.
-// All move from the old positions (Jacobi). A guard then looks at the new ones: no triangle may
-// get worse that is or becomes bad; nodes of such a triangle go back, in rounds until none is left.
+// All move from the old positions (Jacobi). A guard lets a node go only if none of its triangles
+// gets worse that is or becomes bad, whether the other two corners move or stay.
 #pragma once
 
 #include "geometry/keep_off.hpp"
@@ -11,14 +11,14 @@
 namespace pnpbs {
 
 struct SweepRule {
-  double weight = 0.6;       // share of the way
-  double most = 0.1;         // no node moves more than this many d
-  double bad_below = 0.75;   // triangle quality, 2 r_in / R
+  double weight = 0.6;      // share of the way
+  double most = 0.1;        // no node moves more than this many d
+  double bad_below = 0.75;  // triangle quality, 2 r_in / R
 };
 
-// Leaves the new positions in `next`; `moved` is scratch, one entry per node.
+// Moves the nodes; `proposed` and `allowed` are scratch, one entry per node.
 void sweep(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-           const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& next,
-           const View<char>& moved, const View<char>& back);
+           const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& proposed,
+           const View<char>& allowed);
 
 }  // namespace pnpbs

@@ -86,7 +86,7 @@ class BackgroundTree {
     const double scale = std::ldexp(1.0, kMaxDepth) / side_;
     for (int k = 0; k < Dim; ++k) {
       const double t = (x[k] - origin_[k]) * scale;
-      fine[k] = t <= 0                               ? 0u
+      fine[k] = t <= 0                                ? 0u
                 : t >= std::ldexp(1.0, kMaxDepth) - 1 ? (1u << kMaxDepth) - 1u
                                                       : static_cast<std::uint32_t>(t);
     }

@@ -95,8 +95,8 @@ void run_once(const Case& c, const std::string& data, double scale,
     require_ok(pnpbs_domain_read_poly(domain, (data + "/" + c.poly).c_str()), "poly");
   } else {
     const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
-    require_ok(
-        pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, nullptr, 0), "square");
+    require_ok(pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, nullptr, 0),
+               "square");
   }
   require_ok(pnpbs_placement_create(context, domain, &p), "placement");
   for (const auto& [key, value] : options)
@@ -138,11 +138,11 @@ void run_once(const Case& c, const std::string& data, double scale,
 }
 
 void print(const char* label, const Measures& m) {
-  std::printf("  %s %8ld triangles: mean %.4f  1%% %.4f  least %.4f  >.80 %.3f%%  >.90 %.3f%%  "
-              "angle %.1f  edge/d %.4f +- %.4f\n",
-              label, static_cast<long>(m.triangles), m.quality_mean, m.quality_one_percent,
-              m.quality_least, 100 * m.share_above_80, 100 * m.share_above_90, m.angle_least,
-              m.edge_mean, m.edge_deviation);
+  std::printf(
+      "  %s %8ld triangles: mean %.4f  1%% %.4f  least %.4f  >.80 %.3f%%  >.90 %.3f%%  "
+      "angle %.1f  edge/d %.4f +- %.4f\n",
+      label, static_cast<long>(m.triangles), m.quality_mean, m.quality_one_percent, m.quality_least,
+      100 * m.share_above_80, 100 * m.share_above_90, m.angle_least, m.edge_mean, m.edge_deviation);
 }
 
 }  // namespace
@@ -180,11 +180,11 @@ int main(int argc, char** argv) {
     std::sort(result.seconds.begin(), result.seconds.end());
     const double seconds = result.seconds[result.seconds.size() / 2];
     const double n = static_cast<double>(result.nodes.x.size());
-    std::printf("%s: %.0f nodes, %.3f s, %.0f nodes/s, %.0f steps, %s, %.0f bytes/node, hash %s\n"
-                "  %s\n",
-                c.name, n, seconds, n / seconds, result.steps, result.stop_reason.c_str(),
-                (result.bytes - result.bytes_before) / n, result.hash.c_str(),
-                result.phases.c_str());
+    std::printf(
+        "%s: %.0f nodes, %.3f s, %.0f nodes/s, %.0f steps, %s, %.0f bytes/node, hash %s\n"
+        "  %s\n",
+        c.name, n, seconds, n / seconds, result.steps, result.stop_reason.c_str(),
+        (result.bytes - result.bytes_before) / n, result.hash.c_str(), result.phases.c_str());
     if (!judge) continue;
     const Verdict verdict = pnpbs_bench::evaluate(result.nodes);
     print("wide", verdict.wide);

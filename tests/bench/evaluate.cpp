@@ -10,6 +10,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <set>
 
 namespace pnpbs_bench {
 
@@ -21,8 +22,9 @@ struct FaceInfo {
   bool inside() const { return nesting % 2 == 1; }
 };
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int64_t, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<
-    FaceInfo, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure,
@@ -34,11 +36,19 @@ constexpr double kDegrees = 180 / 3.14159265358979323846;
 struct Reference {
   Triangulation triangulation;
   std::int64_t missing_edges = 0;
+  std::set<std::array<Vertex, 2>> inner_edges;  // from either end
+
+  bool is_border(const Triangulation::Edge& e) const {
+    const Triangulation& t = triangulation;
+    return t.is_constrained(e) && inner_edges.count({e.first->vertex(t.cw(e.second)),
+                                                     e.first->vertex(t.ccw(e.second))}) == 0;
+  }
 };
 
 // Even-odd nesting from the outside in: a region's level is that of the region across its border,
 // plus one.
-void mark_nesting(const Triangulation& t) {
+void mark_nesting(const Reference& reference) {
+  const Triangulation& t = reference.triangulation;
   std::deque<std::pair<Face, int>> starts{{t.infinite_face(), 0}};
   while (!starts.empty()) {
     const auto [start, level] = starts.front();
@@ -51,7 +61,7 @@ void mark_nesting(const Triangulation& t) {
       f->info().nesting = level;
       for (int k = 0; k < 3; ++k) {
         if (f->neighbor(k)->info().nesting >= 0) continue;
-        if (t.is_constrained({f, k}))
+        if (reference.is_border({f, k}))
           starts.emplace_back(f->neighbor(k), level + 1);
         else
           region.push_back(f->neighbor(k));
@@ -69,18 +79,21 @@ void build(const NodeSet& set, Reference& reference) {
   std::vector<Vertex> vertex(set.x.size());
   for (auto v = t.finite_vertices_begin(); v != t.finite_vertices_end(); ++v)
     vertex[static_cast<std::size_t>(v->info())] = v;
-  for (const auto& e : set.edges) {
+  const auto constrain = [&](const std::array<std::int64_t, 2>& e, bool inner) {
     const Vertex a = vertex[static_cast<std::size_t>(e[0])];
     const Vertex b = vertex[static_cast<std::size_t>(e[1])];
+    if (inner) reference.inner_edges.insert({{a, b}, {b, a}});
     try {
       t.insert_constraint(a, b);
     } catch (const std::exception&) {
       ++reference.missing_edges;
-      continue;
+      return;
     }
     if (!t.is_edge(a, b)) ++reference.missing_edges;  // a node lies on it
-  }
-  mark_nesting(t);
+  };
+  for (const auto& e : set.edges) constrain(e, false);
+  for (const auto& e : set.inner_edges) constrain(e, true);
+  mark_nesting(reference);
 }
 
 double quality(const Kernel::Point_2& a, const Kernel::Point_2& b, const Kernel::Point_2& c) {
@@ -96,10 +109,10 @@ double least_angle(const Kernel::Point_2& a, const Kernel::Point_2& b, const Ker
   const Kernel::Point_2 p[3] = {a, b, c};
   for (int k = 0; k < 3; ++k) {
     const auto u = p[(k + 1) % 3] - p[k], w = p[(k + 2) % 3] - p[k];
-    least = std::min(least, kDegrees * std::acos(std::clamp(
-                                           (u * w) / std::sqrt(u.squared_length()) /
-                                               std::sqrt(w.squared_length()),
-                                           -1.0, 1.0)));
+    least =
+        std::min(least, kDegrees * std::acos(std::clamp((u * w) / std::sqrt(u.squared_length()) /
+                                                            std::sqrt(w.squared_length()),
+                                                        -1.0, 1.0)));
   }
   return least;
 }

@@ -13,16 +13,17 @@ struct NodeSet {
   std::vector<std::array<double, 2>> x;
   std::vector<double> d;                           // wanted spacing at the nodes
   std::vector<std::array<std::int64_t, 2>> edges;  // boundary edges; even-odd rule
+  std::vector<std::array<std::int64_t, 2>> inner_edges = {};  // both sides are alike
 };
 
 struct Measures {
   std::int64_t triangles = 0;
-  double quality_mean = 0;       // 2 r_in / R
+  double quality_mean = 0;         // 2 r_in / R
   double quality_one_percent = 0;  // 99 % of the triangles are above
   double quality_least = 0;
   double share_above_80 = 0, share_above_90 = 0;
-  double angle_least = 0;        // degrees
-  double edge_mean = 0;          // edge length over the mean of d at its ends
+  double angle_least = 0;  // degrees
+  double edge_mean = 0;    // edge length over the mean of d at its ends
   double edge_deviation = 0;
 };
 
