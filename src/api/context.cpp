@@ -140,6 +140,10 @@ pnpbs_status pnpbs_context_destroy(pnpbs_context* context) {
 
 pnpbs_status pnpbs_finalize(void) {
   return guarded([] {
+    if (computations > 0)
+      throw Error(PNPBS_ERROR_STATE,
+                  "a computation is in progress, here or in another thread: Kokkos cannot be ended "
+                  "now, nor from inside a callback");
     end_kokkos();
     return PNPBS_OK;
   });

@@ -20,11 +20,15 @@ pnpbs_status change_domain(pnpbs_domain domain, const Change& change) {
   });
 }
 
-// A question that needs the checked domain. (From inside a callback it was checked before.)
+// A question that needs the checked domain. Checking may ask curve callbacks, so from inside a
+// callback it must have been done before.
 template <class Question>
 pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
   return guarded(domain, [&](Domain& object) {
-    object.plane->check();
+    if (!object.plane->is_checked()) {
+      const Computing computing(*object.context);
+      object.plane->check();
+    }
     return question(*object.plane);
   });
 }
@@ -34,9 +38,10 @@ Point<2> point_from(const double* x) { return {x[0], x[1]}; }
 }  // namespace
 
 pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim, pnpbs_domain* domain) {
-  return guarded(context, [&](Context&) {
+  return guarded(context, [&](Context& owner) {
     require_pointer(domain, "domain");
     *domain = nullptr;
+    require_not_in_callback(owner);
     if (dim == 3)
       throw Error(PNPBS_ERROR_UNSUPPORTED,
                   "argument dim = 3: this version places nodes in the "

@@ -2,6 +2,7 @@
 // The way from a C call into the library and back: exceptions become a status and a message.
 #pragma once
 
+#include <atomic>
 #include <new>
 #include <string>
 
@@ -32,16 +33,23 @@ inline void require_not_in_callback(const Context& context) {
                 "queries are allowed");
 }
 
+// Computations in progress on all contexts.
+inline std::atomic<int> computations{0};
+
 // Marks the context as computing while callbacks may run.
 class Computing {
  public:
   explicit Computing(Context& context) : context_(context) {
     require_not_in_callback(context);
     context_.computing = true;
+    ++computations;
   }
   Computing(const Computing&) = delete;
   Computing& operator=(const Computing&) = delete;
-  ~Computing() { context_.computing = false; }
+  ~Computing() {
+    --computations;
+    context_.computing = false;
+  }
 
  private:
   Context& context_;

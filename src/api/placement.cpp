@@ -372,7 +372,8 @@ pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t ca
 
 pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64_t capacity,
                                                 int64_t* count, int64_t* edges, int32_t* tags) {
-  return extract(placement, [&](Placement& p) {
+  return guarded(placement, [&](PlacementObject& object) {
+    Placement& p = object.placement;
     require_pointer(count, "count");
     *count = 0;
     if (!p.has_nodes()) return PNPBS_OK;

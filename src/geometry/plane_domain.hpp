@@ -80,6 +80,7 @@ class PlaneDomain {
   // Checks everything and resolves corners, curves and sides; does nothing if nothing changed
   // since the last time. Throws Error(PNPBS_ERROR_DOMAIN).
   void check();
+  bool is_checked() const { return checked_; }
 
   // Valid after check(). Corners come in the order in which they were given, curves likewise.
   const std::vector<Corner>& corners() const { return resolved_.corners; }

@@ -16,12 +16,16 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class GiftWrap {
  public:
-  GiftWrap(const StarInput& input, std::int64_t i, double reach)
-      : in_(input), centre_(node(i)), boundary_(input.nodes.boundary_node(i)), reach_(reach) {
+  GiftWrap(const StarInput& input, std::int64_t i, double reach, bool everything)
+      : in_(input),
+        centre_(node(i)),
+        boundary_(input.nodes.boundary_node(i)),
+        reach_(reach),
+        everything_(everything) {
     gather();
   }
 
-  // False if nodes beyond the reach may matter.
+  // False if nodes beyond the reach may matter. Where all are within reach, none can.
   bool wrap(std::vector<Entry>& star) {
     if (boundary_ >= 0 && in_.fans.begin(boundary_) != in_.fans.end(boundary_))
       return wrap_sectors(star);
@@ -126,7 +130,7 @@ class GiftWrap {
       const int k = next_after(a);
       if (k < 0) return false;
       const StarPoint b = around_[index(k)];
-      if (needed_reach(a, b) > reach_) return false;
+      if (!everything_ && needed_reach(a, b) > reach_) return false;
       star.push_back({static_cast<std::uint32_t>(a.node), 1});
       if (b.node == last) return true;
       a = b;
@@ -161,6 +165,7 @@ class GiftWrap {
   StarPoint centre_;
   std::int32_t boundary_;
   double reach_;
+  bool everything_;  // is every node within reach?
   std::vector<StarPoint> around_;
   std::vector<std::int32_t> edges_;
   std::vector<signed char> sees_centre_;  // -1 not asked yet
@@ -171,11 +176,11 @@ class GiftWrap {
 void constrained_star(const StarInput& input, std::int64_t i, double first_reach,
                       std::vector<Entry>& star) {
   const std::size_t before = star.size();
-  const double everything = 2 * input.map.tree().side();
   for (double reach = first_reach;; reach *= 1.5) {
     star.resize(before);
-    if (GiftWrap(input, i, reach).wrap(star)) return;
-    if (reach > everything) break;
+    const bool everything = reach > 2 * input.map.tree().side();
+    if (GiftWrap(input, i, reach, everything).wrap(star)) return;
+    if (everything) break;
   }
   // Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
   if (star.size() > before) star.back().triangle = 0;
