@@ -88,6 +88,7 @@ missing() {
   have pkg-config || echo pkg-config
   have mpicc || echo libopenmpi-dev
   have mpirun || echo openmpi-bin
+  header metis.h || echo libmetis-dev
   header CLI/CLI.hpp || echo libcli11-dev
   header nlohmann/json.hpp || echo nlohmann-json3-dev
   module muparser || echo libmuparser-dev

@@ -112,8 +112,8 @@ PNPBS_API const char *pnpbs_mpi_library(void);
 PNPBS_API pnpbs_status pnpbs_context_create_serial(pnpbs_context *context);
 
 /** A context on a duplicate of the MPI communicator with the Fortran handle `comm`
- *  (MPI_Comm_c2f). Collective. Errors: PNPBS_ERROR_UNSUPPORTED in a build without MPI or for
- *  more than one rank (in this version), PNPBS_ERROR_MPI if MPI is not initialised, already
+ *  (MPI_Comm_c2f). Collective. Errors: PNPBS_ERROR_UNSUPPORTED in a build without MPI,
+ *  PNPBS_ERROR_MPI if MPI is not initialised, already
  *  finalised, or `comm` is MPI_COMM_NULL. */
 PNPBS_API pnpbs_status pnpbs_context_create_f(int32_t comm, pnpbs_context *context);
 
@@ -364,7 +364,19 @@ PNPBS_API pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int6
                                                  double *xy, int64_t *ids, int32_t *tags,
                                                  double *spacing);
 
-/** Number of entries of all adjacency lists. Collective. */
+/** Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars and
+ *  triangles ghost g has the local index nodes + g. Collective. */
+PNPBS_API pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t *ghosts);
+
+/** Copies the ghosts out, by increasing id; any array may be NULL. Collective.
+ *  @param[in]  capacity  ghosts the arrays have room for
+ *  @param[out] xy, ids, tags, spacing  as pnpbs_placement_get_nodes
+ *  @param[out] owners    [ghosts] the rank that owns each */
+PNPBS_API pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capacity,
+                                                  double *xy, int64_t *ids, int32_t *tags,
+                                                  double *spacing, int32_t *owners);
+
+/** Number of entries of all adjacency lists of this rank's nodes. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t *entries);
 
 /** Adjacency lists in compressed rows: the neighbours of local node i are

@@ -29,6 +29,9 @@ class ChunkedRows {
         if (c * ChunkRows + k < rows) writer(c * ChunkRows + k, chunk.entries);
       }
       chunk.offset[ChunkRows] = static_cast<std::int32_t>(chunk.entries.size());
+      // A vector grows by doubling: give back what is far too much.
+      if (chunk.entries.capacity() > chunk.entries.size() + chunk.entries.size() / 4)
+        chunk.entries.shrink_to_fit();
     });
   }
 

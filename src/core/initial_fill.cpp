@@ -57,8 +57,8 @@ std::vector<CellSpacing> cell_spacings(const DomainMap& map) {
 
 class Fill {
  public:
-  Fill(const DomainMap& map, const Box<2>& bounds)
-      : map_(map), bounds_(bounds), cells_(cell_spacings(map)) {}
+  Fill(const DomainMap& map, const Box<2>& bounds, const std::function<bool(std::int32_t)>& wanted)
+      : map_(map), bounds_(bounds), wanted_(wanted), cells_(cell_spacings(map)) {}
 
   std::vector<Point<2>> make() {
     const CellSpacing& root = cells_[0];
@@ -79,7 +79,7 @@ class Fill {
       patch = &lattice;
     }
     if (leaf) {
-      fill_leaf(tree.cell(c).leaf, *patch);
+      if (wanted_(tree.cell(c).leaf)) fill_leaf(tree.cell(c).leaf, *patch);
     } else {
       for (int k = 0; k < 4; ++k) descend(tree.cell(c).first_child + k, patch);
     }
@@ -123,14 +123,16 @@ class Fill {
 
   const DomainMap& map_;
   const Box<2>& bounds_;
+  const std::function<bool(std::int32_t)>& wanted_;
   std::vector<CellSpacing> cells_;
   std::vector<Point<2>> points_;
 };
 
 }  // namespace
 
-std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds) {
-  return Fill(map, bounds).make();
+std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds,
+                                     const std::function<bool(std::int32_t)>& wanted) {
+  return Fill(map, bounds, wanted).make();
 }
 
 }  // namespace pnpbs

@@ -4,13 +4,16 @@
 // each have their own lattice, all of one orientation and anchored in one point.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "geometry/domain_map.hpp"
 
 namespace pnpbs {
 
-// In Morton order of the leaves.
-std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds);
+// Of the leaves for which wanted(leaf) holds, in their Morton order.
+std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds,
+                                     const std::function<bool(std::int32_t)>& wanted);
 
 }  // namespace pnpbs

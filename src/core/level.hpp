@@ -17,6 +17,8 @@
 #include "neighbors/adjacency_list.hpp"
 #include "neighbors/buckets.hpp"
 #include "neighbors/near_edges.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/distribution.hpp"
 #include "spacing/spacing.hpp"
 #include "stars/delaunay_stars.hpp"
 
@@ -25,7 +27,15 @@ namespace pnpbs {
 // A node as it comes from outside or from an earlier level.
 struct GivenNode {
   Point<2> position;
-  std::int64_t id;  // -1: give it one
+  std::int64_t id;    // -1: give it one
+  bool inner = true;  // a boundary node is laid afresh; one that was there keeps its id
+  double d = 0;       // spacing it was placed for; 0 if not known
+};
+
+// What became of given nodes, on all ranks.
+struct TakenNodes {
+  std::int64_t left_out = 0;  // outside, or too close to the boundary
+  std::int64_t thinned = 0;   // too dense for d
 };
 
 struct PopulationCounts {
@@ -39,28 +49,32 @@ struct Speeds {
 
 class Level {
  public:
-  Level(std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const Spacing<2>> spacing,
-        const Settings& settings, Timers& timers);
+  Level(std::shared_ptr<const Communicator> comm, std::shared_ptr<const PlaneDomain> domain,
+        std::shared_ptr<const Spacing<2>> spacing, const Settings& settings, Timers& timers);
 
   // --- making the level ---
   void lay_boundary_and_tree();
-  void fill();  // inner nodes from nothing
-  std::int64_t take(
-      const std::vector<GivenNode>& given);  // or these; returns how many were left out
+  void distribute();  // leaves to ranks
+  void fill();        // inner nodes from nothing
+  // Or these, wherever they are; ids from next_id on are free.
+  TakenNodes take(std::vector<GivenNode> given, std::int64_t next_id);
   // For the steps to come; the growth limit belongs to the spacing and is not among them.
   void change_settings(const Settings& settings);
-  // Boundary nodes of an earlier level keep their ids where they stay in place.
-  void keep_boundary_ids(const Level& earlier);
 
   // --- the time loop ---
   bool lists_may_miss_a_pair() const;
-  void rebuild_lists() { rebuild_lists(settings_.list_radius); }
+  void rebuild_lists();
   void move();
+  // Owned nodes go to the ranks that own their leaves by now, and ghosts are renewed.
+  void exchange_for_steps() { exchange(step_hops()); }
+  void exchange_for_stars();
   void finish_by_runge_kutta();
 
   // --- events ---
   void refresh_spacing();
-  PopulationCounts adjust_population();
+  // Inserts beside bubbles with an overlap ratio below the option's, or below `refill` if that is
+  // more.
+  PopulationCounts adjust_population(double refill = 0);
   Speeds speeds() const;
   void renew_stars();
   void sweep(std::int64_t times);
@@ -75,21 +89,42 @@ class Level {
   const DelaunayStars& stars() const { return stars_; }
   const Settings& settings() const { return settings_; }
   std::int64_t next_id() const { return next_id_; }
+  // Changes whenever nodes move, in space or in memory.
+  std::int64_t version() const { return version_; }
+  // Nodes that the spacing asks for.
+  double expected_nodes() const;
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }
-  std::vector<GivenNode> inner_nodes() const;
+  std::vector<GivenNode> owned_nodes() const;
+  std::int64_t owned_count() const;
+  // Rank that owns a node (this one's own and ghosts).
+  int owner_of(std::int64_t i) const {
+    return distributed() ? distribution_.owner(map_.tree().leaf_at(nodes_.position(i))) : 0;
+  }
+  bool distributed() const { return comm_->size() > 1; }
 
  private:
   SpacingEvaluator evaluator() const;
   double widest_radius() const;
+  double edge_radius() const;
   void number_and_store(std::vector<GivenNode> inner);
+  void scatter_to_owners(std::vector<GivenNode>& given) const;
+  std::vector<double> wanted_nodes() const;
+  void thin(std::vector<GivenNode>& inner) const;
+  void keep_boundary_ids(const std::vector<GivenNode>& given);
+  int step_hops() const;
+  void exchange(int hops);
+  void number_births(std::vector<Birth<2>> born);
   bool fits(const Point<2>& x, double d) const;
   bool has_no_room(std::int64_t i) const;
   void take_next_positions();
+  void rebuild_lists(double radius, const Field<2>& seen_from);
+  void drop_anchors();
   void set_padding();
   template <class Law>
   void move_by(const Law& law, bool runge_kutta);
 
+  std::shared_ptr<const Communicator> comm_;
   std::shared_ptr<const PlaneDomain> domain_;
   std::shared_ptr<const Spacing<2>> spacing_;
   Settings settings_;
@@ -102,6 +137,9 @@ class Level {
   Nodes<2> nodes_;
   std::int64_t next_id_ = 0;
 
+  LeafGraph<2> interaction_;  // of the leaves, the same on every rank
+  Distribution distribution_;
+
   Buckets<2> buckets_;
   NearEdges near_edges_;
   AdjacencyList<2> lists_;
@@ -113,6 +151,7 @@ class Level {
   double travelled_ = 0;  // largest way of a node since then, in units of its d
   bool lists_valid_ = false;
   std::int64_t rebuilds_ = 0;
+  std::int64_t version_ = 0;
 };
 
 }  // namespace pnpbs

@@ -18,12 +18,15 @@ inline constexpr double kFarAway = 1e100;
 template <int Dim>
 struct Nodes {
   std::int64_t count = 0;
-  std::array<View<double>, Dim> x;   // position
-  std::array<View<double>, Dim> v;   // velocity, length per unit of time
-  View<double> d;                    // spacing at the node, as last refreshed
-  View<std::int64_t> id;             // global id
-  View<std::int32_t> tag;            // 0 inside
-  View<std::int32_t> boundary_node;  // index into Boundary::nodes, -1 for an inner node
+  std::array<View<double>, Dim> x;       // position
+  std::array<View<double>, Dim> v;       // velocity, length per unit of time
+  std::array<View<double>, Dim> anchor;  // position at the last event: what the boundary hides
+                                         // is judged from there until the next one
+  View<double> d;                        // spacing at the node, as last refreshed
+  View<std::int64_t> id;                 // global id
+  View<std::int32_t> tag;                // 0 inside
+  View<std::int32_t> boundary_node;      // index into Boundary::nodes, -1 for an inner node
+  View<char> owned;                      // 0: a ghost, another rank's node
 
   std::int64_t capacity() const { return static_cast<std::int64_t>(d.extent(0)) - 1; }
 
@@ -33,11 +36,13 @@ struct Nodes {
     for (int k = 0; k < Dim; ++k) {
       grow_labelled(x[k], "pnpbs::Nodes::x", n);
       grow_labelled(v[k], "pnpbs::Nodes::v", n);
+      grow_labelled(anchor[k], "pnpbs::Nodes::anchor", n);
     }
     grow_labelled(d, "pnpbs::Nodes::d", n);
     grow_labelled(id, "pnpbs::Nodes::id", n);
     grow_labelled(tag, "pnpbs::Nodes::tag", n);
     grow_labelled(boundary_node, "pnpbs::Nodes::boundary_node", n);
+    grow_labelled(owned, "pnpbs::Nodes::owned", n);
   }
 
   void append(const Point<Dim>& position, double spacing, std::int64_t node_id,
@@ -46,11 +51,13 @@ struct Nodes {
     for (int k = 0; k < Dim; ++k) {
       x[k](count) = position[k];
       v[k](count) = 0;
+      anchor[k](count) = position[k];
     }
     d(count) = spacing;
     id(count) = node_id;
     tag(count) = node_tag;
     boundary_node(count) = on_boundary;
+    owned(count) = 1;
     ++count;
   }
 
@@ -70,11 +77,13 @@ struct Nodes {
     for (int k = 0; k < Dim; ++k) {
       permute_array(x[k], from, new_count);
       permute_array(v[k], from, new_count);
+      permute_array(anchor[k], from, new_count);
     }
     permute_array(d, from, new_count);
     permute_array(id, from, new_count);
     permute_array(tag, from, new_count);
     permute_array(boundary_node, from, new_count);
+    permute_array(owned, from, new_count);
     count = new_count;
   }
 

@@ -27,7 +27,7 @@ const std::vector<OptionRow>& option_table() {
        "in units of sqrt(m / k0) of a scaled bubble"},
       {"damping", T::real, "0.4", "0.7", 0, 100, nullptr,
        "c of equation (1), in units of sqrt(k0 m) of a scaled bubble"},
-      {"max_move", T::real, "0.05", "0.2", 1e-3, 0.2, nullptr,
+      {"max_move", T::real, "0.05", nullptr, 1e-3, 0.2, nullptr,
        "no step moves a node by more than this many spacings"},
       {"steps", T::integer, "300", "1000", 0, 1e9, nullptr, "most steps of a run"},
       {"event_interval", T::integer, "20", "8", 1, 1e6, nullptr,
@@ -36,7 +36,7 @@ const std::vector<OptionRow>& option_table() {
        "the population is adjusted during this share of the steps at most"},
       {"population_pays", T::real, "0.0002", nullptr, 0, 1, nullptr,
        "... and until two events in a row change no more than this share of the nodes"},
-      {"delete_above", T::real, "9", nullptr, 6, 100, nullptr,
+      {"delete_above", T::real, "7.5", "9", 6, 100, nullptr,
        "bubbles with a larger overlap ratio are deleted"},
       {"insert_below", T::real, "5", nullptr, 0, 6, nullptr,
        "beside bubbles with a smaller overlap ratio new ones are inserted"},
@@ -54,6 +54,12 @@ const std::vector<OptionRow>& option_table() {
        "radius of the adjacency lists handed out, in desired distances"},
       {"growth_limit", T::real, "0", nullptr, 0, 1e6, nullptr,
        "d may grow by at most this much per unit of length; 0 is no limit"},
+      {"exchange_interval", T::integer, "5", nullptr, 1, 64, nullptr,
+       "steps between exchanges of ghosts between ranks"},
+      {"halo_deficit", T::integer, "0", nullptr, 0, 64, nullptr,
+       "for tests: ghost layers are this many hops too thin, which changes the result"},
+      {"metis_seed", T::integer, "1", nullptr, 0, 2e9, nullptr,
+       "seed of the partition; the nodes do not depend on it"},
       {"max_nodes", T::integer, "100000000", nullptr, 1, 2e9, nullptr,
        "more nodes than this are taken for a mistake in d"},
       {"threads", T::integer, "0", nullptr, 0, 4096, nullptr,
@@ -100,7 +106,7 @@ template <class Number>
 bool parse_number(const std::string& text, Number& value) {
   const char* begin = text.c_str();
   const char* end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;
+  if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
   const auto result = std::from_chars(begin, end, value);
   return result.ec == std::errc() && result.ptr == end && begin != end;
 }
@@ -172,6 +178,12 @@ std::string Options::text(const char* key) const {
   const auto method = values_.find("method");
   const bool paper = method != values_.end() && method->second == "paper";
   return paper && row.paper_value ? row.paper_value : row.default_value;
+}
+
+std::size_t Options::fingerprint() const {
+  std::string all;
+  for (const auto& [key, value] : values_) all += key + "=" + value + ";";
+  return std::hash<std::string>{}(all);
 }
 
 std::int64_t Options::integer(const char* key) const {

@@ -39,6 +39,8 @@ class Options {
   std::int64_t integer(const char* key) const;
   double real(const char* key) const;
   std::string choice(const char* key) const;
+  // The same for the same options.
+  std::size_t fingerprint() const;
   bool is_set(const char* key) const { return values_.count(key) != 0; }
 
  private:

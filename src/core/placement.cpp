@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <exception>
 #include <limits>
 #include <numeric>
 
 #include "core/error.hpp"
 #include "core/kokkos_runtime.hpp"
+#include "core/mixed_hash.hpp"
 #include "spacing/growth_limit.hpp"
 
 namespace pnpbs {
@@ -28,21 +30,22 @@ void Placement::set_nodes(std::vector<GivenNode> nodes) {
   given_ = std::move(nodes);
   start_from_given_ = true;
   level_.reset();
-  nodes_changed();
 }
 
-void Placement::forget_nodes() {
-  level_.reset();
-  nodes_changed();
-}
+void Placement::forget_nodes() { level_.reset(); }
 
 // ------------------------------------------------------------------ making a level -------------
 
 void Placement::initialise() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  level_.reset();
-  make_level();
+  std::unique_ptr<Level> before = std::move(level_);
+  try {
+    make_level();
+  } catch (...) {
+    level_ = std::move(before);
+    throw;
+  }
 }
 
 // A level for the present spacing, with the present options.
@@ -54,43 +57,75 @@ void Placement::prepare_level() {
     level_->change_settings(settings);
 }
 
+// Ranks with other options or another domain would wait for each other for ever.
+void Placement::require_same_on_all_ranks() const {
+  if (comm_->size() == 1) return;
+  const auto differs = [this](std::size_t fingerprint) {
+    const double value = static_cast<double>(fingerprint >> 12);
+    return comm_->largest(value) != -comm_->largest(-value);
+  };
+  if (differs(options_.fingerprint()))
+    throw Error(PNPBS_ERROR_ARGUMENT,
+                "the options differ between ranks: set the same ones on all of them");
+  std::size_t fingerprint = 0;
+  const auto add = [&](double value) {
+    fingerprint = fingerprint * 31 + std::hash<double>{}(value);
+  };
+  for (const BoundaryCurve& curve : domain_->curves()) {
+    add(curve.tag);
+    for (const Point<2>& x : curve.points)
+      for (double coordinate : x) add(coordinate);
+  }
+  for (const FixedNode& node : domain_->fixed_nodes())
+    for (double coordinate : node.position) add(coordinate);
+  if (differs(fingerprint))
+    throw Error(PNPBS_ERROR_DOMAIN,
+                "the domains differ between ranks: every rank describes the whole domain");
+}
+
 // Lays the boundary at the present spacing and puts in the inner nodes: those of the level before
 // if there is one, those given, or a fill.
 void Placement::make_level() {
   if (!spacing_)
     throw Error(PNPBS_ERROR_STATE,
                 "the placement has no spacing yet: call one of the set_spacing functions first");
-  domain_->check();
   const Settings settings(options_);
-  std::shared_ptr<const Spacing<2>> spacing = spacing_;
-  if (settings.growth_limit > 0) {
-    const PhaseTimer timer(timers_, Phase::spacing);
-    spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, spacing_, settings.growth_limit,
-                                                     settings.max_nodes);
-  }
-  // A copy: the caller may go on to change the domain.
-  auto next =
-      std::make_unique<Level>(std::make_shared<PlaneDomain>(*domain_), spacing, settings, timers_);
-  next->lay_boundary_and_tree();
-  std::int64_t left_out = 0;
+  std::unique_ptr<Level> next;
+  agreed(*comm_, [&] {
+    domain_->check();
+    std::shared_ptr<const Spacing<2>> spacing = spacing_;
+    if (settings.growth_limit > 0) {
+      const PhaseTimer timer(timers_, Phase::spacing);
+      spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, spacing_, settings.growth_limit,
+                                                       settings.max_nodes);
+    }
+    // A copy: the caller may go on to change the domain.
+    next = std::make_unique<Level>(comm_, std::make_shared<PlaneDomain>(*domain_), spacing,
+                                   settings, timers_);
+    next->lay_boundary_and_tree();
+  });
+  require_same_on_all_ranks();
+  next->distribute();
+  TakenNodes taken;
   if (level_) {
-    next->keep_boundary_ids(*level_);
-    next->take(level_->inner_nodes());
+    taken = next->take(level_->owned_nodes(), level_->next_id());
+    taken.left_out = 0;  // not the user's
   } else if (start_from_given_) {
-    left_out = next->take(given_);
+    taken = next->take(given_, 0);
   } else {
     next->fill();
   }
   // Nothing has failed: from here on the new level counts.
   if (level_) rebuilds_before_ += level_->rebuilds();
   level_ = std::move(next);
-  dropped_ = left_out;
+  order_version_ = lists_version_ = stars_version_ = -1;
+  dropped_ = taken.left_out;
+  deleted_ += taken.thinned;
   warnings_ = domain_->warnings();
   warnings_.insert(warnings_.end(), level_->boundary().warnings.begin(),
                    level_->boundary().warnings.end());
   spacing_replaced_ = false;
   begin_schedule();
-  nodes_changed();
 }
 
 void Placement::begin_schedule() {
@@ -120,7 +155,6 @@ Outcome Placement::step(std::int64_t n) {
   if (schedule_ended_) begin_schedule();
   const std::int64_t until = schedule_step_ > kNoLimit - n ? kNoLimit : schedule_step_ + n;
   const Outcome outcome = advance(until, 1.0);
-  if (level_->lists_may_miss_a_pair()) level_->rebuild_lists();
   return outcome;
 }
 
@@ -129,17 +163,24 @@ Outcome Placement::step(std::int64_t n) {
 Outcome Placement::advance(std::int64_t until, double share) {
   const Settings& settings = level_->settings();
   const double first = static_cast<double>(schedule_step_);
-  nodes_changed();
   Outcome outcome = Outcome::not_converged;
   stop_reason_ = StopReason::step_limit;
+  std::exception_ptr failure;  // of this rank: told to the others at the next event
   while (schedule_step_ < until) {
-    if (level_->lists_may_miss_a_pair()) level_->rebuild_lists();
-    level_->move();
+    if (schedule_step_ % settings.event_interval % settings.exchange_interval == 0)
+      level_->exchange_for_steps();
+    try {
+      if (!failure && level_->lists_may_miss_a_pair()) level_->rebuild_lists();
+      if (!failure) level_->move();
+    } catch (...) {
+      failure = std::current_exception();
+    }
     ++schedule_step_;
     ++steps_done_;
-    if (schedule_step_ % settings.event_interval != 0) continue;
+    const bool is_event = schedule_step_ % settings.event_interval == 0;
+    if (is_event || schedule_step_ == until) agree_on_failure(*comm_, failure);
+    if (!is_event) continue;
     event();
-    nodes_changed();
     const double done = (static_cast<double>(schedule_step_) - first) /
                         std::max(1.0, static_cast<double>(until) - first);
     if (monitor_stops(share * done)) {
@@ -160,29 +201,37 @@ Outcome Placement::advance(std::int64_t until, double share) {
 void Placement::event() {
   const Settings& settings = level_->settings();
   last_speeds_ = level_->speeds();
-  last_speeds_.largest = comm_->largest(last_speeds_.largest);
   level_->refresh_spacing();
-  if (schedule_step_ > settings.population_until) population_settled_ = true;
-  if (!population_settled_) control_population();
+  if (schedule_step_ > settings.population_until && !far_too_few()) population_settled_ = true;
+  if (!population_settled_)
+    control_population();  // renews the ghosts, too; else the next step does
+}
+
+// Nodes given from outside may be so few that they take longer to multiply.
+bool Placement::far_too_few() const {
+  return static_cast<double>(global_count()) < 0.85 * level_->expected_nodes();
 }
 
 // Adjusts the population while it pays. A new spacing may ask for many times the nodes there are,
 // and one contest lets at most one act within two hops: so there are more rounds at once while
 // they change much.
 void Placement::control_population() {
-  constexpr int kMostRounds = 12;
-  constexpr double kMuch = 0.01;  // share of the nodes
-  const double nodes = static_cast<double>(comm_->sum(static_cast<std::uint64_t>(count())));
+  constexpr int kMostRounds = 20;
+  constexpr double kRefillBelow = 5.5;  // overlap ratio
+  constexpr double kMuch = 0.002;       // share of the nodes
+  const double nodes = static_cast<double>(global_count());
   double changed = 0;
   for (int round = 0; round < kMostRounds; ++round) {
-    const PopulationCounts change = count_population_change(level_->adjust_population());
+    // What fills up by itself in a run need not be dense at once; after a jump of d it must.
+    const PopulationCounts change =
+        count_population_change(level_->adjust_population(round > 0 ? kRefillBelow : 0));
     const double acted = static_cast<double>(change.inserted + change.deleted);
     changed += acted;
     if (acted < kMuch * nodes) break;
   }
   // Twice in a row: nodes that have just come may make room for more.
   quiet_events_ = changed <= level_->settings().population_pays * nodes ? quiet_events_ + 1 : 0;
-  population_settled_ = quiet_events_ >= 2;
+  population_settled_ = quiet_events_ >= 2 && !far_too_few();
 }
 
 // While the population still changes, rest means nothing.
@@ -192,29 +241,37 @@ bool Placement::bubbles_rest() const {
          last_speeds_.largest < settings.tolerance_max;
 }
 
+// All stop if one rank's monitor asks for it.
 bool Placement::monitor_stops(double fraction) {
-  return monitor_ && monitor_(fraction, steps_done_, count(), last_speeds_.largest);
+  bool stop = false;
+  agreed(*comm_, [&] {
+    stop = monitor_ && monitor_(fraction, steps_done_, count(), last_speeds_.largest);
+  });
+  return comm_->largest(stop) > 0;
 }
 
 void Placement::finish() {
   const Settings& settings = level_->settings();
   if (settings.runge_kutta_finish) {
-    if (level_->lists_may_miss_a_pair()) level_->rebuild_lists();
-    level_->finish_by_runge_kutta();
+    level_->exchange_for_steps();
+    agreed(*comm_, [this] {
+      level_->rebuild_lists();  // its stages look ahead
+      level_->finish_by_runge_kutta();
+    });
     ++steps_done_;
   }
   level_->sweep(settings.sweeps);
   level_->refresh_spacing();
-  nodes_changed();
   monitor_stops(1.0);
 }
 
 PopulationCounts Placement::adjust_population() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
+  const PopulationCounts before{inserted_, deleted_};
   prepare_level();
-  nodes_changed();
-  return count_population_change(level_->adjust_population());
+  count_population_change(level_->adjust_population());
+  return {inserted_ - before.inserted, deleted_ - before.deleted};
 }
 
 PopulationCounts Placement::count_population_change(PopulationCounts change) {
@@ -229,38 +286,45 @@ PopulationCounts Placement::count_population_change(PopulationCounts change) {
 
 // ------------------------------------------------------------------ results --------------------
 
-void Placement::nodes_changed() { fresh_ = Fresh::nothing; }
+std::int64_t Placement::count() const { return level_ ? level_->owned_count() : 0; }
+
+std::int64_t Placement::global_count() const {
+  return static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(count())));
+}
 
 void Placement::prepare_order() {
   require_kokkos();
   if (!level_) throw Error(PNPBS_ERROR_STATE, "the placement has no nodes yet: call run first");
-  if (fresh_ >= Fresh::order) return;
+  if (order_version_ == level_->version()) return;
+  // Owned nodes first, then ghosts, each by id.
   const Nodes<2>& nodes = level_->nodes();
   by_id_.resize(static_cast<std::size_t>(nodes.count));
   std::iota(by_id_.begin(), by_id_.end(), 0);
-  std::sort(by_id_.begin(), by_id_.end(),
-            [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
+  std::sort(by_id_.begin(), by_id_.end(), [&](std::int32_t a, std::int32_t b) {
+    if (nodes.owned(a) != nodes.owned(b)) return nodes.owned(a) != 0;
+    return nodes.id(a) < nodes.id(b);
+  });
   place_.resize(by_id_.size());
   for (std::size_t p = 0; p < by_id_.size(); ++p)
     place_[static_cast<std::size_t>(by_id_[p])] = static_cast<std::int32_t>(p);
-  fresh_ = Fresh::order;
+  order_version_ = level_->version();
 }
 
 void Placement::prepare_lists() {
   require_kokkos();
   if (!level_) throw Error(PNPBS_ERROR_STATE, "the placement has no nodes yet: call run first");
-  if (fresh_ >= Fresh::lists) return;
-  level_->rebuild_lists(level_->settings().adjacency_radius);
-  fresh_ = Fresh::nothing;  // the nodes may have moved in memory
+  if (lists_version_ == level_->version()) return;
+  level_->exchange_for_stars();
+  agreed(*comm_, [this] { level_->rebuild_lists(level_->settings().adjacency_radius); });
   prepare_order();
-  fresh_ = Fresh::lists;
+  lists_version_ = level_->version();
 }
 
 void Placement::prepare_stars() {
   prepare_lists();
-  if (fresh_ >= Fresh::stars) return;
-  level_->renew_stars();
-  fresh_ = Fresh::stars;
+  if (stars_version_ == level_->version()) return;
+  agreed(*comm_, [this] { level_->renew_stars(); });
+  stars_version_ = level_->version();
 }
 
 // ------------------------------------------------------------------ statistics -----------------
@@ -277,30 +341,24 @@ NearestNeighbourError Placement::spacing_error() {
     });
     return nearest / nodes.d(i);
   };
-  const double n = static_cast<double>(comm_->sum(static_cast<std::uint64_t>(nodes.count)));
+  const double n = static_cast<double>(global_count());
   const auto mean_of = [&](const auto& value) {
-    const std::uint64_t sum = sum_of("pnpbs::spacing_error", nodes.count,
-                                     [&](std::int64_t i) { return fixed_point(value(i)); });
+    const std::uint64_t sum = sum_of("pnpbs::spacing_error", nodes.count, [&](std::int64_t i) {
+      return nodes.owned(i) ? fixed_point(value(i)) : 0;
+    });
     return from_fixed_point(comm_->sum(sum)) / n;
   };
   NearestNeighbourError error;
   error.mean = mean_of(ratio);
   error.deviation = std::sqrt(
       mean_of([&](std::int64_t i) { return (ratio(i) - error.mean) * (ratio(i) - error.mean); }));
-  error.least = -comm_->largest(largest_of("pnpbs::spacing_error::least", nodes.count, -kFarAway,
-                                           [&](std::int64_t i) { return -ratio(i); }));
+  error.least = -comm_->largest(
+      largest_of("pnpbs::spacing_error::least", nodes.count, -kFarAway,
+                 [&](std::int64_t i) { return nodes.owned(i) ? -ratio(i) : -kFarAway; }));
   return error;
 }
 
 namespace {
-
-// The finaliser of SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014).
-std::uint64_t mix(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
 
 std::uint64_t bits(double value) {
   std::uint64_t b;
@@ -314,10 +372,11 @@ std::uint64_t bits(double value) {
 std::uint64_t Placement::hash() const {
   if (!level_) return 0;
   const Nodes<2>& nodes = level_->nodes();
-  return comm_->sum(sum_of("pnpbs::hash", nodes.count, [&](std::int64_t i) {
-    std::uint64_t h = mix(static_cast<std::uint64_t>(nodes.id(i)));
-    for (int k = 0; k < 2; ++k) h = mix(h ^ bits(nodes.x[k](i)));
-    return mix(h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(nodes.tag(i))));
+  return comm_->sum(sum_of("pnpbs::hash", nodes.count, [&](std::int64_t i) -> std::uint64_t {
+    if (!nodes.owned(i)) return 0;
+    std::uint64_t h = mixed(static_cast<std::uint64_t>(nodes.id(i)));
+    for (int k = 0; k < 2; ++k) h = mixed(h ^ bits(nodes.x[k](i)));
+    return mixed(h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(nodes.tag(i))));
   }));
 }
 

@@ -46,7 +46,8 @@ class Placement {
 
   // --- results; nodes are handed out in the order of their ids ---
   bool has_nodes() const { return level_ != nullptr; }
-  std::int64_t count() const { return level_ ? level_->nodes().count : 0; }
+  std::int64_t count() const;         // of this rank
+  std::int64_t global_count() const;  // collective
   const Level& level() const { return *level_; }
   // Memory index of each node in the order of ids, and the inverse. Preparing the lists (at their
   // extraction radius) or the stars prepares the order, too. The order alone changes nothing of
@@ -74,14 +75,15 @@ class Placement {
  private:
   void prepare_level();
   void make_level();
+  void require_same_on_all_ranks() const;
   void begin_schedule();
   bool bubbles_rest() const;
   Outcome advance(std::int64_t until, double share);
   void event();
   void control_population();
+  bool far_too_few() const;
   bool monitor_stops(double fraction);
   void finish();
-  void nodes_changed();
   PopulationCounts count_population_change(PopulationCounts change);
 
   std::shared_ptr<const Communicator> comm_;
@@ -104,8 +106,8 @@ class Placement {
   std::vector<std::string> warnings_;
   Timers timers_;
 
-  enum class Fresh { nothing, order, lists, stars };
-  Fresh fresh_ = Fresh::nothing;  // how much of the extraction is up to date
+  // Versions of the level for which these were prepared last.
+  std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1;
   std::vector<std::int32_t> by_id_, place_;
 };
 

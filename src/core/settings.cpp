@@ -19,7 +19,10 @@ Settings::Settings(const Options& o)
       list_radius(o.real("list_radius")),
       adjacency_radius(o.real("adjacency_radius")),
       growth_limit(o.real("growth_limit")),
-      max_nodes(o.integer("max_nodes")) {
+      max_nodes(o.integer("max_nodes")),
+      exchange_interval(o.integer("exchange_interval")),
+      metis_seed(o.integer("metis_seed")),
+      halo_deficit(o.integer("halo_deficit")) {
   motion.dt = o.real("time_step");
   motion.damping = o.real("damping");
   motion.most = o.real("max_move");

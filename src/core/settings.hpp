@@ -31,7 +31,11 @@ struct Settings {
   double list_radius, adjacency_radius;
   double growth_limit;
   std::int64_t max_nodes;
+  std::int64_t exchange_interval;  // steps
+  std::int64_t metis_seed;
+  std::int64_t halo_deficit;  // hops, for tests
 
+  int evaluations_per_step() const { return predictor_corrector ? 2 : 1; }
   double force_range() const { return cubic_law ? CubicLaw{}.range : rest_length; }
 };
 

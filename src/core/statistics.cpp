@@ -66,7 +66,7 @@ std::string hash(P p) {
 const std::vector<StatisticRow>& statistic_table() {
   static const std::vector<StatisticRow> table = {
       integer(
-          "nodes", [](P p) { return p.count(); }, "nodes of all kinds"),
+          "nodes", [](P p) { return p.global_count(); }, "nodes of all kinds"),
       integer(
           "boundary_nodes",
           [](P p) { return p.has_nodes() ? p.level().boundary_nodes() : std::int64_t{0}; },
@@ -82,12 +82,21 @@ const std::vector<StatisticRow>& statistic_table() {
       integer(
           "dropped", [](P p) { return p.dropped(); },
           "nodes given by the user that lie outside or too close to the boundary"),
+      integer(
+          "nodes_held",
+          [](P p) {
+            const std::int64_t held = p.has_nodes() ? p.level().nodes().count : std::int64_t{0};
+            return static_cast<std::int64_t>(p.communicator().largest(static_cast<double>(held)));
+          },
+          "most nodes that any rank holds, its ghosts included"),
       real("seconds.boundary", seconds<Phase::boundary>, "laying the boundary nodes"),
       real("seconds.tree", seconds<Phase::tree>, "background tree and samples of d"),
+      real("seconds.partition", seconds<Phase::partition>, "leaves to ranks"),
       real("seconds.fill", seconds<Phase::fill>, "initial inner nodes"),
       real("seconds.spacing", seconds<Phase::spacing>, "evaluating d at the nodes; growth limit"),
       real("seconds.lists", seconds<Phase::lists>, "buckets and adjacency lists"),
       real("seconds.motion", seconds<Phase::motion>, "forces and time steps"),
+      real("seconds.exchange", seconds<Phase::exchange>, "migration and ghosts between ranks"),
       real("seconds.population", seconds<Phase::population>, "population control"),
       real("seconds.stars", seconds<Phase::stars>, "Delaunay stars"),
       real("seconds.sweeps", seconds<Phase::sweeps>, "finishing sweeps"),

@@ -8,7 +8,20 @@
 
 namespace pnpbs {
 
-enum class Phase { boundary, tree, fill, spacing, lists, motion, population, stars, sweeps, total };
+enum class Phase {
+  boundary,
+  tree,
+  partition,
+  fill,
+  spacing,
+  lists,
+  motion,
+  exchange,
+  population,
+  stars,
+  sweeps,
+  total
+};
 inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::total) + 1;
 
 class Timers {

@@ -103,12 +103,17 @@ PopulationChange<Dim> choose_population_change(
     }
     if (action(i) != Action::none) bids(i) = Bid{defect, nodes.id(i)};
   });
+  // Three hops: nodes across a hole from each other are two spacings apart, which two hops around
+  // it may not bridge.
+  View<Bid> farther = make_view<Bid>("pnpbs::population::farther", nodes.count);
   for_each("pnpbs::population::first_hop", nodes.count,
            [&](std::int64_t i) { seen(i) = strongest_around<Dim>(lists, bids, i); });
+  for_each("pnpbs::population::second_hop", nodes.count,
+           [&](std::int64_t i) { farther(i) = strongest_around<Dim>(lists, seen, i); });
 
   PopulationChange<Dim> change;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
-    if (action(i) == Action::none || strongest_around<Dim>(lists, seen, i).id != nodes.id(i))
+    if (action(i) == Action::none || strongest_around<Dim>(lists, farther, i).id != nodes.id(i))
       continue;
     if (action(i) == Action::remove) {
       change.deleted.push_back(static_cast<std::int32_t>(i));
@@ -116,6 +121,7 @@ PopulationChange<Dim> choose_population_change(
       Point<Dim> place;
       free_place<Dim>(nodes, lists, i, place);
       change.born.push_back({place, nodes.id(i), nodes.d(i)});
+      change.parents.push_back(static_cast<std::int32_t>(i));
     }
   }
   return change;

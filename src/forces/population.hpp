@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adjusting the bubble population (section 2.4 of the paper): bubbles whose overlap ratio is too
 // large go, beside those whose ratio is too small new ones appear. Who acts is a contest: a
-// candidate does so if its (defect, id) is the strict maximum within two hops of the adjacency
+// candidate does so if its (defect, id) is the strict maximum within three hops of the adjacency
 // lists. All read the state before the event, so the outcome has no order.
 #pragma once
 
@@ -32,6 +32,7 @@ template <int Dim>
 struct PopulationChange {
   std::vector<std::int32_t> deleted;  // nodes
   std::vector<Birth<Dim>> born;       // in no particular order; ids follow from the place
+  std::vector<std::int32_t> parents;  // of those born: nodes
 };
 
 // must_go(i): node i has no room and goes whatever its ratio. fits(x, d): is a new bubble allowed

@@ -96,17 +96,18 @@ struct Stages {
   }
 };
 
-// x + h vx and v + h a, the state at which a stage asks for the acceleration.
+// x + h vx and v + h a, the state at which a stage asks for the acceleration. The way there is
+// clamped like the step itself, so that lists and ghosts cover it.
 template <int Dim>
-void stage_state(const Nodes<Dim>& nodes, double h, const Field<Dim>& slope_x,
+void stage_state(const Nodes<Dim>& nodes, double h, double most, const Field<Dim>& slope_x,
                  const Field<Dim>& slope_v, const Field<Dim>& x, const Field<Dim>& v) {
   for_each("pnpbs::stage_state", nodes.count, [&](std::int64_t i) {
+    std::array<double, Dim> move;
+    for (int k = 0; k < Dim; ++k) move[k] = h * slope_x[k](i);  // slope_x may be v itself
+    clamp_move<Dim>(move, most * nodes.d(i));
     for (int k = 0; k < Dim; ++k) {
-      // slope_x may be v itself: read before write
-      const double new_x = nodes.x[k](i) + h * slope_x[k](i);
-      const double new_v = nodes.v[k](i) + h * slope_v[k](i);
-      x[k](i) = new_x;
-      v[k](i) = new_v;
+      x[k](i) = nodes.x[k](i) + move[k];
+      v[k](i) = nodes.v[k](i) + h * slope_v[k](i);
     }
   });
 }
@@ -147,7 +148,7 @@ void predictor_corrector_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>&
   stages.reserve(nodes.count);
   accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);
   add_slopes<Dim>(nodes, 0.5, true, nodes.v, stages.a, stages);
-  stage_state<Dim>(nodes, motion.dt, nodes.v, stages.a, stages.x, stages.v);
+  stage_state<Dim>(nodes, motion.dt, motion.most, nodes.v, stages.a, stages.x, stages.v);
   accelerations<Dim>(nodes, lists, law, motion, stages.x, stages.v, stages.a);
   add_slopes<Dim>(nodes, 0.5, false, stages.v, stages.a, stages);
   take_slopes<Dim>(nodes, motion, stages, next);
@@ -160,13 +161,13 @@ void runge_kutta_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, 
   stages.reserve(nodes.count);
   accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);
   add_slopes<Dim>(nodes, 1.0 / 6, true, nodes.v, stages.a, stages);
-  stage_state<Dim>(nodes, 0.5 * motion.dt, nodes.v, stages.a, stages.x, stages.v);
+  stage_state<Dim>(nodes, 0.5 * motion.dt, motion.most, nodes.v, stages.a, stages.x, stages.v);
   for (int stage = 0; stage < 3; ++stage) {
     accelerations<Dim>(nodes, lists, law, motion, stages.x, stages.v, stages.a);
     add_slopes<Dim>(nodes, stage < 2 ? 1.0 / 3 : 1.0 / 6, false, stages.v, stages.a, stages);
     if (stage < 2)
-      stage_state<Dim>(nodes, stage == 0 ? 0.5 * motion.dt : motion.dt, stages.v, stages.a,
-                       stages.x, stages.v);
+      stage_state<Dim>(nodes, stage == 0 ? 0.5 * motion.dt : motion.dt, motion.most, stages.v,
+                       stages.a, stages.x, stages.v);
   }
   take_slopes<Dim>(nodes, motion, stages, next);
 }

@@ -57,6 +57,7 @@ struct DomainMap::Growth {
   const Boundary& boundary;
   const SpacingEvaluator& spacing;
   std::int64_t max_nodes;
+  double steepest;
   std::vector<double> boundary_spacing;
   std::vector<CellState> cells;
   std::vector<std::int32_t> edges;  // of cell after cell
@@ -163,7 +164,10 @@ struct DomainMap::Growth {
   bool wants_split(const BackgroundTree<2>& tree, std::int32_t c) const {
     const CellState& cell = cells[index(c)];
     if (cell.outside) return false;
-    if (tree.cell_side(c) > kLeafSpacings * cell.least) return true;
+    const double side = tree.cell_side(c);
+    if (side > kLeafSpacings * cell.least) return true;
+    if (steepest > 0 && cell.largest - cell.least > steepest * side && side > 0.35 * cell.least)
+      return true;
     return cell.last_edge - cell.first_edge > kMostBoundaryNodes && tree.cell(c).depth < 26;
   }
 
@@ -189,9 +193,9 @@ struct DomainMap::Growth {
 };
 
 void DomainMap::build(const Box<2>& bounds, const Boundary& boundary,
-                      const SpacingEvaluator& spacing, std::int64_t max_nodes) {
+                      const SpacingEvaluator& spacing, std::int64_t max_nodes, double steepest) {
   boundary_ = &boundary;
-  Growth growth{*this, boundary, spacing, max_nodes, {}, {}, {}, 0};
+  Growth growth{*this, boundary, spacing, max_nodes, steepest, {}, {}, {}, 0};
   std::vector<Point<2>> positions;
   for (const BoundaryNode& node : boundary.nodes) positions.push_back(node.position);
   growth.boundary_spacing.resize(positions.size());

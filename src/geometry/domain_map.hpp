@@ -16,9 +16,11 @@ class DomainMap {
   // Refines the tree until leaves are at most kLeafSpacings times d wide (so at least half of that
   // where d allows) and hold few boundary nodes. d is asked inside the domain only, at five points
   // of each cell, and at the boundary nodes: dips of d between them are not seen.
+  // With steepest > 0, cells over which d grows faster than that are refined further, down to a
+  // third of their least d, so that the tips of steep funnels are found.
   // Throws Error(PNPBS_ERROR_SPACING) when d would mean more than max_nodes nodes.
   void build(const Box<2>& bounds, const Boundary& boundary, const SpacingEvaluator& spacing,
-             std::int64_t max_nodes);
+             std::int64_t max_nodes, double steepest = 0);
 
   static constexpr double kLeafSpacings = 4;
 

@@ -10,7 +10,7 @@
 namespace pnpbs {
 
 // Products of two differences of coordinates then stay finite.
-inline constexpr double kLargestCoordinate = 1e150;
+inline constexpr double kLargestCoordinate = 1e60;
 inline constexpr double kSmallestDomain = 1e-150;
 
 // In units of the domain's size, which is the longer side of its bounding box.

@@ -29,7 +29,7 @@ void require_role(std::int32_t role) {
 
 void require_number(const std::string& name, double value) {
   if (is_usable(value)) return;
-  reject(name + " is " + number_text(value) + ", expected a number between -1e150 and 1e150");
+  reject(name + " is " + number_text(value) + ", expected a number between -1e60 and 1e60");
 }
 
 void require_array(const char* name, const void* array, std::int64_t n) {
@@ -150,7 +150,7 @@ void PlaneDomain::add_arc(std::int32_t role, const Point<2>& centre, double radi
   require_number("centre[0]", centre[0]);
   require_number("centre[1]", centre[1]);
   if (!(radius > 0 && is_usable(radius))) {
-    reject("radius is " + number_text(radius) + ", expected a positive number up to 1e150");
+    reject("radius is " + number_text(radius) + ", expected a positive number up to 1e60");
   }
   require_interval(begin, end);
   require_tag("tag", tag);
@@ -168,7 +168,7 @@ void PlaneDomain::add_arc(std::int32_t role, const Point<2>& centre, double radi
   source.parameters = std::move(samples.parameters);
   source.points = std::move(samples.points);
   for (const Point<2>& point : source.points) {
-    if (!is_usable(point)) reject("the arc reaches " + point_text(point) + ", beyond 1e150");
+    if (!is_usable(point)) reject("the arc reaches " + point_text(point) + ", beyond 1e60");
   }
   add_source(std::move(source));
 }

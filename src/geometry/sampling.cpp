@@ -26,7 +26,7 @@ bool is_smooth(const Point<2>& a, const Point<2>& middle, const Point<2>& b, dou
   const double length = first + second;
   if (length <= 1e-6 * whole) return true;
   if (length > whole / 16) return false;
-  const bool even = std::fabs(first - second) <= 0.1 * length;
+  const bool even = std::fabs(first - second) <= 0.01 * length;
   if (!even && length > 1e-4 * whole) return false;
   return distance_to_segment(a, b, middle) <= kSampleTurn / 8 * length;
 }

@@ -87,7 +87,7 @@ double TextFields::coordinate(const std::string& what) {
   double value = 0;
   std::errc problem{};
   if (!parse(field, value, problem) || !is_usable(value)) {
-    fail_found(field, what + " (a number between -1e150 and 1e150)");
+    fail_found(field, what + " (a number between -1e60 and 1e60)");
   }
   return value;
 }

@@ -12,23 +12,13 @@ namespace {
 // d may grow in a bucket by this factor before its links are made anew.
 constexpr double kRoomForGrowth = 1.25;
 
-template <int Dim>
-double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
-  double sum = 0;
-  for (int k = 0; k < Dim; ++k) {
-    const double gap = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
-    sum += gap * gap;
-  }
-  return sum;
-}
-
 }  // namespace
 
 template <int Dim>
 void Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius) {
   find_buckets(tree, nodes);
   order_nodes(tree.leaf_count(), nodes);
-  if (gather_spacings(tree, nodes, radius)) link_neighbours(tree);
+  if (gather_spacings(tree, nodes, radius)) graph_.build(tree, reach_);
 }
 
 template <int Dim>
@@ -81,40 +71,6 @@ bool Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<
     }
   }
   return outgrown;
-}
-
-// Every bucket looks as far as its own largest bubble; a pair is linked if either sees the other,
-// and the two together reach across the gap.
-template <int Dim>
-void Buckets<Dim>::link_neighbours(const BackgroundTree<Dim>& tree) {
-  const std::int32_t buckets = tree.leaf_count();
-  std::vector<std::pair<std::int32_t, std::int32_t>> links;
-  for (std::int32_t a = 0; a < buckets; ++a) {
-    links.emplace_back(a, a);
-    if (reach_[index(a)] == 0) continue;
-    const Box<Dim> own = tree.cell_box(tree.leaf_cell(a));
-    Box<Dim> around = own;
-    for (int k = 0; k < Dim; ++k) {
-      around.low[k] -= reach_[index(a)];
-      around.high[k] += reach_[index(a)];
-    }
-    tree.for_leaves_in(around, [&](std::int32_t b) {
-      if (a == b || reach_[index(b)] > reach_[index(a)]) return;
-      if (reach_[index(b)] == reach_[index(a)] && b < a) return;
-      const double reach = 0.5 * (reach_[index(a)] + reach_[index(b)]);
-      if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > reach * reach) return;
-      links.emplace_back(a, b);
-      links.emplace_back(b, a);
-    });
-  }
-  offset_.assign(static_cast<std::size_t>(buckets) + 1, 0);
-  for (const auto& link : links) ++offset_[index(link.first) + 1];
-  for (std::int32_t b = 0; b < buckets; ++b) offset_[index(b) + 1] += offset_[index(b)];
-  neighbours_.resize(links.size());
-  std::vector<std::int32_t> next(offset_.begin(), offset_.end() - 1);
-  for (const auto& link : links) neighbours_[index(next[index(link.first)]++)] = link.second;
-  for (std::int32_t b = 0; b < buckets; ++b)
-    std::sort(neighbours_.begin() + offset_[index(b)], neighbours_.begin() + offset_[index(b) + 1]);
 }
 
 template class Buckets<2>;

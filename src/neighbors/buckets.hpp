@@ -8,6 +8,7 @@
 
 #include "core/nodes.hpp"
 #include "tree/background_tree.hpp"
+#include "tree/leaf_graph.hpp"
 
 namespace pnpbs {
 
@@ -28,8 +29,7 @@ class Buckets {
   // Calls visit(other) for the bucket itself and all that may interact with it, in Morton order.
   template <class Visit>
   void for_neighbours(std::int32_t bucket, const Visit& visit) const {
-    for (std::int32_t k = offset_[index(bucket)]; k < offset_[index(bucket) + 1]; ++k)
-      visit(neighbours_[static_cast<std::size_t>(k)]);
+    graph_.for_neighbours(bucket, visit);
   }
 
   // Least spacing of the nodes in a bucket (infinity if empty).
@@ -40,14 +40,12 @@ class Buckets {
   void find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes);
   void order_nodes(std::int32_t buckets, Nodes<Dim>& nodes);
   bool gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes, double radius);
-  void link_neighbours(const BackgroundTree<Dim>& tree);
 
   View<std::int32_t> bucket_of_;
-  std::vector<std::int32_t> start_;   // first node of each bucket
-  std::vector<double> reach_;         // radius * largest d the links of a bucket allow for
-  std::vector<double> least_;         // least d of the nodes in it
-  std::vector<std::int32_t> offset_;  // neighbour buckets, compressed rows
-  std::vector<std::int32_t> neighbours_;
+  std::vector<std::int32_t> start_;  // first node of each bucket
+  std::vector<double> reach_;        // radius * largest d the links of a bucket allow for
+  std::vector<double> least_;        // least d of the nodes in it
+  LeafGraph<Dim> graph_;
   View<std::int32_t> from_;
 };
 

@@ -29,14 +29,18 @@ void NearEdges::prepare(const DomainMap& map, double radius) {
   }
 }
 
-void NearEdges::build(const Nodes<2>& nodes, const Buckets<2>& buckets, const DomainMap& map) {
+void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
+                      const Buckets<2>& buckets, const DomainMap& map) {
+  at_ = at;
   if (static_cast<std::int64_t>(any_.extent(0)) < nodes.capacity())
     any_ = make_view<char>("pnpbs::NearEdges::any", nodes.capacity());
   const auto write = [&](std::int64_t i, std::vector<std::int32_t>& out) {
     const std::size_t before = out.size();
-    const std::size_t leaf = static_cast<std::size_t>(buckets.bucket_of(i));
     const double reach = radius_ * nodes.d(i);
-    const Point<2> x = nodes.position(i);
+    const Point<2> x{at[0](i), at[1](i)};
+    const std::int32_t bucket = buckets.bucket_of(i);
+    const std::size_t leaf =
+        static_cast<std::size_t>(map.tree().leaf_holds(bucket, x) ? bucket : map.tree().leaf_at(x));
     const auto keep_if_near = [&](std::int32_t e) {
       if (distance_to_segment(map.edge_begin(e), map.edge_end(e), x) <= reach) out.push_back(e);
     };
@@ -54,8 +58,9 @@ void NearEdges::build(const Nodes<2>& nodes, const Buckets<2>& buckets, const Do
 bool NearEdges::way_between_is_free(const Nodes<2>& nodes, const DomainMap& map,
                                     const BoundaryFans& fans, std::int64_t i, std::int64_t j,
                                     std::int64_t wide) const {
-  return way_is_free(map, fans, nodes.position(i), nodes.boundary_node(i), nodes.position(j),
-                     nodes.boundary_node(j), edges_of(wide));
+  const Point<2> x{at_[0](i), at_[1](i)}, y{at_[0](j), at_[1](j)};
+  return way_is_free(map, fans, x, nodes.boundary_node(i), y, nodes.boundary_node(j),
+                     edges_of(wide));
 }
 
 }  // namespace pnpbs

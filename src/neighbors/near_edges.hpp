@@ -19,8 +19,11 @@ class NearEdges {
   // Once per level: which edges come near which leaf.
   void prepare(const DomainMap& map, double radius);
 
-  // At every rebuild of the lists: the edges within radius * d_i of each node.
-  void build(const Nodes<2>& nodes, const Buckets<2>& buckets, const DomainMap& map);
+  // At every rebuild of the lists: the edges within radius * d_i of each node, the nodes being at
+  // `at`. During the run that is where they were at the last event, so that it does not matter
+  // when the lists are made.
+  void build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
+             const Buckets<2>& buckets, const DomainMap& map);
 
   bool any(std::int64_t i) const { return any_(i) != 0; }
 
@@ -40,6 +43,7 @@ class NearEdges {
                            std::int64_t i, std::int64_t j, std::int64_t wide) const;
 
   double radius_ = 0;
+  std::array<View<double>, 2> at_;
   std::vector<double> leaf_reach_;         // how far from the leaf its edges were gathered
   std::vector<std::int32_t> leaf_offset_;  // edges near each leaf
   std::vector<std::int32_t> leaf_edges_;

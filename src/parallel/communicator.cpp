@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parallel/communicator.hpp"
 
-#include <string>
+#include <cstring>
+#include <new>
 
 #include "core/build_config.hpp"
 #include "core/error.hpp"
@@ -18,9 +19,14 @@ class SerialCommunicator : public Communicator {
  public:
   int rank() const override { return 0; }
   int size() const override { return 1; }
+  int ranks_on_node() const override { return 1; }
   std::uint64_t sum(std::uint64_t value) const override { return value; }
   double largest(double value) const override { return value; }
-  int ranks_on_node() const override { return 1; }
+  void sum(std::vector<std::int64_t>&) const override {}
+  void broadcast(Bytes&, int) const override {}
+  std::vector<Bytes> exchange(const std::vector<int>&, const std::vector<Bytes>&) const override {
+    return {};
+  }
 };
 
 #if PNPBS_HAVE_MPI
@@ -48,6 +54,7 @@ class MpiCommunicator : public Communicator {
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   int ranks_on_node() const override { return ranks_on_node_; }
+
   std::uint64_t sum(std::uint64_t value) const override {
     std::uint64_t total = 0;
     check(MPI_Allreduce(&value, &total, 1, MPI_UINT64_T, MPI_SUM, comm_), "MPI_Allreduce");
@@ -58,8 +65,53 @@ class MpiCommunicator : public Communicator {
     check(MPI_Allreduce(&value, &most, 1, MPI_DOUBLE, MPI_MAX, comm_), "MPI_Allreduce");
     return most;
   }
+  void sum(std::vector<std::int64_t>& values) const override {
+    check(MPI_Allreduce(MPI_IN_PLACE, values.data(), count(values.size()), MPI_INT64_T, MPI_SUM,
+                        comm_),
+          "MPI_Allreduce");
+  }
+  void broadcast(Bytes& bytes, int root) const override {
+    std::uint64_t size = bytes.size();
+    check(MPI_Bcast(&size, 1, MPI_UINT64_T, root, comm_), "MPI_Bcast");
+    bytes.resize(size);
+    check(MPI_Bcast(bytes.data(), count(size), MPI_BYTE, root, comm_), "MPI_Bcast");
+  }
+
+  // Sizes first, then the messages; all non-blocking.
+  std::vector<Bytes> exchange(const std::vector<int>& neighbours,
+                              const std::vector<Bytes>& outgoing) const override {
+    const std::size_t n = neighbours.size();
+    std::vector<std::uint64_t> sizes_out(n), sizes_in(n);
+    std::vector<MPI_Request> requests(2 * n);
+    for (std::size_t k = 0; k < n; ++k) {
+      sizes_out[k] = outgoing[k].size();
+      MPI_Irecv(&sizes_in[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_, &requests[k]);
+      MPI_Isend(&sizes_out[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_, &requests[n + k]);
+    }
+    check(MPI_Waitall(static_cast<int>(2 * n), requests.data(), MPI_STATUSES_IGNORE),
+          "MPI_Waitall");
+    std::vector<Bytes> incoming(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      incoming[k].resize(sizes_in[k]);
+      MPI_Irecv(incoming[k].data(), count(sizes_in[k]), MPI_BYTE, neighbours[k], kDataTag, comm_,
+                &requests[k]);
+      MPI_Isend(outgoing[k].data(), count(sizes_out[k]), MPI_BYTE, neighbours[k], kDataTag, comm_,
+                &requests[n + k]);
+    }
+    check(MPI_Waitall(static_cast<int>(2 * n), requests.data(), MPI_STATUSES_IGNORE),
+          "MPI_Waitall");
+    return incoming;
+  }
 
  private:
+  static constexpr int kSizeTag = 1, kDataTag = 2;
+
+  static int count(std::size_t n) {
+    if (n > 0x7fffffff)
+      throw Error(PNPBS_ERROR_MPI, "a message of " + std::to_string(n) +
+                                       " entries is longer than MPI takes: use more ranks");
+    return static_cast<int>(n);
+  }
   static void check(int code, const char* call) {
     if (code != MPI_SUCCESS)
       throw Error(PNPBS_ERROR_MPI, std::string(call) + " failed with code " + std::to_string(code));
@@ -71,7 +123,51 @@ class MpiCommunicator : public Communicator {
 
 #endif
 
+// Status and text of an exception, for the others.
+Bytes describe(std::exception_ptr failure) {
+  std::int32_t status = PNPBS_ERROR_INTERNAL;
+  std::string text = "unknown failure";
+  try {
+    std::rethrow_exception(failure);
+  } catch (const Error& error) {
+    status = error.status();
+    text = error.what();
+  } catch (const std::bad_alloc&) {
+    status = PNPBS_ERROR_MEMORY;
+    text = "out of memory: fewer nodes (a larger spacing) or more memory is needed";
+  } catch (const std::exception& error) {
+    text = error.what();
+  } catch (...) {
+    status = PNPBS_ERROR_CALLBACK;
+    text = "a callback threw something that is no std::exception";
+  }
+  Bytes bytes(sizeof status + text.size());
+  std::memcpy(bytes.data(), &status, sizeof status);
+  std::memcpy(bytes.data() + sizeof status, text.data(), text.size());
+  return bytes;
+}
+
 }  // namespace
+
+void agree_on_failure(const Communicator& comm, std::exception_ptr failure) {
+  if (comm.size() == 1) {
+    if (failure) std::rethrow_exception(failure);
+    return;
+  }
+  // The lowest failed rank is the largest of size - rank.
+  const int mine = failure ? comm.size() - comm.rank() : 0;
+  const int found = static_cast<int>(comm.largest(mine));
+  if (found == 0) return;
+  const int failed = comm.size() - found;
+  Bytes bytes;
+  if (comm.rank() == failed) bytes = describe(failure);
+  comm.broadcast(bytes, failed);
+  std::int32_t status;
+  std::memcpy(&status, bytes.data(), sizeof status);
+  throw Error(static_cast<pnpbs_status>(status),
+              "rank " + std::to_string(failed) + ": " +
+                  std::string(bytes.data() + sizeof status, bytes.size() - sizeof status));
+}
 
 std::shared_ptr<Communicator> serial_communicator() {
   return std::make_shared<SerialCommunicator>();
@@ -92,12 +188,6 @@ std::shared_ptr<Communicator> mpi_communicator(std::int32_t fortran_handle) {
   if (comm == MPI_COMM_NULL)
     throw Error(PNPBS_ERROR_MPI, "the communicator (Fortran handle " +
                                      std::to_string(fortran_handle) + ") is MPI_COMM_NULL");
-  int size = 1;
-  MPI_Comm_size(comm, &size);
-  if (size > 1)
-    throw Error(PNPBS_ERROR_UNSUPPORTED,
-                "the communicator has " + std::to_string(size) +
-                    " ranks; this version places nodes on one rank only: pass MPI_COMM_SELF");
   return std::make_shared<MpiCommunicator>(comm);
 }
 

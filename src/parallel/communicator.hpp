@@ -3,20 +3,33 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace pnpbs {
+
+using Bytes = std::vector<char>;
 
 class Communicator {
  public:
   virtual ~Communicator() = default;
   virtual int rank() const = 0;
   virtual int size() const = 0;
+  // Ranks of this communicator on this node: they share its cores.
+  virtual int ranks_on_node() const = 0;
+
   // Collective; integers and maxima only, so that no result depends on the order of ranks.
   virtual std::uint64_t sum(std::uint64_t value) const = 0;  // modulo 2^64
   virtual double largest(double value) const = 0;
-  // Ranks of this communicator on this node: they share its cores.
-  virtual int ranks_on_node() const = 0;
+  virtual void sum(std::vector<std::int64_t>& values) const = 0;  // entry by entry
+  virtual void broadcast(Bytes& bytes, int root) const = 0;
+
+  // Sends outgoing[k] to rank neighbours[k] and returns what they sent. Every rank named must name
+  // us in its own call at the same time. Messages may be empty.
+  virtual std::vector<Bytes> exchange(const std::vector<int>& neighbours,
+                                      const std::vector<Bytes>& outgoing) const = 0;
 };
 
 std::shared_ptr<Communicator> serial_communicator();
@@ -24,5 +37,22 @@ std::shared_ptr<Communicator> serial_communicator();
 // A duplicate of the communicator with this Fortran handle. Collective. Throws
 // Error(PNPBS_ERROR_MPI or _UNSUPPORTED).
 std::shared_ptr<Communicator> mpi_communicator(std::int32_t fortran_handle);
+
+// Collective: if any rank failed, all ranks throw the failure of the lowest one, named.
+void agree_on_failure(const Communicator& comm, std::exception_ptr failure);
+
+// Runs a local piece of work on every rank; if it throws on one, it throws on all. The work must
+// not communicate.
+template <class Work>
+void agreed(const Communicator& comm, const Work& work) {
+  if (comm.size() == 1) return work();
+  std::exception_ptr failure;
+  try {
+    work();
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  agree_on_failure(comm, failure);
+}
 
 }  // namespace pnpbs

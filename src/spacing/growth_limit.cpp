@@ -16,7 +16,7 @@ GrowthLimitedSpacing::GrowthLimitedSpacing(const PlaneDomain& domain,
     evaluate_spacing<2>(*raw_, domain.area(), n, x, d);
   };
   boundary_ = lay_boundary(domain, checked, max_nodes);
-  map_.build(domain.bounds(), boundary_, checked, max_nodes);
+  map_.build(domain.bounds(), boundary_, checked, max_nodes, growth);
   link_leaves();
   sample_leaves(domain.area());
   relax();
@@ -46,6 +46,7 @@ void GrowthLimitedSpacing::sample_leaves(double measure) {
   const BackgroundTree<2>& tree = map_.tree();
   at_centre_.assign(static_cast<std::size_t>(tree.leaf_count()),
                     std::numeric_limits<double>::infinity());
+  source_.assign(at_centre_.size(), {{}, std::numeric_limits<double>::infinity()});
   std::vector<Point<2>> points;
   std::vector<std::int32_t> leaves;
   const double quarters[5][2] = {
@@ -68,14 +69,37 @@ void GrowthLimitedSpacing::sample_leaves(double measure) {
   std::vector<double> d(points.size());
   evaluate_spacing<2>(*raw_, measure, static_cast<std::int64_t>(points.size()), points.data(),
                       d.data());
-  for (std::size_t s = 0; s < points.size(); ++s) {
-    double& value = at_centre_[static_cast<std::size_t>(leaves[s])];
-    value = std::min(value, d[s] + growth_ * distance<2>(points[s], centre(leaves[s])));
-  }
+  for (std::size_t s = 0; s < points.size(); ++s) offer(leaves[s], {points[s], d[s]});
 }
 
-// The min-plus fixpoint over touching leaves (Dijkstra). It is unique: rounding is monotone, and so
-// is every step.
+// Takes a source for a leaf if it allows less in its middle than the one there; returns whether.
+bool GrowthLimitedSpacing::offer(std::int32_t leaf, const Source& source) {
+  const double value = source.d + growth_ * distance<2>(source.x, centre(leaf));
+  double& least = at_centre_[static_cast<std::size_t>(leaf)];
+  if (value >= least) return false;
+  least = value;
+  source_[static_cast<std::size_t>(leaf)] = source;
+  return true;
+}
+
+// Does the straight way from a to b run through leaves wholly inside the domain, but for its ends?
+bool GrowthLimitedSpacing::open_way(const Point<2>& a, const Point<2>& b) const {
+  const BackgroundTree<2>& tree = map_.tree();
+  const std::int32_t first = tree.leaf_at(a), last = tree.leaf_at(b);
+  const double length = distance<2>(a, b);
+  for (double way = 0; way < length;) {
+    const double t = way / length;
+    const std::int32_t leaf = tree.leaf_at({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
+    const bool end = leaf == first || leaf == last;
+    if (!end && (map_.leaf_outside(leaf) || map_.leaf_has_edges(leaf))) return false;
+    way += 0.5 * tree.cell_side(tree.leaf_cell(leaf));
+  }
+  return true;
+}
+
+// From leaf to touching leaf, least values first (Dijkstra). In the open a leaf hands on the sample
+// that limits it, so that the limit grows with the straight distance from there; around corners it
+// hands on its own middle.
 void GrowthLimitedSpacing::relax() {
   using Entry = std::pair<double, std::int32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -86,26 +110,29 @@ void GrowthLimitedSpacing::relax() {
     const auto [value, leaf] = queue.top();
     queue.pop();
     if (value > at_centre_[static_cast<std::size_t>(leaf)]) continue;
+    const Source source = source_[static_cast<std::size_t>(leaf)];
+    const Source middle{centre(leaf), value};
     for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
          k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k) {
       const std::int32_t other = next_to_[static_cast<std::size_t>(k)];
-      const double reached = value + growth_ * distance<2>(centre(leaf), centre(other));
-      if (reached >= at_centre_[static_cast<std::size_t>(other)]) continue;
-      at_centre_[static_cast<std::size_t>(other)] = reached;
-      queue.emplace(reached, other);
+      if (offer(other, open_way(source.x, centre(other)) ? source : middle))
+        queue.emplace(at_centre_[static_cast<std::size_t>(other)], other);
     }
   }
 }
 
 double GrowthLimitedSpacing::limit_at(const Point<2>& x) const {
+  const auto by_source_of = [&](std::int32_t leaf) {
+    const Source& source = source_[static_cast<std::size_t>(leaf)];
+    return source.d + growth_ * distance<2>(x, source.x);
+  };
   const std::int32_t leaf = map_.tree().leaf_at(x);
-  double limit =
-      at_centre_[static_cast<std::size_t>(leaf)] + growth_ * distance<2>(x, centre(leaf));
+  double limit = by_source_of(leaf);
   for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
        k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k) {
     const std::int32_t other = next_to_[static_cast<std::size_t>(k)];
-    limit = std::min(limit, at_centre_[static_cast<std::size_t>(other)] +
-                                growth_ * distance<2>(x, centre(other)));
+    if (!map_.leaf_has_edges(leaf) && !map_.leaf_has_edges(other))
+      limit = std::min(limit, by_source_of(other));
   }
   return limit;
 }

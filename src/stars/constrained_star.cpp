@@ -173,14 +173,14 @@ class GiftWrap {
 
 }  // namespace
 
-void constrained_star(const StarInput& input, std::int64_t i, double first_reach,
+void constrained_star(const StarInput& input, std::int64_t i, double first_reach, double last_reach,
                       std::vector<Entry>& star) {
   const std::size_t before = star.size();
   for (double reach = first_reach;; reach *= 1.5) {
     star.resize(before);
     const bool everything = reach > 2 * input.map.tree().side();
     if (GiftWrap(input, i, reach, everything).wrap(star)) return;
-    if (everything) break;
+    if (everything || reach > last_reach) break;
   }
   // Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
   if (star.size() > before) star.back().triangle = 0;

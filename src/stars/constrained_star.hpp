@@ -12,8 +12,9 @@
 
 namespace pnpbs {
 
-// Appends the star of node i to `star`, looking as far as needed.
-void constrained_star(const StarInput& input, std::int64_t i, double first_reach,
+// Appends the star of node i to `star`, looking as far as needed, but no farther than last_reach: a
+// ghost at the rim of what this rank sees has no whole star.
+void constrained_star(const StarInput& input, std::int64_t i, double first_reach, double last_reach,
                       std::vector<DelaunayStars::Entry>& star);
 
 }  // namespace pnpbs

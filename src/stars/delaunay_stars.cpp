@@ -32,7 +32,10 @@ class StarWriter {
     // The lists hold every node nearer than this.
     const double reach = 0.5 * in_.lists.radius() * (nodes.d(i) + least_);
     if (!in_.near_edges.any(i) && add_hull_star(i, reach, out)) return;
-    constrained_star(in_, i, std::max(reach, nodes.d(i)), out);
+    constexpr double kGhostReach = 6;  // in units of d
+    const double last =
+        nodes.owned(i) ? std::numeric_limits<double>::infinity() : kGhostReach * nodes.d(i);
+    constrained_star(in_, i, std::max(reach, nodes.d(i)), last, out);
   }
 
  private:

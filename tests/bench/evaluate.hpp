@@ -11,8 +11,8 @@ namespace pnpbs_bench {
 
 struct NodeSet {
   std::vector<std::array<double, 2>> x;
-  std::vector<double> d;                           // wanted spacing at the nodes
-  std::vector<std::array<std::int64_t, 2>> edges;  // boundary edges; even-odd rule
+  std::vector<double> d;                                      // wanted spacing at the nodes
+  std::vector<std::array<std::int64_t, 2>> edges;             // boundary edges; even-odd rule
   std::vector<std::array<std::int64_t, 2>> inner_edges = {};  // both sides are alike
 };
 

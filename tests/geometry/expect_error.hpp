@@ -2,12 +2,11 @@
 // Checks that something is refused, and how.
 #pragma once
 
-#include <check.h>
-
 #include <functional>
 #include <initializer_list>
 #include <string>
 
+#include "check_runner.h"
 #include "core/error.hpp"
 
 // `action` must throw an Error with this status whose message holds all these parts.

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * What the tests of the C interface share: calls that must succeed or fail in a certain way,
+ * domains, and results copied out and looked at by brute force.
+ */
+#ifndef PNPBS_TESTS_API_SUPPORT_H
+#define PNPBS_TESTS_API_SUPPORT_H
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check_runner.h"
+#include "pnpbs/pnpbs.h"
+
+#define PI 3.14159265358979323846
+#define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))
+
+/* ---------------------------------------------------------------- calls ----------------- */
+
+/* The calling thread's last message, whatever context it belongs to. */
+#define MESSAGE() pnpbs_last_error(NULL)
+
+#define MUST_BE(expected, call)                                                                    \
+  do {                                                                                             \
+    const pnpbs_status must_status = (call);                                                       \
+    ck_assert_msg(must_status == (expected), "%s: status %d, not %d; %s", #call, (int)must_status, \
+                  (int)(expected), must_status < 0 ? MESSAGE() : "no error");                      \
+  } while (0)
+
+#define MUST(call) MUST_BE(PNPBS_OK, call)
+
+/* A run or step, converged or not. */
+#define MUST_COMPUTE(call)                                                       \
+  do {                                                                           \
+    const pnpbs_status must_status = (call);                                     \
+    ck_assert_msg(must_status == PNPBS_OK || must_status == PNPBS_NOT_CONVERGED, \
+                  "%s: status %d; %s", #call, (int)must_status,                  \
+                  must_status < 0 ? MESSAGE() : "no error");                     \
+  } while (0)
+
+/* An error whose message holds a text (and another one). */
+#define MUST_FAIL(expected, call, first, second)                                                   \
+  do {                                                                                             \
+    MUST_BE(expected, call);                                                                       \
+    ck_assert_msg(strstr(MESSAGE(), first) != NULL, "%s: no \"%s\" in the message \"%s\"", #call,  \
+                  first, MESSAGE());                                                               \
+    ck_assert_msg(strstr(MESSAGE(), second) != NULL, "%s: no \"%s\" in the message \"%s\"", #call, \
+                  second, MESSAGE());                                                              \
+  } while (0)
+
+/* ---------------------------------------------------------------- jobs ------------------ */
+
+typedef struct {
+  pnpbs_context context;
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+} job;
+
+job job_begin(void);         /* a context and an empty domain */
+void job_place(job* it);     /* a placement in the domain as it is now */
+job square_job(double side); /* a placement in the square [0, side]^2 */
+void job_end(job* it);
+
+void add_rectangle(pnpbs_domain domain, int32_t role, double x0, double y0, double x1, double y1,
+                   int32_t tag);
+void add_circle(pnpbs_domain domain, int32_t role, double x, double y, double radius, int32_t tag);
+
+/* d = a + b hypot(x - x0, y - y0), a spacing callback. */
+typedef struct {
+  double a, b, x0, y0;
+} cone;
+int32_t cone_spacing(int64_t n, int32_t dim, const double* xyz, double* d, void* user);
+
+int64_t integer_of(pnpbs_placement placement, const char* key);
+double real_of(pnpbs_placement placement, const char* key);
+typedef struct {
+  char text[32];
+} hash_text;
+hash_text hash_of(pnpbs_placement placement);
+
+/* ---------------------------------------------------------------- results --------------- */
+
+/* All that can be copied out. */
+typedef struct {
+  int64_t n;
+  double* xy;
+  int64_t* ids;
+  int32_t* tags;
+  double* d;
+
+  int64_t entries; /* of the stars */
+  int64_t* offsets;
+  int64_t* neighbours;
+  int8_t* is_triangle;
+
+  int64_t triangles;
+  int64_t* corners; /* [triangles][3] */
+
+  int64_t edges; /* on the boundary */
+  int64_t* ends; /* [edges][2] */
+  int32_t* edge_tags;
+  char* on_boundary; /* [n]: ends a boundary edge */
+} result;
+
+result result_of(pnpbs_placement placement);
+void result_free(result* it);
+
+/* The node exactly there, or -1. */
+int64_t node_at(const result* it, double x, double y);
+int64_t node_with_id(const result* it, int64_t id);
+/* Is there a boundary edge between nodes a and b? Its tag, else 0. */
+int32_t edge_between(const result* it, int64_t a, int64_t b);
+/* Is b in the star of a, and a in that of b? */
+int are_star_neighbours(const result* it, int64_t a, int64_t b);
+
+double clearance(const result* it, int64_t node); /* from boundary edges it does not end */
+
+/* 2 r_in / R of a triangle. */
+double quality(const double* a, const double* b, const double* c);
+typedef struct {
+  double mean, least;
+} quality_summary;
+quality_summary quality_of(const result* it);
+
+double triangle_area(const result* it); /* of all triangles together */
+
+/* Everything that must hold for any node set: finite, distinct nodes in the order of their ids,
+ * boundary edges that are edges of the stars, stars that go round counter-clockwise and agree
+ * with each other and with the triangles, Delaunay but for boundary edges, Euler's formula with
+ * `euler` = pieces - holes, inner nodes off the boundary by 0.35 d. */
+void check_result(const result* it, int euler);
+void check_placement(pnpbs_placement placement, int euler);
+
+#endif

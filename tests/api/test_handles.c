@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Handles: every function answers a handle that is not live, or of another kind, with an error;
+ * objects may be destroyed in any order and keep what they need alive.
+ */
+#include "api_support.h"
+
+/* Where the calls below would put their outputs. An error must not touch them. */
+static union {
+  double reals[64];
+  int64_t integers[64];
+  int32_t small[128];
+  int8_t bytes[512];
+  const char* texts[64];
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+} out;
+
+static void prepare_outputs(void) {
+  memset(&out, 0x5a, sizeof out);
+  memset(out.bytes, 0, sizeof(void*)); /* handles come back NULL */
+}
+
+static void check_outputs(const char* name) {
+  size_t i;
+  for (i = 0; i < sizeof out; ++i) {
+    ck_assert_msg(out.bytes[i] == (i < sizeof(void*) ? 0 : 0x5a), "%s wrote byte %d of its outputs",
+                  name, (int)i);
+  }
+}
+
+static const double xy[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+static const int64_t ends[8] = {0, 1, 1, 2, 2, 3, 3, 0};
+static const int64_t grid_size[2] = {1, 2};
+static const double grid[6] = {0.5, 0.5, 1, 1, 0.2, 0.3}; /* origin, step, values */
+static cone a_cone = {0.1, 0, 0, 0};
+
+static int32_t circle(int64_t n, const double* t, double* points, void* user) {
+  int64_t i;
+  (void)user;
+  for (i = 0; i < n; ++i) {
+    points[2 * i] = cos(t[i]);
+    points[2 * i + 1] = sin(t[i]);
+  }
+  return 0;
+}
+
+static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double speed, void* user) {
+  (void)fraction, (void)step, (void)nodes, (void)speed, (void)user;
+  return 0;
+}
+
+/* ---------------------------------------------------------------- every call ------------ */
+
+/* X(function, its arguments), such that a live handle would be taken. Those that create or
+ * destroy are left to tests of their own. */
+#define CONTEXT_CALLS(X)                          \
+  X(context_set, (handle, "steps", "10"))         \
+  X(context_set_int64, (handle, "steps", 10))     \
+  X(context_set_double, (handle, "damping", 0.5)) \
+  X(domain_create, (handle, 2, &out.domain))
+#define DOMAIN_CALLS(X)                                                               \
+  X(domain_add_polyline, (handle, PNPBS_BOUNDARY, 1, 4, xy, NULL, 0.0))               \
+  X(domain_add_arc, (handle, PNPBS_BOUNDARY, xy, 1.0, 0.0, 2 * PI, 1))                \
+  X(domain_add_curve, (handle, PNPBS_BOUNDARY, circle, NULL, 0.0, 2 * PI, 1))         \
+  X(domain_add_pslg, (handle, 4, xy, NULL, 4, ends, NULL, 0, NULL))                   \
+  X(domain_add_hole, (handle, xy))                                                    \
+  X(domain_add_fixed_nodes, (handle, 1, xy, NULL))                                    \
+  X(domain_read_poly, (handle, PNPBS_SOURCE_DIR "/examples/data/lake_victoria.poly")) \
+  X(domain_parse_poly, (handle, "0 2 0 0\n0 0\n0\n", 14, "text"))                     \
+  X(domain_check, (handle))                                                           \
+  X(domain_bounds, (handle, out.reals + 1, out.reals + 3))                            \
+  X(domain_measure, (handle, out.reals + 1))                                          \
+  X(domain_get_segments, (handle, 4, out.integers + 1, out.reals + 2, out.small + 40))
+#define PLACEMENT_CALLS(X)                                                                        \
+  X(placement_set, (handle, "steps", "10"))                                                       \
+  X(placement_set_int64, (handle, "steps", 10))                                                   \
+  X(placement_set_double, (handle, "damping", 0.5))                                               \
+  X(placement_set_spacing_constant, (handle, 0.1))                                                \
+  X(placement_set_spacing_callback, (handle, cone_spacing, &a_cone))                              \
+  X(placement_set_spacing_grid, (handle, grid_size, grid, grid + 2, grid + 4))                    \
+  X(placement_set_monitor, (handle, no_stop, NULL))                                               \
+  X(placement_set_nodes, (handle, 1, grid, NULL))                                                 \
+  X(placement_initialise, (handle))                                                               \
+  X(placement_step, (handle, 1))                                                                  \
+  X(placement_adjust_population, (handle, out.integers + 1, out.integers + 2))                    \
+  X(placement_run, (handle))                                                                      \
+  X(placement_count, (handle, out.integers + 1))                                                  \
+  X(placement_get_nodes,                                                                          \
+    (handle, 1, out.reals + 1, out.integers + 3, out.small + 8, out.reals + 5))                   \
+  X(placement_adjacency_size, (handle, out.integers + 1))                                         \
+  X(placement_get_adjacency, (handle, 1, out.integers + 1, out.integers + 3))                     \
+  X(placement_star_size, (handle, out.integers + 1))                                              \
+  X(placement_get_stars, (handle, 1, out.integers + 1, out.integers + 3, out.bytes + 32))         \
+  X(placement_get_triangles, (handle, 1, out.integers + 1, out.integers + 2))                     \
+  X(placement_get_boundary_edges, (handle, 1, out.integers + 1, out.integers + 2, out.small + 8)) \
+  X(placement_ghost_count, (handle, out.integers + 1))                                            \
+  X(placement_get_ghosts, (handle, 1, NULL, out.integers + 1, NULL, NULL, out.small + 8))         \
+  X(placement_get_int64, (handle, "nodes", out.integers + 1))                                     \
+  X(placement_get_double, (handle, "d_error.mean", out.reals + 1))                                \
+  X(placement_get_string, (handle, "hash", out.texts + 1))                                        \
+  X(placement_warning_count, (handle, out.small + 2))                                             \
+  X(placement_get_warning, (handle, 0, out.texts + 1))
+
+/* Each call as a function of something that may be no handle at all. */
+#define CALL_IT(Handle, name, arguments)            \
+  static pnpbs_status call_##name(void* anything) { \
+    const Handle handle = (Handle)anything;         \
+    return pnpbs_##name arguments;                  \
+  }
+#define CALL_CONTEXT(name, arguments) CALL_IT(pnpbs_context, name, arguments)
+#define CALL_DOMAIN(name, arguments) CALL_IT(pnpbs_domain, name, arguments)
+#define CALL_PLACEMENT(name, arguments) CALL_IT(pnpbs_placement, name, arguments)
+CONTEXT_CALLS(CALL_CONTEXT)
+DOMAIN_CALLS(CALL_DOMAIN)
+PLACEMENT_CALLS(CALL_PLACEMENT)
+
+/* What these functions take first. */
+typedef enum { CONTEXT, DOMAIN, PLACEMENT } kind;
+
+static const struct {
+  const char* name;
+  kind takes;
+  pnpbs_status (*call)(void*);
+} calls[] = {
+#define ROW_CONTEXT(name, arguments) {"pnpbs_" #name, CONTEXT, call_##name},
+#define ROW_DOMAIN(name, arguments) {"pnpbs_" #name, DOMAIN, call_##name},
+#define ROW_PLACEMENT(name, arguments) {"pnpbs_" #name, PLACEMENT, call_##name},
+    CONTEXT_CALLS(ROW_CONTEXT) DOMAIN_CALLS(ROW_DOMAIN) PLACEMENT_CALLS(ROW_PLACEMENT)};
+
+/* Nothing that the header declares is missing above, but for what creates and destroys. */
+START_TEST(every_function_is_here) {
+  FILE* header = fopen(PNPBS_SOURCE_DIR "/include/pnpbs/pnpbs.h", "r");
+  char line[200];
+  int found = 0;
+  ck_assert_ptr_nonnull(header);
+  while (fgets(line, sizeof line, header) != NULL) {
+    char name[100];
+    int i;
+    if (sscanf(line, "PNPBS_API pnpbs_status %99[a-z0-9_](pnpbs_", name) != 1) continue;
+    if (strstr(name, "_create") != NULL || strstr(name, "_destroy") != NULL) continue;
+    if (strncmp(name, "pnpbs_context_", 14) != 0 && strncmp(name, "pnpbs_domain_", 13) != 0 &&
+        strncmp(name, "pnpbs_placement_", 16) != 0) {
+      continue;
+    }
+    ++found;
+    for (i = 0; i < COUNT_OF(calls) && strcmp(calls[i].name, name) != 0; ++i) {
+    }
+    ck_assert_msg(i < COUNT_OF(calls), "%s is not tested", name);
+  }
+  fclose(header);
+  ck_assert_int_eq(found + 1, COUNT_OF(calls)); /* and pnpbs_domain_create */
+}
+END_TEST
+
+/* ---------------------------------------------------------------- not live -------------- */
+
+static void must_be_refused(int row, void* handle, const char* what) {
+  pnpbs_status status;
+  const char* kinds[] = {"context", "domain", "placement"};
+  prepare_outputs();
+  MUST_BE(PNPBS_ERROR_ARGUMENT, pnpbs_option_count(NULL)); /* leaves another message behind */
+  status = calls[row].call(handle);
+  ck_assert_msg(status == PNPBS_ERROR_HANDLE, "%s of %s: status %d", calls[row].name, what,
+                (int)status);
+  ck_assert_msg(strstr(MESSAGE(), kinds[calls[row].takes]) != NULL,
+                "%s of %s: the message is \"%s\"", calls[row].name, what, MESSAGE());
+  check_outputs(calls[row].name);
+}
+
+START_TEST(handles_that_are_not_live) {
+  job live = square_job(1), dead = square_job(1);
+  job copy = dead;
+  int never = 0;
+  job_end(&dead);
+  must_be_refused(_i, NULL, "NULL");
+  must_be_refused(_i, &never, "an address");
+  must_be_refused(_i, (void*)(intptr_t)1, "1");
+  must_be_refused(_i, (void*)(intptr_t)-1, "-1");
+  must_be_refused(_i, copy.context, "a destroyed context");
+  must_be_refused(_i, copy.domain, "a destroyed domain");
+  must_be_refused(_i, copy.placement, "a destroyed placement");
+  if (calls[_i].takes != CONTEXT) must_be_refused(_i, live.context, "a context");
+  if (calls[_i].takes != DOMAIN) must_be_refused(_i, live.domain, "a domain");
+  if (calls[_i].takes != PLACEMENT) must_be_refused(_i, live.placement, "a placement");
+  job_end(&live);
+}
+END_TEST
+
+START_TEST(placements_of_nothing) {
+  job live = square_job(1), dead = square_job(1);
+  job copy = dead;
+  pnpbs_placement placement = NULL;
+  job_end(&dead);
+  MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_placement_create(live.context, NULL, &placement), "domain",
+            "not live");
+  ck_assert_ptr_null(placement);
+  MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_placement_create(live.context, copy.domain, &placement),
+            "domain", "not live");
+  MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_placement_create(copy.context, live.domain, &placement),
+            "context", "not live");
+  MUST_FAIL(PNPBS_ERROR_HANDLE,
+            pnpbs_placement_create(live.context, (pnpbs_domain)(void*)live.placement, &placement),
+            "domain", "not live");
+  MUST_FAIL(PNPBS_ERROR_HANDLE,
+            pnpbs_placement_create((pnpbs_context)(void*)live.domain, live.domain, &placement),
+            "context", "not live");
+  ck_assert_ptr_null(placement);
+  job_end(&live);
+}
+END_TEST
+
+/* One thread uses a context at a time: a domain of another one could be in use elsewhere. */
+START_TEST(a_domain_of_another_context) {
+  job one = square_job(1), other = square_job(1);
+  pnpbs_placement placement = NULL;
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_create(one.context, other.domain, &placement),
+            "domain", "context");
+  ck_assert_ptr_null(placement);
+  job_end(&one);
+  job_end(&other);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- destroying ------------ */
+
+START_TEST(destroying_nothing) {
+  pnpbs_context context = NULL;
+  pnpbs_domain domain = NULL;
+  pnpbs_placement placement = NULL;
+  MUST(pnpbs_context_destroy(NULL));
+  MUST(pnpbs_context_destroy(&context));
+  MUST(pnpbs_domain_destroy(NULL));
+  MUST(pnpbs_domain_destroy(&domain));
+  MUST(pnpbs_placement_destroy(NULL));
+  MUST(pnpbs_placement_destroy(&placement));
+}
+END_TEST
+
+START_TEST(destroying_twice) {
+  job it = square_job(1);
+  job copy = it;
+  job_end(&it);
+  ck_assert_ptr_null(it.context);
+  ck_assert_ptr_null(it.domain);
+  ck_assert_ptr_null(it.placement);
+  job_end(&it); /* of NULL, by now */
+  MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_context_destroy(&copy.context), "context", "destroyed");
+  MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_domain_destroy(&copy.domain), "domain", "destroyed");
+  MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_placement_destroy(&copy.placement), "placement", "destroyed");
+}
+END_TEST
+
+START_TEST(destroying_another_kind) {
+  job it = square_job(1);
+  pnpbs_context context = (pnpbs_context)(void*)it.placement;
+  pnpbs_domain domain = (pnpbs_domain)(void*)it.context;
+  pnpbs_placement placement = (pnpbs_placement)(void*)it.domain;
+  MUST_BE(PNPBS_ERROR_HANDLE, pnpbs_context_destroy(&context));
+  MUST_BE(PNPBS_ERROR_HANDLE, pnpbs_domain_destroy(&domain));
+  MUST_BE(PNPBS_ERROR_HANDLE, pnpbs_placement_destroy(&placement));
+  job_end(&it);
+}
+END_TEST
+
+/* Handles are not used again, so an old one never means a new object. */
+START_TEST(handles_are_new) {
+  job old = square_job(1);
+  const job copy = old;
+  job next;
+  job_end(&old);
+  next = square_job(1);
+  ck_assert_ptr_ne(next.context, copy.context);
+  ck_assert_ptr_ne(next.domain, copy.domain);
+  ck_assert_ptr_ne(next.placement, copy.placement);
+  job_end(&next);
+}
+END_TEST
+
+static void destroy_one(job* it, int which) {
+  if (which == 0) MUST(pnpbs_context_destroy(&it->context));
+  if (which == 1) MUST(pnpbs_domain_destroy(&it->domain));
+  if (which == 2) MUST(pnpbs_placement_destroy(&it->placement));
+}
+
+/* What is left goes on working, and its messages are still to be had. */
+static void use_what_is_left(const job* it) {
+  int64_t nodes = 0;
+  if (it->context != NULL) MUST(pnpbs_context_set(it->context, "steps", "25"));
+  if (it->domain != NULL) {
+    double area = 0;
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_hole(it->domain, NULL), "point", "NULL");
+    MUST(pnpbs_domain_measure(it->domain, &area));
+    ck_assert_double_eq(area, 1);
+  }
+  if (it->placement != NULL) {
+    MUST(pnpbs_placement_set_spacing_constant(it->placement, 0.2));
+    MUST_FAIL(PNPBS_ERROR_KEY, pnpbs_placement_set(it->placement, "step", "1"), "step", "steps");
+    MUST(pnpbs_placement_count(it->placement, &nodes));
+    ck_assert_int_gt(nodes, 20);
+  }
+}
+
+START_TEST(any_order) {
+  static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
+                                   {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  job it = square_job(1);
+  int k;
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  for (k = 0; k < 3; ++k) {
+    destroy_one(&it, orders[_i][k]);
+    /* A placement whose parents are gone computes as before. */
+    if (it.placement != NULL && it.domain == NULL) {
+      MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.15));
+      MUST_COMPUTE(pnpbs_placement_run(it.placement));
+      check_placement(it.placement, 1);
+    }
+    use_what_is_left(&it);
+  }
+  job_end(&it); /* all of them NULL */
+}
+END_TEST
+
+START_TEST(two_placements_in_one_domain) {
+  job it = square_job(1);
+  pnpbs_placement other = NULL;
+  MUST(pnpbs_placement_create(it.context, it.domain, &other));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
+  MUST(pnpbs_placement_set_spacing_constant(other, 0.1));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST_COMPUTE(pnpbs_placement_run(other));
+  ck_assert_int_gt(integer_of(other, "nodes"), 2 * integer_of(it.placement, "nodes"));
+  job_end(&it);
+  check_placement(other, 1);
+  MUST(pnpbs_placement_destroy(&other));
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("handles");
+  TCase* live = tcase_create("not live");
+  TCase* ends_of = tcase_create("destroying");
+  tcase_add_test(live, every_function_is_here);
+  tcase_add_loop_test(live, handles_that_are_not_live, 0, COUNT_OF(calls));
+  tcase_add_test(live, placements_of_nothing);
+  tcase_add_test(live, a_domain_of_another_context);
+  suite_add_tcase(suite, live);
+  tcase_add_test(ends_of, destroying_nothing);
+  tcase_add_test(ends_of, destroying_twice);
+  tcase_add_test(ends_of, destroying_another_kind);
+  tcase_add_test(ends_of, handles_are_new);
+  tcase_add_loop_test(ends_of, any_order, 0, 6);
+  tcase_add_test(ends_of, two_placements_in_one_domain);
+  suite_add_tcase(suite, ends_of);
+  return run_suite(suite);
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bubbles in a box, without a domain: what the kernels work on, in 2 and 3 dimensions.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "core/nodes.hpp"
+#include "forces/schemes.hpp"
+#include "neighbors/adjacency_list.hpp"
+#include "neighbors/buckets.hpp"
+#include "random.hpp"
+#include "tree/background_tree.hpp"
+
+using pnpbs::Box;
+using pnpbs::Point;
+
+template <int Dim>
+Box<Dim> unit_box() {
+  Box<Dim> box;
+  box.low.fill(0);
+  box.high.fill(1);
+  return box;
+}
+
+template <int Dim>
+using SpacingFunction = std::function<double(const Point<Dim>&)>;
+
+template <int Dim>
+struct Bubble {
+  Point<Dim> x;
+  double d;
+  std::int64_t id;
+  bool moves = true;
+};
+
+template <int Dim>
+struct Bubbles {
+  Box<Dim> box = unit_box<Dim>();
+  pnpbs::BackgroundTree<Dim> tree;
+  pnpbs::Nodes<Dim> nodes;
+  pnpbs::Buckets<Dim> buckets;
+  pnpbs::AdjacencyList<Dim> lists;
+
+  // Leaves are at most `widest` wide, and at most `spacings` times d in their middle.
+  void grow_tree(const SpacingFunction<Dim>& d, double spacings = 4, double widest = 1e300) {
+    tree.build(box, [&](const pnpbs::BackgroundTree<Dim>& t, std::int32_t first, std::int32_t last,
+                        std::vector<char>& split) {
+      for (std::int32_t c = first; c < last; ++c)
+        split[static_cast<std::size_t>(c - first)] =
+            t.cell_side(c) > std::min(widest, spacings * d(t.cell_centre(c)));
+    });
+    buckets.reset();
+  }
+
+  void set(const std::vector<Bubble<Dim>>& bubbles) {
+    nodes.count = 0;
+    nodes.reserve(static_cast<std::int64_t>(bubbles.size()));
+    for (const Bubble<Dim>& b : bubbles) nodes.append(b.x, b.d, b.id, 0, b.moves ? -1 : 0);
+  }
+
+  template <class Visible>
+  void list(double radius, const Visible& visible) {
+    buckets.sort(tree, nodes, radius);
+    lists.build(nodes, buckets, radius, visible);
+    pad(nodes.x);
+    nodes.d(nodes.count) = 1;
+  }
+  void list(double radius) {
+    list(radius, [](std::int64_t, std::int64_t) { return true; });
+  }
+
+  // The far-away node behind the last one.
+  void pad(const pnpbs::Field<Dim>& x) const {
+    for (int k = 0; k < Dim; ++k) x[k](nodes.count) = pnpbs::kFarAway;
+  }
+
+  std::vector<Bubble<Dim>> bubbles() const {
+    std::vector<Bubble<Dim>> all;
+    for (std::int64_t i = 0; i < nodes.count; ++i)
+      all.push_back({nodes.position(i), nodes.d(i), nodes.id(i), nodes.moves(i)});
+    return all;
+  }
+};
+
+// n bubbles at random places with random sizes about d; ids are a random choice of large numbers.
+template <int Dim>
+std::vector<Bubble<Dim>> random_bubbles(Random& random, std::int64_t n,
+                                        const SpacingFunction<Dim>& d, double variation = 0.3) {
+  std::vector<std::int64_t> ids(static_cast<std::size_t>(n));
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    ids[k] = 1'000'000'000'000 + 7 * static_cast<std::int64_t>(k);
+  random.shuffle(ids);
+  std::vector<Bubble<Dim>> bubbles;
+  for (std::int64_t id : ids) {
+    const Point<Dim> x = random.point<Dim>(unit_box<Dim>());
+    bubbles.push_back({x, d(x) * random.between(1 - variation, 1 + variation), id});
+  }
+  return bubbles;
+}
+
+// Rows of a hexagonal lattice of this spacing that fill the box; those within `rim` of the box's
+// edge do not move.
+inline std::vector<Bubble<2>> hexagonal_lattice(const Box<2>& box, double spacing, double d,
+                                                double rim) {
+  std::vector<Bubble<2>> bubbles;
+  const double row = spacing * std::sqrt(0.75);
+  for (int r = 0; box.low[1] + r * row <= box.high[1]; ++r) {
+    for (int c = 0;; ++c) {
+      const Point<2> x{box.low[0] + spacing * (c + 0.5 * (r % 2)), box.low[1] + r * row};
+      if (x[0] > box.high[0]) break;
+      bool inner = true;
+      for (int k = 0; k < 2; ++k)
+        inner = inner && x[k] > box.low[k] + rim && x[k] < box.high[k] - rim;
+      bubbles.push_back({x, d, static_cast<std::int64_t>(bubbles.size()), inner});
+    }
+  }
+  return bubbles;
+}

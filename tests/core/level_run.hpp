@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A level made and driven by hand, step by step.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/level.hpp"
+#include "geometry/poly_reader.hpp"
+#include "geometry/shapes.hpp"
+
+using Plane = std::function<double(double x, double y)>;
+
+inline std::shared_ptr<pnpbs::Spacing<2>> spacing_of(Plane d) {
+  return std::make_shared<pnpbs::CallbackSpacing<2>>(
+      [d = std::move(d)](std::int64_t n, const double* x, double* values) {
+        for (std::int64_t i = 0; i < n; ++i) values[i] = d(x[2 * i], x[2 * i + 1]);
+        return std::int32_t{0};
+      });
+}
+
+inline Plane constant(double d) {
+  return [d](double, double) { return d; };
+}
+
+inline pnpbs::SpacingEvaluator evaluator_of(const Plane& d) {
+  return [d](std::int64_t n, const pnpbs::Point<2>* x, double* values) {
+    for (std::int64_t i = 0; i < n; ++i) values[i] = d(x[i][0], x[i][1]);
+  };
+}
+
+inline void add_lake(pnpbs::PlaneDomain& domain, const char* name) {
+  pnpbs::read_poly_file(domain, std::string(PNPBS_SOURCE_DIR "/examples/data/") + name + ".poly");
+}
+
+using Build = std::function<void(pnpbs::PlaneDomain&)>;
+using OptionList = std::vector<std::pair<const char*, const char*>>;
+
+// The inner nodes, as nodes to start from (placed for a spacing that take() does not know).
+inline std::vector<pnpbs::GivenNode> inner_nodes_of(const pnpbs::Level& level) {
+  std::vector<pnpbs::GivenNode> inner;
+  for (const pnpbs::GivenNode& node : level.owned_nodes())
+    if (node.inner) inner.push_back({node.position, node.id});
+  return inner;
+}
+
+struct LevelRun {
+  std::shared_ptr<pnpbs::PlaneDomain> domain = std::make_shared<pnpbs::PlaneDomain>();
+  std::unique_ptr<pnpbs::Timers> timers = std::make_unique<pnpbs::Timers>();
+  std::unique_ptr<pnpbs::Level> level;
+  std::int64_t event_interval = 20;
+  std::int64_t steps_done = 0;
+
+  // The boundary is laid; the inner nodes are yet to come.
+  LevelRun(const Build& build, const Plane& d, const OptionList& options = {},
+           const std::function<void(pnpbs::Settings&)>& adapt = {}) {
+    build(*domain);
+    domain->check();
+    pnpbs::Options chosen;
+    for (const auto& [key, value] : options) chosen.set(key, value);
+    pnpbs::Settings settings(chosen);
+    if (adapt) adapt(settings);
+    event_interval = settings.event_interval;
+    level = std::make_unique<pnpbs::Level>(pnpbs::serial_communicator(), domain, spacing_of(d),
+                                           settings, *timers);
+    level->lay_boundary_and_tree();
+  }
+
+  // n steps with the events between them.
+  void steps(std::int64_t n, bool rebuild_always = false, bool population = true) {
+    for (const std::int64_t last = steps_done + n; steps_done < last;) {
+      if (rebuild_always || level->lists_may_miss_a_pair()) level->rebuild_lists();
+      level->move();
+      ++steps_done;
+      if (steps_done % event_interval != 0) continue;
+      level->refresh_spacing();
+      if (population) level->adjust_population();
+    }
+  }
+
+  void renew_stars() {
+    level->rebuild_lists();
+    level->renew_stars();
+  }
+};

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers that look random and are the same everywhere.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "core/types.hpp"
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : bits_(seed) {}
+
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53;
+  }
+  std::int64_t below(std::int64_t n) {
+    return static_cast<std::int64_t>(bits_() % static_cast<std::uint64_t>(n));
+  }
+  template <int Dim>
+  pnpbs::Point<Dim> point(const pnpbs::Box<Dim>& box) {
+    pnpbs::Point<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = between(box.low[k], box.high[k]);
+    return x;
+  }
+  template <class T>
+  void shuffle(std::vector<T>& items) {
+    for (std::size_t n = items.size(); n > 1; --n)
+      std::swap(items[n - 1], items[static_cast<std::size_t>(below(static_cast<std::int64_t>(n)))]);
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};

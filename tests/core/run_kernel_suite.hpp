@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A runner of tests that use kernels: Kokkos runs, with two threads, while they do.
+#pragma once
+
+#include "core/kokkos_runtime.hpp"
+#include "geometry/run_suite.hpp"
+
+inline int run_kernel_suite(const char* name, std::initializer_list<const TTest*> tests) {
+  pnpbs::start_kokkos(2, 1, [] {});
+  const int status = run_suite(name, tests);
+  pnpbs::end_kokkos();
+  return status;
+}

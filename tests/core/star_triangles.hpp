@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The triangles of a level's stars, and what must hold of them whatever the nodes are.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "geometry/predicates.hpp"
+#include "level_run.hpp"
+
+// Three nodes in increasing order of their place in memory.
+using Triangle = std::array<std::int64_t, 3>;
+
+inline Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+// Memory index of each boundary node.
+inline std::vector<std::int64_t> boundary_places(const pnpbs::Level& level) {
+  std::vector<std::int64_t> places(level.boundary().nodes.size(), -1);
+  for (std::int64_t i = 0; i < level.nodes().count; ++i)
+    if (!level.nodes().moves(i))
+      places[static_cast<std::size_t>(level.nodes().boundary_node(i))] = i;
+  return places;
+}
+
+// The triangles, each found in the stars of all its three corners; all counter-clockwise; and
+// every boundary edge is in the stars of its ends.
+inline std::vector<Triangle> star_triangles(const pnpbs::Level& level) {
+  const pnpbs::Nodes<2>& nodes = level.nodes();
+  std::map<Triangle, int> found;
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    level.stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+      ck_assert_msg(pnpbs::orientation(nodes.position(i), nodes.position(j), nodes.position(k)) > 0,
+                    "a triangle of node %lld at (%.17g, %.17g) is flat or turned over",
+                    static_cast<long long>(nodes.id(i)), nodes.x[0](i), nodes.x[1](i));
+      ++found[sorted({i, j, k})];
+    });
+  std::vector<Triangle> triangles;
+  for (const auto& [t, times] : found) {
+    ck_assert_msg(times == 3, "triangle (%.17g, %.17g) (%.17g, %.17g) (%.17g, %.17g): %d stars",
+                  nodes.x[0](t[0]), nodes.x[1](t[0]), nodes.x[0](t[1]), nodes.x[1](t[1]),
+                  nodes.x[0](t[2]), nodes.x[1](t[2]), times);
+    triangles.push_back(t);
+  }
+  const std::vector<std::int64_t> places = boundary_places(level);
+  for (const pnpbs::BoundaryEdge& e : level.boundary().edges) {
+    if (e.begin == e.end) continue;
+    const std::int64_t a = places[static_cast<std::size_t>(e.begin)];
+    const std::int64_t b = places[static_cast<std::size_t>(e.end)];
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
+      bool there = false;
+      level.stars().for_neighbours(
+          from, [&, to = to](std::int64_t j, bool) { there = there || j == to; });
+      ck_assert_msg(there, "a boundary edge is missing at (%.17g, %.17g)", nodes.x[0](from),
+                    nodes.x[1](from));
+    }
+  }
+  return triangles;
+}

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Time steps against the exact solution of a damped oscillator: one bubble between two fixed ones.
+// With a linear push that reaches far enough the force on it is exactly linear.
+#include <cmath>
+#include <vector>
+
+#include "bubbles.hpp"
+#include "forces/pair_laws.hpp"
+#include "forces/schemes.hpp"
+#include "run_kernel_suite.hpp"
+
+using pnpbs::Field;
+using pnpbs::LinearPush;
+using pnpbs::Motion;
+
+namespace {
+
+enum class Scheme { damped, predictor_corrector, runge_kutta };
+
+template <int Dim>
+struct Run {
+  Bubbles<Dim> bubbles;
+  Field<Dim> next;
+  pnpbs::Stages<Dim> stages;
+
+  explicit Run(const std::vector<Bubble<Dim>>& start, double radius) {
+    bubbles.grow_tree([](const Point<Dim>&) { return 0.1; });
+    bubbles.set(start);
+    bubbles.list(radius);
+    pnpbs::reserve_field<Dim>(next, "next", bubbles.nodes.capacity());
+    bubbles.pad(next);
+  }
+
+  template <class Law>
+  void step(Scheme scheme, const Law& law, const Motion& motion) {
+    pnpbs::Nodes<Dim>& nodes = bubbles.nodes;
+    if (scheme == Scheme::damped)
+      pnpbs::damped_step<Dim>(nodes, bubbles.lists, law, motion, next);
+    else if (scheme == Scheme::predictor_corrector)
+      pnpbs::predictor_corrector_step<Dim>(nodes, bubbles.lists, law, motion, stages, next);
+    else
+      pnpbs::runge_kutta_step<Dim>(nodes, bubbles.lists, law, motion, stages, next);
+    std::swap(nodes.x, next);
+  }
+
+  std::int64_t node(std::int64_t id) const {
+    for (std::int64_t i = 0; i < bubbles.nodes.count; ++i)
+      if (bubbles.nodes.id(i) == id) return i;
+    ck_abort_msg("no such node");
+    return -1;
+  }
+};
+
+constexpr double kSpacing = 0.05, kHalf = 0.06, kStart = 0.04, kRange = 4, kDamping = 0.4;
+
+// The direction along which the three lie.
+template <int Dim>
+Point<Dim> direction() {
+  Point<Dim> u;
+  double square = 0;
+  for (int k = 0; k < Dim; ++k) {
+    u[k] = 1.0 + k;
+    square += u[k] * u[k];
+  }
+  for (int k = 0; k < Dim; ++k) u[k] /= std::sqrt(square);
+  return u;
+}
+
+template <int Dim>
+Point<Dim> along(double s) {
+  Point<Dim> x;
+  for (int k = 0; k < Dim; ++k) x[k] = 0.5 + s * direction<Dim>()[k];
+  return x;
+}
+
+// The largest error of position and velocity, over the amplitude, after time 3 in n steps.
+// With y the distance from the middle, the two pushes add up to f = -2 y / (range d); in scaled
+// units y'' + c y' = d f.
+template <int Dim>
+double oscillator_error(Scheme scheme, int n) {
+  Run<Dim> run({{along<Dim>(-kHalf), kSpacing, 0, false},
+                {along<Dim>(kStart), kSpacing, 1, true},
+                {along<Dim>(kHalf), kSpacing, 2, false}},
+               kRange + 0.5);
+  Motion motion;
+  motion.dt = 3.0 / n;
+  motion.damping = kDamping;
+  motion.most = 100;
+  for (int step = 0; step < n; ++step) run.step(scheme, LinearPush{1, kRange}, motion);
+
+  const double rate = std::sqrt(2 / kRange - kDamping * kDamping / 4), decay = kDamping / 2, t = 3;
+  const double shape = std::cos(rate * t) + decay / rate * std::sin(rate * t);
+  const double y = kStart * std::exp(-decay * t) * shape;
+  const double v = -kStart * std::exp(-decay * t) * (2 / kRange) / rate * std::sin(rate * t);
+  const std::int64_t i = run.node(1);
+  double error = 0;
+  for (int k = 0; k < Dim; ++k) {
+    const double u = direction<Dim>()[k];
+    error = std::max(error, std::fabs(run.bubbles.nodes.x[k](i) - 0.5 - y * u));
+    error = std::max(error, std::fabs(run.bubbles.nodes.v[k](i) - v * u));
+  }
+  for (const std::int64_t fixed : {0, 2})
+    ck_assert(run.bubbles.nodes.position(run.node(fixed)) == along<Dim>((fixed - 1.0) * kHalf));
+  return error / kStart;
+}
+
+void expect_order(Scheme scheme, double order, double error_at_16) {
+  double before = 0;
+  for (const int n : {16, 32, 64, 128}) {
+    const double error = oscillator_error<2>(scheme, n);
+    ck_assert_double_eq_tol(oscillator_error<3>(scheme, n), error, 0.5 * error);
+    if (n == 16) ck_assert_double_lt(error, error_at_16);
+    if (n > 32) ck_assert_double_eq_tol(std::log2(before / error), order, 0.12);
+    before = error;
+  }
+}
+
+// Two bubbles pressed together: without a limit each would move by much more.
+void expect_clamp(Scheme scheme) {
+  const double d = 0.1;
+  Run<2> run({{{0.5, 0.5}, d, 0}, {{0.503, 0.504}, d, 1}, {{0.503, 0.504}, 1e-9, 2, false}}, 1.7);
+  Motion motion;
+  motion.dt = 2;
+  motion.most = 0.17;
+  const pnpbs::CubicLaw law;
+  std::vector<Point<2>> before;
+  for (std::int64_t id = 0; id < 3; ++id)
+    before.push_back(run.bubbles.nodes.position(run.node(id)));
+  run.step(scheme, law, motion);
+  for (const std::int64_t id : {0, 1}) {
+    const std::int64_t i = run.node(id);
+    const Point<2> x = run.bubbles.nodes.position(i);
+    const double way = pnpbs::distance<2>(x, before[static_cast<std::size_t>(id)]);
+    ck_assert_double_eq_tol(way, 0.17 * d, 1e-15);
+    const double sign = id == 0 ? -1 : 1;
+    ck_assert_double_eq_tol((x[0] - before[static_cast<std::size_t>(id)][0]) / way, sign * 0.6,
+                            1e-9);
+    ck_assert_double_eq_tol((x[1] - before[static_cast<std::size_t>(id)][1]) / way, sign * 0.8,
+                            1e-9);
+  }
+  ck_assert(run.bubbles.nodes.position(run.node(2)) == before[2]);
+}
+
+}  // namespace
+
+START_TEST(damped_step_is_of_first_order) { expect_order(Scheme::damped, 1, 0.2); }
+END_TEST
+
+START_TEST(predictor_corrector_is_of_second_order) {
+  expect_order(Scheme::predictor_corrector, 2, 0.01);
+}
+END_TEST
+
+START_TEST(runge_kutta_is_of_fourth_order) { expect_order(Scheme::runge_kutta, 4, 1e-4); }
+END_TEST
+
+// Bubbles of any size swing alike in scaled units: x / d after the same time is the same.
+START_TEST(fine_and_coarse_bubbles_move_alike) {
+  for (const Scheme scheme : {Scheme::damped, Scheme::predictor_corrector, Scheme::runge_kutta}) {
+    double scaled[2];
+    for (const int fine : {0, 1}) {
+      const double d = fine ? 0.001 : 0.1;
+      Run<2> run({{{0.5 - d, 0.5}, d, 0, false},
+                  {{0.5 + 0.3 * d, 0.5}, d, 1},
+                  {{0.5 + d, 0.5}, d, 2, false}},
+                 1.7);
+      for (int step = 0; step < 20; ++step) run.step(scheme, pnpbs::CubicLaw{}, Motion{});
+      scaled[fine] = (run.bubbles.nodes.x[0](run.node(1)) - 0.5) / d;
+    }
+    ck_assert_double_eq_tol(scaled[0], scaled[1], 1e-11);
+    ck_assert_double_lt(std::fabs(scaled[0]), 0.1);  // damped towards the middle
+  }
+}
+END_TEST
+
+START_TEST(moves_are_clamped) {
+  for (const Scheme scheme : {Scheme::damped, Scheme::predictor_corrector, Scheme::runge_kutta})
+    expect_clamp(scheme);
+}
+END_TEST
+
+START_TEST(clamp_keeps_short_moves) {
+  std::array<double, 3> move{0.03, -0.04, 0};
+  pnpbs::clamp_move<3>(move, 0.05 * (1 + 1e-15));
+  ck_assert(move == (std::array<double, 3>{0.03, -0.04, 0}));
+  pnpbs::clamp_move<3>(move, 0.005);
+  ck_assert_double_eq_tol(move[0], 0.003, 1e-17);
+  ck_assert_double_eq_tol(move[1], -0.004, 1e-17);
+  std::array<double, 3> none{};
+  pnpbs::clamp_move<3>(none, 0.1);
+  ck_assert(none == (std::array<double, 3>{}));
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite("schemes",
+                          {damped_step_is_of_first_order, predictor_corrector_is_of_second_order,
+                           runge_kutta_is_of_fourth_order, fine_and_coarse_bubbles_move_alike,
+                           moves_are_clamped, clamp_keeps_short_moves});
+}

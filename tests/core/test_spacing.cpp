@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Spacing functions: grids, errors, and the growth limit against a search over all sources.
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/error.hpp"
+#include "geometry/expect_error.hpp"
+#include "level_run.hpp"
+#include "random.hpp"
+#include "run_kernel_suite.hpp"
+#include "spacing/growth_limit.hpp"
+
+using pnpbs::GridSpacing;
+using pnpbs::GrowthLimitedSpacing;
+using pnpbs::PlaneDomain;
+using shapes::add_chain;
+using shapes::add_loop;
+using shapes::rectangle;
+using P = pnpbs::Point<2>;
+using P3 = pnpbs::Point<3>;
+
+namespace {
+
+template <int Dim>
+double value_at(const pnpbs::Spacing<Dim>& spacing, const pnpbs::Point<Dim>& x) {
+  double d = -1;
+  spacing.evaluate(1, &x, &d);
+  return d;
+}
+
+// ------------------------------------------------------------------ growth limit ---------------
+
+constexpr double kGrowth = 0.15;
+
+struct Limited {
+  PlaneDomain domain;
+  Plane raw;
+  std::unique_ptr<GrowthLimitedSpacing> spacing;
+
+  Limited(const Build& build, Plane d, double growth = kGrowth) : raw(std::move(d)) {
+    build(domain);
+    domain.check();
+    spacing =
+        std::make_unique<GrowthLimitedSpacing>(domain, spacing_of(raw), growth, 1'000'000'000);
+  }
+  double at(const P& x) const { return value_at<2>(*spacing, x); }
+  double raw_at(const P& x) const { return raw(x[0], x[1]); }
+};
+
+void add_square(PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 1)); }
+
+// A place of fine bubbles, with d rising steeply around it up to a plateau.
+struct Pit {
+  P middle;
+  double least, slope, most;
+
+  double operator()(double x, double y) const {
+    return std::min(most, least + slope * std::hypot(x - middle[0], y - middle[1]));
+  }
+  // What a growth limit below the slope makes of it in a convex domain.
+  double limited(const P& x, double growth) const {
+    return std::min(most, least + growth * pnpbs::distance<2>(x, middle));
+  }
+};
+
+}  // namespace
+
+// ------------------------------------------------------------------ grids ----------------------
+
+START_TEST(grids_are_linear_in_each_direction) {
+  const auto plane = [](double x, double y) { return 3 + 0.5 * x - 0.25 * y + 0.75 * x * y; };
+  std::vector<double> values;
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 5; ++i) values.push_back(plane(-1 + 0.5 * i, 2 + 0.25 * j));
+  const GridSpacing<2> grid({5, 4}, {-1, 2}, {0.5, 0.25}, values);
+  Random random(91);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const P x{random.between(-1, 1), random.between(2, 2.75)};
+    ck_assert_double_eq_tol(value_at<2>(grid, x), plane(x[0], x[1]), 1e-14);
+    const P beyond{random.between(-9, 9), random.between(-9, 9)};
+    ck_assert_double_eq_tol(
+        value_at<2>(grid, beyond),
+        plane(std::clamp(beyond[0], -1.0, 1.0), std::clamp(beyond[1], 2.0, 2.75)), 1e-13);
+  }
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 5; ++i)
+      ck_assert(value_at<2>(grid, {-1 + 0.5 * i, 2 + 0.25 * j}) ==
+                values[static_cast<std::size_t>(5 * j + i)]);
+}
+END_TEST
+
+START_TEST(grids_are_linear_only_between_neighbours) {
+  // A kink at every grid line: only the four values around a point count.
+  const GridSpacing<2> grid({3, 2}, {0, 0}, {1, 1}, {1, 2, 10, 3, 5, 20});
+  ck_assert_double_eq(value_at<2>(grid, {0.5, 0}), 1.5);
+  ck_assert_double_eq(value_at<2>(grid, {1.5, 0}), 6);
+  ck_assert_double_eq(value_at<2>(grid, {0, 0.25}), 1.5);
+  ck_assert_double_eq(value_at<2>(grid, {1.25, 0.5}), 0.5 * (4 + 8.75));
+  ck_assert_double_eq(value_at<2>(grid, {2, 1}), 20);
+  ck_assert_double_eq(value_at<2>(grid, {3, -7}), 10);
+}
+END_TEST
+
+START_TEST(grids_in_space_and_thin_ones) {
+  const auto solid = [](double x, double y, double z) {
+    return 1 + x + 2 * y + 3 * z + x * y - y * z + 0.5 * x * y * z;
+  };
+  std::vector<double> values;
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 4; ++i) values.push_back(solid(i, 0.5 * j, 2.0 * k));
+  const GridSpacing<3> grid({4, 2, 3}, {0, 0, 0}, {1, 0.5, 2}, values);
+  Random random(92);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const P3 x{random.between(-1, 4), random.between(-1, 1), random.between(-1, 5)};
+    ck_assert_double_eq_tol(
+        value_at<3>(grid, x),
+        solid(std::clamp(x[0], 0.0, 3.0), std::clamp(x[1], 0.0, 0.5), std::clamp(x[2], 0.0, 4.0)),
+        1e-13);
+  }
+  const GridSpacing<2> row({3, 1}, {0, 0}, {1, 1}, {1, 2, 4});
+  ck_assert_double_eq(value_at<2>(row, {1.5, 0.3}), 3);
+  const GridSpacing<2> one({1, 1}, {0, 0}, {1, 1}, {7});
+  ck_assert_double_eq(value_at<2>(one, {1.5, -0.3}), 7);
+}
+END_TEST
+
+START_TEST(values_beside_a_hole_in_the_grid) {
+  // NaN marks what is not known; a point that does not need it is not spoilt by it.
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const GridSpacing<2> grid({3, 2}, {0, 0}, {1, 1}, {1, 2, nan, 1, 2, nan});
+  ck_assert_double_eq(value_at<2>(grid, {1, 0.5}), 2);
+  ck_assert_double_eq(value_at<2>(grid, {0.5, 1}), 1.5);
+  ck_assert(std::isnan(value_at<2>(grid, {1.5, 0.5})));
+}
+END_TEST
+
+// ------------------------------------------------------------------ errors ---------------------
+
+START_TEST(bad_values_are_named) {
+  const auto evaluate = [](double bad) {
+    const auto spacing = spacing_of([bad](double x, double) { return x > 0.5 ? bad : 0.1; });
+    const P x[] = {{0.25, 1}, {0.75, -3}, {0.875, 2}};
+    double d[3];
+    pnpbs::evaluate_spacing<2>(*spacing, 2.5, 3, x, d);
+  };
+  expect_error(PNPBS_ERROR_SPACING, {"d = 0 at (0.75, -3)", "infinitely many nodes"},
+               [&] { evaluate(0); });
+  expect_error(PNPBS_ERROR_SPACING, {"d = -2.5 at (0.75, -3)", "greater than 0"},
+               [&] { evaluate(-2.5); });
+  expect_error(PNPBS_ERROR_SPACING, {"d = nan at (0.75, -3)", "not finite"},
+               [&] { evaluate(std::numeric_limits<double>::quiet_NaN()); });
+  expect_error(PNPBS_ERROR_SPACING, {"d = inf at (0.75, -3)", "not finite"},
+               [&] { evaluate(std::numeric_limits<double>::infinity()); });
+  // 2 / sqrt(3) nodes per d^2 on an area of 2.5.
+  expect_error(PNPBS_ERROR_SPACING, {"d = 1e-09 at (0.75, -3)", "2886751345948", "larger d"},
+               [&] { evaluate(1e-9); });
+  expect_error(PNPBS_ERROR_SPACING, {"d = 5e-324 at (0.75, -3)", "about inf nodes"},
+               [&] { evaluate(5e-324); });
+  evaluate(1e-7);
+  const P3 x{1, 2, 3};
+  double d;
+  expect_error(PNPBS_ERROR_SPACING, {"at (1, 2, 3)", "about 1575"},
+               [&] { pnpbs::evaluate_spacing<3>(pnpbs::ConstantSpacing<3>(1e-6), 1, 1, &x, &d); });
+}
+END_TEST
+
+START_TEST(callbacks_that_fail) {
+  const pnpbs::CallbackSpacing<2> spacing(
+      [](std::int64_t, const double*, double*) { return std::int32_t{17}; });
+  const P x[] = {{0, 0}, {1, 1}};
+  double d[2];
+  expect_error(PNPBS_ERROR_CALLBACK, {"returned 17", "2 points"},
+               [&] { pnpbs::evaluate_spacing<2>(spacing, 1, 2, x, d); });
+  const pnpbs::CallbackSpacing<2> counted([](std::int64_t n, const double* points, double*) {
+    return static_cast<std::int32_t>(n == 0 && points == nullptr ? 0 : 1);
+  });
+  pnpbs::evaluate_spacing<2>(counted, 1, 0, nullptr, nullptr);
+}
+END_TEST
+
+// ------------------------------------------------------------------ growth limit ---------------
+
+// Never more than d itself, never less than the exact answer and not much more, and the growth
+// between any two points as allowed, but for 5 % of d.
+START_TEST(growth_limit_of_pits) {
+  for (const double slope : {0.225, 0.5}) {
+    for (const double most : {0.03, 0.2}) {
+      const Pit pit{{0.31, 0.42}, 0.003, slope, most};
+      const Limited limited(add_square, pit);
+      Random random(93);
+      for (int trial = 0; trial < 3000; ++trial) {
+        const P x = random.point<2>(limited.domain.bounds());
+        const double d = limited.at(x), exact = pit.limited(x, kGrowth);
+        ck_assert_double_le(d, limited.raw_at(x));
+        ck_assert_double_ge(d, exact * (1 - 1e-12));
+        ck_assert_double_le(d, exact * 1.1);
+        for (int other = 0; other < 10; ++other) {
+          const double reach = std::pow(10, random.between(-4, 0));
+          const P y{std::clamp(x[0] + random.between(-reach, reach), 0.0, 1.0),
+                    std::clamp(x[1] + random.between(-reach, reach), 0.0, 1.0)};
+          ck_assert_double_le(limited.at(y), d + kGrowth * pnpbs::distance<2>(x, y) + 0.05 * d);
+        }
+      }
+    }
+  }
+}
+END_TEST
+
+START_TEST(growth_limit_leaves_alone_what_grows_slowly) {
+  const Plane slow = [](double x, double y) { return 0.01 + 0.14 * std::hypot(x - 0.2, y - 0.7); };
+  const Limited limited(add_square, slow);
+  Random random(94);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const P x = random.point<2>(limited.domain.bounds());
+    ck_assert(limited.at(x) == limited.raw_at(x));
+  }
+  const Limited even(add_square, constant(0.05), 1e-3);
+  ck_assert(even.at({0.3, 0.4}) == 0.05);
+}
+END_TEST
+
+// A fine source at a boundary node counts, too; and ways lead through the domain, not across gaps.
+START_TEST(growth_limit_goes_through_the_domain) {
+  const Build horseshoe = [](PlaneDomain& p) {
+    const std::vector<double> xy{0, 0, 1, 0, 1, 1, 0, 1, 0, 0.6, 0.8, 0.6, 0.8, 0.4, 0, 0.4};
+    p.add_polyline(PNPBS_BOUNDARY, true, 8, xy.data(), nullptr, 0);
+  };
+  const double growth = 0.01, least = 0.004;
+  const Limited limited(
+      horseshoe, [=](double x, double y) { return x + y < 1e-3 ? least : 0.03; }, growth);
+  // From the lower left corner round the bend, 0.8 or so, and back.
+  const double bend = std::hypot(0.8, 0.4) + 0.2;
+  for (const double x : {0.01, 0.2, 0.4}) {
+    const double far = bend + 0.8 - x, near = std::hypot(x, 0.39);
+    ck_assert_double_eq_tol(limited.at({x, 0.61}), least + growth * far, 0.1 * growth * far);
+    ck_assert_double_eq_tol(limited.at({x, 0.39}), least + growth * near, 0.1 * growth * near);
+  }
+}
+END_TEST
+
+START_TEST(growth_limit_reports_bad_values) {
+  PlaneDomain domain;
+  add_square(domain);
+  domain.check();
+  expect_error(PNPBS_ERROR_SPACING, {"d = -1 at ("}, [&] {
+    GrowthLimitedSpacing(domain, spacing_of([](double x, double y) {
+                           return std::hypot(x - 0.5, y - 0.5) < 0.3 ? -1 : 0.1;
+                         }),
+                         0.1, 1000000);
+  });
+  // What is bad later, where nobody has looked, stays and is seen then.
+  bool broken = false;
+  const GrowthLimitedSpacing limited(
+      domain, spacing_of([&broken](double, double) { return broken ? std::nan("") : 0.1; }), 0.1,
+      1000000);
+  broken = true;
+  ck_assert(std::isnan(value_at<2>(limited, {0.5, 0.5})));
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite(
+      "spacing",
+      {grids_are_linear_in_each_direction, grids_are_linear_only_between_neighbours,
+       grids_in_space_and_thin_ones, values_beside_a_hole_in_the_grid, bad_values_are_named,
+       callbacks_that_fail, growth_limit_of_pits, growth_limit_leaves_alone_what_grows_slowly,
+       growth_limit_goes_through_the_domain, growth_limit_reports_bad_values});
+}

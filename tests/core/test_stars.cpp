@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Delaunay stars against the constrained Delaunay triangulation of another library (CGAL).
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "evaluate.hpp"
+#include "random.hpp"
+#include "run_kernel_suite.hpp"
+#include "star_triangles.hpp"
+
+using pnpbs::Level;
+using pnpbs::PlaneDomain;
+using shapes::add_chain;
+using shapes::add_circle;
+using shapes::add_loop;
+using shapes::rectangle;
+using P = pnpbs::Point<2>;
+
+namespace {
+
+std::vector<Triangle> reference(const Level& level) {
+  pnpbs_bench::NodeSet set;
+  for (std::int64_t i = 0; i < level.nodes().count; ++i) {
+    set.x.push_back(level.nodes().position(i));
+    set.d.push_back(level.nodes().d(i));
+  }
+  const std::vector<std::int64_t> places = boundary_places(level);
+  for (const pnpbs::BoundaryEdge& e : level.boundary().edges) {
+    if (e.begin == e.end) continue;
+    const std::array<std::int64_t, 2> ends{places[static_cast<std::size_t>(e.begin)],
+                                           places[static_cast<std::size_t>(e.end)]};
+    (e.left_inside == e.right_inside ? set.inner_edges : set.edges).push_back(ends);
+  }
+  return pnpbs_bench::reference_triangles(set);
+}
+
+int place_in_circle(const Level& level, const Triangle& t, std::int64_t d) {
+  const auto x = [&](std::int64_t i) { return level.nodes().position(i); };
+  const int turn = pnpbs::orientation(x(t[0]), x(t[1]), x(t[2]));
+  return turn * pnpbs::in_circle(x(t[0]), x(t[1]), x(t[2]), x(d));
+}
+
+// Of the triangles beside t among `others`: does a corner lie exactly on the circle of t, and none
+// inside?
+bool tied(const Level& level, const Triangle& t, const std::vector<Triangle>& others) {
+  const auto in_t = [&](std::int64_t d) { return std::count(t.begin(), t.end(), d) > 0; };
+  bool on_circle = false;
+  for (const Triangle& other : others) {
+    if (std::none_of(other.begin(), other.end(), in_t)) continue;
+    for (std::int64_t d : other) {
+      if (in_t(d)) continue;
+      const int place = place_in_circle(level, t, d);
+      if (place > 0) return false;
+      on_circle = on_circle || place == 0;
+    }
+  }
+  return on_circle;
+}
+
+// The same triangles; where four or more nodes lie exactly on a circle, as many, on that circle.
+void expect_reference(const Level& level, const std::string& what) {
+  const std::vector<Triangle> ours = star_triangles(level), theirs = reference(level);
+  std::vector<Triangle> ours_only, theirs_only;
+  std::set_difference(ours.begin(), ours.end(), theirs.begin(), theirs.end(),
+                      std::back_inserter(ours_only));
+  std::set_difference(theirs.begin(), theirs.end(), ours.begin(), ours.end(),
+                      std::back_inserter(theirs_only));
+  ck_assert_msg(ours.size() == theirs.size(), "%s: %zu triangles instead of %zu", what.c_str(),
+                ours.size(), theirs.size());
+  ck_assert_uint_gt(ours.size(), 0);
+  for (const Triangle& t : ours_only) {
+    ck_assert_msg(tied(level, t, theirs_only),
+                  "%s: triangle (%.17g, %.17g) (%.17g, %.17g) (%.17g, %.17g) is not Delaunay",
+                  what.c_str(), level.nodes().x[0](t[0]), level.nodes().x[1](t[0]),
+                  level.nodes().x[0](t[1]), level.nodes().x[1](t[1]), level.nodes().x[0](t[2]),
+                  level.nodes().x[1](t[2]));
+  }
+}
+
+// From the fill and on: at the start, soon after, and when most has settled.
+void expect_stars(const std::string& what, const Build& build, const Plane& d,
+                  std::int64_t least_nodes = 100) {
+  LevelRun run(build, d);
+  run.level->fill();
+  ck_assert_int_gt(run.level->nodes().count, least_nodes);
+  for (const std::int64_t until : {0, 5, 100}) {
+    run.steps(until - run.steps_done);
+    run.renew_stars();
+    expect_reference(*run.level, what + " after " + std::to_string(until) + " steps");
+  }
+  run.level->sweep(5);
+  run.renew_stars();
+  expect_reference(*run.level, what + " after sweeps");
+}
+
+std::vector<pnpbs::GivenNode> scattered(const LevelRun& run, std::uint64_t seed, std::int64_t n) {
+  Random random(seed);
+  std::vector<pnpbs::GivenNode> nodes;
+  for (std::int64_t i = 0; i < n; ++i) nodes.push_back({random.point<2>(run.domain->bounds()), -1});
+  return nodes;
+}
+
+// Nodes anywhere, far too few or too many for d: nothing is as the lists would have it.
+void expect_stars_of_scattered_nodes(const std::string& what, const Build& build, const Plane& d) {
+  std::uint64_t seed = 70;
+  for (const std::int64_t n : {0, 1, 2, 5, 30, 200, 3000}) {
+    LevelRun run(build, d);
+    run.level->take(scattered(run, ++seed, n), 0);
+    run.renew_stars();
+    expect_reference(*run.level, what + " with " + std::to_string(n) + " scattered nodes");
+  }
+}
+
+void add_square(PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 1)); }
+
+void add_annulus(PlaneDomain& domain) {
+  add_circle(domain, 0.5, 0.5, 0.5);
+  add_circle(domain, 0.45, 0.52, 0.17);
+}
+
+void add_square_with_slit(PlaneDomain& domain) {
+  add_square(domain);
+  add_chain(domain, {0.2, 0.51, 0.7, 0.55, 0.72, 0.8});
+}
+
+void add_square_cut_in_two(PlaneDomain& domain) {
+  add_square(domain);
+  add_chain(domain, {0, 0.4, 0.6, 0.47, 1, 0.9});
+  const double fixed[] = {0.3, 0.2, 0.8, 0.3};
+  domain.add_fixed_nodes(2, fixed, nullptr);
+}
+
+void add_square_with_islet(PlaneDomain& domain) {
+  add_square(domain);
+  add_loop(domain, shapes::circle(0.503, 0.498, 0.004, 5));
+  add_loop(domain, shapes::circle(0.2, 0.25, 0.0001, 4));
+}
+
+// Channels 0.02 wide between teeth of the same width.
+void add_comb(PlaneDomain& domain) {
+  std::vector<double> xy{0, 0, 1, 0};
+  for (double x = 0.98; x > 0.1; x -= 0.04)
+    for (const auto& [dx, y] :
+         {std::pair{0.0, 0.5}, std::pair{0.0, 0.1}, std::pair{-0.02, 0.1}, std::pair{-0.02, 0.5}})
+      xy.insert(xy.end(), {x + dx, y});
+  xy.insert(xy.end(), {0, 0.5});
+  domain.add_polyline(PNPBS_BOUNDARY, true, static_cast<std::int64_t>(xy.size() / 2), xy.data(),
+                      nullptr, 0);
+}
+
+// Corners of 1 and 5 degrees, and outer ones beside them.
+void add_thorns(PlaneDomain& domain) {
+  const double one = std::tan(shapes::pi / 180), five = std::tan(5 * shapes::pi / 180);
+  const std::vector<double> xy{0, 0,   1, 0,          1,   one, 1.5, 0.3,
+                               1, 0.6, 0, 0.6 + five, 0.9, 0.6, 0.9, one * 1.2};
+  domain.add_polyline(PNPBS_BOUNDARY, true, static_cast<std::int64_t>(xy.size() / 2), xy.data(),
+                      nullptr, 0);
+}
+
+struct Shape {
+  const char* name;
+  Build build;
+  double d;
+};
+
+const std::vector<Shape>& small_shapes() {
+  static const std::vector<Shape> all{{"square", add_square, 0.03},
+                                      {"annulus", add_annulus, 0.03},
+                                      {"square with a slit", add_square_with_slit, 0.03},
+                                      {"square cut in two", add_square_cut_in_two, 0.035},
+                                      {"square with islets", add_square_with_islet, 0.03},
+                                      {"comb", add_comb, 0.015},
+                                      {"thorns", add_thorns, 0.03}};
+  return all;
+}
+
+Plane graded(double d) {
+  return [d](double x, double y) { return d * (0.4 + 2 * std::hypot(x - 0.4, y - 0.3)); };
+}
+
+// A jump by a factor of 12.
+Plane jump(double d) {
+  return [d](double x, double y) { return x + 0.3 * y < 0.55 ? d / 3 : 4 * d; };
+}
+
+}  // namespace
+
+START_TEST(small_shapes_with_constant_spacing) {
+  for (const Shape& shape : small_shapes())
+    expect_stars(shape.name, shape.build, constant(shape.d));
+}
+END_TEST
+
+START_TEST(small_shapes_with_graded_spacing) {
+  for (const Shape& shape : small_shapes())
+    expect_stars(std::string("graded ") + shape.name, shape.build, graded(shape.d));
+}
+END_TEST
+
+START_TEST(small_shapes_with_a_jump) {
+  for (const Shape& shape : small_shapes())
+    expect_stars(std::string("jump, ") + shape.name, shape.build, jump(shape.d));
+}
+END_TEST
+
+// d larger than everything: few nodes but those of the boundary.
+START_TEST(small_shapes_far_too_coarse) {
+  for (const Shape& shape : small_shapes())
+    expect_stars(std::string("coarse ") + shape.name, shape.build, constant(0.4), 3);
+}
+END_TEST
+
+START_TEST(lakes) {
+  const struct {
+    const char* name;
+    double d;
+  } all[] = {{"lake_victoria", 4}, {"great_lakes", 12}, {"great_lakes_islands", 12}};
+  for (const auto& lake : all) {
+    const Build build = [&](PlaneDomain& domain) { add_lake(domain, lake.name); };
+    expect_stars(lake.name, build, constant(lake.d), 1000);
+    const double d = 0.3 * lake.d;
+    expect_stars(
+        std::string("graded ") + lake.name, build,
+        [d](double x, double y) { return d + 0.02 * std::hypot(x, y); }, 1000);
+  }
+}
+END_TEST
+
+START_TEST(scattered_nodes) {
+  for (const Shape& shape : small_shapes()) {
+    expect_stars_of_scattered_nodes(shape.name, shape.build, constant(shape.d));
+    expect_stars_of_scattered_nodes(std::string("graded ") + shape.name, shape.build,
+                                    graded(shape.d));
+    expect_stars_of_scattered_nodes(std::string("jump, ") + shape.name, shape.build, jump(shape.d));
+  }
+}
+END_TEST
+
+// The triangle of the three nodes named is so flat that its circle reaches beyond all nodes, but
+// beyond the upper side, one long edge, nothing counts.
+START_TEST(flat_triangle) {
+  LevelRun run([](PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 0.1)); },
+               [](double, double y) { return y > 0.0999 ? 10 : 0.02; });
+  ck_assert_int_eq(run.level->take({{{0.4, 0.07}, -1}, {{0.7, 0.055}, -1}}, 0).left_out, 0);
+  run.renew_stars();
+  expect_reference(*run.level, "strip");
+  std::vector<std::int64_t> corners;
+  for (std::int64_t i = 0; i < run.level->nodes().count; ++i)
+    if (run.level->nodes().moves(i) || run.level->nodes().position(i) == P{1, 0.1})
+      corners.push_back(i);
+  const std::vector<Triangle> triangles = star_triangles(*run.level);
+  ck_assert(std::count(triangles.begin(), triangles.end(),
+                       Triangle{corners.at(0), corners.at(1), corners.at(2)}) == 1);
+}
+END_TEST
+
+// All circles hold four nodes or more, and the diagonals are just within, just beyond or exactly
+// at the reach of the lists.
+START_TEST(exact_grids) {
+  const double h = 1.0 / 16;
+  for (const double radius : {1.5, 1.7}) {
+    std::vector<double> spacings{h, 0.9 * h};
+    double d = std::sqrt(2.0) * h / radius;
+    for (int k = 0; k < 4; ++k) d = std::nextafter(d, 0.0);
+    for (int k = 0; k < 9; ++k) {
+      spacings.push_back(d);
+      d = std::nextafter(d, 1.0);
+    }
+    for (const double spacing : spacings) {
+      LevelRun run(add_square, constant(spacing), {{"list_radius", "1.5"}});
+      std::vector<pnpbs::GivenNode> grid;
+      for (int i = 1; i < 16; ++i)
+        for (int j = 1; j < 16; ++j) grid.push_back({{i * h, j * h}, -1});
+      Random(71).shuffle(grid);
+      ck_assert_int_eq(run.level->take(grid, 0).left_out, 0);
+      run.level->rebuild_lists(radius);
+      run.level->renew_stars();
+      expect_reference(*run.level, "grid");
+    }
+  }
+}
+END_TEST
+
+// Ids decide ties, so every order of them must give stars that fit together.
+START_TEST(many_nodes_on_one_circle) {
+  Random random(72);
+  for (int trial = 0; trial < 20; ++trial) {
+    LevelRun run(add_square, constant(0.04));
+    std::vector<pnpbs::GivenNode> nodes;
+    for (int x = -65; x <= 65; ++x)
+      for (int y = -65; y <= 65; ++y)
+        if (x * x + y * y == 65 * 65) nodes.push_back({{0.5 + x / 256.0, 0.5 + y / 256.0}, -1});
+    ck_assert_uint_eq(nodes.size(), 36);
+    if (trial % 2) nodes.push_back({{0.5, 0.5}, -1});
+    random.shuffle(nodes);
+    for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k].id = 100 + static_cast<std::int64_t>(k);
+    ck_assert_int_eq(run.level->take(nodes, 0).left_out, 0);
+    run.renew_stars();
+    expect_reference(*run.level, "circle");
+  }
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite(
+      "stars", {small_shapes_with_constant_spacing, small_shapes_with_graded_spacing,
+                small_shapes_with_a_jump, small_shapes_far_too_coarse, lakes, scattered_nodes,
+                flat_triangle, exact_grids, many_nodes_on_one_circle});
+}
