@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which leaves of the background tree interact: those nearer to each other than the mean of what
-// they reach. Compressed rows; each leaf is among its own neighbours.
+// Which leaves of the background tree interact: those of which one reaches the other. Compressed rows; each leaf is among its own neighbours.
 #pragma once
 
 #include <algorithm>
@@ -45,8 +44,8 @@ double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
   return sum;
 }
 
-// Every leaf looks as far as it reaches itself; a pair is linked if either sees the other, and the
-// two together reach across the gap.
+// Every leaf looks as far as it reaches itself; a pair is linked if either sees the other. (Pairs of
+// bubbles reach half as far each, but the stars must know of every bubble that near.)
 template <int Dim>
 void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach) {
   const std::int32_t leaves = tree.leaf_count();
@@ -65,8 +64,7 @@ void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<do
     tree.for_leaves_in(around, [&](std::int32_t b) {
       const double reach_b = reach[index(b)];
       if (a == b || reach_b > reach_a || (reach_b == reach_a && b < a)) return;
-      const double both = 0.5 * (reach_a + reach_b);
-      if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > both * both) return;
+      if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > reach_a * reach_a) return;
       links.emplace_back(a, b);
       links.emplace_back(b, a);
     });
