@@ -324,8 +324,9 @@ PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
                                                    pnpbs_monitor_fn monitor, void *user);
 
 /** Inner nodes to start from instead of the initial fill, copied; the boundary is laid by the
- *  library. Points outside the domain or too close to its boundary are left out (statistic
- *  `dropped`). Clears the nodes there are. Collective.
+ *  library. Over several ranks each gives some, wherever they lie. Where they are many times too
+ *  dense for d they are thinned (statistic `deleted`). Points outside the domain or too close to
+ *  its boundary are left out (statistic `dropped`). Clears the nodes there are. Collective.
  *  @param[in] xy   [n][dim]
  *  @param[in] ids  [n], distinct, 0 .. 2^62, or NULL for ids of the library's choice */
 PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,

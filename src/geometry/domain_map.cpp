@@ -11,8 +11,6 @@ namespace pnpbs {
 
 namespace {
 
-// Nodes of a hexagonal lattice per d^2.
-constexpr double kHexagonalDensity = 1.1547005383792515;
 // A cell with more boundary nodes than this is split whatever d is.
 constexpr int kMostBoundaryNodes = 48;
 // Where d is sampled in a cell, in units of its side.

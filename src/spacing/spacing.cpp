@@ -65,7 +65,7 @@ std::string point_text(const Point<Dim>& x) {
 // 1.575 per d^3 (body-centred cubic, mean Delaunay edge d).
 template <int Dim>
 double meant_nodes(double d, double measure) {
-  return Dim == 2 ? 1.1547005383792515 * measure / (d * d) : 1.575 * measure / (d * d * d);
+  return Dim == 2 ? kHexagonalDensity * measure / (d * d) : 1.575 * measure / (d * d * d);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which leaves of the background tree interact: those of which one reaches the other. Compressed rows; each leaf is among its own neighbours.
+// Which leaves of the background tree interact: those of which one reaches the other. Compressed
+// rows; each leaf is among its own neighbours.
 #pragma once
 
 #include <algorithm>
@@ -44,8 +45,8 @@ double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
   return sum;
 }
 
-// Every leaf looks as far as it reaches itself; a pair is linked if either sees the other. (Pairs of
-// bubbles reach half as far each, but the stars must know of every bubble that near.)
+// Every leaf looks as far as it reaches itself; a pair is linked if either sees the other. (Pairs
+// of bubbles reach half as far each, but the stars must know of every bubble that near.)
 template <int Dim>
 void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach) {
   const std::int32_t leaves = tree.leaf_count();

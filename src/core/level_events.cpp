@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What happens to a level at events: refresh of d, population, stars, sweeps.
+#include <algorithm>
+#include <cmath>
+
+#include "core/level.hpp"
+#include "forces/population.hpp"
+#include "geometry/keep_off.hpp"
+#include "geometry/segments.hpp"
+#include "parallel/prefix_sums.hpp"
+#include "parallel/records.hpp"
+#include "stars/sweep.hpp"
+
+namespace pnpbs {
+
+// By the owners; ghosts get theirs with the next exchange.
+void Level::refresh_spacing() {
+  ++version_;
+  const PhaseTimer timer(timers_, Phase::spacing);
+  agreed(*comm_, [this] {
+    constexpr std::int64_t kBatch = 1 << 16;  // bounds the memory for the points handed out
+    std::vector<std::int64_t> who;
+    std::vector<Point<2>> x;
+    std::vector<double> d;  // the nodes' own d stays as it is if the callback fails
+    for (std::int64_t first = 0; first < nodes_.count; first += kBatch) {
+      who.clear();
+      x.clear();
+      for (std::int64_t i = first; i < std::min(first + kBatch, nodes_.count); ++i) {
+        if (!nodes_.owned(i)) continue;
+        who.push_back(i);
+        x.push_back(nodes_.position(i));
+      }
+      d.resize(x.size());
+      evaluate_spacing<2>(*spacing_, domain_->area(), static_cast<std::int64_t>(x.size()), x.data(),
+                          d.data());
+      for (std::size_t k = 0; k < who.size(); ++k) nodes_.d(who[k]) = d[k];
+    }
+  });
+  drop_anchors();
+}
+
+// Between boundary edges, or on top of another node: of two that nearly coincide the one with the
+// larger id, because they push each other no more.
+bool Level::has_no_room(std::int64_t i) const {
+  constexpr double kNearlyCoincide = 0.2;  // in units of d
+  const Point<2> x = nodes_.position(i);
+  double gap = kFarAway;
+  for (std::int32_t e : near_edges_.edges_of(i))
+    gap = std::min(gap, distance_to_segment(map_.edge_begin(e), map_.edge_end(e), x));
+  bool room = gap >= kLeastClearance * nodes_.d(i);
+  lists_.for_neighbours(i, [&](std::int64_t j) {
+    if (nodes_.moves(j) && nodes_.id(j) < nodes_.id(i) &&
+        distance<2>(x, nodes_.position(j)) < kNearlyCoincide * nodes_.d(i))
+      room = false;
+  });
+  return !room;
+}
+
+// In hops of the lists: a candidate is judged by its list, looks two hops far for room, and may not
+// act if a stronger one is within three. A hop of the leaf graph is the longer one.
+constexpr int kPopulationHops = 6;
+// Five sweeps on fixed stars, each with a guard that looks at the neighbours' moves.
+constexpr int kSweepHops = 12;
+
+void Level::exchange_for_stars() { exchange(kPopulationHops); }
+
+PopulationCounts Level::adjust_population(double refill) {
+  ++version_;
+  drop_anchors();
+  exchange(kPopulationHops);
+  PopulationChange<2> change;
+  agreed(*comm_, [&] {
+    rebuild_lists();
+    const PhaseTimer timer(timers_, Phase::population);
+    PopulationRule rule = settings_.population;
+    rule.insert_below = std::max(rule.insert_below, refill);
+    change = choose_population_change<2>(
+        nodes_, lists_, rule, [this](std::int64_t i) { return has_no_room(i); },
+        [this](const Point<2>& x, double d) { return fits(x, d); });
+  });
+  const PhaseTimer timer(timers_, Phase::population);
+  // Births are the parent's owner's to tell; deaths every rank sees that has the node.
+  PopulationCounts counts;
+  std::vector<Birth<2>> born;
+  for (std::size_t k = 0; k < change.born.size(); ++k)
+    if (nodes_.owned(change.parents[k])) born.push_back(change.born[k]);
+  for (std::int32_t i : change.deleted) counts.deleted += nodes_.owned(i);
+  counts.inserted = static_cast<std::int64_t>(born.size());
+
+  if (!change.deleted.empty()) {
+    View<std::int32_t> stay = make_view<std::int32_t>("pnpbs::Level::stay", nodes_.count);
+    std::int64_t kept = 0;
+    std::size_t next = 0;
+    for (std::int32_t i = 0; i < nodes_.count; ++i) {
+      if (next < change.deleted.size() && change.deleted[next] == i)
+        ++next;
+      else
+        stay(kept++) = i;
+    }
+    nodes_.permute(stay, kept);
+  }
+  if (comm_->sum(born.size()) > 0) number_births(std::move(born));
+  if (!change.deleted.empty() || !change.born.empty()) lists_valid_ = false;
+  exchange(step_hops());
+  return counts;
+}
+
+// The owner of the leaf a node is born in numbers it: ids by bucket in Morton order, then by
+// parent, so that no order of threads or ranks comes in.
+void Level::number_births(std::vector<Birth<2>> born) {
+  const BackgroundTree<2>& tree = map_.tree();
+  if (distributed()) {
+    const Halo& halo = distribution_.halo(kPopulationHops);
+    const std::vector<int> place = places_of(halo.neighbours(), comm_->size());
+    std::vector<Bytes> outgoing(halo.neighbours().size());
+    std::vector<Birth<2>> mine;
+    for (const Birth<2>& birth : born) {
+      const int owner = distribution_.owner(tree.leaf_at(birth.position));
+      if (owner == comm_->rank())
+        mine.push_back(birth);
+      else
+        pack(outgoing[static_cast<std::size_t>(place[static_cast<std::size_t>(owner)])], birth);
+    }
+    for_records<Birth<2>>(comm_->exchange(halo.neighbours(), outgoing),
+                          [&](const Birth<2>& birth) { mine.push_back(birth); });
+    born = std::move(mine);
+  }
+  std::vector<std::int64_t> new_ids(static_cast<std::size_t>(tree.leaf_count()), 0);
+  for (const Birth<2>& birth : born)
+    ++new_ids[static_cast<std::size_t>(tree.leaf_at(birth.position))];
+  std::vector<std::int64_t> next = prefix_sums(*comm_, std::move(new_ids), next_id_);
+  std::sort(born.begin(), born.end(),
+            [](const Birth<2>& a, const Birth<2>& b) { return a.parent < b.parent; });
+  for (const Birth<2>& birth : born)
+    nodes_.append(birth.position, birth.d,
+                  next[static_cast<std::size_t>(tree.leaf_at(birth.position))]++, 0, -1);
+}
+
+Speeds Level::speeds() const {
+  const auto scaled = [this](std::int64_t i) {
+    return std::sqrt(nodes_.v[0](i) * nodes_.v[0](i) + nodes_.v[1](i) * nodes_.v[1](i)) /
+           nodes_.d(i);
+  };
+  Speeds speeds;
+  speeds.largest =
+      comm_->largest(largest_of("pnpbs::Level::largest_speed", nodes_.count, 0.0,
+                                [&](std::int64_t i) { return nodes_.owned(i) ? scaled(i) : 0.0; }));
+  const std::uint64_t sum = sum_of("pnpbs::Level::mean_speed", nodes_.count, [&](std::int64_t i) {
+    return nodes_.owned(i) ? fixed_point(scaled(i)) : 0;
+  });
+  const auto all = static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(owned_count())));
+  const std::int64_t moving = std::max<std::int64_t>(1, all - boundary_nodes());
+  speeds.mean = from_fixed_point(comm_->sum(sum)) / static_cast<double>(moving);
+  return speeds;
+}
+
+void Level::renew_stars() {
+  const PhaseTimer timer(timers_, Phase::stars);
+  stars_.build({nodes_, map_, fans_, buckets_, lists_, near_edges_});
+}
+
+// In blocks of a few sweeps, within which the stars stay as they are.
+void Level::sweep(std::int64_t times) {
+  ++version_;
+  constexpr std::int64_t kBlock = 5;
+  for (std::int64_t done = 0; done < times; done += kBlock) {
+    drop_anchors();
+    exchange(kSweepHops);
+    agreed(*comm_, [this] {
+      rebuild_lists();
+      renew_stars();
+    });
+    const PhaseTimer timer(timers_, Phase::sweeps);
+    const View<char> allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count);
+    for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s)
+      pnpbs::sweep(nodes_, stars_, near_edges_, map_, settings_.sweep, next_, allowed);
+    lists_valid_ = false;
+  }
+}
+
+}  // namespace pnpbs
