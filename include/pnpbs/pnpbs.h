@@ -408,8 +408,9 @@ PNPBS_API pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int6
 PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t capacity,
                                                      int64_t *count, int64_t *triangles);
 
-/** Boundary edges: consecutive nodes on boundary and inner curves. Local. Ask with capacity 0
- *  for the count. @param[out] edges [count][2] local indices, or NULL
+/** Boundary edges: consecutive nodes on boundary and inner curves. Over several ranks an edge is
+ *  the rank's that owns the node it begins with; the other end may be a ghost. Local. Ask with
+ *  capacity 0 for the count. @param[out] edges [count][2] local indices, or NULL
  *  @param[out] tags [count], or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement,
                                                           int64_t capacity, int64_t *count,
