@@ -105,9 +105,9 @@ PopulationChange<Dim> choose_population_change(
   });
   // Three hops: nodes across a hole from each other are two spacings apart, which two hops around
   // it may not bridge.
-  View<Bid> farther = make_view<Bid>("pnpbs::population::farther", nodes.count);
   for_each("pnpbs::population::first_hop", nodes.count,
            [&](std::int64_t i) { seen(i) = strongest_around<Dim>(lists, bids, i); });
+  const View<Bid> farther = bids;  // what was bid is not needed any more
   for_each("pnpbs::population::second_hop", nodes.count,
            [&](std::int64_t i) { farther(i) = strongest_around<Dim>(lists, seen, i); });
 
