@@ -61,21 +61,35 @@ bool BoundaryFans::joined(std::int32_t a, std::int32_t b) const {
   return false;
 }
 
-bool BoundaryFans::leads_inside(const Boundary& boundary, std::int32_t node,
-                                const Point<2>& x) const {
-  if (begin(node) == end(node)) return true;
+BoundaryFans::Sectors BoundaryFans::sectors_towards(const Boundary& boundary, std::int32_t node,
+                                                    const Point<2>& x) const {
   const Point<2> centre = boundary.nodes[static_cast<std::size_t>(node)].position;
   // The last edge not after the direction of x; before the first edge, the last one holds.
   std::int32_t sector = end(node) - 1;
   for (std::int32_t k = begin(node); k < end(node); ++k) {
     const Point<2>& far = boundary.nodes[static_cast<std::size_t>(edge(k).other)].position;
     const bool x_before = before(centre, x, far);
-    const bool far_before = before(centre, far, x);
-    if (!x_before && !far_before) return true;  // along this edge
+    if (!x_before && !before(centre, far, x)) return {k, k > begin(node) ? k - 1 : end(node) - 1};
     if (x_before) break;
     sector = k;
   }
-  return edge(sector).inside_after;
+  return {sector, sector};
+}
+
+bool BoundaryFans::leads_inside(const Boundary& boundary, std::int32_t node,
+                                const Point<2>& x) const {
+  if (begin(node) == end(node)) return true;
+  const Sectors sectors = sectors_towards(boundary, node, x);
+  return edge(sectors.after).inside_after || edge(sectors.before).inside_after;
+}
+
+bool BoundaryFans::lets_pass(const Boundary& boundary, std::int32_t node, const Point<2>& x,
+                             const Point<2>& y) const {
+  if (begin(node) == end(node)) return true;
+  const Sectors from = sectors_towards(boundary, node, x), to = sectors_towards(boundary, node, y);
+  for (const std::int32_t sector : {from.after, from.before})
+    if ((sector == to.after || sector == to.before) && edge(sector).inside_after) return true;
+  return false;
 }
 
 }  // namespace pnpbs

@@ -29,7 +29,18 @@ class BoundaryFans {
   // Does the way from boundary node `node` towards x start inside the domain (or along an edge)?
   bool leads_inside(const Boundary& boundary, std::int32_t node, const Point<2>& x) const;
 
+  // May the straight way from x to y, on which the node lies exactly, go on past the node? Only if
+  // both directions lie in one sector inside the domain, or along its edges.
+  bool lets_pass(const Boundary& boundary, std::int32_t node, const Point<2>& x,
+                 const Point<2>& y) const;
+
  private:
+  // The sector of a direction, named by the edge before it; two along an edge.
+  struct Sectors {
+    std::int32_t after, before;
+  };
+  Sectors sectors_towards(const Boundary& boundary, std::int32_t node, const Point<2>& x) const;
+
   std::vector<std::int32_t> offset_;
   std::vector<FanEdge> edges_;
 };

@@ -2,6 +2,7 @@
 // The boundary edges near each node: they separate pairs, and inner nodes keep off them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -71,8 +72,19 @@ bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>&
   if (boundary_x >= 0 && boundary_y >= 0 && fans.joined(boundary_x, boundary_y)) return true;
   if (boundary_x >= 0 && !fans.leads_inside(map.boundary(), boundary_x, y)) return false;
   if (boundary_y >= 0 && !fans.leads_inside(map.boundary(), boundary_y, x)) return false;
-  for (std::int32_t e : edges)
-    if (cross_properly(x, y, map.edge_begin(e), map.edge_end(e))) return false;
+  // Past a boundary node that lies exactly on the way it goes only within one sector.
+  const auto stops = [&](const Point<2>& node, std::int32_t boundary_node) {
+    const int k = x[0] != y[0] ? 0 : 1;
+    if (!(std::min(x[k], y[k]) < node[k] && node[k] < std::max(x[k], y[k]))) return false;
+    return !fans.lets_pass(map.boundary(), boundary_node, x, y);
+  };
+  for (std::int32_t e : edges) {
+    const Point<2>&a = map.edge_begin(e), &b = map.edge_end(e);
+    const int side_a = orientation(x, y, a), side_b = orientation(x, y, b);
+    if (side_a * side_b < 0 && orientation(a, b, x) * orientation(a, b, y) < 0) return false;
+    if (side_a == 0 && stops(a, map.edge(e).begin)) return false;
+    if (side_b == 0 && stops(b, map.edge(e).end)) return false;
+  }
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/kokkos_runtime.hpp"
 #include "geometry/run_suite.hpp"
+#include "quick_assert.hpp"
 
 inline int run_kernel_suite(const char* name, std::initializer_list<const TTest*> tests) {
   pnpbs::start_kokkos(2, 1, [] {});

@@ -10,6 +10,7 @@
 
 #include "geometry/predicates.hpp"
 #include "level_run.hpp"
+#include "quick_assert.hpp"
 
 // Three nodes in increasing order of their place in memory.
 using Triangle = std::array<std::int64_t, 3>;
@@ -35,16 +36,17 @@ inline std::vector<Triangle> star_triangles(const pnpbs::Level& level) {
   std::map<Triangle, int> found;
   for (std::int64_t i = 0; i < nodes.count; ++i)
     level.stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-      ck_assert_msg(pnpbs::orientation(nodes.position(i), nodes.position(j), nodes.position(k)) > 0,
-                    "a triangle of node %lld at (%.17g, %.17g) is flat or turned over",
-                    static_cast<long long>(nodes.id(i)), nodes.x[0](i), nodes.x[1](i));
+      quick_assert_msg(
+          pnpbs::orientation(nodes.position(i), nodes.position(j), nodes.position(k)) > 0,
+          "a triangle of node %lld at (%.17g, %.17g) is flat or turned over",
+          static_cast<long long>(nodes.id(i)), nodes.x[0](i), nodes.x[1](i));
       ++found[sorted({i, j, k})];
     });
   std::vector<Triangle> triangles;
   for (const auto& [t, times] : found) {
-    ck_assert_msg(times == 3, "triangle (%.17g, %.17g) (%.17g, %.17g) (%.17g, %.17g): %d stars",
-                  nodes.x[0](t[0]), nodes.x[1](t[0]), nodes.x[0](t[1]), nodes.x[1](t[1]),
-                  nodes.x[0](t[2]), nodes.x[1](t[2]), times);
+    quick_assert_msg(times == 3, "triangle (%.17g, %.17g) (%.17g, %.17g) (%.17g, %.17g): %d stars",
+                     nodes.x[0](t[0]), nodes.x[1](t[0]), nodes.x[0](t[1]), nodes.x[1](t[1]),
+                     nodes.x[0](t[2]), nodes.x[1](t[2]), times);
     triangles.push_back(t);
   }
   const std::vector<std::int64_t> places = boundary_places(level);
@@ -56,8 +58,8 @@ inline std::vector<Triangle> star_triangles(const pnpbs::Level& level) {
       bool there = false;
       level.stars().for_neighbours(
           from, [&, to = to](std::int64_t j, bool) { there = there || j == to; });
-      ck_assert_msg(there, "a boundary edge is missing at (%.17g, %.17g)", nodes.x[0](from),
-                    nodes.x[1](from));
+      quick_assert_msg(there, "a boundary edge is missing at (%.17g, %.17g)", nodes.x[0](from),
+                       nodes.x[1](from));
     }
   }
   return triangles;

@@ -122,10 +122,10 @@ void expect_sides(const Mapped& m, std::uint64_t seed) {
   std::int64_t inside = 0, boundary = 0;
   for (const P& x : points) {
     const int winding = winding_number(m, x);
-    ck_assert(winding == 0 || winding == 1 || on_boundary(m, x));
+    quick_assert(winding == 0 || winding == 1 || on_boundary(m, x));
     const bool expected = winding == 1 && !on_boundary(m, x);
-    ck_assert_msg(m.map.inside(x) == expected, "(%.17g, %.17g) is %s", x[0], x[1],
-                  expected ? "inside" : "not inside");
+    quick_assert_msg(m.map.inside(x) == expected, "(%.17g, %.17g) is %s", x[0], x[1],
+                     expected ? "inside" : "not inside");
     inside += expected;
     boundary += on_boundary(m, x);
   }
@@ -183,7 +183,7 @@ START_TEST(edges_near_points) {
     m.map.for_edges_near(x, reach, [&](std::int32_t e) { named[e] = 1; });
     for (std::size_t e = 0; e < named.size(); ++e) {
       const BoundaryEdge& edge = m.boundary.edges[e];
-      ck_assert(named[e] || gap_to_edge(m.begin(edge), m.end(edge), x) >= reach);
+      quick_assert(named[e] || gap_to_edge(m.begin(edge), m.end(edge), x) >= reach);
     }
   }
 }
@@ -197,8 +197,8 @@ START_TEST(leaf_sizes_follow_d) {
     ck_assert_double_le(side, 4 * 0.05);
     ck_assert_double_gt(side, 2 * 0.05);
     ck_assert_double_eq_tol(uniform.map.leaf_spacing(leaf), 0.05, 1e-15);
-    ck_assert(uniform.map.leaf_least_spacing(leaf) == 0.05);
-    ck_assert(uniform.map.leaf_largest_spacing(leaf) == 0.05);
+    quick_assert(uniform.map.leaf_least_spacing(leaf) == 0.05);
+    quick_assert(uniform.map.leaf_largest_spacing(leaf) == 0.05);
   }
 
   const Plane d = [](double x, double y) { return 0.004 + 0.2 * std::hypot(x - 0.7, y - 0.4); };
@@ -210,8 +210,8 @@ START_TEST(leaf_sizes_follow_d) {
     const pnpbs::Box<2> box = tree.cell_box(c);
     const double side = tree.cell_side(c);
     if (graded.map.leaf_outside(leaf)) {
-      ck_assert(!graded.map.inside(tree.cell_centre(c)));
-      ck_assert(!graded.map.leaf_has_edges(leaf));
+      quick_assert(!graded.map.inside(tree.cell_centre(c)));
+      quick_assert(!graded.map.leaf_has_edges(leaf));
       continue;
     }
     const double least = graded.map.leaf_least_spacing(leaf);
@@ -297,16 +297,16 @@ START_TEST(walls_hold) {
     const double reach = random.between(0, 0.5);
     const P to{from[0] + random.between(-reach, reach), from[1] + random.between(-reach, reach)};
     const pnpbs::KeptOff kept = pnpbs::keep_off(m.map, edges, from, to, 0.11);
-    ck_assert(m.map.inside(kept.position));
+    quick_assert(m.map.inside(kept.position));
     ck_assert_int_eq(chamber(kept.position), chamber(from));
     const double gap = gap_to_boundary(m, kept.position);
-    ck_assert(kept.room == (gap >= 0.35 * 0.11) || std::fabs(gap - 0.35 * 0.11) < 1e-12);
+    quick_assert(kept.room == (gap >= 0.35 * 0.11) || std::fabs(gap - 0.35 * 0.11) < 1e-12);
     if (m.map.inside(to) && chamber(to) == chamber(from) && gap_to_boundary(m, to) >= 0.4 * 0.11)
-      ck_assert(kept.position == to);
+      quick_assert(kept.position == to);
     else
       ++held;
     // The chambers' corners have 84 degrees at least.
-    ck_assert(kept.room);
+    quick_assert(kept.room);
   }
   ck_assert_int_gt(held, 5000);
 }
@@ -321,17 +321,17 @@ START_TEST(clearance_is_reached_where_there_is_room) {
   };
   for (const double y : {0.3, 0.51, 0.777}) {
     pnpbs::KeptOff kept = keep({0.06, y}, {0.01, y + 0.02});  // too near a side
-    ck_assert(kept.room);
+    quick_assert(kept.room);
     ck_assert_double_eq_tol(kept.position[0], 0.04, 1e-15);
     ck_assert_double_eq_tol(kept.position[1], y + 0.02, 1e-15);
     kept = keep({0.06, y}, {-0.05, y});  // beyond it: back to where it was
-    ck_assert(kept.room);
-    ck_assert(kept.position == (P{0.06, y}));
+    quick_assert(kept.room);
+    quick_assert(kept.position == (P{0.06, y}));
     kept = keep({0.06, y}, {0, y});  // onto it
-    ck_assert(kept.position == (P{0.06, y}));
+    quick_assert(kept.position == (P{0.06, y}));
   }
   const pnpbs::KeptOff corner = keep({0.05, 0.05}, {0.01, 0.02});
-  ck_assert(corner.room);
+  quick_assert(corner.room);
   ck_assert_double_eq_tol(corner.position[0], 0.04, 1e-15);
   ck_assert_double_eq_tol(corner.position[1], 0.04, 1e-15);
 }
@@ -352,7 +352,7 @@ START_TEST(tips_are_kept_off) {
     const double side = y == 0.5 ? -1 : 1;  // where there is room
     const P to{0.503, y + side * 0.02};
     const pnpbs::KeptOff kept = pnpbs::keep_off(m.map, edges, {0.46, y + side * 0.05}, to, d);
-    ck_assert(kept.room);
+    quick_assert(kept.room);
     const double gap = std::hypot(kept.position[0] - 0.5, kept.position[1] - y);
     ck_assert_double_eq_tol(gap, 0.4 * d, 1e-15);
     // Straight away from the tip.
@@ -376,16 +376,16 @@ START_TEST(no_room_in_wedges_and_gaps) {
     const double x = random.between(0.01, 0.99), y = random.between(0.01, 0.99) * 0.05 * x;
     const P to{x + random.between(-0.02, 0.02), y + random.between(-0.02, 0.02)};
     const pnpbs::KeptOff kept = pnpbs::keep_off(wedge.map, edges, {x, y}, to, d);
-    ck_assert(!kept.room);
-    ck_assert(wedge.map.inside(kept.position));
+    quick_assert(!kept.room);
+    quick_assert(wedge.map.inside(kept.position));
   }
   // Gaps between two walls: pushed to 0.4 d off the one, a node must be 0.35 d off the other.
   for (const double width : {0.068, 0.074, 0.076, 0.081}) {
     const Mapped gap([&](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, width)); }, constant(d));
     const pnpbs::KeptOff kept =
         pnpbs::keep_off(gap.map, all_edges(gap), {0.5, width / 2}, {0.52, width / 2}, d);
-    ck_assert(kept.room == (width > 0.075));
-    ck_assert(gap.map.inside(kept.position));
+    quick_assert(kept.room == (width > 0.075));
+    quick_assert(gap.map.inside(kept.position));
   }
 }
 END_TEST

@@ -196,7 +196,7 @@ START_TEST(cubic_law) {
     ck_assert_double_eq_tol(where, 1.267, 1e-3);
     ck_assert_double_eq_tol(least, -0.145 * k0, 5e-4 * k0);
     for (const double w : {std::nextafter(1.5, 2.0), 1.6, 3.0, 1e100, 1e200})
-      ck_assert(law(w) == 0);
+      quick_assert(law(w) == 0);
   }
 }
 END_TEST
@@ -211,7 +211,7 @@ START_TEST(linear_push) {
       ck_assert_double_ge(law(w), 0);
     }
     for (const double w : {range, std::nextafter(range, 10.0), 1.5 * range, 1e100, 1e200})
-      ck_assert(law(w) == 0);
+      quick_assert(law(w) == 0);
   }
 }
 END_TEST
@@ -249,7 +249,7 @@ START_TEST(forces_do_not_depend_on_the_order_in_memory) {
     random.shuffle(bubbles);
     b.set(bubbles);
     b.list(radius);
-    ck_assert(by_id(b) == expected);
+    quick_assert(by_id(b) == expected);
   }
 }
 END_TEST

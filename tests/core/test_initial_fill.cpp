@@ -58,7 +58,7 @@ void expect_hexagonal(const Build& build, double d, double stretch) {
   const Filled filled(build, constant(d));
   std::int64_t inner = 0;
   for (const P& x : filled.nodes) {
-    ck_assert(filled.map.inside(x));
+    quick_assert(filled.map.inside(x));
     const double gap = filled.gap_to_boundary(x);
     ck_assert_double_ge(gap, 0.5 * d * (1 - 1e-12));
     if (gap < 2 * d) continue;
@@ -97,13 +97,13 @@ void expect_meant(const Build& build, const Plane& d, std::size_t least_nodes) {
   const double expected = meant(filled, d);
   ck_assert_double_eq_tol(static_cast<double>(filled.nodes.size()), expected, 0.02 * expected);
   for (const P& x : filled.nodes) {
-    ck_assert(filled.map.inside(x));
+    quick_assert(filled.map.inside(x));
     ck_assert_double_ge(filled.map.clearance(x, d(x[0], x[1])), 0.4 * d(x[0], x[1]));
   }
   // Patches meet without a node in two of them.
   std::vector<P> sorted = filled.nodes;
   std::sort(sorted.begin(), sorted.end());
-  ck_assert(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+  quick_assert(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
 }
 
 }  // namespace
@@ -141,9 +141,9 @@ END_TEST
 
 START_TEST(no_room_for_any) {
   const Filled strip([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 0.09)); }, constant(0.1));
-  ck_assert(strip.nodes.empty());
+  quick_assert(strip.nodes.empty());
   const Filled coarse([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); }, constant(50));
-  ck_assert(coarse.nodes.empty());
+  quick_assert(coarse.nodes.empty());
 }
 END_TEST
 
@@ -155,14 +155,14 @@ START_TEST(levels_number_their_nodes) {
   std::int64_t laid = 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     ck_assert_int_eq(nodes.id(i), i);
-    ck_assert(nodes.d(i) == 0.05 + 0.02 * nodes.x[0](i));
-    ck_assert(nodes.v[0](i) == 0 && nodes.v[1](i) == 0);
+    quick_assert(nodes.d(i) == 0.05 + 0.02 * nodes.x[0](i));
+    quick_assert(nodes.v[0](i) == 0 && nodes.v[1](i) == 0);
     if (nodes.moves(i)) {
       ck_assert_int_eq(nodes.tag(i), 0);
       continue;
     }
     const pnpbs::BoundaryNode& node = run.level->boundary().nodes[nodes.boundary_node(i)];
-    ck_assert(nodes.position(i) == node.position);
+    quick_assert(nodes.position(i) == node.position);
     ck_assert_int_eq(nodes.tag(i), node.tag);
     ++laid;
   }
@@ -193,7 +193,7 @@ START_TEST(levels_take_given_nodes) {
       ck_assert_int_eq(nodes.id(i), 5);
     else
       ck_assert_int_gt(nodes.id(i), 700);
-    for (std::int64_t j = 0; j < i; ++j) ck_assert(nodes.id(i) != nodes.id(j));
+    for (std::int64_t j = 0; j < i; ++j) quick_assert(nodes.id(i) != nodes.id(j));
   }
 }
 END_TEST

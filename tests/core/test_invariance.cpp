@@ -32,16 +32,16 @@ State state_of(const Level& level) {
 }
 
 void expect_same(const State& a, const State& b, const std::string& what, std::int64_t step) {
-  ck_assert_msg(a.size() == b.size(), "%s, step %lld: %zu nodes and %zu", what.c_str(),
-                static_cast<long long>(step), a.size(), b.size());
+  quick_assert_msg(a.size() == b.size(), "%s, step %lld: %zu nodes and %zu", what.c_str(),
+                   static_cast<long long>(step), a.size(), b.size());
   for (const auto& [id, values] : a) {
     const auto found = b.find(id);
-    ck_assert_msg(found != b.end(), "%s, step %lld: node %lld is in one set only", what.c_str(),
-                  static_cast<long long>(step), static_cast<long long>(id));
-    ck_assert_msg(found->second == values,
-                  "%s, step %lld: node %lld at (%.17g, %.17g) and (%.17g, %.17g)", what.c_str(),
-                  static_cast<long long>(step), static_cast<long long>(id), values[0], values[1],
-                  found->second[0], found->second[1]);
+    quick_assert_msg(found != b.end(), "%s, step %lld: node %lld is in one set only", what.c_str(),
+                     static_cast<long long>(step), static_cast<long long>(id));
+    quick_assert_msg(found->second == values,
+                     "%s, step %lld: node %lld at (%.17g, %.17g) and (%.17g, %.17g)", what.c_str(),
+                     static_cast<long long>(step), static_cast<long long>(id), values[0], values[1],
+                     found->second[0], found->second[1]);
   }
 }
 

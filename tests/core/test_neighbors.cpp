@@ -54,13 +54,13 @@ void expect_leaves_fill_the_root() {
     const std::int32_t c = tree.leaf_cell(leaf);
     ck_assert_int_eq(tree.cell(c).leaf, leaf);
     ck_assert_int_lt(tree.cell(c).first_child, 0);
-    ck_assert(!met[static_cast<std::size_t>(c)]);
+    quick_assert(!met[static_cast<std::size_t>(c)]);
     met[static_cast<std::size_t>(c)] = 1;
     volume += std::pow(tree.cell_side(c) / tree.side(), Dim);
   }
   ck_assert_double_eq_tol(volume, 1, 1e-12);
   for (std::int32_t c = 0; c < tree.cell_count(); ++c)
-    ck_assert(met[static_cast<std::size_t>(c)] == (tree.cell(c).first_child < 0));
+    quick_assert(met[static_cast<std::size_t>(c)] == (tree.cell(c).first_child < 0));
   // The box lies strictly inside the root.
   for (int k = 0; k < Dim; ++k) {
     ck_assert_double_lt(tree.origin()[k], -3);
@@ -83,7 +83,7 @@ template <int Dim>
 void expect_morton_order() {
   const auto tree = steep_tree<Dim>();
   for (std::int32_t leaf = 1; leaf < tree.leaf_count(); ++leaf)
-    ck_assert(morton_key<Dim>(tree, leaf - 1) < morton_key<Dim>(tree, leaf));
+    quick_assert(morton_key<Dim>(tree, leaf - 1) < morton_key<Dim>(tree, leaf));
 }
 
 template <int Dim>
@@ -98,14 +98,14 @@ void expect_points_in_their_leaves() {
   const double rim = 1e-14 * tree.side();
   const auto expect_found = [&](const Point<Dim>& x) {
     const std::int32_t leaf = tree.leaf_at(x);
-    ck_assert(holds<Dim>(tree.cell_box(tree.leaf_cell(leaf)), x, rim));
-    ck_assert(tree.leaf_holds(leaf, x));
+    quick_assert(holds<Dim>(tree.cell_box(tree.leaf_cell(leaf)), x, rim));
+    quick_assert(tree.leaf_holds(leaf, x));
     for (int other = 0; other < 20; ++other) {
       const auto o = static_cast<std::int32_t>(random.below(tree.leaf_count()));
-      ck_assert(o == leaf || !tree.leaf_holds(o, x));
+      quick_assert(o == leaf || !tree.leaf_holds(o, x));
     }
     for (std::int32_t o = std::max(0, leaf - 8); o < std::min(tree.leaf_count(), leaf + 9); ++o)
-      ck_assert(tree.leaf_holds(o, x) == (o == leaf));
+      quick_assert(tree.leaf_holds(o, x) == (o == leaf));
   };
   for (int trial = 0; trial < 5000; ++trial) expect_found(random.point<Dim>(root));
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
@@ -148,7 +148,7 @@ void expect_leaves_in_boxes() {
     std::vector<std::int32_t> expected;
     for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
       if (meet<Dim>(tree.cell_box(tree.leaf_cell(leaf)), box, 0)) expected.push_back(leaf);
-    ck_assert(found == expected);
+    quick_assert(found == expected);
   }
 }
 
@@ -185,8 +185,8 @@ void expect_all_pairs(const Bubbles<Dim>& b, double radius,
       if (j != i && visible(all[i].id, all[j].id) &&
           pnpbs::distance<Dim>(all[i].x, all[j].x) < radius * 0.5 * (all[i].d + all[j].d))
         expected.push_back(all[j].id);
-    ck_assert_msg(lists[i].second == expected, "%zu neighbours listed instead of %zu",
-                  lists[i].second.size(), expected.size());
+    quick_assert_msg(lists[i].second == expected, "%zu neighbours listed instead of %zu",
+                     lists[i].second.size(), expected.size());
   }
 }
 
@@ -205,7 +205,7 @@ void expect_lists(const std::vector<Bubble<Dim>>& bubbles, const SpacingFunction
   Random(43).shuffle(mixed);
   b.set(mixed);
   b.list(radius);
-  ck_assert(listed<Dim>(b) == before);
+  quick_assert(listed<Dim>(b) == before);
 }
 
 template <int Dim>
@@ -339,17 +339,17 @@ START_TEST(nodes_are_sorted_by_bucket) {
       ck_assert_int_eq(b.buckets.bucket_of(i), leaf);
       least = std::min(least, b.nodes.d(i));
     }
-    ck_assert(b.buckets.least_spacing(leaf) == least);
+    quick_assert(b.buckets.least_spacing(leaf) == least);
     // Links lead there and back, in order, and the bucket itself is among them.
     std::vector<std::int32_t> others;
     b.buckets.for_neighbours(leaf, [&](std::int32_t other) { others.push_back(other); });
-    ck_assert(std::is_sorted(others.begin(), others.end()));
-    ck_assert(std::set<std::int32_t>(others.begin(), others.end()).size() == others.size());
-    ck_assert(std::count(others.begin(), others.end(), leaf) == 1);
+    quick_assert(std::is_sorted(others.begin(), others.end()));
+    quick_assert(std::set<std::int32_t>(others.begin(), others.end()).size() == others.size());
+    quick_assert(std::count(others.begin(), others.end(), leaf) == 1);
     for (std::int32_t other : others) {
       bool back = false;
       b.buckets.for_neighbours(other, [&](std::int32_t o) { back = back || o == leaf; });
-      ck_assert(back);
+      quick_assert(back);
     }
   }
 }

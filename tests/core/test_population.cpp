@@ -45,12 +45,12 @@ Change<Dim> choose(const Set<Dim>& set, const PopulationRule& rule, const Freedo
       [&](std::int64_t i) { return freedom.must_go.count(b.nodes.id(i)) > 0; },
       [&](const Point<Dim>& x, double) { return freedom.fits(x[0], x[1]); });
   Change<Dim> by_id;
-  for (std::int32_t i : change.deleted) ck_assert(by_id.deleted.insert(b.nodes.id(i)).second);
-  ck_assert(std::is_sorted(change.deleted.begin(), change.deleted.end()));
+  for (std::int32_t i : change.deleted) quick_assert(by_id.deleted.insert(b.nodes.id(i)).second);
+  quick_assert(std::is_sorted(change.deleted.begin(), change.deleted.end()));
   for (const pnpbs::Birth<Dim>& birth : change.born) {
-    ck_assert(by_id.born.emplace(birth.parent, birth.position).second);
+    quick_assert(by_id.born.emplace(birth.parent, birth.position).second);
     for (const Bubble<Dim>& bubble : set)
-      ck_assert(bubble.id != birth.parent || bubble.d == birth.d);
+      quick_assert(bubble.id != birth.parent || bubble.d == birth.d);
   }
   return by_id;
 }
@@ -140,10 +140,10 @@ void expect_as_by_search(const Set<Dim>& set, const PopulationRule& rule, const 
       expected.born[set[i].id] = candidates[i].place;
   }
   const Change<Dim> change = choose<Dim>(set, rule, freedom, radius);
-  ck_assert(change.deleted == expected.deleted);
+  quick_assert(change.deleted == expected.deleted);
   ck_assert_uint_eq(change.born.size(), expected.born.size());
   for (const auto& [parent, place] : expected.born) {
-    ck_assert(change.born.count(parent) == 1);
+    quick_assert(change.born.count(parent) == 1);
     ck_assert_double_lt(pnpbs::distance<Dim>(change.born.at(parent), place), 1e-12);
   }
   ck_assert_uint_ge(expected.deleted.size() + expected.born.size(), least_actors);
@@ -151,7 +151,7 @@ void expect_as_by_search(const Set<Dim>& set, const PopulationRule& rule, const 
   // From another order in memory: the same, bit for bit.
   Set<Dim> mixed = set;
   Random(61).shuffle(mixed);
-  ck_assert(choose<Dim>(mixed, rule, freedom, radius) == change);
+  quick_assert(choose<Dim>(mixed, rule, freedom, radius) == change);
 }
 
 // ------------------------------------------------------------------ lattices -------------------
@@ -175,7 +175,7 @@ std::size_t nearest_to(const Set<2>& set, const Point<2>& x) {
 START_TEST(perfect_lattices_stay) {
   for (const double stretch : {0.95, 1.0, 1.04}) {
     const Change<2> change = choose<2>(lattice(stretch), {});
-    ck_assert(change.deleted.empty() && change.born.empty());
+    quick_assert(change.deleted.empty() && change.born.empty());
   }
 }
 END_TEST
@@ -192,7 +192,7 @@ START_TEST(a_hole_is_filled_once) {
         for (double& x : b.x) x += random.between(-0.01, 0.01) * kSpacing;
       set.erase(set.begin() + static_cast<std::ptrdiff_t>(middle));
       const Change<2> change = choose<2>(set, {}, {}, radius);
-      ck_assert(change.deleted.empty());
+      quick_assert(change.deleted.empty());
       ck_assert_uint_eq(change.born.size(), 1);
       ck_assert_double_lt(pnpbs::distance<2>(change.born.begin()->second, hole), 0.1 * kSpacing);
     }
@@ -207,9 +207,9 @@ START_TEST(one_too_many_is_deleted) {
   set.back().x[0] += 0.05 * kSpacing;
   set.back().id = 1'000'000;
   const Change<2> change = choose<2>(set, {});
-  ck_assert(change.born.empty());
+  quick_assert(change.born.empty());
   ck_assert_uint_eq(change.deleted.size(), 1);
-  ck_assert(change.deleted.count(doubled.id) + change.deleted.count(1'000'000) == 1);
+  quick_assert(change.deleted.count(doubled.id) + change.deleted.count(1'000'000) == 1);
 }
 END_TEST
 
@@ -219,11 +219,11 @@ START_TEST(boundary_nodes_neither_go_nor_give_birth) {
   Freedom freedom;
   for (const Bubble<2>& b : set) freedom.must_go.insert(b.id);
   Change<2> change = choose<2>(set, {}, freedom);
-  ck_assert(change.deleted.empty() && change.born.empty());
+  quick_assert(change.deleted.empty() && change.born.empty());
   set.resize(1);
   set[0].x = {0.5, 0.5};
   change = choose<2>(set, {});
-  ck_assert(change.deleted.empty() && change.born.empty());
+  quick_assert(change.deleted.empty() && change.born.empty());
   set[0].moves = true;
   change = choose<2>(set, {});
   ck_assert_uint_eq(change.born.size(), 1);
@@ -242,16 +242,16 @@ START_TEST(nodes_without_room_go_first) {
   Freedom freedom;
   freedom.must_go = {beside};
   const Change<2> change = choose<2>(set, {}, freedom);
-  ck_assert(change.deleted == freedom.must_go);
+  quick_assert(change.deleted == freedom.must_go);
   for (const auto& [parent, place] : change.born) {
     ck_assert_double_gt(pnpbs::distance<2>(set[nearest_to(set, x)].x, x), 0);
-    ck_assert(parent != beside);
+    quick_assert(parent != beside);
   }
   // Two side by side: one now, the other the next time.
   freedom.must_go.insert(set[nearest_to(set, {x[0] + 2 * kSpacing, x[1]})].id);
   const Change<2> first = choose<2>(set, {}, freedom);
   ck_assert_uint_eq(first.deleted.size(), 1);
-  ck_assert(*first.deleted.begin() == *freedom.must_go.rbegin());
+  quick_assert(*first.deleted.begin() == *freedom.must_go.rbegin());
 }
 END_TEST
 
@@ -261,7 +261,7 @@ START_TEST(nothing_is_born_where_it_does_not_fit) {
   set.erase(set.begin() + static_cast<std::ptrdiff_t>(hole));
   Freedom freedom;
   freedom.fits = [](double, double) { return false; };
-  ck_assert(choose<2>(set, {}, freedom).born.empty());
+  quick_assert(choose<2>(set, {}, freedom).born.empty());
 }
 END_TEST
 
@@ -277,7 +277,7 @@ START_TEST(nothing_is_born_on_neighbours_of_neighbours) {
              fixed(-0.78, -1.2, 2),
              fixed(-1.2, 0, 3),
              fixed(1.58, 0, 4)};
-  ck_assert(choose<2>(set, {}).born.empty());
+  quick_assert(choose<2>(set, {}).born.empty());
   set.pop_back();
   const Change<2> change = choose<2>(set, {});
   ck_assert_uint_eq(change.born.size(), 1);
@@ -316,7 +316,7 @@ START_TEST(winners_are_far_apart) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     if (!change.born.count(set[i].id)) continue;
     for (std::size_t j : within_hops<2>(set, i, 3, 1.5))
-      ck_assert(j == i || !change.born.count(set[j].id));
+      quick_assert(j == i || !change.born.count(set[j].id));
   }
 }
 END_TEST

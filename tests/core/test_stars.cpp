@@ -6,14 +6,18 @@
 #include <vector>
 
 #include "evaluate.hpp"
+#include "hard_shapes.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 #include "star_triangles.hpp"
 
+using hard_shapes::add_square;
+using hard_shapes::graded;
+using hard_shapes::jump;
+using hard_shapes::Shape;
+using hard_shapes::small_shapes;
 using pnpbs::Level;
 using pnpbs::PlaneDomain;
-using shapes::add_chain;
-using shapes::add_circle;
 using shapes::add_loop;
 using shapes::rectangle;
 using P = pnpbs::Point<2>;
@@ -67,15 +71,15 @@ void expect_reference(const Level& level, const std::string& what) {
                       std::back_inserter(ours_only));
   std::set_difference(theirs.begin(), theirs.end(), ours.begin(), ours.end(),
                       std::back_inserter(theirs_only));
-  ck_assert_msg(ours.size() == theirs.size(), "%s: %zu triangles instead of %zu", what.c_str(),
-                ours.size(), theirs.size());
+  quick_assert_msg(ours.size() == theirs.size(), "%s: %zu triangles instead of %zu", what.c_str(),
+                   ours.size(), theirs.size());
   ck_assert_uint_gt(ours.size(), 0);
   for (const Triangle& t : ours_only) {
-    ck_assert_msg(tied(level, t, theirs_only),
-                  "%s: triangle (%.17g, %.17g) (%.17g, %.17g) (%.17g, %.17g) is not Delaunay",
-                  what.c_str(), level.nodes().x[0](t[0]), level.nodes().x[1](t[0]),
-                  level.nodes().x[0](t[1]), level.nodes().x[1](t[1]), level.nodes().x[0](t[2]),
-                  level.nodes().x[1](t[2]));
+    quick_assert_msg(tied(level, t, theirs_only),
+                     "%s: triangle (%.17g, %.17g) (%.17g, %.17g) (%.17g, %.17g) is not Delaunay",
+                     what.c_str(), level.nodes().x[0](t[0]), level.nodes().x[1](t[0]),
+                     level.nodes().x[0](t[1]), level.nodes().x[1](t[1]), level.nodes().x[0](t[2]),
+                     level.nodes().x[1](t[2]));
   }
 }
 
@@ -102,6 +106,12 @@ std::vector<pnpbs::GivenNode> scattered(const LevelRun& run, std::uint64_t seed,
   return nodes;
 }
 
+void take_all(const LevelRun& run, const std::vector<pnpbs::GivenNode>& nodes) {
+  const pnpbs::TakenNodes taken = run.level->take(nodes, 0);
+  quick_assert_msg(taken.left_out == 0 && taken.thinned == 0, "%lld nodes left out, %lld thinned",
+                   static_cast<long long>(taken.left_out), static_cast<long long>(taken.thinned));
+}
+
 // Nodes anywhere, far too few or too many for d: nothing is as the lists would have it.
 void expect_stars_of_scattered_nodes(const std::string& what, const Build& build, const Plane& d) {
   std::uint64_t seed = 70;
@@ -111,78 +121,6 @@ void expect_stars_of_scattered_nodes(const std::string& what, const Build& build
     run.renew_stars();
     expect_reference(*run.level, what + " with " + std::to_string(n) + " scattered nodes");
   }
-}
-
-void add_square(PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 1)); }
-
-void add_annulus(PlaneDomain& domain) {
-  add_circle(domain, 0.5, 0.5, 0.5);
-  add_circle(domain, 0.45, 0.52, 0.17);
-}
-
-void add_square_with_slit(PlaneDomain& domain) {
-  add_square(domain);
-  add_chain(domain, {0.2, 0.51, 0.7, 0.55, 0.72, 0.8});
-}
-
-void add_square_cut_in_two(PlaneDomain& domain) {
-  add_square(domain);
-  add_chain(domain, {0, 0.4, 0.6, 0.47, 1, 0.9});
-  const double fixed[] = {0.3, 0.2, 0.8, 0.3};
-  domain.add_fixed_nodes(2, fixed, nullptr);
-}
-
-void add_square_with_islet(PlaneDomain& domain) {
-  add_square(domain);
-  add_loop(domain, shapes::circle(0.503, 0.498, 0.004, 5));
-  add_loop(domain, shapes::circle(0.2, 0.25, 0.0001, 4));
-}
-
-// Channels 0.02 wide between teeth of the same width.
-void add_comb(PlaneDomain& domain) {
-  std::vector<double> xy{0, 0, 1, 0};
-  for (double x = 0.98; x > 0.1; x -= 0.04)
-    for (const auto& [dx, y] :
-         {std::pair{0.0, 0.5}, std::pair{0.0, 0.1}, std::pair{-0.02, 0.1}, std::pair{-0.02, 0.5}})
-      xy.insert(xy.end(), {x + dx, y});
-  xy.insert(xy.end(), {0, 0.5});
-  domain.add_polyline(PNPBS_BOUNDARY, true, static_cast<std::int64_t>(xy.size() / 2), xy.data(),
-                      nullptr, 0);
-}
-
-// Corners of 1 and 5 degrees, and outer ones beside them.
-void add_thorns(PlaneDomain& domain) {
-  const double one = std::tan(shapes::pi / 180), five = std::tan(5 * shapes::pi / 180);
-  const std::vector<double> xy{0, 0,   1, 0,          1,   one, 1.5, 0.3,
-                               1, 0.6, 0, 0.6 + five, 0.9, 0.6, 0.9, one * 1.2};
-  domain.add_polyline(PNPBS_BOUNDARY, true, static_cast<std::int64_t>(xy.size() / 2), xy.data(),
-                      nullptr, 0);
-}
-
-struct Shape {
-  const char* name;
-  Build build;
-  double d;
-};
-
-const std::vector<Shape>& small_shapes() {
-  static const std::vector<Shape> all{{"square", add_square, 0.03},
-                                      {"annulus", add_annulus, 0.03},
-                                      {"square with a slit", add_square_with_slit, 0.03},
-                                      {"square cut in two", add_square_cut_in_two, 0.035},
-                                      {"square with islets", add_square_with_islet, 0.03},
-                                      {"comb", add_comb, 0.015},
-                                      {"thorns", add_thorns, 0.03}};
-  return all;
-}
-
-Plane graded(double d) {
-  return [d](double x, double y) { return d * (0.4 + 2 * std::hypot(x - 0.4, y - 0.3)); };
-}
-
-// A jump by a factor of 12.
-Plane jump(double d) {
-  return [d](double x, double y) { return x + 0.3 * y < 0.55 ? d / 3 : 4 * d; };
 }
 
 }  // namespace
@@ -243,7 +181,7 @@ END_TEST
 START_TEST(flat_triangle) {
   LevelRun run([](PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 0.1)); },
                [](double, double y) { return y > 0.0999 ? 10 : 0.02; });
-  ck_assert_int_eq(run.level->take({{{0.4, 0.07}, -1}, {{0.7, 0.055}, -1}}, 0).left_out, 0);
+  take_all(run, {{{0.4, 0.07}, -1}, {{0.7, 0.055}, -1}});
   run.renew_stars();
   expect_reference(*run.level, "strip");
   std::vector<std::int64_t> corners;
@@ -251,8 +189,23 @@ START_TEST(flat_triangle) {
     if (run.level->nodes().moves(i) || run.level->nodes().position(i) == P{1, 0.1})
       corners.push_back(i);
   const std::vector<Triangle> triangles = star_triangles(*run.level);
-  ck_assert(std::count(triangles.begin(), triangles.end(),
-                       Triangle{corners.at(0), corners.at(1), corners.at(2)}) == 1);
+  quick_assert(std::count(triangles.begin(), triangles.end(),
+                          Triangle{corners.at(0), corners.at(1), corners.at(2)}) == 1);
+}
+END_TEST
+
+// Coarse bubbles close to where d jumps, and one fine bubble beyond a strip of empty buckets: too
+// small for the list of the coarse one opposite, but within the circle of its triangle.
+START_TEST(fine_node_beyond_empty_buckets) {
+  LevelRun run(add_square, [](double x, double) { return x < 0.5 ? 0.06 : 0.004; });
+  std::vector<pnpbs::GivenNode> nodes;
+  const P coarse[] = {{0.49875, 0.4}, {0.49995, 0.41025}, {0.49995, 0.38975},
+                      {0.48, 0.43},   {0.46, 0.4},        {0.48, 0.37}};
+  for (const P& x : coarse) nodes.push_back({x, -1});
+  nodes.push_back({{0.583, 0.4}, -1});
+  take_all(run, nodes);
+  run.renew_stars();
+  expect_reference(*run.level, "fine node");
 }
 END_TEST
 
@@ -261,7 +214,7 @@ END_TEST
 START_TEST(exact_grids) {
   const double h = 1.0 / 16;
   for (const double radius : {1.5, 1.7}) {
-    std::vector<double> spacings{h, 0.9 * h};
+    std::vector<double> spacings{h, 0.9 * h, 1.25 * h};
     double d = std::sqrt(2.0) * h / radius;
     for (int k = 0; k < 4; ++k) d = std::nextafter(d, 0.0);
     for (int k = 0; k < 9; ++k) {
@@ -271,10 +224,10 @@ START_TEST(exact_grids) {
     for (const double spacing : spacings) {
       LevelRun run(add_square, constant(spacing), {{"list_radius", "1.5"}});
       std::vector<pnpbs::GivenNode> grid;
-      for (int i = 1; i < 16; ++i)
-        for (int j = 1; j < 16; ++j) grid.push_back({{i * h, j * h}, -1});
+      for (int i = 2; i < 14; ++i)
+        for (int j = 2; j < 14; ++j) grid.push_back({{(i + 0.5) * h, (j + 0.5) * h}, -1});
       Random(71).shuffle(grid);
-      ck_assert_int_eq(run.level->take(grid, 0).left_out, 0);
+      take_all(run, grid);
       run.level->rebuild_lists(radius);
       run.level->renew_stars();
       expect_reference(*run.level, "grid");
@@ -296,7 +249,7 @@ START_TEST(many_nodes_on_one_circle) {
     if (trial % 2) nodes.push_back({{0.5, 0.5}, -1});
     random.shuffle(nodes);
     for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k].id = 100 + static_cast<std::int64_t>(k);
-    ck_assert_int_eq(run.level->take(nodes, 0).left_out, 0);
+    take_all(run, nodes);
     run.renew_stars();
     expect_reference(*run.level, "circle");
   }
@@ -305,7 +258,8 @@ END_TEST
 
 int main() {
   return run_kernel_suite(
-      "stars", {small_shapes_with_constant_spacing, small_shapes_with_graded_spacing,
-                small_shapes_with_a_jump, small_shapes_far_too_coarse, lakes, scattered_nodes,
-                flat_triangle, exact_grids, many_nodes_on_one_circle});
+      "stars",
+      {small_shapes_with_constant_spacing, small_shapes_with_graded_spacing,
+       small_shapes_with_a_jump, small_shapes_far_too_coarse, lakes, scattered_nodes, flat_triangle,
+       fine_node_beyond_empty_buckets, exact_grids, many_nodes_on_one_circle});
 }

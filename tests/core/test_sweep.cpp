@@ -168,10 +168,10 @@ START_TEST(sweeps_move_a_little_and_keep_off) {
         const P x = run.level->nodes().position(i), from = before.at(run.level->nodes().id(i));
         const double d = run.level->nodes().d(i);
         if (!run.level->nodes().moves(i) || x == from) {
-          ck_assert(x == from);
+          quick_assert(x == from);
           continue;
         }
-        ck_assert(run.level->map().inside(x));
+        quick_assert(run.level->map().inside(x));
         if (run.level->map().clearance(from, d) > 0.6 * d)
           ck_assert_double_le(pnpbs::distance<2>(x, from), 0.1 * d * (1 + 1e-12));
         ck_assert_double_ge(run.level->map().clearance(x, d), 0.35 * d * (1 - 1e-12));
@@ -185,7 +185,7 @@ START_TEST(sweeping_nothing_does_nothing) {
   LevelRun run = distorted(shapes_to_sweep()[0].build, constant(0.05), 130, 0.75);
   const Places before = places_by_id(*run.level);
   run.level->sweep(0);
-  ck_assert(places_by_id(*run.level) == before);
+  quick_assert(places_by_id(*run.level) == before);
 }
 END_TEST
 
