@@ -347,6 +347,13 @@ PNPBS_API pnpbs_status pnpbs_placement_step(pnpbs_placement placement, int64_t n
 PNPBS_API pnpbs_status pnpbs_placement_adjust_population(pnpbs_placement placement,
                                                          int64_t *inserted, int64_t *deleted);
 
+/** Deals the work out to the ranks anew, by METIS and the work counted in the lists, so that each
+ *  owns an equal share and little changes its rank. The nodes stay as they are; who owns them, and
+ *  who has which ghosts, changes. A run does so by itself where the statistic `imbalance` (largest
+ *  over mean work) passes the option `rebalance_above`. Initialises first if need be. Collective.
+ */
+PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
+
 /** The whole job: initialise if need be, steps until the stop test is met or `steps` are done,
  *  finish. Afterwards it starts a new schedule from the nodes there are. Collective.
  *  Returns PNPBS_OK, PNPBS_NOT_CONVERGED (the best state is kept), PNPBS_STOPPED. */

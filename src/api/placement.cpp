@@ -269,6 +269,13 @@ pnpbs_status pnpbs_placement_adjust_population(pnpbs_placement placement, int64_
   });
 }
 
+pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement) {
+  return compute(placement, [](Placement& p) {
+    p.rebalance();
+    return PNPBS_OK;
+  });
+}
+
 pnpbs_status pnpbs_placement_run(pnpbs_placement placement) {
   return compute(placement, [](Placement& p) { return status_of(p.run()); });
 }

@@ -19,49 +19,30 @@ struct Lattice {
   double row;   // between rows
 };
 
-struct CellSpacing {
-  double least = std::numeric_limits<double>::infinity();
-  double largest = 0;
-  double area = 0, nodes = 0;  // of the leaves in the domain; nodes in units of 1 per d^2
+bool nearly_constant(const SpacingSummary& cell) {
+  return cell.largest <= kPatchVariation * cell.least;
+}
 
-  void add(const CellSpacing& part) {
-    least = std::min(least, part.least);
-    largest = std::max(largest, part.largest);
-    area += part.area;
-    nodes += part.nodes;
-  }
-  bool nearly_constant() const { return largest <= kPatchVariation * least; }
-  double spacing() const { return std::sqrt(area / nodes); }
-};
-
-// Range of d in every cell of the tree, from the leaves up.
-std::vector<CellSpacing> cell_spacings(const DomainMap& map) {
-  const BackgroundTree<2>& tree = map.tree();
-  std::vector<CellSpacing> cells(static_cast<std::size_t>(tree.cell_count()));
-  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {
-    CellSpacing& own = cells[static_cast<std::size_t>(c)];
-    const std::int32_t leaf = tree.cell(c).leaf;
-    if (leaf < 0) {
-      for (int k = 0; k < 4; ++k)
-        own.add(cells[static_cast<std::size_t>(tree.cell(c).first_child + k)]);
-    } else if (!map.leaf_outside(leaf)) {
-      const double d = map.leaf_spacing(leaf);
-      own.area = tree.cell_side(c) * tree.cell_side(c);
-      own.least = map.leaf_least_spacing(leaf);
-      own.largest = map.leaf_largest_spacing(leaf);
-      own.nodes = own.area / (d * d);
-    }
-  }
-  return cells;
+SpacingSummary summary_of_leaf(const DomainMap& map, std::int32_t c) {
+  const std::int32_t leaf = map.tree().cell(c).leaf;
+  SpacingSummary own;
+  if (map.leaf_outside(leaf)) return own;
+  const double d = map.leaf_spacing(leaf);
+  own.area = map.tree().cell_side(c) * map.tree().cell_side(c);
+  own.least = map.leaf_least_spacing(leaf);
+  own.largest = map.leaf_largest_spacing(leaf);
+  own.nodes = own.area / (d * d);
+  return own;
 }
 
 class Fill {
  public:
-  Fill(const DomainMap& map, const Box<2>& bounds, const std::function<bool(std::int32_t)>& wanted)
-      : map_(map), bounds_(bounds), wanted_(wanted), cells_(cell_spacings(map)) {}
+  Fill(const DomainMap& map, const Box<2>& bounds, const std::function<bool(std::int32_t)>& wanted,
+       const std::vector<LeafSummary>& unrefined)
+      : map_(map), bounds_(bounds), wanted_(wanted), cells_(spacing_summaries(map, unrefined)) {}
 
   std::vector<Point<2>> make() {
-    const CellSpacing& root = cells_[0];
+    const SpacingSummary& root = cells_[0];
     if (root.area > 0) descend(0, nullptr);
     return std::move(points_);
   }
@@ -70,11 +51,11 @@ class Fill {
   // Children in Morton order; `patch` is the lattice of the patch we are in, if any.
   void descend(std::int32_t c, const Lattice* patch) {
     const BackgroundTree<2>& tree = map_.tree();
-    const CellSpacing& own = cells_[static_cast<std::size_t>(c)];
+    const SpacingSummary& own = cells_[static_cast<std::size_t>(c)];
     if (own.area == 0) return;
     const bool leaf = tree.cell(c).first_child < 0;
     Lattice lattice;
-    if (!patch && (leaf || own.nearly_constant())) {
+    if (!patch && (leaf || nearly_constant(own))) {
       lattice = lattice_of(own.spacing(), c == 0);
       patch = &lattice;
     }
@@ -124,15 +105,40 @@ class Fill {
   const DomainMap& map_;
   const Box<2>& bounds_;
   const std::function<bool(std::int32_t)>& wanted_;
-  std::vector<CellSpacing> cells_;
+  std::vector<SpacingSummary> cells_;
   std::vector<Point<2>> points_;
 };
 
 }  // namespace
 
+void SpacingSummary::add(const SpacingSummary& part) {
+  least = std::min(least, part.least);
+  largest = std::max(largest, part.largest);
+  area += part.area;
+  nodes += part.nodes;
+}
+
+std::vector<SpacingSummary> spacing_summaries(const DomainMap& map,
+                                              const std::vector<LeafSummary>& unrefined) {
+  const BackgroundTree<2>& tree = map.tree();
+  std::vector<SpacingSummary> cells(static_cast<std::size_t>(tree.cell_count()));
+  const auto of = [&](std::int32_t c) -> SpacingSummary& {
+    return cells[static_cast<std::size_t>(c)];
+  };
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
+    of(tree.leaf_cell(leaf)) = summary_of_leaf(map, tree.leaf_cell(leaf));
+  for (const LeafSummary& known : unrefined) of(tree.leaf_cell(known.leaf)) = known.spacing;
+  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c)
+    if (tree.cell(c).first_child >= 0)
+      for (int k = 0; k < BackgroundTree<2>::kChildren; ++k)
+        of(c).add(of(tree.cell(c).first_child + k));
+  return cells;
+}
+
 std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds,
-                                     const std::function<bool(std::int32_t)>& wanted) {
-  return Fill(map, bounds, wanted).make();
+                                     const std::function<bool(std::int32_t)>& wanted,
+                                     const std::vector<LeafSummary>& unrefined) {
+  return Fill(map, bounds, wanted, unrefined).make();
 }
 
 }  // namespace pnpbs

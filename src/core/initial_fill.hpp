@@ -4,16 +4,39 @@
 // each have their own lattice, all of one orientation and anchored in one point.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "geometry/domain_map.hpp"
 
 namespace pnpbs {
 
+// d in a cell of the tree, put together from its leaves.
+struct SpacingSummary {
+  double least = std::numeric_limits<double>::infinity();
+  double largest = 0;
+  double area = 0, nodes = 0;  // of the leaves in the domain; nodes in units of 1 per d^2
+
+  void add(const SpacingSummary& part);
+  double spacing() const { return std::sqrt(area / nodes); }
+};
+
+// What is known of a leaf at which the tree ends before it is fine enough.
+struct LeafSummary {
+  std::int32_t leaf;
+  SpacingSummary spacing;
+};
+
+// Of every cell of the tree, from the leaves up.
+std::vector<SpacingSummary> spacing_summaries(const DomainMap& map,
+                                              const std::vector<LeafSummary>& unrefined);
+
 // Of the leaves for which wanted(leaf) holds, in their Morton order.
 std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds,
-                                     const std::function<bool(std::int32_t)>& wanted);
+                                     const std::function<bool(std::int32_t)>& wanted,
+                                     const std::vector<LeafSummary>& unrefined = {});
 
 }  // namespace pnpbs

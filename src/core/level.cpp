@@ -26,29 +26,25 @@ SpacingEvaluator Level::evaluator() const {
 
 // ------------------------------------------------------------------ making the level -----------
 
-void Level::lay_boundary_and_tree() {
-  {
-    const PhaseTimer timer(timers_, Phase::boundary);
-    boundary_ = lay_boundary(*domain_, evaluator(), settings_.max_nodes);
-    // Fixed nodes off the curves act as edges of no length: inner nodes keep off them, too.
-    for (std::size_t f = static_cast<std::size_t>(boundary_.first_fixed);
-         f < boundary_.nodes.size(); ++f) {
-      const std::int32_t node = static_cast<std::int32_t>(f);
-      boundary_.edges.push_back({node, node, boundary_.nodes[f].tag, true, true});
-    }
-    fans_.build(boundary_);
-    boundary_ids_.assign(boundary_.nodes.size(), -1);
+void Level::lay_boundary() {
+  const PhaseTimer timer(timers_, Phase::boundary);
+  boundary_ = pnpbs::lay_boundary(*domain_, evaluator(), settings_.max_nodes);
+  // Fixed nodes off the curves act as edges of no length: inner nodes keep off them, too.
+  for (std::size_t f = static_cast<std::size_t>(boundary_.first_fixed); f < boundary_.nodes.size();
+       ++f) {
+    const std::int32_t node = static_cast<std::int32_t>(f);
+    boundary_.edges.push_back({node, node, boundary_.nodes[f].tag, true, true});
   }
-  const PhaseTimer timer(timers_, Phase::tree);
-  map_.build(domain_->bounds(), boundary_, evaluator(), settings_.max_nodes);
-  near_edges_.prepare(map_, edge_radius());
-  buckets_.reset();
+  fans_.build(boundary_);
+  boundary_ids_.assign(boundary_.nodes.size(), -1);
 }
 
 void Level::change_settings(const Settings& settings) {
-  const double before = edge_radius();
+  const double edges_before = edge_radius(), widest_before = widest_radius();
   settings_ = settings;
-  if (edge_radius() == before) return;
+  ghost_hops_ = 0;
+  if (widest_radius() > widest_before) tree_hops_ = 0;  // a hop is longer now
+  if (edge_radius() == edges_before) return;
   near_edges_.prepare(map_, edge_radius());
   lists_valid_ = false;
 }
@@ -87,12 +83,14 @@ void Level::drop_anchors() {
     for (int k = 0; k < 2; ++k) nodes_.anchor[k](i) = nodes_.x[k](i);
   });
   lists_valid_ = false;
+  work_is_old_ = true;
 }
 
 void Level::rebuild_lists(double radius, const Field<2>& seen_from) {
   ++version_;
   const PhaseTimer timer(timers_, Phase::lists);
-  buckets_.sort(map_.tree(), nodes_, widest_radius());
+  if (buckets_.sort(map_.tree(), nodes_, widest_radius()))
+    plan_.follow(buckets_.order(), nodes_.count);
   near_edges_.build(nodes_, seen_from, buckets_, map_);
   lists_.build(nodes_, buckets_, radius, [this](std::int64_t i, std::int64_t j) {
     return near_edges_.visible(nodes_, map_, fans_, i, j);
@@ -106,6 +104,7 @@ void Level::rebuild_lists(double radius, const Field<2>& seen_from) {
   travelled_ = 0;
   lists_valid_ = true;
   ++rebuilds_;
+  if (work_is_old_) count_work();
 }
 
 // The far-away node behind the last one, which fills up the blocks of the lists.
@@ -163,6 +162,8 @@ void Level::take_next_positions() {
     return std::sqrt(dx * dx + dy * dy) / nodes_.d(i);
   });
   std::swap(nodes_.x, next_);
+  ghosts_exact_ = false;
+  ++steps_since_choice_;
 }
 
 }  // namespace pnpbs

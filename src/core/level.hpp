@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
+#include "core/initial_fill.hpp"
 #include "core/settings.hpp"
 #include "core/timers.hpp"
 #include "forces/schemes.hpp"
@@ -19,6 +21,8 @@
 #include "neighbors/near_edges.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/distribution.hpp"
+#include "parallel/ghost_plan.hpp"
+#include "parallel/packed_node.hpp"
 #include "spacing/spacing.hpp"
 #include "stars/delaunay_stars.hpp"
 
@@ -53,9 +57,9 @@ class Level {
         std::shared_ptr<const Spacing<2>> spacing, const Settings& settings, Timers& timers);
 
   // --- making the level ---
-  void lay_boundary_and_tree();
-  void distribute();  // leaves to ranks
-  void fill();        // inner nodes from nothing
+  void lay_boundary();
+  void grow_tree();  // and deal it out to the ranks
+  void fill();       // inner nodes from nothing
   // Or these, wherever they are; ids from next_id on are free.
   TakenNodes take(std::vector<GivenNode> given, std::int64_t next_id);
   // For the steps to come; the growth limit belongs to the spacing and is not among them.
@@ -65,9 +69,9 @@ class Level {
   bool lists_may_miss_a_pair() const;
   void rebuild_lists();
   void move();
-  // Owned nodes go to the ranks that own their leaves by now, and ghosts are renewed.
-  void exchange_for_steps() { exchange(step_hops()); }
+  void exchange_for_steps();
   void exchange_for_stars();
+  void exchange_for_runge_kutta() { renew_ghosts(hops_for(kRungeKuttaStages)); }
   void finish_by_runge_kutta();
 
   // --- events ---
@@ -76,6 +80,8 @@ class Level {
   // more.
   PopulationCounts adjust_population(double refill = 0);
   Speeds speeds() const;
+  // Deals the tree out anew by the work counted. Collective.
+  void rebalance();
   void renew_stars();
   void sweep(std::int64_t times);
 
@@ -94,27 +100,71 @@ class Level {
   // Nodes that the spacing asks for.
   double expected_nodes() const;
   std::int64_t rebuilds() const { return rebuilds_; }
+  std::int64_t rebalances() const { return rebalances_; }
+  // Of this rank, as counted after the last event: listed pairs, and as many again per node.
+  std::int64_t owned_work() const { return owned_work_; }
+  // Largest over mean of that; collective.
+  double imbalance() const;
   std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }
   std::vector<GivenNode> owned_nodes() const;
   std::int64_t owned_count() const;
   // Rank that owns a node (this one's own and ghosts).
   int owner_of(std::int64_t i) const {
-    return distributed() ? distribution_.owner(map_.tree().leaf_at(nodes_.position(i))) : 0;
+    return distributed() ? distribution_.owner_at(nodes_.position(i)) : 0;
   }
   bool distributed() const { return comm_->size() > 1; }
 
  private:
+  // In hops of the lists: a candidate is judged by its list, looks two hops far for room, and may
+  // not act if a stronger one is within three. A hop of the leaf graph is the longer one.
+  static constexpr int kPopulationHops = 6;
+  // One sweep, with a guard that looks at the neighbours' moves, and the reach of ghosts' stars.
+  static constexpr int kSweepHops = 6;
+  static constexpr int kRungeKuttaStages = 4;
+  // d may grow by this factor above its samples in a leaf before ghosts could be missing.
+  static constexpr double kRoomForGrowth = 1.25;
+  static constexpr double kWorkPerNode = 16;  // in estimates
+
   SpacingEvaluator evaluator() const;
+
+  // --- the partition ---
+  void look_at_new_tree();
+  std::vector<PartitionCell> rough_cells();
+  std::vector<std::int64_t> expected_work() const;
+  void refine_tree(const std::vector<char>& refined);
+  void grow_own_part();
+  std::function<bool(std::int32_t)> owns_leaf() const;
+  std::vector<std::int32_t> cut_on_first_rank(const PartitionCells& cells) const;
+  std::int64_t node_work(std::int64_t i) const;
+  std::vector<std::int64_t> counted_work() const;
+  std::vector<std::int32_t> keep_numbers(const PartitionCells& cells,
+                                         std::vector<std::int32_t> part,
+                                         const std::vector<std::int64_t>& work) const;
+  void adopt(Distribution next);
+  void count_work();
+
+  // --- exchange ---
+  int hops_for(std::int64_t evaluations) const;
+  int step_hops() const;
+  int deepest_hops() const;
+  double shortest_hop() const;
+  std::int64_t ghost_life() const;
+  void renew_ghosts(int hops);
+  void exchange(int hops);
+  void arrive(const Halo& halo, const PackedNode& node);
+  void migrate();
+  std::vector<int> other_ranks() const;
+
   double widest_radius() const;
   double edge_radius() const;
   void number_and_store(std::vector<GivenNode> inner);
   void scatter_to_owners(std::vector<GivenNode>& given) const;
   std::vector<double> wanted_nodes() const;
+  std::vector<LeafSummary> summaries_of_unrefined_leaves() const;
   void thin(std::vector<GivenNode>& inner) const;
   void keep_boundary_ids(const std::vector<GivenNode>& given);
-  int step_hops() const;
-  void exchange(int hops);
   void number_births(std::vector<Birth<2>> born);
+  void delete_nodes(const std::vector<std::int32_t>& deleted);
   bool fits(const Point<2>& x, double d) const;
   bool has_no_room(std::int64_t i) const;
   void take_next_positions();
@@ -137,8 +187,14 @@ class Level {
   Nodes<2> nodes_;
   std::int64_t next_id_ = 0;
 
-  LeafGraph<2> interaction_;  // of the leaves, the same on every rank
   Distribution distribution_;
+  int tree_hops_ = 0;  // the tree is refined so far around the leaves we own
+  GhostPlan plan_;
+  int ghost_hops_ = 0;         // ghosts reach so far; 0: they must be chosen anew
+  bool ghosts_exact_ = false;  // nothing has moved since they came
+  std::int64_t steps_since_choice_ = 0;
+  std::int64_t owned_work_ = 0, rebalances_ = 0;
+  bool work_is_old_ = true;  // counted once after every event
 
   Buckets<2> buckets_;
   NearEdges near_edges_;

@@ -7,7 +7,6 @@
 #include "forces/population.hpp"
 #include "geometry/keep_off.hpp"
 #include "geometry/segments.hpp"
-#include "parallel/prefix_sums.hpp"
 #include "parallel/records.hpp"
 #include "stars/sweep.hpp"
 
@@ -37,6 +36,7 @@ void Level::refresh_spacing() {
     }
   });
   drop_anchors();
+  ghost_hops_ = 0;
 }
 
 // Between boundary edges, or on top of another node: of two that nearly coincide the one with the
@@ -56,12 +56,6 @@ bool Level::has_no_room(std::int64_t i) const {
   return !room;
 }
 
-// In hops of the lists: a candidate is judged by its list, looks two hops far for room, and may not
-// act if a stronger one is within three. A hop of the leaf graph is the longer one.
-constexpr int kPopulationHops = 6;
-// Five sweeps on fixed stars, each with a guard that looks at the neighbours' moves.
-constexpr int kSweepHops = 12;
-
 void Level::exchange_for_stars() { exchange(kPopulationHops); }
 
 PopulationCounts Level::adjust_population(double refill) {
@@ -79,30 +73,34 @@ PopulationCounts Level::adjust_population(double refill) {
         [this](const Point<2>& x, double d) { return fits(x, d); });
   });
   const PhaseTimer timer(timers_, Phase::population);
-  // Births are the parent's owner's to tell; deaths every rank sees that has the node.
+  // Each is its owner's to count and to number, a birth the parent's owner's.
   PopulationCounts counts;
   std::vector<Birth<2>> born;
   for (std::size_t k = 0; k < change.born.size(); ++k)
     if (nodes_.owned(change.parents[k])) born.push_back(change.born[k]);
   for (std::int32_t i : change.deleted) counts.deleted += nodes_.owned(i);
   counts.inserted = static_cast<std::int64_t>(born.size());
-
-  if (!change.deleted.empty()) {
-    View<std::int32_t> stay = make_view<std::int32_t>("pnpbs::Level::stay", nodes_.count);
-    std::int64_t kept = 0;
-    std::size_t next = 0;
-    for (std::int32_t i = 0; i < nodes_.count; ++i) {
-      if (next < change.deleted.size() && change.deleted[next] == i)
-        ++next;
-      else
-        stay(kept++) = i;
-    }
-    nodes_.permute(stay, kept);
-  }
-  if (comm_->sum(born.size()) > 0) number_births(std::move(born));
-  if (!change.deleted.empty() || !change.born.empty()) lists_valid_ = false;
+  const std::uint64_t inserted = comm_->sum(static_cast<std::uint64_t>(counts.inserted));
+  const std::uint64_t deleted = comm_->sum(static_cast<std::uint64_t>(counts.deleted));
+  if (inserted + deleted == 0) return counts;  // what ghosts at the rim seem to do does not count
+  delete_nodes(change.deleted);
+  if (inserted > 0) number_births(std::move(born));
+  lists_valid_ = false;
   exchange(step_hops());
   return counts;
+}
+
+void Level::delete_nodes(const std::vector<std::int32_t>& deleted) {
+  View<std::int32_t> stay = make_view<std::int32_t>("pnpbs::Level::stay", nodes_.count);
+  std::int64_t kept = 0;
+  std::size_t next = 0;
+  for (std::int32_t i = 0; i < nodes_.count; ++i) {
+    if (next < deleted.size() && deleted[next] == i)
+      ++next;
+    else
+      stay(kept++) = i;
+  }
+  nodes_.permute(stay, kept);
 }
 
 // The owner of the leaf a node is born in numbers it: ids by bucket in Morton order, then by
@@ -115,7 +113,7 @@ void Level::number_births(std::vector<Birth<2>> born) {
     std::vector<Bytes> outgoing(halo.neighbours().size());
     std::vector<Birth<2>> mine;
     for (const Birth<2>& birth : born) {
-      const int owner = distribution_.owner(tree.leaf_at(birth.position));
+      const int owner = distribution_.owner_at(birth.position);
       if (owner == comm_->rank())
         mine.push_back(birth);
       else
@@ -128,7 +126,7 @@ void Level::number_births(std::vector<Birth<2>> born) {
   std::vector<std::int64_t> new_ids(static_cast<std::size_t>(tree.leaf_count()), 0);
   for (const Birth<2>& birth : born)
     ++new_ids[static_cast<std::size_t>(tree.leaf_at(birth.position))];
-  std::vector<std::int64_t> next = prefix_sums(*comm_, std::move(new_ids), next_id_);
+  std::vector<std::int64_t> next = distribution_.prefix_sums(*comm_, std::move(new_ids), next_id_);
   std::sort(born.begin(), born.end(),
             [](const Birth<2>& a, const Birth<2>& b) { return a.parent < b.parent; });
   for (const Birth<2>& birth : born)
@@ -172,8 +170,11 @@ void Level::sweep(std::int64_t times) {
     });
     const PhaseTimer timer(timers_, Phase::sweeps);
     const View<char> allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count);
-    for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s)
+    for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s) {
+      if (s > 0) renew_ghosts(kSweepHops);
       pnpbs::sweep(nodes_, stars_, near_edges_, map_, settings_.sweep, next_, allowed);
+      ghosts_exact_ = false;
+    }
     lists_valid_ = false;
   }
 }

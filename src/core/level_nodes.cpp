@@ -9,33 +9,38 @@
 #include "core/initial_fill.hpp"
 #include "core/level.hpp"
 #include "geometry/keep_off.hpp"
-#include "parallel/prefix_sums.hpp"
+#include "parallel/records.hpp"
 
 namespace pnpbs {
 
-// Nodes that d asks for in each leaf. Of the leaves that the boundary crosses we know only what the
-// domain's area leaves for all of them.
+// Nodes that d asks for in each leaf of ours. Of the leaves that the boundary crosses we know only
+// what the domain's area leaves for all of them. Collective.
 std::vector<double> Level::wanted_nodes() const {
   const BackgroundTree<2>& tree = map_.tree();
-  const auto area_of = [&](std::int32_t leaf) {
-    return std::pow(tree.cell_side(tree.leaf_cell(leaf)), 2);
-  };
-  double inside = 0, crossed = 0;
+  std::uint64_t inside = 0, crossed = 0;  // areas
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
-    if (!map_.leaf_outside(leaf)) (map_.leaf_has_edges(leaf) ? crossed : inside) += area_of(leaf);
-  const double share = crossed > 0 ? std::clamp((domain_->area() - inside) / crossed, 0.0, 1.0) : 0;
+    if (distribution_.owns(leaf) && !map_.leaf_outside(leaf))
+      (map_.leaf_has_edges(leaf) ? crossed : inside) += map_.leaf_size(leaf);
+  const double unit = std::pow(std::ldexp(tree.side(), -DomainMap::kMaxDepth), 2);
+  const double area_inside = unit * static_cast<double>(comm_->sum(inside)),
+               area_crossed = unit * static_cast<double>(comm_->sum(crossed));
+  const double share =
+      area_crossed > 0 ? std::clamp((domain_->area() - area_inside) / area_crossed, 0.0, 1.0) : 0;
   std::vector<double> wanted;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-    const double d = map_.leaf_spacing(leaf);
-    const double part = map_.leaf_outside(leaf) ? 0 : map_.leaf_has_edges(leaf) ? share : 1;
-    wanted.push_back(part > 0 ? part * kHexagonalDensity * area_of(leaf) / (d * d) : 0);
+    const double d = map_.leaf_spacing(leaf), side = tree.cell_side(tree.leaf_cell(leaf));
+    const double part = !distribution_.owns(leaf) || map_.leaf_outside(leaf) ? 0
+                        : map_.leaf_has_edges(leaf)                          ? share
+                                                                             : 1;
+    wanted.push_back(part > 0 ? part * kHexagonalDensity * side * side / (d * d) : 0);
   }
   return wanted;
 }
 
 double Level::expected_nodes() const {
-  const std::vector<double> wanted = wanted_nodes();
-  return std::accumulate(wanted.begin(), wanted.end(), 0.0);
+  std::int64_t nodes = 0;
+  for (double wanted : wanted_nodes()) nodes += fixed_point(wanted);
+  return from_fixed_point(comm_->sum(static_cast<std::uint64_t>(nodes)));
 }
 
 // Boundary nodes keep their ids where they stay in place.
@@ -52,11 +57,41 @@ void Level::keep_boundary_ids(const std::vector<GivenNode>& given) {
 void Level::fill() {
   const PhaseTimer timer(timers_, Phase::fill);
   std::vector<GivenNode> inner;
+  const std::vector<LeafSummary> unrefined = summaries_of_unrefined_leaves();
   agreed(*comm_, [&] {
-    const auto own = [this](std::int32_t leaf) { return distribution_.owns(leaf); };
-    for (const Point<2>& x : hexagonal_fill(map_, domain_->bounds(), own)) inner.push_back({x, -1});
+    for (const Point<2>& x : hexagonal_fill(map_, domain_->bounds(), owns_leaf(), unrefined))
+      inner.push_back({x, -1});
   });
   number_and_store(std::move(inner));
+}
+
+// Where the tree is not refined here, the owners of the cells tell what is in them.
+std::vector<LeafSummary> Level::summaries_of_unrefined_leaves() const {
+  if (!distributed()) return {};
+  const PartitionCells& cells = distribution_.cells();
+  const BackgroundTree<2>& tree = map_.tree();
+  const std::vector<SpacingSummary> own = spacing_summaries(map_, {});
+  struct CellSummary {
+    std::int32_t cell;
+    SpacingSummary spacing;
+  };
+  Bytes mine;
+  for (std::int32_t c = 0; c < cells.count(); ++c) {
+    if (distribution_.owner_of_cell(c) != comm_->rank()) continue;
+    const std::int32_t cell = cells.tree().leaf_cell(c);
+    const std::int32_t here =
+        tree.cell_at(cells.tree().cell_centre(cell), cells.tree().cell(cell).depth);
+    pack(mine, CellSummary{c, own[static_cast<std::size_t>(here)]});
+  }
+  std::vector<SpacingSummary> summaries(static_cast<std::size_t>(cells.count()));
+  for_records<CellSummary>(comm_->gather(mine), [&](const CellSummary& summary) {
+    summaries[static_cast<std::size_t>(summary.cell)] = summary.spacing;
+  });
+  std::vector<LeafSummary> unrefined;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
+    if (!distribution_.refined(leaf))
+      unrefined.push_back({leaf, summaries[static_cast<std::size_t>(distribution_.cell_of(leaf))]});
+  return unrefined;
 }
 
 TakenNodes Level::take(std::vector<GivenNode> given, std::int64_t next_id) {
@@ -111,7 +146,7 @@ void Level::thin(std::vector<GivenNode>& inner) const {
   std::vector<std::int64_t> sums(given_in.size(), 0);
   for (const GivenNode& node : inner) sums[leaf_of(node)] += share_of(node);
   std::int64_t end = 0;
-  std::vector<std::int64_t> sum_before = prefix_sums(*comm_, std::move(sums), end);
+  std::vector<std::int64_t> sum_before = distribution_.prefix_sums(*comm_, std::move(sums), end);
   std::erase_if(inner, [&](const GivenNode& node) {
     std::int64_t& sum = sum_before[leaf_of(node)];
     const std::int64_t whole = sum / kOne;
@@ -157,7 +192,7 @@ void Level::number_and_store(std::vector<GivenNode> inner) {
 
   std::vector<std::int64_t> new_ids(static_cast<std::size_t>(tree.leaf_count()), 0);
   for (const Entry& entry : entries) new_ids[static_cast<std::size_t>(entry.leaf)] += entry.id < 0;
-  std::vector<std::int64_t> next = prefix_sums(*comm_, std::move(new_ids), next_id_);
+  std::vector<std::int64_t> next = distribution_.prefix_sums(*comm_, std::move(new_ids), next_id_);
 
   nodes_.count = 0;
   nodes_.reserve(static_cast<std::int64_t>(entries.size() + entries.size() / 64) + 64);

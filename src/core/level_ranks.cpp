@@ -1,123 +1,164 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The level over several ranks: who owns what, and how nodes travel.
+// The level over several ranks: how nodes travel.
+#include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <numeric>
 
 #include "core/level.hpp"
-#include "parallel/partition.hpp"
 #include "parallel/records.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-// d may grow by this factor above its samples in a leaf before ghosts could be missing.
-constexpr double kRoomForGrowth = 1.25;
+// Ghosts are chosen anew after so many steps, because nodes drift.
+constexpr std::int64_t kGhostLife = 20;
 
-// A node on its way to another rank.
-struct PackedNode {
-  std::int64_t id;
-  double x[2], v[2], anchor[2], d;
-  std::int32_t tag, boundary_node;
-};
+template <class Record>
+std::int64_t records_in(const std::vector<Bytes>& messages) {
+  std::size_t bytes = 0;
+  for (const Bytes& message : messages) bytes += message.size();
+  return static_cast<std::int64_t>(bytes / sizeof(Record));
+}
 
 }  // namespace
 
-void Level::distribute() {
-  if (!distributed()) return;
-  const PhaseTimer timer(timers_, Phase::partition);
-  const BackgroundTree<2>& tree = map_.tree();
-  std::vector<double> reach;
-  std::vector<std::int64_t> work;
-  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-    const bool outside = map_.leaf_outside(leaf);
-    const double side = tree.cell_side(tree.leaf_cell(leaf)), d = map_.leaf_spacing(leaf);
-    reach.push_back(outside ? 0
-                            : kRoomForGrowth * widest_radius() * map_.leaf_largest_spacing(leaf));
-    // Nodes to be expected, in sixteenths.
-    work.push_back(outside ? 0 : 1 + static_cast<std::int64_t>(16 * side * side / (d * d)));
-  }
-  interaction_.build(tree, reach);
-  std::vector<std::int32_t> owner;
-  if (comm_->rank() == 0)
-    owner = partition_leaves(interaction_, work, comm_->size(), settings_.metis_seed);
-  Bytes bytes(owner.size() * sizeof(std::int32_t));
-  if (!bytes.empty()) std::memcpy(bytes.data(), owner.data(), bytes.size());
-  comm_->broadcast(bytes, 0);
-  owner.resize(bytes.size() / sizeof(std::int32_t));
-  std::memcpy(owner.data(), bytes.data(), bytes.size());
-  distribution_ = Distribution(&interaction_, std::move(owner), comm_->rank());
-}
-
-// How many hops of the leaf graph the ghosts must reach for owned nodes to stay exact until the
-// next exchange. A hop spans at least kRoomForGrowth list radii of d; what a force evaluation
-// brings in comes from no farther than the range of the force and the ways of both nodes.
-int Level::step_hops() const {
-  const double per_step =
-      settings_.evaluations_per_step() * (settings_.force_range() + 2 * settings_.motion.most);
-  const double needed = static_cast<double>(settings_.exchange_interval) * per_step;
-  const int hops =
-      1 + static_cast<int>(std::ceil(needed / (kRoomForGrowth * settings_.list_radius)));
+// How many hops of the leaf graph the ghosts must reach for owned nodes to stay exact over so many
+// force evaluations. What an evaluation brings in comes from no farther than the range of the force
+// and the ways of both nodes; a hop spans at least a list radius, with room for growth of d. Both
+// nodes drift while the ghosts stay the same ones.
+int Level::hops_for(std::int64_t evaluations) const {
+  const double most = settings_.motion.most;
+  const auto n = static_cast<double>(evaluations);
+  const double drift = 2 * most * static_cast<double>(ghost_life());
+  const double needed = n * (settings_.force_range() + 2 * most) + drift;
+  const int hops = static_cast<int>(std::ceil(needed / shortest_hop()));
   return std::max(0, hops - static_cast<int>(settings_.halo_deficit));
 }
 
+double Level::shortest_hop() const { return kRoomForGrowth * settings_.list_radius; }
+
+int Level::step_hops() const {
+  return hops_for(settings_.exchange_interval * settings_.evaluations_per_step());
+}
+
+int Level::deepest_hops() const {
+  // One more because nodes drift out of their leaves, and one to see who is beyond.
+  return std::max({step_hops(), hops_for(kRungeKuttaStages), kPopulationHops, kSweepHops}) + 2;
+}
+
+std::int64_t Level::ghost_life() const { return std::max(kGhostLife, settings_.exchange_interval); }
+
+// Before the steps until the next exchange.
+void Level::exchange_for_steps() { renew_ghosts(step_hops()); }
+
+// Ghosts as deep as that, exact again: by position and velocity alone if they can stay the same
+// ones.
+void Level::renew_ghosts(int hops) {
+  if (!distributed()) return;
+  const bool too_old = steps_since_choice_ + settings_.exchange_interval > ghost_life();
+  if (ghost_hops_ < hops || too_old) return exchange(hops);
+  if (ghosts_exact_) return;
+  const PhaseTimer timer(timers_, Phase::exchange);
+  plan_.renew(*comm_, nodes_);
+  ghosts_exact_ = true;
+}
+
+// Owned nodes go to the ranks that own their leaves by now, and ghosts are chosen anew.
 void Level::exchange(int hops) {
   ++version_;
   if (!distributed()) return;
+  if (hops + 2 > tree_hops_) adopt(distribution_);  // deeper than was asked for so far
   const PhaseTimer timer(timers_, Phase::exchange);
-  const BackgroundTree<2>& tree = map_.tree();
   const Halo& halo = distribution_.halo(hops);
-  const std::vector<int> place = places_of(halo.neighbours(), comm_->size());
+  plan_.start(halo.neighbours(), comm_->size());
   std::vector<Bytes> outgoing(halo.neighbours().size());
   View<std::int32_t> stay = make_view<std::int32_t>("pnpbs::Level::stay", nodes_.count);
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!nodes_.owned(i)) continue;
-    const std::int32_t leaf = tree.leaf_at(nodes_.position(i));
-    const PackedNode packed{nodes_.id(i),
-                            {nodes_.x[0](i), nodes_.x[1](i)},
-                            {nodes_.v[0](i), nodes_.v[1](i)},
-                            {nodes_.anchor[0](i), nodes_.anchor[1](i)},
-                            nodes_.d(i),
-                            nodes_.tag(i),
-                            nodes_.boundary_node(i)};
+    const std::int32_t leaf = map_.tree().leaf_at(nodes_.position(i));
+    const int owner = distribution_.owner(leaf);
+    const bool ours = owner == comm_->rank();
+    bool stays = ours;
+    if (!ours && plan_.knows(owner)) pack(outgoing[plan_.place(owner)], packed(nodes_, i));
     halo.for_ranks(leaf, [&](int r) {
       if (r == comm_->rank())
-        stay(kept++) = static_cast<std::int32_t>(i);
-      else if (place[static_cast<std::size_t>(r)] >= 0)
-        pack(outgoing[static_cast<std::size_t>(place[static_cast<std::size_t>(r)])], packed);
+        stays = true;
+      else if (plan_.knows(r))
+        pack(outgoing[plan_.place(r)], packed(nodes_, i));
+      if (ours) plan_.send(r, static_cast<std::int32_t>(kept));
     });
-    nodes_.owned(i) = distribution_.owns(leaf);
+    if (!stays) continue;
+    if (!ours) plan_.receive(owner, static_cast<std::int32_t>(kept));
+    nodes_.owned(i) = ours;
+    stay(kept++) = static_cast<std::int32_t>(i);
   }
   nodes_.permute(stay, kept);
   const std::vector<Bytes> incoming = comm_->exchange(halo.neighbours(), outgoing);
-  std::size_t arriving = 0;
-  for (const Bytes& bytes : incoming) arriving += bytes.size() / sizeof(PackedNode);
-  nodes_.reserve(kept + static_cast<std::int64_t>(arriving));
-  for_records<PackedNode>(incoming, [&](const PackedNode& packed) {
-    const Point<2> x{packed.x[0], packed.x[1]};
-    nodes_.append(x, packed.d, packed.id, packed.tag, packed.boundary_node);
-    const std::int64_t i = nodes_.count - 1;
-    for (int k = 0; k < 2; ++k) {
-      nodes_.v[k](i) = packed.v[k];
-      nodes_.anchor[k](i) = packed.anchor[k];
-    }
-    nodes_.owned(i) = distribution_.owns(tree.leaf_at(x));
-  });
+  nodes_.reserve(kept + records_in<PackedNode>(incoming));
+  for_records<PackedNode>(incoming, [&](const PackedNode& node) { arrive(halo, node); });
+  plan_.match(nodes_);
+  ghost_hops_ = hops;
+  ghosts_exact_ = true;
+  steps_since_choice_ = 0;
   lists_valid_ = false;
 }
 
-// Every node to the rank that owns its leaf, from wherever it is.
-void Level::scatter_to_owners(std::vector<GivenNode>& given) const {
-  if (!distributed()) return;
+// A ghost, or a node that has drifted to us: then others may have it as a ghost.
+void Level::arrive(const Halo& halo, const PackedNode& node) {
+  const std::int32_t leaf = map_.tree().leaf_at({node.x[0], node.x[1]});
+  const auto i = static_cast<std::int32_t>(nodes_.count);
+  append(nodes_, node, distribution_.owns(leaf));
+  if (distribution_.owns(leaf))
+    halo.for_ranks(leaf, [&](int r) { plan_.send(r, i); });
+  else
+    plan_.receive(distribution_.owner(leaf), i);
+}
+
+std::vector<int> Level::other_ranks() const {
   std::vector<int> others;
   for (int r = 0; r < comm_->size(); ++r)
     if (r != comm_->rank()) others.push_back(r);
+  return others;
+}
+
+// Owned nodes go to their owners by a new partition, however far; there are no ghosts until the
+// next exchange.
+void Level::migrate() {
+  const PhaseTimer timer(timers_, Phase::exchange);
+  const std::vector<int> others = other_ranks();
+  const std::vector<int> place = places_of(others, comm_->size());
+  std::vector<Bytes> outgoing(others.size());
+  View<std::int32_t> stay = make_view<std::int32_t>("pnpbs::Level::stay", nodes_.count);
+  std::int64_t kept = 0;
+  for (std::int64_t i = 0; i < nodes_.count; ++i) {
+    if (!nodes_.owned(i)) continue;
+    const int owner = distribution_.owner_at(nodes_.position(i));
+    if (owner == comm_->rank())
+      stay(kept++) = static_cast<std::int32_t>(i);
+    else
+      pack(outgoing[static_cast<std::size_t>(place[static_cast<std::size_t>(owner)])],
+           packed(nodes_, i));
+  }
+  nodes_.permute(stay, kept);
+  const std::vector<Bytes> incoming = comm_->exchange(others, outgoing);
+  nodes_.reserve(kept + records_in<PackedNode>(incoming));
+  for_records<PackedNode>(incoming, [&](const PackedNode& node) { append(nodes_, node, true); });
+  ++version_;
+  ghost_hops_ = 0;
+  lists_valid_ = false;
+}
+
+// Every node to the rank that owns its place, from wherever it is.
+void Level::scatter_to_owners(std::vector<GivenNode>& given) const {
+  if (!distributed()) return;
+  const std::vector<int> others = other_ranks();
   const std::vector<int> place = places_of(others, comm_->size());
   std::vector<Bytes> outgoing(others.size());
   std::vector<GivenNode> mine;
   for (const GivenNode& node : given) {
-    const int owner = distribution_.owner(map_.tree().leaf_at(node.position));
+    const int owner = distribution_.owner_at(node.position);
     if (owner == comm_->rank())
       mine.push_back(node);
     else

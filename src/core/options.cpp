@@ -56,6 +56,9 @@ const std::vector<OptionRow>& option_table() {
        "d may grow by at most this much per unit of length; 0 is no limit"},
       {"exchange_interval", T::integer, "5", nullptr, 1, 64, nullptr,
        "steps between exchanges of ghosts between ranks"},
+      {"rebalance_above", T::real, "1.1", nullptr, 1, 1e6, nullptr,
+       "the work is dealt out anew at an event when its largest share passes the mean by this "
+       "factor"},
       {"halo_deficit", T::integer, "0", nullptr, 0, 64, nullptr,
        "for tests: ghost layers are this many hops too thin, which changes the result"},
       {"metis_seed", T::integer, "1", nullptr, 0, 2e9, nullptr,

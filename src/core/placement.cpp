@@ -91,8 +91,9 @@ void Placement::make_level() {
                 "the placement has no spacing yet: call one of the set_spacing functions first");
   const Settings settings(options_);
   std::unique_ptr<Level> next;
+  agreed(*comm_, [this] { domain_->check(); });
+  require_same_on_all_ranks();
   agreed(*comm_, [&] {
-    domain_->check();
     std::shared_ptr<const Spacing<2>> spacing = spacing_;
     if (settings.growth_limit > 0) {
       const PhaseTimer timer(timers_, Phase::spacing);
@@ -102,10 +103,9 @@ void Placement::make_level() {
     // A copy: the caller may go on to change the domain.
     next = std::make_unique<Level>(comm_, std::make_shared<PlaneDomain>(*domain_), spacing,
                                    settings, timers_);
-    next->lay_boundary_and_tree();
+    next->lay_boundary();
   });
-  require_same_on_all_ranks();
-  next->distribute();
+  next->grow_tree();
   TakenNodes taken;
   if (level_) {
     taken = next->take(level_->owned_nodes(), level_->next_id());
@@ -116,7 +116,10 @@ void Placement::make_level() {
     next->fill();
   }
   // Nothing has failed: from here on the new level counts.
-  if (level_) rebuilds_before_ += level_->rebuilds();
+  if (level_) {
+    rebuilds_before_ += level_->rebuilds();
+    rebalances_before_ += level_->rebalances();
+  }
   level_ = std::move(next);
   order_version_ = lists_version_ = stars_version_ = -1;
   dropped_ = taken.left_out;
@@ -133,6 +136,7 @@ void Placement::begin_schedule() {
   schedule_ended_ = false;
   population_settled_ = false;
   quiet_events_ = 0;
+  imbalance_reached_ = 1;
 }
 
 // ------------------------------------------------------------------ the time loop --------------
@@ -163,12 +167,14 @@ Outcome Placement::step(std::int64_t n) {
 Outcome Placement::advance(std::int64_t until, double share) {
   const Settings& settings = level_->settings();
   const double first = static_cast<double>(schedule_step_);
+  bool started = true;
   Outcome outcome = Outcome::not_converged;
   stop_reason_ = StopReason::step_limit;
   std::exception_ptr failure;  // of this rank: told to the others at the next event
   while (schedule_step_ < until) {
-    if (schedule_step_ % settings.event_interval % settings.exchange_interval == 0)
+    if (started || schedule_step_ % settings.event_interval % settings.exchange_interval == 0)
       level_->exchange_for_steps();
+    started = false;
     try {
       if (!failure && level_->lists_may_miss_a_pair()) level_->rebuild_lists();
       if (!failure) level_->move();
@@ -205,6 +211,29 @@ void Placement::event() {
   if (schedule_step_ > settings.population_until && !far_too_few()) population_settled_ = true;
   if (!population_settled_)
     control_population();  // renews the ghosts, too; else the next step does
+  keep_balance();
+}
+
+// Deals the work out anew where it has become unequal, unless it was no better after the last time.
+void Placement::keep_balance() {
+  if (!level_->distributed()) return;
+  constexpr double kNoBetter = 1.02;
+  const double imbalance = level_->imbalance();
+  if (imbalance <= std::max(level_->settings().rebalance_above, kNoBetter * imbalance_reached_))
+    return;
+  rebalance_now();
+}
+
+void Placement::rebalance_now() {
+  level_->rebalance();
+  imbalance_reached_ = level_->imbalance();
+}
+
+void Placement::rebalance() {
+  require_kokkos();
+  const PhaseTimer timer(timers_, Phase::total);
+  prepare_level();
+  rebalance_now();
 }
 
 // Nodes given from outside may be so few that they take longer to multiply.
@@ -253,7 +282,7 @@ bool Placement::monitor_stops(double fraction) {
 void Placement::finish() {
   const Settings& settings = level_->settings();
   if (settings.runge_kutta_finish) {
-    level_->exchange_for_steps();
+    level_->exchange_for_runge_kutta();
     agreed(*comm_, [this] {
       level_->rebuild_lists();  // its stages look ahead
       level_->finish_by_runge_kutta();

@@ -43,6 +43,7 @@ class Placement {
   Outcome step(std::int64_t n);
   Outcome run();
   PopulationCounts adjust_population();
+  void rebalance();
 
   // --- results; nodes are handed out in the order of their ids ---
   bool has_nodes() const { return level_ != nullptr; }
@@ -64,6 +65,9 @@ class Placement {
   const Communicator& communicator() const { return *comm_; }
   std::int64_t steps_done() const { return steps_done_; }
   std::int64_t rebuilds() const { return rebuilds_before_ + (level_ ? level_->rebuilds() : 0); }
+  std::int64_t rebalances() const {
+    return rebalances_before_ + (level_ ? level_->rebalances() : 0);
+  }
   std::int64_t inserted() const { return inserted_; }
   std::int64_t deleted() const { return deleted_; }
   std::int64_t dropped() const { return dropped_; }
@@ -81,6 +85,8 @@ class Placement {
   Outcome advance(std::int64_t until, double share);
   void event();
   void control_population();
+  void keep_balance();
+  void rebalance_now();
   bool far_too_few() const;
   bool monitor_stops(double fraction);
   void finish();
@@ -99,9 +105,11 @@ class Placement {
   std::int64_t schedule_step_ = 0;  // in the run in progress
   bool schedule_ended_ = false;
   bool population_settled_ = false;
-  int quiet_events_ = 0;  // that changed too little to pay, in a row
+  int quiet_events_ = 0;          // that changed too little to pay, in a row
+  double imbalance_reached_ = 1;  // by the last rebalancing
   Speeds last_speeds_;
-  std::int64_t steps_done_ = 0, inserted_ = 0, deleted_ = 0, dropped_ = 0, rebuilds_before_ = 0;
+  std::int64_t steps_done_ = 0, inserted_ = 0, deleted_ = 0, dropped_ = 0, rebuilds_before_ = 0,
+               rebalances_before_ = 0;
   StopReason stop_reason_ = StopReason::none;
   std::vector<std::string> warnings_;
   Timers timers_;

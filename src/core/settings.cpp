@@ -22,6 +22,7 @@ Settings::Settings(const Options& o)
       max_nodes(o.integer("max_nodes")),
       exchange_interval(o.integer("exchange_interval")),
       metis_seed(o.integer("metis_seed")),
+      rebalance_above(o.real("rebalance_above")),
       halo_deficit(o.integer("halo_deficit")) {
   motion.dt = o.real("time_step");
   motion.damping = o.real("damping");

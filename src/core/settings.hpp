@@ -33,6 +33,7 @@ struct Settings {
   std::int64_t max_nodes;
   std::int64_t exchange_interval;  // steps
   std::int64_t metis_seed;
+  double rebalance_above;     // largest over mean owned work
   std::int64_t halo_deficit;  // hops, for tests
 
   int evaluations_per_step() const { return predictor_corrector ? 2 : 1; }

@@ -89,6 +89,15 @@ const std::vector<StatisticRow>& statistic_table() {
             return static_cast<std::int64_t>(p.communicator().largest(static_cast<double>(held)));
           },
           "most nodes that any rank holds, its ghosts included"),
+      integer(
+          "work.owned",
+          [](P p) { return p.has_nodes() ? p.level().owned_work() : std::int64_t{0}; },
+          "cost of a step to this rank: listed pairs of its own nodes, and 8 for each node"),
+      real(
+          "imbalance", [](P p) { return p.has_nodes() ? p.level().imbalance() : 1.0; },
+          "largest over mean of that, over the ranks"),
+      integer(
+          "rebalances", [](P p) { return p.rebalances(); }, "times the work was dealt out anew"),
       real("seconds.boundary", seconds<Phase::boundary>, "laying the boundary nodes"),
       real("seconds.tree", seconds<Phase::tree>, "background tree and samples of d"),
       real("seconds.partition", seconds<Phase::partition>, "leaves to ranks"),

@@ -76,6 +76,13 @@ struct DomainMap::Growth {
     return inside;
   }
 
+  void sample_boundary_nodes() {
+    std::vector<Point<2>> positions;
+    for (const BoundaryNode& node : boundary.nodes) positions.push_back(node.position);
+    boundary_spacing.resize(positions.size());
+    spacing(static_cast<std::int64_t>(positions.size()), positions.data(), boundary_spacing.data());
+  }
+
   void start_root(const BackgroundTree<2>& tree) {
     CellState root;
     root.reference = tree.origin();  // strictly outside the domain's bounding box
@@ -193,16 +200,24 @@ struct DomainMap::Growth {
 void DomainMap::build(const Box<2>& bounds, const Boundary& boundary,
                       const SpacingEvaluator& spacing, std::int64_t max_nodes, double steepest) {
   boundary_ = &boundary;
-  Growth growth{*this, boundary, spacing, max_nodes, steepest, {}, {}, {}, 0};
-  std::vector<Point<2>> positions;
-  for (const BoundaryNode& node : boundary.nodes) positions.push_back(node.position);
-  growth.boundary_spacing.resize(positions.size());
-  spacing(static_cast<std::int64_t>(positions.size()), positions.data(),
-          growth.boundary_spacing.data());
+  grow(*serial_communicator(), bounds,
+       Growth{*this, boundary, spacing, max_nodes, steepest, {}, {}, {}, 0},
+       [](const BackgroundTree<2>&, std::int32_t, double) { return true; });
+}
 
+void DomainMap::build_part(const Communicator& comm, const Box<2>& bounds, const Boundary& boundary,
+                           const SpacingEvaluator& spacing, std::int64_t max_nodes,
+                           const MaySplit& may_split) {
+  boundary_ = &boundary;
+  grow(comm, bounds, Growth{*this, boundary, spacing, max_nodes, 0, {}, {}, {}, 0}, may_split);
+}
+
+void DomainMap::grow(const Communicator& comm, const Box<2>& bounds, Growth growth,
+                     const MaySplit& may_split) {
+  agreed(comm, [&] { growth.sample_boundary_nodes(); });
   std::int32_t parents = 0;  // first cell of the depth above
-  tree_.build(bounds, [&](const BackgroundTree<2>& tree, std::int32_t first, std::int32_t last,
-                          std::vector<char>& split) {
+  const auto split_depth = [&](const BackgroundTree<2>& tree, std::int32_t first, std::int32_t last,
+                               std::vector<char>& split) {
     if (first == 0) growth.start_root(tree);
     for (std::int32_t parent = parents; parent < first; ++parent) {
       const std::int32_t child = tree.cell(parent).first_child;
@@ -211,16 +226,19 @@ void DomainMap::build(const Box<2>& bounds, const Boundary& boundary,
         growth.start_child(tree, child + k, parent);
     }
     parents = first;
-    growth.sample(tree, first, last);
-    growth.check_count(tree, first, last);
+    agreed(comm, [&] {
+      growth.sample(tree, first, last);
+      growth.check_count(tree, first, last);
+    });
     for (std::int32_t c = first; c < last; ++c) {
-      split[index(c - first)] = growth.wants_split(tree, c);
       const Growth::CellState& cell = growth.cells[index(c)];
+      const double nodes = kHexagonalDensity * std::pow(tree.cell_side(c), 2) * cell.mean_density;
+      split[index(c - first)] = growth.wants_split(tree, c) && may_split(tree, c, nodes);
       if (!split[index(c - first)] && !cell.outside && cell.first_edge == cell.last_edge)
-        growth.nodes_in_leaves +=
-            kHexagonalDensity * std::pow(tree.cell_side(c), 2) * cell.mean_density;
+        growth.nodes_in_leaves += nodes;
     }
-  });
+  };
+  tree_.build(bounds, split_depth, [&](bool more) { return comm.largest(more) > 0; });
   keep_leaves(growth);
 }
 

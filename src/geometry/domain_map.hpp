@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "geometry/boundary.hpp"
+#include "parallel/communicator.hpp"
 #include "tree/background_tree.hpp"
 
 namespace pnpbs {
@@ -22,6 +24,16 @@ class DomainMap {
   void build(const Box<2>& bounds, const Boundary& boundary, const SpacingEvaluator& spacing,
              std::int64_t max_nodes, double steepest = 0);
 
+  // May a cell that d or the boundary wants split be split? `nodes`: those its samples of d ask
+  // for.
+  using MaySplit =
+      std::function<bool(const BackgroundTree<2>& tree, std::int32_t cell, double nodes)>;
+  // The same tree, refined only where may_split allows it. Where that differs between ranks the
+  // call is collective, and a failure on one rank is thrown on all.
+  void build_part(const Communicator& comm, const Box<2>& bounds, const Boundary& boundary,
+                  const SpacingEvaluator& spacing, std::int64_t max_nodes,
+                  const MaySplit& may_split);
+
   static constexpr double kLeafSpacings = 4;
 
   const BackgroundTree<2>& tree() const { return tree_; }
@@ -30,6 +42,11 @@ class DomainMap {
   bool leaf_outside(std::int32_t leaf) const { return side(leaf) == Side::outside; }
   bool leaf_has_edges(std::int32_t leaf) const {
     return edge_offset_[index(leaf)] < edge_offset_[index(leaf) + 1];
+  }
+  // Its area in units of the smallest cell there can be.
+  static constexpr int kMaxDepth = BackgroundTree<2>::kMaxDepth;
+  std::uint64_t leaf_size(std::int32_t leaf) const {
+    return std::uint64_t{1} << (2 * (kMaxDepth - tree_.cell(tree_.leaf_cell(leaf)).depth));
   }
   // d that holds the right number of nodes in the leaf, and the least and largest of its samples.
   double leaf_spacing(std::int32_t leaf) const { return leaf_spacing_[index(leaf)]; }
@@ -65,6 +82,8 @@ class DomainMap {
  private:
   enum class Side : char { outside, crossed, inside };
   struct Growth;  // what is known of the cells while the tree grows
+  void grow(const Communicator& comm, const Box<2>& bounds, Growth growth,
+            const MaySplit& may_split);
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   Side side(std::int32_t leaf) const { return side_[index(leaf)]; }

@@ -15,10 +15,11 @@ constexpr double kRoomForGrowth = 1.25;
 }  // namespace
 
 template <int Dim>
-void Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius) {
+bool Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius) {
   find_buckets(tree, nodes);
-  order_nodes(tree.leaf_count(), nodes);
+  const bool reordered = order_nodes(tree.leaf_count(), nodes);
   if (gather_spacings(tree, nodes, radius)) graph_.build(tree, reach_);
+  return reordered;
 }
 
 template <int Dim>
@@ -32,7 +33,7 @@ void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim
 
 // Counting sort; stable, so that nodes which stay keep their order.
 template <int Dim>
-void Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
+bool Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
   start_.assign(static_cast<std::size_t>(buckets) + 1, 0);
   bool ordered = true;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
@@ -40,7 +41,7 @@ void Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
     ordered = ordered && (i == 0 || bucket_of_(i - 1) <= bucket_of_(i));
   }
   for (std::int32_t b = 0; b < buckets; ++b) start_[index(b) + 1] += start_[index(b)];
-  if (ordered) return;
+  if (ordered) return false;
   if (static_cast<std::int64_t>(from_.extent(0)) < nodes.capacity())
     from_ = make_view<std::int32_t>("pnpbs::Buckets::from", nodes.capacity());
   std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
@@ -49,6 +50,7 @@ void Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
   nodes.permute(from_, nodes.count);
   for (std::int32_t b = 0; b < buckets; ++b)
     for (std::int32_t i = start_[index(b)]; i < start_[index(b) + 1]; ++i) bucket_of_(i) = b;
+  return true;
 }
 
 // Returns whether the links must be made anew, because a bubble became larger than they allow.

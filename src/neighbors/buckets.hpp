@@ -16,8 +16,11 @@ template <int Dim>
 class Buckets {
  public:
   // Sorts the nodes in memory by bucket, and sees to it that the neighbour buckets of each reach
-  // all bubbles within radius * (d_i + d_j) / 2.
-  void sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius);
+  // all bubbles within radius * (d_i + d_j) / 2. Returns whether nodes changed their places.
+  bool sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius);
+
+  // If they did: what is at i now was at order()(i).
+  const View<std::int32_t>& order() const { return from_; }
 
   // Forgets the neighbour buckets: the tree has changed.
   void reset() { reach_.clear(); }
@@ -38,7 +41,7 @@ class Buckets {
  private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   void find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes);
-  void order_nodes(std::int32_t buckets, Nodes<Dim>& nodes);
+  bool order_nodes(std::int32_t buckets, Nodes<Dim>& nodes);
   bool gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes, double radius);
 
   View<std::int32_t> bucket_of_;

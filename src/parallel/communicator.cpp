@@ -24,9 +24,12 @@ class SerialCommunicator : public Communicator {
   double largest(double value) const override { return value; }
   void sum(std::vector<std::int64_t>&) const override {}
   void broadcast(Bytes&, int) const override {}
+  std::vector<Bytes> gather(const Bytes& bytes) const override { return {bytes}; }
   std::vector<Bytes> exchange(const std::vector<int>&, const std::vector<Bytes>&) const override {
     return {};
   }
+  void exchange_known(const std::vector<int>&, const std::vector<Bytes>&,
+                      std::vector<Bytes>&) const override {}
 };
 
 #if PNPBS_HAVE_MPI
@@ -77,6 +80,25 @@ class MpiCommunicator : public Communicator {
     check(MPI_Bcast(bytes.data(), count(size), MPI_BYTE, root, comm_), "MPI_Bcast");
   }
 
+  std::vector<Bytes> gather(const Bytes& bytes) const override {
+    const int mine = count(bytes.size());
+    std::vector<int> sizes(static_cast<std::size_t>(size_)), offsets(sizes.size());
+    check(MPI_Allgather(&mine, 1, MPI_INT, sizes.data(), 1, MPI_INT, comm_), "MPI_Allgather");
+    std::size_t total = 0;
+    for (std::size_t r = 0; r < sizes.size(); ++r) {
+      offsets[r] = count(total);
+      total += static_cast<std::size_t>(sizes[r]);
+    }
+    Bytes all(total);
+    check(MPI_Allgatherv(bytes.data(), mine, MPI_BYTE, all.data(), sizes.data(), offsets.data(),
+                         MPI_BYTE, comm_),
+          "MPI_Allgatherv");
+    std::vector<Bytes> parts;
+    for (std::size_t r = 0; r < sizes.size(); ++r)
+      parts.emplace_back(all.begin() + offsets[r], all.begin() + offsets[r] + sizes[r]);
+    return parts;
+  }
+
   // Sizes first, then the messages; all non-blocking.
   std::vector<Bytes> exchange(const std::vector<int>& neighbours,
                               const std::vector<Bytes>& outgoing) const override {
@@ -91,16 +113,23 @@ class MpiCommunicator : public Communicator {
     check(MPI_Waitall(static_cast<int>(2 * n), requests.data(), MPI_STATUSES_IGNORE),
           "MPI_Waitall");
     std::vector<Bytes> incoming(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      incoming[k].resize(sizes_in[k]);
-      MPI_Irecv(incoming[k].data(), count(sizes_in[k]), MPI_BYTE, neighbours[k], kDataTag, comm_,
-                &requests[k]);
-      MPI_Isend(outgoing[k].data(), count(sizes_out[k]), MPI_BYTE, neighbours[k], kDataTag, comm_,
-                &requests[n + k]);
-    }
-    check(MPI_Waitall(static_cast<int>(2 * n), requests.data(), MPI_STATUSES_IGNORE),
-          "MPI_Waitall");
+    for (std::size_t k = 0; k < n; ++k) incoming[k].resize(sizes_in[k]);
+    exchange_known(neighbours, outgoing, incoming);
     return incoming;
+  }
+
+  void exchange_known(const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
+                      std::vector<Bytes>& incoming) const override {
+    const std::size_t n = neighbours.size();
+    requests_.resize(2 * n);
+    for (std::size_t k = 0; k < n; ++k)
+      MPI_Irecv(incoming[k].data(), count(incoming[k].size()), MPI_BYTE, neighbours[k], kDataTag,
+                comm_, &requests_[k]);
+    for (std::size_t k = 0; k < n; ++k)
+      MPI_Isend(outgoing[k].data(), count(outgoing[k].size()), MPI_BYTE, neighbours[k], kDataTag,
+                comm_, &requests_[n + k]);
+    check(MPI_Waitall(static_cast<int>(2 * n), requests_.data(), MPI_STATUSES_IGNORE),
+          "MPI_Waitall");
   }
 
  private:
@@ -119,6 +148,7 @@ class MpiCommunicator : public Communicator {
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1, ranks_on_node_ = 1;
+  mutable std::vector<MPI_Request> requests_;
 };
 
 #endif

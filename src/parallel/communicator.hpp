@@ -25,11 +25,17 @@ class Communicator {
   virtual double largest(double value) const = 0;
   virtual void sum(std::vector<std::int64_t>& values) const = 0;  // entry by entry
   virtual void broadcast(Bytes& bytes, int root) const = 0;
+  // What every rank gives, by rank, on every rank.
+  virtual std::vector<Bytes> gather(const Bytes& bytes) const = 0;
 
   // Sends outgoing[k] to rank neighbours[k] and returns what they sent. Every rank named must name
   // us in its own call at the same time. Messages may be empty.
   virtual std::vector<Bytes> exchange(const std::vector<int>& neighbours,
                                       const std::vector<Bytes>& outgoing) const = 0;
+  // The same for messages whose sizes both sides know: incoming[k] has the size of what comes.
+  virtual void exchange_known(const std::vector<int>& neighbours,
+                              const std::vector<Bytes>& outgoing,
+                              std::vector<Bytes>& incoming) const = 0;
 };
 
 std::shared_ptr<Communicator> serial_communicator();

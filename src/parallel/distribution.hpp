@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who owns which leaf of the background tree, and who needs its nodes as ghosts.
+// Who owns which part of the background tree, and who needs its nodes as ghosts. The cells of the
+// partition are known everywhere; the leaves in them, the graph of their interactions and the
+// halos only as far as this rank's nodes and ghosts can be.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <vector>
 
+#include "parallel/communicator.hpp"
+#include "parallel/partition_cells.hpp"
 #include "tree/leaf_graph.hpp"
 
 namespace pnpbs {
@@ -13,7 +18,7 @@ namespace pnpbs {
 // The ghost layers for one depth, in hops of the leaf graph.
 class Halo {
  public:
-  // Ranks that own a leaf or lie within the depth of it, in increasing order.
+  // Other ranks that lie within the depth of a leaf of ours, or of one near ours.
   template <class Visit>
   void for_ranks(std::int32_t leaf, const Visit& visit) const {
     for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
@@ -26,29 +31,53 @@ class Halo {
 
  private:
   friend class Distribution;
-  std::vector<std::int32_t> offset_, ranks_;
+  std::vector<std::int32_t> offset_, ranks_;  // the owner is not among them
   std::vector<int> neighbours_;
 };
 
 class Distribution {
  public:
-  Distribution() = default;
-  Distribution(const LeafGraph<2>* graph, std::vector<std::int32_t> owner, int rank)
-      : graph_(graph), owner_(std::move(owner)), rank_(rank) {}
+  Distribution() = default;  // one rank, which owns all
+  Distribution(PartitionCells cells, std::vector<std::int32_t> owner, int rank)
+      : cells_(std::move(cells)), owner_(std::move(owner)), rank_(rank) {}
 
-  bool owns(std::int32_t leaf) const {
-    return owner_.empty() || owner_[static_cast<std::size_t>(leaf)] == rank_;
+  const PartitionCells& cells() const { return cells_; }
+  int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
+  int owner_at(const Point<2>& x) const { return owner_of_cell(cells_.at(x)); }
+  // Cells that may hold ghosts: those within some hops of a bubble of ours, by the largest d.
+  std::vector<char> cells_near_own(int hops, double reach) const;
+
+  // --- once the tree is refined in the cells marked ---
+  // `reach` tells how far the bubbles of a leaf reach; 0 for a leaf outside the domain.
+  void take_leaves(const BackgroundTree<2>& tree, const std::vector<char>& refined,
+                   const std::function<double(std::int32_t)>& reach);
+  bool refined(std::int32_t leaf) const {
+    return refined_[static_cast<std::size_t>(cell_of(leaf))] != 0;
   }
-  int owner(std::int32_t leaf) const { return owner_[static_cast<std::size_t>(leaf)]; }
-  const std::vector<std::int32_t>& owners() const { return owner_; }
-
+  std::int32_t cell_of(std::int32_t leaf) const {
+    return cell_of_leaf_[static_cast<std::size_t>(leaf)];
+  }
+  bool owns(std::int32_t leaf) const { return owner_.empty() || owner(leaf) == rank_; }
+  int owner(std::int32_t leaf) const { return owner_of_cell(cell_of(leaf)); }
+  // Cells that are within so many hops of our leaves and not refined.
+  std::vector<std::int32_t> unrefined_within(int hops) const;
   // Made on first use and kept.
   const Halo& halo(int hops);
 
+  // For one count per leaf, on every rank those of its own nodes: the sum over all leaves before
+  // each one in Morton order, of all ranks, from `start` on; moves `start` on by the sum over all.
+  // What is numbered so does not depend on who owns which leaf. Collective.
+  std::vector<std::int64_t> prefix_sums(const Communicator& comm, std::vector<std::int64_t> counts,
+                                        std::int64_t& start) const;
+
  private:
-  const LeafGraph<2>* graph_ = nullptr;
-  std::vector<std::int32_t> owner_;
+  PartitionCells cells_;
+  std::vector<std::int32_t> owner_;  // of the cells; empty: one rank
   int rank_ = 0;
+
+  LeafGraph<2> graph_;  // leaves that interact
+  std::vector<std::int32_t> cell_of_leaf_;
+  std::vector<char> refined_;  // cells
   std::map<int, Halo> halos_;
 };
 

@@ -26,15 +26,20 @@ class BackgroundTree {
     std::int32_t leaf;         // place among the leaves in Morton order; -1 for others
   };
 
-  // Is asked for all cells of one depth at once; sets split[c] for cells first .. last-1.
+  // Is asked for all cells of one depth at once; sets split[c - first] for cells first .. last-1.
   using Splitter = std::function<void(const BackgroundTree& tree, std::int32_t first,
                                       std::int32_t last, std::vector<char>& split)>;
+  // Whether to go on to the next depth, asked with whether there is one. Where each rank refines
+  // its own part of the tree, all go on as long as one does, so that they sample d in step.
+  using GoOn = std::function<bool(bool more)>;
 
   BackgroundTree() = default;
 
   // The root is a square (cube) a little larger than the box, so that every point of the box lies
   // strictly inside.
-  void build(const Box<Dim>& box, const Splitter& splitter) {
+  void build(
+      const Box<Dim>& box, const Splitter& splitter,
+      const GoOn& go_on = [](bool more) { return more; }) {
     side_ = 0;
     for (int k = 0; k < Dim; ++k) side_ = std::max(side_, box.high[k] - box.low[k]);
     for (int k = 0; k < Dim; ++k) origin_[k] = box.low[k] - side_ / 2048;
@@ -42,7 +47,7 @@ class BackgroundTree {
     cells_.assign(1, Cell{{}, 0, -1, -1});
     std::int32_t first = 0;
     std::vector<char> split;
-    for (int depth = 0; depth < kMaxDepth && first < cell_count(); ++depth) {
+    for (int depth = 0; depth < kMaxDepth && go_on(first < cell_count()); ++depth) {
       const std::int32_t last = cell_count();
       split.assign(static_cast<std::size_t>(last - first), 0);
       splitter(*this, first, last, split);
@@ -81,7 +86,10 @@ class BackgroundTree {
   }
 
   // The leaf that holds x; points beyond the root belong to the leaf at its rim.
-  std::int32_t leaf_at(const Point<Dim>& x) const {
+  std::int32_t leaf_at(const Point<Dim>& x) const { return cell(cell_at(x, kMaxDepth)).leaf; }
+
+  // The cell that holds x, at this depth or, where the tree ends before, a leaf.
+  std::int32_t cell_at(const Point<Dim>& x, int depth) const {
     std::array<std::uint32_t, Dim> fine;  // position among the cells of the largest depth
     const double scale = std::ldexp(1.0, kMaxDepth) / side_;
     for (int k = 0; k < Dim; ++k) {
@@ -91,12 +99,13 @@ class BackgroundTree {
                                                       : static_cast<std::uint32_t>(t);
     }
     std::int32_t c = 0;
-    for (int shift = kMaxDepth - 1; cell(c).first_child >= 0; --shift) {
+    for (int shift = kMaxDepth - 1; shift >= kMaxDepth - depth && cell(c).first_child >= 0;
+         --shift) {
       int child = 0;
       for (int k = 0; k < Dim; ++k) child |= static_cast<int>((fine[k] >> shift) & 1u) << k;
       c = cell(c).first_child + child;
     }
-    return cell(c).leaf;
+    return c;
   }
 
   // Is x in the half-open box of this leaf? Decided with the arithmetic of leaf_at.

@@ -67,7 +67,8 @@ struct LevelRun {
     event_interval = settings.event_interval;
     level = std::make_unique<pnpbs::Level>(pnpbs::serial_communicator(), domain, spacing_of(d),
                                            settings, *timers);
-    level->lay_boundary_and_tree();
+    level->lay_boundary();
+    level->grow_tree();
   }
 
   // n steps with the events between them.

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The partition of a level: the background tree, refined on each rank where its own nodes and
+// ghosts can be, and its cells dealt out by the work in them.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+#include "core/initial_fill.hpp"
+#include "core/level.hpp"
+#include "parallel/partition.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// What a node costs besides its listed pairs, in units of one pair.
+constexpr std::int64_t kNodeWork = 8;
+
+Bytes bytes_of(const std::vector<std::int32_t>& values) {
+  Bytes bytes(values.size() * sizeof(std::int32_t));
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+std::vector<std::int32_t> integers_of(const Bytes& bytes) {
+  std::vector<std::int32_t> values(bytes.size() / sizeof(std::int32_t));
+  if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+}  // namespace
+
+void Level::grow_tree() {
+  if (!distributed()) {
+    const PhaseTimer timer(timers_, Phase::tree);
+    map_.build(domain_->bounds(), boundary_, evaluator(), settings_.max_nodes);
+    look_at_new_tree();
+    return;
+  }
+  const PhaseTimer timer(timers_, Phase::partition);
+  // First by a few samples of d; then what lies in each part is known, and is cut again.
+  PartitionCells cells(domain_->bounds(), rough_cells());
+  std::vector<std::int32_t> owner = cut_morton_order(cells.work(), comm_->size());
+  std::vector<char> own;
+  for (std::int32_t r : owner) own.push_back(r == comm_->rank());
+  distribution_ = Distribution(std::move(cells), std::move(owner), comm_->rank());
+  refine_tree(own);
+  cells = PartitionCells(domain_->bounds(),
+                         cells_of_equal_work(*comm_, map_, owns_leaf(), expected_work()));
+  owner = cut_on_first_rank(cells);
+  distribution_ = Distribution(std::move(cells), std::move(owner), comm_->rank());
+  grow_own_part();
+}
+
+// What goes by the leaves of the tree.
+void Level::look_at_new_tree() {
+  near_edges_.prepare(map_, edge_radius());
+  buckets_.reset();
+  plan_ = GhostPlan();
+  ghost_hops_ = 0;
+  lists_valid_ = false;
+}
+
+std::function<bool(std::int32_t)> Level::owns_leaf() const {
+  return [this](std::int32_t leaf) { return distribution_.owns(leaf); };
+}
+
+// From samples of d in large cells, the same on every rank: enough to begin with.
+std::vector<PartitionCell> Level::rough_cells() {
+  constexpr int kUniformDepth = 3, kPasses = 3, kCellsPerRank = 32;
+  double most = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    map_.build_part(*comm_, domain_->bounds(), boundary_, evaluator(), settings_.max_nodes,
+                    [&](const BackgroundTree<2>& tree, std::int32_t c, double nodes) {
+                      return tree.cell(c).depth < kUniformDepth || nodes > most;
+                    });
+    const std::vector<std::int64_t> work = expected_work();
+    most = static_cast<double>(std::accumulate(work.begin(), work.end(), std::int64_t{0})) /
+           (kWorkPerNode * kCellsPerRank * comm_->size());
+  }
+  const std::vector<std::int64_t> work = expected_work();
+  std::vector<PartitionCell> cells;
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    const BackgroundTree<2>::Cell& cell = map_.tree().cell(map_.tree().leaf_cell(leaf));
+    cells.push_back({cell.index, cell.depth, work[static_cast<std::size_t>(leaf)],
+                     map_.leaf_largest_spacing(leaf)});
+  }
+  return cells;
+}
+
+// Of each leaf, by the nodes that d asks for; half of a leaf that the boundary crosses.
+std::vector<std::int64_t> Level::expected_work() const {
+  std::vector<std::int64_t> work;
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    const double side = map_.tree().cell_side(map_.tree().leaf_cell(leaf)),
+                 d = map_.leaf_spacing(leaf);
+    const double nodes = map_.leaf_outside(leaf) || d == 0 ? 0
+                         : map_.leaf_has_edges(leaf)       ? 0.5 * side * side / (d * d)
+                                                           : side * side / (d * d);
+    work.push_back(map_.leaf_outside(leaf)
+                       ? 0
+                       : 1 + static_cast<std::int64_t>(std::round(kWorkPerNode * nodes)));
+  }
+  return work;
+}
+
+// The tree in full in the cells marked.
+void Level::refine_tree(const std::vector<char>& refined) {
+  const BackgroundTree<2>& cells = distribution_.cells().tree();
+  map_.build_part(*comm_, domain_->bounds(), boundary_, evaluator(), settings_.max_nodes,
+                  [&](const BackgroundTree<2>& tree, std::int32_t c, double) {
+                    const BackgroundTree<2>::Cell& in =
+                        cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
+                    return in.first_child >= 0 || refined[static_cast<std::size_t>(in.leaf)];
+                  });
+  distribution_.take_leaves(map_.tree(), refined, [&](std::int32_t leaf) {
+    const std::int32_t cell = distribution_.cell_of(leaf);
+    const double d = refined[static_cast<std::size_t>(cell)]
+                         ? map_.leaf_largest_spacing(leaf)
+                         : distribution_.cells().largest_spacing(cell);
+    return map_.leaf_outside(leaf) ? 0 : kRoomForGrowth * widest_radius() * d;
+  });
+}
+
+// In full wherever own nodes and ghosts can be. What is within the hops is known only once it is
+// there: more is refined until nothing is missing.
+void Level::grow_own_part() {
+  tree_hops_ = deepest_hops();
+  std::vector<char> refined =
+      distribution_.cells_near_own(tree_hops_, kRoomForGrowth * widest_radius());
+  for (bool missing = true; missing;) {
+    refine_tree(refined);
+    const std::vector<std::int32_t> more = distribution_.unrefined_within(tree_hops_);
+    for (std::int32_t cell : more) refined[static_cast<std::size_t>(cell)] = 1;
+    missing = comm_->largest(!more.empty()) > 0;
+  }
+  look_at_new_tree();
+}
+
+std::vector<std::int32_t> Level::cut_on_first_rank(const PartitionCells& cells) const {
+  Bytes bytes;
+  agreed(*comm_, [&] {
+    if (comm_->rank() == 0)
+      bytes = bytes_of(cut_by_metis(cells, comm_->size(), settings_.metis_seed));
+  });
+  comm_->broadcast(bytes, 0);
+  return integers_of(bytes);
+}
+
+std::int64_t Level::node_work(std::int64_t i) const {
+  std::int64_t pairs = 0;
+  lists_.for_neighbours(i, [&](std::int64_t) { ++pairs; });
+  return kNodeWork + pairs;
+}
+
+void Level::count_work() {
+  owned_work_ = static_cast<std::int64_t>(
+      sum_of("pnpbs::Level::count_work", nodes_.count,
+             [this](std::int64_t i) { return nodes_.owned(i) ? node_work(i) : 0; }));
+  work_is_old_ = false;
+}
+
+double Level::imbalance() const {
+  const auto all = static_cast<double>(comm_->sum(static_cast<std::uint64_t>(owned_work_)));
+  return all > 0 ? comm_->largest(static_cast<double>(owned_work_)) * comm_->size() / all : 1;
+}
+
+std::vector<std::int64_t> Level::counted_work() const {
+  const BackgroundTree<2>& tree = map_.tree();
+  std::vector<std::int64_t> work(static_cast<std::size_t>(tree.leaf_count()), 0);
+  for (std::int64_t i = 0; i < nodes_.count; ++i)
+    if (nodes_.owned(i))
+      work[static_cast<std::size_t>(tree.leaf_at(nodes_.position(i)))] += node_work(i);
+  return work;
+}
+
+void Level::rebalance() {
+  if (!distributed()) return;
+  exchange(step_hops());
+  agreed(*comm_, [this] { rebuild_lists(); });
+  const PhaseTimer timer(timers_, Phase::partition);
+  const std::vector<std::int64_t> work = counted_work();
+  PartitionCells cells(domain_->bounds(), cells_of_equal_work(*comm_, map_, owns_leaf(), work));
+  std::vector<std::int32_t> owner = keep_numbers(cells, cut_on_first_rank(cells), work);
+  adopt(Distribution(std::move(cells), std::move(owner), comm_->rank()));
+  migrate();
+  exchange(step_hops());
+  work_is_old_ = true;
+  agreed(*comm_, [this] { rebuild_lists(); });
+  ++rebalances_;
+}
+
+// Parts get the numbers that let most of the work stay where it is.
+std::vector<std::int32_t> Level::keep_numbers(const PartitionCells& cells,
+                                              std::vector<std::int32_t> part,
+                                              const std::vector<std::int64_t>& work) const {
+  const auto ranks = static_cast<std::size_t>(comm_->size()),
+             rank = static_cast<std::size_t>(comm_->rank());
+  const BackgroundTree<2>& tree = map_.tree();
+  std::vector<std::int64_t> kept(ranks * ranks, 0);
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    if (!distribution_.owns(leaf)) continue;
+    const std::int32_t cell = cells.at(tree.cell_centre(tree.leaf_cell(leaf)));
+    const auto to = static_cast<std::size_t>(part[static_cast<std::size_t>(cell)]);
+    kept[to * ranks + rank] += work[static_cast<std::size_t>(leaf)];
+  }
+  comm_->sum(kept);
+  return relabelled(std::move(part), kept, comm_->size());
+}
+
+// The nodes are yet to migrate. If d fails where it is asked anew, all stays as it was.
+void Level::adopt(Distribution next) {
+  DomainMap map_before = std::move(map_);
+  Distribution before = std::exchange(distribution_, std::move(next));
+  try {
+    grow_own_part();
+  } catch (...) {
+    map_ = std::move(map_before);
+    distribution_ = std::move(before);
+    look_at_new_tree();
+    throw;
+  }
+}
+
+}  // namespace pnpbs
