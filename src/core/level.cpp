@@ -91,6 +91,7 @@ void Level::rebuild_lists(double radius, const Field<2>& seen_from) {
   const PhaseTimer timer(timers_, Phase::lists);
   if (buckets_.sort(map_.tree(), nodes_, widest_radius()))
     plan_.follow(buckets_.order(), nodes_.count);
+  in_buckets_ = true;
   near_edges_.build(nodes_, seen_from, buckets_, map_);
   lists_.build(nodes_, buckets_, radius, [this](std::int64_t i, std::int64_t j) {
     return near_edges_.visible(nodes_, map_, fans_, i, j);

@@ -120,6 +120,8 @@ class Level {
   static constexpr int kPopulationHops = 6;
   // One sweep, with a guard that looks at the neighbours' moves, and the reach of ghosts' stars.
   static constexpr int kSweepHops = 6;
+  // Ghosts farther away are no Delaunay neighbours of ours.
+  static constexpr int kStarHops = 3;
   static constexpr int kRungeKuttaStages = 4;
   // d may grow by this factor above its samples in a leaf before ghosts could be missing.
   static constexpr double kRoomForGrowth = 1.25;
@@ -132,6 +134,7 @@ class Level {
   std::vector<PartitionCell> rough_cells();
   std::vector<std::int64_t> expected_work() const;
   void refine_tree(const std::vector<char>& refined);
+  void link_leaves();
   void grow_own_part();
   std::function<bool(std::int32_t)> owns_leaf() const;
   std::vector<std::int32_t> cut_on_first_rank(const PartitionCells& cells) const;
@@ -187,8 +190,10 @@ class Level {
   Nodes<2> nodes_;
   std::int64_t next_id_ = 0;
 
+  std::shared_ptr<const LeafLinks<2>> links_;  // leaves of which one reaches the other
   Distribution distribution_;
-  int tree_hops_ = 0;  // the tree is refined so far around the leaves we own
+  int tree_hops_ = 0;        // the tree is refined so far around the leaves we own
+  bool in_buckets_ = false;  // the nodes are in the order of the buckets
   GhostPlan plan_;
   int ghost_hops_ = 0;         // ghosts reach so far; 0: they must be chosen anew
   bool ghosts_exact_ = false;  // nothing has moved since they came
@@ -200,6 +205,7 @@ class Level {
   NearEdges near_edges_;
   AdjacencyList<2> lists_;
   DelaunayStars stars_;
+  std::vector<char> wants_stars_;  // leaves with stars that are needed here; empty: all
 
   Field<2> next_;    // positions after the move in progress
   Field<2> listed_;  // positions at which the lists were made

@@ -101,6 +101,7 @@ void Level::delete_nodes(const std::vector<std::int32_t>& deleted) {
       stay(kept++) = i;
   }
   nodes_.permute(stay, kept);
+  in_buckets_ = false;
 }
 
 // The owner of the leaf a node is born in numbers it: ids by bucket in Morton order, then by
@@ -129,6 +130,7 @@ void Level::number_births(std::vector<Birth<2>> born) {
   std::vector<std::int64_t> next = distribution_.prefix_sums(*comm_, std::move(new_ids), next_id_);
   std::sort(born.begin(), born.end(),
             [](const Birth<2>& a, const Birth<2>& b) { return a.parent < b.parent; });
+  in_buckets_ = false;
   for (const Birth<2>& birth : born)
     nodes_.append(birth.position, birth.d,
                   next[static_cast<std::size_t>(tree.leaf_at(birth.position))]++, 0, -1);
@@ -154,7 +156,7 @@ Speeds Level::speeds() const {
 
 void Level::renew_stars() {
   const PhaseTimer timer(timers_, Phase::stars);
-  stars_.build({nodes_, map_, fans_, buckets_, lists_, near_edges_});
+  stars_.build({nodes_, map_, fans_, buckets_, lists_, near_edges_, wants_stars_});
 }
 
 // In blocks of a few sweeps, within which the stars stay as they are.

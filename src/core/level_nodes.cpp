@@ -195,6 +195,7 @@ void Level::number_and_store(std::vector<GivenNode> inner) {
   std::vector<std::int64_t> next = distribution_.prefix_sums(*comm_, std::move(new_ids), next_id_);
 
   nodes_.count = 0;
+  in_buckets_ = false;
   nodes_.reserve(static_cast<std::int64_t>(entries.size() + entries.size() / 64) + 64);
   for (const Entry& entry : entries) {
     const std::int64_t id = entry.id >= 0 ? entry.id : next[static_cast<std::size_t>(entry.leaf)]++;

@@ -36,6 +36,7 @@ void Level::grow_tree() {
   if (!distributed()) {
     const PhaseTimer timer(timers_, Phase::tree);
     map_.build(domain_->bounds(), boundary_, evaluator(), settings_.max_nodes);
+    link_leaves();
     look_at_new_tree();
     return;
   }
@@ -57,7 +58,8 @@ void Level::grow_tree() {
 // What goes by the leaves of the tree.
 void Level::look_at_new_tree() {
   near_edges_.prepare(map_, edge_radius());
-  buckets_.reset();
+  buckets_.reset(links_);
+  in_buckets_ = false;
   plan_ = GhostPlan();
   ghost_hops_ = 0;
   lists_valid_ = false;
@@ -115,13 +117,18 @@ void Level::refine_tree(const std::vector<char>& refined) {
                         cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
                     return in.first_child >= 0 || refined[static_cast<std::size_t>(in.leaf)];
                   });
-  distribution_.take_leaves(map_.tree(), refined, [&](std::int32_t leaf) {
-    const std::int32_t cell = distribution_.cell_of(leaf);
-    const double d = refined[static_cast<std::size_t>(cell)]
+  distribution_.take_leaves(&map_.tree(), refined);
+}
+
+void Level::link_leaves() {
+  std::vector<double> reach;
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    const double d = !distributed() || distribution_.refined(leaf)
                          ? map_.leaf_largest_spacing(leaf)
-                         : distribution_.cells().largest_spacing(cell);
-    return map_.leaf_outside(leaf) ? 0 : kRoomForGrowth * widest_radius() * d;
-  });
+                         : distribution_.cells().largest_spacing(distribution_.cell_of(leaf));
+    reach.push_back(map_.leaf_outside(leaf) ? 0 : kRoomForGrowth * widest_radius() * d);
+  }
+  links_ = std::make_shared<const LeafLinks<2>>(map_.tree(), std::move(reach));
 }
 
 // In full wherever own nodes and ghosts can be. What is within the hops is known only once it is
@@ -132,10 +139,13 @@ void Level::grow_own_part() {
       distribution_.cells_near_own(tree_hops_, kRoomForGrowth * widest_radius());
   for (bool missing = true; missing;) {
     refine_tree(refined);
+    link_leaves();
+    distribution_.link_leaves(links_);
     const std::vector<std::int32_t> more = distribution_.unrefined_within(tree_hops_);
     for (std::int32_t cell : more) refined[static_cast<std::size_t>(cell)] = 1;
     missing = comm_->largest(!more.empty()) > 0;
   }
+  wants_stars_ = distribution_.leaves_within(kStarHops);
   look_at_new_tree();
 }
 
@@ -219,6 +229,7 @@ void Level::adopt(Distribution next) {
   } catch (...) {
     map_ = std::move(map_before);
     distribution_ = std::move(before);
+    link_leaves();
     look_at_new_tree();
     throw;
   }

@@ -77,6 +77,10 @@ void Level::exchange(int hops) {
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!nodes_.owned(i)) continue;
+    if (in_buckets_ && halo.quiet(buckets_.bucket_of(i))) {
+      stay(kept++) = static_cast<std::int32_t>(i);
+      continue;
+    }
     const std::int32_t leaf = map_.tree().leaf_at(nodes_.position(i));
     const int owner = distribution_.owner(leaf);
     const bool ours = owner == comm_->rank();
@@ -99,6 +103,7 @@ void Level::exchange(int hops) {
   nodes_.reserve(kept + records_in<PackedNode>(incoming));
   for_records<PackedNode>(incoming, [&](const PackedNode& node) { arrive(halo, node); });
   plan_.match(nodes_);
+  in_buckets_ = false;
   ghost_hops_ = hops;
   ghosts_exact_ = true;
   steps_since_choice_ = 0;
@@ -146,6 +151,7 @@ void Level::migrate() {
   nodes_.reserve(kept + records_in<PackedNode>(incoming));
   for_records<PackedNode>(incoming, [&](const PackedNode& node) { append(nodes_, node, true); });
   ++version_;
+  in_buckets_ = false;
   ghost_hops_ = 0;
   lists_valid_ = false;
 }

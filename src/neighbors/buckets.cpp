@@ -18,7 +18,7 @@ template <int Dim>
 bool Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius) {
   find_buckets(tree, nodes);
   const bool reordered = order_nodes(tree.leaf_count(), nodes);
-  if (gather_spacings(tree, nodes, radius)) graph_.build(tree, reach_);
+  gather_spacings(tree, nodes, radius);
   return reordered;
 }
 
@@ -53,26 +53,27 @@ bool Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
   return true;
 }
 
-// Returns whether the links must be made anew, because a bubble became larger than they allow.
+// The links are made anew if a bubble became larger than they allow.
 template <int Dim>
-bool Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes,
+void Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes,
                                    double radius) {
   const std::int32_t buckets = tree.leaf_count();
-  bool outgrown = reach_.size() != static_cast<std::size_t>(buckets);
-  if (outgrown) reach_.assign(static_cast<std::size_t>(buckets), 0);
+  if (!links_)
+    links_ = std::make_shared<const LeafLinks<Dim>>(
+        tree, std::vector<double>(static_cast<std::size_t>(buckets), 0));
   least_.assign(static_cast<std::size_t>(buckets), std::numeric_limits<double>::infinity());
+  std::vector<double> grown;  // reaches, if one is larger than it was
   for (std::int32_t b = 0; b < buckets; ++b) {
     double largest = 0;
     for (std::int32_t i = begin(b); i < end(b); ++i) {
       largest = std::max(largest, nodes.d(i));
       least_[index(b)] = std::min(least_[index(b)], nodes.d(i));
     }
-    if (radius * largest > reach_[index(b)]) {
-      reach_[index(b)] = radius * largest * kRoomForGrowth;
-      outgrown = true;
-    }
+    if (radius * largest <= links_->reach[index(b)]) continue;
+    if (grown.empty()) grown = links_->reach;
+    grown[index(b)] = radius * largest * kRoomForGrowth;
   }
-  return outgrown;
+  if (!grown.empty()) links_ = std::make_shared<const LeafLinks<Dim>>(tree, std::move(grown));
 }
 
 template class Buckets<2>;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/nodes.hpp"
@@ -22,8 +24,8 @@ class Buckets {
   // If they did: what is at i now was at order()(i).
   const View<std::int32_t>& order() const { return from_; }
 
-  // Forgets the neighbour buckets: the tree has changed.
-  void reset() { reach_.clear(); }
+  // The tree has changed; its leaves are linked like that.
+  void reset(std::shared_ptr<const LeafLinks<Dim>> links) { links_ = std::move(links); }
 
   std::int32_t bucket_of(std::int64_t node) const { return bucket_of_(node); }
   std::int32_t begin(std::int32_t bucket) const { return start_[index(bucket)]; }
@@ -32,7 +34,7 @@ class Buckets {
   // Calls visit(other) for the bucket itself and all that may interact with it, in Morton order.
   template <class Visit>
   void for_neighbours(std::int32_t bucket, const Visit& visit) const {
-    graph_.for_neighbours(bucket, visit);
+    links_->graph.for_neighbours(bucket, visit);
   }
 
   // Least spacing of the nodes in a bucket (infinity if empty).
@@ -42,13 +44,12 @@ class Buckets {
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   void find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes);
   bool order_nodes(std::int32_t buckets, Nodes<Dim>& nodes);
-  bool gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes, double radius);
+  void gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes, double radius);
 
   View<std::int32_t> bucket_of_;
   std::vector<std::int32_t> start_;  // first node of each bucket
-  std::vector<double> reach_;        // radius * largest d the links of a bucket allow for
   std::vector<double> least_;        // least d of the nodes in it
-  LeafGraph<Dim> graph_;
+  std::shared_ptr<const LeafLinks<Dim>> links_;
   View<std::int32_t> from_;
 };
 

@@ -38,10 +38,9 @@ class Needs {
   }
 
   // Besides its owner, in increasing order.
-  std::vector<std::int32_t> of(std::size_t leaf) const {
-    std::vector<std::int32_t> ranks = others_[leaf];
-    std::sort(ranks.begin(), ranks.end());
-    return ranks;
+  const std::vector<std::int32_t>& of(std::size_t leaf) {
+    std::sort(others_[leaf].begin(), others_[leaf].end());
+    return others_[leaf];
   }
 
  private:
@@ -68,38 +67,71 @@ std::vector<char> Distribution::cells_near_own(int hops, double reach) const {
   return found;
 }
 
-void Distribution::take_leaves(const BackgroundTree<2>& tree, const std::vector<char>& refined,
-                               const std::function<double(std::int32_t)>& reach) {
+void Distribution::take_leaves(const BackgroundTree<2>* tree, const std::vector<char>& refined) {
+  tree_ = tree;
   refined_ = refined;
   halos_.clear();
   cell_of_leaf_.clear();
-  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
-    cell_of_leaf_.push_back(cells_.at(tree.cell_centre(tree.leaf_cell(leaf))));
-  std::vector<double> reaches;
-  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) reaches.push_back(reach(leaf));
-  graph_.build(tree, reaches);
+  for (std::int32_t leaf = 0; leaf < tree->leaf_count(); ++leaf)
+    cell_of_leaf_.push_back(cells_.at(tree->cell_centre(tree->leaf_cell(leaf))));
 }
 
-std::vector<std::int32_t> Distribution::unrefined_within(int hops) const {
-  const std::size_t leaves = cell_of_leaf_.size();
-  std::vector<char> reached(leaves, 0);
-  std::vector<std::int32_t> front, next;
-  for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
-    reached[leaf] = owner(static_cast<std::int32_t>(leaf)) == rank_;
-    if (reached[leaf]) front.push_back(static_cast<std::int32_t>(leaf));
+// The largest reach of a bubble within so many hops of each leaf.
+std::vector<double> Distribution::reach_within(int hops) const {
+  std::vector<double> most = links_->reach, before;
+  for (int hop = 0; hop < hops; ++hop) {
+    before = most;
+    for (std::size_t leaf = 0; leaf < most.size(); ++leaf)
+      links_->graph.for_neighbours(static_cast<std::int32_t>(leaf), [&](std::int32_t other) {
+        most[leaf] = std::max(most[leaf], before[static_cast<std::size_t>(other)]);
+      });
   }
-  std::set<std::int32_t> found;
+  return most;
+}
+
+// Does the rank own something as near as that?
+bool Distribution::near(const Box<2>& box, int rank, double way) const {
+  Box<2> around = box;
+  for (int k = 0; k < 2; ++k) {
+    around.low[k] -= way;
+    around.high[k] += way;
+  }
+  bool found = false;
+  const BackgroundTree<2>& tree = cells_.tree();
+  tree.for_leaves_in(around, [&](std::int32_t cell) {
+    found = found || (owner_of_cell(cell) == rank &&
+                      squared_gap<2>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way);
+  });
+  return found;
+}
+
+std::vector<char> Distribution::leaves_within(int hops) const {
+  const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
+  std::vector<char> reached(static_cast<std::size_t>(leaves), 0);
+  std::vector<std::int32_t> front, next;
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+    if (!owns(leaf)) continue;
+    reached[static_cast<std::size_t>(leaf)] = 1;
+    front.push_back(leaf);
+  }
   for (int hop = 0; hop < hops; ++hop) {
     next.clear();
     for (std::int32_t leaf : front)
-      graph_.for_neighbours(leaf, [&](std::int32_t other) {
+      links_->graph.for_neighbours(leaf, [&](std::int32_t other) {
         if (reached[static_cast<std::size_t>(other)]) return;
         reached[static_cast<std::size_t>(other)] = 1;
         next.push_back(other);
-        if (!refined(other)) found.insert(cell_of(other));
       });
     front.swap(next);
   }
+  return reached;
+}
+
+std::vector<std::int32_t> Distribution::unrefined_within(int hops) const {
+  const std::vector<char> reached = leaves_within(hops);
+  std::set<std::int32_t> found;
+  for (std::int32_t leaf = 0; leaf < static_cast<std::int32_t>(reached.size()); ++leaf)
+    if (reached[static_cast<std::size_t>(leaf)] && !refined(leaf)) found.insert(cell_of(leaf));
   return {found.begin(), found.end()};
 }
 
@@ -107,20 +139,33 @@ const Halo& Distribution::halo(int hops) {
   const auto known = halos_.find(hops);
   if (known != halos_.end()) return known->second;
   const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
-  Needs needs(graph_, *this, leaves);
+  Needs needs(links_->graph, *this, leaves);
   for (int hop = 0; hop < hops; ++hop) needs.spread();
+  // A hop ends at the far side of a leaf, but a bubble's reach does not: what lies beyond the
+  // reaches of all hops together is not needed.
+  const std::vector<double> reach = reach_within(hops);
   Halo halo;
   halo.offset_.push_back(0);
-  for (std::size_t leaf = 0; leaf < cell_of_leaf_.size(); ++leaf) {
-    const std::vector<std::int32_t> ranks = needs.of(leaf);
-    halo.ranks_.insert(halo.ranks_.end(), ranks.begin(), ranks.end());
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+    const Box<2> box = tree_->cell_box(tree_->leaf_cell(leaf));
+    for (std::int32_t rank : needs.of(static_cast<std::size_t>(leaf)))
+      if (near(box, rank, hops * reach[static_cast<std::size_t>(leaf)]))
+        halo.ranks_.push_back(rank);
     halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
+  }
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+    bool quiet = true;
+    links_->graph.for_neighbours(leaf, [&](std::int32_t other) {
+      const auto at = static_cast<std::size_t>(other);
+      quiet = quiet && owns(other) && halo.offset_[at] == halo.offset_[at + 1];
+    });
+    halo.quiet_.push_back(quiet);
   }
   needs.spread();
   std::set<int> neighbours;
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     if (!owns(leaf)) continue;
-    const std::vector<std::int32_t> ranks = needs.of(static_cast<std::size_t>(leaf));
+    const std::vector<std::int32_t>& ranks = needs.of(static_cast<std::size_t>(leaf));
     neighbours.insert(ranks.begin(), ranks.end());
   }
   halo.neighbours_.assign(neighbours.begin(), neighbours.end());

@@ -5,8 +5,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "parallel/communicator.hpp"
@@ -25,6 +26,9 @@ class Halo {
          k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k)
       visit(ranks_[static_cast<std::size_t>(k)]);
   }
+  // Is the leaf, and are those it interacts with, ours and needed by no other rank? Then its nodes
+  // have nothing to do with an exchange, wherever they drift.
+  bool quiet(std::int32_t leaf) const { return quiet_[static_cast<std::size_t>(leaf)] != 0; }
   // Ranks to exchange messages with. Symmetric: who is our neighbour has us as one. One hop more
   // than the depth, because nodes drift out of their leaves between exchanges.
   const std::vector<int>& neighbours() const { return neighbours_; }
@@ -32,6 +36,7 @@ class Halo {
  private:
   friend class Distribution;
   std::vector<std::int32_t> offset_, ranks_;  // the owner is not among them
+  std::vector<char> quiet_;
   std::vector<int> neighbours_;
 };
 
@@ -48,9 +53,8 @@ class Distribution {
   std::vector<char> cells_near_own(int hops, double reach) const;
 
   // --- once the tree is refined in the cells marked ---
-  // `reach` tells how far the bubbles of a leaf reach; 0 for a leaf outside the domain.
-  void take_leaves(const BackgroundTree<2>& tree, const std::vector<char>& refined,
-                   const std::function<double(std::int32_t)>& reach);
+  void take_leaves(const BackgroundTree<2>* tree, const std::vector<char>& refined);
+  void link_leaves(std::shared_ptr<const LeafLinks<2>> links) { links_ = std::move(links); }
   bool refined(std::int32_t leaf) const {
     return refined_[static_cast<std::size_t>(cell_of(leaf))] != 0;
   }
@@ -59,7 +63,9 @@ class Distribution {
   }
   bool owns(std::int32_t leaf) const { return owner_.empty() || owner(leaf) == rank_; }
   int owner(std::int32_t leaf) const { return owner_of_cell(cell_of(leaf)); }
-  // Cells that are within so many hops of our leaves and not refined.
+  // Marks the leaves within so many hops of ours.
+  std::vector<char> leaves_within(int hops) const;
+  // Cells with such leaves that are not refined.
   std::vector<std::int32_t> unrefined_within(int hops) const;
   // Made on first use and kept.
   const Halo& halo(int hops);
@@ -75,10 +81,14 @@ class Distribution {
   std::vector<std::int32_t> owner_;  // of the cells; empty: one rank
   int rank_ = 0;
 
-  LeafGraph<2> graph_;  // leaves that interact
+  const BackgroundTree<2>* tree_ = nullptr;
+  std::shared_ptr<const LeafLinks<2>> links_;  // leaves that interact
   std::vector<std::int32_t> cell_of_leaf_;
   std::vector<char> refined_;  // cells
   std::map<int, Halo> halos_;
+
+  std::vector<double> reach_within(int hops) const;
+  bool near(const Box<2>& box, int rank, double way) const;
 };
 
 }  // namespace pnpbs

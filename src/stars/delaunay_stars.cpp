@@ -25,6 +25,8 @@ class StarWriter {
 
   void operator()(std::int64_t i, std::vector<DelaunayStars::Entry>& out) {
     const Nodes<2>& nodes = in_.nodes;
+    if (!in_.wanted.empty() && !in_.wanted[static_cast<std::size_t>(in_.buckets.bucket_of(i))])
+      return;
     if (in_.buckets.bucket_of(i) != bucket_) {
       bucket_ = in_.buckets.bucket_of(i);
       least_ = least_spacing_around(in_.buckets, bucket_);

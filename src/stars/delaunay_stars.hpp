@@ -24,6 +24,7 @@ struct StarInput {
   const Buckets<2>& buckets;
   const AdjacencyList<2>& lists;
   const NearEdges& near_edges;
+  const std::vector<char>& wanted;  // buckets; the others' nodes get no stars. Empty: all
 };
 
 class DelaunayStars {

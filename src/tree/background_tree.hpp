@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -44,6 +45,9 @@ class BackgroundTree {
     for (int k = 0; k < Dim; ++k) side_ = std::max(side_, box.high[k] - box.low[k]);
     for (int k = 0; k < Dim; ++k) origin_[k] = box.low[k] - side_ / 2048;
     side_ += side_ / 1024;
+    scale_ = kCells / side_;
+    for (int depth = 0; depth <= kMaxDepth; ++depth)
+      sides_[static_cast<std::size_t>(depth)] = std::ldexp(side_, -depth);
     cells_.assign(1, Cell{{}, 0, -1, -1});
     std::int32_t first = 0;
     std::vector<char> split;
@@ -66,7 +70,7 @@ class BackgroundTree {
   }
   const Point<Dim>& origin() const { return origin_; }
   double side() const { return side_; }
-  double cell_side(std::int32_t c) const { return std::ldexp(side_, -cell(c).depth); }
+  double cell_side(std::int32_t c) const { return sides_[static_cast<std::size_t>(cell(c).depth)]; }
 
   Box<Dim> cell_box(std::int32_t c) const {
     const double s = cell_side(c);
@@ -90,14 +94,7 @@ class BackgroundTree {
 
   // The cell that holds x, at this depth or, where the tree ends before, a leaf.
   std::int32_t cell_at(const Point<Dim>& x, int depth) const {
-    std::array<std::uint32_t, Dim> fine;  // position among the cells of the largest depth
-    const double scale = std::ldexp(1.0, kMaxDepth) / side_;
-    for (int k = 0; k < Dim; ++k) {
-      const double t = (x[k] - origin_[k]) * scale;
-      fine[k] = t <= 0                                ? 0u
-                : t >= std::ldexp(1.0, kMaxDepth) - 1 ? (1u << kMaxDepth) - 1u
-                                                      : static_cast<std::uint32_t>(t);
-    }
+    const std::array<std::uint32_t, Dim> fine = fine_index(x);
     std::int32_t c = 0;
     for (int shift = kMaxDepth - 1; shift >= kMaxDepth - depth && cell(c).first_child >= 0;
          --shift) {
@@ -111,11 +108,11 @@ class BackgroundTree {
   // Is x in the half-open box of this leaf? Decided with the arithmetic of leaf_at.
   bool leaf_holds(std::int32_t leaf, const Point<Dim>& x) const {
     const Cell& c = cell(leaf_cell(leaf));
-    const double scale = std::ldexp(1.0, kMaxDepth) / side_;
+    const double cells = static_cast<double>(1u << (kMaxDepth - c.depth));  // of the largest depth
     for (int k = 0; k < Dim; ++k) {
-      const double t = (x[k] - origin_[k]) * scale;
-      const double low = std::ldexp(static_cast<double>(c.index[k]), kMaxDepth - c.depth);
-      const double high = std::ldexp(c.index[k] + 1.0, kMaxDepth - c.depth);
+      const double t = (x[k] - origin_[k]) * scale_;
+      const double low = cells * c.index[k];
+      const double high = cells * (c.index[k] + 1.0);
       if (!(t >= low && t < high)) return false;
     }
     return true;
@@ -124,10 +121,30 @@ class BackgroundTree {
   // Calls visit(leaf) for all leaves whose closed box meets the closed box given, in Morton order.
   template <class Visit>
   void for_leaves_in(const Box<Dim>& box, const Visit& visit) const {
-    visit_cell(0, box, visit);
+    visit_cell(cell_around(box), box, visit);
   }
 
  private:
+  // Position among the cells of the largest depth.
+  std::array<std::uint32_t, Dim> fine_index(const Point<Dim>& x) const {
+    std::array<std::uint32_t, Dim> fine;
+    for (int k = 0; k < Dim; ++k) {
+      const double t = (x[k] - origin_[k]) * scale_;
+      fine[k] = t <= 0 ? 0u : t >= kCells - 1 ? kLastIndex : static_cast<std::uint32_t>(t);
+    }
+    return fine;
+  }
+
+  // The smallest cell with the box well inside: no other cell outside it meets the box.
+  std::int32_t cell_around(const Box<Dim>& box) const {
+    const std::array<std::uint32_t, Dim> low = fine_index(box.low), high = fine_index(box.high);
+    std::uint32_t differing = 0;
+    for (int k = 0; k < Dim; ++k)
+      differing |=
+          (low[k] > 0 ? low[k] - 1 : 0) ^ (high[k] < kLastIndex ? high[k] + 1 : kLastIndex);
+    return cell_at(box.low, kMaxDepth - static_cast<int>(std::bit_width(differing)));
+  }
+
   void add_children(std::int32_t c) {
     cells_[static_cast<std::size_t>(c)].first_child = cell_count();
     const Cell parent = cell(c);
@@ -168,7 +185,12 @@ class BackgroundTree {
   }
 
   Point<Dim> origin_{};
+  static constexpr double kCells = 1u << kMaxDepth;  // of the largest depth, in a row
+  static constexpr std::uint32_t kLastIndex = (1u << kMaxDepth) - 1u;
+
   double side_ = 1;
+  double scale_ = kCells;                      // cells of the largest depth per unit of length
+  std::array<double, kMaxDepth + 1> sides_{};  // of the cells of each depth
   std::vector<Cell> cells_;
   std::vector<std::int32_t> leaves_;
 };

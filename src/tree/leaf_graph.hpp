@@ -35,6 +35,17 @@ class LeafGraph {
   std::vector<std::int32_t> neighbours_;
 };
 
+// The graph for bubbles that reach so far from each leaf.
+template <int Dim>
+struct LeafLinks {
+  LeafLinks(const BackgroundTree<Dim>& tree, std::vector<double> reaches)
+      : reach(std::move(reaches)) {
+    graph.build(tree, reach);
+  }
+  std::vector<double> reach;
+  LeafGraph<Dim> graph;
+};
+
 template <int Dim>
 double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
   double sum = 0;

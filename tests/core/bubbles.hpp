@@ -51,7 +51,7 @@ struct Bubbles {
         split[static_cast<std::size_t>(c - first)] =
             t.cell_side(c) > std::min(widest, spacings * d(t.cell_centre(c)));
     });
-    buckets.reset();
+    buckets.reset(nullptr);
   }
 
   void set(const std::vector<Bubble<Dim>>& bubbles) {
