@@ -495,6 +495,7 @@ START_TEST(nothing_yet) {
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_step(p, 1), "set_spacing", "");
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_run(p), "set_spacing", "");
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_adjust_population(p, NULL, NULL), "set_spacing", "");
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_rebalance(p), "set_spacing", "");
   MUST(pnpbs_placement_set_spacing_constant(p, 0.2));
   MUST_COMPUTE(pnpbs_placement_run(p));
   check_placement(p, 1);

@@ -435,6 +435,7 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_placement_initialise(p));
   REFUSED(pnpbs_placement_step(p, 1));
   REFUSED(pnpbs_placement_adjust_population(p, NULL, NULL));
+  REFUSED(pnpbs_placement_rebalance(p));
   REFUSED(pnpbs_placement_run(p));
   REFUSED(pnpbs_placement_adjacency_size(p, &entries));
   REFUSED(pnpbs_placement_get_adjacency(p, 500, offsets, offsets));

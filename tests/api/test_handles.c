@@ -84,6 +84,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_initialise, (handle))                                                               \
   X(placement_step, (handle, 1))                                                                  \
   X(placement_adjust_population, (handle, out.integers + 1, out.integers + 2))                    \
+  X(placement_rebalance, (handle))                                                                \
   X(placement_run, (handle))                                                                      \
   X(placement_count, (handle, out.integers + 1))                                                  \
   X(placement_get_nodes,                                                                          \

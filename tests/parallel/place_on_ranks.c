@@ -33,11 +33,11 @@ static int32_t spacing(int64_t n, int32_t dim, const double* x, double* d, void*
 int main(int argc, char** argv) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
   struct spacing_of s = {0.00068, 9 * 0.00068 / 0.7071, 0.5, 0.5};
-  double scale, seconds;
+  double scale, seconds, imbalance;
   const char* hash;
   pnpbs_domain domain;
   pnpbs_placement placement;
-  int64_t nodes, held, steps, inserted, deleted;
+  int64_t nodes, held, steps, inserted, deleted, rebalances;
   int rank, size, a;
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -72,14 +72,16 @@ int main(int argc, char** argv) {
   check(pnpbs_placement_get_int64(placement, "inserted", &inserted), "inserted");
   check(pnpbs_placement_get_int64(placement, "deleted", &deleted), "deleted");
   check(pnpbs_placement_get_int64(placement, "nodes_held", &held), "nodes_held");
+  check(pnpbs_placement_get_int64(placement, "rebalances", &rebalances), "rebalances");
+  check(pnpbs_placement_get_double(placement, "imbalance", &imbalance), "imbalance");
   check(pnpbs_placement_get_double(placement, "seconds.total", &seconds), "seconds");
   check(pnpbs_placement_get_string(placement, "hash", &hash), "hash");
   if (rank == 0)
     printf(
-        "hash %s nodes %lld held %lld steps %lld inserted %lld deleted %lld seconds %.3f ranks "
-        "%d\n",
+        "hash %s nodes %lld held %lld steps %lld inserted %lld deleted %lld rebalances %lld "
+        "imbalance %.3f seconds %.3f ranks %d\n",
         hash, (long long)nodes, (long long)held, (long long)steps, (long long)inserted,
-        (long long)deleted, seconds, size);
+        (long long)deleted, (long long)rebalances, imbalance, seconds, size);
   pnpbs_placement_destroy(&placement);
   pnpbs_domain_destroy(&domain);
   pnpbs_context_destroy(&context);
