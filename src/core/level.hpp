@@ -101,6 +101,11 @@ class Level {
   double expected_nodes() const;
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t rebalances() const { return rebalances_; }
+  // Of this rank: ranks it exchanges ghosts with, and what it sends when they are renewed.
+  std::int64_t neighbour_ranks() const { return plan_.neighbour_count(); }
+  std::int64_t renewal_bytes() const {
+    return plan_.nodes_sent() * static_cast<std::int64_t>(GhostPlan::kRecordSize<2>);
+  }
   // Of this rank, as counted after the last event: listed pairs, and as many again per node.
   std::int64_t owned_work() const { return owned_work_; }
   // Largest over mean of that; collective.

@@ -91,7 +91,7 @@ PopulationCounts Level::adjust_population(double refill) {
 }
 
 void Level::delete_nodes(const std::vector<std::int32_t>& deleted) {
-  View<std::int32_t> stay = make_view<std::int32_t>("pnpbs::Level::stay", nodes_.count);
+  const View<std::int32_t> stay = nodes_.order_scratch();
   std::int64_t kept = 0;
   std::size_t next = 0;
   for (std::int32_t i = 0; i < nodes_.count; ++i) {
@@ -100,7 +100,7 @@ void Level::delete_nodes(const std::vector<std::int32_t>& deleted) {
     else
       stay(kept++) = i;
   }
-  nodes_.permute(stay, kept);
+  nodes_.keep(stay, kept);
   in_buckets_ = false;
 }
 

@@ -73,7 +73,7 @@ void Level::exchange(int hops) {
   const Halo& halo = distribution_.halo(hops);
   plan_.start(halo.neighbours(), comm_->size());
   std::vector<Bytes> outgoing(halo.neighbours().size());
-  View<std::int32_t> stay = make_view<std::int32_t>("pnpbs::Level::stay", nodes_.count);
+  const View<std::int32_t> stay = nodes_.order_scratch();
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!nodes_.owned(i)) continue;
@@ -98,9 +98,9 @@ void Level::exchange(int hops) {
     nodes_.owned(i) = ours;
     stay(kept++) = static_cast<std::int32_t>(i);
   }
-  nodes_.permute(stay, kept);
+  nodes_.keep(stay, kept);
   const std::vector<Bytes> incoming = comm_->exchange(halo.neighbours(), outgoing);
-  nodes_.reserve(kept + records_in<PackedNode>(incoming));
+  nodes_.reserve_with_room(kept + records_in<PackedNode>(incoming));
   for_records<PackedNode>(incoming, [&](const PackedNode& node) { arrive(halo, node); });
   plan_.match(nodes_);
   in_buckets_ = false;
@@ -135,7 +135,7 @@ void Level::migrate() {
   const std::vector<int> others = other_ranks();
   const std::vector<int> place = places_of(others, comm_->size());
   std::vector<Bytes> outgoing(others.size());
-  View<std::int32_t> stay = make_view<std::int32_t>("pnpbs::Level::stay", nodes_.count);
+  const View<std::int32_t> stay = nodes_.order_scratch();
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!nodes_.owned(i)) continue;
@@ -146,9 +146,9 @@ void Level::migrate() {
       pack(outgoing[static_cast<std::size_t>(place[static_cast<std::size_t>(owner)])],
            packed(nodes_, i));
   }
-  nodes_.permute(stay, kept);
+  nodes_.keep(stay, kept);
   const std::vector<Bytes> incoming = comm_->exchange(others, outgoing);
-  nodes_.reserve(kept + records_in<PackedNode>(incoming));
+  nodes_.reserve_with_room(kept + records_in<PackedNode>(incoming));
   for_records<PackedNode>(incoming, [&](const PackedNode& node) { append(nodes_, node, true); });
   ++version_;
   in_buckets_ = false;

@@ -43,6 +43,18 @@ struct Nodes {
     grow_labelled(tag, "pnpbs::Nodes::tag", n);
     grow_labelled(boundary_node, "pnpbs::Nodes::boundary_node", n);
     grow_labelled(owned, "pnpbs::Nodes::owned", n);
+    spare_ = Spare();
+  }
+
+  // Room for one number per node, for an order to put them in.
+  const View<std::int32_t>& order_scratch() {
+    make_room(order_, "pnpbs::Nodes::order");
+    return order_;
+  }
+
+  // The same, and some for the next time.
+  void reserve_with_room(std::int64_t n) {
+    if (n > capacity()) reserve(n + n / 16);
   }
 
   void append(const Point<Dim>& position, double spacing, std::int64_t node_id,
@@ -71,20 +83,34 @@ struct Nodes {
   }
   bool moves(std::int64_t i) const { return boundary_node(i) < 0; }
 
-  // Puts the nodes into the order given: new place i holds what was at from(i); nodes that are
-  // not named go. Array by array, so that the extra memory is one array's.
-  void permute(const View<std::int32_t>& from, std::int64_t new_count) {
+  // Puts the nodes into the order given: new place i holds what was at from(i). Array by array,
+  // into spare ones that are kept: nothing is allocated from one rebuild of the lists to the next.
+  void permute(const View<std::int32_t>& from) {
     for (int k = 0; k < Dim; ++k) {
-      permute_array(x[k], from, new_count);
-      permute_array(v[k], from, new_count);
-      permute_array(anchor[k], from, new_count);
+      permute_array(x[k], spare_.real, from);
+      permute_array(v[k], spare_.real, from);
+      permute_array(anchor[k], spare_.real, from);
     }
-    permute_array(d, from, new_count);
-    permute_array(id, from, new_count);
-    permute_array(tag, from, new_count);
-    permute_array(boundary_node, from, new_count);
-    permute_array(owned, from, new_count);
-    count = new_count;
+    permute_array(d, spare_.real, from);
+    permute_array(id, spare_.id, from);
+    permute_array(tag, spare_.integer, from);
+    permute_array(boundary_node, spare_.integer, from);
+    permute_array(owned, spare_.flag, from);
+  }
+
+  // Keeps the first `kept` nodes named, whose places increase, and drops the others.
+  void keep(const View<std::int32_t>& places, std::int64_t kept) {
+    for (int k = 0; k < Dim; ++k) {
+      keep_in_array(x[k], places, kept);
+      keep_in_array(v[k], places, kept);
+      keep_in_array(anchor[k], places, kept);
+    }
+    keep_in_array(d, places, kept);
+    keep_in_array(id, places, kept);
+    keep_in_array(tag, places, kept);
+    keep_in_array(boundary_node, places, kept);
+    keep_in_array(owned, places, kept);
+    count = kept;
   }
 
  private:
@@ -98,13 +124,33 @@ struct Nodes {
   }
 
   template <class T>
-  static void permute_array(View<T>& view, const View<std::int32_t>& from, std::int64_t new_count) {
-    View<T> ordered = make_view<T>(view.label(), static_cast<std::int64_t>(view.extent(0)));
-    const View<T> old = view;
-    for_each("pnpbs::Nodes::permute", new_count,
-             [=](std::int64_t i) { ordered(i) = old(from(i)); });
-    view = ordered;
+  void make_room(View<T>& view, const char* label) const {
+    if (view.extent(0) != d.extent(0))
+      view = make_view<T>(label, static_cast<std::int64_t>(d.extent(0)));
   }
+
+  template <class T>
+  void permute_array(View<T>& view, View<T>& spare, const View<std::int32_t>& from) {
+    make_room(spare, "pnpbs::Nodes::spare");
+    const View<T> old = view, ordered = spare;
+    for_each("pnpbs::Nodes::permute", count, [=](std::int64_t i) { ordered(i) = old(from(i)); });
+    std::swap(view, spare);
+  }
+
+  template <class T>
+  static void keep_in_array(const View<T>& view, const View<std::int32_t>& places,
+                            std::int64_t kept) {
+    for (std::int64_t i = 0; i < kept; ++i) view(i) = view(places(i));
+  }
+
+  struct Spare {
+    View<double> real;
+    View<std::int64_t> id;
+    View<std::int32_t> integer;
+    View<char> flag;
+  };
+  Spare spare_;
+  View<std::int32_t> order_;
 };
 
 }  // namespace pnpbs

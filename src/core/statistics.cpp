@@ -90,6 +90,18 @@ const std::vector<StatisticRow>& statistic_table() {
           },
           "most nodes that any rank holds, its ghosts included"),
       integer(
+          "ghosts",
+          [](P p) { return p.has_nodes() ? p.level().nodes().count - p.count() : std::int64_t{0}; },
+          "nodes of other ranks that this rank holds now"),
+      integer(
+          "neighbours",
+          [](P p) { return p.has_nodes() ? p.level().neighbour_ranks() : std::int64_t{0}; },
+          "ranks that this rank exchanges ghosts with"),
+      integer(
+          "exchange.bytes",
+          [](P p) { return p.has_nodes() ? p.level().renewal_bytes() : std::int64_t{0}; },
+          "bytes that this rank sends every exchange_interval steps"),
+      integer(
           "work.owned",
           [](P p) { return p.has_nodes() ? p.level().owned_work() : std::int64_t{0}; },
           "cost of a step to this rank: listed pairs of its own nodes, and 8 for each node"),

@@ -42,12 +42,11 @@ bool Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
   }
   for (std::int32_t b = 0; b < buckets; ++b) start_[index(b) + 1] += start_[index(b)];
   if (ordered) return false;
-  if (static_cast<std::int64_t>(from_.extent(0)) < nodes.capacity())
-    from_ = make_view<std::int32_t>("pnpbs::Buckets::from", nodes.capacity());
+  from_ = nodes.order_scratch();
   std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
   for (std::int64_t i = 0; i < nodes.count; ++i)
     from_(next[index(bucket_of_(i))]++) = static_cast<std::int32_t>(i);
-  nodes.permute(from_, nodes.count);
+  nodes.permute(from_);
   for (std::int32_t b = 0; b < buckets; ++b)
     for (std::int32_t i = start_[index(b)]; i < start_[index(b) + 1]; ++i) bucket_of_(i) = b;
   return true;

@@ -31,6 +31,16 @@ class GhostPlan {
   void send(int rank, std::int32_t node) { send_[place(rank)].push_back(node); }
   void receive(int rank, std::int32_t node) { receive_[place(rank)].push_back(node); }
 
+  std::int64_t neighbour_count() const { return static_cast<std::int64_t>(neighbours_.size()); }
+  std::int64_t nodes_sent() const {
+    std::size_t nodes = 0;
+    for (const std::vector<std::int32_t>& list : send_) nodes += list.size();
+    return static_cast<std::int64_t>(nodes);
+  }
+  // Of a node's position and velocity.
+  template <int Dim>
+  static constexpr std::size_t kRecordSize = 2 * Dim * sizeof(double);
+
   // Both sides put their lists into the order of ids, so that they match.
   template <int Dim>
   void match(const Nodes<Dim>& nodes) {
@@ -54,10 +64,9 @@ class GhostPlan {
   // Owners send positions and velocities. All neighbours at the same time.
   template <int Dim>
   void renew(const Communicator& comm, const Nodes<Dim>& nodes) {
-    constexpr std::size_t kSize = 2 * Dim * sizeof(double);
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      outgoing_[k].resize(send_[k].size() * kSize);
-      incoming_[k].resize(receive_[k].size() * kSize);
+      outgoing_[k].resize(send_[k].size() * kRecordSize<Dim>);
+      incoming_[k].resize(receive_[k].size() * kRecordSize<Dim>);
       char* out = outgoing_[k].data();
       for (std::int32_t i : send_[k])
         for (int d = 0; d < Dim; ++d) {
