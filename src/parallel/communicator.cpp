@@ -9,6 +9,8 @@
 
 #if PNPBS_HAVE_MPI
 #include <mpi.h>
+
+#include "parallel/mpi_file.hpp"
 #endif
 
 namespace pnpbs {
@@ -26,6 +28,10 @@ class SerialCommunicator : public Communicator {
   void broadcast(Bytes&, int) const override {}
   std::vector<Bytes> exchange(const std::vector<int>&, const std::vector<Bytes>&) const override {
     return {};
+  }
+  std::unique_ptr<RankFile> open_file(const std::string& path,
+                                      const std::string& name) const override {
+    return open_alone(path, name);
   }
 };
 
@@ -101,6 +107,25 @@ class MpiCommunicator : public Communicator {
     check(MPI_Waitall(static_cast<int>(2 * n), requests.data(), MPI_STATUSES_IGNORE),
           "MPI_Waitall");
     return incoming;
+  }
+
+  std::unique_ptr<RankFile> open_file(const std::string& path,
+                                      const std::string& name) const override {
+    std::unique_ptr<RankFile> file;
+    std::exception_ptr failure;
+    try {
+      file = size_ == 1 ? open_alone(path, name) : open_by_mpi(comm_, path, name);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    try {
+      agree_on_failure(*this, failure);
+    } catch (...) {
+      // Closing is collective and would wait for the ranks that could not open it.
+      if (!failure) (void)file.release();
+      throw;
+    }
+    return file;
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <atomic>
 
 #include "io/temporaries.hpp"
+#include "pnpbs/pnpbs.h"
 #include "tool/exit.hpp"
 
 namespace pnpbs::tool {
@@ -18,7 +19,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void on_signal(int /*number*/) {
   if (deferred && !asked.exchange(true)) return;
-  io::remove_temporaries();
+  io::remove_temporaries();          // this program's own, and
+  pnpbs_discard_unfinished_files();  // the library's
   ::_exit(static_cast<int>(ExitCode::interrupted));
 }
 
