@@ -81,6 +81,11 @@ int OutputFile::open_aside(std::unique_ptr<Temporary>& temporary) const {
     temporary->keep();  // it is not ours
     fail(quoted(), errno);
   }
+  if (temporary->removed()) {  // before it was there
+    ::close(descriptor);
+    ::unlink(temporary->path());
+    fail(quoted(), EINTR);
+  }
   copy_permissions(target_, descriptor);
   return descriptor;
 }

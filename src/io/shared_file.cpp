@@ -27,6 +27,7 @@ SharedFile::~SharedFile() {
 void SharedFile::open() {
   Bytes aside;
   agreed(*comm_, [&] {
+    if (before_write_) before_write_();
     if (!is_first()) return;
     output_.check();
     const int descriptor = output_.open();

@@ -6,7 +6,9 @@
 
 namespace pnpbs::tool {
 
-void handle_interrupts();
+// launched: by an MPI launcher. Such a one ends us a moment after its first signal, ready or not,
+// so unfinished files are then removed at once.
+void handle_interrupts(bool launched);
 
 // From here on the first signal only asks.
 void defer_interrupts();

@@ -133,7 +133,7 @@ ExitCode start(int argc, char** argv) {
   reserve_standard_streams();
   try {
     const Ranks ranks(argc, argv);
-    handle_interrupts();
+    handle_interrupts(ranks.launched());
     return guarded(argc, argv, ranks);
   } catch (const Failure& failure) {
     return fail(failure.code(), failure.what());

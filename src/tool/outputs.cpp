@@ -99,6 +99,7 @@ void Outputs::write_pictures(pnpbs_placement placement, pnpbs_domain domain,
     nodes.outline = outline_of(domain, context);
     for (Output& output : outputs_) {
       if (!output.is_picture()) continue;
+      give_up_if_interrupted();
       output.file.write([&](io::Sink& sink) { output.format->picture->write(nodes, style_, sink); },
                         give_up_if_interrupted);
     }
@@ -110,6 +111,7 @@ void Outputs::write_report(const std::string& text) {
     if (!ranks_.is_first()) return;
     for (Output& output : outputs_) {
       if (output.format) continue;
+      give_up_if_interrupted();
       output.file.write([&](io::Sink& sink) { sink.text(text); }, give_up_if_interrupted);
     }
   });
