@@ -453,6 +453,7 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
  *           mesh_0.vtu, mesh_1.vtu, ... for mesh.pvtu. Nodes of other ranks that a piece's
  *           triangles need are in it, too, marked by vtkGhostType.
  *    .msh   gmsh's format 2.2: nodes, triangles, boundary edges with their tags as physical groups
+ *           (without elements: one point per node)
  *    .node  Triangle's nodes, numbered from 1, tags as markers; with elements, the triangles in a
  *           second file of the same name, .ele
  *    .ele   Triangle's triangles alone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // gmsh's format 2.2, as text: the version that most programs read. Numbers from 1. Boundary edges
-// have their tag as physical group, triangles the group 1.
+// have their tag as physical group, triangles the group 1. Without elements every node is a point
+// of its tag's group, since gmsh forgets nodes that belong to nothing.
 #include <cstdlib>
 
 #include "io/formats.hpp"
@@ -8,7 +9,8 @@
 namespace pnpbs::io {
 namespace {
 
-constexpr std::string_view line = " 1 2 ";      // two nodes; two tags follow
+constexpr std::string_view point = " 15 2 ";    // one node; two tags follow
+constexpr std::string_view line = " 1 2 ";      // two nodes
 constexpr std::string_view triangle = " 2 2 ";  // three nodes
 
 void write_corners(const std::int64_t* corners, std::size_t count, Sink& sink) {
@@ -33,6 +35,21 @@ void write_points(const NodeBlock& nodes, SharedFile& file) {
     }
   });
   file.append_text("$EndNodes\n");
+}
+
+void write_nodes_as_elements(const NodeBlock& nodes, SharedFile& file) {
+  file.append([&](Sink& sink) {
+    std::int64_t number = nodes.nodes.first;
+    for (const std::int64_t tag : nodes.tags) {
+      sink.number(number + 1);
+      sink.text(point);
+      sink.number(tag);  // physical group
+      sink.text(" ");
+      sink.number(std::abs(tag) + 1);  // geometric entity
+      write_corners(&number, 1, sink);
+      ++number;
+    }
+  });
 }
 
 void write_edges(const NodeBlock& nodes, SharedFile& file) {
@@ -67,10 +84,15 @@ void write_triangles(const NodeBlock& nodes, SharedFile& file) {
 void write_msh(const NodeBlock& nodes, SharedFile& file) {
   file.append_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
   write_points(nodes, file);
-  file.append_text("$Elements\n" + std::to_string(nodes.edges.total + nodes.triangles.total) +
-                   "\n");
-  write_edges(nodes, file);
-  write_triangles(nodes, file);
+  const std::int64_t elements =
+      nodes.elements ? nodes.edges.total + nodes.triangles.total : nodes.nodes.total;
+  file.append_text("$Elements\n" + std::to_string(elements) + "\n");
+  if (nodes.elements) {
+    write_edges(nodes, file);
+    write_triangles(nodes, file);
+  } else {
+    write_nodes_as_elements(nodes, file);
+  }
   file.append_text("$EndElements\n");
 }
 

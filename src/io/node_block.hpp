@@ -11,13 +11,14 @@
 namespace pnpbs::io {
 
 struct NodeBlock {
-  RankSpan nodes;                    // which numbers are this rank's
-  std::vector<double> xy;            // [nodes][2]
-  std::vector<std::int64_t> ids;     // [nodes]
-  std::vector<std::int32_t> tags;    // [nodes], 0: inner node
-  std::vector<double> spacing;       // [nodes], d at the node
-  std::vector<std::uint8_t> ghosts;  // [nodes], 1: another rank's; empty unless the block stands
-                                     // for itself, as a piece of many
+  RankSpan nodes;                  // which numbers are this rank's
+  std::vector<double> xy;          // [nodes][2]
+  std::vector<std::int64_t> ids;   // [nodes]
+  std::vector<std::int32_t> tags;  // [nodes], 0: inner node
+  std::vector<double> spacing;     // [nodes], d at the node
+
+  bool is_piece = false;             // one of many, which stands for itself; then:
+  std::vector<std::uint8_t> ghosts;  // [nodes], 1: another rank's
 
   bool elements = false;                // are the following given?
   RankSpan triangles;                   // counted as the nodes are

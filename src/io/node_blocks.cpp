@@ -159,6 +159,7 @@ NodeBlock block_by_id(Placement& placement, bool elements) {
 NodeBlock own_piece(Placement& placement, bool elements) {
   prepare(placement, elements);
   NodeBlock block;
+  block.is_piece = true;
   block.elements = elements;
   agreed(placement.communicator(), [&] {
     const Nodes<2>& nodes = placement.level().nodes();

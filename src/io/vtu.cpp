@@ -88,7 +88,7 @@ std::vector<Part> parts_of(const NodeBlock& nodes) {
                            {stored("Int64", "id", nodes.nodes, nodes.ids),
                             stored("Int32", "tag", nodes.nodes, nodes.tags),
                             stored("Float64", "spacing", nodes.nodes, nodes.spacing)}}};
-  if (!nodes.ghosts.empty())
+  if (nodes.is_piece)
     parts[0].arrays.push_back(stored("UInt8", "vtkGhostType", nodes.nodes, nodes.ghosts));
   if (nodes.elements)
     parts.push_back({"CellData", {stored("Float32", "quality", nodes.triangles, nodes.quality)}});
@@ -168,7 +168,7 @@ void write_pvtu(const std::vector<std::string>& pieces, bool elements, SharedFil
   std::string text = opening("PUnstructuredGrid") + "  <PUnstructuredGrid GhostLevel=\"0\">\n";
   NodeBlock declared;  // empty, but with all the arrays that pieces have
   declared.elements = elements;
-  declared.ghosts.resize(1);
+  declared.is_piece = true;
   for (const Part& part : parts_of(declared)) {
     if (part.name == "Cells") continue;  // a reader knows what they look like
     text += "    <P" + part.name + (part.name == "PointData" ? " Scalars=\"spacing\"" : "") + ">\n";
