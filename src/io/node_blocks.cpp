@@ -58,6 +58,14 @@ void append_node(const Nodes<2>& nodes, std::int64_t i, NodeBlock& block) {
 
 // ------------------------------------------------------------------ all by id ------------------
 
+std::vector<std::int64_t> own_ids(const Placement& placement) {
+  const View<std::int64_t> id = placement.level().nodes().id;
+  const std::int64_t owned = placement.count();
+  std::vector<std::int64_t> ids;
+  for (std::int64_t place = 0; place < owned; ++place) ids.push_back(id(placement.node_at(place)));
+  return ids;
+}
+
 std::vector<NodeRow> own_rows(const Placement& placement) {
   const Nodes<2>& nodes = placement.level().nodes();
   const std::int64_t owned = placement.count();
@@ -123,30 +131,26 @@ void take_edges(std::vector<EdgeRow> rows, NodeBlock& block) {
 NodeBlock block_by_id(Placement& placement, bool elements) {
   prepare(placement, elements);
   const Communicator& comm = placement.communicator();
+  // What this rank has, whoever fails at it.
+  const auto own = [&](const auto& collect) {
+    decltype(collect(placement)) rows;
+    agreed(comm, [&] { rows = collect(placement); });
+    return rows;
+  };
+  const IdBlocks blocks(comm, own(own_ids));
+  // To the rank that has this id in its block.
+  const auto send = [&](auto rows, const auto& id_of) {
+    return send_records(comm, std::move(rows),
+                        [&](const auto& row) { return blocks.rank_of(id_of(row)); });
+  };
   NodeBlock block;
-  block.elements = elements;
-  std::vector<NodeRow> rows;
-  std::vector<TriangleRow> triangles;
-  std::vector<EdgeRow> edges;
-  std::vector<std::int64_t> ids;
-  agreed(comm, [&] {
-    rows = own_rows(placement);
-    for (const NodeRow& row : rows) ids.push_back(row.id);
-    if (!elements) return;
-    triangles = own_triangles(placement);
-    edges = own_edges(placement);
-  });
-  const IdBlocks blocks(comm, ids);
   block.nodes = blocks.numbers();
-  take_nodes(send_records(comm, rows, [&](const NodeRow& r) { return blocks.rank_of(r.id); }),
-             block);
+  take_nodes(send(own(own_rows), [](const NodeRow& row) { return row.id; }), block);
+  block.elements = elements;
   if (!elements) return block;
-  // Where the first corner is.
-  take_triangles(send_records(comm, triangles,
-                              [&](const TriangleRow& t) { return blocks.rank_of(t.corners[0]); }),
+  take_triangles(send(own(own_triangles), [](const TriangleRow& t) { return t.corners[0]; }),
                  block);
-  take_edges(send_records(comm, edges, [&](const EdgeRow& e) { return blocks.rank_of(e.ends[0]); }),
-             block);
+  take_edges(send(own(own_edges), [](const EdgeRow& e) { return e.ends[0]; }), block);
   block.corners = blocks.numbers_of(block.corners);
   block.edge_ends = blocks.numbers_of(block.edge_ends);
   block.triangles = span_of(comm, block.quality.size());

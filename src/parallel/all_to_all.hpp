@@ -25,15 +25,16 @@ inline std::vector<Bytes> exchange_with_all(const Communicator& comm, std::vecto
 
 // Every record to the rank that rank_of(record) says. Collective.
 template <class Record, class RankOf>
-std::vector<Record> send_records(const Communicator& comm, const std::vector<Record>& records,
+std::vector<Record> send_records(const Communicator& comm, std::vector<Record> records,
                                  const RankOf& rank_of) {
-  std::vector<Bytes> outgoing(static_cast<std::size_t>(comm.size()));
+  if (comm.size() == 1) return records;
+  std::vector<Bytes> messages(static_cast<std::size_t>(comm.size()));
   for (const Record& record : records)
-    pack(outgoing[static_cast<std::size_t>(rank_of(record))], record);
-  std::vector<Record> arrived;
-  for_records<Record>(exchange_with_all(comm, std::move(outgoing)),
-                      [&](const Record& record) { arrived.push_back(record); });
-  return arrived;
+    pack(messages[static_cast<std::size_t>(rank_of(record))], record);
+  records = {};  // there may be many
+  messages = exchange_with_all(comm, std::move(messages));
+  for_records<Record>(messages, [&](const Record& record) { records.push_back(record); });
+  return records;
 }
 
 }  // namespace pnpbs

@@ -64,10 +64,12 @@ std::int64_t IdBlocks::number_in_block(std::int64_t id) const {
   return span_.first + (found - ids_.begin());
 }
 
+// Most are in this rank's own block; the others are asked for.
 std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& ids) const {
   const auto size = static_cast<std::size_t>(comm_.size());
   std::vector<Bytes> questions(size), answers(size);
-  for (const std::int64_t id : ids) pack(questions[static_cast<std::size_t>(rank_of(id))], id);
+  for (const std::int64_t id : ids)
+    if (rank_of(id) != comm_.rank()) pack(questions[static_cast<std::size_t>(rank_of(id))], id);
   questions = exchange_with_all(comm_, std::move(questions));
   agreed(comm_, [&] {
     for (std::size_t r = 0; r < size; ++r)
@@ -75,16 +77,21 @@ std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& 
                                 [&](std::int64_t id) { pack(answers[r], number_in_block(id)); });
   });
   answers = exchange_with_all(comm_, std::move(answers));
-  // Answers come in the order of the questions to each rank.
-  std::vector<std::size_t> at(size);
   std::vector<std::int64_t> numbers;
-  for (const std::int64_t id : ids) {
-    const auto r = static_cast<std::size_t>(rank_of(id));
-    std::int64_t number;
-    std::memcpy(&number, answers[r].data() + at[r], sizeof number);
-    at[r] += sizeof number;
-    numbers.push_back(number);
-  }
+  agreed(comm_, [&] {
+    std::vector<std::size_t> at(size);  // answers come in the order of the questions to each rank
+    for (const std::int64_t id : ids) {
+      const auto r = static_cast<std::size_t>(rank_of(id));
+      std::int64_t number;
+      if (rank_of(id) == comm_.rank()) {
+        number = number_in_block(id);
+      } else {
+        std::memcpy(&number, answers[r].data() + at[r], sizeof number);
+        at[r] += sizeof number;
+      }
+      numbers.push_back(number);
+    }
+  });
   return numbers;
 }
 

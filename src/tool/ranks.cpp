@@ -68,7 +68,7 @@ Ranks::Ranks(int& argc, char**& argv) {
   if (launch.processes > 1 && size_ == 1) {
     MPI_Finalize();
     throw Failure(ExitCode::failed,
-                  "one of " + std::to_string(launch.processes) +
+                  "started as one of " + std::to_string(launch.processes) +
                       " processes, but its MPI finds no other: it was built with " +
                       pnpbs_mpi_library() + ", whose own mpirun must start it");
   }
@@ -150,8 +150,8 @@ void Ranks::abort(int code) const {
 Ranks::Ranks(int&, char**&) {
   const Launch launch = launch_of_this_process();
   if (launch.processes > 1) {
-    throw Failure(ExitCode::failed, "one of " + std::to_string(launch.processes) +
-                                        " processes, but it was built without MPI");
+    throw Failure(ExitCode::failed, "started as one of " + std::to_string(launch.processes) +
+                                        " processes, but built without MPI");
   }
 }
 
