@@ -66,7 +66,7 @@ extern "C" {
   X(PNPBS_ERROR_SPACING, -5, "invalid spacing")                                     \
   X(PNPBS_ERROR_KEY, -6, "unknown option or statistic")                             \
   X(PNPBS_ERROR_CAPACITY, -7, "array too small")                                    \
-  X(PNPBS_ERROR_FILE, -8, "cannot read file")                                       \
+  X(PNPBS_ERROR_FILE, -8, "cannot read or write file")                              \
   X(PNPBS_ERROR_CALLBACK, -9, "a callback asked to stop with an error")             \
   X(PNPBS_ERROR_MEMORY, -10, "out of memory")                                       \
   X(PNPBS_ERROR_MPI, -11, "MPI is not usable")                                      \
@@ -159,6 +159,19 @@ PNPBS_API pnpbs_status pnpbs_statistic_count(int32_t *count);
  *  @param[out] help  one line, with the unit */
 PNPBS_API pnpbs_status pnpbs_statistic_info(int32_t index, const char **name, const char **type,
                                             const char **help);
+
+/** Number of file formats. Local. */
+PNPBS_API pnpbs_status pnpbs_format_count(int32_t *count);
+
+/** One row of the table of file formats (see pnpbs_placement_write). Local; any output may be
+ *  NULL; strings valid for ever.
+ *  @param[in]  index     0 .. count-1
+ *  @param[out] name      also the extension, without its dot
+ *  @param[out] help      one line
+ *  @param[out] binary    1 if it is no text
+ *  @param[out] elements  1 if one file holds nodes and, on request, elements */
+PNPBS_API pnpbs_status pnpbs_format_info(int32_t index, const char **name, const char **help,
+                                         int32_t *binary, int32_t *elements);
 
 /* ---------------------------------------------------------------- domain ---------------- */
 
@@ -437,6 +450,50 @@ PNPBS_API pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, con
 PNPBS_API pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t *count);
 PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
                                                    const char **text);
+
+/* ---------------------------------------------------------------- files ----------------- */
+
+/** Writes the nodes of all ranks into one file. The extension is the format:
+ *    .vtu   VTK's unstructured grid: nodes with id, tag and spacing; triangles with their quality,
+ *           2 r_in / R (without elements: one vertex cell per node)
+ *    .pvtu  the same as a file that names one piece per rank, written by that rank beside it:
+ *           mesh_0.vtu, mesh_1.vtu, ... for mesh.pvtu. Nodes of other ranks that a piece's
+ *           triangles need are in it, too, marked by vtkGhostType.
+ *    .msh   gmsh's format 2.2: nodes, triangles, boundary edges with their tags as physical groups
+ *           (without elements: one point per node)
+ *    .node  Triangle's nodes, numbered from 1, tags as markers; with elements, the triangles in a
+ *           second file of the same name, .ele
+ *    .ele   Triangle's triangles alone
+ *    .csv   id,x,y,tag,spacing
+ *  Nodes are in the order of their ids, triangles and edges in the order of their corners: all but
+ *  .pvtu have the same bytes for any number of ranks and threads. All ranks write at the same time
+ *  (MPI-IO), and none holds more than its share. A file appears under its name only when it is
+ *  complete; after an error, what was there before is still there. The folder must be the same one
+ *  for all ranks, and so must `path`. The monitor, if there is one, is asked now and then; if it
+ *  stops the call, PNPBS_STOPPED is returned and no file has changed. Collective.
+ *  Errors: PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_STATE if there are no nodes yet,
+ *  PNPBS_ERROR_ARGUMENT.
+ *  @param[in] path      - is standard output of rank 0 (pnpbs_placement_write_files tells in which
+ *                       format). What is no regular file, such as a pipe, is written by rank 0, to
+ *                       which the others send their parts in turn.
+ *  @param[in] elements  nonzero: triangles (and boundary edges) as well */
+PNPBS_API pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path,
+                                             int32_t elements);
+
+/** Writes several files, which appear together when all of them are complete. Otherwise as
+ *  pnpbs_placement_write. Collective.
+ *  @param[in] paths     [n]
+ *  @param[in] formats   [n] names of formats (pnpbs_format_info), or NULL for those of the
+ *                       extensions; so is an entry that is NULL
+ *  @param[in] elements  [n], or NULL for nodes only */
+PNPBS_API pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
+                                                   const char *const *paths,
+                                                   const char *const *formats,
+                                                   const int32_t *elements);
+
+/** Removes what unfinished calls of this process have written aside so far. For signal handlers
+ *  of programs that end at once, and async-signal-safe. Local. */
+PNPBS_API pnpbs_status pnpbs_discard_unfinished_files(void);
 
 #ifdef __cplusplus
 }

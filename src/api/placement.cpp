@@ -76,21 +76,6 @@ std::int64_t star_entries(const Placement& placement) {
              [&](std::int64_t i) { return level.nodes().owned(i) ? level.stars().size(i) : 0; }));
 }
 
-// Calls visit(place of i, place of j, place of k) for every triangle once, over all ranks: at the
-// owner of its node with the least id.
-template <class Visit>
-void for_triangles(const Placement& placement, const Visit& visit) {
-  const Level& level = placement.level();
-  const View<std::int64_t> id = level.nodes().id;
-  const std::int64_t owned = placement.count();
-  for (std::int64_t p = 0; p < owned; ++p) {
-    const std::int64_t i = placement.node_at(p);
-    level.stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-      if (id(i) < id(j) && id(i) < id(k)) visit(p, placement.place_of(j), placement.place_of(k));
-    });
-  }
-}
-
 }  // namespace
 
 pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
@@ -406,11 +391,11 @@ pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t ca
     require_pointer(count, "count");
     p.prepare_stars();
     *count = 0;
-    for_triangles(p, [&](std::int64_t, std::int64_t, std::int64_t) { ++*count; });
+    p.for_triangles([&](std::int64_t, std::int64_t, std::int64_t) { ++*count; });
     if (capacity == 0 && !triangles) return PNPBS_OK;
     require_capacity(capacity, *count);
     std::int64_t at = 0;
-    for_triangles(p, [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    p.for_triangles([&](std::int64_t a, std::int64_t b, std::int64_t c) {
       if (!triangles) return;
       triangles[at++] = a;
       triangles[at++] = b;
@@ -428,31 +413,15 @@ pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64
     *count = 0;
     if (!p.has_nodes()) return PNPBS_OK;
     p.prepare_order();
-    const Boundary& boundary = p.level().boundary();
-    // An edge belongs to the rank that owns the node it begins with; the other end may be a ghost.
-    std::vector<std::int64_t> place_of(boundary.nodes.size(), -1);
-    const Nodes<2>& nodes = p.level().nodes();
-    for (std::int64_t i = 0; i < nodes.count; ++i)
-      if (!nodes.moves(i))
-        place_of[static_cast<std::size_t>(nodes.boundary_node(i))] = p.place_of(i);
-    const std::int64_t owned = p.count();
-    const auto ours = [&](const BoundaryEdge& e) {
-      const std::int64_t begin = place_of[static_cast<std::size_t>(e.begin)];
-      return e.begin != e.end && begin >= 0 && begin < owned;  // begin = end: a fixed node
-    };
-    for (const BoundaryEdge& e : boundary.edges) *count += ours(e);
+    p.for_boundary_edges([&](std::int64_t, std::int64_t, std::int32_t) { ++*count; });
     if (capacity == 0 && !edges && !tags) return PNPBS_OK;
     require_capacity(capacity, *count);
     std::int64_t at = 0;
-    for (const BoundaryEdge& e : boundary.edges) {
-      if (!ours(e)) continue;
-      if (edges) {
-        edges[2 * at] = place_of[static_cast<std::size_t>(e.begin)];
-        edges[2 * at + 1] = place_of[static_cast<std::size_t>(e.end)];
-      }
-      if (tags) tags[at] = e.tag;
+    p.for_boundary_edges([&](std::int64_t begin, std::int64_t end, std::int32_t tag) {
+      if (edges) edges[2 * at] = begin, edges[2 * at + 1] = end;
+      if (tags) tags[at] = tag;
       ++at;
-    }
+    });
     return PNPBS_OK;
   });
 }

@@ -3,6 +3,7 @@
 #include "api/guard.hpp"
 #include "core/options.hpp"
 #include "core/statistics.hpp"
+#include "io/formats.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -69,6 +70,26 @@ pnpbs_status pnpbs_statistic_info(int32_t index, const char** name, const char**
     give(name, row.name);
     give(type, row.type());
     give(help, row.help);
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_format_count(int32_t* count) {
+  return guarded([&] {
+    require_pointer(count, "count");
+    *count = static_cast<int32_t>(io::formats().size());
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_format_info(int32_t index, const char** name, const char** help, int32_t* binary,
+                               int32_t* elements) {
+  return guarded([&] {
+    const io::Format& format = row_at(io::formats(), index);
+    give(name, format.name);
+    give(help, format.help);
+    if (binary) *binary = format.binary;
+    if (elements) *elements = format.elements == io::Elements::on_request;
     return PNPBS_OK;
   });
 }

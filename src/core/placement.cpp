@@ -273,9 +273,8 @@ bool Placement::bubbles_rest() const {
 // All stop if one rank's monitor asks for it.
 bool Placement::monitor_stops(double fraction) {
   bool stop = false;
-  agreed(*comm_, [&] {
-    stop = monitor_ && monitor_(fraction, steps_done_, count(), last_speeds_.largest);
-  });
+  const std::int64_t nodes = global_count();
+  agreed(*comm_, [&] { stop = asks_to_stop(fraction, nodes); });
   return comm_->largest(stop) > 0;
 }
 

@@ -38,6 +38,10 @@ class Placement {
   void set_nodes(std::vector<GivenNode> nodes);
   void forget_nodes();  // lets go of everything that lives in Kokkos' memory
   void set_monitor(Monitor monitor) { monitor_ = std::move(monitor); }
+  // Asks this rank's monitor. The nodes told are those of all ranks.
+  bool asks_to_stop(double fraction, std::int64_t nodes) const {
+    return monitor_ && monitor_(fraction, steps_done_, nodes, last_speeds_.largest);
+  }
 
   void initialise();
   Outcome step(std::int64_t n);
@@ -58,11 +62,20 @@ class Placement {
   void prepare_stars();
   std::int64_t node_at(std::int64_t place) const { return by_id_[static_cast<std::size_t>(place)]; }
   std::int64_t place_of(std::int64_t node) const { return place_[static_cast<std::size_t>(node)]; }
+  // Calls visit(place of i, place of j, place of k) for every triangle once, over all ranks: at the
+  // owner of its node with the least id, which comes first. After prepare_stars.
+  template <class Visit>
+  void for_triangles(const Visit& visit) const;
+  // Calls visit(place of begin, place of end, tag) for every boundary edge once, over all ranks: at
+  // the owner of the node it begins with; the other may be a ghost. After prepare_order.
+  template <class Visit>
+  void for_boundary_edges(const Visit& visit) const;
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   // --- statistics ---
   const Timers& timers() const { return timers_; }
   const Communicator& communicator() const { return *comm_; }
+  const std::shared_ptr<const Communicator>& ranks() const { return comm_; }
   std::int64_t steps_done() const { return steps_done_; }
   std::int64_t rebuilds() const { return rebuilds_before_ + (level_ ? level_->rebuilds() : 0); }
   std::int64_t rebalances() const {
@@ -118,5 +131,32 @@ class Placement {
   std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1;
   std::vector<std::int32_t> by_id_, place_;
 };
+
+template <class Visit>
+void Placement::for_triangles(const Visit& visit) const {
+  const View<std::int64_t> id = level_->nodes().id;
+  const std::int64_t owned = count();
+  for (std::int64_t p = 0; p < owned; ++p) {
+    const std::int64_t i = node_at(p);
+    level_->stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+      if (id(i) < id(j) && id(i) < id(k)) visit(p, place_of(j), place_of(k));
+    });
+  }
+}
+
+template <class Visit>
+void Placement::for_boundary_edges(const Visit& visit) const {
+  const Boundary& boundary = level_->boundary();
+  const Nodes<2>& nodes = level_->nodes();
+  std::vector<std::int64_t> place(boundary.nodes.size(), -1);
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (!nodes.moves(i)) place[static_cast<std::size_t>(nodes.boundary_node(i))] = place_of(i);
+  const std::int64_t owned = count();
+  for (const BoundaryEdge& e : boundary.edges) {
+    if (e.begin == e.end) continue;  // a fixed node
+    const std::int64_t begin = place[static_cast<std::size_t>(e.begin)];
+    if (begin >= 0 && begin < owned) visit(begin, place[static_cast<std::size_t>(e.end)], e.tag);
+  }
+}
 
 }  // namespace pnpbs

@@ -4,19 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <string>
 
 namespace pnpbs::io {
 namespace {
 
 constexpr std::array table{
-    Format{"vtu", "VTK unstructured grid: nodes, triangles, id, tag, spacing, quality", true, true,
-           false, write_vtu},
-    Format{"node", "Triangle's node file, numbered from 1, with boundary markers", false, false,
-           false, write_node},
-    Format{"csv", "id,x,y,tag,spacing", false, false, false, write_csv},
-    Format{"svg", "a picture, scalable", false, true, true, write_svg},
-    Format{"png", "a picture in pixels", true, true, true, write_png},
+    Format{"vtu", "VTK unstructured grid: nodes, triangles, id, tag, spacing, quality", true,
+           Elements::on_request, write_vtu},
+    Format{"pvtu", "the same as one .vtu piece per rank beside it", false, Elements::on_request,
+           nullptr},
+    Format{"msh", "gmsh's format 2.2: nodes, triangles, boundary edges with their tags", false,
+           Elements::on_request, write_msh},
+    Format{"node", "Triangle's node file, numbered from 1, with boundary markers", false,
+           Elements::beside, write_node},
+    Format{"ele", "Triangle's element file for the .node file", false, Elements::always, write_ele},
+    Format{"csv", "id,x,y,tag,spacing", false, Elements::never, write_csv},
 };
 
 std::string in_small_letters(std::string_view text) {
@@ -30,8 +32,15 @@ std::string in_small_letters(std::string_view text) {
 
 std::span<const Format> formats() { return table; }
 
+std::string list_of_formats() {
+  std::string list;
+  for (const Format& format : table) list += (list.empty() ? "" : ", ") + std::string(format.name);
+  return list;
+}
+
 const Format* format_by_name(std::string_view name) {
-  const auto found = std::ranges::find(table, in_small_letters(name), &Format::name);
+  const std::string small = in_small_letters(name);
+  const auto found = std::ranges::find_if(table, [&](const Format& f) { return f.name == small; });
   return found == table.end() ? nullptr : &*found;
 }
 

@@ -3,36 +3,39 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
-#include "io/node_set.hpp"
-#include "io/sink.hpp"
+#include "io/node_block.hpp"
+#include "io/shared_file.hpp"
 
 namespace pnpbs::io {
 
-struct PictureStyle {
-  bool bubbles = false;  // draw every node's bubble, a circle of diameter d
-};
+enum class Elements { never, on_request, beside, always };  // beside: in a second file
 
 struct Format {
-  std::string_view name;  // also the extension, without its dot
-  std::string_view help;
+  const char* name;  // also the extension, without its dot
+  const char* help;
   bool binary;  // not for terminals
-  bool wants_triangles;
-  bool wants_outline;
-  void (*write)(const NodeSet& nodes, const PictureStyle& style, Sink& sink);
+  Elements elements;
+  // Collective. nullptr: in pieces, which is not one file's business.
+  void (*write)(const NodeBlock& nodes, SharedFile& file);
 };
 
 std::span<const Format> formats();
+std::string list_of_formats();
 
 // nullptr if there is none.
 const Format* format_by_name(std::string_view name);
 const Format* format_by_extension(std::string_view path);
 
-void write_vtu(const NodeSet& nodes, const PictureStyle& style, Sink& sink);
-void write_node(const NodeSet& nodes, const PictureStyle& style, Sink& sink);
-void write_csv(const NodeSet& nodes, const PictureStyle& style, Sink& sink);
-void write_svg(const NodeSet& nodes, const PictureStyle& style, Sink& sink);
-void write_png(const NodeSet& nodes, const PictureStyle& style, Sink& sink);
+void write_vtu(const NodeBlock& nodes, SharedFile& file);
+void write_node(const NodeBlock& nodes, SharedFile& file);
+void write_ele(const NodeBlock& nodes, SharedFile& file);
+void write_msh(const NodeBlock& nodes, SharedFile& file);
+void write_csv(const NodeBlock& nodes, SharedFile& file);
+
+// The file that names the pieces. Collective. elements: as the pieces have them.
+void write_pvtu(const std::vector<std::string>& pieces, bool elements, SharedFile& file);
 
 }  // namespace pnpbs::io

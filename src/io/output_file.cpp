@@ -11,14 +11,15 @@
 #include <cstring>
 #include <filesystem>
 #include <random>
-#include <stdexcept>
 #include <system_error>
+
+#include "core/error.hpp"
 
 namespace pnpbs::io {
 namespace {
 
 [[noreturn]] void fail(const std::string& what, int error) {
-  throw std::runtime_error("cannot write " + what + ": " + std::strerror(error));
+  throw Error(PNPBS_ERROR_FILE, "cannot write " + what + ": " + std::strerror(error));
 }
 
 // Renaming onto a symbolic link would replace the link: find the file it means.
@@ -80,22 +81,32 @@ int OutputFile::open_aside(std::unique_ptr<Temporary>& temporary) const {
     temporary->keep();  // it is not ours
     fail(quoted(), errno);
   }
+  if (temporary->removed()) {  // before it was there
+    ::close(descriptor);
+    ::unlink(temporary->path());
+    fail(quoted(), EINTR);
+  }
   copy_permissions(target_, descriptor);
   return descriptor;
 }
 
-int OutputFile::open_target() {
-  if (is_standard_output()) return ::dup(STDOUT_FILENO);
+int OutputFile::open() {
   if (written_aside()) return open_aside(temporary_);
-  return ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+  const int descriptor =
+      is_standard_output() ? ::dup(STDOUT_FILENO) : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(quoted(), errno);
+  return descriptor;
+}
+
+void OutputFile::close(int descriptor) const {
+  if (::close(descriptor) != 0) fail(quoted(), errno);
 }
 
 void OutputFile::write(const std::function<void(Sink&)>& writer,
                        const std::function<void()>& before_write) {
-  const int descriptor = open_target();
-  if (descriptor < 0) fail(quoted(), errno);
+  const int descriptor = open();
   try {
-    Sink sink(descriptor, quoted(), before_write);
+    Sink sink(to_descriptor(descriptor, quoted(), before_write));
     writer(sink);
     sink.flush();
   } catch (...) {
@@ -103,7 +114,7 @@ void OutputFile::write(const std::function<void(Sink&)>& writer,
     temporary_.reset();
     throw;
   }
-  if (::close(descriptor) != 0) fail(quoted(), errno);
+  close(descriptor);
 }
 
 void OutputFile::publish() {

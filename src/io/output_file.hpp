@@ -18,23 +18,28 @@ class OutputFile {
   // pipe) is written directly, since it cannot be replaced.
   explicit OutputFile(const std::string& path);
 
-  // Throws if it could not be written: asked before the long run.
+  // Throws Error(PNPBS_ERROR_FILE) if it could not be written: asked before the long run.
   void check() const;
 
-  // Calls writer with the sink to fill. before_write: see Sink.
+  // Calls writer with the sink to fill. before_write: see to_descriptor.
   void write(const std::function<void(Sink&)>& writer, const std::function<void()>& before_write);
+
+  // The same in steps. What is written aside is in the file of this name; it goes with this object
+  // unless it is published.
+  int open();
+  void close(int descriptor) const;
+  bool written_aside() const;
+  const char* name_aside() const { return temporary_->path(); }
 
   // Gives the complete file its name.
   void publish();
 
   bool is_standard_output() const { return path_ == "-"; }
   const std::string& path() const { return path_; }
+  std::string quoted() const;  // for messages
 
  private:
-  bool written_aside() const;
   int open_aside(std::unique_ptr<Temporary>& temporary) const;
-  int open_target();
-  std::string quoted() const;
 
   std::string path_;    // as the user gave it
   std::string target_;  // behind symbolic links

@@ -8,13 +8,9 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace pnpbs::io {
+#include "core/error.hpp"
 
-Sink::Sink(int descriptor, std::string name, std::function<void()> before_write)
-    : descriptor_(descriptor),
-      name_(std::move(name)),
-      before_write_(std::move(before_write)),
-      buffer_(1 << 16) {}
+namespace pnpbs::io {
 
 void Sink::bytes(const void* data, std::size_t size) {
   const char* next = static_cast<const char*>(data);
@@ -29,16 +25,22 @@ void Sink::bytes(const void* data, std::size_t size) {
 }
 
 void Sink::flush() {
-  for (std::size_t done = 0; done < used_;) {
-    if (before_write_) before_write_();
-    const ssize_t wrote = ::write(descriptor_, buffer_.data() + done, used_ - done);
-    if (wrote >= 0) {
-      done += static_cast<std::size_t>(wrote);
-    } else if (errno != EINTR) {
-      throw std::runtime_error("cannot write " + name_ + ": " + std::strerror(errno));
-    }
-  }
+  if (used_ > 0) drain_({buffer_.data(), used_});
   used_ = 0;
+}
+
+Sink::Drain to_descriptor(int descriptor, std::string name, std::function<void()> before_write) {
+  return [=](std::span<const char> bytes) {
+    while (!bytes.empty()) {
+      if (before_write) before_write();
+      const ssize_t wrote = ::write(descriptor, bytes.data(), bytes.size());
+      if (wrote >= 0) {
+        bytes = bytes.subspan(static_cast<std::size_t>(wrote));
+      } else if (errno != EINTR) {
+        throw Error(PNPBS_ERROR_FILE, "cannot write " + name + ": " + std::strerror(errno));
+      }
+    }
+  };
 }
 
 }  // namespace pnpbs::io

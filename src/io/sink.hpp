@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where writers put their bytes: a buffered file descriptor.
+// Where writers put their bytes: a buffer that is drained when it is full.
 #pragma once
 
 #include <charconv>
@@ -15,8 +15,10 @@ namespace pnpbs::io {
 
 class Sink {
  public:
-  // name: for messages. before_write: called now and then; may throw to give up.
-  Sink(int descriptor, std::string name, std::function<void()> before_write);
+  using Drain = std::function<void(std::span<const char>)>;
+
+  explicit Sink(Drain drain, std::size_t capacity = std::size_t{1} << 16)
+      : drain_(std::move(drain)), buffer_(capacity) {}
 
   void bytes(const void* data, std::size_t size);
   void text(std::string_view characters) { bytes(characters.data(), characters.size()); }
@@ -38,11 +40,13 @@ class Sink {
  private:
   static constexpr std::size_t longest_number = 32;
 
-  int descriptor_;
-  std::string name_;
-  std::function<void()> before_write_;
+  Drain drain_;
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };
+
+// Writes to an open file. name: for messages. before_write: called before every write, may be
+// empty, may throw to give up.
+Sink::Drain to_descriptor(int descriptor, std::string name, std::function<void()> before_write);
 
 }  // namespace pnpbs::io

@@ -32,6 +32,8 @@ const char* Temporary::path() const { return entry_->path.c_str(); }
 
 void Temporary::keep() { entry_->live = false; }
 
+bool Temporary::removed() const { return !entry_->live; }
+
 void remove_temporaries() {
   for (Temporary::Entry* entry = Temporary::Entry::first; entry; entry = entry->next) {
     if (entry->live.exchange(false)) ::unlink(entry->path.c_str());

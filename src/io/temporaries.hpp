@@ -16,7 +16,8 @@ class Temporary {
   Temporary& operator=(const Temporary&) = delete;
 
   const char* path() const;
-  void keep();  // it has its final name now
+  void keep();           // it has its final name now
+  bool removed() const;  // by remove_temporaries
 
  private:
   struct Entry;

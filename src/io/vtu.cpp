@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // VTK's XML unstructured grid. The arrays follow the XML part as raw binary, each after its
-// length in bytes, so a million nodes cost no text conversion and no copy.
+// length in bytes, so a million nodes cost no text conversion and no copy. The .pvtu file names
+// pieces of that kind.
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -20,48 +21,35 @@ constexpr std::uint8_t vtk_triangle = 5;
 struct Array {
   std::string type, name;
   int components;
-  std::uint64_t bytes;
-  std::function<void(Sink&)> write;
+  std::uint64_t bytes;               // of all ranks
+  std::function<void(Sink&)> write;  // this rank's
 };
 
 // An array whose values are computed one by one while they are written.
 template <typename Value, typename At>
-Array computed(const std::string& type, const std::string& name, std::size_t count, At at) {
-  return {type, name, 1, count * sizeof(Value), [count, at](Sink& sink) {
-            for (std::size_t i = 0; i < count; ++i) {
-              const Value value = at(i);
+Array computed(const std::string& type, const std::string& name, const RankSpan& span, At at,
+               int components = 1) {
+  return {type, name, components,
+          static_cast<std::uint64_t>(span.total * components) * sizeof(Value),
+          [count = span.count * components, at](Sink& sink) {
+            for (std::int64_t i = 0; i < count; ++i) {
+              const Value value = at(static_cast<std::size_t>(i));
               sink.bytes(&value, sizeof value);
             }
           }};
 }
 
 template <typename Value>
-Array stored(const std::string& type, const std::string& name, const std::vector<Value>& values) {
-  return {type, name, 1, values.size() * sizeof(Value),
+Array stored(const std::string& type, const std::string& name, const RankSpan& span,
+             const std::vector<Value>& values, int components = 1) {
+  return {type, name, 1, static_cast<std::uint64_t>(span.total * components) * sizeof(Value),
           [&values](Sink& sink) { sink.array(std::span<const Value>(values)); }};
 }
 
-Array points(const NodeSet& nodes) {
-  return {"Float64", "Points", 3, nodes.size() * 3 * sizeof(double), [&nodes](Sink& sink) {
-            for (std::size_t i = 0; i < nodes.size(); ++i) {
-              const std::array<double, 3> point{nodes.xy[2 * i], nodes.xy[2 * i + 1], 0};
-              sink.bytes(point.data(), sizeof point);
-            }
-          }};
-}
-
-// 2 r_in / R: 1 for an equilateral triangle, 0 for a flat one.
-float quality(const NodeSet& nodes, std::size_t triangle) {
-  std::array<const double*, 3> p;
-  for (std::size_t k = 0; k < 3; ++k) p[k] = &nodes.xy[2 * nodes.triangles[3 * triangle + k]];
-  const auto side = [&](int i, int j) { return std::hypot(p[j][0] - p[i][0], p[j][1] - p[i][1]); };
-  const double a = side(0, 1), b = side(1, 2), c = side(2, 0);
-  const double twice_area =
-      (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
-  // In ratios, so that no product leaves the range of doubles.
-  const double height = twice_area / a;
-  const double value = 4 * (height / b) * (height / c) * (a / (a + b + c));
-  return std::isfinite(value) ? static_cast<float>(value) : 0.0F;
+Array points(const NodeBlock& nodes) {
+  return computed<double>(
+      "Float64", "Points", nodes.nodes,
+      [&nodes](std::size_t k) { return k % 3 == 2 ? 0.0 : nodes.xy[k / 3 * 2 + k % 3]; }, 3);
 }
 
 struct Part {
@@ -69,79 +57,130 @@ struct Part {
   std::vector<Array> arrays;
 };
 
-Part triangle_cells(const NodeSet& nodes) {
-  const std::size_t count = nodes.triangle_count();
-  return {
-      "Cells",
-      {stored("Int64", "connectivity", nodes.triangles),
-       computed<std::int64_t>("Int64", "offsets", count, [](std::size_t i) { return 3 * (i + 1); }),
-       computed<std::uint8_t>("UInt8", "types", count, [](std::size_t) { return vtk_triangle; })}};
+// What every kind of cells has: the numbers of their corners, where each cell ends in them, and
+// its type.
+template <std::uint8_t type>
+Part cells(Array connectivity, const RankSpan& span, std::int64_t corners) {
+  return {"Cells",
+          {std::move(connectivity),
+           computed<std::int64_t>("Int64", "offsets", span,
+                                  [first = span.first, corners](std::size_t i) {
+                                    return corners * (first + static_cast<std::int64_t>(i) + 1);
+                                  }),
+           computed<std::uint8_t>("UInt8", "types", span, [](std::size_t) { return type; })}};
 }
 
-Part vertex_cells(const NodeSet& nodes) {
-  const std::size_t count = nodes.size();
-  return {
-      "Cells",
-      {computed<std::int64_t>("Int64", "connectivity", count, [](std::size_t i) { return i; }),
-       computed<std::int64_t>("Int64", "offsets", count, [](std::size_t i) { return i + 1; }),
-       computed<std::uint8_t>("UInt8", "types", count, [](std::size_t) { return vtk_vertex; })}};
+Part triangle_cells(const NodeBlock& nodes) {
+  return cells<vtk_triangle>(stored("Int64", "connectivity", nodes.triangles, nodes.corners, 3),
+                             nodes.triangles, 3);
 }
 
-std::vector<Part> parts_of(const NodeSet& nodes) {
+Part vertex_cells(const NodeBlock& nodes) {
+  return cells<vtk_vertex>(computed<std::int64_t>("Int64", "connectivity", nodes.nodes,
+                                                  [first = nodes.nodes.first](std::size_t i) {
+                                                    return first + static_cast<std::int64_t>(i);
+                                                  }),
+                           nodes.nodes, 1);
+}
+
+std::vector<Part> parts_of(const NodeBlock& nodes) {
   std::vector<Part> parts{{"PointData",
-                           {stored("Int64", "id", nodes.ids), stored("Int32", "tag", nodes.tags),
-                            stored("Float64", "spacing", nodes.spacing)}}};
-  if (nodes.triangle_count() > 0) {
-    parts.push_back({"CellData",
-                     {computed<float>("Float32", "quality", nodes.triangle_count(),
-                                      [&nodes](std::size_t i) { return quality(nodes, i); })}});
-  }
+                           {stored("Int64", "id", nodes.nodes, nodes.ids),
+                            stored("Int32", "tag", nodes.nodes, nodes.tags),
+                            stored("Float64", "spacing", nodes.nodes, nodes.spacing)}}};
+  if (nodes.is_piece)
+    parts[0].arrays.push_back(stored("UInt8", "vtkGhostType", nodes.nodes, nodes.ghosts));
+  if (nodes.elements)
+    parts.push_back({"CellData", {stored("Float32", "quality", nodes.triangles, nodes.quality)}});
   parts.push_back({"Points", {points(nodes)}});
-  parts.push_back(nodes.triangle_count() > 0 ? triangle_cells(nodes) : vertex_cells(nodes));
+  parts.push_back(nodes.elements ? triangle_cells(nodes) : vertex_cells(nodes));
   return parts;
 }
 
-void declare(const std::vector<Part>& parts, Sink& sink) {
+std::string declaration(const std::vector<Part>& parts) {
+  std::string text;
   std::uint64_t offset = 0;
   for (const Part& part : parts) {
-    sink.text("      <" + part.name + (part.name == "PointData" ? " Scalars=\"spacing\"" : "") +
-              ">\n");
+    text +=
+        "      <" + part.name + (part.name == "PointData" ? " Scalars=\"spacing\"" : "") + ">\n";
     for (const Array& array : part.arrays) {
-      sink.text("        <DataArray type=\"" + array.type + "\" Name=\"" + array.name + "\"");
-      if (array.components > 1) {
-        sink.text(" NumberOfComponents=\"" + std::to_string(array.components) + "\"");
-      }
-      sink.text(" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n");
+      text += "        <DataArray type=\"" + array.type + "\" Name=\"" + array.name + "\"";
+      if (array.components > 1)
+        text += " NumberOfComponents=\"" + std::to_string(array.components) + "\"";
+      text += " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
       offset += sizeof array.bytes + array.bytes;
     }
-    sink.text("      </" + part.name + ">\n");
+    text += "      </" + part.name + ">\n";
   }
+  return text;
 }
 
-void append(const std::vector<Part>& parts, Sink& sink) {
-  for (const Part& part : parts) {
-    for (const Array& array : part.arrays) {
-      sink.bytes(&array.bytes, sizeof array.bytes);
-      array.write(sink);
+std::string opening(const std::string& type) {
+  const std::string order =
+      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type + "\" version=\"1.0\" byte_order=\"" +
+         order + "\" header_type=\"UInt64\">\n";
+}
+
+// A file's name may have letters that mean something in XML.
+std::string in_xml(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
     }
   }
+  return escaped;
 }
 
 }  // namespace
 
-void write_vtu(const NodeSet& nodes, const PictureStyle& /*style*/, Sink& sink) {
+void write_vtu(const NodeBlock& nodes, SharedFile& file) {
   const std::vector<Part> parts = parts_of(nodes);
-  const std::size_t cells = nodes.triangle_count() > 0 ? nodes.triangle_count() : nodes.size();
-  const std::string order =
-      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-  sink.text(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" +
-      order + "\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
-      std::to_string(nodes.size()) + "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n");
-  declare(parts, sink);
-  sink.text("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
-  append(parts, sink);
-  sink.text("\n  </AppendedData>\n</VTKFile>\n");
+  const std::int64_t cells = nodes.elements ? nodes.triangles.total : nodes.nodes.total;
+  file.append_text(opening("UnstructuredGrid") +
+                   "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
+                   std::to_string(nodes.nodes.total) + "\" NumberOfCells=\"" +
+                   std::to_string(cells) + "\">\n" + declaration(parts) +
+                   "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
+  for (const Part& part : parts) {
+    for (const Array& array : part.arrays) {
+      file.append([&](Sink& sink) {
+        if (file.is_first()) sink.bytes(&array.bytes, sizeof array.bytes);
+        array.write(sink);
+      });
+    }
+  }
+  file.append_text("\n  </AppendedData>\n</VTKFile>\n");
+}
+
+void write_pvtu(const std::vector<std::string>& pieces, bool elements, SharedFile& file) {
+  std::string text = opening("PUnstructuredGrid") + "  <PUnstructuredGrid GhostLevel=\"0\">\n";
+  NodeBlock declared;  // empty, but with all the arrays that pieces have
+  declared.elements = elements;
+  declared.is_piece = true;
+  for (const Part& part : parts_of(declared)) {
+    if (part.name == "Cells") continue;  // a reader knows what they look like
+    text += "    <P" + part.name + (part.name == "PointData" ? " Scalars=\"spacing\"" : "") + ">\n";
+    for (const Array& array : part.arrays)
+      text += "      <PDataArray type=\"" + array.type + "\" Name=\"" + array.name +
+              "\" NumberOfComponents=\"" + std::to_string(array.components) + "\"/>\n";
+    text += "    </P" + part.name + ">\n";
+  }
+  for (const std::string& piece : pieces)
+    text += "    <Piece Source=\"" + in_xml(std::filesystem::path(piece).filename().string()) +
+            "\"/>\n";
+  file.append_text(text + "  </PUnstructuredGrid>\n</VTKFile>\n");
 }
 
 }  // namespace pnpbs::io

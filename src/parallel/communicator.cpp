@@ -9,6 +9,8 @@
 
 #if PNPBS_HAVE_MPI
 #include <mpi.h>
+
+#include "parallel/mpi_file.hpp"
 #endif
 
 namespace pnpbs {
@@ -30,6 +32,10 @@ class SerialCommunicator : public Communicator {
   }
   void exchange_known(const std::vector<int>&, const std::vector<Bytes>&,
                       std::vector<Bytes>&) const override {}
+  std::unique_ptr<RankFile> open_file(const std::string& path,
+                                      const std::string& name) const override {
+    return open_alone(path, name);
+  }
 };
 
 #if PNPBS_HAVE_MPI
@@ -130,6 +136,25 @@ class MpiCommunicator : public Communicator {
                 comm_, &requests_[n + k]);
     check(MPI_Waitall(static_cast<int>(2 * n), requests_.data(), MPI_STATUSES_IGNORE),
           "MPI_Waitall");
+  }
+
+  std::unique_ptr<RankFile> open_file(const std::string& path,
+                                      const std::string& name) const override {
+    std::unique_ptr<RankFile> file;
+    std::exception_ptr failure;
+    try {
+      file = size_ == 1 ? open_alone(path, name) : open_by_mpi(comm_, path, name);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    try {
+      agree_on_failure(*this, failure);
+    } catch (...) {
+      // Closing is collective and would wait for the ranks that could not open it.
+      if (!failure) (void)file.release();
+      throw;
+    }
+    return file;
   }
 
  private:

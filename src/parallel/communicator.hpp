@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "parallel/rank_file.hpp"
+
 namespace pnpbs {
 
 using Bytes = std::vector<char>;
@@ -36,6 +38,11 @@ class Communicator {
   virtual void exchange_known(const std::vector<int>& neighbours,
                               const std::vector<Bytes>& outgoing,
                               std::vector<Bytes>& incoming) const = 0;
+
+  // Opens an existing file for all ranks to write parts of. Collective; agreed. `name` stands for
+  // the file in messages.
+  virtual std::unique_ptr<RankFile> open_file(const std::string& path,
+                                              const std::string& name) const = 0;
 };
 
 std::shared_ptr<Communicator> serial_communicator();

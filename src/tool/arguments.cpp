@@ -3,9 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iostream>
 
-#include "io/formats.hpp"
 #include "tool/exit.hpp"
 #include "tool/help.hpp"
 #include "tool/library.hpp"
@@ -57,6 +55,9 @@ void add_output(CLI::App& app, Arguments& arguments) {
   app.add_option("--report", arguments.report, "statistics as JSON, - for standard output")
       ->type_name("FILE")
       ->group(group);
+  app.add_flag("--nodes-only", arguments.nodes_only,
+               "no triangles in files that may be without (.vtu, .pvtu,\n.msh)")
+      ->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
 }
 
@@ -64,6 +65,9 @@ void add_general(CLI::App& app, Arguments& arguments, Questions& questions) {
   const std::string group = "Others";
   app.set_help_flag();
   app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors")->group(group);
+  app.add_flag("--progress", arguments.progress,
+               "a progress bar even where standard error is no terminal,\nas under mpirun")
+      ->group(group);
   app.add_flag("-h,--help", questions.help, "this text")->group(group);
   app.add_flag("--version", questions.version, "version, and what it was built with")->group(group);
   app.add_flag("--list-statistics", questions.statistics, "the keys of the report")->group(group);
@@ -131,7 +135,7 @@ std::string compact(std::string text) {
 
 }  // namespace
 
-bool parse_arguments(int argc, char** argv, Arguments& arguments) {
+std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Places nodes in a plane domain so that their distances follow a spacing function.",
                "pnpbs");
   Questions questions;
@@ -148,13 +152,14 @@ bool parse_arguments(int argc, char** argv, Arguments& arguments) {
     refuse(error.what());
   }
   refuse_unknown(app);
-  if (questions.help) std::cout << compact(app.help()) << help_tables();
-  if (questions.version) std::cout << version_text();
-  if (questions.statistics) std::cout << statistics_text();
-  if (questions.help || questions.version || questions.statistics) return false;
+  std::string answer;
+  if (questions.help) answer += compact(app.help()) + help_tables();
+  if (questions.version) answer += version_text();
+  if (questions.statistics) answer += statistics_text();
+  if (!answer.empty()) return answer;
   take_settings(settings, arguments);
   check_input(arguments);
-  return true;
+  return "";
 }
 
 }  // namespace pnpbs::tool

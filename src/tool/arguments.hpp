@@ -17,11 +17,13 @@ struct Arguments {
   std::string report;  // a file, "-", or empty
   std::vector<std::pair<std::string, std::string>> options;  // key and value for the library
   bool bubbles = false;
+  bool nodes_only = false;
   bool quiet = false;
+  bool progress = false;
 };
 
-// Parses the command line. What only wants information (--help, --version, ...) is answered
-// here, on standard output; then the result is false. Throws BadInput.
-bool parse_arguments(int argc, char** argv, Arguments& arguments);
+// Parses the command line. If it only wants information (--help, --version, ...), that is the
+// result; otherwise it is empty. Throws BadInput.
+std::string parse_arguments(int argc, char** argv, Arguments& arguments);
 
 }  // namespace pnpbs::tool

@@ -29,16 +29,20 @@ std::string standard_input() {
 
 }  // namespace
 
-void read_domain(const std::string& path, pnpbs_domain domain, pnpbs_context context) {
-  if (path == "-") {
-    const std::string text = standard_input();
-    check(pnpbs_domain_parse_poly(domain, text.data(), static_cast<std::int64_t>(text.size()),
-                                  "standard input"),
-          context);
-  } else {
-    check(pnpbs_domain_read_poly(domain, path.c_str()), context);
-  }
-  check(pnpbs_domain_check(domain), context);
+void read_domain(const std::string& path, pnpbs_domain domain, pnpbs_context context,
+                 const Ranks& ranks) {
+  const bool from_input = path == "-";
+  const std::string text = from_input ? ranks.from_first(standard_input) : "";
+  ranks.agreed([&] {
+    if (from_input) {
+      check(pnpbs_domain_parse_poly(domain, text.data(), static_cast<std::int64_t>(text.size()),
+                                    "standard input"),
+            context);
+    } else {
+      check(pnpbs_domain_read_poly(domain, path.c_str()), context);
+    }
+    check(pnpbs_domain_check(domain), context);
+  });
 }
 
 }  // namespace pnpbs::tool

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "io/formats.hpp"
 #include "tool/expression.hpp"
+#include "tool/file_format.hpp"
 #include "tool/library.hpp"
 
 namespace pnpbs::tool {
@@ -45,8 +45,8 @@ std::string row(const std::string& name, std::size_t indent, const std::string& 
 
 std::string format_table() {
   std::string text = "\nFormats of --output:\n";
-  for (const io::Format& format : io::formats()) {
-    text += row("." + std::string(format.name), 10, std::string(format.help));
+  for (const FileFormat& format : file_formats()) {
+    text += row("." + format.name, 10, format.help);
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include <atomic>
 
 #include "io/temporaries.hpp"
+#include "pnpbs/pnpbs.h"
 #include "tool/exit.hpp"
 
 namespace pnpbs::tool {
@@ -14,11 +15,20 @@ namespace {
 
 std::atomic<bool> deferred{false};
 std::atomic<bool> asked{false};
+std::atomic<bool> killed_soon{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+void remove_unfinished_files() {
+  io::remove_temporaries();          // this program's own, and
+  pnpbs_discard_unfinished_files();  // the library's
+}
+
 extern "C" void on_signal(int /*number*/) {
-  if (deferred && !asked.exchange(true)) return;
-  io::remove_temporaries();
+  if (deferred && !asked.exchange(true)) {
+    if (killed_soon) remove_unfinished_files();
+    return;
+  }
+  remove_unfinished_files();
   ::_exit(static_cast<int>(ExitCode::interrupted));
 }
 
@@ -33,12 +43,14 @@ void handle(int number) {
 
 }  // namespace
 
-void handle_interrupts() {
+void handle_interrupts(bool launched) {
+  killed_soon = launched;
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) handle(number);
-  // A reader that goes away shall be an error of write, so that files are cleaned up.
+  // A reader that goes away, or a limit on the size of files, shall be an error of write, so that
+  // files are cleaned up.
   struct sigaction ignore {};
   ignore.sa_handler = SIG_IGN;
-  ::sigaction(SIGPIPE, &ignore, nullptr);
+  for (const int number : {SIGPIPE, SIGXFSZ}) ::sigaction(number, &ignore, nullptr);
 }
 
 void defer_interrupts() { deferred = true; }

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ctrl-C and its kin. While the command reads, a signal ends it at once; while it computes or
 // writes, the first signal asks it to stop and the second ends it at once. Temporary files are
-// removed either way.
+// removed either way. What the ranks of a run make of it is told in ranks.hpp and main.cpp.
 #pragma once
 
 namespace pnpbs::tool {
 
-void handle_interrupts();
+// launched: by an MPI launcher. Such a one ends us a moment after its first signal, ready or not,
+// so unfinished files are then removed at once.
+void handle_interrupts(bool launched);
 
 // From here on the first signal only asks.
 void defer_interrupts();
 
+// Has a signal come to this process?
 bool interrupted();
 
-// Throws Interrupted if a signal has come.
+// Throws Interrupted if so.
 void give_up_if_interrupted();
 
 }  // namespace pnpbs::tool

@@ -2,7 +2,6 @@
 #include "tool/library.hpp"
 
 #include "tool/exit.hpp"
-#include "tool/interrupt.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -24,7 +23,6 @@ ExitCode exit_code_of(pnpbs_status error) {
 
 pnpbs_status check(pnpbs_status status, pnpbs_context context) {
   if (status >= 0) return status;
-  give_up_if_interrupted();  // our callbacks fail when that happens
   std::string message = pnpbs_last_error(context);
   if (message.empty()) message = pnpbs_status_string(status);
   throw Failure(exit_code_of(status), message);
@@ -52,6 +50,19 @@ std::vector<LibraryStatistic> library_statistics() {
     statistics.push_back({name, type, help});
   }
   return statistics;
+}
+
+std::vector<LibraryFormat> library_formats() {
+  std::int32_t count = 0;
+  check(pnpbs_format_count(&count), nullptr);
+  std::vector<LibraryFormat> formats;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const char *name, *help;
+    std::int32_t binary, elements;
+    check(pnpbs_format_info(i, &name, &help, &binary, &elements), nullptr);
+    formats.push_back({name, help, binary != 0, elements != 0});
+  }
+  return formats;
 }
 
 std::vector<std::string> warnings_of(pnpbs_context context, pnpbs_placement placement) {

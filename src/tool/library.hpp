@@ -40,6 +40,12 @@ struct LibraryStatistic {
 };
 std::vector<LibraryStatistic> library_statistics();
 
+struct LibraryFormat {
+  std::string name, help;
+  bool binary, elements;  // elements: on request
+};
+std::vector<LibraryFormat> library_formats();
+
 std::vector<std::string> warnings_of(pnpbs_context context, pnpbs_placement placement);
 
 }  // namespace pnpbs::tool

@@ -7,34 +7,23 @@
 #include <filesystem>
 
 #include "tool/exit.hpp"
+#include "tool/gathered_nodes.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/names.hpp"
 
 namespace pnpbs::tool {
 namespace {
 
-std::vector<std::string> format_names() {
-  std::vector<std::string> names;
-  for (const io::Format& format : io::formats()) names.emplace_back(format.name);
-  return names;
-}
-
-std::string list_of_formats() {
-  std::string list;
-  for (const std::string& name : format_names()) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
-const io::Format* format_called(const std::string& name) {
+const FileFormat* format_called(const std::string& name) {
   if (name.empty()) return nullptr;
-  const io::Format* format = io::format_by_name(name);
+  const FileFormat* format = format_by_name(name);
   if (format) return format;
   throw BadInput("--format: unknown format '" + name + "'" + did_you_mean(name, format_names()) +
                  " (known: " + list_of_formats() + ")");
 }
 
-const io::Format* format_of(const std::string& path, const io::Format* otherwise) {
-  const io::Format* format = path == "-" ? nullptr : io::format_by_extension(path);
+const FileFormat* format_of(const std::string& path, const FileFormat* otherwise) {
+  const FileFormat* format = path == "-" ? nullptr : format_by_extension(path);
   if (!format) format = otherwise;
   if (format) return format;
   const std::string what = path == "-" ? "standard output" : "'" + path + "'";
@@ -52,29 +41,6 @@ bool same_file(const std::string& a, const std::string& b) {
   return !special && full(a) == full(b);
 }
 
-io::NodeSet nodes_of(pnpbs_placement placement, pnpbs_context context) {
-  std::int64_t count = 0;
-  check(pnpbs_placement_count(placement, &count), context);
-  const auto size = static_cast<std::size_t>(count);
-  io::NodeSet nodes;
-  nodes.xy.resize(2 * size);
-  nodes.ids.resize(size);
-  nodes.tags.resize(size);
-  nodes.spacing.resize(size);
-  check(pnpbs_placement_get_nodes(placement, count, nodes.xy.data(), nodes.ids.data(),
-                                  nodes.tags.data(), nodes.spacing.data()),
-        context);
-  return nodes;
-}
-
-std::vector<std::int64_t> triangles_of(pnpbs_placement placement, pnpbs_context context) {
-  std::int64_t count = 0;
-  check(pnpbs_placement_get_triangles(placement, 0, &count, nullptr), context);
-  std::vector<std::int64_t> triangles(3 * static_cast<std::size_t>(count));
-  check(pnpbs_placement_get_triangles(placement, count, &count, triangles.data()), context);
-  return triangles;
-}
-
 std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
   std::int64_t count = 0;
   check(pnpbs_domain_get_segments(domain, 0, &count, nullptr, nullptr), context);
@@ -83,63 +49,99 @@ std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
   return outline;
 }
 
-}  // namespace
-
-Outputs::Outputs(const Arguments& arguments) : style_{arguments.bubbles} {
-  const io::Format* otherwise = format_called(arguments.format);
-  for (const std::string& path : arguments.outputs) add(path, format_of(path, otherwise));
-  if (!arguments.report.empty()) add(arguments.report, nullptr);
-  check();
+std::int32_t stop_if_interrupted(double, std::int64_t, std::int64_t, double, void*) {
+  return interrupted();
 }
 
-void Outputs::add(const std::string& path, const io::Format* format) {
+}  // namespace
+
+Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
+    : ranks_(ranks), style_{arguments.bubbles}, elements_(!arguments.nodes_only) {
+  const FileFormat* otherwise = format_called(arguments.format);
+  for (const std::string& path : arguments.outputs) add(path, format_of(path, otherwise));
+  if (!arguments.report.empty()) add(arguments.report, nullptr);
+  if (ranks_.is_first()) check_writable();
+}
+
+void Outputs::add(const std::string& path, const FileFormat* format) {
   if (path.empty()) throw BadInput("--output: the name of the file is empty");
   for (const Output& other : outputs_) {
     if (same_file(other.file.path(), path)) throw BadInput("'" + path + "' would be written twice");
   }
+  if (path == "-" && format && format->name == "pvtu")
+    throw BadInput("--output: a .pvtu file and its pieces cannot go to standard output");
   outputs_.push_back({io::OutputFile(path), format});
 }
 
-void Outputs::check() const {
+void Outputs::check_writable() const {
   for (const Output& output : outputs_) {
     try {
       output.file.check();
     } catch (const std::runtime_error& error) {
       throw BadInput(error.what());
     }
-    const bool to_terminal = output.file.is_standard_output() && ::isatty(STDOUT_FILENO);
+    // A launcher may put a terminal of its own between us and what it leads our output to.
+    const bool to_terminal =
+        output.file.is_standard_output() && !ranks_.launched() && ::isatty(STDOUT_FILENO);
     if (to_terminal && output.format && output.format->binary) {
-      throw BadInput("a ." + std::string(output.format->name) +
+      throw BadInput("a ." + output.format->name +
                      " file would upset the terminal; lead standard output elsewhere");
     }
   }
 }
 
-void Outputs::write(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context) {
-  const auto any = [this](bool io::Format::*wish) {
-    return std::ranges::any_of(outputs_,
-                               [wish](const Output& o) { return o.format && o.format->*wish; });
-  };
-  if (std::ranges::none_of(outputs_, [](const Output& o) { return o.format; })) return;
-  io::NodeSet nodes = nodes_of(placement, context);
-  if (any(&io::Format::wants_triangles)) nodes.triangles = triangles_of(placement, context);
-  if (any(&io::Format::wants_outline)) nodes.outline = outline_of(domain, context);
-  for (Output& output : outputs_) {
-    if (!output.format) continue;
-    output.file.write([&](io::Sink& sink) { output.format->write(nodes, style_, sink); },
-                      give_up_if_interrupted);
-  }
+void Outputs::write_pictures(pnpbs_placement placement, pnpbs_domain domain,
+                             pnpbs_context context) {
+  if (std::ranges::none_of(outputs_, &Output::is_picture)) return;
+  picture::NodeSet nodes = gathered_nodes(placement, context, ranks_);
+  ranks_.agreed([&] {
+    if (!ranks_.is_first()) return;
+    nodes.outline = outline_of(domain, context);
+    for (Output& output : outputs_) {
+      if (!output.is_picture()) continue;
+      give_up_if_interrupted();
+      output.file.write([&](io::Sink& sink) { output.format->picture->write(nodes, style_, sink); },
+                        give_up_if_interrupted);
+    }
+  });
 }
 
 void Outputs::write_report(const std::string& text) {
-  for (Output& output : outputs_) {
-    if (output.format) continue;
-    output.file.write([&](io::Sink& sink) { sink.text(text); }, give_up_if_interrupted);
+  ranks_.agreed([&] {
+    if (!ranks_.is_first()) return;
+    for (Output& output : outputs_) {
+      if (output.format) continue;
+      give_up_if_interrupted();
+      output.file.write([&](io::Sink& sink) { sink.text(text); }, give_up_if_interrupted);
+    }
+  });
+}
+
+void Outputs::write_nodes(pnpbs_placement placement, pnpbs_context context) {
+  std::vector<const char*> paths, formats;
+  std::vector<std::int32_t> elements;
+  for (const Output& output : outputs_) {
+    if (!output.is_nodes()) continue;
+    paths.push_back(output.file.path().c_str());
+    formats.push_back(output.format->name.c_str());
+    elements.push_back(elements_ && output.format->elements);
   }
+  pnpbs_placement_set_monitor(placement, stop_if_interrupted, nullptr);
+  const pnpbs_status status =
+      pnpbs_placement_write_files(placement, static_cast<std::int32_t>(paths.size()), paths.data(),
+                                  formats.data(), elements.data());
+  pnpbs_placement_set_monitor(placement, nullptr, nullptr);
+  if (status == PNPBS_STOPPED) throw Interrupted();
+  // By now it is no bad input.
+  if (status == PNPBS_ERROR_FILE) throw Failure(ExitCode::failed, pnpbs_last_error(context));
+  check(status, context);
+  publish();
 }
 
 void Outputs::publish() {
-  for (Output& output : outputs_) output.file.publish();
+  ranks_.agreed([&] {
+    for (Output& output : outputs_) output.file.publish();
+  });
 }
 
 bool Outputs::use_standard_output() const {

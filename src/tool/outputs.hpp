@@ -6,21 +6,25 @@
 #include <string>
 #include <vector>
 
-#include "io/formats.hpp"
 #include "io/output_file.hpp"
 #include "tool/arguments.hpp"
+#include "tool/file_format.hpp"
 #include "tool/library.hpp"
+#include "tool/ranks.hpp"
 
 namespace pnpbs::tool {
 
 class Outputs {
  public:
-  // Throws BadInput for unknown formats and for files that cannot be written.
-  explicit Outputs(const Arguments& arguments);
+  // Local: the first rank looks whether the files can be written. Throws BadInput for that and for
+  // unknown formats.
+  Outputs(const Arguments& arguments, const Ranks& ranks);
 
-  void write(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context);
+  // Collective, all of these; first pictures and the report, then the nodes. What was written
+  // appears when all of it is complete.
+  void write_pictures(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context);
   void write_report(const std::string& text);
-  void publish();
+  void write_nodes(pnpbs_placement placement, pnpbs_context context);
 
   bool use_standard_output() const;
   std::vector<std::string> files() const;  // without standard output
@@ -28,12 +32,17 @@ class Outputs {
  private:
   struct Output {
     io::OutputFile file;
-    const io::Format* format;  // nullptr: the report
+    const FileFormat* format;  // nullptr: the report
+    bool is_picture() const { return format && format->picture; }
+    bool is_nodes() const { return format && !format->picture; }
   };
-  void add(const std::string& path, const io::Format* format);
-  void check() const;
+  void add(const std::string& path, const FileFormat* format);
+  void check_writable() const;
+  void publish();
 
-  io::PictureStyle style_;
+  const Ranks& ranks_;
+  picture::PictureStyle style_;
+  bool elements_;
   std::vector<Output> outputs_;
 };
 

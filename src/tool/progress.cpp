@@ -48,7 +48,7 @@ std::string percent(double fraction) {
 
 }  // namespace
 
-Progress::Progress(bool wanted) : shown_(wanted && can_redraw_lines()) {}
+Progress::Progress(bool wanted, bool forced) : shown_(wanted && (forced || can_redraw_lines())) {}
 
 void Progress::watch(pnpbs_placement placement) {
   pnpbs_placement_set_monitor(placement, monitor, this);

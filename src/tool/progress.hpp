@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress bar on standard error, for terminals only.
+// The progress bar on standard error, for terminals unless it is asked for.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,8 @@ namespace pnpbs::tool {
 
 class Progress {
  public:
-  explicit Progress(bool wanted);
+  // forced: even where standard error is no terminal.
+  Progress(bool wanted, bool forced);
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

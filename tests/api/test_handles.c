@@ -101,7 +101,9 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_get_double, (handle, "d_error.mean", out.reals + 1))                                \
   X(placement_get_string, (handle, "hash", out.texts + 1))                                        \
   X(placement_warning_count, (handle, out.small + 2))                                             \
-  X(placement_get_warning, (handle, 0, out.texts + 1))
+  X(placement_get_warning, (handle, 0, out.texts + 1))                                            \
+  X(placement_write, (handle, "unwritten.csv", 0))                                                \
+  X(placement_write_files, (handle, 0, NULL, NULL, NULL))
 
 /* Each call as a function of something that may be no handle at all. */
 #define CALL_IT(Handle, name, arguments)            \

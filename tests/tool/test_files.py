@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the command writes, read back by other people's readers."""
 
-import csv
 import json
 import os
 import re
@@ -18,38 +17,7 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 from command import COMMAND, DATA, LAKE, SQUARE_AREA, CommandTest
-
-
-def read_with_vtk(path):
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    errors = []
-    reader.AddObserver("ErrorEvent", lambda *_: errors.append("error"))
-    reader.SetFileName(str(path))
-    reader.Update()
-    assert not errors, f"VTK does not like {path}"
-    return reader.GetOutput()
-
-
-def point_array(grid, name):
-    return vtk_to_numpy(grid.GetPointData().GetArray(name))
-
-
-def read_node(path):
-    """By Triangle's definition; # begins a comment. Returns points and markers."""
-    lines = [line.split("#")[0].split() for line in path.read_text().splitlines()]
-    lines = [line for line in lines if line]
-    count, dimension, attributes, markers = map(int, lines[0])
-    assert dimension == 2 and markers == 1 and len(lines) == 1 + count
-    assert [int(line[0]) for line in lines[1:]] == list(range(1, count + 1))
-    assert all(len(line) == 1 + dimension + attributes + markers for line in lines[1:])
-    points = numpy.array([[float(word) for word in line[1:3]] for line in lines[1:]])
-    return points, numpy.array([int(line[-1]) for line in lines[1:]])
-
-
-def read_csv(path):
-    with open(path, newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {name: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
+from readers import point_array, read_csv, read_ele, read_node, read_with_vtk
 
 
 def read_png(data):
@@ -78,10 +46,10 @@ class Agreement(CommandTest):
 
     def setUp(self):
         super().setUp()
-        names = ["a.vtu", "a.node", "a.csv", "a.svg", "a.png"]
+        names = ["a.vtu", "a.pvtu", "a.msh", "a.node", "a.ele", "a.csv", "a.svg", "a.png"]
         outputs = [word for name in names for word in ("--output", name)]
         self.place(*outputs, "--report", "a.json", spacing="0.05 + 0.05*x")
-        self.assertEqual(self.files(), sorted([*names, "a.json", "square.poly"]))
+        self.assertEqual(self.files(), sorted([*names, "a_0.vtu", "a.json", "square.poly"]))
         self.report = json.loads((self.folder / "a.json").read_text())
         self.grid = read_with_vtk(self.folder / "a.vtu")
 
@@ -89,7 +57,10 @@ class Agreement(CommandTest):
         # One test, because one run serves them all.
         self.check_vtu()
         self.check_meshio()
+        self.check_pieces()
+        self.check_msh()
         self.check_node()
+        self.check_ele()
         self.check_csv()
         self.check_svg()
         self.check_png()
@@ -127,6 +98,37 @@ class Agreement(CommandTest):
         self.assertEqual([block.type for block in mesh.cells], ["triangle"])
         self.assertEqual(len(mesh.cells[0].data), self.grid.GetNumberOfCells())
         numpy.testing.assert_array_equal(mesh.point_data["id"], point_array(self.grid, "id"))
+
+    def check_pieces(self):
+        whole = read_with_vtk(self.folder / "a.pvtu", vtk.vtkXMLPUnstructuredGridReader)
+        numpy.testing.assert_array_equal(
+            vtk_to_numpy(whole.GetPoints().GetData()), vtk_to_numpy(self.grid.GetPoints().GetData())
+        )
+        for name in ("id", "tag", "spacing"):
+            numpy.testing.assert_array_equal(point_array(whole, name), point_array(self.grid, name))
+        self.assertFalse(point_array(whole, "vtkGhostType").any())
+        self.assertEqual(whole.GetNumberOfCells(), self.grid.GetNumberOfCells())
+
+    def check_msh(self):
+        mesh = meshio.read(self.folder / "a.msh")
+        points = vtk_to_numpy(self.grid.GetPoints().GetData())
+        numpy.testing.assert_array_equal(mesh.points, points)
+        lines, triangles = mesh.cells
+        self.assertEqual((lines.type, triangles.type), ("line", "triangle"))
+        numpy.testing.assert_array_equal(triangles.data, self.corners())
+        # The outer square has tag 1, the inner one 2; edges go from node to node on them.
+        tags = mesh.cell_data["gmsh:physical"][0]
+        self.assertEqual(len(tags), self.report["boundary_nodes"])
+        self.assertEqual(set(tags), {1, 2})
+        lengths = numpy.linalg.norm(points[lines.data[:, 1]] - points[lines.data[:, 0]], axis=1)
+        self.assertAlmostEqual(lengths[tags == 1].sum(), 4.0, places=9)
+        self.assertAlmostEqual(lengths[tags == 2].sum(), 0.8, places=9)
+
+    def corners(self):
+        return vtk_to_numpy(self.grid.GetCells().GetConnectivityArray()).reshape(-1, 3)
+
+    def check_ele(self):
+        numpy.testing.assert_array_equal(read_ele(self.folder / "a.ele"), self.corners())
 
     def check_node(self):
         points, markers = read_node(self.folder / "a.node")
@@ -209,7 +211,7 @@ class StandardStreams(CommandTest):
         self.assertEqual(out, (self.folder / "a.csv").read_bytes())
 
     def test_each_format_to_standard_output(self):
-        for name in ("vtu", "node", "csv", "svg", "png"):
+        for name in ("vtu", "msh", "node", "ele", "csv", "svg", "png"):
             with self.subTest(name):
                 self.place("--output", "a." + name)
                 out, err = self.place("--output", "-", "--format", name)
@@ -247,6 +249,24 @@ class StandardStreams(CommandTest):
         script = f"'{COMMAND}' --domain square.poly --spacing 0.1 -o a.csv -q >&- 2>&-"
         self.assertEqual(subprocess.run(script, shell=True, cwd=self.folder).returncode, 0)
         self.assertEqual(len(read_csv(self.folder / "a.csv")), 5)
+
+
+class NodesOnly(CommandTest):
+    def test_no_triangles(self):
+        self.place("-o", "a.vtu", "-o", "a.msh", "--nodes-only")
+        grid = read_with_vtk(self.folder / "a.vtu")
+        nodes = grid.GetNumberOfPoints()
+        corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+        numpy.testing.assert_array_equal(corners, numpy.arange(nodes))
+        mesh = meshio.read(self.folder / "a.msh")
+        numpy.testing.assert_array_equal(mesh.points, vtk_to_numpy(grid.GetPoints().GetData()))
+        self.assertEqual([block.type for block in mesh.cells], ["vertex"])
+        numpy.testing.assert_array_equal(mesh.cell_data["gmsh:physical"][0],
+                                         point_array(grid, "tag"))
+
+    def test_pieces_are_no_stream(self):
+        self.assertIn("pvtu", self.refuse("--domain", self.square, "--spacing", "0.1", "-o", "-",
+                                          "--format", "pvtu"))
 
 
 class Replacing(CommandTest):

@@ -4,10 +4,10 @@
 
 #include <cairo.h>
 
-#include "io/formats.hpp"
-#include "io/node_set.hpp"
+#include "picture/formats.hpp"
+#include "picture/node_set.hpp"
 
-namespace pnpbs::io {
+namespace pnpbs::picture {
 
 // Where the domain lies in the picture, and how large things are. Lengths in pixels, except
 // where they belong to the domain.
@@ -34,4 +34,4 @@ PictureFrame frame_for(const NodeSet& nodes);
 void draw_picture(cairo_t* cairo, const NodeSet& nodes, const PictureFrame& frame,
                   const PictureStyle& style);
 
-}  // namespace pnpbs::io
+}  // namespace pnpbs::picture

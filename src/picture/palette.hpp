@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace pnpbs::io {
+namespace pnpbs::picture {
 
 struct Colour {
   double red, green, blue;
@@ -36,4 +36,4 @@ inline Colour spacing_colour(double fraction) {
           mix(stops[below].blue, stops[below + 1].blue)};
 }
 
-}  // namespace pnpbs::io
+}  // namespace pnpbs::picture

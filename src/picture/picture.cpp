@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of the nodes for people: discs sized by d on the curves of the domain, and below
 // them a scale bar and what the colours mean.
-#include "io/picture.hpp"
+#include "picture/picture.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <string>
 
-#include "io/palette.hpp"
+#include "picture/palette.hpp"
 
-namespace pnpbs::io {
+namespace pnpbs::picture {
 namespace {
 
 constexpr int spacing_classes = 48;        // discs of one class share colour and size
@@ -331,4 +331,4 @@ void draw_picture(cairo_t* cairo, const NodeSet& nodes, const PictureFrame& fram
   painter.legend();
 }
 
-}  // namespace pnpbs::io
+}  // namespace pnpbs::picture

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/cairo_surface.hpp"
-#include "io/picture.hpp"
+#include "picture/cairo_surface.hpp"
+#include "picture/picture.hpp"
 
-namespace pnpbs::io {
+namespace pnpbs::picture {
 
-void write_png(const NodeSet& nodes, const PictureStyle& style, Sink& sink) {
+void write_png(const NodeSet& nodes, const PictureStyle& style, io::Sink& sink) {
   const PictureFrame frame = frame_for(nodes);
   CairoStream stream(sink);
   const Surface surface(
@@ -17,4 +17,4 @@ void write_png(const NodeSet& nodes, const PictureStyle& style, Sink& sink) {
   stream.check(cairo_surface_write_to_png_stream(surface.get(), CairoStream::write, &stream));
 }
 
-}  // namespace pnpbs::io
+}  // namespace pnpbs::picture

@@ -12,11 +12,11 @@
 
 #include "io/sink.hpp"
 
-namespace pnpbs::io {
+namespace pnpbs::picture {
 
 class CairoStream {
  public:
-  explicit CairoStream(Sink& sink) : sink_(sink) {}
+  explicit CairoStream(io::Sink& sink) : sink_(sink) {}
 
   static cairo_status_t write(void* self, const unsigned char* data, unsigned int length) {
     auto* stream = static_cast<CairoStream*>(self);
@@ -38,11 +38,11 @@ class CairoStream {
   }
 
  private:
-  Sink& sink_;
+  io::Sink& sink_;
   std::exception_ptr failure_;
 };
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
-}  // namespace pnpbs::io
+}  // namespace pnpbs::picture

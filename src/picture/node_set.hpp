@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the writers write.
+// What the pictures show.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-namespace pnpbs::io {
+namespace pnpbs::picture {
 
 struct NodeSet {
   std::vector<double> xy;               // [nodes][2]
@@ -19,4 +19,4 @@ struct NodeSet {
   std::size_t triangle_count() const { return triangles.size() / 3; }
 };
 
-}  // namespace pnpbs::io
+}  // namespace pnpbs::picture

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "io/picture.hpp"
+#include "picture/picture.hpp"
 
-namespace pnpbs::io {
+namespace pnpbs::picture {
 namespace {
 
 constexpr double wanted_spacing = 14;  // pixels between typical nodes, if there is room
@@ -61,4 +61,4 @@ PictureFrame frame_for(const NodeSet& nodes) {
   return frame;
 }
 
-}  // namespace pnpbs::io
+}  // namespace pnpbs::picture

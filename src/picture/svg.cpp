@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cairo-svg.h>
 
-#include "io/cairo_surface.hpp"
-#include "io/picture.hpp"
+#include "picture/cairo_surface.hpp"
+#include "picture/picture.hpp"
 
-namespace pnpbs::io {
+namespace pnpbs::picture {
 
-void write_svg(const NodeSet& nodes, const PictureStyle& style, Sink& sink) {
+void write_svg(const NodeSet& nodes, const PictureStyle& style, io::Sink& sink) {
   const PictureFrame frame = frame_for(nodes);
   CairoStream stream(sink);
   const Surface surface(
@@ -22,4 +22,4 @@ void write_svg(const NodeSet& nodes, const PictureStyle& style, Sink& sink) {
   stream.check(cairo_surface_status(surface.get()));
 }
 
-}  // namespace pnpbs::io
+}  // namespace pnpbs::picture

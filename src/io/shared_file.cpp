@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/shared_file.hpp"
+
+#include <unistd.h>
+
+#include "parallel/rank_span.hpp"
+
+namespace pnpbs::io {
+
+namespace {
+
+constexpr std::size_t kPartSize = std::size_t{1} << 20;  // bytes written or sent at a time
+
+}  // namespace
+
+SharedFile::SharedFile(std::shared_ptr<const Communicator> comm, const std::string& path,
+                       std::function<void()> before_write)
+    : comm_(std::move(comm)), before_write_(std::move(before_write)), output_(path) {
+  open();
+}
+
+SharedFile::~SharedFile() {
+  if (stream_ >= 0) ::close(stream_);
+}
+
+// Rank 0 makes the file and tells the others where it is; nowhere: it is a stream.
+void SharedFile::open() {
+  Bytes aside;
+  agreed(*comm_, [&] {
+    if (before_write_) before_write_();
+    if (!is_first()) return;
+    output_.check();
+    const int descriptor = output_.open();
+    if (output_.written_aside()) {
+      output_.close(descriptor);
+      const std::string name = output_.name_aside();
+      aside.assign(name.begin(), name.end());
+    } else {
+      stream_ = descriptor;
+    }
+  });
+  comm_->broadcast(aside, 0);
+  if (!aside.empty())
+    file_ = comm_->open_file(std::string(aside.begin(), aside.end()), output_.quoted());
+}
+
+void SharedFile::append(const std::function<void(Sink&)>& write) {
+  if (file_)
+    append_at_places(write);
+  else
+    append_in_turn(write);
+}
+
+void SharedFile::append_text(std::string_view text) {
+  append([&](Sink& sink) {
+    if (is_first()) sink.text(text);
+  });
+}
+
+void SharedFile::append_at_places(const std::function<void(Sink&)>& write) {
+  std::int64_t place = end_, size = 0;
+  if (comm_->size() > 1) {
+    agreed(*comm_, [&] {
+      Sink counter([&](std::span<const char> bytes) { size += std::ssize(bytes); });
+      write(counter);
+      counter.flush();
+    });
+    const RankSpan span = span_of(*comm_, static_cast<std::size_t>(size));
+    place += span.first;
+    end_ += span.total;
+  }
+  agreed(*comm_, [&] {
+    Sink sink(
+        [&](std::span<const char> bytes) {
+          if (before_write_) before_write_();
+          file_->write_at(place, bytes);
+          place += std::ssize(bytes);
+        },
+        kPartSize);
+    write(sink);
+    sink.flush();
+  });
+  if (comm_->size() == 1) end_ = place;
+}
+
+// A rank's bytes go to rank 0 part by part; an empty one is the last. A rank that has failed still
+// keeps to this, so that nobody waits for ever.
+void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
+  std::exception_ptr failure;
+  const auto attempt = [&](const auto& work) {
+    try {
+      if (!failure) work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  if (is_first()) {
+    Sink sink(to_descriptor(stream_, output_.quoted(), before_write_));
+    attempt([&] {
+      write(sink);
+      sink.flush();
+    });
+    for (int rank = 1; rank < comm_->size(); ++rank) {
+      for (;;) {
+        const Bytes part = comm_->exchange({rank}, {Bytes()})[0];
+        if (part.empty()) break;
+        attempt([&] {
+          sink.bytes(part.data(), part.size());
+          sink.flush();
+        });
+      }
+    }
+  } else {
+    Sink sink(
+        [&](std::span<const char> bytes) {
+          comm_->exchange({0}, {Bytes(bytes.begin(), bytes.end())});
+        },
+        kPartSize);
+    attempt([&] {
+      write(sink);
+      sink.flush();
+    });
+    comm_->exchange({0}, {Bytes()});
+  }
+  agree_on_failure(*comm_, failure);
+}
+
+void SharedFile::close() {
+  agreed(*comm_, [&] {
+    if (stream_ < 0) return;
+    const int descriptor = stream_;
+    stream_ = -1;
+    output_.close(descriptor);
+  });
+  if (!file_) return;
+  std::exception_ptr failure;
+  try {
+    file_->close();
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  agree_on_failure(*comm_, failure);
+}
+
+void SharedFile::publish() {
+  agreed(*comm_, [&] {
+    if (is_first()) output_.publish();
+  });
+}
+
+}  // namespace pnpbs::io

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A file that all ranks write together, one part behind the other, none of them holding it all.
+// It appears under its name only when it is complete.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "io/output_file.hpp"
+#include "parallel/communicator.hpp"
+
+namespace pnpbs::io {
+
+// All members are collective; what fails on one rank is thrown on all of them, and then nothing is
+// left of the file.
+class SharedFile {
+ public:
+  // path "-" is standard output of rank 0. before_write: see to_descriptor.
+  SharedFile(std::shared_ptr<const Communicator> comm, const std::string& path,
+             std::function<void()> before_write);
+  ~SharedFile();
+  SharedFile(const SharedFile&) = delete;
+  SharedFile& operator=(const SharedFile&) = delete;
+
+  // Every rank's bytes, those of rank 0 first. write fills its sink; it may be called twice, to
+  // measure and to write, and must not communicate.
+  void append(const std::function<void(Sink&)>& write);
+  // This text once.
+  void append_text(std::string_view text);
+  void close();
+  void publish();
+
+  bool is_first() const { return comm_->rank() == 0; }
+
+ private:
+  void open();
+  void append_at_places(const std::function<void(Sink&)>& write);
+  void append_in_turn(const std::function<void(Sink&)>& write);
+
+  std::shared_ptr<const Communicator> comm_;
+  std::function<void()> before_write_;
+  OutputFile output_;  // rank 0's
+  // A regular file is written by all ranks at once, each at its place; what is none, such as a
+  // pipe, by rank 0, to which the others send their bytes in turn.
+  std::unique_ptr<RankFile> file_;
+  int stream_ = -1;  // rank 0's
+  std::int64_t end_ = 0;
+};
+
+}  // namespace pnpbs::io

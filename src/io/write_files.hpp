@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several files of one placement, which appear together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/placement.hpp"
+#include "io/formats.hpp"
+
+namespace pnpbs::io {
+
+struct FileWish {
+  std::string path;
+  const Format* format;
+  bool elements;
+};
+
+// What is wanted of one file: in its format by name, or by extension if that is empty. Where the
+// elements are in a second file, that is another wish. Throws Error(PNPBS_ERROR_ARGUMENT).
+void add_wish(const std::string& path, const std::string& format, bool elements,
+              std::vector<FileWish>& wishes);
+
+// Names of the pieces of a .pvtu file.
+std::string piece_path(const std::string& path, int rank);
+
+// Collective; the monitor may stop it.
+void write_files(Placement& placement, const std::vector<FileWish>& wishes);
+
+}  // namespace pnpbs::io

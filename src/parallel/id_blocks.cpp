@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parallel/id_blocks.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "core/error.hpp"
+#include "parallel/all_to_all.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// For every wanted number, the least id that has at least so many smaller ones: by bisection, all
+// at once, so that no rank ever sees the others' ids.
+std::vector<std::int64_t> ids_at(const Communicator& comm, const std::vector<std::int64_t>& owned,
+                                 const std::vector<std::int64_t>& numbers) {
+  const double most = comm.largest(owned.empty() ? 0 : static_cast<double>(owned.back()));
+  // A double may have lost the last bits of a large id.
+  const std::int64_t bound = most < 0x1p62 ? static_cast<std::int64_t>(most * (1 + 0x1p-40)) + 2
+                                           : std::numeric_limits<std::int64_t>::max();
+  std::vector<std::int64_t> low(numbers.size(), 0), high(numbers.size(), bound);
+  while (low != high) {
+    std::vector<std::int64_t> middle(numbers.size()), below(numbers.size());
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      middle[k] = low[k] + (high[k] - low[k]) / 2;
+      below[k] = std::lower_bound(owned.begin(), owned.end(), middle[k]) - owned.begin();
+    }
+    comm.sum(below);
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      if (low[k] == high[k]) continue;
+      if (below[k] >= numbers[k])
+        high[k] = middle[k];
+      else
+        low[k] = middle[k] + 1;
+    }
+  }
+  return low;
+}
+
+}  // namespace
+
+IdBlocks::IdBlocks(const Communicator& comm, const std::vector<std::int64_t>& owned) : comm_(comm) {
+  const std::int64_t total = span_of(comm, owned.size()).total;
+  std::vector<std::int64_t> numbers;
+  // total * r / size, without a product that could overflow.
+  for (int r = 1; r < comm.size(); ++r)
+    numbers.push_back(total / comm.size() * r + total % comm.size() * r / comm.size());
+  if (comm.size() > 1) begin_ = ids_at(comm, owned, numbers);
+  ids_ = send_records(comm, owned, [this](std::int64_t id) { return rank_of(id); });
+  std::sort(ids_.begin(), ids_.end());
+  span_ = span_of(comm, ids_.size());
+}
+
+int IdBlocks::rank_of(std::int64_t id) const {
+  return static_cast<int>(std::upper_bound(begin_.begin(), begin_.end(), id) - begin_.begin());
+}
+
+std::int64_t IdBlocks::number_in_block(std::int64_t id) const {
+  const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+  if (found == ids_.end() || *found != id)
+    throw Error(PNPBS_ERROR_INTERNAL, "no rank owns the node with id " + std::to_string(id));
+  return span_.first + (found - ids_.begin());
+}
+
+// Most are in this rank's own block; the others are asked for.
+std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& ids) const {
+  const auto size = static_cast<std::size_t>(comm_.size());
+  std::vector<Bytes> questions(size), answers(size);
+  for (const std::int64_t id : ids)
+    if (rank_of(id) != comm_.rank()) pack(questions[static_cast<std::size_t>(rank_of(id))], id);
+  questions = exchange_with_all(comm_, std::move(questions));
+  agreed(comm_, [&] {
+    for (std::size_t r = 0; r < size; ++r)
+      for_records<std::int64_t>({questions[r]},
+                                [&](std::int64_t id) { pack(answers[r], number_in_block(id)); });
+  });
+  answers = exchange_with_all(comm_, std::move(answers));
+  std::vector<std::int64_t> numbers;
+  agreed(comm_, [&] {
+    std::vector<std::size_t> at(size);  // answers come in the order of the questions to each rank
+    for (const std::int64_t id : ids) {
+      const auto r = static_cast<std::size_t>(rank_of(id));
+      std::int64_t number;
+      if (rank_of(id) == comm_.rank()) {
+        number = number_in_block(id);
+      } else {
+        std::memcpy(&number, answers[r].data() + at[r], sizeof number);
+        at[r] += sizeof number;
+      }
+      numbers.push_back(number);
+    }
+  });
+  return numbers;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The processes that run this command together: one, or those that an MPI launcher has started.
+// What one of them finds wrong ends all of them, with one message.
+#pragma once
+
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "pnpbs/pnpbs.h"
+
+namespace pnpbs::tool {
+
+class Ranks {
+ public:
+  // Starts MPI if this process was launched by it. Throws Failure.
+  Ranks(int& argc, char**& argv);
+  ~Ranks();
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  int size() const { return size_; }
+  bool is_first() const { return rank_ == 0; }  // the one that talks
+  bool launched() const { return launched_; }
+
+  // All of these are collective.
+  void create_context(pnpbs_context* context) const;
+  bool any(bool mine) const;
+  // Does local work; if it throws on one rank, all throw the same Failure. It must not communicate.
+  void agreed(const std::function<void()>& work) const;
+  // The same on the first rank only, and its text for all.
+  std::string from_first(const std::function<std::string()>& work) const;
+  // All ranks' values on the first one, in the order of ranks; nothing on the others.
+  template <class Value>
+  std::vector<Value> gather(const std::vector<Value>& mine) const {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    if (size_ == 1) return mine;
+    const std::vector<int> counts = gathered_counts(mine.size());
+    std::size_t total = 0;
+    for (const int count : counts) total += static_cast<std::size_t>(count);
+    std::vector<Value> all(total);
+    gather_bytes(mine.data(), mine.size(), sizeof(Value), counts, all.data());
+    return all;
+  }
+
+  // Ends all ranks at once: for what one of them meets where the others do not expect it.
+  [[noreturn]] void abort(int code) const;
+
+ private:
+  std::vector<int> gathered_counts(std::size_t mine) const;  // on the first rank, else empty
+  void gather_bytes(const void* mine, std::size_t count, std::size_t size,
+                    const std::vector<int>& counts, void* all) const;
+  void agree_on_failure(std::exception_ptr failure) const;
+  void broadcast(std::string& text, int root) const;
+
+  bool launched_ = false;
+  int rank_ = 0, size_ = 1;
+};
+
+}  // namespace pnpbs::tool

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Files written by the library: every format, what is refused, and that nothing half-written is
+ * ever seen. Their contents are read by other people's readers in tests/tool.
+ */
+#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+#include <dirent.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "api_support.h"
+
+static char folder[] = PNPBS_TEST_WORK_DIR "/filesXXXXXX";
+
+static const char* in_folder(const char* name) {
+  static char paths[8][400];
+  static int next;
+  char* path = paths[next++ % 8];
+  snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+  return path;
+}
+
+static void make_folder(void) {
+  strcpy(folder + strlen(folder) - 6, "XXXXXX");
+  ck_assert_ptr_nonnull(mkdtemp(folder));
+}
+
+/* Removes what is there and returns the number of files. */
+static int empty_folder(void) {
+  DIR* open = opendir(folder);
+  const struct dirent* entry;
+  int files = 0;
+  while ((entry = readdir(open)) != NULL) {
+    if (entry->d_name[0] == '.' && strspn(entry->d_name, ".") == strlen(entry->d_name)) continue;
+    ck_assert_int_eq(unlink(in_folder(entry->d_name)), 0);
+    ++files;
+  }
+  closedir(open);
+  return files;
+}
+
+static void remove_folder(void) {
+  empty_folder();
+  rmdir(folder);
+}
+
+static long size_of(const char* name) {
+  struct stat status;
+  return stat(in_folder(name), &status) == 0 ? (long)status.st_size : -1;
+}
+
+static void write_old(const char* name) {
+  FILE* file = fopen(in_folder(name), "w");
+  fputs("old", file);
+  fclose(file);
+}
+
+static int is_old(const char* name) { return size_of(name) == 3; }
+
+static job placed_square(void) {
+  job it = square_job(1);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  return it;
+}
+
+START_TEST(every_format) {
+  job it = placed_square();
+  int32_t count = 0, k, elements = 0, binary = 0;
+  MUST(pnpbs_format_count(&count));
+  ck_assert_int_ge(count, 6);
+  for (k = 0; k < count; ++k) {
+    const char *name = NULL, *help = NULL;
+    char path[40];
+    MUST(pnpbs_format_info(k, &name, &help, &binary, &elements));
+    MUST(pnpbs_format_info(k, NULL, NULL, NULL, NULL));
+    ck_assert_int_gt((int)strlen(help), 10);
+    ck_assert_int_eq(binary, strcmp(name, "vtu") == 0);
+    snprintf(path, sizeof path, "a.%s", name);
+    MUST(pnpbs_placement_write(it.placement, in_folder(path), 0));
+    if (elements) {
+      const long without = size_of(path);
+      MUST(pnpbs_placement_write(it.placement, in_folder(path), 1));
+      if (strcmp(name, "pvtu") != 0) ck_assert_int_ne(size_of(path), without);
+    }
+    ck_assert_int_gt(size_of(path), 100);
+  }
+  ck_assert_int_gt(size_of("a_0.vtu"), size_of("a.pvtu"));
+  ck_assert_int_eq(empty_folder(), count + 1);
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_info(count, NULL, NULL, NULL, NULL), "index",
+            "0 ..");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_count(NULL), "count", "NULL");
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(triangle_s_elements_are_beside) {
+  job it = placed_square();
+  MUST(pnpbs_placement_write(it.placement, in_folder("a.node"), 0));
+  ck_assert_int_eq(empty_folder(), 1);
+  MUST(pnpbs_placement_write(it.placement, in_folder("a.node"), 1));
+  ck_assert_int_gt(size_of("a.ele"), 1000);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(several_with_formats_of_their_own) {
+  const char* paths[] = {in_folder("mesh"), in_folder("nodes.csv")};
+  const char* formats[] = {"MSH", NULL};
+  const int32_t elements[] = {1, 0};
+  job it = placed_square();
+  MUST(pnpbs_placement_write_files(it.placement, 2, paths, formats, elements));
+  ck_assert_int_gt(size_of("mesh"), size_of("nodes.csv"));
+  MUST(pnpbs_placement_write_files(it.placement, 0, NULL, NULL, NULL));
+  ck_assert_int_eq(empty_folder(), 2);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(refused) {
+  const char *nothing = NULL, *standard_output = "-", *pieces = "pvtu", *node = "node";
+  const int32_t yes = 1;
+  job it = placed_square();
+  const pnpbs_placement p = it.placement;
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(p, NULL, 0), "paths[0]", "NULL");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(p, "", 0), "name", "empty");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(p, in_folder("a"), 0), "'", "vtu");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(p, in_folder("a.xyz"), 0), "a.xyz", "vtu");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(p, in_folder("a.csv"), 1), "a.csv",
+            "elements");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(p, "-", 0), "-", "format");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_write_files(p, 1, &standard_output, &pieces, NULL), "pieces", "output");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write_files(p, 1, &standard_output, &node, &yes),
+            "second file", "ele");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write_files(p, 1, &nothing, NULL, NULL),
+            "paths[0]", "NULL");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write_files(p, 1, NULL, NULL, NULL), "paths",
+            "NULL");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write_files(p, -1, &node, NULL, NULL), "n = -1",
+            "negative");
+  MUST_FAIL(PNPBS_ERROR_FILE, pnpbs_placement_write(p, in_folder("nowhere/a.vtu"), 0),
+            "nowhere/a.vtu", "No such");
+  MUST_FAIL(PNPBS_ERROR_FILE,
+            pnpbs_placement_write_files(p, 1, &(const char*){folder}, &node, NULL), "files",
+            "directory");
+  MUST_BE(PNPBS_ERROR_HANDLE, pnpbs_placement_write(NULL, in_folder("a.vtu"), 0));
+  ck_assert_int_eq(empty_folder(), 0);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(without_nodes) {
+  job it = square_job(1);
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1), "nodes",
+            "run");
+  ck_assert_int_eq(empty_folder(), 0);
+  job_end(&it);
+}
+END_TEST
+
+/* The second file fails, so the first one does not appear either. */
+START_TEST(together_or_not_at_all) {
+  const char* paths[] = {in_folder("a.csv"), in_folder("a.pvtu"), "/dev/full"};
+  const char* formats[] = {"csv", "pvtu", "vtu"};
+  job it = placed_square();
+  write_old("a.csv");
+  MUST_FAIL(PNPBS_ERROR_FILE, pnpbs_placement_write_files(it.placement, 3, paths, formats, NULL),
+            "/dev/full", "space");
+  ck_assert(is_old("a.csv"));
+  ck_assert_int_eq(empty_folder(), 1);
+  job_end(&it);
+}
+END_TEST
+
+static int32_t stop(double fraction, int64_t step, int64_t nodes, double max_speed, void* user) {
+  (void)step, (void)max_speed;
+  *(int64_t*)user = fraction >= 0 && fraction <= 1 ? nodes : -1;
+  return 1;
+}
+
+START_TEST(stopped_by_the_monitor) {
+  int64_t told = 0, nodes;
+  job it = placed_square();
+  MUST(pnpbs_placement_count(it.placement, &nodes));
+  write_old("a.vtu");
+  MUST(pnpbs_placement_set_monitor(it.placement, stop, &told));
+  MUST_BE(PNPBS_STOPPED, pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1));
+  ck_assert_int_eq(told, nodes);
+  ck_assert(is_old("a.vtu"));
+  ck_assert_int_eq(empty_folder(), 1);
+  MUST(pnpbs_placement_set_monitor(it.placement, NULL, NULL));
+  MUST(pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1));
+  job_end(&it);
+}
+END_TEST
+
+static int32_t write_inside(double fraction, int64_t step, int64_t nodes, double max_speed,
+                            void* user) {
+  (void)fraction, (void)step, (void)nodes, (void)max_speed;
+  MUST_BE(PNPBS_ERROR_STATE, pnpbs_placement_write(*(pnpbs_placement*)user, "a.vtu", 0));
+  return 0;
+}
+
+START_TEST(not_from_inside_a_callback) {
+  job it = square_job(1);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
+  MUST(pnpbs_placement_set_monitor(it.placement, write_inside, &it.placement));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(nothing_unfinished_to_discard) {
+  job it = placed_square();
+  MUST(pnpbs_placement_write(it.placement, in_folder("a.csv"), 0));
+  MUST(pnpbs_discard_unfinished_files());
+  ck_assert_int_eq(empty_folder(), 1);
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("files");
+  TCase* tests = tcase_create("files");
+  tcase_add_checked_fixture(tests, make_folder, remove_folder);
+  tcase_add_test(tests, every_format);
+  tcase_add_test(tests, triangle_s_elements_are_beside);
+  tcase_add_test(tests, several_with_formats_of_their_own);
+  tcase_add_test(tests, refused);
+  tcase_add_test(tests, without_nodes);
+  tcase_add_test(tests, together_or_not_at_all);
+  tcase_add_test(tests, stopped_by_the_monitor);
+  tcase_add_test(tests, not_from_inside_a_callback);
+  tcase_add_test(tests, nothing_unfinished_to_discard);
+  suite_add_tcase(suite, tests);
+  return run_suite(suite);
+}

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Files over ranks, below the command: ids that are no even numbers, and what goes wrong on one
+ * rank or differs between ranks. Run on three ranks or more. */
+#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+#include <inttypes.h>
+#include <mpi.h>
+#include <pnpbs/pnpbs_mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static pnpbs_context context;
+static int rank, failures;
+
+static void expect(int condition, const char* what) {
+  if (condition) return;
+  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
+  ++failures;
+}
+
+/* All ranks must have got this status, and the message must have this part. */
+static void expect_on_all(pnpbs_status status, pnpbs_status wanted, const char* part) {
+  int least, most, mine = (int)status;
+  MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  expect(least == (int)wanted && most == (int)wanted, "another status was expected");
+  expect(strstr(pnpbs_last_error(context), part) != NULL, part);
+}
+
+static pnpbs_placement square_placement(void) {
+  const double corners[] = {0, 0, 1, 0, 1, 1, 0, 1};
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+  expect(pnpbs_domain_create(context, 2, &domain) == PNPBS_OK, "domain");
+  expect(pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, corners, NULL, 0) == PNPBS_OK,
+         "square");
+  expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
+  expect(pnpbs_placement_set_spacing_constant(placement, 0.1) == PNPBS_OK, "spacing");
+  pnpbs_domain_destroy(&domain);
+  return placement;
+}
+
+/* Nodes given on rank 1 only: most ids are small, a few as large as may be. */
+#define GIVEN 36
+static int64_t given_id(int64_t k) { return k % 9 == 8 ? (INT64_C(1) << 62) - k : k; }
+
+static void place_given(pnpbs_placement placement) {
+  double xy[2 * GIVEN];
+  int64_t ids[GIVEN], k;
+  for (k = 0; k < GIVEN; ++k) {
+    xy[2 * k] = 0.15 + 0.14 * (double)(k % 6);
+    xy[2 * k + 1] = 0.15 + 0.14 * (double)(k / 6);
+    ids[k] = given_id(k);
+  }
+  expect(pnpbs_placement_set_nodes(placement, rank == 1 ? GIVEN : 0, xy, ids) == PNPBS_OK, "given");
+  expect(pnpbs_placement_initialise(placement) == PNPBS_OK, "initialise");
+}
+
+/* Reads id,x,y,tag,spacing: ids increase, all given ones are there. Returns the nodes. */
+static int64_t check_ids(const char* path) {
+  FILE* file = fopen(path, "r");
+  char line[200];
+  int64_t id, before = -1, nodes = 0, found = 0, k;
+  if (!file || !fgets(line, sizeof line, file)) return -1;
+  while (fgets(line, sizeof line, file)) {
+    if (sscanf(line, "%" SCNd64 ",", &id) != 1 || id <= before) return -1;
+    for (k = 0; k < GIVEN; ++k) found += id == given_id(k);
+    before = id;
+    ++nodes;
+  }
+  fclose(file);
+  return found == GIVEN ? nodes : -1;
+}
+
+static void test_large_ids(void) {
+  pnpbs_placement placement = square_placement();
+  int64_t nodes = 0;
+  place_given(placement);
+  expect(pnpbs_placement_get_int64(placement, "nodes", &nodes) == PNPBS_OK, "nodes");
+  expect(pnpbs_placement_write(placement, "ids.csv", 0) == PNPBS_OK, "ids.csv");
+  if (rank == 0) expect(check_ids("ids.csv") == nodes, "ids in the file");
+  expect(pnpbs_placement_write(placement, "ids.node", 1) == PNPBS_OK, "ids.node");
+  pnpbs_placement_destroy(&placement);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank == 0)
+    expect(unlink("ids.csv") == 0 && unlink("ids.node") == 0 && unlink("ids.ele") == 0, "files");
+}
+
+static int32_t stop_on_rank_1(double fraction, int64_t step, int64_t nodes, double speed,
+                              void* user) {
+  (void)fraction, (void)step, (void)nodes, (void)speed, (void)user;
+  return rank == 1;
+}
+
+static void test_faults(void) {
+  pnpbs_placement placement = square_placement();
+  expect_on_all(pnpbs_placement_write(placement, "a.vtu", 1), PNPBS_ERROR_STATE, "run");
+  expect(pnpbs_placement_run(placement) >= 0, "run");
+  expect_on_all(pnpbs_placement_write(placement, "nowhere/a.vtu", 1), PNPBS_ERROR_FILE,
+                "nowhere/a.vtu");
+  expect_on_all(pnpbs_placement_write(placement, "nowhere/a.pvtu", 1), PNPBS_ERROR_FILE,
+                "nowhere/a_0.vtu");
+  expect_on_all(pnpbs_placement_write(placement, "/dev/full", 1), PNPBS_ERROR_ARGUMENT, "format");
+  /* What differs between ranks, or is wrong on one. */
+  expect_on_all(pnpbs_placement_write(placement, rank == 2 ? "b.vtu" : "a.vtu", 1),
+                PNPBS_ERROR_ARGUMENT, "rank 2");
+  expect_on_all(pnpbs_placement_write(placement, "a.vtu", rank == 1), PNPBS_ERROR_ARGUMENT,
+                "on all ranks");
+  expect_on_all(pnpbs_placement_write(placement, rank == 1 ? "a.xyz" : "a.vtu", 1),
+                PNPBS_ERROR_ARGUMENT, "rank 1");
+  expect_on_all(pnpbs_placement_write(placement, rank == 1 ? NULL : "a.vtu", 1),
+                PNPBS_ERROR_ARGUMENT, "rank 1");
+  /* A stop asked for on one rank stops all. */
+  expect(pnpbs_placement_set_monitor(placement, stop_on_rank_1, NULL) == PNPBS_OK, "monitor");
+  expect_on_all(pnpbs_placement_write(placement, "a.vtu", 1), PNPBS_STOPPED, "");
+  expect_on_all(pnpbs_placement_write(placement, "a.pvtu", 1), PNPBS_STOPPED, "");
+  expect(pnpbs_placement_set_monitor(placement, NULL, NULL) == PNPBS_OK, "monitor");
+  pnpbs_placement_destroy(&placement);
+}
+
+int main(int argc, char** argv) {
+  char folder[] = "/tmp/pnpbs-files-XXXXXX";
+  int all;
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
+  MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
+  expect(chdir(folder) == 0, "folder");
+  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  test_large_ids();
+  test_faults();
+  MPI_Barrier(MPI_COMM_WORLD);
+  /* Fails if there is anything left, under any name. */
+  if (rank == 0) expect(rmdir(folder) == 0, "something was left behind");
+  pnpbs_context_destroy(&context);
+  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  if (rank == 0) printf("%d failed\n", all);
+  MPI_Finalize();
+  return all != 0;
+}

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Under mpirun, what fails or is interrupted on one rank ends all of them and leaves no file."""
+
+import os
+import pathlib
+import signal
+import time
+import unittest
+
+from command import COMMAND, DONE, FAILED, INTERRUPTED, LAKE
+from ranks import RanksTest
+
+
+class Failing(RanksTest):
+    ASK = ("--domain", LAKE, "--spacing", "4", "--steps", "12", "--set", "sweeps=0")
+
+    def test_no_such_folder(self):
+        self.assertIn("nowhere", self.refuse_ranks(3, *self.ASK, "-o", "nowhere/a.vtu"))
+
+    def test_full_device(self):
+        message = self.refuse_ranks(3, *self.ASK, "-o", "a.vtu", "-o", "/dev/full", "--format",
+                                    "csv", code=FAILED)
+        self.assertIn("/dev/full", message)
+        self.assertIn("/dev/full", self.refuse_ranks(2, *self.ASK, "-o", "a.vtu", "--report",
+                                                     "/dev/full", code=FAILED))
+
+    def test_disk_full_for_one_rank(self):
+        (self.folder / "a.csv").write_text("old")
+        # In KiB. MPI must still be able to make its own files, which have 4 MiB; rank 1 writes the
+        # middle of 14 MB.
+        limited = ("bash", "-c", "test $OMPI_COMM_WORLD_RANK != 1 || ulimit -f 5000; "
+                   'exec "$0" "$@"', COMMAND)
+        message = self.refuse_ranks(3, "--domain", LAKE, "--spacing", "0.6", "--steps", "12",
+                                    "--set", "sweeps=0", "-o", "a.csv", "-o", "b.pvtu",
+                                    code=FAILED, command=limited)
+        self.assertIn("rank 1: cannot write 'a.csv'", message)
+        self.assertEqual((self.folder / "a.csv").read_text(), "old")
+
+
+def is_running(process):
+    """What has ended may still be listed until somebody takes notice."""
+    try:
+        status = pathlib.Path(f"/proc/{process}/stat").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    return status.rpartition(")")[2].split()[0] != "Z"
+
+
+def end_soon(processes, patience=10):
+    end = time.monotonic() + patience
+    while any(map(is_running, processes)) and time.monotonic() < end:
+        time.sleep(0.05)
+    return not any(map(is_running, processes))
+
+
+class Interrupting(RanksTest):
+    ASK = ("--domain", LAKE, "--spacing", "0.4 + 0*x", "--set", "steps=100000",
+           "--set", "tolerance_mean=1e-9", "-o", "a.vtu", "-o", "a.pvtu", "-o", "a.png")
+
+    def ranks_of(self, process, count):
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        for _ in range(100):
+            found = [int(child) for child in children.read_text().split()]
+            if len(found) >= count:
+                return found
+            time.sleep(0.05)
+        self.fail("mpirun starts no ranks")
+
+    def test_one_rank(self):
+        process = self.start_ranks(3, *self.ASK)
+        ranks = self.ranks_of(process, 3)
+        time.sleep(1.5)
+        os.kill(ranks[1], signal.SIGINT)
+        _, err = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, INTERRUPTED, err)
+        self.assertEqual(err.count(b"pnpbs: "), 1)
+        self.assertEqual(self.files(), ["square.poly"])
+
+    def test_mpirun(self):
+        process = self.start_ranks(2, *self.ASK)
+        ranks = self.ranks_of(process, 2)
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+        self.assertNotEqual(process.returncode, DONE)
+        self.assertEqual(self.files(), ["square.poly"])
+        self.assertTrue(end_soon(ranks))
+
+
+if __name__ == "__main__":
+    unittest.main()

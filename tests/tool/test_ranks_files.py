@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Under mpirun the command writes the same files as alone."""
+
+import json
+import unittest
+
+import numpy
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+from command import LAKE
+from ranks import RanksTest
+from readers import point_array, read_with_vtk
+
+SAME_BYTES = ("a.vtu", "a.msh", "a.node", "a.ele", "a.csv", "a.svg")
+
+
+def grid_by_ids(grid):
+    """Nodes and triangles of a grid as sets that know nothing of numbers in the file."""
+    ids = point_array(grid, "id")
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    own = numpy.ones(len(ids), bool)
+    if grid.GetPointData().HasArray("vtkGhostType"):
+        own = point_array(grid, "vtkGhostType") == 0
+    data = zip(ids, points[:, 0], points[:, 1], point_array(grid, "tag"),
+               point_array(grid, "spacing"), strict=True)
+    nodes = [row for row, kept in zip(data, own) if kept]
+    corners = ids[vtk_to_numpy(grid.GetCells().GetConnectivityArray())].reshape(-1, 3)
+    quality = vtk_to_numpy(grid.GetCellData().GetArray("quality"))
+    triangles = [(*row, q) for row, q in zip(corners.tolist(), quality.tolist(), strict=True)]
+    return sorted(nodes), sorted(triangles)
+
+
+class SameFiles(RanksTest):
+    def outputs(self):
+        names = (*SAME_BYTES, "a.pvtu")
+        return [*(word for name in names for word in ("-o", name)), "--report", "a.json"]
+
+    def check(self, spacing, all_ranks):
+        """Alone and on several ranks; returns the numbers of nodes in the pieces of the last."""
+        ask = ("--domain", self.square, "--spacing", spacing, *self.outputs())
+        _, warnings = self.run_command(*ask)
+        expected = {name: (self.folder / name).read_bytes() for name in SAME_BYTES}
+        report = json.loads((self.folder / "a.json").read_text())
+        grid = grid_by_ids(read_with_vtk(self.folder / "a.vtu"))
+        for ranks in all_ranks:
+            for name in self.files():
+                if name.startswith("a"):
+                    (self.folder / name).unlink()
+            out, err = self.run_ranks(ranks, *ask)
+            self.assertEqual((len(out.splitlines()), err), (4, warnings.decode()))
+            for name, content in expected.items():
+                self.assertEqual((self.folder / name).read_bytes(), content, f"{name}, {ranks}")
+            again = json.loads((self.folder / "a.json").read_text())
+            self.assertEqual((again["hash"], again["ranks"]), (report["hash"], ranks))
+            pieces = [f"a_{rank}.vtu" for rank in range(ranks)]
+            self.assertEqual(self.files(), sorted([*expected, "a.pvtu", "a.json", "square.poly",
+                                                   *pieces]))
+            whole = read_with_vtk(self.folder / "a.pvtu", vtk.vtkXMLPUnstructuredGridReader)
+            self.assertEqual(grid_by_ids(whole), grid)
+        return [read_with_vtk(self.folder / piece).GetNumberOfPoints() for piece in pieces]
+
+    def test_graded(self):
+        held = self.check("0.02 + 0.05*x", (1, 2, 3, 5))
+        nodes = json.loads((self.folder / "a.json").read_text())["nodes"]
+        self.assertLess(max(held), nodes / 2)  # nobody has them all
+
+    def test_ranks_without_nodes(self):
+        self.assertIn(0, self.check("0.5", (5,)))
+
+    def test_nodes_only(self):
+        names = ("a.vtu", "a.msh")
+        ask = ("--domain", self.square, "--spacing", "0.05", "--nodes-only", "-o", names[0],
+               "-o", names[1], "-o", "a.pvtu")
+        self.run_command(*ask)
+        expected = [(self.folder / name).read_bytes() for name in names]
+        self.run_ranks(3, *ask)
+        self.assertEqual([(self.folder / name).read_bytes() for name in names], expected)
+        whole = read_with_vtk(self.folder / "a.pvtu", vtk.vtkXMLPUnstructuredGridReader)
+        alone = read_with_vtk(self.folder / "a.vtu")
+        self.assertEqual(sorted(point_array(whole, "id")), list(point_array(alone, "id")))
+        self.assertEqual(whole.GetNumberOfCells(), alone.GetNumberOfPoints())
+
+    def test_standard_streams(self):
+        out, _ = self.run_command("--domain", LAKE, "--spacing", "6", "-o", "-", "--format", "vtu")
+        again, _ = self.run_ranks(3, "--domain", "-", "--spacing", "6", "-o", "-", "--format",
+                                  "vtu", stdin=LAKE.read_bytes())
+        self.assertEqual(again, out)
+
+    def test_report_to_standard_output(self):
+        out, _ = self.run_ranks(2, "--domain", self.square, "--spacing", "0.1", "--report", "-")
+        self.assertEqual(json.loads(out)["ranks"], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
