@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <vector>
 
@@ -65,8 +66,11 @@ class Level {
   bool lists_may_miss_a_pair() const;
   void rebuild_lists();
   void move();
-  // Owned nodes go to the ranks that own their leaves by now, and ghosts are renewed.
+  // Owned nodes go to the ranks that own their leaves by now, and ghosts are renewed. The first
+  // exchange of a row of steps is the one in which ranks agree; those between agreements take part
+  // whatever happens, and keep a failure for the next one.
   void exchange_for_steps() { exchange(step_hops()); }
+  void exchange_between_steps(std::exception_ptr& failure) { exchange(step_hops(), failure); }
   void exchange_for_stars();
   void finish_by_runge_kutta();
 
@@ -114,6 +118,9 @@ class Level {
   void keep_boundary_ids(const std::vector<GivenNode>& given);
   int step_hops() const;
   void exchange(int hops);
+  void exchange(int hops, std::exception_ptr& failure);
+  void pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing);
+  void append_arriving(const std::vector<Bytes>& incoming);
   void number_births(std::vector<Birth<2>> born);
   bool fits(const Point<2>& x, double d) const;
   bool has_no_room(std::int64_t i) const;

@@ -61,14 +61,49 @@ int Level::step_hops() const {
   return std::max(0, hops - static_cast<int>(settings_.halo_deficit));
 }
 
+// At an event, where ranks can agree: on the ghost layers before it, which a first use has to find,
+// and that it went well.
 void Level::exchange(int hops) {
+  if (!distributed()) {
+    ++version_;
+    return;
+  }
+  agreed(*comm_, [&] { distribution_.halo(hops); });
+  std::exception_ptr failure;
+  exchange(hops, failure);
+  agree_on_failure(*comm_, failure);
+}
+
+// Between agreements. A rank that has failed, before or here, has its messages come and go as
+// before, but empty: its neighbours must not wait.
+void Level::exchange(int hops, std::exception_ptr& failure) {
   ++version_;
   if (!distributed()) return;
   const PhaseTimer timer(timers_, Phase::exchange);
-  const BackgroundTree<2>& tree = map_.tree();
+  const auto attempt = [&](const auto& work) {
+    try {
+      if (!failure) work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
   const Halo& halo = distribution_.halo(hops);
+  std::vector<Bytes> outgoing(halo.neighbours().size()), incoming;
+  attempt([&] { pack_leaving(halo, outgoing); });
+  if (failure) outgoing.assign(outgoing.size(), {});
+  try {
+    incoming = comm_->exchange(halo.neighbours(), outgoing);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  attempt([&] { append_arriving(incoming); });
+  lists_valid_ = false;
+}
+
+// Packs what other ranks own by now or have as ghosts, and keeps what is ours or our ghost.
+void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
+  const BackgroundTree<2>& tree = map_.tree();
   const std::vector<int> place = places_of(halo.neighbours(), comm_->size());
-  std::vector<Bytes> outgoing(halo.neighbours().size());
   View<std::int32_t> stay = make_view<std::int32_t>("pnpbs::Level::stay", nodes_.count);
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
@@ -90,10 +125,12 @@ void Level::exchange(int hops) {
     nodes_.owned(i) = distribution_.owns(leaf);
   }
   nodes_.permute(stay, kept);
-  const std::vector<Bytes> incoming = comm_->exchange(halo.neighbours(), outgoing);
+}
+
+void Level::append_arriving(const std::vector<Bytes>& incoming) {
   std::size_t arriving = 0;
   for (const Bytes& bytes : incoming) arriving += bytes.size() / sizeof(PackedNode);
-  nodes_.reserve(kept + static_cast<std::int64_t>(arriving));
+  nodes_.reserve(nodes_.count + static_cast<std::int64_t>(arriving));
   for_records<PackedNode>(incoming, [&](const PackedNode& packed) {
     const Point<2> x{packed.x[0], packed.x[1]};
     nodes_.append(x, packed.d, packed.id, packed.tag, packed.boundary_node);
@@ -102,30 +139,16 @@ void Level::exchange(int hops) {
       nodes_.v[k](i) = packed.v[k];
       nodes_.anchor[k](i) = packed.anchor[k];
     }
-    nodes_.owned(i) = distribution_.owns(tree.leaf_at(x));
+    nodes_.owned(i) = distribution_.owns(map_.tree().leaf_at(x));
   });
-  lists_valid_ = false;
 }
 
 // Every node to the rank that owns its leaf, from wherever it is.
 void Level::scatter_to_owners(std::vector<GivenNode>& given) const {
   if (!distributed()) return;
-  std::vector<int> others;
-  for (int r = 0; r < comm_->size(); ++r)
-    if (r != comm_->rank()) others.push_back(r);
-  const std::vector<int> place = places_of(others, comm_->size());
-  std::vector<Bytes> outgoing(others.size());
-  std::vector<GivenNode> mine;
-  for (const GivenNode& node : given) {
-    const int owner = distribution_.owner(map_.tree().leaf_at(node.position));
-    if (owner == comm_->rank())
-      mine.push_back(node);
-    else
-      pack(outgoing[static_cast<std::size_t>(place[static_cast<std::size_t>(owner)])], node);
-  }
-  for_records<GivenNode>(comm_->exchange(others, outgoing),
-                         [&](const GivenNode& node) { mine.push_back(node); });
-  given = std::move(mine);
+  given = delivered<GivenNode>(*comm_, given, [this](const GivenNode& node) {
+    return distribution_.owner(map_.tree().leaf_at(node.position));
+  });
 }
 
 std::vector<GivenNode> Level::owned_nodes() const {

@@ -11,6 +11,7 @@
 #include "core/level.hpp"
 #include "core/options.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/exchange_pattern.hpp"
 
 namespace pnpbs {
 
@@ -57,6 +58,9 @@ class Placement {
   void prepare_stars();
   std::int64_t node_at(std::int64_t place) const { return by_id_[static_cast<std::size_t>(place)]; }
   std::int64_t place_of(std::int64_t node) const { return place_[static_cast<std::size_t>(node)]; }
+  // In places. Collective.
+  ExchangePattern exchange_pattern();
+  std::int64_t nodes_on_ranks_before() const;
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   // --- statistics ---
@@ -75,7 +79,11 @@ class Placement {
  private:
   void prepare_level();
   void make_level();
-  void require_same_on_all_ranks() const;
+  void require_same_options() const;
+  void require_same_domain() const;
+  void require_same_ground(const Level& level) const;
+  template <class Work>
+  auto while_moving(const Work& work);
   void begin_schedule();
   bool bubbles_rest() const;
   Outcome advance(std::int64_t until, double share);

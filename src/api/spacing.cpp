@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The spacing of a placement, set through the C interface.
+#include <cmath>
+
+#include "api/placement_calls.hpp"
+
+using namespace pnpbs;
+using namespace pnpbs::api;
+
+pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d) {
+  return collective(placement, [&](Placement& p) {
+    if (!std::isfinite(d) || d <= 0)
+      throw Error(PNPBS_ERROR_SPACING, "argument d = " + number_text(d) +
+                                           ": the spacing must be finite and greater than 0");
+    p.set_spacing(std::make_shared<ConstantSpacing<2>>(d));
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
+                                                  pnpbs_spacing_fn spacing, void* user) {
+  return collective(placement, [&](Placement& p) {
+    if (!spacing) throw Error(PNPBS_ERROR_ARGUMENT, "argument spacing is NULL");
+    p.set_spacing(std::make_shared<CallbackSpacing<2>>(
+        [spacing, user](std::int64_t n, const double* x, double* d) {
+          return spacing(n, 2, x, d, user);
+        }));
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const int64_t* size,
+                                              const double* origin, const double* step,
+                                              const double* values) {
+  return collective(placement, [&](Placement& p) {
+    require_pointer(size, "size");
+    require_pointer(origin, "origin");
+    require_pointer(step, "step");
+    require_pointer(values, "values");
+    constexpr std::int64_t kMost = std::int64_t{1} << 31;
+    for (int k = 0; k < 2; ++k) {
+      const std::string at = "[" + std::to_string(k) + "] = ";
+      if (size[k] < 1 || size[k] > kMost)
+        throw Error(PNPBS_ERROR_ARGUMENT,
+                    "argument size" + at + std::to_string(size[k]) + " must be in 1 .. 2^31");
+      if (!std::isfinite(origin[k]))
+        throw Error(PNPBS_ERROR_ARGUMENT,
+                    "argument origin" + at + number_text(origin[k]) + " must be finite");
+      if (!std::isfinite(step[k]) || step[k] <= 0)
+        throw Error(PNPBS_ERROR_ARGUMENT,
+                    "argument step" + at + number_text(step[k]) + " must be greater than 0");
+    }
+    const std::int64_t n = size[0] * size[1];
+    for (std::int64_t i = 0; i < n; ++i)
+      if (!std::isfinite(values[i]) || values[i] <= 0)
+        throw Error(PNPBS_ERROR_SPACING, "argument values[" + std::to_string(i / size[0]) + "][" +
+                                             std::to_string(i % size[0]) +
+                                             "] = " + number_text(values[i]) +
+                                             ": the spacing must be finite and greater than 0");
+    p.set_spacing(std::make_shared<GridSpacing<2>>(
+        std::array<std::int64_t, 2>{size[0], size[1]}, Point<2>{origin[0], origin[1]},
+        Point<2>{step[0], step[1]}, std::vector<double>(values, values + n)));
+    return PNPBS_OK;
+  });
+}
