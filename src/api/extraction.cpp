@@ -25,21 +25,6 @@ std::int64_t star_entries(const Placement& placement) {
              [&](std::int64_t i) { return level.nodes().owned(i) ? level.stars().size(i) : 0; }));
 }
 
-// Calls visit(place of i, place of j, place of k) for every triangle once, over all ranks: at the
-// owner of its node with the least id.
-template <class Visit>
-void for_triangles(const Placement& placement, const Visit& visit) {
-  const Level& level = placement.level();
-  const View<std::int64_t> id = level.nodes().id;
-  const std::int64_t owned = placement.count();
-  for (std::int64_t p = 0; p < owned; ++p) {
-    const std::int64_t i = placement.node_at(p);
-    level.stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-      if (id(i) < id(j) && id(i) < id(k)) visit(p, placement.place_of(j), placement.place_of(k));
-    });
-  }
-}
-
 // Copies nodes with places first .. first + n - 1 out; arrays may be NULL.
 void copy_nodes(const Placement& p, std::int64_t first, std::int64_t n, double* xy,
                 std::int64_t* ids, std::int32_t* tags, double* spacing) {
@@ -164,11 +149,11 @@ pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t ca
     require_pointer(count, "count");
     p.prepare_stars();
     *count = 0;
-    for_triangles(p, [&](std::int64_t, std::int64_t, std::int64_t) { ++*count; });
+    p.for_triangles([&](std::int64_t, std::int64_t, std::int64_t) { ++*count; });
     if (capacity == 0 && !triangles) return PNPBS_OK;
     require_capacity(capacity, *count);
     std::int64_t at = 0;
-    for_triangles(p, [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    p.for_triangles([&](std::int64_t a, std::int64_t b, std::int64_t c) {
       if (!triangles) return;
       triangles[at++] = a;
       triangles[at++] = b;

@@ -63,3 +63,23 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
     return PNPBS_OK;
   });
 }
+
+pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
+                                                  const double* d) {
+  return collective(placement, [&](Placement& p) {
+    p.prepare_order();
+    if (n != p.count())
+      throw Error(PNPBS_ERROR_ARGUMENT, "argument n = " + std::to_string(n) + "; this rank has " +
+                                            std::to_string(p.count()) +
+                                            " nodes, and every one has its value");
+    if (n > 0) require_pointer(d, "d");
+    for (std::int64_t i = 0; i < n; ++i)
+      if (!std::isfinite(d[i]) || d[i] <= 0)
+        throw Error(PNPBS_ERROR_SPACING, "argument d[" + std::to_string(i) +
+                                             "] = " + number_text(d[i]) + " at node " +
+                                             std::to_string(p.level().nodes().id(p.node_at(i))) +
+                                             ": the spacing must be finite and greater than 0");
+    p.set_spacing(p.spacing_from(std::vector<double>(d, d + n)));
+    return PNPBS_OK;
+  });
+}

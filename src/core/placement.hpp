@@ -61,6 +61,12 @@ class Placement {
   // In places. Collective.
   ExchangePattern exchange_pattern();
   std::int64_t nodes_on_ranks_before() const;
+  // Calls visit(place of i, place of j, place of k) for every triangle once, over all ranks: at the
+  // owner of its node with the least id. After prepare_stars.
+  template <class Visit>
+  void for_triangles(const Visit& visit) const;
+  // d by its values at this rank's nodes, in places. Collective.
+  std::shared_ptr<const Spacing<2>> spacing_from(std::vector<double> values);
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   // --- statistics ---
@@ -118,5 +124,17 @@ class Placement {
   std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1;
   std::vector<std::int32_t> by_id_, place_;
 };
+
+template <class Visit>
+void Placement::for_triangles(const Visit& visit) const {
+  const View<std::int64_t> id = level_->nodes().id;
+  const std::int64_t owned = count();
+  for (std::int64_t p = 0; p < owned; ++p) {
+    const std::int64_t i = node_at(p);
+    level_->stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+      if (id(i) < id(j) && id(i) < id(k)) visit(p, place_of(j), place_of(k));
+    });
+  }
+}
 
 }  // namespace pnpbs
