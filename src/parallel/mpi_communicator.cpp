@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ranks of an MPI communicator.
 #include <algorithm>
+#include <memory>
+#include <new>
 #include <string>
 
 #include "core/build_config.hpp"
@@ -60,8 +62,8 @@ class MpiCommunicator : public Communicator {
   int size() const override { return size_; }
   int ranks_on_node() const override { return ranks_on_node_; }
 
-  // Sizes first, then the messages; all non-blocking. One that finds no room is cut off: its sender
-  // must not wait for ever.
+  // Sizes first, then the messages, in pieces of limited size: those of a message that finds no
+  // room here are received one by one and dropped, because its sender must not wait for ever.
   std::vector<Bytes> exchange(const std::vector<int>& neighbours,
                               const std::vector<Bytes>& outgoing) const override {
     const std::size_t n = neighbours.size();
@@ -72,24 +74,33 @@ class MpiCommunicator : public Communicator {
       MPI_Irecv(&sizes_in[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_, &requests[k]);
       MPI_Isend(&sizes_out[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_, &requests[n + k]);
     }
-    check(MPI_Waitall(static_cast<int>(2 * n), requests.data(), MPI_STATUSES_IGNORE),
-          "MPI_Waitall");
+    wait_for(requests);
+    requests.clear();
     std::vector<Bytes> incoming(n);
-    std::exception_ptr failure;
+    std::vector<std::size_t> dropped;
     for (std::size_t k = 0; k < n; ++k) {
       try {
         incoming[k].resize(sizes_in[k]);
-      } catch (...) {
-        failure = std::current_exception();
+        for_pieces(sizes_in[k], [&](std::uint64_t at, int length) {
+          MPI_Irecv(incoming[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
+                    &requests.emplace_back());
+        });
+      } catch (const std::bad_alloc&) {
+        dropped.push_back(k);
       }
-      MPI_Irecv(incoming[k].data(), count(incoming[k].size()), MPI_BYTE, neighbours[k], kDataTag,
-                comm_, &requests[k]);
-      MPI_Isend(outgoing[k].data(), count(sizes_out[k]), MPI_BYTE, neighbours[k], kDataTag, comm_,
-                &requests[n + k]);
     }
-    const int code = MPI_Waitall(static_cast<int>(2 * n), requests.data(), MPI_STATUSES_IGNORE);
-    if (failure) std::rethrow_exception(failure);
-    check(code, "MPI_Waitall");
+    for (std::size_t k = 0; k < n; ++k)
+      for_pieces(sizes_out[k], [&](std::uint64_t at, int length) {
+        MPI_Isend(outgoing[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
+                  &requests.emplace_back());
+      });
+    for (const std::size_t k : dropped)
+      for_pieces(sizes_in[k], [&](std::uint64_t, int length) {
+        MPI_Recv(dropped_.get(), length, MPI_BYTE, neighbours[k], kDataTag, comm_,
+                 MPI_STATUS_IGNORE);
+      });
+    wait_for(requests);
+    if (!dropped.empty()) throw std::bad_alloc();
     return incoming;
   }
 
@@ -144,12 +155,24 @@ class MpiCommunicator : public Communicator {
       if (parcel.rank != rank_ && !parcel.bytes.empty())
         MPI_Isend(parcel.bytes.data(), count(parcel.bytes.size()), MPI_BYTE, parcel.rank,
                   kParcelTag, comm_, &requests.emplace_back());
-    check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE),
-          "MPI_Waitall");
+    wait_for(requests);
   }
 
  private:
   static constexpr int kSizeTag = 1, kDataTag = 2, kParcelTag = 3;
+
+  static constexpr int kPiece = 1 << 18;
+
+  // Calls visit(offset, length) for the pieces of a message.
+  template <class Visit>
+  static void for_pieces(std::uint64_t size, const Visit& visit) {
+    for (std::uint64_t at = 0; at < size; at += kPiece)
+      visit(at, static_cast<int>(std::min<std::uint64_t>(kPiece, size - at)));
+  }
+
+  static void wait_for(std::vector<MPI_Request>& requests) {
+    check(MPI_Waitall(count(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+  }
 
   static void combine(void* in, void* in_out, int* length, MPI_Datatype*) {
     const auto* from = static_cast<const Reduction*>(in);
@@ -165,6 +188,7 @@ class MpiCommunicator : public Communicator {
   MPI_Datatype reduction_ = MPI_DATATYPE_NULL;
   MPI_Op combining_ = MPI_OP_NULL;
   int rank_ = 0, size_ = 1, ranks_on_node_ = 1;
+  std::unique_ptr<char[]> dropped_ = std::make_unique<char[]>(kPiece);
 };
 
 }  // namespace
