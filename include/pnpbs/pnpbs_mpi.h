@@ -15,9 +15,13 @@
  *  Errors as pnpbs_context_create_checked_f, which compares your MPI with ours. */
 static inline pnpbs_status pnpbs_context_create_mpi(MPI_Comm comm, pnpbs_context *context) {
   char library[MPI_MAX_LIBRARY_VERSION_STRING] = "";
-  int length = 0;
-  MPI_Get_library_version(library, &length); /* allowed before MPI_Init and after MPI_Finalize */
-  return pnpbs_context_create_checked_f((int32_t)MPI_Comm_c2f(comm), library, context);
+  int length = 0, initialized = 0, finalized = 0;
+  int32_t handle = 0; /* looked at only while MPI runs; MPI_Comm_c2f would abort otherwise */
+  MPI_Get_library_version(library, &length); /* as the next two, allowed at any time */
+  MPI_Initialized(&initialized);
+  MPI_Finalized(&finalized);
+  if (initialized && !finalized) handle = (int32_t)MPI_Comm_c2f(comm);
+  return pnpbs_context_create_checked_f(handle, library, context);
 }
 
 #endif
