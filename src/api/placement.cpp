@@ -107,32 +107,42 @@ pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monito
   });
 }
 
+namespace {
+
+std::vector<GivenNode> checked_nodes(std::int64_t n, const double* xy, const std::int64_t* ids) {
+  require_count(n, "n");
+  if (n > 0) require_pointer(xy, "xy");
+  constexpr std::int64_t kLargestId = std::int64_t{1} << 62;  // leaves numbers for new nodes
+  std::vector<GivenNode> nodes;
+  for (std::int64_t i = 0; i < n; ++i) {
+    if (!std::isfinite(xy[2 * i]) || !std::isfinite(xy[2 * i + 1]))
+      throw Error(PNPBS_ERROR_ARGUMENT, "argument xy[" + std::to_string(i) + "] = (" +
+                                            number_text(xy[2 * i]) + ", " +
+                                            number_text(xy[2 * i + 1]) + ") must be finite");
+    if (ids && (ids[i] < 0 || ids[i] > kLargestId))
+      throw Error(PNPBS_ERROR_ARGUMENT, "argument ids[" + std::to_string(i) + "] = " +
+                                            std::to_string(ids[i]) + " must be in 0 .. 2^62");
+    nodes.push_back({{xy[2 * i], xy[2 * i + 1]}, ids ? ids[i] : -1});
+  }
+  if (ids) {
+    std::vector<std::int64_t> sorted(ids, ids + n);
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end())
+      throw Error(PNPBS_ERROR_ARGUMENT,
+                  "argument ids: id " + std::to_string(*twice) + " comes twice");
+  }
+  return nodes;
+}
+
+}  // namespace
+
 pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n, const double* xy,
                                        const int64_t* ids) {
-  return collective(placement, [&](Placement& p) {
-    require_count(n, "n");
-    if (n > 0) require_pointer(xy, "xy");
-    constexpr std::int64_t kLargestId = std::int64_t{1} << 62;  // leaves numbers for new nodes
+  return local_change(placement, [&](Placement& p) {
     std::vector<GivenNode> nodes;
-    for (std::int64_t i = 0; i < n; ++i) {
-      if (!std::isfinite(xy[2 * i]) || !std::isfinite(xy[2 * i + 1]))
-        throw Error(PNPBS_ERROR_ARGUMENT, "argument xy[" + std::to_string(i) + "] = (" +
-                                              number_text(xy[2 * i]) + ", " +
-                                              number_text(xy[2 * i + 1]) + ") must be finite");
-      if (ids && (ids[i] < 0 || ids[i] > kLargestId))
-        throw Error(PNPBS_ERROR_ARGUMENT, "argument ids[" + std::to_string(i) + "] = " +
-                                              std::to_string(ids[i]) + " must be in 0 .. 2^62");
-      nodes.push_back({{xy[2 * i], xy[2 * i + 1]}, ids ? ids[i] : -1});
-    }
-    if (ids) {
-      std::vector<std::int64_t> sorted(ids, ids + n);
-      std::sort(sorted.begin(), sorted.end());
-      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-      if (twice != sorted.end())
-        throw Error(PNPBS_ERROR_ARGUMENT,
-                    "argument ids: id " + std::to_string(*twice) + " comes twice");
-    }
-    p.set_nodes(std::move(nodes));
+    agreed(p.communicator(), [&] { nodes = checked_nodes(n, xy, ids); });
+    p.set_nodes(std::move(nodes));  // on all ranks or none
     return PNPBS_OK;
   });
 }

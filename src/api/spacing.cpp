@@ -7,32 +7,45 @@
 using namespace pnpbs;
 using namespace pnpbs::api;
 
+namespace {
+
+// Collective: make(p) is the spacing, which is replaced only if all ranks could make theirs.
+template <class Make>
+pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
+  return local_change(placement, [&](Placement& p) {
+    std::shared_ptr<const Spacing<2>> spacing;
+    agreed(p.communicator(), [&] { spacing = make(p); });
+    p.set_spacing(std::move(spacing));
+    return PNPBS_OK;
+  });
+}
+
+}  // namespace
+
 pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d) {
-  return collective(placement, [&](Placement& p) {
+  return replace_spacing(placement, [&](Placement&) {
     if (!std::isfinite(d) || d <= 0)
       throw Error(PNPBS_ERROR_SPACING, "argument d = " + number_text(d) +
                                            ": the spacing must be finite and greater than 0");
-    p.set_spacing(std::make_shared<ConstantSpacing<2>>(d));
-    return PNPBS_OK;
+    return std::make_shared<ConstantSpacing<2>>(d);
   });
 }
 
 pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
                                                   pnpbs_spacing_fn spacing, void* user) {
-  return collective(placement, [&](Placement& p) {
+  return replace_spacing(placement, [&](Placement&) {
     if (!spacing) throw Error(PNPBS_ERROR_ARGUMENT, "argument spacing is NULL");
-    p.set_spacing(std::make_shared<CallbackSpacing<2>>(
+    return std::make_shared<CallbackSpacing<2>>(
         [spacing, user](std::int64_t n, const double* x, double* d) {
           return spacing(n, 2, x, d, user);
-        }));
-    return PNPBS_OK;
+        });
   });
 }
 
 pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const int64_t* size,
                                               const double* origin, const double* step,
                                               const double* values) {
-  return collective(placement, [&](Placement& p) {
+  return replace_spacing(placement, [&](Placement&) {
     require_pointer(size, "size");
     require_pointer(origin, "origin");
     require_pointer(step, "step");
@@ -57,16 +70,15 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
                                              std::to_string(i % size[0]) +
                                              "] = " + number_text(values[i]) +
                                              ": the spacing must be finite and greater than 0");
-    p.set_spacing(std::make_shared<GridSpacing<2>>(
+    return std::make_shared<GridSpacing<2>>(
         std::array<std::int64_t, 2>{size[0], size[1]}, Point<2>{origin[0], origin[1]},
-        Point<2>{step[0], step[1]}, std::vector<double>(values, values + n)));
-    return PNPBS_OK;
+        Point<2>{step[0], step[1]}, std::vector<double>(values, values + n));
   });
 }
 
 pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
                                                   const double* d) {
-  return collective(placement, [&](Placement& p) {
+  return replace_spacing(placement, [&](Placement& p) {
     p.prepare_order();
     if (n != p.count())
       throw Error(PNPBS_ERROR_ARGUMENT, "argument n = " + std::to_string(n) + "; this rank has " +
@@ -79,7 +91,6 @@ pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int
                                              "] = " + number_text(d[i]) + " at node " +
                                              std::to_string(p.level().nodes().id(p.node_at(i))) +
                                              ": the spacing must be finite and greater than 0");
-    p.set_spacing(p.spacing_from(std::vector<double>(d, d + n)));
-    return PNPBS_OK;
+    return p.spacing_from(std::vector<double>(d, d + n));
   });
 }

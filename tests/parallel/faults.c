@@ -171,7 +171,8 @@ static void stops(void) {
 /* --- ranks that do not say the same -------------------------------------------------------- */
 
 static void different_input(void) {
-  const double one[] = {1}, bad[] = {NAN}, origin[] = {0, 0}, step[] = {1, 1};
+  const double one[] = {1}, bad[] = {NAN}, origin[] = {0, 0}, step[] = {1, 1},
+               bad_point[] = {INFINITY, 0};
   const int64_t grid[] = {1, 1};
   const int is_bad = rank == bad_rank;
   pnpbs_placement placement = square_placement(1);
@@ -205,6 +206,16 @@ static void different_input(void) {
     pnpbs_placement_set_spacing_callback(placement, spacing, &no_fault);
     expect(pnpbs_placement_run(placement) >= 0, "run with the same spacing");
   }
+  pnpbs_placement_destroy(&placement);
+
+  /* What one rank could not take is set on none. */
+  placement = square_placement(1);
+  pnpbs_placement_set_spacing_callback(placement, spacing, &no_fault);
+  expect_bad_rank(pnpbs_placement_set_spacing_constant(placement, is_bad ? 0 : 0.05),
+                  PNPBS_ERROR_SPACING, "d = 0");
+  expect_bad_rank(pnpbs_placement_set_nodes(placement, 1, is_bad ? bad_point : origin, NULL),
+                  PNPBS_ERROR_ARGUMENT, "xy[0]");
+  expect_right_nodes(placement, "nodes after what was not set");
   pnpbs_placement_destroy(&placement);
 
   if (size == 1) return;
