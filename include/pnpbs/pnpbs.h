@@ -417,9 +417,9 @@ PNPBS_API pnpbs_status pnpbs_placement_exchange_sizes(pnpbs_placement placement,
  *  @param[out] receive_offsets  [neighbours + 1]
  *  @param[out] receive_nodes    [receives] local indices of ghosts (nodes + g) */
 PNPBS_API pnpbs_status pnpbs_placement_get_exchange(pnpbs_placement placement, int32_t neighbours,
-                                                    int64_t sends, int64_t receives,
-                                                    int32_t *ranks, int64_t *send_offsets,
-                                                    int64_t *send_nodes, int64_t *receive_offsets,
+                                                    int64_t sends, int64_t receives, int32_t *ranks,
+                                                    int64_t *send_offsets, int64_t *send_nodes,
+                                                    int64_t *receive_offsets,
                                                     int64_t *receive_nodes);
 
 /** Numbers that are contiguous per rank, as PETSc and hypre want them, besides the ids: node i of
