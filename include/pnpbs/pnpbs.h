@@ -117,6 +117,14 @@ PNPBS_API pnpbs_status pnpbs_context_create_serial(pnpbs_context *context);
  *  finalised, or `comm` is MPI_COMM_NULL. */
 PNPBS_API pnpbs_status pnpbs_context_create_f(int32_t comm, pnpbs_context *context);
 
+/** The same, for a caller that says whose handle it is: the communicator of one MPI library means
+ *  nothing to another. pnpbs_context_create_mpi comes this way. Collective. Errors besides those of
+ *  pnpbs_context_create_f: PNPBS_ERROR_MPI if the caller's library is not the one that PNPBS calls.
+ *  @param[in] library  what MPI_Get_library_version tells the caller; blanks at its end are
+ *                      ignored */
+PNPBS_API pnpbs_status pnpbs_context_create_checked_f(int32_t comm, const char *library,
+                                                      pnpbs_context *context);
+
 /** Ends the context and sets *context to NULL; takes NULL. Its domains and placements live on
  *  until they are destroyed. Collective. */
 PNPBS_API pnpbs_status pnpbs_context_destroy(pnpbs_context *context);
@@ -332,6 +340,17 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placemen
                                                         const int64_t *size, const double *origin,
                                                         const double *step, const double *values);
 
+/** The spacing from values at the nodes there are: d is linear on each triangle of their Delaunay
+ *  triangulation (pnpbs_placement_get_triangles), and beyond its rim, next to curved boundaries,
+ *  what it is at the nearest point of the rim. Every rank gives the values of its own nodes; they
+ *  stay with the ranks, copied together with the triangles, and the nodes may go on to be replaced.
+ *  Collective. Errors: PNPBS_ERROR_STATE without nodes, PNPBS_ERROR_SPACING for a value that is
+ *  zero, negative or not finite: the message names the rank, the node's id and the value.
+ *  @param[in] n  number of nodes of this rank (pnpbs_placement_count)
+ *  @param[in] d  [n] in the order of pnpbs_placement_get_nodes */
+PNPBS_API pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
+                                                            const double *d);
+
 /** Sets the monitor, or removes it (NULL). Local. */
 PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
                                                    pnpbs_monitor_fn monitor, void *user);
@@ -396,6 +415,45 @@ PNPBS_API pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, in
 PNPBS_API pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capacity,
                                                   double *xy, int64_t *ids, int32_t *tags,
                                                   double *spacing, int32_t *owners);
+
+/** Sizes of the exchange pattern: how values at nodes reach their ghosts on other ranks.
+ *  Collective; outputs may be NULL.
+ *  @param[out] neighbours  ranks that have ghosts of our nodes, or nodes that are ghosts here
+ *  @param[out] sends       nodes to send, one for every rank that has it as a ghost
+ *  @param[out] receives    nodes to receive: the number of ghosts */
+PNPBS_API pnpbs_status pnpbs_placement_exchange_sizes(pnpbs_placement placement,
+                                                      int32_t *neighbours, int64_t *sends,
+                                                      int64_t *receives);
+
+/** The exchange pattern, for a solver to use again: send the values at nodes
+ *  send_nodes[send_offsets[k] .. send_offsets[k+1]-1] to ranks[k], and put what comes from there
+ *  into places receive_nodes[receive_offsets[k] .. receive_offsets[k+1]-1], in the same order (that
+ *  of ids). It stays right until nodes move. Collective.
+ *  @param[in] neighbours, sends, receives  what the arrays have room for; too small is
+ *                                          PNPBS_ERROR_CAPACITY
+ *  @param[out] ranks            [neighbours] in increasing order; rank r names s where s names r
+ *  @param[out] send_offsets     [neighbours + 1]
+ *  @param[out] send_nodes       [sends] local indices of this rank's nodes
+ *  @param[out] receive_offsets  [neighbours + 1]
+ *  @param[out] receive_nodes    [receives] local indices of ghosts (nodes + g) */
+PNPBS_API pnpbs_status pnpbs_placement_get_exchange(pnpbs_placement placement, int32_t neighbours,
+                                                    int64_t sends, int64_t receives, int32_t *ranks,
+                                                    int64_t *send_offsets, int64_t *send_nodes,
+                                                    int64_t *receive_offsets,
+                                                    int64_t *receive_nodes);
+
+/** Numbers that are contiguous per rank, as PETSc and hypre want them, besides the ids: node i of
+ *  this rank has number first + i, and rank r's numbers follow those of rank r - 1. Unlike the ids
+ *  they depend on the ranks. Collective; outputs may be NULL.
+ *  @param[in]  capacity       ghosts `ghost_numbers` has room for; if that is given and too small,
+ *                             PNPBS_ERROR_CAPACITY
+ *  @param[out] first          the number of this rank's first node; 0 on rank 0
+ *  @param[out] count          how many numbers this rank has: its nodes
+ *  @param[out] ghost_numbers  [ghosts] the numbers of the ghosts, as pnpbs_placement_get_ghosts has
+ *                             them */
+PNPBS_API pnpbs_status pnpbs_placement_get_numbering(pnpbs_placement placement, int64_t capacity,
+                                                     int64_t *first, int64_t *count,
+                                                     int64_t *ghost_numbers);
 
 /** Number of entries of all adjacency lists of this rank's nodes. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t *entries);

@@ -12,10 +12,16 @@
 
 /** A context on a duplicate of `comm`: messages of yours never mix with ours. Collective.
  *  MPI must be initialised, at any thread level; calls come from the thread that calls us.
- *  Errors as pnpbs_context_create_f. Your MPI must be the one the library was built with
- *  (pnpbs_mpi_library). */
+ *  Errors as pnpbs_context_create_checked_f, which compares your MPI with ours. */
 static inline pnpbs_status pnpbs_context_create_mpi(MPI_Comm comm, pnpbs_context *context) {
-  return pnpbs_context_create_f((int32_t)MPI_Comm_c2f(comm), context);
+  char library[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+  int length = 0, initialized = 0, finalized = 0;
+  int32_t handle = 0; /* looked at only while MPI runs; MPI_Comm_c2f would abort otherwise */
+  MPI_Get_library_version(library, &length); /* as the next two, allowed at any time */
+  MPI_Initialized(&initialized);
+  MPI_Finalized(&finalized);
+  if (initialized && !finalized) handle = (int32_t)MPI_Comm_c2f(comm);
+  return pnpbs_context_create_checked_f(handle, library, context);
 }
 
 #endif

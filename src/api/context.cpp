@@ -60,16 +60,16 @@ pnpbs_status report_failure(Context* context) noexcept {
     keep_message(context, error.what());
     return error.status();
   } catch (const std::bad_alloc&) {
-    keep_message(context, "out of memory: fewer nodes (a larger spacing) or more memory is needed");
+    keep_message(context, kOutOfMemory);
     return PNPBS_ERROR_MEMORY;
   } catch (const std::length_error&) {
-    keep_message(context, "out of memory: an array would be larger than can be addressed");
+    keep_message(context, kArrayTooLong);
     return PNPBS_ERROR_MEMORY;
   } catch (const std::exception& error) {
     keep_message(context, error.what());
     return PNPBS_ERROR_INTERNAL;
   } catch (...) {
-    keep_message(context, "a callback threw something that is no std::exception");
+    keep_message(context, kForeignException);
     return PNPBS_ERROR_CALLBACK;
   }
 }
@@ -126,6 +126,15 @@ pnpbs_status pnpbs_context_create_serial(pnpbs_context* context) {
 
 pnpbs_status pnpbs_context_create_f(int32_t comm, pnpbs_context* context) {
   return create_context(context, [&] { return mpi_communicator(comm); });
+}
+
+pnpbs_status pnpbs_context_create_checked_f(int32_t comm, const char* library,
+                                            pnpbs_context* context) {
+  return create_context(context, [&] {
+    require_pointer(library, "library");
+    require_our_mpi(library);
+    return mpi_communicator(comm);
+  });
 }
 
 pnpbs_status pnpbs_context_destroy(pnpbs_context* context) {

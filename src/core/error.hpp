@@ -19,6 +19,14 @@ class Error : public std::runtime_error {
   pnpbs_status status_;
 };
 
+// What failures are told as that are no Error.
+inline constexpr const char* kOutOfMemory =
+    "out of memory: fewer nodes (a larger spacing) or more memory is needed";
+inline constexpr const char* kArrayTooLong =
+    "out of memory: an array would be larger than can be addressed";
+inline constexpr const char* kForeignException =
+    "a callback threw something that is no std::exception";
+
 // A number as messages and reports show it: shortest text that reads back as the same double,
 // with a point in every locale.
 std::string number_text(double value);

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <new>
+#include <stdexcept>
 #include <string>
 
 namespace pnpbs {
@@ -68,8 +70,12 @@ std::uint64_t sum_of(const char* label, std::int64_t n, const Body& body) {
 
 template <class T>
 View<T> make_view(const std::string& label, std::int64_t n) {
-  return View<T>(Kokkos::view_alloc(Kokkos::WithoutInitializing, label),
-                 static_cast<std::size_t>(n));
+  try {
+    return View<T>(Kokkos::view_alloc(Kokkos::WithoutInitializing, label),
+                   static_cast<std::size_t>(n));
+  } catch (const std::runtime_error&) {  // what Kokkos makes of a lack of memory
+    throw std::bad_alloc();
+  }
 }
 
 // Makes room for n entries and keeps the first `kept`.

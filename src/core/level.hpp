@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -69,9 +70,11 @@ class Level {
   bool lists_may_miss_a_pair() const;
   void rebuild_lists();
   void move();
-  void exchange_for_steps();
+  // Where ranks agree: at the beginning of a row of steps, and once in a while within it. A failure
+  // of this rank so far is told then.
+  void exchange_for_steps(std::exception_ptr& failure);
   void exchange_for_stars();
-  void exchange_for_runge_kutta() { renew_ghosts(hops_for(kRungeKuttaStages)); }
+  void exchange_for_runge_kutta() { exchange(hops_for(kRungeKuttaStages)); }
   void finish_by_runge_kutta();
 
   // --- events ---
@@ -135,6 +138,8 @@ class Level {
   SpacingEvaluator evaluator() const;
 
   // --- the partition ---
+  void require_same_ground(const PartitionCells& cells) const;
+  void require_same_leaves() const;
   void look_at_new_tree();
   std::vector<PartitionCell> rough_cells();
   std::vector<std::int64_t> expected_work() const;
@@ -157,11 +162,12 @@ class Level {
   int deepest_hops() const;
   double shortest_hop() const;
   std::int64_t ghost_life() const;
-  void renew_ghosts(int hops);
+  bool ghosts_can_stay(int hops) const;
+  void renew_ghosts();
   void exchange(int hops);
-  void arrive(const Halo& halo, const PackedNode& node);
+  void pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing);
+  void append_arriving(const Halo& halo, const std::vector<Bytes>& incoming);
   void migrate();
-  std::vector<int> other_ranks() const;
 
   double widest_radius() const;
   double edge_radius() const;

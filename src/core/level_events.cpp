@@ -12,16 +12,19 @@
 
 namespace pnpbs {
 
-// By the owners; ghosts get theirs with the next exchange.
+// By the owners; ghosts get theirs with the next exchange. The spacing is asked equally often on
+// all ranks: it may live distributed over them.
 void Level::refresh_spacing() {
   ++version_;
   const PhaseTimer timer(timers_, Phase::spacing);
-  agreed(*comm_, [this] {
-    constexpr std::int64_t kBatch = 1 << 16;  // bounds the memory for the points handed out
+  constexpr std::int64_t kBatch = 1 << 16;  // bounds the memory for the points handed out
+  const std::int64_t last =
+      static_cast<std::int64_t>(comm_->largest(static_cast<double>(nodes_.count)));
+  agreed(*comm_, [&] {
     std::vector<std::int64_t> who;
     std::vector<Point<2>> x;
     std::vector<double> d;  // the nodes' own d stays as it is if the callback fails
-    for (std::int64_t first = 0; first < nodes_.count; first += kBatch) {
+    for (std::int64_t first = 0; first < last; first += kBatch) {
       who.clear();
       x.clear();
       for (std::int64_t i = first; i < std::min(first + kBatch, nodes_.count); ++i) {
@@ -108,22 +111,10 @@ void Level::delete_nodes(const std::vector<std::int32_t>& deleted) {
 // parent, so that no order of threads or ranks comes in.
 void Level::number_births(std::vector<Birth<2>> born) {
   const BackgroundTree<2>& tree = map_.tree();
-  if (distributed()) {
-    const Halo& halo = distribution_.halo(kPopulationHops);
-    const std::vector<int> place = places_of(halo.neighbours(), comm_->size());
-    std::vector<Bytes> outgoing(halo.neighbours().size());
-    std::vector<Birth<2>> mine;
-    for (const Birth<2>& birth : born) {
-      const int owner = distribution_.owner_at(birth.position);
-      if (owner == comm_->rank())
-        mine.push_back(birth);
-      else
-        pack(outgoing[static_cast<std::size_t>(place[static_cast<std::size_t>(owner)])], birth);
-    }
-    for_records<Birth<2>>(comm_->exchange(halo.neighbours(), outgoing),
-                          [&](const Birth<2>& birth) { mine.push_back(birth); });
-    born = std::move(mine);
-  }
+  if (distributed())
+    born = delivered<Birth<2>>(*comm_, born, [&](const Birth<2>& birth) {
+      return distribution_.owner_at(birth.position);
+    });
   std::vector<std::int64_t> new_ids(static_cast<std::size_t>(tree.leaf_count()), 0);
   for (const Birth<2>& birth : born)
     ++new_ids[static_cast<std::size_t>(tree.leaf_at(birth.position))];
@@ -173,7 +164,7 @@ void Level::sweep(std::int64_t times) {
     const PhaseTimer timer(timers_, Phase::sweeps);
     const View<char> allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count);
     for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s) {
-      if (s > 0) renew_ghosts(kSweepHops);
+      renew_ghosts();
       pnpbs::sweep(nodes_, stars_, near_edges_, map_, settings_.sweep, next_, allowed);
       ghosts_exact_ = false;
     }

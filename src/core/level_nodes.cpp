@@ -84,7 +84,7 @@ std::vector<LeafSummary> Level::summaries_of_unrefined_leaves() const {
     pack(mine, CellSummary{c, own[static_cast<std::size_t>(here)]});
   }
   std::vector<SpacingSummary> summaries(static_cast<std::size_t>(cells.count()));
-  for_records<CellSummary>(comm_->gather(mine), [&](const CellSummary& summary) {
+  for_records<CellSummary>({comm_->gather(mine)}, [&](const CellSummary& summary) {
     summaries[static_cast<std::size_t>(summary.cell)] = summary.spacing;
   });
   std::vector<LeafSummary> unrefined;

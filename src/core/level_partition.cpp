@@ -2,14 +2,18 @@
 // The partition of a level: the background tree, refined on each rank where its own nodes and
 // ghosts can be, and its cells dealt out by the work in them.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>
 
+#include "core/error.hpp"
 #include "core/initial_fill.hpp"
 #include "core/level.hpp"
+#include "core/mixed_hash.hpp"
 #include "parallel/partition.hpp"
+#include "parallel/records.hpp"
 
 namespace pnpbs {
 
@@ -43,6 +47,7 @@ void Level::grow_tree() {
   const PhaseTimer timer(timers_, Phase::partition);
   // First by a few samples of d; then what lies in each part is known, and is cut again.
   PartitionCells cells(domain_->bounds(), rough_cells());
+  require_same_ground(cells);
   std::vector<std::int32_t> owner = cut_morton_order(cells.work(), comm_->size());
   std::vector<char> own;
   for (std::int32_t r : owner) own.push_back(r == comm_->rank());
@@ -53,6 +58,50 @@ void Level::grow_tree() {
   owner = cut_on_first_rank(cells);
   distribution_ = Distribution(std::move(cells), std::move(owner), comm_->rank());
   grow_own_part();
+}
+
+namespace {
+
+constexpr const char* kSpacingsDiffer =
+    "the spacing (or a curve given by a callback) differs between ranks: every rank gives the same "
+    "function of the point";
+
+}  // namespace
+
+// Ranks whose callbacks tell different things would wait for each other for ever.
+void Level::require_same_ground(const PartitionCells& cells) const {
+  std::uint64_t fingerprint = 0;
+  const auto add = [&](double value) {
+    fingerprint = mixed(fingerprint ^ std::bit_cast<std::uint64_t>(value));
+  };
+  for (const BoundaryNode& node : boundary_.nodes)
+    for (double coordinate : node.position) add(coordinate);
+  for (std::int32_t c = 0; c < cells.count(); ++c) add(cells.largest_spacing(c));
+  if (!comm_->same_on_all(fingerprint)) throw Error(PNPBS_ERROR_SPACING, kSpacingsDiffer);
+}
+
+// The same, once the leaves are there: what each rank finds in cells of others must be what their
+// owners find.
+void Level::require_same_leaves() const {
+  std::vector<std::uint64_t> found(static_cast<std::size_t>(distribution_.cells().count()), 0);
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    std::uint64_t& cell = found[static_cast<std::size_t>(distribution_.cell_of(leaf))];
+    cell = mixed(cell ^ std::bit_cast<std::uint64_t>(map_.leaf_spacing(leaf)));
+  }
+  struct Finding {
+    std::int32_t cell;
+    std::uint64_t fingerprint;
+  };
+  Bytes own;
+  for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
+    if (distribution_.owner_of_cell(c) == comm_->rank())
+      pack(own, Finding{c, found[static_cast<std::size_t>(c)]});
+  bool same = true;
+  for_records<Finding>({comm_->gather(own)}, [&](const Finding& finding) {
+    if (distribution_.cell_refined(finding.cell))
+      same = same && finding.fingerprint == found[static_cast<std::size_t>(finding.cell)];
+  });
+  if (comm_->largest(!same) > 0) throw Error(PNPBS_ERROR_SPACING, kSpacingsDiffer);
 }
 
 // What goes by the leaves of the tree.
@@ -145,6 +194,7 @@ void Level::grow_own_part() {
     for (std::int32_t cell : more) refined[static_cast<std::size_t>(cell)] = 1;
     missing = comm_->largest(!more.empty()) > 0;
   }
+  require_same_leaves();
   wants_stars_ = distribution_.leaves_within(kStarHops);
   look_at_new_tree();
 }

@@ -49,30 +49,72 @@ int Level::deepest_hops() const {
 
 std::int64_t Level::ghost_life() const { return std::max(kGhostLife, settings_.exchange_interval); }
 
-// Before the steps until the next exchange.
-void Level::exchange_for_steps() { renew_ghosts(step_hops()); }
-
-// Ghosts as deep as that, exact again: by position and velocity alone if they can stay the same
-// ones.
-void Level::renew_ghosts(int hops) {
+// Before the steps until the next exchange. Between agreements only positions and velocities
+// travel, in buffers that are there: a rank that has failed meanwhile sends what it has.
+void Level::exchange_for_steps(std::exception_ptr& failure) {
   if (!distributed()) return;
-  const bool too_old = steps_since_choice_ + settings_.exchange_interval > ghost_life();
-  if (ghost_hops_ < hops || too_old) return exchange(hops);
-  if (ghosts_exact_) return;
+  if (!ghosts_can_stay(step_hops())) {
+    agree_on_failure(*comm_, failure);
+    exchange(step_hops());
+  } else {
+    renew_ghosts();
+  }
+}
+
+bool Level::ghosts_can_stay(int hops) const {
+  return ghost_hops_ >= hops && steps_since_choice_ + settings_.exchange_interval <= ghost_life();
+}
+
+// The same ghosts, exact again.
+void Level::renew_ghosts() {
+  if (ghosts_exact_ || !distributed()) return;
   const PhaseTimer timer(timers_, Phase::exchange);
   plan_.renew(*comm_, nodes_);
   ghosts_exact_ = true;
 }
 
-// Owned nodes go to the ranks that own their leaves by now, and ghosts are chosen anew.
+// Owned nodes go to the ranks that own their leaves by now, and ghosts are chosen anew. Where ranks
+// can agree: on the halo before it, which a first use has to find, and that it went well. A rank
+// that fails within has its messages come and go, but empty: its neighbours must not wait.
 void Level::exchange(int hops) {
   ++version_;
   if (!distributed()) return;
   if (hops + 2 > tree_hops_) adopt(distribution_);  // deeper than was asked for so far
   const PhaseTimer timer(timers_, Phase::exchange);
+  ghost_hops_ = 0;
+  std::vector<Bytes> outgoing, incoming;
+  agreed(*comm_, [&] {
+    plan_.start(distribution_.halo(hops).neighbours(), comm_->size());
+    outgoing.resize(distribution_.halo(hops).neighbours().size());
+  });
   const Halo& halo = distribution_.halo(hops);
-  plan_.start(halo.neighbours(), comm_->size());
-  std::vector<Bytes> outgoing(halo.neighbours().size());
+  std::exception_ptr failure;
+  const auto attempt = [&](const auto& work) {
+    try {
+      if (!failure) work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  attempt([&] { pack_leaving(halo, outgoing); });
+  if (failure)
+    for (Bytes& bytes : outgoing) bytes.clear();
+  try {
+    incoming = comm_->exchange(halo.neighbours(), outgoing);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  attempt([&] { append_arriving(halo, incoming); });
+  in_buckets_ = false;
+  lists_valid_ = false;
+  agree_on_failure(*comm_, failure);
+  ghost_hops_ = hops;
+  ghosts_exact_ = true;
+  steps_since_choice_ = 0;
+}
+
+// Packs what other ranks own by now or have as ghosts, and keeps what is ours or our ghost.
+void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
   const View<std::int32_t> stay = nodes_.order_scratch();
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
@@ -99,57 +141,45 @@ void Level::exchange(int hops) {
     stay(kept++) = static_cast<std::int32_t>(i);
   }
   nodes_.keep(stay, kept);
-  const std::vector<Bytes> incoming = comm_->exchange(halo.neighbours(), outgoing);
-  nodes_.reserve_with_room(kept + records_in<PackedNode>(incoming));
-  for_records<PackedNode>(incoming, [&](const PackedNode& node) { arrive(halo, node); });
+}
+
+// Ghosts, and nodes that have drifted to us: those, others may have as ghosts.
+void Level::append_arriving(const Halo& halo, const std::vector<Bytes>& incoming) {
+  nodes_.reserve_with_room(nodes_.count + records_in<PackedNode>(incoming));
+  for_records<PackedNode>(incoming, [&](const PackedNode& node) {
+    const std::int32_t leaf = map_.tree().leaf_at({node.x[0], node.x[1]});
+    const auto i = static_cast<std::int32_t>(nodes_.count);
+    append(nodes_, node, distribution_.owns(leaf));
+    if (distribution_.owns(leaf))
+      halo.for_ranks(leaf, [&](int r) { plan_.send(r, i); });
+    else
+      plan_.receive(distribution_.owner(leaf), i);
+  });
   plan_.match(nodes_);
-  in_buckets_ = false;
-  ghost_hops_ = hops;
-  ghosts_exact_ = true;
-  steps_since_choice_ = 0;
-  lists_valid_ = false;
-}
-
-// A ghost, or a node that has drifted to us: then others may have it as a ghost.
-void Level::arrive(const Halo& halo, const PackedNode& node) {
-  const std::int32_t leaf = map_.tree().leaf_at({node.x[0], node.x[1]});
-  const auto i = static_cast<std::int32_t>(nodes_.count);
-  append(nodes_, node, distribution_.owns(leaf));
-  if (distribution_.owns(leaf))
-    halo.for_ranks(leaf, [&](int r) { plan_.send(r, i); });
-  else
-    plan_.receive(distribution_.owner(leaf), i);
-}
-
-std::vector<int> Level::other_ranks() const {
-  std::vector<int> others;
-  for (int r = 0; r < comm_->size(); ++r)
-    if (r != comm_->rank()) others.push_back(r);
-  return others;
 }
 
 // Owned nodes go to their owners by a new partition, however far; there are no ghosts until the
 // next exchange.
 void Level::migrate() {
   const PhaseTimer timer(timers_, Phase::exchange);
-  const std::vector<int> others = other_ranks();
-  const std::vector<int> place = places_of(others, comm_->size());
-  std::vector<Bytes> outgoing(others.size());
+  std::vector<PackedNode> leaving;
   const View<std::int32_t> stay = nodes_.order_scratch();
   std::int64_t kept = 0;
+  const auto owner_at = [this](const PackedNode& node) {
+    return distribution_.owner_at({node.x[0], node.x[1]});
+  };
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!nodes_.owned(i)) continue;
-    const int owner = distribution_.owner_at(nodes_.position(i));
-    if (owner == comm_->rank())
+    if (distribution_.owner_at(nodes_.position(i)) == comm_->rank())
       stay(kept++) = static_cast<std::int32_t>(i);
     else
-      pack(outgoing[static_cast<std::size_t>(place[static_cast<std::size_t>(owner)])],
-           packed(nodes_, i));
+      leaving.push_back(packed(nodes_, i));
   }
+  const std::vector<PackedNode> arriving = delivered(*comm_, leaving, owner_at);
+  agreed(*comm_,
+         [&] { nodes_.reserve_with_room(kept + static_cast<std::int64_t>(arriving.size())); });
   nodes_.keep(stay, kept);
-  const std::vector<Bytes> incoming = comm_->exchange(others, outgoing);
-  nodes_.reserve_with_room(kept + records_in<PackedNode>(incoming));
-  for_records<PackedNode>(incoming, [&](const PackedNode& node) { append(nodes_, node, true); });
+  for (const PackedNode& node : arriving) append(nodes_, node, true);
   ++version_;
   in_buckets_ = false;
   ghost_hops_ = 0;
@@ -159,20 +189,9 @@ void Level::migrate() {
 // Every node to the rank that owns its place, from wherever it is.
 void Level::scatter_to_owners(std::vector<GivenNode>& given) const {
   if (!distributed()) return;
-  const std::vector<int> others = other_ranks();
-  const std::vector<int> place = places_of(others, comm_->size());
-  std::vector<Bytes> outgoing(others.size());
-  std::vector<GivenNode> mine;
-  for (const GivenNode& node : given) {
-    const int owner = distribution_.owner_at(node.position);
-    if (owner == comm_->rank())
-      mine.push_back(node);
-    else
-      pack(outgoing[static_cast<std::size_t>(place[static_cast<std::size_t>(owner)])], node);
-  }
-  for_records<GivenNode>(comm_->exchange(others, outgoing),
-                         [&](const GivenNode& node) { mine.push_back(node); });
-  given = std::move(mine);
+  given = delivered<GivenNode>(*comm_, given, [this](const GivenNode& node) {
+    return distribution_.owner_at(node.position);
+  });
 }
 
 std::vector<GivenNode> Level::owned_nodes() const {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <limits>
+#include <new>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -18,6 +19,12 @@ namespace pnpbs {
 namespace {
 
 constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+
+std::uint64_t bits(double value) {
+  std::uint64_t b;
+  std::memcpy(&b, &value, sizeof b);
+  return b;
+}
 
 }  // namespace
 
@@ -39,6 +46,7 @@ void Placement::forget_nodes() { level_.reset(); }
 void Placement::initialise() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
+  require_same_options();
   std::unique_ptr<Level> before = std::move(level_);
   try {
     make_level();
@@ -51,26 +59,25 @@ void Placement::initialise() {
 // A level for the present spacing, with the present options.
 void Placement::prepare_level() {
   const Settings settings(options_);
-  if (!level_ || spacing_replaced_ || settings.growth_limit != level_->settings().growth_limit)
+  require_same_options();
+  const bool make =
+      !level_ || spacing_replaced_ || settings.growth_limit != level_->settings().growth_limit;
+  if (comm_->largest(make) > 0)
     make_level();
   else
     level_->change_settings(settings);
 }
 
 // Ranks with other options or another domain would wait for each other for ever.
-void Placement::require_same_on_all_ranks() const {
-  if (comm_->size() == 1) return;
-  const auto differs = [this](std::size_t fingerprint) {
-    const double value = static_cast<double>(fingerprint >> 12);
-    return comm_->largest(value) != -comm_->largest(-value);
-  };
-  if (differs(options_.fingerprint()))
+void Placement::require_same_options() const {
+  if (!comm_->same_on_all(options_.fingerprint()))
     throw Error(PNPBS_ERROR_ARGUMENT,
                 "the options differ between ranks: set the same ones on all of them");
-  std::size_t fingerprint = 0;
-  const auto add = [&](double value) {
-    fingerprint = fingerprint * 31 + std::hash<double>{}(value);
-  };
+}
+
+void Placement::require_same_domain() const {
+  std::uint64_t fingerprint = 0;
+  const auto add = [&](double value) { fingerprint = mixed(fingerprint ^ bits(value)); };
   for (const BoundaryCurve& curve : domain_->curves()) {
     add(curve.tag);
     for (const Point<2>& x : curve.points)
@@ -78,7 +85,7 @@ void Placement::require_same_on_all_ranks() const {
   }
   for (const FixedNode& node : domain_->fixed_nodes())
     for (double coordinate : node.position) add(coordinate);
-  if (differs(fingerprint))
+  if (!comm_->same_on_all(fingerprint))
     throw Error(PNPBS_ERROR_DOMAIN,
                 "the domains differ between ranks: every rank describes the whole domain");
 }
@@ -92,7 +99,7 @@ void Placement::make_level() {
   const Settings settings(options_);
   std::unique_ptr<Level> next;
   agreed(*comm_, [this] { domain_->check(); });
-  require_same_on_all_ranks();
+  require_same_domain();
   agreed(*comm_, [&] {
     std::shared_ptr<const Spacing<2>> spacing = spacing_;
     if (settings.growth_limit > 0) {
@@ -141,25 +148,48 @@ void Placement::begin_schedule() {
 
 // ------------------------------------------------------------------ the time loop --------------
 
+// Changes the nodes there are. Afterwards every node is with the rank that owns its place, so that
+// none changes its rank when it is asked for. A rank that ran out of memory may have lost some:
+// then all let go of theirs.
+template <class Work>
+auto Placement::while_moving(const Work& work) {
+  try {
+    const auto result = work();
+    level_->exchange_for_stars();
+    return result;
+  } catch (const Error& error) {
+    if (error.status() == PNPBS_ERROR_MEMORY) level_.reset();
+    throw;
+  } catch (const std::bad_alloc&) {
+    level_.reset();
+    throw;
+  }
+}
+
 Outcome Placement::run() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   prepare_level();
-  if (schedule_ended_) begin_schedule();
-  const Outcome outcome = advance(level_->settings().steps, 0.95);
-  schedule_ended_ = true;
-  if (outcome != Outcome::stopped) finish();
-  return outcome;
+  return while_moving([this] {
+    if (schedule_ended_) begin_schedule();
+    const Outcome outcome = advance(level_->settings().steps, 0.95);
+    schedule_ended_ = true;
+    if (outcome != Outcome::stopped) finish();
+    return outcome;
+  });
 }
 
 Outcome Placement::step(std::int64_t n) {
   require_kokkos();
+  if (!comm_->same_on_all(static_cast<std::uint64_t>(n)))
+    throw Error(PNPBS_ERROR_ARGUMENT, "argument n differs between ranks");
   const PhaseTimer timer(timers_, Phase::total);
   prepare_level();
-  if (schedule_ended_) begin_schedule();
-  const std::int64_t until = schedule_step_ > kNoLimit - n ? kNoLimit : schedule_step_ + n;
-  const Outcome outcome = advance(until, 1.0);
-  return outcome;
+  return while_moving([&] {
+    if (schedule_ended_) begin_schedule();
+    const std::int64_t until = schedule_step_ > kNoLimit - n ? kNoLimit : schedule_step_ + n;
+    return advance(until, 1.0);
+  });
 }
 
 // Steps on to step number `until` of the schedule, or until the bubbles rest. Events happen at
@@ -167,13 +197,13 @@ Outcome Placement::step(std::int64_t n) {
 Outcome Placement::advance(std::int64_t until, double share) {
   const Settings& settings = level_->settings();
   const double first = static_cast<double>(schedule_step_);
-  bool started = true;
   Outcome outcome = Outcome::not_converged;
   stop_reason_ = StopReason::step_limit;
   std::exception_ptr failure;  // of this rank: told to the others at the next event
+  bool started = true;
   while (schedule_step_ < until) {
     if (started || schedule_step_ % settings.event_interval % settings.exchange_interval == 0)
-      level_->exchange_for_steps();
+      level_->exchange_for_steps(failure);
     started = false;
     try {
       if (!failure && level_->lists_may_miss_a_pair()) level_->rebuild_lists();
@@ -298,7 +328,7 @@ PopulationCounts Placement::adjust_population() {
   const PhaseTimer timer(timers_, Phase::total);
   const PopulationCounts before{inserted_, deleted_};
   prepare_level();
-  count_population_change(level_->adjust_population());
+  while_moving([this] { return count_population_change(level_->adjust_population()); });
   return {inserted_ - before.inserted, deleted_ - before.deleted};
 }
 
@@ -355,6 +385,26 @@ void Placement::prepare_stars() {
   stars_version_ = level_->version();
 }
 
+ExchangePattern Placement::exchange_pattern() {
+  prepare_lists();
+  const Nodes<2>& nodes = level_->nodes();
+  const std::int64_t owned = count();
+  std::vector<std::int64_t> ids;
+  std::vector<std::int32_t> owners;
+  for (std::int64_t place = 0; place < nodes.count; ++place) {
+    ids.push_back(nodes.id(node_at(place)));
+    if (place >= owned) owners.push_back(level_->owner_of(node_at(place)));
+  }
+  return make_exchange_pattern(*comm_, owned, ids, owners);
+}
+
+std::int64_t Placement::nodes_on_ranks_before() const {
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(comm_->size()), 0);
+  counts[static_cast<std::size_t>(comm_->rank())] = count();
+  comm_->sum(counts);
+  return std::accumulate(counts.begin(), counts.begin() + comm_->rank(), std::int64_t{0});
+}
+
 // ------------------------------------------------------------------ statistics -----------------
 
 NearestNeighbourError Placement::spacing_error() {
@@ -385,16 +435,6 @@ NearestNeighbourError Placement::spacing_error() {
                  [&](std::int64_t i) { return nodes.owned(i) ? -ratio(i) : -kFarAway; }));
   return error;
 }
-
-namespace {
-
-std::uint64_t bits(double value) {
-  std::uint64_t b;
-  std::memcpy(&b, &value, sizeof b);
-  return b;
-}
-
-}  // namespace
 
 // A sum over the nodes, so that it has no order.
 std::uint64_t Placement::hash() const {

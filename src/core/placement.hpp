@@ -11,6 +11,7 @@
 #include "core/level.hpp"
 #include "core/options.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/exchange_pattern.hpp"
 
 namespace pnpbs {
 
@@ -70,6 +71,11 @@ class Placement {
   // the owner of the node it begins with; the other may be a ghost. After prepare_order.
   template <class Visit>
   void for_boundary_edges(const Visit& visit) const;
+  // In places. Collective.
+  ExchangePattern exchange_pattern();
+  std::int64_t nodes_on_ranks_before() const;
+  // d by its values at this rank's nodes, in places. Collective.
+  std::shared_ptr<const Spacing<2>> spacing_from(std::vector<double> values);
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   // --- statistics ---
@@ -92,7 +98,10 @@ class Placement {
  private:
   void prepare_level();
   void make_level();
-  void require_same_on_all_ranks() const;
+  void require_same_options() const;
+  void require_same_domain() const;
+  template <class Work>
+  auto while_moving(const Work& work);
   void begin_schedule();
   bool bubbles_rest() const;
   Outcome advance(std::int64_t until, double share);

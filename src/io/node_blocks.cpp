@@ -5,8 +5,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "parallel/all_to_all.hpp"
 #include "parallel/id_blocks.hpp"
+#include "parallel/records.hpp"
 
 namespace pnpbs::io {
 
@@ -140,8 +140,8 @@ NodeBlock block_by_id(Placement& placement, bool elements) {
   const IdBlocks blocks(comm, own(own_ids));
   // To the rank that has this id in its block.
   const auto send = [&](auto rows, const auto& id_of) {
-    return send_records(comm, std::move(rows),
-                        [&](const auto& row) { return blocks.rank_of(id_of(row)); });
+    using Row = typename decltype(rows)::value_type;
+    return delivered<Row>(comm, rows, [&](const Row& row) { return blocks.rank_of(id_of(row)); });
   };
   NodeBlock block;
   block.nodes = blocks.numbers();

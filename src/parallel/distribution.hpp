@@ -55,9 +55,10 @@ class Distribution {
   // --- once the tree is refined in the cells marked ---
   void take_leaves(const BackgroundTree<2>* tree, const std::vector<char>& refined);
   void link_leaves(std::shared_ptr<const LeafLinks<2>> links) { links_ = std::move(links); }
-  bool refined(std::int32_t leaf) const {
-    return refined_[static_cast<std::size_t>(cell_of(leaf))] != 0;
+  bool cell_refined(std::int32_t cell) const {
+    return refined_[static_cast<std::size_t>(cell)] != 0;
   }
+  bool refined(std::int32_t leaf) const { return cell_refined(cell_of(leaf)); }
   std::int32_t cell_of(std::int32_t leaf) const {
     return cell_of_leaf_[static_cast<std::size_t>(leaf)];
   }

@@ -41,13 +41,17 @@ class GhostPlan {
   template <int Dim>
   static constexpr std::size_t kRecordSize = 2 * Dim * sizeof(double);
 
-  // Both sides put their lists into the order of ids, so that they match.
+  // Both sides put their lists into the order of ids, so that they match, and make the buffers.
   template <int Dim>
   void match(const Nodes<Dim>& nodes) {
     for (auto* lists : {&send_, &receive_})
       for (std::vector<std::int32_t>& list : *lists)
         std::sort(list.begin(), list.end(),
                   [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      outgoing_[k].resize(send_[k].size() * kRecordSize<Dim>);
+      incoming_[k].resize(receive_[k].size() * kRecordSize<Dim>);
+    }
   }
 
   // The nodes were put into another order: what was at from(i) is at i now.
@@ -65,8 +69,6 @@ class GhostPlan {
   template <int Dim>
   void renew(const Communicator& comm, const Nodes<Dim>& nodes) {
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      outgoing_[k].resize(send_[k].size() * kRecordSize<Dim>);
-      incoming_[k].resize(receive_[k].size() * kRecordSize<Dim>);
       char* out = outgoing_[k].data();
       for (std::int32_t i : send_[k])
         for (int d = 0; d < Dim; ++d) {

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "parallel/all_to_all.hpp"
+#include "parallel/records.hpp"
 
 namespace pnpbs {
 
@@ -48,7 +49,7 @@ IdBlocks::IdBlocks(const Communicator& comm, const std::vector<std::int64_t>& ow
   for (int r = 1; r < comm.size(); ++r)
     numbers.push_back(total / comm.size() * r + total % comm.size() * r / comm.size());
   if (comm.size() > 1) begin_ = ids_at(comm, owned, numbers);
-  ids_ = send_records(comm, owned, [this](std::int64_t id) { return rank_of(id); });
+  ids_ = delivered(comm, owned, [this](std::int64_t id) { return rank_of(id); });
   std::sort(ids_.begin(), ids_.end());
   span_ = span_of(comm, ids_.size());
 }

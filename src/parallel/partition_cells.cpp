@@ -103,7 +103,7 @@ std::vector<PartitionCell> cells_of_equal_work(const Communicator& comm, const D
   Bytes found;
   put_together(map.tree(), known, total / (kCellsPerRank * comm.size()), 0, found);
   std::vector<PartitionCell> cells;
-  for_records<PartitionCell>(comm.gather(found),
+  for_records<PartitionCell>({comm.gather(found)},
                              [&](const PartitionCell& cell) { cells.push_back(cell); });
   return cells;
 }

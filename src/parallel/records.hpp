@@ -26,6 +26,28 @@ void for_records(const std::vector<Bytes>& messages, const Visit& visit) {
     }
 }
 
+// Brings each record to rank owner(record), from wherever it is, and returns what has come here.
+// Collective.
+template <class Record, class Owner>
+std::vector<Record> delivered(const Communicator& comm, const std::vector<Record>& records,
+                              const Owner& owner) {
+  std::vector<Record> arrived;
+  std::vector<Parcel> parcels;
+  std::vector<int> parcel_for(static_cast<std::size_t>(comm.size()), -1);
+  for (const Record& record : records) {
+    const int r = owner(record);
+    int& parcel = parcel_for[static_cast<std::size_t>(r)];
+    if (parcel < 0) {
+      parcel = static_cast<int>(parcels.size());
+      parcels.push_back({r, {}});
+    }
+    pack(parcels[static_cast<std::size_t>(parcel)].bytes, record);
+  }
+  for (const Parcel& parcel : comm.deliver(parcels))
+    for_records<Record>({parcel.bytes}, [&](const Record& record) { arrived.push_back(record); });
+  return arrived;
+}
+
 // Place of each rank among the neighbours, -1 for the others.
 inline std::vector<int> places_of(const std::vector<int>& neighbours, int size) {
   std::vector<int> place(static_cast<std::size_t>(size), -1);

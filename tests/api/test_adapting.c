@@ -222,6 +222,41 @@ START_TEST(a_grid_is_constant_beyond_its_rim) {
 END_TEST
 
 /* A cone of slope b is limited to slope g: d = a + g r everywhere. */
+/* Values at nodes mean what is linear between them: a linear function is met exactly. */
+START_TEST(values_at_nodes_equal_their_function) {
+  job it = square_job(1);
+  result before, after;
+  double* d;
+  int64_t i;
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.04));
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_set_spacing_at_nodes(it.placement, 0, NULL), "nodes",
+            "");
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  before = result_of(it.placement);
+  d = malloc((size_t)before.n * sizeof *d);
+  for (i = 0; i < before.n; ++i)
+    d[i] = 0.02 + 0.03 * before.xy[2 * i] + 0.01 * before.xy[2 * i + 1];
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_set_spacing_at_nodes(it.placement, before.n - 1, d), "n = ", "");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_set_spacing_at_nodes(it.placement, before.n, NULL), "argument d", "");
+  MUST(pnpbs_placement_set_spacing_at_nodes(it.placement, before.n, d));
+  memset(d, 0, (size_t)before.n * sizeof *d); /* they were copied */
+  free(d);
+  /* Twice: the second time from a spacing whose nodes are gone. */
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  after = result_of(it.placement);
+  check_result(&after, 1);
+  for (i = 0; i < after.n; ++i)
+    ck_assert_double_eq_tol(after.d[i], 0.02 + 0.03 * after.xy[2 * i] + 0.01 * after.xy[2 * i + 1],
+                            1e-14);
+  result_free(&before);
+  result_free(&after);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(growth_limits) {
   static const struct {
     double a, b, g;
@@ -596,6 +631,7 @@ int main(void) {
   tcase_add_test(spacing, a_grid_equals_its_function);
   tcase_add_test(spacing, a_grid_of_one_value);
   tcase_add_test(spacing, a_grid_is_constant_beyond_its_rim);
+  tcase_add_test(spacing, values_at_nodes_equal_their_function);
   tcase_add_loop_test(spacing, growth_limits, 0, 4);
   suite_add_tcase(suite, spacing);
   tcase_add_test(given, given_nodes_keep_their_ids);

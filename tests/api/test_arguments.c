@@ -99,6 +99,7 @@ static void tear_down(void) {
 START_TEST(no_context) {
   REFUSE_ANYWHERE(ARGUMENT, "context", "NULL", pnpbs_context_create_serial(NULL));
   REFUSE_ANYWHERE(ARGUMENT, "context", "NULL", pnpbs_context_create_f(0, NULL));
+  REFUSE_ANYWHERE(ARGUMENT, "context", "NULL", pnpbs_context_create_checked_f(0, "", NULL));
   REFUSE_ANYWHERE(ARGUMENT, "count", "NULL", pnpbs_option_count(NULL));
   REFUSE_ANYWHERE(ARGUMENT, "count", "NULL", pnpbs_statistic_count(NULL));
   REFUSE_ANYWHERE(
@@ -590,6 +591,10 @@ START_TEST(no_mpi) {
   const pnpbs_status expected =
       pnpbs_mpi_library()[0] != '\0' ? PNPBS_ERROR_MPI : PNPBS_ERROR_UNSUPPORTED;
   MUST_FAIL(expected, pnpbs_context_create_f(0, &context), "MPI", "");
+  ck_assert_ptr_null(context);
+  MUST_FAIL(expected, pnpbs_context_create_checked_f(0, "MPICH Version: 1.0", &context), "MPI", "");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_context_create_checked_f(0, NULL, &context), "library",
+            "NULL");
   ck_assert_ptr_null(context);
 }
 END_TEST

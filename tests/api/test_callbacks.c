@@ -430,6 +430,7 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_placement_set_spacing_constant(p, 1));
   REFUSED(pnpbs_placement_set_spacing_callback(p, cone_spacing, NULL));
   REFUSED(pnpbs_placement_set_spacing_grid(p, size, xy, xy, xy));
+  REFUSED(pnpbs_placement_set_spacing_at_nodes(p, 1, xy));
   REFUSED(pnpbs_placement_set_monitor(p, no_stop, NULL));
   REFUSED(pnpbs_placement_set_nodes(p, 1, xy, NULL));
   REFUSED(pnpbs_placement_initialise(p));
@@ -442,6 +443,11 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_placement_star_size(p, &entries));
   REFUSED(pnpbs_placement_get_stars(p, 500, offsets, offsets, NULL));
   REFUSED(pnpbs_placement_get_triangles(p, 0, &entries, NULL));
+  REFUSED(pnpbs_placement_ghost_count(p, &entries));
+  REFUSED(pnpbs_placement_get_ghosts(p, 0, NULL, NULL, NULL, NULL, NULL));
+  REFUSED(pnpbs_placement_exchange_sizes(p, NULL, NULL, &entries));
+  REFUSED(pnpbs_placement_get_exchange(p, 0, 0, 0, NULL, NULL, NULL, NULL, NULL));
+  REFUSED(pnpbs_placement_get_numbering(p, 0, &entries, NULL, NULL));
   REFUSED(pnpbs_placement_get_double(p, "d_error.mean", &real));
   REFUSED(pnpbs_placement_destroy(&inside.placement));
 #undef REFUSED

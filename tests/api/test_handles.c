@@ -79,6 +79,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_set_spacing_constant, (handle, 0.1))                                                \
   X(placement_set_spacing_callback, (handle, cone_spacing, &a_cone))                              \
   X(placement_set_spacing_grid, (handle, grid_size, grid, grid + 2, grid + 4))                    \
+  X(placement_set_spacing_at_nodes, (handle, 1, grid))                                            \
   X(placement_set_monitor, (handle, no_stop, NULL))                                               \
   X(placement_set_nodes, (handle, 1, grid, NULL))                                                 \
   X(placement_initialise, (handle))                                                               \
@@ -97,6 +98,10 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_get_boundary_edges, (handle, 1, out.integers + 1, out.integers + 2, out.small + 8)) \
   X(placement_ghost_count, (handle, out.integers + 1))                                            \
   X(placement_get_ghosts, (handle, 1, NULL, out.integers + 1, NULL, NULL, out.small + 8))         \
+  X(placement_exchange_sizes, (handle, out.small + 2, out.integers + 2, out.integers + 3))        \
+  X(placement_get_exchange, (handle, 1, 1, 1, out.small + 2, out.integers + 2, out.integers + 4,  \
+                             out.integers + 5, out.integers + 7))                                 \
+  X(placement_get_numbering, (handle, 1, out.integers + 1, out.integers + 2, out.integers + 3))   \
   X(placement_get_int64, (handle, "nodes", out.integers + 1))                                     \
   X(placement_get_double, (handle, "d_error.mean", out.reals + 1))                                \
   X(placement_get_string, (handle, "hash", out.texts + 1))                                        \
