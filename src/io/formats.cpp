@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "io/extension.hpp"
 
 namespace pnpbs::io {
 namespace {
@@ -20,13 +21,6 @@ constexpr std::array table{
     Format{"ele", "Triangle's element file for the .node file", false, Elements::always, write_ele},
     Format{"csv", "id,x,y,tag,spacing", false, Elements::never, write_csv},
 };
-
-std::string in_small_letters(std::string_view text) {
-  std::string small(text);
-  std::ranges::transform(small, small.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return small;
-}
 
 }  // namespace
 
@@ -45,10 +39,7 @@ const Format* format_by_name(std::string_view name) {
 }
 
 const Format* format_by_extension(std::string_view path) {
-  const std::size_t dot = path.rfind('.');
-  if (dot == std::string_view::npos || path.find('/', dot) != std::string_view::npos)
-    return nullptr;
-  return format_by_name(path.substr(dot + 1));
+  return format_by_name(extension_of(path));
 }
 
 }  // namespace pnpbs::io

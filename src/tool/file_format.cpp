@@ -2,8 +2,8 @@
 #include "tool/file_format.hpp"
 
 #include <algorithm>
-#include <cctype>
 
+#include "io/extension.hpp"
 #include "tool/library.hpp"
 
 namespace pnpbs::tool {
@@ -17,12 +17,6 @@ std::vector<FileFormat> all_formats() {
     formats.push_back(
         {std::string(format.name), std::string(format.help), format.binary, false, &format});
   return formats;
-}
-
-std::string in_small_letters(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 }  // namespace
@@ -46,14 +40,12 @@ std::string list_of_formats() {
 
 const FileFormat* format_by_name(const std::string& name) {
   const auto& formats = file_formats();
-  const auto found = std::ranges::find(formats, in_small_letters(name), &FileFormat::name);
+  const auto found = std::ranges::find(formats, io::in_small_letters(name), &FileFormat::name);
   return found == formats.end() ? nullptr : &*found;
 }
 
 const FileFormat* format_by_extension(const std::string& path) {
-  const std::size_t dot = path.rfind('.');
-  if (dot == std::string::npos || path.find('/', dot) != std::string::npos) return nullptr;
-  return format_by_name(path.substr(dot + 1));
+  return format_by_name(io::extension_of(path));
 }
 
 }  // namespace pnpbs::tool
