@@ -19,6 +19,7 @@
 #include "neighbors/near_edges.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/distribution.hpp"
+#include "parallel/known_region.hpp"
 #include "spacing/spacing.hpp"
 #include "stars/delaunay_stars.hpp"
 
@@ -67,7 +68,6 @@ class Level {
   void move();
   // Owned nodes go to the ranks that own their leaves by now, and ghosts are renewed.
   void exchange_for_steps() { exchange(step_hops()); }
-  void exchange_for_stars();
   void finish_by_runge_kutta();
 
   // --- events ---
@@ -81,6 +81,8 @@ class Level {
 
   // --- for extraction: lists with this radius, fresh at the present positions ---
   void rebuild_lists(double radius);
+  // The lists handed out. Over several ranks with the ghosts that the stars need, and the stars.
+  void prepare_lists();
 
   const Nodes<2>& nodes() const { return nodes_; }
   const Boundary& boundary() const { return boundary_; }
@@ -104,6 +106,13 @@ class Level {
   bool distributed() const { return comm_->size() > 1; }
 
  private:
+  // In hops of the lists: a candidate for population control is judged by its list, looks two hops
+  // far for room, and may not act if a stronger one is within three. A hop of the leaf graph is the
+  // longer one.
+  static constexpr int kPopulationHops = 6;
+  // Five sweeps on fixed stars, each with a guard that looks at the neighbours' moves.
+  static constexpr int kSweepHops = 12;
+
   SpacingEvaluator evaluator() const;
   double widest_radius() const;
   double edge_radius() const;
@@ -114,6 +123,11 @@ class Level {
   void keep_boundary_ids(const std::vector<GivenNode>& given);
   int step_hops() const;
   void exchange(int hops);
+  void make_lists_and_stars(int hops, double radius, int rings);
+  KnownRegion known_after_exchange(int hops);
+  std::vector<Box<2>> unknown_around_stars(int rings) const;
+  void fetch_nodes_in(const std::vector<Box<2>>& boxes);
+  Bytes owned_nodes_in(const Bytes& asked) const;
   void number_births(std::vector<Birth<2>> born);
   bool fits(const Point<2>& x, double d) const;
   bool has_no_room(std::int64_t i) const;
@@ -144,6 +158,7 @@ class Level {
   NearEdges near_edges_;
   AdjacencyList<2> lists_;
   DelaunayStars stars_;
+  KnownRegion known_;  // while stars are made: where all nodes are known
 
   Field<2> next_;    // positions after the move in progress
   Field<2> listed_;  // positions at which the lists were made

@@ -56,14 +56,6 @@ bool Level::has_no_room(std::int64_t i) const {
   return !room;
 }
 
-// In hops of the lists: a candidate is judged by its list, looks two hops far for room, and may not
-// act if a stronger one is within three. A hop of the leaf graph is the longer one.
-constexpr int kPopulationHops = 6;
-// Five sweeps on fixed stars, each with a guard that looks at the neighbours' moves.
-constexpr int kSweepHops = 12;
-
-void Level::exchange_for_stars() { exchange(kPopulationHops); }
-
 PopulationCounts Level::adjust_population(double refill) {
   ++version_;
   drop_anchors();
@@ -154,22 +146,16 @@ Speeds Level::speeds() const {
   return speeds;
 }
 
-void Level::renew_stars() {
-  const PhaseTimer timer(timers_, Phase::stars);
-  stars_.build({nodes_, map_, fans_, buckets_, lists_, near_edges_});
-}
-
 // In blocks of a few sweeps, within which the stars stay as they are.
 void Level::sweep(std::int64_t times) {
   ++version_;
   constexpr std::int64_t kBlock = 5;
+  // A node's place comes from its neighbours' moves, so each sweep brings in two rings of stars.
+  constexpr int kRings = 2 * kBlock - 1;
   for (std::int64_t done = 0; done < times; done += kBlock) {
     drop_anchors();
     exchange(kSweepHops);
-    agreed(*comm_, [this] {
-      rebuild_lists();
-      renew_stars();
-    });
+    make_lists_and_stars(kSweepHops, settings_.list_radius, kRings);
     const PhaseTimer timer(timers_, Phase::sweeps);
     const View<char> allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count);
     for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s)
