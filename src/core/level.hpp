@@ -110,8 +110,8 @@ class Level {
   // far for room, and may not act if a stronger one is within three. A hop of the leaf graph is the
   // longer one.
   static constexpr int kPopulationHops = 6;
-  // Five sweeps on fixed stars, each with a guard that looks at the neighbours' moves. Enough where d
-  // is even; what lies farther is asked for.
+  // Five sweeps on fixed stars, each with a guard that looks at the neighbours' moves. Enough where
+  // d is even; what lies farther is asked for.
   static constexpr int kSweepHops = 6;
 
   SpacingEvaluator evaluator() const;
