@@ -2,6 +2,7 @@
 // The stars of a level, and the ghosts that they need. The hops of an exchange bring what lies
 // within a few spacings; where d jumps, or the nodes are far too few for d, the circle of a
 // triangle may reach farther. Then the other ranks are asked for what lies there.
+#include <algorithm>
 #include <map>
 #include <unordered_set>
 
@@ -102,14 +103,19 @@ void Level::fetch_nodes_in(const std::vector<Box<2>>& boxes) {
     if (r != comm_->rank()) others.push_back(r);
   Bytes question;
   for (const Box<2>& box : boxes) pack(question, box);
+  const std::vector<Bytes> asked =
+      comm_->exchange(others, std::vector<Bytes>(others.size(), question));
   std::vector<Bytes> answers;
-  for (const Bytes& asked : comm_->exchange(others, std::vector<Bytes>(others.size(), question)))
-    answers.push_back(owned_nodes_in(asked));
-
-  std::unordered_set<std::int64_t> held;
-  for (std::int64_t i = 0; i < nodes_.count; ++i) held.insert(nodes_.id(i));
-  for_records<PackedNode>(comm_->exchange(others, answers), [&](const PackedNode& node) {
-    if (held.insert(node.id).second) append(nodes_, node, false);
+  agreed(*comm_, [&] {
+    for (const Bytes& theirs : asked) answers.push_back(owned_nodes_in(theirs));
+  });
+  const std::vector<Bytes> found = comm_->exchange(others, answers);
+  agreed(*comm_, [&] {
+    std::unordered_set<std::int64_t> held;
+    for (std::int64_t i = 0; i < nodes_.count; ++i) held.insert(nodes_.id(i));
+    for_records<PackedNode>(found, [&](const PackedNode& node) {
+      if (held.insert(node.id).second) append(nodes_, node, false);
+    });
   });
   for (const Box<2>& box : boxes) known_.add(box);
   lists_valid_ = false;
