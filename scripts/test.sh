@@ -85,7 +85,7 @@ for configuration in "${wanted[@]}"; do
       ;;
     sanitize)
       configure_and_build sanitize --preset sanitize
-      run_tests sanitize -LE '^(install|bench)$'
+      run_tests sanitize -LE '^(install|bench|many-runs)$'
       ;;
     *)
       echo "test.sh: unknown configuration '$configuration'" >&2

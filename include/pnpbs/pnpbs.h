@@ -481,8 +481,10 @@ PNPBS_API pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int6
                                                  int64_t *offsets, int64_t *neighbours,
                                                  int8_t *triangle);
 
-/** Triangles of the stars, each once, counter-clockwise. Collective. Ask with capacity 0 for the
- *  count. @param[out] triangles  [count][3] local indices, or NULL */
+/** Triangles of the stars, each once, counter-clockwise. Over several ranks a triangle is the
+ *  rank's that owns its node with the least id; other corners may be ghosts, and the triangles of
+ *  all ranks together are one conforming triangulation of the domain. Collective. Ask with
+ *  capacity 0 for the count. @param[out] triangles  [count][3] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t capacity,
                                                      int64_t *count, int64_t *triangles);
 

@@ -23,6 +23,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/distribution.hpp"
 #include "parallel/ghost_plan.hpp"
+#include "parallel/known_region.hpp"
 #include "parallel/packed_node.hpp"
 #include "spacing/spacing.hpp"
 #include "stars/delaunay_stars.hpp"
@@ -90,6 +91,8 @@ class Level {
 
   // --- for extraction: lists with this radius, fresh at the present positions ---
   void rebuild_lists(double radius);
+  // The lists handed out. Over several ranks with the ghosts that the stars need, and the stars.
+  void prepare_lists();
 
   const Nodes<2>& nodes() const { return nodes_; }
   const Boundary& boundary() const { return boundary_; }
@@ -126,10 +129,9 @@ class Level {
   // In hops of the lists: a candidate is judged by its list, looks two hops far for room, and may
   // not act if a stronger one is within three. A hop of the leaf graph is the longer one.
   static constexpr int kPopulationHops = 6;
-  // One sweep, with a guard that looks at the neighbours' moves, and the reach of ghosts' stars.
+  // One sweep, with a guard that looks at the neighbours' moves. Enough where d is even; what the
+  // stars need farther away is asked for.
   static constexpr int kSweepHops = 6;
-  // Ghosts farther away are no Delaunay neighbours of ours.
-  static constexpr int kStarHops = 3;
   static constexpr int kRungeKuttaStages = 4;
   // d may grow by this factor above its samples in a leaf before ghosts could be missing.
   static constexpr double kRoomForGrowth = 1.25;
@@ -177,6 +179,11 @@ class Level {
   std::vector<LeafSummary> summaries_of_unrefined_leaves() const;
   void thin(std::vector<GivenNode>& inner) const;
   void keep_boundary_ids(const std::vector<GivenNode>& given);
+  void make_lists_and_stars(int hops, double radius, int rings);
+  KnownRegion known_after_exchange(int hops);
+  std::vector<Box<2>> unknown_around_stars(int rings) const;
+  void fetch_nodes_in(const std::vector<Box<2>>& boxes);
+  Bytes owned_nodes_in(const Bytes& asked) const;
   void number_births(std::vector<Birth<2>> born);
   void delete_nodes(const std::vector<std::int32_t>& deleted);
   bool fits(const Point<2>& x, double d) const;
@@ -216,7 +223,7 @@ class Level {
   NearEdges near_edges_;
   AdjacencyList<2> lists_;
   DelaunayStars stars_;
-  std::vector<char> wants_stars_;  // leaves with stars that are needed here; empty: all
+  KnownRegion known_;  // while stars are made: where all nodes are known
 
   Field<2> next_;    // positions after the move in progress
   Field<2> listed_;  // positions at which the lists were made

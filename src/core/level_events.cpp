@@ -145,22 +145,16 @@ Speeds Level::speeds() const {
   return speeds;
 }
 
-void Level::renew_stars() {
-  const PhaseTimer timer(timers_, Phase::stars);
-  stars_.build({nodes_, map_, fans_, buckets_, lists_, near_edges_, wants_stars_});
-}
-
 // In blocks of a few sweeps, within which the stars stay as they are.
 void Level::sweep(std::int64_t times) {
   ++version_;
   constexpr std::int64_t kBlock = 5;
+  // A node's place comes from its neighbours' moves, so each sweep brings in two rings of stars.
+  constexpr int kRings = 2 * kBlock - 1;
   for (std::int64_t done = 0; done < times; done += kBlock) {
     drop_anchors();
     exchange(kSweepHops);
-    agreed(*comm_, [this] {
-      rebuild_lists();
-      renew_stars();
-    });
+    make_lists_and_stars(kSweepHops, settings_.list_radius, kRings);
     const PhaseTimer timer(timers_, Phase::sweeps);
     const View<char> allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count);
     for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s) {

@@ -195,7 +195,6 @@ void Level::grow_own_part() {
     missing = comm_->largest(!more.empty()) > 0;
   }
   require_same_leaves();
-  wants_stars_ = distribution_.leaves_within(kStarHops);
   look_at_new_tree();
 }
 

@@ -372,16 +372,16 @@ void Placement::prepare_lists() {
   require_kokkos();
   if (!level_) throw Error(PNPBS_ERROR_STATE, "the placement has no nodes yet: call run first");
   if (lists_version_ == level_->version()) return;
-  level_->exchange_for_stars();
-  agreed(*comm_, [this] { level_->rebuild_lists(level_->settings().adjacency_radius); });
+  level_->prepare_lists();
   prepare_order();
   lists_version_ = level_->version();
+  if (level_->distributed()) stars_version_ = lists_version_;
 }
 
 void Placement::prepare_stars() {
   prepare_lists();
   if (stars_version_ == level_->version()) return;
-  agreed(*comm_, [this] { level_->renew_stars(); });
+  level_->renew_stars();
   stars_version_ = level_->version();
 }
 

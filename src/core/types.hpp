@@ -21,6 +21,16 @@ struct Box {
 };
 
 template <int Dim>
+inline Box<Dim> box_around(const Point<Dim>& x, double reach) {
+  Box<Dim> box{x, x};
+  for (int k = 0; k < Dim; ++k) {
+    box.low[k] -= reach;
+    box.high[k] += reach;
+  }
+  return box;
+}
+
+template <int Dim>
 inline double squared_distance(const Point<Dim>& a, const Point<Dim>& b) {
   double sum = 0;
   for (int k = 0; k < Dim; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);

@@ -43,8 +43,7 @@ class GiftWrap {
 
   void gather() {
     const Point<2>& x = centre_.position;
-    const Box<2> box{{x[0] - reach_, x[1] - reach_}, {x[0] + reach_, x[1] + reach_}};
-    in_.map.tree().for_leaves_in(box, [&](std::int32_t leaf) {
+    in_.map.tree().for_leaves_in(box_around<2>(x, reach_), [&](std::int32_t leaf) {
       for (std::int32_t j = in_.buckets.begin(leaf); j < in_.buckets.end(leaf); ++j) {
         const double gap = squared_distance<2>(x, in_.nodes.position(j));
         if (j != centre_.node && gap > 0 && gap <= reach_ * reach_) around_.push_back(node(j));
@@ -173,17 +172,19 @@ class GiftWrap {
 
 }  // namespace
 
-void constrained_star(const StarInput& input, std::int64_t i, double first_reach, double last_reach,
-                      std::vector<Entry>& star) {
+double constrained_star(const StarInput& input, std::int64_t i, double first_reach,
+                        std::vector<Entry>& star) {
   const std::size_t before = star.size();
   for (double reach = first_reach;; reach *= 1.5) {
     star.resize(before);
+    if (!input.known.covers(input.map, box_around<2>(input.nodes.position(i), reach))) return reach;
     const bool everything = reach > 2 * input.map.tree().side();
-    if (GiftWrap(input, i, reach, everything).wrap(star)) return;
-    if (everything || reach > last_reach) break;
+    if (GiftWrap(input, i, reach, everything).wrap(star)) return 0;
+    if (everything) break;
   }
   // Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
   if (star.size() > before) star.back().triangle = 0;
+  return 0;
 }
 
 }  // namespace pnpbs

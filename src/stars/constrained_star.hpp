@@ -12,9 +12,9 @@
 
 namespace pnpbs {
 
-// Appends the star of node i to `star`, looking as far as needed, but no farther than last_reach: a
-// ghost at the rim of what this rank sees has no whole star.
-void constrained_star(const StarInput& input, std::int64_t i, double first_reach, double last_reach,
-                      std::vector<DelaunayStars::Entry>& star);
+// Appends the star of node i to `star`, looking as far as needed, and returns 0. Where it would
+// have to look farther than this rank knows the nodes, it appends nothing and returns how far.
+double constrained_star(const StarInput& input, std::int64_t i, double first_reach,
+                        std::vector<DelaunayStars::Entry>& star);
 
 }  // namespace pnpbs

@@ -13,6 +13,7 @@
 #include "neighbors/adjacency_list.hpp"
 #include "neighbors/buckets.hpp"
 #include "neighbors/near_edges.hpp"
+#include "parallel/known_region.hpp"
 
 namespace pnpbs {
 
@@ -24,7 +25,7 @@ struct StarInput {
   const Buckets<2>& buckets;
   const AdjacencyList<2>& lists;
   const NearEdges& near_edges;
-  const std::vector<char>& wanted;  // buckets; the others' nodes get no stars. Empty: all
+  const KnownRegion& known;
 };
 
 class DelaunayStars {
@@ -55,12 +56,18 @@ class DelaunayStars {
               static_cast<std::int64_t>(star[k + 1 < star.size() ? k + 1 : 0].node));
   }
 
+  // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
+  double needs(std::int64_t i) const {
+    return needs_.empty() ? 0 : needs_[static_cast<std::size_t>(i)];
+  }
+
   std::int32_t size(std::int64_t i) const {
     return static_cast<std::int32_t>(stars_.row(i).size());
   }
 
  private:
   ChunkedRows<Entry> stars_;
+  std::vector<double> needs_;  // of the nodes; empty where everything is known
 };
 
 }  // namespace pnpbs

@@ -8,11 +8,21 @@
 
 namespace pnpbs {
 
+// The area is found from the shortest side, whose ends are the most exact to subtract, and taken at
+// its least: of a triangle too flat to tell, the circle reaches everywhere.
 double circle_diameter(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-  const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-  if (twice_area == 0) return std::numeric_limits<double>::infinity();
-  return std::sqrt(squared_distance<2>(a, b)) * std::sqrt(squared_distance<2>(b, c)) *
-         std::sqrt(squared_distance<2>(c, a)) / std::fabs(twice_area);
+  const double ab = squared_distance<2>(a, b), bc = squared_distance<2>(b, c),
+               ca = squared_distance<2>(c, a);
+  const Point<2>& from = ab <= bc && ab <= ca ? a : bc <= ca ? b : c;
+  const Point<2>& to = ab <= bc && ab <= ca ? b : bc <= ca ? c : a;
+  const Point<2>& top = ab <= bc && ab <= ca ? c : bc <= ca ? a : b;
+  const double left = (to[0] - from[0]) * (top[1] - from[1]);
+  const double right = (to[1] - from[1]) * (top[0] - from[0]);
+  const double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const double twice_area =
+      std::fabs(left - right) - rounding * (std::fabs(left) + std::fabs(right));
+  if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(ab) * std::sqrt(bc) * std::sqrt(ca) / twice_area;
 }
 
 namespace {

@@ -21,7 +21,7 @@ struct StarPoint {
 // `around` must be complete. If not, `around` is of no use.
 bool hull_star(const StarPoint& centre, double reach, std::vector<StarPoint>& around);
 
-// Diameter of the circle through a, b, c (infinity for three points on a line).
+// Diameter of the circle through a, b, c, not less (infinity for three points on a line).
 double circle_diameter(const Point<2>& a, const Point<2>& b, const Point<2>& c);
 
 }  // namespace pnpbs

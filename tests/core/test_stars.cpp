@@ -256,10 +256,31 @@ START_TEST(many_nodes_on_one_circle) {
 }
 END_TEST
 
+// Nodes that have been pushed into one corner may end next to each other to the last bit: flat
+// triangles whose circles rounding would make too small, or far too large.
+START_TEST(nodes_an_ulp_apart) {
+  Random random(73);
+  for (const double factor : {1.0, 25.0}) {
+    LevelRun run(add_square, [&](double x, double) { return x < 0.52 ? factor * 0.012 : 0.012; });
+    std::vector<pnpbs::GivenNode> nodes;
+    for (int pair = 0; pair < 60; ++pair) {
+      // With 25, close to the clearance of the coarse nodes, 0.12.
+      const P x{0.12 + (pair % 2) * random.between(0, 0.3), 0.12 + 0.01 * pair};
+      nodes.push_back({x, -1});
+      nodes.push_back({{std::nextafter(x[0], 1.0), x[1]}, -1});
+      if (pair % 3 == 0) nodes.push_back({{x[0], std::nextafter(x[1], 0.0)}, -1});
+    }
+    run.level->take(nodes, 0);
+    run.renew_stars();
+    expect_reference(*run.level, "an ulp apart");
+  }
+}
+END_TEST
+
 int main() {
   return run_kernel_suite(
       "stars",
       {small_shapes_with_constant_spacing, small_shapes_with_graded_spacing,
        small_shapes_with_a_jump, small_shapes_far_too_coarse, lakes, scattered_nodes, flat_triangle,
-       fine_node_beyond_empty_buckets, exact_grids, many_nodes_on_one_circle});
+       fine_node_beyond_empty_buckets, exact_grids, many_nodes_on_one_circle, nodes_an_ulp_apart});
 }

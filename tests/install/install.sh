@@ -17,9 +17,13 @@ prefix=$work/moved
 pc_folder=$(dirname "$(find "$prefix" -name pnpbs.pc)")
 export OMP_NUM_THREADS=2
 
+# Programs on MPI come with a library that has it.
+with_mpi=$(grep -q '^PNPBS_ENABLE_MPI:BOOL=ON' "$build/CMakeCache.txt" && echo yes || echo no)
+uses_mpi() { grep -q pnpbs_mpi.h "$1"/*.c; }
+
 # An example's own words: "<what>: <number>, expected <number>", or "expected about <number>".
 run_and_compare() {
-  "$1" > "$work/output"
+  "$@" > "$work/output" < /dev/null
   sed 's/^/   /' "$work/output"
   awk '
     match($0, /: [-0-9.]+, expected (about )?[-0-9.]+$/) {
@@ -46,18 +50,25 @@ done
 
 for source in "$prefix"/share/pnpbs/examples/c/*/; do
   name=$(basename "$source")
+  compiler=$cc on_ranks=''
+  if uses_mpi "$source"; then
+    [ "$with_mpi" = yes ] || continue
+    compiler=mpicc on_ranks='mpirun --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np 3'
+  fi
 
   say "$name with pkg-config"
   cp -r "$source" "$work/$name"
-  make -s -C "$work/$name" CC="$cc" CFLAGS="-std=c99 -O2 -Wall -Wextra -pedantic -Werror" \
+  make -s -C "$work/$name" CC="$compiler" CFLAGS="-std=c99 -O2 -Wall -Wextra -pedantic -Werror" \
     PKG_CONFIG_PATH="$pc_folder"
-  run_and_compare "$work/$name/$name"
+  # shellcheck disable=SC2086  # words on purpose
+  run_and_compare $on_ranks "$work/$name/$name"
 
   say "$name with CMake"
   "$cmake" -S "$source" -B "$work/$name/cmake" -DCMAKE_C_COMPILER="$cc" \
     -DCMAKE_PREFIX_PATH="$prefix" > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
   "$cmake" --build "$work/$name/cmake" > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
-  run_and_compare "$work/$name/cmake/$name"
+  # shellcheck disable=SC2086  # words on purpose
+  run_and_compare $on_ranks "$work/$name/cmake/$name"
 done
 
 archive=$(find "$prefix" -name libpnpbs.a)

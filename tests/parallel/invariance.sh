@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The promise: one hash for any number of ranks and threads, any exchange interval, any partition.
-# The configurations cover the grid pairwise. usage: invariance.sh PROGRAM MPIEXEC DATA
+# Small sizes, and every pair of values of two parameters at least once; invariance_grid.py beside
+# the benchmarks runs the whole grid at any size. usage: invariance.sh PROGRAM MPIEXEC DATA
 set -euo pipefail
 program=$1 mpiexec=$2 data=$3
 failed=0
@@ -14,41 +15,56 @@ place() { # ranks, threads, arguments of the program
 }
 field() { awk -v key="$2" '{ for (k = 1; k < NF; ++k) if ($k == key) print $(k + 1) }' <<< "$1"; }
 
-# case, scale of d, other options
-compare() {
-  local name=$1 scale=$2
-  shift 2
-  local expected line ranks threads interval seed
-  expected=$(place 1 1 "$name" "$scale" "$@")
-  echo "$(basename "$name") $scale $*: $expected"
-  while read -r ranks threads interval seed; do
-    line=$(place "$ranks" "$threads" "$name" "$scale" "$@" "exchange_interval=$interval" \
-      "metis_seed=$seed")
-    if [ "$(field "$line" hash)" != "$(field "$expected" hash)" ]; then
-      echo "DIFFERS at $ranks ranks, $threads threads, exchange every $interval, seed $seed: $line"
-      failed=1
-    fi
-  done
+begin() { # case, scale of d, other options
+  subject=("$@")
+  expected=$(place 1 1 "$@")
+  echo "$(basename "$1") ${*:2}: $expected"
+}
+compare() { # ranks, threads, exchange interval, seed
+  local line
+  line=$(place "$1" "$2" "${subject[@]}" "exchange_interval=$3" "metis_seed=$4")
+  if [ "$(field "$line" hash)" != "$(field "$expected" hash)" ]; then
+    echo "DIFFERS at $1 ranks, $2 threads, exchange every $3, seed $4: $line"
+    failed=1
+  fi
 }
 
-configurations='1 2 4 1
-2 1 1 2
-2 2 8 3
-3 1 4 4
-4 2 2 1
-5 1 8 2
-7 1 1 3
-8 1 4 1
-16 1 2 4'
-few='2 1 4 1
-3 2 2 2
-8 1 8 3'
-compare graded-square 4 <<< "$configurations"
-compare "$data/great_lakes_islands.poly" 5 <<< "$configurations"
-compare uniform-square 4 <<< "$few"
-compare "$data/lake_victoria.poly" 4 <<< "$few"
-compare graded-square 6 method=paper <<< "$few"
-compare uniform-square 40 <<< '16 1 4 1' # about as many ranks as nodes inside
+# Four cases x eight numbers of ranks; intervals and seeds are two orthogonal Latin squares of order
+# four over cases and ranks (sums and products of the field with four elements).
+cases=("graded-square 8" "$data/great_lakes.poly 8" "uniform-square 8"
+       "$data/lake_victoria.poly 10")
+ranks=(1 2 3 4 5 7 8 16)
+intervals=(1 2 4 8)
+times_two=(0 2 3 1)
+for c in 0 1 2 3; do
+  # shellcheck disable=SC2086  # words on purpose
+  begin ${cases[c]}
+  for r in 0 1 2 3 4 5 6 7; do
+    threads=$((1 + ((c ^ (r / 4)) & 1)))
+    compare "${ranks[r]}" "$threads" "${intervals[c ^ (r % 4)]}" $((1 + (times_two[c] ^ (r % 4))))
+  done
+done
+
+begin graded-square 8 method=paper
+compare 2 2 4 1
+compare 5 1 1 2
+begin uniform-square 40 # about as many ranks as nodes inside
+compare 16 1 4 1
+# Vertices far closer than d: leaves are small against the bubbles, and all is boundary.
+begin "$data/lake_victoria.poly" 60
+compare 3 1 8 1
+compare 8 1 4 1
+compare 16 1 2 2
+begin "$data/great_lakes_islands.poly" 4
+compare 8 1 4 1
+# Many events with many insertions and deletions.
+begin graded-square 8 event_interval=3 population_pays=0 delete_above=6.3 insert_below=5.7
+compare 4 1 2 1
+compare 7 1 8 2
+if [ "$(field "$expected" inserted)" -lt 50 ] || [ "$(field "$expected" deleted)" -lt 50 ]; then
+  echo "population control had little to do: $expected"
+  failed=1
+fi
 
 # It can fail: no rank sees half of the nodes, and ghost layers too thin give another set.
 line=$(place 8 1 graded-square 2 exchange_interval=2 sweeps=0)

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stars of a level, and the ghosts that they need. The hops of an exchange bring what lies
+// within a few spacings; where d jumps, or the nodes are far too few for d, the circle of a
+// triangle may reach farther. Then the other ranks are asked for what lies there.
+#include <algorithm>
+#include <map>
+#include <unordered_set>
+
+#include "core/level.hpp"
+#include "parallel/packed_node.hpp"
+#include "parallel/records.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+void widen(Box<2>& box, const Box<2>& by) {
+  for (int k = 0; k < 2; ++k) {
+    box.low[k] = std::min(box.low[k], by.low[k]);
+    box.high[k] = std::max(box.high[k], by.high[k]);
+  }
+}
+
+}  // namespace
+
+void Level::renew_stars() {
+  const PhaseTimer timer(timers_, Phase::stars);
+  stars_.build({nodes_, map_, fans_, buckets_, lists_, near_edges_, known_});
+}
+
+void Level::prepare_lists() {
+  if (!ghosts_exact_ || ghost_hops_ < kPopulationHops) exchange_for_stars();
+  if (distributed())
+    make_lists_and_stars(kPopulationHops, settings_.adjacency_radius, 0);
+  else
+    rebuild_lists(settings_.adjacency_radius);
+}
+
+// Lists and stars right after an exchange that deep: those of the owned nodes and of the ghosts
+// around them are right, up to so many neighbours away.
+void Level::make_lists_and_stars(int hops, double radius, int rings) {
+  known_ = known_after_exchange(hops);
+  while (true) {
+    std::vector<Box<2>> unknown;
+    agreed(*comm_, [&] {
+      rebuild_lists(radius);
+      renew_stars();
+      unknown = unknown_around_stars(rings);
+    });
+    if (comm_->sum(unknown.size()) == 0) break;
+    fetch_nodes_in(unknown);
+  }
+  known_ = KnownRegion();
+}
+
+KnownRegion Level::known_after_exchange(int hops) {
+  if (!distributed()) return {};
+  const Halo& halo = distribution_.halo(hops);
+  std::vector<char> held(static_cast<std::size_t>(map_.tree().leaf_count()), 0);
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    held[static_cast<std::size_t>(leaf)] = distribution_.owns(leaf);
+    if (distribution_.refined(leaf))
+      halo.for_ranks(leaf, [&](int r) {
+        if (r == comm_->rank()) held[static_cast<std::size_t>(leaf)] = 1;
+      });
+  }
+  return KnownRegion(std::move(held));
+}
+
+// What must be known for the stars that are needed: one box for the nodes of each leaf.
+std::vector<Box<2>> Level::unknown_around_stars(int rings) const {
+  if (known_.is_everywhere()) return {};
+  std::map<std::int32_t, Box<2>> box_of;
+  std::vector<char> reached(static_cast<std::size_t>(nodes_.count), 0);
+  std::vector<std::int64_t> front, next;
+  for (std::int64_t i = 0; i < nodes_.count; ++i) {
+    reached[static_cast<std::size_t>(i)] = nodes_.owned(i);
+    if (nodes_.owned(i)) front.push_back(i);
+  }
+  for (int ring = 0; ring <= rings; ++ring) {
+    next.clear();
+    for (const std::int64_t i : front) {
+      if (stars_.needs(i) > 0) {
+        const Box<2> box = box_around<2>(nodes_.position(i), stars_.needs(i));
+        widen(box_of.try_emplace(buckets_.bucket_of(i), box).first->second, box);
+      }
+      stars_.for_neighbours(i, [&](std::int64_t j, bool) {
+        char& known = reached[static_cast<std::size_t>(j)];
+        if (!known) next.push_back(j);
+        known = 1;
+      });
+    }
+    front.swap(next);
+  }
+  std::vector<Box<2>> boxes;
+  for (const auto& [leaf, box] : box_of) boxes.push_back(box);
+  return boxes;
+}
+
+// All nodes in these boxes become ghosts of ours, until the next exchange.
+void Level::fetch_nodes_in(const std::vector<Box<2>>& boxes) {
+  ++version_;
+  const PhaseTimer timer(timers_, Phase::exchange);
+  Bytes question;
+  for (const Box<2>& box : boxes) pack(question, box);
+  std::vector<Parcel> asked, answers;
+  for (int r = 0; r < comm_->size(); ++r)
+    if (r != comm_->rank() && !question.empty()) asked.push_back({r, question});
+  for (const Parcel& theirs : comm_->deliver(asked))
+    answers.push_back({theirs.rank, owned_nodes_in(theirs.bytes)});
+  const std::vector<Parcel> found = comm_->deliver(answers);
+  agreed(*comm_, [&] {
+    std::unordered_set<std::int64_t> held;
+    for (std::int64_t i = 0; i < nodes_.count; ++i) held.insert(nodes_.id(i));
+    for (const Parcel& theirs : found)
+      for_records<PackedNode>({theirs.bytes}, [&](const PackedNode& node) {
+        if (held.insert(node.id).second) append(nodes_, node, false);
+      });
+  });
+  for (const Box<2>& box : boxes) known_.add(box);
+  in_buckets_ = false;
+  lists_valid_ = false;
+}
+
+// `asked`: boxes. A node in several of them comes several times.
+Bytes Level::owned_nodes_in(const Bytes& asked) const {
+  Bytes answer;
+  for_records<Box<2>>({asked}, [&](const Box<2>& box) {
+    map_.tree().for_leaves_in(box, [&](std::int32_t leaf) {
+      for (std::int32_t i = buckets_.begin(leaf); i < buckets_.end(leaf); ++i)
+        if (nodes_.owned(i)) pack(answer, packed(nodes_, i));
+    });
+  });
+  return answer;
+}
+
+}  // namespace pnpbs
