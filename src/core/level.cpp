@@ -40,10 +40,12 @@ void Level::lay_boundary() {
 }
 
 void Level::change_settings(const Settings& settings) {
-  const double edges_before = edge_radius(), widest_before = widest_radius();
+  const double edges_before = edge_radius(), widest_before = widest_radius(),
+               list_before = settings_.list_radius;
   settings_ = settings;
   ghost_hops_ = 0;
-  if (widest_radius() > widest_before) tree_hops_ = 0;  // a hop is longer now
+  if (widest_radius() != widest_before || settings_.list_radius != list_before)
+    tree_hops_ = 0;  // a hop has another length now
   if (edge_radius() == edges_before) return;
   near_edges_.prepare(map_, edge_radius());
   lists_valid_ = false;

@@ -129,9 +129,9 @@ class Level {
   // In hops of the lists: a candidate is judged by its list, looks two hops far for room, and may
   // not act if a stronger one is within three. A hop of the leaf graph is the longer one.
   static constexpr int kPopulationHops = 6;
-  // One sweep, with a guard that looks at the neighbours' moves. Enough where d is even; what the
-  // stars need farther away is asked for.
-  static constexpr int kSweepHops = 6;
+  // For the stars of our nodes and their neighbours, and for lists of any radius, where d is even;
+  // what they need farther away is asked for.
+  static constexpr int kStarHops = 3;
   static constexpr int kRungeKuttaStages = 4;
   // d may grow by this factor above its samples in a leaf before ghosts could be missing.
   static constexpr double kRoomForGrowth = 1.25;
@@ -162,7 +162,7 @@ class Level {
   int hops_for(std::int64_t evaluations) const;
   int step_hops() const;
   int deepest_hops() const;
-  double shortest_hop() const;
+  const Halo& halo_of(int hops);
   std::int64_t ghost_life() const;
   bool ghosts_can_stay(int hops) const;
   void renew_ghosts();
@@ -182,8 +182,10 @@ class Level {
   void make_lists_and_stars(int hops, double radius, int rings);
   KnownRegion known_after_exchange(int hops);
   std::vector<Box<2>> unknown_around_stars(int rings) const;
+  std::vector<std::int64_t> neighbours_of(const std::vector<std::int64_t>& front,
+                                          std::vector<char>& reached) const;
   void fetch_nodes_in(const std::vector<Box<2>>& boxes);
-  Bytes owned_nodes_in(const Bytes& asked) const;
+  Bytes nodes_for(const Parcel& asked);
   void number_births(std::vector<Birth<2>> born);
   void delete_nodes(const std::vector<std::int32_t>& deleted);
   bool fits(const Point<2>& x, double d) const;

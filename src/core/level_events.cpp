@@ -59,7 +59,7 @@ bool Level::has_no_room(std::int64_t i) const {
   return !room;
 }
 
-void Level::exchange_for_stars() { exchange(kPopulationHops); }
+void Level::exchange_for_stars() { exchange(kStarHops); }
 
 PopulationCounts Level::adjust_population(double refill) {
   ++version_;
@@ -149,12 +149,12 @@ Speeds Level::speeds() const {
 void Level::sweep(std::int64_t times) {
   ++version_;
   constexpr std::int64_t kBlock = 5;
-  // A node's place comes from its neighbours' moves, so each sweep brings in two rings of stars.
-  constexpr int kRings = 2 * kBlock - 1;
+  // The guard of a node asks where its neighbours want to go, which their stars tell.
+  constexpr int kRings = 1;
   for (std::int64_t done = 0; done < times; done += kBlock) {
     drop_anchors();
-    exchange(kSweepHops);
-    make_lists_and_stars(kSweepHops, settings_.list_radius, kRings);
+    exchange(kStarHops);
+    make_lists_and_stars(kStarHops, settings_.list_radius, kRings);
     const PhaseTimer timer(timers_, Phase::sweeps);
     const View<char> allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count);
     for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s) {

@@ -25,18 +25,20 @@ std::int64_t records_in(const std::vector<Bytes>& messages) {
 
 // How many hops of the leaf graph the ghosts must reach for owned nodes to stay exact over so many
 // force evaluations. What an evaluation brings in comes from no farther than the range of the force
-// and the ways of both nodes; a hop spans at least a list radius, with room for growth of d. Both
-// nodes drift while the ghosts stay the same ones.
+// and the ways of both nodes; a hop spans a list radius. Both nodes drift while the ghosts stay the
+// same ones.
 int Level::hops_for(std::int64_t evaluations) const {
   const double most = settings_.motion.most;
   const auto n = static_cast<double>(evaluations);
   const double drift = 2 * most * static_cast<double>(ghost_life());
   const double needed = n * (settings_.force_range() + 2 * most) + drift;
-  const int hops = static_cast<int>(std::ceil(needed / shortest_hop()));
+  const int hops = static_cast<int>(std::ceil(needed / settings_.list_radius));
   return std::max(0, hops - static_cast<int>(settings_.halo_deficit));
 }
 
-double Level::shortest_hop() const { return kRoomForGrowth * settings_.list_radius; }
+const Halo& Level::halo_of(int hops) {
+  return distribution_.halo(hops, settings_.list_radius / (kRoomForGrowth * widest_radius()));
+}
 
 int Level::step_hops() const {
   return hops_for(settings_.exchange_interval * settings_.evaluations_per_step());
@@ -44,7 +46,7 @@ int Level::step_hops() const {
 
 int Level::deepest_hops() const {
   // One more because nodes drift out of their leaves, and one to see who is beyond.
-  return std::max({step_hops(), hops_for(kRungeKuttaStages), kPopulationHops, kSweepHops}) + 2;
+  return std::max({step_hops(), hops_for(kRungeKuttaStages), kPopulationHops, kStarHops}) + 2;
 }
 
 std::int64_t Level::ghost_life() const { return std::max(kGhostLife, settings_.exchange_interval); }
@@ -84,10 +86,10 @@ void Level::exchange(int hops) {
   ghost_hops_ = 0;
   std::vector<Bytes> outgoing, incoming;
   agreed(*comm_, [&] {
-    plan_.start(distribution_.halo(hops).neighbours(), comm_->size());
-    outgoing.resize(distribution_.halo(hops).neighbours().size());
+    plan_.start(halo_of(hops).neighbours(), comm_->size());
+    outgoing.resize(halo_of(hops).neighbours().size());
   });
-  const Halo& halo = distribution_.halo(hops);
+  const Halo& halo = halo_of(hops);
   std::exception_ptr failure;
   const auto attempt = [&](const auto& work) {
     try {

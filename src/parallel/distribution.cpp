@@ -135,21 +135,19 @@ std::vector<std::int32_t> Distribution::unrefined_within(int hops) const {
   return {found.begin(), found.end()};
 }
 
-const Halo& Distribution::halo(int hops) {
+const Halo& Distribution::halo(int hops, double hop_share) {
   const auto known = halos_.find(hops);
   if (known != halos_.end()) return known->second;
   const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
   Needs needs(links_->graph, *this, leaves);
   for (int hop = 0; hop < hops; ++hop) needs.spread();
-  // A hop ends at the far side of a leaf, but a bubble's reach does not: what lies beyond the
-  // reaches of all hops together is not needed.
   const std::vector<double> reach = reach_within(hops);
   Halo halo;
   halo.offset_.push_back(0);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const Box<2> box = tree_->cell_box(tree_->leaf_cell(leaf));
     for (std::int32_t rank : needs.of(static_cast<std::size_t>(leaf)))
-      if (near(box, rank, hops * reach[static_cast<std::size_t>(leaf)]))
+      if (near(box, rank, hops * hop_share * reach[static_cast<std::size_t>(leaf)]))
         halo.ranks_.push_back(rank);
     halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
   }

@@ -68,8 +68,10 @@ class Distribution {
   std::vector<char> leaves_within(int hops) const;
   // Cells with such leaves that are not refined.
   std::vector<std::int32_t> unrefined_within(int hops) const;
-  // Made on first use and kept.
-  const Halo& halo(int hops);
+  // Made on first use and kept. A hop ends at the far side of a leaf, but what comes over it comes
+  // from no farther than `hop_share` of the reach of the largest bubbles about: what lies beyond
+  // all hops together is not needed.
+  const Halo& halo(int hops, double hop_share);
 
   // For one count per leaf, on every rank those of its own nodes: the sum over all leaves before
   // each one in Morton order, of all ranks, from `start` on; moves `start` on by the sum over all.

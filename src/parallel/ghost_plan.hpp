@@ -24,10 +24,22 @@ class GhostPlan {
     outgoing_.resize(neighbours.size());
     incoming_.resize(neighbours.size());
   }
+  // Both sides of a pair of ranks must do so.
+  void add_neighbour(int rank) {
+    if (knows(rank)) return;
+    place_[static_cast<std::size_t>(rank)] = static_cast<int>(neighbours_.size());
+    neighbours_.push_back(rank);
+    send_.emplace_back();
+    receive_.emplace_back();
+    outgoing_.emplace_back();
+    incoming_.emplace_back();
+  }
   bool knows(int rank) const { return place_[static_cast<std::size_t>(rank)] >= 0; }
   std::size_t place(int rank) const {
     return static_cast<std::size_t>(place_[static_cast<std::size_t>(rank)]);
   }
+  // Owned nodes that the rank has as ghosts.
+  const std::vector<std::int32_t>& sent_to(int rank) const { return send_[place(rank)]; }
   void send(int rank, std::int32_t node) { send_[place(rank)].push_back(node); }
   void receive(int rank, std::int32_t node) { receive_[place(rank)].push_back(node); }
 

@@ -72,7 +72,7 @@ if [ $((2 * $(field "$line" held))) -ge "$(field "$line" nodes)" ]; then
   echo "some rank holds half of the nodes: $line"
   failed=1
 fi
-thin=$(place 8 1 graded-square 2 exchange_interval=8 sweeps=0 halo_deficit=3)
+thin=$(place 8 1 graded-square 2 exchange_interval=8 sweeps=0 halo_deficit=5)
 if [ "$(field "$line" hash)" = "$(field "$thin" hash)" ]; then
   echo "a halo too thin changed nothing: $thin"
   failed=1
