@@ -165,8 +165,6 @@ void Level::take_next_positions() {
     return std::sqrt(dx * dx + dy * dy) / nodes_.d(i);
   });
   std::swap(nodes_.x, next_);
-  ghosts_exact_ = false;
-  ++steps_since_choice_;
 }
 
 }  // namespace pnpbs

@@ -71,6 +71,11 @@ class Level {
   bool lists_may_miss_a_pair() const;
   void rebuild_lists();
   void move();
+  // A step is over, done or not: where one rank fails, all must count alike.
+  void count_step() {
+    ghosts_exact_ = false;
+    ++steps_since_choice_;
+  }
   // Where ranks agree: at the beginning of a row of steps, and once in a while within it. A failure
   // of this rank so far is told then.
   void exchange_for_steps(std::exception_ptr& failure);

@@ -156,7 +156,8 @@ void Level::sweep(std::int64_t times) {
     exchange(kStarHops);
     make_lists_and_stars(kStarHops, settings_.list_radius, kRings);
     const PhaseTimer timer(timers_, Phase::sweeps);
-    const View<char> allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count);
+    View<char> allowed;
+    agreed(*comm_, [&] { allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count); });
     for (std::int64_t s = 0; s < std::min(kBlock, times - done); ++s) {
       renew_ghosts();
       pnpbs::sweep(nodes_, stars_, near_edges_, map_, settings_.sweep, next_, allowed);

@@ -211,6 +211,7 @@ Outcome Placement::advance(std::int64_t until, double share) {
     } catch (...) {
       failure = std::current_exception();
     }
+    level_->count_step();
     ++schedule_step_;
     ++steps_done_;
     const bool is_event = schedule_step_ % settings.event_interval == 0;
@@ -316,6 +317,7 @@ void Placement::finish() {
       level_->rebuild_lists();  // its stages look ahead
       level_->finish_by_runge_kutta();
     });
+    level_->count_step();
     ++steps_done_;
   }
   level_->sweep(settings.sweeps);
