@@ -148,6 +148,7 @@ class Level {
   void require_same_ground(const PartitionCells& cells) const;
   void require_same_leaves() const;
   void look_at_new_tree();
+  void forget_what_goes_by_leaves();
   std::vector<PartitionCell> rough_cells();
   std::vector<std::int64_t> expected_work() const;
   void refine_tree(const std::vector<char>& refined);

@@ -107,6 +107,10 @@ void Level::require_same_leaves() const {
 // What goes by the leaves of the tree.
 void Level::look_at_new_tree() {
   near_edges_.prepare(map_, edge_radius());
+  forget_what_goes_by_leaves();
+}
+
+void Level::forget_what_goes_by_leaves() {
   buckets_.reset(links_);
   in_buckets_ = false;
   plan_ = GhostPlan();
@@ -183,18 +187,18 @@ void Level::link_leaves() {
 // In full wherever own nodes and ghosts can be. What is within the hops is known only once it is
 // there: more is refined until nothing is missing.
 void Level::grow_own_part() {
-  tree_hops_ = deepest_hops();
-  std::vector<char> refined =
-      distribution_.cells_near_own(tree_hops_, kRoomForGrowth * widest_radius());
+  const int hops = deepest_hops();
+  std::vector<char> refined = distribution_.cells_near_own(hops, kRoomForGrowth * widest_radius());
   for (bool missing = true; missing;) {
     refine_tree(refined);
     link_leaves();
     distribution_.link_leaves(links_);
-    const std::vector<std::int32_t> more = distribution_.unrefined_within(tree_hops_);
+    const std::vector<std::int32_t> more = distribution_.unrefined_within(hops);
     for (std::int32_t cell : more) refined[static_cast<std::size_t>(cell)] = 1;
     missing = comm_->largest(!more.empty()) > 0;
   }
   require_same_leaves();
+  tree_hops_ = hops;
   look_at_new_tree();
 }
 
@@ -269,17 +273,22 @@ std::vector<std::int32_t> Level::keep_numbers(const PartitionCells& cells,
   return relabelled(std::move(part), kept, comm_->size());
 }
 
-// The nodes are yet to migrate. If d fails where it is asked anew, all stays as it was.
+// The nodes are yet to migrate. If it fails, all stays as it was; putting it back asks for no
+// memory, there may be none.
 void Level::adopt(Distribution next) {
   DomainMap map_before = std::move(map_);
+  NearEdges near_edges_before =
+      std::exchange(near_edges_, {});  // a View moved from is no empty one
   Distribution before = std::exchange(distribution_, std::move(next));
+  std::shared_ptr<const LeafLinks<2>> links_before = links_;
   try {
     grow_own_part();
   } catch (...) {
     map_ = std::move(map_before);
+    near_edges_ = std::move(near_edges_before);
     distribution_ = std::move(before);
-    link_leaves();
-    look_at_new_tree();
+    links_ = std::move(links_before);
+    forget_what_goes_by_leaves();
     throw;
   }
 }
