@@ -2,6 +2,7 @@
 #include "parallel/distribution.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -50,20 +51,43 @@ class Needs {
   std::vector<std::pair<std::int32_t, std::int32_t>> front_;  // leaf and rank that came last
 };
 
+Box<2> widened(Box<2> box, double way) {
+  for (int k = 0; k < 2; ++k) {
+    box.low[k] -= way;
+    box.high[k] += way;
+  }
+  return box;
+}
+
 }  // namespace
 
+// A graph of all cells would tell as well, but with many ranks it is far larger than what a rank
+// needs of it.
 std::vector<char> Distribution::cells_near_own(int hops, double reach) const {
+  const BackgroundTree<2>& tree = cells_.tree();
+  const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
   // A hop goes as far as a bubble reaches and to the far side of the leaf it finds there.
-  const double hop = reach + 2;
-  std::vector<double> reaches;
-  for (std::int32_t c = 0; c < cells_.count(); ++c)
-    reaches.push_back(hops * hop * cells_.largest_spacing(c));
-  LeafGraph<2> near;
-  near.build(cells_.tree(), reaches);
+  const auto way = [&](std::int32_t c) { return hops * (reach + 2) * cells_.largest_spacing(c); };
   std::vector<char> found(static_cast<std::size_t>(cells_.count()), 0);
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Box<2> around_own{{kNone, kNone}, {-kNone, -kNone}};
+  for (std::int32_t c = 0; c < cells_.count(); ++c) {
+    if (owner_of_cell(c) != rank_) continue;
+    const Box<2> own = box(c);
+    for (int k = 0; k < 2; ++k) {
+      around_own.low[k] = std::min(around_own.low[k], own.low[k]);
+      around_own.high[k] = std::max(around_own.high[k], own.high[k]);
+    }
+    found[static_cast<std::size_t>(c)] = 1;
+    tree.for_leaves_in(widened(own, way(c)), [&](std::int32_t n) {
+      if (squared_gap<2>(own, box(n)) <= way(c) * way(c)) found[static_cast<std::size_t>(n)] = 1;
+    });
+  }
+  // Those with bubbles so much larger than ours that only they reach as far.
   for (std::int32_t c = 0; c < cells_.count(); ++c)
-    if (owner_of_cell(c) == rank_)
-      near.for_neighbours(c, [&](std::int32_t n) { found[static_cast<std::size_t>(n)] = 1; });
+    if (!found[static_cast<std::size_t>(c)] &&
+        squared_gap<2>(box(c), around_own) <= way(c) * way(c))
+      found[static_cast<std::size_t>(c)] = near(box(c), rank_, way(c));
   return found;
 }
 
@@ -91,14 +115,9 @@ std::vector<double> Distribution::reach_within(int hops) const {
 
 // Does the rank own something as near as that?
 bool Distribution::near(const Box<2>& box, int rank, double way) const {
-  Box<2> around = box;
-  for (int k = 0; k < 2; ++k) {
-    around.low[k] -= way;
-    around.high[k] += way;
-  }
   bool found = false;
   const BackgroundTree<2>& tree = cells_.tree();
-  tree.for_leaves_in(around, [&](std::int32_t cell) {
+  tree.for_leaves_in(widened(box, way), [&](std::int32_t cell) {
     found = found || (owner_of_cell(cell) == rank &&
                       squared_gap<2>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way);
   });

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * How a placement is dealt out to the ranks of MPI_COMM_WORLD: initialises it, takes no step, and
+ * prints one line of names and values, the mean and the largest over the ranks; so many more ranks
+ * than cores do. With `rebalance` it deals out once more, by the work counted, and `imbalance` is
+ * that of the work; with `run` it places the nodes, which tells the time of a step and the memory.
+ * usage: decomposition CASE SCALE [run|rebalance] [key=value]...  with the cases of place_on_ranks
+ * Ends with status 1 if the figures contradict each other. */
+#include <mpi.h>
+#include <pnpbs/pnpbs_mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include "placement_cases.h"
+
+enum { BYTES_PER_GHOST = 32 }; /* position and velocity */
+
+static pnpbs_context context;
+static pnpbs_placement placement;
+static int rank, size;
+
+static void check(pnpbs_status status, const char* what) { case_check(context, status, what); }
+
+static double integer(const char* key) {
+  int64_t value = 0;
+  check(pnpbs_placement_get_int64(placement, key, &value), key);
+  return (double)value;
+}
+
+static double real(const char* key) {
+  double value = 0;
+  check(pnpbs_placement_get_double(placement, key, &value), key);
+  return value;
+}
+
+/* Seconds of this process on a core, without what the system did for it (as when it lets others
+ * run while it waits). */
+static double on_a_core(void) {
+  struct rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return (double)usage.ru_utime.tv_sec + 1e-6 * (double)usage.ru_utime.tv_usec;
+}
+
+static double sum_of(double mine) {
+  double sum;
+  MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return sum;
+}
+
+static void tell(const char* name, double value) {
+  if (rank == 0) printf("%s %.9g ", name, value);
+}
+
+static void tell_over_ranks(const char* name, double mine) {
+  const double mean = sum_of(mine) / size;
+  double largest;
+  MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  if (rank == 0) printf("%s.mean %.9g %s.largest %.9g ", name, mean, name, largest);
+}
+
+/* Every node is owned once, and what is sent is what arrives as a ghost. */
+static int consistent(double owned, double ghosts, double bytes) {
+  const double nodes = integer("nodes"), all = sum_of(owned), sent = sum_of(bytes),
+               arriving = BYTES_PER_GHOST * sum_of(ghosts);
+  if (all == nodes && sent == arriving) return 1;
+  if (rank == 0)
+    fprintf(stderr, "%.0f nodes, but %.0f owned; %.0f bytes sent, but ghosts of %.0f bytes\n",
+            nodes, all, sent, arriving);
+  return 0;
+}
+
+int main(int argc, char** argv) {
+  struct case_spacing spacing;
+  int64_t count;
+  double owned, ghosts, bytes, empty, core_seconds;
+  int run, rebalance, first, right;
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  if (argc < 3) {
+    if (rank == 0)
+      fprintf(stderr, "usage: decomposition CASE SCALE [run|rebalance] [key=value]...\n");
+    MPI_Finalize();
+    return 2;
+  }
+  run = argc > 3 && strcmp(argv[3], "run") == 0;
+  rebalance = argc > 3 && strcmp(argv[3], "rebalance") == 0;
+  first = run || rebalance ? 4 : 3;
+  check(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context), "context");
+  placement = case_placement(context, argv[1], atof(argv[2]), argc - first, argv + first, &spacing);
+  empty = integer("memory.peak_bytes");
+  core_seconds = on_a_core();
+  check(run ? pnpbs_placement_run(placement) : pnpbs_placement_initialise(placement), argv[1]);
+  core_seconds = on_a_core() - core_seconds;
+  check(pnpbs_placement_count(placement, &count), "count");
+  owned = (double)count;
+  ghosts = integer("ghosts");
+  bytes = integer("exchange.bytes");
+  tell("ranks", size);
+  tell("nodes", integer("nodes"));
+  tell_over_ranks("owned", owned);
+  tell_over_ranks("ghosts", ghosts);
+  tell_over_ranks("neighbours", integer("neighbours"));
+  tell_over_ranks("bytes", bytes);
+  tell_over_ranks("partition", real("seconds.partition"));
+  tell_over_ranks("on_a_core", core_seconds);
+  tell_over_ranks("memory.empty", empty);
+  tell_over_ranks("memory", integer("memory.peak_bytes"));
+  right = consistent(owned, ghosts, bytes);
+  if (rebalance) check(pnpbs_placement_rebalance(placement), "rebalance");
+  /* The work is counted from the lists, which a placement without steps does not have. */
+  if (run || rebalance) tell("imbalance", real("imbalance"));
+  tell("steps", integer("steps"));
+  tell_over_ranks("motion", real("seconds.motion"));
+  tell_over_ranks("lists", real("seconds.lists"));
+  tell_over_ranks("total", real("seconds.total"));
+  if (rank == 0) printf("\n");
+  pnpbs_placement_destroy(&placement);
+  pnpbs_context_destroy(&context);
+  MPI_Finalize();
+  return right ? 0 : 1;
+}

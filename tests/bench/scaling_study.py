@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A scaling study that needs no big machine: deals placements out to many ranks, oversubscribed,
+and takes no step; tells what each rank holds and sends, against what a law of surface to volume
+predicts, and what a model of the time per step makes of it on a cluster. Writes Markdown tables
+and, with --plot, a picture. docs/scaling.md tells how to read it."""
+import argparse
+import json
+import math
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+DATA = ROOT / "examples" / "data"
+
+# What decomposition takes as its case, the nodes it places there with its scale 1, and what to
+# call it.
+CASES = {
+    "graded-square": ("graded-square", 118468, "graded square"),
+    "great-lakes": (str(DATA / "great_lakes_islands.poly"), 114500, "Great Lakes with islands"),
+}
+
+# Spacings d^2 per node of a hexagonal lattice.
+AREA_PER_NODE = math.sqrt(3) / 2
+BYTES_PER_GHOST = 32  # position and velocity
+NEIGHBOURS_OF_A_SQUARE = 8
+
+# Options of the default method, and of src/core/level_ranks.cpp.
+REST_LENGTH, MAX_MOVE, LIST_RADIUS, GHOST_LIFE = 1.06, 0.05, 1.6, 20
+MEAN_LEAF_SIDE = 3  # spacings; leaves are 2 to 4 wide
+
+
+def halo_depth(interval):
+    """In spacings, for so many steps between exchanges: whole hops, and half a leaf on average,
+    because leaves come whole."""
+    drift = 2 * MAX_MOVE * max(GHOST_LIFE, interval)
+    hops = math.ceil((interval * (REST_LENGTH + 2 * MAX_MOVE) + drift) / LIST_RADIUS)
+    return hops * LIST_RADIUS + 0.5 * MEAN_LEAF_SIDE
+
+
+def ghosts_of_inner_part(nodes, ranks, interval):
+    """Around a square part that has others on all sides."""
+    owned = nodes / ranks
+    side = math.sqrt(owned * AREA_PER_NODE)
+    rim = (side + 2 * halo_depth(interval)) ** 2 / AREA_PER_NODE - owned
+    return min(rim, nodes - owned)
+
+
+def mean_ghosts(nodes, ranks, interval):
+    """Mean over sqrt(ranks) x sqrt(ranks) square parts of a square: none beyond its border."""
+    per_row = math.sqrt(ranks)
+    owned = nodes / ranks
+    side = math.sqrt(owned * AREA_PER_NODE)
+    span = side + 2 * halo_depth(interval) * (1 - 1 / per_row)
+    return min(span ** 2 / AREA_PER_NODE - owned, nodes - owned)
+
+
+class Cluster:
+    def __init__(self, args, seconds_per_node):
+        self.seconds_per_node = seconds_per_node
+        self.latency, self.bandwidth = args.latency, args.bandwidth
+
+    def step_seconds(self, held, messages, data, interval):
+        """Of a step, with messages and bytes of one exchange every interval-th step."""
+        return (held * self.seconds_per_node + messages / interval * self.latency
+                + data / interval / self.bandwidth)
+
+    def efficiency(self, nodes, ranks, held, messages, data, interval):
+        alone = nodes * self.seconds_per_node
+        return alone / (ranks * self.step_seconds(held, messages, data, interval))
+
+    def efficiency_by_law(self, nodes, ranks, interval):
+        ghosts = ghosts_of_inner_part(nodes, ranks, interval)
+        return self.efficiency(nodes, ranks, nodes / ranks + ghosts, NEIGHBOURS_OF_A_SQUARE,
+                               BYTES_PER_GHOST * ghosts, interval)
+
+    def efficiency_of(self, line, interval):
+        """Of a measured decomposition, as if one rank had the most of everything."""
+        return self.efficiency(line["nodes"], line["ranks"],
+                               line["owned.largest"] + line["ghosts.largest"],
+                               line["neighbours.largest"], line["bytes.largest"], interval)
+
+
+def arguments():
+    def integers(text):
+        return [int(part) for part in text.split(",")]
+
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", default=ROOT / "build/release/tests/bench/decomposition")
+    parser.add_argument("--mpiexec", default="mpirun")
+    parser.add_argument("--nodes", type=float, default=1e6, help="about so many in every case")
+    parser.add_argument("--cases", default=",".join(CASES), type=lambda text: text.split(","))
+    parser.add_argument("--ranks", default="2,3,4,8,16,32,64,100,128,256", type=integers)
+    parser.add_argument("--interval", default=5, type=int, help="exchange_interval")
+    parser.add_argument("--latency", default=2e-6, type=float, help="of the model, seconds")
+    parser.add_argument("--bandwidth", default=1e10, type=float, help="of the model, bytes/s")
+    parser.add_argument("--memory-ranks", default=8, type=int, help="compared with one rank")
+    parser.add_argument("--time-limit", type=float, default=3600, help="seconds for one run")
+    parser.add_argument("--figures", type=Path,
+                        help="JSON file for what was measured; what is in it is not measured again")
+    parser.add_argument("--output", type=Path, help="file for the tables; else standard output")
+    parser.add_argument("--plot", type=Path, help="picture, .png or .svg; needs matplotlib")
+    args = parser.parse_args()
+    for name in args.cases:
+        if name not in CASES:
+            parser.error(f"unknown case {name}: choose from {', '.join(CASES)}")
+    if min(args.ranks) < 2:
+        parser.error("--ranks: one rank has nothing to exchange, give 2 or more")
+    if not Path(args.program).exists():
+        parser.error(f"{args.program} is not there: build it (cmake --build ... --target decomposition)")
+    return args
+
+
+def decompose(args, case, ranks, *more):
+    """What decomposition prints, as numbers; None, and a line of why, if it does not."""
+    name, nodes_at_scale_1, _ = CASES[case]
+    scale = (nodes_at_scale_1 / args.nodes) ** 0.5
+    command = [args.mpiexec, "--oversubscribe", "--bind-to", "none"]
+    command += ["--mca", "mpi_yield_when_idle", "1", "-np", ranks, args.program, name, scale]
+    command += [*more, f"exchange_interval={args.interval}"]
+    environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_WAIT_POLICY="passive")
+    try:
+        done = subprocess.run([str(part) for part in command], env=environment,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              timeout=args.time_limit)
+    except subprocess.TimeoutExpired:
+        sys.stderr.write(f"\n{case} on {ranks} ranks: not done after {args.time_limit:.0f} s\n")
+        return None
+    if done.returncode != 0:
+        told = (done.stderr.strip().splitlines() or ["no output"])[0]
+        sys.stderr.write(f"\n{case} on {ranks} ranks: {told}\n")
+        return None
+    words = done.stdout.split()
+    return {key: float(value) for key, value in zip(words[0::2], words[1::2])}
+
+
+def show_progress(done, total, started, what):
+    if not sys.stderr.isatty():
+        return
+    width = 30
+    filled = width * done // total
+    left = (time.monotonic() - started) / done * (total - done) if done else 0
+    sys.stderr.write(f"\r\033[K[{'#' * filled}{' ' * (width - filled)}] {done}/{total}, "
+                     f"about {left / 60:.0f} min left, {what}")
+    if done == total:
+        sys.stderr.write("\n")
+    sys.stderr.flush()
+
+
+def run_all(args):
+    """Whole runs on one and on several ranks, and the decompositions of each case. By job."""
+    first = args.cases[0]
+    jobs = [(first, 1, "run"), (first, args.memory_ranks, "run")]
+    jobs += [(case, ranks) for case in args.cases for ranks in args.ranks]
+    kept = {}
+    if args.figures and args.figures.exists():
+        kept = json.loads(args.figures.read_text())
+    started, found = time.monotonic(), {}
+    for done, job in enumerate(jobs):
+        show_progress(done, len(jobs), started, f"{job[0]} on {job[1]}")
+        key = " ".join(str(part) for part in (*job, f"{args.nodes:g}", args.interval))
+        found[job] = kept.get(key) or decompose(args, *job)
+        if found[job] and args.figures:
+            kept[key] = found[job]
+            args.figures.write_text(json.dumps(kept, indent=1))
+    show_progress(len(jobs), len(jobs), started, "done")
+    alone, shared = found.pop(jobs[0]), found.pop(jobs[1])
+    if not alone or not shared:
+        sys.exit("the whole runs failed, and without them there is no model")
+    lines = {case: [line for job, line in found.items() if line and job[0] == case]
+             for case in args.cases}
+    return {case: found for case, found in lines.items() if found}, alone, shared
+
+
+def grouped(number):
+    return f"{number:,.0f}".replace(",", " ")
+
+
+def decomposition_table(args, case, lines, cluster):
+    k = args.interval
+    rows = [f"### {CASES[case][2]}, {grouped(lines[0]['nodes'])} nodes", "",
+            "| ranks | owned: mean / most | ghosts: mean / most | law: mean / inner | neighbours | "
+            "messages per step | KiB per step | imbalance | "
+            "partition, s | on a core, s | efficiency |",
+            "| --- |" + " --- |" * 10]
+    for line in lines:
+        ranks = int(line["ranks"])
+        def pair(key):
+            return f"{grouped(line[key + '.mean'])} / {grouped(line[key + '.largest'])}"
+
+        law = (f"{grouped(mean_ghosts(line['nodes'], ranks, k))} / "
+               f"{grouped(ghosts_of_inner_part(line['nodes'], ranks, k))}")
+        neighbours = f"{line['neighbours.mean']:.1f} / {line['neighbours.largest']:.0f}"
+        messages = f"{line['neighbours.mean'] / k:.1f} / {line['neighbours.largest'] / k:.1f}"
+        kib = f"{line['bytes.mean'] / k / 1024:.1f} / {line['bytes.largest'] / k / 1024:.1f}"
+        rows.append(f"| {ranks} | {pair('owned')} | {pair('ghosts')} | {law} | {neighbours} | "
+                    f"{messages} | {kib} | {line['owned.largest'] / line['owned.mean']:.3f} | "
+                    f"{line['partition.largest']:.2f} | "
+                    f"{line['on_a_core.mean']:.2f} / {line['on_a_core.largest']:.2f} | "
+                    f"{cluster.efficiency_of(line, k):.2f} |")
+    return rows
+
+
+def model_table(args, cluster):
+    intervals = (1, 2, args.interval, 10) if args.interval not in (1, 2, 10) else (1, 2, 5, 10)
+    rows = ["### Parallel efficiency by the model", "",
+            "| nodes | ranks | nodes per rank | " + " | ".join(f"k = {k}" for k in intervals) + " |",
+            "| --- | --- | --- |" + " --- |" * len(intervals)]
+    for nodes in (1e6, 1e7, 1e8):
+        for ranks in (16, 64, 256, 1024, 4096, 16384):
+            told = " | ".join(f"{cluster.efficiency_by_law(nodes, ranks, k):.2f}" for k in intervals)
+            rows.append(f"| 10^{round(math.log10(nodes))} | {grouped(ranks)} | "
+                        f"{grouped(nodes / ranks)} | {told} |")
+    return rows
+
+
+def memory_table(alone, shared):
+    mib = 2.0 ** 20
+    ranks = shared["ranks"]
+    bound = 1.3 * alone["memory.largest"] / ranks + shared["memory.empty.mean"]
+    rows = ["### Memory of a whole run", "",
+            "| ranks | nodes | peak per rank: mean / most, MiB | of which empty process, MiB | "
+            "bytes per node of the rank that has most |",
+            "| --- | --- | --- | --- | --- |"]
+    for line in (alone, shared):
+        per_node = (line["memory.largest"] - line["memory.empty.mean"]) / line["owned.largest"]
+        rows.append(f"| {line['ranks']:.0f} | {grouped(line['nodes'])} | "
+                    f"{line['memory.mean'] / mib:.1f} / {line['memory.largest'] / mib:.1f} | "
+                    f"{line['memory.empty.mean'] / mib:.1f} | {per_node:.0f} |")
+    share = f"1/{ranks:.0f}"
+    rows += ["", f"1.3 times {share} of the memory of one rank, and an empty process: "
+             f"{bound / mib:.1f} MiB; the most on {ranks:.0f} ranks is "
+             f"{shared['memory.largest'] / bound:.2f} of that."]
+    return rows
+
+
+def draw(args, lines, cluster):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    k = args.interval
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.4))
+    nodes = next(iter(lines.values()))[0]["nodes"]
+    grid = [2 ** (exponent / 8) for exponent in range(8, 8 * 8 + 1)]
+    left.plot(grid, [nodes / p for p in grid], color="0.6", ls=":", label="owned, mean")
+    left.plot(grid, [ghosts_of_inner_part(nodes, p, k) for p in grid], color="k",
+              label="ghosts, law for an inner part")
+    left.plot(grid, [mean_ghosts(nodes, p, k) for p in grid], color="k", ls="--",
+              label="ghosts, law for the mean")
+    for case, colour in zip(lines, ("tab:blue", "tab:orange")):
+        ranks = [line["ranks"] for line in lines[case]]
+        for what, marker, name in (("mean", "o", "mean"), ("largest", "^", "most")):
+            left.plot(ranks, [line[f"ghosts.{what}"] for line in lines[case]], marker, ms=5,
+                      color=colour, label=f"{CASES[case][2]}: ghosts, {name}")
+        right.plot(ranks, [cluster.efficiency_of(line, k) for line in lines[case]], "^", ms=5,
+                   color=colour, label=f"{CASES[case][2]}, decomposed")
+    left.set_ylabel("nodes per rank")
+    left.set_yscale("log")
+    left.set_title(f"{nodes / 1e6:.2g} million nodes, exchange every {k} steps", fontsize=10)
+    grid = [2 ** (exponent / 4) for exponent in range(4, 4 * 14 + 1)]
+    for exponent, style in ((6, "-"), (7, "--"), (8, "-.")):
+        right.plot(grid, [cluster.efficiency_by_law(10.0 ** exponent, p, k) for p in grid],
+                   style, color="k", label=f"model, $10^{exponent}$ nodes")
+    right.set_ylabel("parallel efficiency of a step")
+    right.set_ylim(0, 1.05)
+    right.set_title(f"model: {cluster.seconds_per_node * 1e9:.0f} ns per node and step, "
+                    f"{cluster.latency * 1e6:g} µs, {cluster.bandwidth / 1e9:g} GB/s", fontsize=10)
+    for axis in (left, right):
+        axis.set_xscale("log", base=2)
+        axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda x, _: f"{x:.0f}"))
+        axis.set_xlabel("ranks")
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize=7.5)
+    figure.tight_layout()
+    figure.savefig(args.plot, dpi=110)
+
+
+def main():
+    args = arguments()
+    lines, alone, shared = run_all(args)
+    per_node = 1e9 / (alone["nodes"] * alone["steps"])
+    motion, lists = alone["motion.mean"] * per_node, alone["lists.mean"] * per_node
+    cluster = Cluster(args, 1e-9 * (motion + lists))
+    text = []
+    for case in lines:
+        text += [*decomposition_table(args, case, lines[case], cluster), ""]
+    text += [f"One rank: {motion:.1f} ns per node and step for the motion, {lists:.1f} ns for the "
+             f"lists; halo depth {halo_depth(args.interval):.1f} spacings.", "",
+             *model_table(args, cluster), "", *memory_table(alone, shared), ""]
+    if args.output:
+        args.output.write_text("\n".join(text))
+    else:
+        print("\n".join(text))
+    if args.plot:
+        draw(args, lines, cluster)
+
+
+if __name__ == "__main__":
+    main()
