@@ -727,7 +727,7 @@ module pnpbs_c
       type(c_ptr), value :: placement
       integer(c_int32_t), value :: n
       type(c_ptr), intent(in) :: paths(*)
-      type(c_ptr), value :: formats ! const char * const *
+      type(c_ptr), value :: formats ! const char *const *
       type(c_ptr), value :: elements ! const int32_t *
       integer(c_int) :: c_placement_write_files
     end function
