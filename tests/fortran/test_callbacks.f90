@@ -68,6 +68,7 @@ program test_callbacks
   call placement%destroy
   call domain%destroy
   call context%destroy
+  deallocate (hash, hash_again)  ! the main program's would count as leaks
   call finish
 
 contains
