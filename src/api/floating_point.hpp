@@ -2,7 +2,9 @@
 // Whose rules floating-point arithmetic goes by. Hosts trap exceptions (gfortran's -ffpe-trap),
 // flush small numbers to zero (-ffast-math) or round their own way; our vector loops divide by what
 // they then mask away, and our results must not depend on the host. So every call computes by the
-// default rules, and callbacks by the host's.
+// default rules, and callbacks by the host's. Worker threads have the rules of the thread that
+// started them: ours the default ones, and those of a host that used OpenMP before its first call
+// its own.
 #pragma once
 
 #include <cfenv>
