@@ -22,7 +22,8 @@
 !>   objects     are handles: a copy means the same thing. There is no finalisation: call destroy,
 !>               in any order. A dead one is answered with PNPBS_ERROR_HANDLE.
 !>   callbacks   are module procedures with bind(C) and the interface stated; they come on the
-!>               calling thread, never two at once. From inside one, only queries of the library work.
+!>               calling thread, never two at once. From inside one, only queries of the
+!>               library work.
 module pnpbs
   use, intrinsic :: iso_c_binding
   use pnpbs_c

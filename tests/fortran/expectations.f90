@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the tests of the Fortran module share: expectations, which are counted, and a first placement.
+!> What the tests of the Fortran module share: expectations, which are counted, and a placement.
 module expectations
   use, intrinsic :: iso_c_binding
   use, intrinsic :: iso_fortran_env, only: error_unit

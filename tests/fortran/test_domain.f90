@@ -43,7 +43,8 @@ contains
     wide = 9
     wide(1:2, :) = corners
     call domain%add_polyline(PNPBS_BOUNDARY, .true., wide(1:2, :), [3, 4, 5, 6], 0d0)
-    call domain%add_polyline(PNPBS_INNER, .false., reshape([0.5d0, 0.5d0, 1.5d0, 0.5d0], [2, 2]), [7])
+    call domain%add_polyline(PNPBS_INNER, .false., &
+                             reshape([0.5d0, 0.5d0, 1.5d0, 0.5d0], [2, 2]), [7])
     call domain%check
     call expect(area(domain) == 2, 'area of a rectangle')
     call domain%bounds(low, high)

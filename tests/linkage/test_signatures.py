@@ -24,7 +24,10 @@ def is_caught(header, interfaces):
 
 def changed_arguments(argument):
     """An argument of the header's, changed in every way that matters."""
-    yield argument.replace("*", "", 1) if "*" in argument else re.sub(r"(\w+)\s*$", r"*\1", argument)
+    if "*" in argument:
+        yield argument.replace("*", "", 1)
+    else:
+        yield re.sub(r"(\w+)\s*$", r"*\1", argument)
     yield argument.replace("const ", "", 1) if "const " in argument else "const " + argument
     for one, other in (("int32_t", "int64_t"), ("int64_t", "int32_t"), ("double", "float"),
                        ("int8_t", "int32_t"), ("pnpbs_context", "pnpbs_domain *"),
@@ -78,9 +81,10 @@ class Signatures(unittest.TestCase):
             if "::" not in line:
                 continue
             changes = [""]
-            for one, other in ((", value", ""), ("c_int64_t", "c_int32_t"), ("c_int32_t", "c_int64_t"),
+            for one, other in ((", value", ""), (", intent(in)", ", value"), ("! ", "! const "),
+                               ("c_int64_t", "c_int32_t"), ("c_int32_t", "c_int64_t"),
                                ("c_int)", "c_int64_t)"), ("real(c_double)", "real(c_float)"),
-                               ("c_ptr", "c_funptr"), (", intent(in)", ", value"), ("! ", "! const ")):
+                               ("c_ptr", "c_funptr")):
                 if one in line:
                     changes.append(line.replace(one, other, 1))
             for changed in changes:

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The smallest program: nodes in the unit square, all 0.05 apart. The same in C: examples/c/smallest,
-! which tells what to check.
+! The smallest program: nodes in the unit square, all 0.05 apart. The same in C is in
+! examples/c/smallest, which tells what to check.
 program smallest
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use pnpbs
