@@ -32,10 +32,24 @@ if(TARGET pnpbs-cli)
   install(FILES "${PROJECT_SOURCE_DIR}/docs/pnpbs.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
 endif()
 
+# ------------------------------------------------------------------ Fortran module --------------
+set(fortran_source_dir "${data_dir}/fortran")
+foreach(source IN LISTS PNPBS_FORTRAN_SOURCES)
+  install(FILES "bindings/fortran/${source}" DESTINATION "${fortran_source_dir}")
+endforeach()
+if(PNPBS_BUILD_FORTRAN)
+  install(TARGETS pnpbs_fortran EXPORT pnpbsFortranTargets
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(DIRECTORY "${PROJECT_BINARY_DIR}/fortran/"
+          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pnpbs/fortran" FILES_MATCHING PATTERN "*.mod")
+  install(EXPORT pnpbsFortranTargets NAMESPACE pnpbs:: DESTINATION "${package_dir}")
+endif()
+
 # ------------------------------------------------------------------ CMake package ---------------
 configure_package_config_file(
   cmake/pnpbsConfig.cmake.in "${PROJECT_BINARY_DIR}/pnpbsConfig.cmake"
-  INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
+  INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO
+  PATH_VARS fortran_source_dir)
 # While the major version is 0, a new minor version may change the interface.
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/pnpbsConfigVersion.cmake"
                                  COMPATIBILITY SameMinorVersion)
@@ -78,11 +92,17 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs.pc"
      INPUT "${PROJECT_BINARY_DIR}/pnpbs.pc.configured")
 install(FILES "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs.pc"
         DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+if(PNPBS_BUILD_FORTRAN)
+  configure_file(pkgconfig/pnpbs-fortran.pc.in "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs-fortran.pc"
+                 @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs-fortran.pc"
+          DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+endif()
 
 # ------------------------------------------------------------------ texts, examples -------------
 install(FILES LICENSE DESTINATION "${doc_dir}")
 if(EXISTS "${PROJECT_SOURCE_DIR}/README.md")
   install(FILES README.md DESTINATION "${doc_dir}")
 endif()
-install(DIRECTORY examples/data examples/c DESTINATION "${data_dir}/examples"
+install(DIRECTORY examples/data examples/c examples/fortran DESTINATION "${data_dir}/examples"
         PATTERN ".clang-format" EXCLUDE)

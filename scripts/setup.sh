@@ -98,6 +98,9 @@ missing() {
     have make || echo make
     have clang-format || echo clang-format
     module check || echo check
+    have "${FC:-gfortran}" || echo gfortran
+    # Its Fortran module files, which some distributions have apart from mpicc.
+    have mpifort || echo libopenmpi-dev
     header CGAL/Constrained_Delaunay_triangulation_2.h || echo libcgal-dev
   fi
   if [ $with_tests = yes ] || [ ${#more_kokkos[@]} -gt 0 ] || no_kokkos; then

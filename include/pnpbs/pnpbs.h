@@ -28,6 +28,8 @@
  *               of the library work; anything else returns PNPBS_ERROR_STATE.
  *   threads     one host thread at a time per context; contexts are independent.
  *   side effects  nothing is printed, no signal handler is installed, the process never ends.
+ *   arithmetic  calls round to nearest, trap nothing and flush nothing to zero, whatever the
+ *               calling thread does; callbacks and what comes after a call go by its settings.
  *
  * Source of the method: Y. Nie, W. Zhang, N. Qi, Y. Li, "Parallel node placement method by
  * bubble simulation", Comput. Phys. Commun. 185 (2014) 798-808 ("the paper").

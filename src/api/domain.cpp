@@ -87,7 +87,10 @@ pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role, pnpbs_cur
   return change_domain(domain, [&](PlaneDomain& plane) {
     if (!curve) throw Error(PNPBS_ERROR_ARGUMENT, "argument curve is NULL");
     const CurveFunction function = [curve, user](std::int64_t n, const double* t, Point<2>* xy) {
-      const int32_t answer = curve(n, t, n > 0 ? xy->data() : nullptr, user);
+      const int32_t answer = [&] {
+        const HostArithmetic arithmetic;
+        return curve(n, t, n > 0 ? xy->data() : nullptr, user);
+      }();
       if (answer != 0)
         throw Error(PNPBS_ERROR_CALLBACK,
                     "the curve callback returned " + std::to_string(answer) + "; it must return 0");

@@ -6,6 +6,7 @@
 #include <new>
 #include <string>
 
+#include "api/floating_point.hpp"
 #include "api/handles.hpp"
 
 namespace pnpbs::api {
@@ -58,6 +59,7 @@ class Computing {
 // A call without a live context.
 template <class Body>
 pnpbs_status guarded(const Body& body) noexcept {
+  const DefaultArithmetic arithmetic;
   try {
     return body();
   } catch (...) {
@@ -74,6 +76,7 @@ Context& context_of(Object& object) {
 // A call on a handle: body(object).
 template <class Handle, class Body>
 pnpbs_status guarded(Handle handle, const Body& body) noexcept {
+  const DefaultArithmetic arithmetic;
   Context* context = nullptr;
   try {
     const auto object = require(handle);

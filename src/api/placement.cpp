@@ -101,6 +101,7 @@ pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monito
     else
       p.set_monitor([monitor, user](double fraction, std::int64_t step, std::int64_t nodes,
                                     double max_speed) {
+        const HostArithmetic arithmetic;
         return monitor(fraction, step, nodes, max_speed, user) != 0;
       });
     return PNPBS_OK;

@@ -37,6 +37,7 @@ pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
     if (!spacing) throw Error(PNPBS_ERROR_ARGUMENT, "argument spacing is NULL");
     return std::make_shared<CallbackSpacing<2>>(
         [spacing, user](std::int64_t n, const double* x, double* d) {
+          const HostArithmetic arithmetic;
           return spacing(n, 2, x, d, user);
         });
   });

@@ -1,10 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs into an empty prefix, moves the prefix, and there does what users do: builds the
-# examples with pkg-config and with CMake, in C alone, and runs them and the command.
-# usage: install.sh <build folder> <C compiler> <C++ compiler> <cmake>
+# examples with pkg-config and with CMake, in C alone or in Fortran alone, and runs them and the
+# command.
+# usage: install.sh <build folder> <C compiler> <C++ compiler> <cmake> <Fortran compiler, or ''>
 set -eu
-build=$1 cc=$2 cxx=$3 cmake=$4
+build=$1 cc=$2 cxx=$3 cmake=$4 fc=$5
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 unset DESTDIR
@@ -70,6 +71,37 @@ for source in "$prefix"/share/pnpbs/examples/c/*/; do
   # shellcheck disable=SC2086  # words on purpose
   run_and_compare $on_ranks "$work/$name/cmake/$name"
 done
+
+# An example in Fortran with CMake: source folder, build folder.
+fortran_with_cmake() {
+  "$cmake" -S "$1" -B "$2" -DCMAKE_Fortran_COMPILER="$fc" -DCMAKE_PREFIX_PATH="$prefix" \
+    > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
+  "$cmake" --build "$2" > "$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
+}
+
+if [ -n "$fc" ]; then
+  for source in "$prefix"/share/pnpbs/examples/fortran/*/; do
+    name=$(basename "$source")
+    say "$name in Fortran with pkg-config"
+    cp -r "$source" "$work/fortran_$name"
+    make -s -C "$work/fortran_$name" FC="$fc" PKG_CONFIG_PATH="$pc_folder" \
+      FFLAGS="-std=f2003 -fimplicit-none -Wall -Werror -ffpe-trap=invalid,zero,overflow"
+    run_and_compare "$work/fortran_$name/$name"
+    say "$name in Fortran with CMake"
+    fortran_with_cmake "$source" "$work/fortran_$name/cmake"
+    run_and_compare "$work/fortran_$name/cmake/$name"
+  done
+
+  say "smallest in Fortran as by another compiler, from the installed source"
+  config=$(find "$prefix" -name pnpbsConfig.cmake)
+  cp "$config" "$work/config"
+  sed 's/set(pnpbs_fortran_built_by .*/set(pnpbs_fortran_built_by "Another 1")/' "$work/config" \
+    > "$config"
+  fortran_with_cmake "$prefix/share/pnpbs/examples/fortran/smallest" "$work/from_source"
+  [ -e "$work/from_source/pnpbs_fortran/pnpbs.mod" ]
+  run_and_compare "$work/from_source/smallest"
+  cp "$work/config" "$config"
+fi
 
 archive=$(find "$prefix" -name libpnpbs.a)
 if [ -n "$archive" ]; then

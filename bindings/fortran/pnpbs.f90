@@ -1,0 +1,1400 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> PNPBS - parallel node placement by bubble simulation: the Fortran 2003 module.
+!>
+!> It does what the C interface (pnpbs/pnpbs.h) does, where the terms are explained: node, spacing,
+!> boundary, tag, adjacency, star. A page with an example: docs/fortran.md.
+!>
+!> Conventions of every procedure
+!>   stat        optional: an integer of four or eight bytes, told the outcome: PNPBS_OK (0), > 0 an
+!>               outcome whose results are valid, < 0 an error, after which nothing has changed.
+!>               Without stat an error writes its message to standard error and stops the program
+!>               with exit status 1; outcomes > 0 do not.
+!>   errmsg      optional: told the message of an error; otherwise it stays as it is.
+!>   collective  "Collective" procedures must be called by all ranks of the context, in the same
+!>               order, and have the same outcome on all of them. "Local" ones need not.
+!>   arrays      are yours, are read or filled during the call, and are never kept. Coordinates are
+!>               (dim, n) with dim = 2 in the plane. Arrays to fill may have more room than needed;
+!>               too little is PNPBS_ERROR_CAPACITY. Arrays to fill and optional arrays must have no
+!>               gaps in memory: whole ones, or sections x(i:j) and x(:,i:j) of such.
+!>   integers    ids, counts, indices and offsets are integer(c_int64_t), the others
+!>               integer(c_int32_t). Local indices and offsets count from 1; ids and numbers of
+!>               nodes are the same as in C, ranks are as in MPI.
+!>   objects     are handles: a copy means the same thing. There is no finalisation: call destroy,
+!>               in any order. A dead one is answered with PNPBS_ERROR_HANDLE.
+!>   callbacks   are module procedures with bind(C) and the interface stated; they come on the
+!>               calling thread, never two at once. From inside one, only queries of the
+!>               library work.
+module pnpbs
+  use, intrinsic :: iso_c_binding
+  use pnpbs_c
+  use pnpbs_calls
+  implicit none
+  private
+
+  public :: PNPBS_OK, PNPBS_NOT_CONVERGED, PNPBS_STOPPED
+  public :: PNPBS_ERROR_ARGUMENT, PNPBS_ERROR_HANDLE, PNPBS_ERROR_STATE, PNPBS_ERROR_DOMAIN
+  public :: PNPBS_ERROR_SPACING, PNPBS_ERROR_KEY, PNPBS_ERROR_CAPACITY, PNPBS_ERROR_FILE
+  public :: PNPBS_ERROR_CALLBACK, PNPBS_ERROR_MEMORY, PNPBS_ERROR_MPI, PNPBS_ERROR_KOKKOS
+  public :: PNPBS_ERROR_UNSUPPORTED, PNPBS_ERROR_INTERNAL
+  public :: PNPBS_BOUNDARY, PNPBS_INNER
+  public :: PNPBS_VERSION_MAJOR, PNPBS_VERSION_MINOR, PNPBS_VERSION_PATCH
+  public :: pnpbs_curve_fn, pnpbs_spacing_fn, pnpbs_monitor_fn
+  public :: pnpbs_context, pnpbs_domain, pnpbs_placement
+  public :: pnpbs_status_string, pnpbs_last_error, pnpbs_version, pnpbs_build_info
+  public :: pnpbs_mpi_library, pnpbs_finalize, pnpbs_discard_unfinished_files
+  public :: pnpbs_option_count, pnpbs_option_info, pnpbs_statistic_count, pnpbs_statistic_info
+  public :: pnpbs_format_count, pnpbs_format_info
+
+  ! ------------------------------------------------------------ types -------------------------
+
+  !> Who takes part: one process, or the ranks of an MPI communicator.
+  type :: pnpbs_context
+    private
+    type(c_ptr) :: c = c_null_ptr
+  contains
+    procedure :: create_serial => context_create_serial
+    procedure, private :: context_create_mpi_int32
+    procedure, private :: context_create_mpi_int64
+    generic :: create_mpi => context_create_mpi_int32, context_create_mpi_int64
+    procedure :: destroy => context_destroy
+    procedure, private :: context_set_text
+    procedure, private :: context_set_int32
+    procedure, private :: context_set_int64
+    procedure, private :: context_set_real
+    generic :: set => context_set_text, context_set_int32, context_set_int64, context_set_real
+    procedure :: last_error => context_last_error
+    procedure :: handle => context_handle
+    procedure :: from_handle => context_from_handle
+  end type
+
+  !> Where there shall be nodes.
+  type :: pnpbs_domain
+    private
+    type(c_ptr) :: c = c_null_ptr
+  contains
+    procedure :: create => domain_create
+    procedure :: destroy => domain_destroy
+    procedure :: add_polyline => domain_add_polyline
+    procedure :: add_arc => domain_add_arc
+    procedure :: add_curve => domain_add_curve
+    procedure :: add_pslg => domain_add_pslg
+    procedure :: add_hole => domain_add_hole
+    procedure :: add_fixed_nodes => domain_add_fixed_nodes
+    procedure :: read_poly => domain_read_poly
+    procedure :: parse_poly => domain_parse_poly
+    procedure :: check => domain_check
+    procedure :: bounds => domain_bounds
+    procedure :: measure => domain_measure
+    procedure :: segment_count => domain_segment_count
+    procedure :: get_segments => domain_get_segments
+    procedure :: handle => domain_handle
+    procedure :: from_handle => domain_from_handle
+  end type
+
+  !> The nodes.
+  type :: pnpbs_placement
+    private
+    type(c_ptr) :: c = c_null_ptr
+  contains
+    procedure :: create => placement_create
+    procedure :: destroy => placement_destroy
+    procedure, private :: placement_set_text
+    procedure, private :: placement_set_int32
+    procedure, private :: placement_set_int64
+    procedure, private :: placement_set_real
+    generic :: set => placement_set_text, placement_set_int32, placement_set_int64, &
+      placement_set_real
+    procedure :: set_spacing_constant => placement_set_spacing_constant
+    procedure :: set_spacing_callback => placement_set_spacing_callback
+    procedure :: set_spacing_grid => placement_set_spacing_grid
+    procedure :: set_spacing_at_nodes => placement_set_spacing_at_nodes
+    procedure :: set_monitor => placement_set_monitor
+    procedure :: set_nodes => placement_set_nodes
+    procedure :: initialise => placement_initialise
+    procedure, private :: placement_step_int32
+    procedure, private :: placement_step_int64
+    generic :: step => placement_step_int32, placement_step_int64
+    procedure :: adjust_population => placement_adjust_population
+    procedure :: rebalance => placement_rebalance
+    procedure :: run => placement_run
+    procedure :: count => placement_count
+    procedure :: get_nodes => placement_get_nodes
+    procedure :: ghost_count => placement_ghost_count
+    procedure :: get_ghosts => placement_get_ghosts
+    procedure :: exchange_sizes => placement_exchange_sizes
+    procedure :: get_exchange => placement_get_exchange
+    procedure :: get_numbering => placement_get_numbering
+    procedure :: adjacency_size => placement_adjacency_size
+    procedure :: get_adjacency => placement_get_adjacency
+    procedure :: star_size => placement_star_size
+    procedure :: get_stars => placement_get_stars
+    procedure :: triangle_count => placement_triangle_count
+    procedure :: get_triangles => placement_get_triangles
+    procedure :: boundary_edge_count => placement_boundary_edge_count
+    procedure :: get_boundary_edges => placement_get_boundary_edges
+    procedure, private :: placement_get_int64
+    procedure, private :: placement_get_real
+    procedure, private :: placement_get_text
+    generic :: get => placement_get_int64, placement_get_real, placement_get_text
+    procedure :: warning_count => placement_warning_count
+    procedure :: get_warning => placement_get_warning
+    procedure :: write => placement_write
+    procedure :: write_files => placement_write_files
+    procedure :: handle => placement_handle
+    procedure :: from_handle => placement_from_handle
+  end type
+
+contains
+
+  ! ------------------------------------------------------------ the library -------------------
+
+  !> What a status means, in a few words. Local.
+  function pnpbs_status_string(status) result(text)
+    integer(c_int), intent(in) :: status
+    character(len=:), allocatable :: text
+    text = text_of(c_status_string(status))
+  end function
+
+  !> The message of the calling thread's last error, whatever object it belongs to; '' if there was
+  !> none. Local.
+  function pnpbs_last_error() result(text)
+    character(len=:), allocatable :: text
+    text = text_of(c_last_error(c_null_ptr))
+  end function
+
+  !> The version of the library at run time. Local.
+  subroutine pnpbs_version(major, minor, patch)
+    integer(c_int32_t), intent(out) :: major, minor, patch
+    call conclude(c_version(major, minor, patch))
+  end subroutine
+
+  !> What the library was built with, one "name: value" per line: version, compiler, Kokkos and its
+  !> back ends, linkage, MPI. Local.
+  function pnpbs_build_info() result(text)
+    character(len=:), allocatable :: text
+    text = text_of(c_build_info())
+  end function
+
+  !> The MPI library that PNPBS was built with; '' in a build without MPI. Local.
+  function pnpbs_mpi_library() result(text)
+    character(len=:), allocatable :: text
+    text = text_of(c_mpi_library())
+  end function
+
+  !> Ends Kokkos if PNPBS started it. Optional: otherwise Kokkos stays up until the process ends.
+  !> Kokkos cannot start twice, so computing calls fail afterwards. Local.
+  subroutine pnpbs_finalize(stat, errmsg)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_finalize(), stat, errmsg)
+  end subroutine
+
+  !> Removes what unfinished calls of this process have written aside so far. Local.
+  subroutine pnpbs_discard_unfinished_files()
+    call conclude(c_discard_unfinished_files())
+  end subroutine
+
+  ! ------------------------------------------------------------ tables ------------------------
+
+  !> Number of options. Local.
+  subroutine pnpbs_option_count(count, stat, errmsg)
+    integer(c_int32_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_option_count(count), stat, errmsg)
+  end subroutine
+
+  !> One row of the options table. Local.
+  !>   index          1 .. count
+  !>   type           'integer', 'real', 'choice'
+  !>   default_value  as text
+  !>   range          e.g. '1 .. 1000000' or 'paper | default'
+  !>   help           one line
+  subroutine pnpbs_option_info(index, name, type, default_value, range, help, stat, errmsg)
+    integer(c_int32_t), intent(in) :: index
+    character(len=:), allocatable, intent(out), optional :: name, type, default_value, range, help
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: c_name, c_type, c_default, c_range, c_help
+    integer(c_int) :: status
+    status = c_option_info(index - 1_c_int32_t, c_name, c_type, c_default, c_range, c_help)
+    call conclude(status, stat, errmsg)
+    if (status < 0) return
+    if (present(name)) name = text_of(c_name)
+    if (present(type)) type = text_of(c_type)
+    if (present(default_value)) default_value = text_of(c_default)
+    if (present(range)) range = text_of(c_range)
+    if (present(help)) help = text_of(c_help)
+  end subroutine
+
+  !> Number of statistics. Local.
+  subroutine pnpbs_statistic_count(count, stat, errmsg)
+    integer(c_int32_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_statistic_count(count), stat, errmsg)
+  end subroutine
+
+  !> One row of the statistics table (the report's keys). Local.
+  !>   index  1 .. count
+  !>   type   'integer', 'real' or 'string': what placement%get wants its value to be
+  !>   help   one line, with the unit
+  subroutine pnpbs_statistic_info(index, name, type, help, stat, errmsg)
+    integer(c_int32_t), intent(in) :: index
+    character(len=:), allocatable, intent(out), optional :: name, type, help
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: c_name, c_type, c_help
+    integer(c_int) :: status
+    status = c_statistic_info(index - 1_c_int32_t, c_name, c_type, c_help)
+    call conclude(status, stat, errmsg)
+    if (status < 0) return
+    if (present(name)) name = text_of(c_name)
+    if (present(type)) type = text_of(c_type)
+    if (present(help)) help = text_of(c_help)
+  end subroutine
+
+  !> Number of file formats. Local.
+  subroutine pnpbs_format_count(count, stat, errmsg)
+    integer(c_int32_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_format_count(count), stat, errmsg)
+  end subroutine
+
+  !> One row of the table of file formats (see placement%write). Local.
+  !>   index     1 .. count
+  !>   name      also the extension, without its dot
+  !>   help      one line
+  !>   binary    whether it is no text
+  !>   elements  whether one file holds nodes and, on request, elements
+  subroutine pnpbs_format_info(index, name, help, binary, elements, stat, errmsg)
+    integer(c_int32_t), intent(in) :: index
+    character(len=:), allocatable, intent(out), optional :: name, help
+    logical, intent(out), optional :: binary, elements
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: c_name, c_help
+    integer(c_int32_t) :: is_binary, has_elements
+    integer(c_int) :: status
+    status = c_format_info(index - 1_c_int32_t, c_name, c_help, is_binary, has_elements)
+    call conclude(status, stat, errmsg)
+    if (status < 0) return
+    if (present(name)) name = text_of(c_name)
+    if (present(help)) help = text_of(c_help)
+    if (present(binary)) binary = is_binary /= 0
+    if (present(elements)) elements = has_elements /= 0
+  end subroutine
+
+  ! ------------------------------------------------------------ context -----------------------
+
+  !> A context for one process; calls no MPI procedure, ever. Local.
+  subroutine context_create_serial(self, stat, errmsg)
+    class(pnpbs_context), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_context_create_serial(self%c), stat, errmsg)
+  end subroutine
+
+  !> A context on a duplicate of an MPI communicator: messages of yours never mix with ours.
+  !> Collective. Errors: PNPBS_ERROR_UNSUPPORTED in a build without MPI, PNPBS_ERROR_MPI if MPI is
+  !> not initialised, already finalised, comm is MPI_COMM_NULL, or the library is another one.
+  !>   comm     as mpif.h and the module mpi have it; of mpi_f08, comm%MPI_VAL
+  !>   library  optional: what MPI_Get_library_version tells you, to be compared with the MPI that
+  !>            PNPBS calls; the communicator of one MPI library means nothing to another
+  subroutine context_create_mpi_int32(self, comm, library, stat, errmsg)
+    class(pnpbs_context), intent(inout) :: self
+    integer(c_int32_t), intent(in) :: comm
+    character(len=*), intent(in), optional :: library
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    if (present(library)) then
+      call conclude(c_context_create_checked_f(comm, c_text(library), self%c), stat, errmsg)
+    else
+      call conclude(c_context_create_f(comm, self%c), stat, errmsg)
+    end if
+  end subroutine
+
+  !> The same for callers whose default integers have eight bytes.
+  subroutine context_create_mpi_int64(self, comm, library, stat, errmsg)
+    class(pnpbs_context), intent(inout) :: self
+    integer(c_int64_t), intent(in) :: comm
+    character(len=*), intent(in), optional :: library
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call self%create_mpi(int(comm, c_int32_t), library, stat, errmsg)
+  end subroutine
+
+  !> Ends the context; does nothing where there is none. Its domains and placements live on until
+  !> they are destroyed. Collective.
+  subroutine context_destroy(self, stat, errmsg)
+    class(pnpbs_context), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_context_destroy(self%c), stat, errmsg)
+  end subroutine
+
+  !> set(key, value): sets an option that placements created later on this context start with (see
+  !> pnpbs_option_info). 'threads' can only be set here, and only before the first placement of the
+  !> process is created. Local. Errors: PNPBS_ERROR_KEY (the message has the nearest known name),
+  !> PNPBS_ERROR_ARGUMENT (the message has the range).
+  !>   value  text, an integer of four or eight bytes, or real(c_double)
+  subroutine context_set_text(self, key, value, stat, errmsg)
+    class(pnpbs_context), intent(in) :: self
+    character(len=*), intent(in) :: key, value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_context_set(self%c, c_text(key), c_text(value)), stat, errmsg)
+  end subroutine
+
+  subroutine context_set_int32(self, key, value, stat, errmsg)
+    class(pnpbs_context), intent(in) :: self
+    character(len=*), intent(in) :: key
+    integer(c_int32_t), intent(in) :: value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call self%set(key, int(value, c_int64_t), stat, errmsg)
+  end subroutine
+
+  subroutine context_set_int64(self, key, value, stat, errmsg)
+    class(pnpbs_context), intent(in) :: self
+    character(len=*), intent(in) :: key
+    integer(c_int64_t), intent(in) :: value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_context_set_int64(self%c, c_text(key), value), stat, errmsg)
+  end subroutine
+
+  subroutine context_set_real(self, key, value, stat, errmsg)
+    class(pnpbs_context), intent(in) :: self
+    character(len=*), intent(in) :: key
+    real(c_double), intent(in) :: value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_context_set_double(self%c, c_text(key), value), stat, errmsg)
+  end subroutine
+
+  !> The message of the last error on the context or on its domains and placements; of a dead
+  !> context, that of the calling thread. Local. '' if there was none.
+  function context_last_error(self) result(text)
+    class(pnpbs_context), intent(in) :: self
+    character(len=:), allocatable :: text
+    text = text_of(c_last_error(self%c))
+  end function
+
+  !> The handle as an integer, for common blocks and other code without derived types; 0 where there
+  !> is no context. Local.
+  function context_handle(self) result(handle)
+    class(pnpbs_context), intent(in) :: self
+    integer(c_int64_t) :: handle
+    handle = integer_of(self%c)
+  end function
+
+  !> Makes this the context that has the handle. Local; checks nothing.
+  subroutine context_from_handle(self, handle)
+    class(pnpbs_context), intent(inout) :: self
+    integer(c_int64_t), intent(in) :: handle
+    self%c = pointer_of(handle)
+  end subroutine
+
+  ! ------------------------------------------------------------ domain ------------------------
+
+  !> An empty domain. Local.
+  !>   dim  optional: 2 (3 comes later: PNPBS_ERROR_UNSUPPORTED)
+  subroutine domain_create(self, context, dim, stat, errmsg)
+    class(pnpbs_domain), intent(inout) :: self
+    type(pnpbs_context), intent(in) :: context
+    integer(c_int32_t), intent(in), optional :: dim
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: dimensions
+    dimensions = 2
+    if (present(dim)) dimensions = dim
+    call conclude(c_domain_create(context%c, dimensions, self%c), stat, errmsg)
+  end subroutine
+
+  !> Destroys it; does nothing where there is none. Local.
+  subroutine domain_destroy(self, stat, errmsg)
+    class(pnpbs_domain), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_domain_destroy(self%c), stat, errmsg)
+  end subroutine
+
+  !> Adds straight segments through n vertices. Local.
+  !>   role          PNPBS_BOUNDARY or PNPBS_INNER
+  !>   closed        whether a segment leads from the last vertex to the first; the first vertex is
+  !>                 not repeated
+  !>   xy            (2, n)
+  !>   tags          optional: one for each segment, nonzero; 1 without
+  !>   corner_angle  optional, degrees, 0 .. 180; 0 without: every vertex becomes a node. Otherwise
+  !>                 only vertices where the direction turns by more than this do, as do the ends of
+  !>                 open polylines and vertices where curves meet; between them the polyline stands
+  !>                 for a smooth curve.
+  subroutine domain_add_polyline(self, role, closed, xy, tags, corner_angle, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(in) :: role
+    logical, intent(in) :: closed
+    real(c_double), intent(in) :: xy(:,:)
+    integer(c_int32_t), intent(in), optional :: tags(:)
+    real(c_double), intent(in), optional :: corner_angle
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_tags
+    integer(c_int64_t) :: n, segments, room
+    integer(c_int) :: status
+    real(c_double) :: angle
+    n = size(xy, 2, kind=c_int64_t)
+    segments = merge(n, n - 1, closed)
+    call given%check_rows('xy', size(xy, 1), 2)
+    call given%place_int32('tags', tags, a_tags, room)
+    call given%require('tags', room, segments)
+    angle = 0
+    if (present(corner_angle)) angle = corner_angle
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_add_polyline(self%c, role, flag(closed), n, xy, a_tags, angle)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> Adds a circular arc; its ends join curves that end at the same point (within 1e-9 of the
+  !> domain's size). Local.
+  !>   centre      (2)
+  !>   radius      > 0
+  !>   begin, end  angles in radians; |end - begin| = 2 pi makes a full circle
+  !>   tag         optional: nonzero; 1 without
+  subroutine domain_add_arc(self, role, centre, radius, begin, end, tag, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(in) :: role
+    real(c_double), intent(in) :: centre(:), radius, begin, end
+    integer(c_int32_t), intent(in), optional :: tag
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('centre', size(centre), 2)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_add_arc(self%c, role, centre, radius, begin, end, tag_or_one(tag))
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> Adds a general curve given by a callback on begin <= t <= end. The callback is called during
+  !> this procedure and whenever a placement is initialised, so it and user must outlive the
+  !> placements made on the domain. A curve whose ends coincide is closed. Smooth inside: corners
+  !> are where curves meet. Local.
+  !>   tag   optional: nonzero; 1 without
+  !>   user  optional: what the callback is given; null without
+  subroutine domain_add_curve(self, role, curve, begin, end, tag, user, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(in) :: role
+    procedure(pnpbs_curve_fn) :: curve
+    real(c_double), intent(in) :: begin, end
+    integer(c_int32_t), intent(in), optional :: tag
+    type(c_ptr), intent(in), optional :: user
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_domain_add_curve(self%c, role, c_funloc(curve), pointer_or_null(user), begin, &
+                                     end, tag_or_one(tag)), stat, errmsg)
+  end subroutine
+
+  !> Adds a planar straight-line graph as Triangle means it: what the segments enclose is the
+  !> domain, except the regions that contain a hole point; a loop without a hole point and any open
+  !> chain are inner curves. Every vertex becomes a node. Shared vertices and T-junctions (within
+  !> 1e-12 of the domain's size) are legal. Once a graph was added, this rule holds for all curves
+  !> of the domain. Local.
+  !>   xy            (2, vertices)
+  !>   segment_ends  (2, segments) vertices, counted from 1
+  !>   vertex_tags   optional, (vertices); 0 = take the segment's
+  !>   segment_tags  optional, (segments); 1 without
+  !>   hole_points   optional, (2, holes)
+  subroutine domain_add_pslg(self, xy, segment_ends, vertex_tags, segment_tags, hole_points, stat, &
+                             errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: xy(:,:)
+    integer(c_int64_t), intent(in) :: segment_ends(:,:)
+    integer(c_int32_t), intent(in), optional :: vertex_tags(:), segment_tags(:)
+    real(c_double), intent(in), optional :: hole_points(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_vertex_tags, a_segment_tags, a_holes
+    integer(c_int64_t) :: vertices, segments, holes, room
+    integer(c_int) :: status
+    vertices = size(xy, 2, kind=c_int64_t)
+    segments = size(segment_ends, 2, kind=c_int64_t)
+    call given%check_rows('xy', size(xy, 1), 2)
+    call given%check_rows('segment_ends', size(segment_ends, 1), 2)
+    call given%place_int32('vertex_tags', vertex_tags, a_vertex_tags, room)
+    call given%require('vertex_tags', room, vertices)
+    call given%place_int32('segment_tags', segment_tags, a_segment_tags, room)
+    call given%require('segment_tags', room, segments)
+    call given%place_real_columns('hole_points', hole_points, 2, a_holes, holes)
+    if (.not. present(hole_points)) holes = 0
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_add_pslg(self%c, vertices, xy, a_vertex_tags, segments, segment_ends - 1, &
+                                 a_segment_tags, holes, a_holes)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> Removes from the domain the region around a point (between curves of either role). Local.
+  subroutine domain_add_hole(self, point, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: point(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('point', size(point), 2)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_domain_add_hole(self%c, point)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> Adds nodes that must appear exactly. Local.
+  !>   xy    (2, n), inside the domain or on a vertex of its curves
+  !>   tags  optional, (n), nonzero; 1 without
+  subroutine domain_add_fixed_nodes(self, xy, tags, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: xy(:,:)
+    integer(c_int32_t), intent(in), optional :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_tags
+    integer(c_int64_t) :: n, room
+    integer(c_int) :: status
+    n = size(xy, 2, kind=c_int64_t)
+    call given%check_rows('xy', size(xy, 1), 2)
+    call given%place_int32('tags', tags, a_tags, room)
+    call given%require('tags', room, n)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_domain_add_fixed_nodes(self%c, n, xy, a_tags)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> Reads a file of Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
+  !> markers kept as tags) and adds it as add_pslg does. Local. Errors: PNPBS_ERROR_FILE with file,
+  !> line and what was expected.
+  !>   path  blanks at its end do not count
+  subroutine domain_read_poly(self, path, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    character(len=*), intent(in) :: path
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_domain_read_poly(self%c, c_text(path)), stat, errmsg)
+  end subroutine
+
+  !> The same from memory. Local.
+  !>   text  lines that end with new_line('a')
+  !>   name  what to call the text in messages
+  subroutine domain_parse_poly(self, text, name, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    character(len=*), intent(in) :: text, name
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_domain_parse_poly(self%c, text // c_null_char, len(text, kind=c_int64_t), &
+                                      c_text(name)), stat, errmsg)
+  end subroutine
+
+  !> Checks the whole geometry: duplicate vertices, self-intersections, unclosed boundary curves,
+  !> hole points outside or on a curve, fixed nodes outside or too close. Placements check too;
+  !> asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the vertex or
+  !> segment.
+  subroutine domain_check(self, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_domain_check(self%c), stat, errmsg)
+  end subroutine
+
+  !> Bounding box of the curves. Local.
+  !>   low, high  (2)
+  subroutine domain_bounds(self, low, high, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(inout) :: low(:), high(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('low', size(low), 2)
+    call given%check_rows('high', size(high), 2)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_domain_bounds(self%c, low, high)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> Area of the inside. Local; checks the domain first.
+  subroutine domain_measure(self, measure, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(out) :: measure
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_domain_measure(self%c, measure), stat, errmsg)
+  end subroutine
+
+  !> Number of segments that get_segments has. Local.
+  subroutine domain_segment_count(self, count, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_domain_get_segments(self%c, 0_c_int64_t, count, c_null_ptr, c_null_ptr), stat, &
+                  errmsg)
+  end subroutine
+
+  !> Straight segments that show the domain (curves finely sampled), for pictures. Local.
+  !>   segments  optional, (2, 2, count): coordinates, ends, segments
+  !>   tags      optional, (count)
+  subroutine domain_get_segments(self, segments, tags, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(inout), optional :: segments(:,:,:)
+    integer(c_int32_t), intent(inout), optional :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_segments, a_tags
+    integer(c_int64_t) :: room, room_for_tags, count
+    integer(c_int) :: status
+    call given%place_real_pairs('segments', segments, 2, a_segments, room)
+    call given%place_int32('tags', tags, a_tags, room_for_tags)
+    room = given%capacity(min(room, room_for_tags))
+    status = c_domain_get_segments(self%c, room, count, a_segments, a_tags)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> The handle as an integer; 0 where there is no domain. Local.
+  function domain_handle(self) result(handle)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int64_t) :: handle
+    handle = integer_of(self%c)
+  end function
+
+  !> Makes this the domain that has the handle. Local; checks nothing.
+  subroutine domain_from_handle(self, handle)
+    class(pnpbs_domain), intent(inout) :: self
+    integer(c_int64_t), intent(in) :: handle
+    self%c = pointer_of(handle)
+  end subroutine
+
+  ! ------------------------------------------------------------ placement: settings -----------
+
+  !> A placement of nodes in domain, with the options of its context. The domain is taken as it is
+  !> at initialise. Collective.
+  subroutine placement_create(self, context, domain, stat, errmsg)
+    class(pnpbs_placement), intent(inout) :: self
+    type(pnpbs_context), intent(in) :: context
+    type(pnpbs_domain), intent(in) :: domain
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_create(context%c, domain%c, self%c), stat, errmsg)
+  end subroutine
+
+  !> Destroys it; does nothing where there is none. Local.
+  subroutine placement_destroy(self, stat, errmsg)
+    class(pnpbs_placement), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_destroy(self%c), stat, errmsg)
+  end subroutine
+
+  !> set(key, value): sets an option of this placement; otherwise as that of contexts. Local.
+  subroutine placement_set_text(self, key, value, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: key, value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_set(self%c, c_text(key), c_text(value)), stat, errmsg)
+  end subroutine
+
+  subroutine placement_set_int32(self, key, value, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: key
+    integer(c_int32_t), intent(in) :: value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call self%set(key, int(value, c_int64_t), stat, errmsg)
+  end subroutine
+
+  subroutine placement_set_int64(self, key, value, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: key
+    integer(c_int64_t), intent(in) :: value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_set_int64(self%c, c_text(key), value), stat, errmsg)
+  end subroutine
+
+  subroutine placement_set_real(self, key, value, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: key
+    real(c_double), intent(in) :: value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_set_double(self%c, c_text(key), value), stat, errmsg)
+  end subroutine
+
+  !> The spacing everywhere the same. On a live placement the spacing is replaced: the nodes there
+  !> are stay, and the next run starts from them. Collective. Errors: PNPBS_ERROR_SPACING for zero,
+  !> negative, not finite.
+  subroutine placement_set_spacing_constant(self, d, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: d
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_set_spacing_constant(self%c, d), stat, errmsg)
+  end subroutine
+
+  !> The spacing from a callback, which must stay valid as long as the placement uses it, and so
+  !> must user. Collective. Bad values are found when it is asked, in initialise or run: the error
+  !> names the point and the number of nodes it would have meant.
+  !>   user  optional: what the callback is given; null without
+  subroutine placement_set_spacing_callback(self, spacing, user, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    procedure(pnpbs_spacing_fn) :: spacing
+    type(c_ptr), intent(in), optional :: user
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_set_spacing_callback(self%c, c_funloc(spacing), &
+                                                   pointer_or_null(user)), stat, errmsg)
+  end subroutine
+
+  !> The spacing from values on a rectangular grid, copied; linear in each direction between them,
+  !> constant beyond the grid's edge. Collective.
+  !>   origin  (2) the first grid point
+  !>   step    (2) > 0, distance of grid points
+  !>   values  (nx, ny)
+  subroutine placement_set_spacing_grid(self, origin, step, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: origin(:), step(:), values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: points(2)
+    integer(c_int) :: status
+    call given%check_rows('origin', size(origin), 2)
+    call given%check_rows('step', size(step), 2)
+    points = shape(values, kind=c_int64_t)
+    points(1) = given%capacity(points(1))
+    status = c_placement_set_spacing_grid(self%c, points, origin, step, values)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> The spacing from values at the nodes there are: d is linear on each triangle of their Delaunay
+  !> triangulation (get_triangles), and beyond its rim, next to curved boundaries, what it is at the
+  !> nearest point of the rim. Every rank gives the values of its own nodes; they stay with the
+  !> ranks, copied together with the triangles, and the nodes may go on to be replaced. Collective.
+  !> Errors: PNPBS_ERROR_STATE without nodes, PNPBS_ERROR_SPACING for a value that is zero, negative
+  !> or not finite: the message names the rank, the node's id and the value.
+  !>   d  one for every node of this rank, in the order of get_nodes
+  subroutine placement_set_spacing_at_nodes(self, d, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: d(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_set_spacing_at_nodes(self%c, size(d, kind=c_int64_t), d), stat, &
+                  errmsg)
+  end subroutine
+
+  !> Sets the monitor, or removes it if none is given. Local.
+  !>   user  optional: what the monitor is given; null without
+  subroutine placement_set_monitor(self, monitor, user, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    procedure(pnpbs_monitor_fn), optional :: monitor
+    type(c_ptr), intent(in), optional :: user
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_funptr) :: address
+    address = c_null_funptr
+    if (present(monitor)) address = c_funloc(monitor)
+    call conclude(c_placement_set_monitor(self%c, address, pointer_or_null(user)), stat, errmsg)
+  end subroutine
+
+  !> Inner nodes to start from instead of the initial fill, copied; the boundary is laid by the
+  !> library. Over several ranks each gives some, wherever they lie. Where they are many times too
+  !> dense for d they are thinned (statistic 'deleted'). Points outside the domain or too close to
+  !> its boundary are left out (statistic 'dropped'). Clears the nodes there are. Collective.
+  !>   xy   (2, n)
+  !>   ids  optional, (n): distinct, 0 .. 2**62; of the library's choice without
+  subroutine placement_set_nodes(self, xy, ids, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: xy(:,:)
+    integer(c_int64_t), intent(in), optional :: ids(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_ids
+    integer(c_int64_t) :: n, room
+    integer(c_int) :: status
+    n = size(xy, 2, kind=c_int64_t)
+    call given%check_rows('xy', size(xy, 1), 2)
+    call given%place_int64('ids', ids, a_ids, room)
+    call given%require('ids', room, n)
+    status = c_placement_set_nodes(self%c, given%capacity(n), xy, a_ids)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  ! ------------------------------------------------------------ placement: computing ----------
+
+  !> Checks domain and spacing, builds the background tree, lays the boundary nodes and the initial
+  !> inner nodes. Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK, _MEMORY.
+  subroutine placement_initialise(self, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_initialise(self%c), stat, errmsg)
+  end subroutine
+
+  !> step(n): advances the simulation by n steps, with the events (refresh of d, population, stop
+  !> test) that fall on them. Initialises first if need be. Collective. stat: PNPBS_OK if the
+  !> bubbles rest (stop test met), PNPBS_NOT_CONVERGED if they still move, PNPBS_STOPPED.
+  subroutine placement_step_int32(self, n, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(in) :: n
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call self%step(int(n, c_int64_t), stat, errmsg)
+  end subroutine
+
+  subroutine placement_step_int64(self, n, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(in) :: n
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_step(self%c, n), stat, errmsg)
+  end subroutine
+
+  !> One population adjustment, now: deletes where the overlap ratio is too large, inserts where it
+  !> is too small (equation (3) of the paper). Collective.
+  !>   inserted, deleted  optional: how many nodes
+  subroutine placement_adjust_population(self, inserted, deleted, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out), optional :: inserted, deleted
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: in, out
+    in = 0
+    out = 0
+    call conclude(c_placement_adjust_population(self%c, in, out), stat, errmsg)
+    if (present(inserted)) inserted = in
+    if (present(deleted)) deleted = out
+  end subroutine
+
+  !> Deals the work out to the ranks anew, by METIS and the work counted in the lists, so that each
+  !> owns an equal share and little changes its rank. The nodes stay as they are; who owns them, and
+  !> who has which ghosts, changes. A run does so by itself where the statistic 'imbalance' (largest
+  !> over mean work) passes the option 'rebalance_above'. Initialises first if need be. Collective.
+  subroutine placement_rebalance(self, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_rebalance(self%c), stat, errmsg)
+  end subroutine
+
+  !> The whole job: initialise if need be, steps until the stop test is met or the option 'steps' is
+  !> used up, finish. Afterwards it starts a new schedule from the nodes there are. Collective.
+  !> stat: PNPBS_OK, PNPBS_NOT_CONVERGED (the best state is kept), PNPBS_STOPPED.
+  subroutine placement_run(self, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude(c_placement_run(self%c), stat, errmsg)
+  end subroutine
+
+  ! ------------------------------------------------------------ placement: results ------------
+
+  !> Number of nodes of this rank. Local.
+  subroutine placement_count(self, nodes, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: nodes
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    nodes = 0
+    call conclude(c_placement_count(self%c, nodes), stat, errmsg)
+  end subroutine
+
+  !> Copies the nodes of this rank out, in their local order; all arrays are optional. Local.
+  !>   xy       (2, nodes)
+  !>   ids      (nodes) global ids, the same for any number of ranks and threads
+  !>   tags     (nodes) 0 inner, otherwise the tag of the boundary, curve or fixed node
+  !>   spacing  (nodes) d at the node
+  subroutine placement_get_nodes(self, xy, ids, tags, spacing, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout), optional :: xy(:,:), spacing(:)
+    integer(c_int64_t), intent(inout), optional :: ids(:)
+    integer(c_int32_t), intent(inout), optional :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_xy, a_ids, a_tags, a_spacing
+    integer(c_int64_t) :: room(4)
+    integer(c_int) :: status
+    call given%place_real_columns('xy', xy, 2, a_xy, room(1))
+    call given%place_int64('ids', ids, a_ids, room(2))
+    call given%place_int32('tags', tags, a_tags, room(3))
+    call given%place_real('spacing', spacing, a_spacing, room(4))
+    status = c_placement_get_nodes(self%c, given%capacity(minval(room)), a_xy, a_ids, a_tags, &
+                                   a_spacing)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars and
+  !> triangles ghost g has the local index nodes + g. Collective.
+  subroutine placement_ghost_count(self, ghosts, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: ghosts
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    ghosts = 0
+    call conclude(c_placement_ghost_count(self%c, ghosts), stat, errmsg)
+  end subroutine
+
+  !> Copies the ghosts out, by increasing id; all arrays are optional. Collective.
+  !>   xy, ids, tags, spacing  as get_nodes
+  !>   owners                  (ghosts) the rank that owns each
+  subroutine placement_get_ghosts(self, xy, ids, tags, spacing, owners, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout), optional :: xy(:,:), spacing(:)
+    integer(c_int64_t), intent(inout), optional :: ids(:)
+    integer(c_int32_t), intent(inout), optional :: tags(:), owners(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_xy, a_ids, a_tags, a_spacing, a_owners
+    integer(c_int64_t) :: room(5)
+    integer(c_int) :: status
+    call given%place_real_columns('xy', xy, 2, a_xy, room(1))
+    call given%place_int64('ids', ids, a_ids, room(2))
+    call given%place_int32('tags', tags, a_tags, room(3))
+    call given%place_real('spacing', spacing, a_spacing, room(4))
+    call given%place_int32('owners', owners, a_owners, room(5))
+    status = c_placement_get_ghosts(self%c, given%capacity(minval(room)), a_xy, a_ids, a_tags, &
+                                    a_spacing, a_owners)
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> Sizes of the exchange pattern: how values at nodes reach their ghosts on other ranks.
+  !> Collective; all are optional.
+  !>   neighbours  ranks that have ghosts of our nodes, or nodes that are ghosts here
+  !>   sends       nodes to send, one for every rank that has it as a ghost
+  !>   receives    nodes to receive: the number of ghosts
+  subroutine placement_exchange_sizes(self, neighbours, sends, receives, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(out), optional :: neighbours
+    integer(c_int64_t), intent(out), optional :: sends, receives
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: ranks
+    integer(c_int64_t) :: out, in
+    ranks = 0
+    out = 0
+    in = 0
+    call conclude(c_placement_exchange_sizes(self%c, ranks, out, in), stat, errmsg)
+    if (present(neighbours)) neighbours = ranks
+    if (present(sends)) sends = out
+    if (present(receives)) receives = in
+  end subroutine
+
+  !> The exchange pattern, for a solver to use again: send the values at nodes
+  !> send_nodes(send_offsets(k) : send_offsets(k+1)-1) to ranks(k), and put what comes from there
+  !> into places receive_nodes(receive_offsets(k) : receive_offsets(k+1)-1), in the same order (that
+  !> of ids). It stays right until nodes move. Collective.
+  !>   ranks            (neighbours) in increasing order, counted from 0 as MPI's are
+  !>   send_offsets     (neighbours + 1)
+  !>   send_nodes       (sends) local indices of this rank's nodes
+  !>   receive_offsets  (neighbours + 1)
+  !>   receive_nodes    (receives) local indices of ghosts (nodes + g)
+  subroutine placement_get_exchange(self, ranks, send_offsets, send_nodes, receive_offsets, &
+                                    receive_nodes, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(inout) :: ranks(:)
+    integer(c_int64_t), intent(inout) :: send_offsets(:), send_nodes(:)
+    integer(c_int64_t), intent(inout) :: receive_offsets(:), receive_nodes(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_ranks, a_send_offsets, a_send_nodes, a_receive_offsets, a_receive_nodes
+    integer(c_int64_t) :: room(5), sends, receives
+    integer(c_int32_t) :: neighbours
+    integer(c_int) :: status
+    if (c_placement_exchange_sizes(self%c, neighbours, sends, receives) < 0) then
+      neighbours = 0
+      sends = 0
+      receives = 0
+    end if
+    call given%place_int32('ranks', ranks, a_ranks, room(1))
+    call given%place_int64('send_offsets', send_offsets, a_send_offsets, room(2))
+    call given%place_int64('send_nodes', send_nodes, a_send_nodes, room(3))
+    call given%place_int64('receive_offsets', receive_offsets, a_receive_offsets, room(4))
+    call given%place_int64('receive_nodes', receive_nodes, a_receive_nodes, room(5))
+    call given%require('ranks', room(1), int(neighbours, c_int64_t))
+    call given%require('send_offsets', room(2), neighbours + 1_c_int64_t)
+    call given%require('send_nodes', room(3), sends)
+    call given%require('receive_offsets', room(4), neighbours + 1_c_int64_t)
+    call given%require('receive_nodes', room(5), receives)
+    status = c_placement_get_exchange(self%c, neighbours, given%capacity(sends), receives, &
+                                      a_ranks, a_send_offsets, a_send_nodes, a_receive_offsets, &
+                                      a_receive_nodes)
+    call conclude(status, stat, errmsg, given)
+    if (status < 0) return
+    call count_from_one(send_offsets(:neighbours + 1))
+    call count_from_one(receive_offsets(:neighbours + 1))
+    call count_from_one(send_nodes(:sends))
+    call count_from_one(receive_nodes(:receives))
+  end subroutine
+
+  !> Numbers that are contiguous per rank, as PETSc and hypre want them, besides the ids: node i of
+  !> this rank has number first + i - 1, and rank r's numbers follow those of rank r - 1. They count
+  !> from 0, as in C. Unlike the ids they depend on the ranks. Collective; all are optional.
+  !>   first          the number of this rank's first node; 0 on rank 0
+  !>   count          how many numbers this rank has: its nodes
+  !>   ghost_numbers  (ghosts) the numbers of the ghosts, as get_ghosts has them
+  subroutine placement_get_numbering(self, first, count, ghost_numbers, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out), optional :: first, count
+    integer(c_int64_t), intent(inout), optional :: ghost_numbers(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_ghost_numbers
+    integer(c_int64_t) :: room, begin, nodes
+    integer(c_int) :: status
+    begin = 0
+    nodes = 0
+    call given%place_int64('ghost_numbers', ghost_numbers, a_ghost_numbers, room)
+    status = c_placement_get_numbering(self%c, given%capacity(room), begin, nodes, a_ghost_numbers)
+    call conclude(status, stat, errmsg, given)
+    if (present(first)) first = begin
+    if (present(count)) count = nodes
+  end subroutine
+
+  !> Number of entries of all adjacency lists of this rank's nodes. Collective.
+  subroutine placement_adjacency_size(self, entries, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: entries
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    entries = 0
+    call conclude(c_placement_adjacency_size(self%c, entries), stat, errmsg)
+  end subroutine
+
+  !> Adjacency lists in compressed rows: the neighbours of local node i are
+  !> neighbours(offsets(i) : offsets(i+1)-1), local indices in the order of global ids; directly
+  !> usable for node-based local mesh generation. Pairs that a boundary separates are not
+  !> neighbours. Collective.
+  !>   offsets     (nodes + 1)
+  !>   neighbours  (entries)
+  subroutine placement_get_adjacency(self, offsets, neighbours, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout) :: offsets(:), neighbours(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_offsets, a_neighbours
+    integer(c_int64_t) :: nodes, rows, room
+    integer(c_int) :: status
+    nodes = nodes_of(self%c)
+    call given%place_int64('offsets', offsets, a_offsets, rows)
+    call given%require('offsets', rows, nodes + 1)
+    call given%place_int64('neighbours', neighbours, a_neighbours, room)
+    status = c_placement_get_adjacency(self%c, given%capacity(room), a_offsets, a_neighbours)
+    call conclude(status, stat, errmsg, given)
+    if (status < 0) return
+    call count_from_one(offsets(:nodes + 1))
+    call count_from_one(neighbours(:offsets(nodes + 1) - 1))
+  end subroutine
+
+  !> Number of entries of all Delaunay stars. Collective.
+  subroutine placement_star_size(self, entries, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: entries
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    entries = 0
+    call conclude(c_placement_star_size(self%c, entries), stat, errmsg)
+  end subroutine
+
+  !> Each node's star in the constrained Delaunay triangulation of the domain, counter-clockwise.
+  !> Collective.
+  !>   offsets     (nodes + 1)
+  !>   neighbours  (entries) local indices
+  !>   triangle    optional, (entries): 1 if the node, this neighbour and the next one around (the
+  !>               first one after the last) are a triangle of the domain, 0 if a gap outside the
+  !>               domain lies between them
+  subroutine placement_get_stars(self, offsets, neighbours, triangle, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout) :: offsets(:), neighbours(:)
+    integer(c_int8_t), intent(inout), optional :: triangle(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_offsets, a_neighbours, a_triangle
+    integer(c_int64_t) :: nodes, rows, room(2)
+    integer(c_int) :: status
+    nodes = nodes_of(self%c)
+    call given%place_int64('offsets', offsets, a_offsets, rows)
+    call given%require('offsets', rows, nodes + 1)
+    call given%place_int64('neighbours', neighbours, a_neighbours, room(1))
+    call given%place_int8('triangle', triangle, a_triangle, room(2))
+    status = c_placement_get_stars(self%c, given%capacity(minval(room)), a_offsets, a_neighbours, &
+                                   a_triangle)
+    call conclude(status, stat, errmsg, given)
+    if (status < 0) return
+    call count_from_one(offsets(:nodes + 1))
+    call count_from_one(neighbours(:offsets(nodes + 1) - 1))
+  end subroutine
+
+  !> Number of triangles that get_triangles has. Collective.
+  subroutine placement_triangle_count(self, count, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    count = 0
+    call conclude(c_placement_get_triangles(self%c, 0_c_int64_t, count, c_null_ptr), stat, errmsg)
+  end subroutine
+
+  !> Triangles of the stars, each once, counter-clockwise. Over several ranks a triangle is the
+  !> rank's that owns its node with the least id; other corners may be ghosts, and the triangles of
+  !> all ranks together are one conforming triangulation of the domain. Collective.
+  !>   triangles  (3, count) local indices
+  subroutine placement_get_triangles(self, triangles, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout) :: triangles(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_triangles
+    integer(c_int64_t) :: room, count, t
+    integer(c_int) :: status
+    call given%place_int64_columns('triangles', triangles, 3, a_triangles, room)
+    status = c_placement_get_triangles(self%c, given%capacity(room), count, a_triangles)
+    call conclude(status, stat, errmsg, given)
+    if (status < 0) return
+    do t = 1, count
+      call count_from_one(triangles(:, t))
+    end do
+  end subroutine
+
+  !> Number of boundary edges that get_boundary_edges has. Local.
+  subroutine placement_boundary_edge_count(self, count, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    count = 0
+    call conclude(c_placement_get_boundary_edges(self%c, 0_c_int64_t, count, c_null_ptr, &
+                                                 c_null_ptr), stat, errmsg)
+  end subroutine
+
+  !> Boundary edges: consecutive nodes on boundary and inner curves. Over several ranks an edge is
+  !> the rank's that owns the node it begins with; the other end may be a ghost. Local.
+  !>   edges  optional, (2, count) local indices
+  !>   tags   optional, (count)
+  subroutine placement_get_boundary_edges(self, edges, tags, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout), optional :: edges(:,:)
+    integer(c_int32_t), intent(inout), optional :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_edges, a_tags
+    integer(c_int64_t) :: room(2), count, e
+    integer(c_int) :: status
+    call given%place_int64_columns('edges', edges, 2, a_edges, room(1))
+    call given%place_int32('tags', tags, a_tags, room(2))
+    status = c_placement_get_boundary_edges(self%c, given%capacity(minval(room)), count, a_edges, &
+                                            a_tags)
+    call conclude(status, stat, errmsg, given)
+    if (status < 0 .or. .not. present(edges)) return
+    do e = 1, count
+      call count_from_one(edges(:, e))
+    end do
+  end subroutine
+
+  !> get(key, value): a statistic by key (see pnpbs_statistic_info). Collective (some are computed
+  !> when asked). Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type differs.
+  !>   value  integer(c_int64_t), real(c_double), or character(len=:), allocatable
+  subroutine placement_get_int64(self, key, value, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: key
+    integer(c_int64_t), intent(out) :: value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    value = 0
+    call conclude(c_placement_get_int64(self%c, c_text(key), value), stat, errmsg)
+  end subroutine
+
+  subroutine placement_get_real(self, key, value, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: key
+    real(c_double), intent(out) :: value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    value = 0
+    call conclude(c_placement_get_double(self%c, c_text(key), value), stat, errmsg)
+  end subroutine
+
+  subroutine placement_get_text(self, key, value, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: key
+    character(len=:), allocatable, intent(out) :: value
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: text
+    integer(c_int) :: status
+    status = c_placement_get_string(self%c, c_text(key), text)
+    value = ''
+    call conclude(status, stat, errmsg)
+    if (status >= 0) value = text_of(text)
+  end subroutine
+
+  !> Number of warnings about domain and spacing, gathered at initialise (a feature smaller than
+  !> the spacing, an unused vertex, ...). Local.
+  subroutine placement_warning_count(self, count, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    count = 0
+    call conclude(c_placement_warning_count(self%c, count), stat, errmsg)
+  end subroutine
+
+  !> One of the warnings. Local.
+  !>   index  1 .. count
+  subroutine placement_get_warning(self, index, text, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(in) :: index
+    character(len=:), allocatable, intent(out) :: text
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: c
+    integer(c_int) :: status
+    status = c_placement_get_warning(self%c, index - 1_c_int32_t, c)
+    text = ''
+    call conclude(status, stat, errmsg)
+    if (status >= 0) text = text_of(c)
+  end subroutine
+
+  ! ------------------------------------------------------------ placement: files --------------
+
+  !> Writes the nodes of all ranks into one file, at the same time, in the format of its extension:
+  !> .vtu, .pvtu, .msh, .node, .ele, .csv (see pnpbs_placement_write in pnpbs.h). A file appears
+  !> under its name only when it is complete; after an error, what was there before is still there.
+  !> The folder must be the same one for all ranks, and so must path. The monitor, if there is one,
+  !> is asked now and then. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors: PNPBS_ERROR_FILE
+  !> naming the file, PNPBS_ERROR_STATE if there are no nodes yet, PNPBS_ERROR_ARGUMENT.
+  !>   path      blanks at its end do not count
+  !>   elements  optional: triangles (and boundary edges) as well; .false. without
+  subroutine placement_write(self, path, elements, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: path
+    logical, intent(in), optional :: elements
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: with_elements
+    with_elements = 0
+    if (present(elements)) with_elements = flag(elements)
+    call conclude(c_placement_write(self%c, c_text(path), with_elements), stat, errmsg)
+  end subroutine
+
+  !> Writes several files, which appear together when all of them are complete. Otherwise as write.
+  !> Collective.
+  !>   paths     (n)
+  !>   formats   optional, (n): names of formats (pnpbs_format_info), ' ' for that of the extension
+  !>   elements  optional, (n); .false. without
+  subroutine placement_write_files(self, paths, formats, elements, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: paths(:)
+    character(len=*), intent(in), optional :: formats(:)
+    logical, intent(in), optional :: elements(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    character(kind=c_char, len=len(paths) + 1), target :: c_paths(size(paths) + 1)
+    character(kind=c_char, len=20), target :: c_formats(size(paths) + 1)
+    type(c_ptr), target :: a_paths(size(paths) + 1), a_formats(size(paths) + 1)
+    integer(c_int32_t), target :: with_elements(size(paths) + 1)
+    type(c_ptr) :: all_formats
+    integer(c_int64_t) :: n
+    integer(c_int) :: status
+    integer :: k
+    n = size(paths, kind=c_int64_t)
+    if (present(formats)) call given%require('formats', size(formats, kind=c_int64_t), n)
+    if (present(elements)) call given%require('elements', size(elements, kind=c_int64_t), n)
+    a_formats = c_null_ptr
+    with_elements = 0
+    if (.not. given%is_wrong()) then
+      do k = 1, size(paths)
+        c_paths(k) = c_text(paths(k))
+        a_paths(k) = c_loc(c_paths(k)(1:1))
+        if (present(elements)) with_elements(k) = flag(elements(k))
+        if (.not. present(formats)) cycle
+        c_formats(k) = c_text(formats(k))
+        if (formats(k) /= ' ') a_formats(k) = c_loc(c_formats(k)(1:1))
+      end do
+    end if
+    all_formats = c_loc(a_formats(1))
+    status = c_placement_write_files(self%c, int(given%capacity(n), c_int32_t), a_paths, &
+                                     all_formats, c_loc(with_elements(1)))
+    call conclude(status, stat, errmsg, given)
+  end subroutine
+
+  !> The handle as an integer; 0 where there is no placement. Local.
+  function placement_handle(self) result(handle)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t) :: handle
+    handle = integer_of(self%c)
+  end function
+
+  !> Makes this the placement that has the handle. Local; checks nothing.
+  subroutine placement_from_handle(self, handle)
+    class(pnpbs_placement), intent(inout) :: self
+    integer(c_int64_t), intent(in) :: handle
+    self%c = pointer_of(handle)
+  end subroutine
+
+  ! ------------------------------------------------------------ small helpers -----------------
+
+  function integer_of(pointer) result(handle)
+    type(c_ptr), intent(in) :: pointer
+    integer(c_int64_t) :: handle
+    handle = int(transfer(pointer, 0_c_intptr_t), c_int64_t)
+  end function
+
+  function pointer_of(handle) result(pointer)
+    integer(c_int64_t), intent(in) :: handle
+    type(c_ptr) :: pointer
+    pointer = transfer(int(handle, c_intptr_t), c_null_ptr)
+  end function
+
+  function pointer_or_null(user) result(pointer)
+    type(c_ptr), intent(in), optional :: user
+    type(c_ptr) :: pointer
+    pointer = c_null_ptr
+    if (present(user)) pointer = user
+  end function
+
+  function flag(condition)
+    logical, intent(in) :: condition
+    integer(c_int32_t) :: flag
+    flag = merge(1_c_int32_t, 0_c_int32_t, condition)
+  end function
+
+  function tag_or_one(tag) result(value)
+    integer(c_int32_t), intent(in), optional :: tag
+    integer(c_int32_t) :: value
+    value = 1
+    if (present(tag)) value = tag
+  end function
+
+  ! 0 if the placement is dead, which the call that follows finds, too.
+  function nodes_of(placement) result(nodes)
+    type(c_ptr), intent(in) :: placement
+    integer(c_int64_t) :: nodes
+    nodes = 0
+    if (c_placement_count(placement, nodes) /= PNPBS_OK) nodes = 0
+  end function
+end module pnpbs

@@ -1,0 +1,741 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The C interface of PNPBS (pnpbs/pnpbs.h), function by function, for the module pnpbs, which is
+!> the one to use. Every body below is compared with the header, argument by argument, by
+!> tests/linkage/check_signatures.py; a change of one without the other fails there.
+!>
+!> How a body is written, so that the check can read it: the C function pnpbs_<name> is c_<name>,
+!> and its arguments have their names in C. Arrays that C takes as NULL, and addresses of nothing in
+!> particular, are type(c_ptr), value, with the C type in a comment behind: Fortran 2003 has no
+!> optional arguments in procedures with bind(C).
+module pnpbs_c
+  use, intrinsic :: iso_c_binding
+  implicit none
+  public
+
+  ! ------------------------------------------------------------ status and constants ----------
+
+  integer(c_int), parameter :: PNPBS_OK = 0                   !< done
+  integer(c_int), parameter :: PNPBS_NOT_CONVERGED = 1        !< stopped at the step limit
+  integer(c_int), parameter :: PNPBS_STOPPED = 2              !< stopped by the monitor
+  integer(c_int), parameter :: PNPBS_ERROR_ARGUMENT = -1      !< invalid argument
+  integer(c_int), parameter :: PNPBS_ERROR_HANDLE = -2        !< not a live handle
+  integer(c_int), parameter :: PNPBS_ERROR_STATE = -3         !< call not allowed in this state
+  integer(c_int), parameter :: PNPBS_ERROR_DOMAIN = -4        !< invalid domain
+  integer(c_int), parameter :: PNPBS_ERROR_SPACING = -5       !< invalid spacing
+  integer(c_int), parameter :: PNPBS_ERROR_KEY = -6           !< unknown option or statistic
+  integer(c_int), parameter :: PNPBS_ERROR_CAPACITY = -7      !< array too small
+  integer(c_int), parameter :: PNPBS_ERROR_FILE = -8          !< cannot read or write file
+  integer(c_int), parameter :: PNPBS_ERROR_CALLBACK = -9      !< a callback asked to stop
+  integer(c_int), parameter :: PNPBS_ERROR_MEMORY = -10       !< out of memory
+  integer(c_int), parameter :: PNPBS_ERROR_MPI = -11          !< MPI is not usable
+  integer(c_int), parameter :: PNPBS_ERROR_KOKKOS = -12       !< Kokkos is not usable
+  integer(c_int), parameter :: PNPBS_ERROR_UNSUPPORTED = -13  !< not supported by this build
+  integer(c_int), parameter :: PNPBS_ERROR_INTERNAL = -14     !< internal error
+
+  integer(c_int32_t), parameter :: PNPBS_BOUNDARY = 0  !< a curve that separates inside from outside
+  integer(c_int32_t), parameter :: PNPBS_INNER = 1     !< a curve in the domain that nodes follow
+
+  !> The version this module was written for; pnpbs_version tells the library's.
+  integer(c_int32_t), parameter :: PNPBS_VERSION_MAJOR = 0
+  integer(c_int32_t), parameter :: PNPBS_VERSION_MINOR = 1
+  integer(c_int32_t), parameter :: PNPBS_VERSION_PATCH = 0
+
+  ! ------------------------------------------------------------ callbacks ---------------------
+  ! Write yours as module procedures with bind(C): internal procedures need a stack that runs code,
+  ! which many systems forbid. Never stop or jump out of one: return something other than 0. What
+  ! they need to know comes through user, the c_loc of a target that outlives the calls.
+
+  abstract interface
+    !> A curve by its parameter: fills xy(2,n) for t(n). Must be a pure function, continuous, and
+    !> with no self-intersection. Returns 0, or anything else to fail the call with
+    !> PNPBS_ERROR_CALLBACK.
+    function pnpbs_curve_fn(n, t, xy, user) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: t(n)
+      real(c_double), intent(out) :: xy(2, n)
+      type(c_ptr), value :: user ! void *
+      integer(c_int32_t) :: pnpbs_curve_fn
+    end function
+
+    !> The spacing: fills d(n) for xyz(dim,n); n may be 0. Must be a pure function of the point. May
+    !> be asked wherever there is domain or boundary; how often and with which points, and on which
+    !> rank, may differ from run to run. Returns as above.
+    function pnpbs_spacing_fn(n, dim, xyz, d, user) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: dim
+      real(c_double), intent(in) :: xyz(dim, n)
+      real(c_double), intent(out) :: d(n)
+      type(c_ptr), value :: user ! void *
+      integer(c_int32_t) :: pnpbs_spacing_fn
+    end function
+
+    !> Progress, told at fixed step numbers: the part of the work of the call that is done (0 to 1),
+    !> steps so far, nodes now, and the largest speed in spacings per unit time. Returns 0 to go on,
+    !> anything else to stop: the call then ends with PNPBS_STOPPED and its nodes are valid.
+    function pnpbs_monitor_fn(fraction, step, nodes, max_speed, user) bind(C)
+      import
+      implicit none
+      real(c_double), value :: fraction
+      integer(c_int64_t), value :: step, nodes
+      real(c_double), value :: max_speed
+      type(c_ptr), value :: user ! void *
+      integer(c_int32_t) :: pnpbs_monitor_fn
+    end function
+  end interface
+
+  ! ------------------------------------------------------------ functions ---------------------
+
+  interface
+    function c_status_string(status) bind(C, name="pnpbs_status_string")
+      import
+      implicit none
+      integer(c_int), value :: status
+      type(c_ptr) :: c_status_string
+    end function
+
+    function c_last_error(context) bind(C, name="pnpbs_last_error")
+      import
+      implicit none
+      type(c_ptr), value :: context
+      type(c_ptr) :: c_last_error
+    end function
+
+    function c_version(major, minor, patch) bind(C, name="pnpbs_version")
+      import
+      implicit none
+      integer(c_int32_t), intent(out) :: major, minor, patch
+      integer(c_int) :: c_version
+    end function
+
+    function c_build_info() bind(C, name="pnpbs_build_info")
+      import
+      implicit none
+      type(c_ptr) :: c_build_info
+    end function
+
+    function c_mpi_library() bind(C, name="pnpbs_mpi_library")
+      import
+      implicit none
+      type(c_ptr) :: c_mpi_library
+    end function
+
+    function c_context_create_serial(context) bind(C, name="pnpbs_context_create_serial")
+      import
+      implicit none
+      type(c_ptr), intent(out) :: context
+      integer(c_int) :: c_context_create_serial
+    end function
+
+    function c_context_create_f(comm, context) bind(C, name="pnpbs_context_create_f")
+      import
+      implicit none
+      integer(c_int32_t), value :: comm
+      type(c_ptr), intent(out) :: context
+      integer(c_int) :: c_context_create_f
+    end function
+
+    function c_context_create_checked_f(comm, library, context) bind(C, &
+      name="pnpbs_context_create_checked_f")
+      import
+      implicit none
+      integer(c_int32_t), value :: comm
+      character(kind=c_char), intent(in) :: library(*)
+      type(c_ptr), intent(out) :: context
+      integer(c_int) :: c_context_create_checked_f
+    end function
+
+    function c_context_destroy(context) bind(C, name="pnpbs_context_destroy")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: context
+      integer(c_int) :: c_context_destroy
+    end function
+
+    function c_finalize() bind(C, name="pnpbs_finalize")
+      import
+      implicit none
+      integer(c_int) :: c_finalize
+    end function
+
+    function c_context_set(context, key, value) bind(C, name="pnpbs_context_set")
+      import
+      implicit none
+      type(c_ptr), value :: context
+      character(kind=c_char), intent(in) :: key(*), value(*)
+      integer(c_int) :: c_context_set
+    end function
+
+    function c_context_set_int64(context, key, value) bind(C, name="pnpbs_context_set_int64")
+      import
+      implicit none
+      type(c_ptr), value :: context
+      character(kind=c_char), intent(in) :: key(*)
+      integer(c_int64_t), value :: value
+      integer(c_int) :: c_context_set_int64
+    end function
+
+    function c_context_set_double(context, key, value) bind(C, name="pnpbs_context_set_double")
+      import
+      implicit none
+      type(c_ptr), value :: context
+      character(kind=c_char), intent(in) :: key(*)
+      real(c_double), value :: value
+      integer(c_int) :: c_context_set_double
+    end function
+
+    function c_option_count(count) bind(C, name="pnpbs_option_count")
+      import
+      implicit none
+      integer(c_int32_t), intent(out) :: count
+      integer(c_int) :: c_option_count
+    end function
+
+    function c_option_info(index, name, type, default_value, range, help) bind(C, &
+      name="pnpbs_option_info")
+      import
+      implicit none
+      integer(c_int32_t), value :: index
+      type(c_ptr), intent(out) :: name, type, default_value, range, help
+      integer(c_int) :: c_option_info
+    end function
+
+    function c_statistic_count(count) bind(C, name="pnpbs_statistic_count")
+      import
+      implicit none
+      integer(c_int32_t), intent(out) :: count
+      integer(c_int) :: c_statistic_count
+    end function
+
+    function c_statistic_info(index, name, type, help) bind(C, name="pnpbs_statistic_info")
+      import
+      implicit none
+      integer(c_int32_t), value :: index
+      type(c_ptr), intent(out) :: name, type, help
+      integer(c_int) :: c_statistic_info
+    end function
+
+    function c_format_count(count) bind(C, name="pnpbs_format_count")
+      import
+      implicit none
+      integer(c_int32_t), intent(out) :: count
+      integer(c_int) :: c_format_count
+    end function
+
+    function c_format_info(index, name, help, binary, elements) bind(C, name="pnpbs_format_info")
+      import
+      implicit none
+      integer(c_int32_t), value :: index
+      type(c_ptr), intent(out) :: name, help
+      integer(c_int32_t), intent(out) :: binary, elements
+      integer(c_int) :: c_format_info
+    end function
+
+    function c_domain_create(context, dim, domain) bind(C, name="pnpbs_domain_create")
+      import
+      implicit none
+      type(c_ptr), value :: context
+      integer(c_int32_t), value :: dim
+      type(c_ptr), intent(out) :: domain
+      integer(c_int) :: c_domain_create
+    end function
+
+    function c_domain_destroy(domain) bind(C, name="pnpbs_domain_destroy")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: domain
+      integer(c_int) :: c_domain_destroy
+    end function
+
+    function c_domain_add_polyline(domain, role, closed, n, xy, tags, corner_angle) bind(C, &
+      name="pnpbs_domain_add_polyline")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: role, closed
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: xy(*)
+      type(c_ptr), value :: tags ! const int32_t *
+      real(c_double), value :: corner_angle
+      integer(c_int) :: c_domain_add_polyline
+    end function
+
+    function c_domain_add_arc(domain, role, centre, radius, begin, end, tag) bind(C, &
+      name="pnpbs_domain_add_arc")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: role
+      real(c_double), intent(in) :: centre(*)
+      real(c_double), value :: radius, begin, end
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_arc
+    end function
+
+    function c_domain_add_curve(domain, role, curve, user, begin, end, tag) bind(C, &
+      name="pnpbs_domain_add_curve")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: role
+      type(c_funptr), value :: curve ! pnpbs_curve_fn
+      type(c_ptr), value :: user ! void *
+      real(c_double), value :: begin, end
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_curve
+    end function
+
+    function c_domain_add_pslg(domain, vertices, xy, vertex_tags, segments, segment_ends, &
+      segment_tags, holes, hole_points) bind(C, name="pnpbs_domain_add_pslg")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int64_t), value :: vertices
+      real(c_double), intent(in) :: xy(*)
+      type(c_ptr), value :: vertex_tags ! const int32_t *
+      integer(c_int64_t), value :: segments
+      integer(c_int64_t), intent(in) :: segment_ends(*)
+      type(c_ptr), value :: segment_tags ! const int32_t *
+      integer(c_int64_t), value :: holes
+      type(c_ptr), value :: hole_points ! const double *
+      integer(c_int) :: c_domain_add_pslg
+    end function
+
+    function c_domain_add_hole(domain, point) bind(C, name="pnpbs_domain_add_hole")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), intent(in) :: point(*)
+      integer(c_int) :: c_domain_add_hole
+    end function
+
+    function c_domain_add_fixed_nodes(domain, n, xy, tags) bind(C, &
+      name="pnpbs_domain_add_fixed_nodes")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: xy(*)
+      type(c_ptr), value :: tags ! const int32_t *
+      integer(c_int) :: c_domain_add_fixed_nodes
+    end function
+
+    function c_domain_read_poly(domain, path) bind(C, name="pnpbs_domain_read_poly")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int) :: c_domain_read_poly
+    end function
+
+    function c_domain_parse_poly(domain, text, length, name) bind(C, &
+      name="pnpbs_domain_parse_poly")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      character(kind=c_char), intent(in) :: text(*)
+      integer(c_int64_t), value :: length
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int) :: c_domain_parse_poly
+    end function
+
+    function c_domain_check(domain) bind(C, name="pnpbs_domain_check")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int) :: c_domain_check
+    end function
+
+    function c_domain_bounds(domain, low, high) bind(C, name="pnpbs_domain_bounds")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), intent(inout) :: low(*), high(*)
+      integer(c_int) :: c_domain_bounds
+    end function
+
+    function c_domain_measure(domain, measure) bind(C, name="pnpbs_domain_measure")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), intent(out) :: measure
+      integer(c_int) :: c_domain_measure
+    end function
+
+    function c_domain_get_segments(domain, capacity, count, segments, tags) bind(C, &
+      name="pnpbs_domain_get_segments")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: segments ! double *
+      type(c_ptr), value :: tags ! int32_t *
+      integer(c_int) :: c_domain_get_segments
+    end function
+
+    function c_placement_create(context, domain, placement) bind(C, name="pnpbs_placement_create")
+      import
+      implicit none
+      type(c_ptr), value :: context, domain
+      type(c_ptr), intent(out) :: placement
+      integer(c_int) :: c_placement_create
+    end function
+
+    function c_placement_destroy(placement) bind(C, name="pnpbs_placement_destroy")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: placement
+      integer(c_int) :: c_placement_destroy
+    end function
+
+    function c_placement_set(placement, key, value) bind(C, name="pnpbs_placement_set")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: key(*), value(*)
+      integer(c_int) :: c_placement_set
+    end function
+
+    function c_placement_set_int64(placement, key, value) bind(C, &
+      name="pnpbs_placement_set_int64")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: key(*)
+      integer(c_int64_t), value :: value
+      integer(c_int) :: c_placement_set_int64
+    end function
+
+    function c_placement_set_double(placement, key, value) bind(C, &
+      name="pnpbs_placement_set_double")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: key(*)
+      real(c_double), value :: value
+      integer(c_int) :: c_placement_set_double
+    end function
+
+    function c_placement_set_spacing_constant(placement, d) bind(C, &
+      name="pnpbs_placement_set_spacing_constant")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      real(c_double), value :: d
+      integer(c_int) :: c_placement_set_spacing_constant
+    end function
+
+    function c_placement_set_spacing_callback(placement, spacing, user) bind(C, &
+      name="pnpbs_placement_set_spacing_callback")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      type(c_funptr), value :: spacing ! pnpbs_spacing_fn
+      type(c_ptr), value :: user ! void *
+      integer(c_int) :: c_placement_set_spacing_callback
+    end function
+
+    function c_placement_set_spacing_grid(placement, size, origin, step, values) bind(C, &
+      name="pnpbs_placement_set_spacing_grid")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), intent(in) :: size(*)
+      real(c_double), intent(in) :: origin(*), step(*), values(*)
+      integer(c_int) :: c_placement_set_spacing_grid
+    end function
+
+    function c_placement_set_spacing_at_nodes(placement, n, d) bind(C, &
+      name="pnpbs_placement_set_spacing_at_nodes")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: d(*)
+      integer(c_int) :: c_placement_set_spacing_at_nodes
+    end function
+
+    function c_placement_set_monitor(placement, monitor, user) bind(C, &
+      name="pnpbs_placement_set_monitor")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      type(c_funptr), value :: monitor ! pnpbs_monitor_fn
+      type(c_ptr), value :: user ! void *
+      integer(c_int) :: c_placement_set_monitor
+    end function
+
+    function c_placement_set_nodes(placement, n, xy, ids) bind(C, &
+      name="pnpbs_placement_set_nodes")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: xy(*)
+      type(c_ptr), value :: ids ! const int64_t *
+      integer(c_int) :: c_placement_set_nodes
+    end function
+
+    function c_placement_initialise(placement) bind(C, name="pnpbs_placement_initialise")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int) :: c_placement_initialise
+    end function
+
+    function c_placement_step(placement, n) bind(C, name="pnpbs_placement_step")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int) :: c_placement_step
+    end function
+
+    function c_placement_adjust_population(placement, inserted, deleted) bind(C, &
+      name="pnpbs_placement_adjust_population")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), intent(out) :: inserted, deleted
+      integer(c_int) :: c_placement_adjust_population
+    end function
+
+    function c_placement_rebalance(placement) bind(C, name="pnpbs_placement_rebalance")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int) :: c_placement_rebalance
+    end function
+
+    function c_placement_run(placement) bind(C, name="pnpbs_placement_run")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int) :: c_placement_run
+    end function
+
+    function c_placement_count(placement, nodes) bind(C, name="pnpbs_placement_count")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), intent(out) :: nodes
+      integer(c_int) :: c_placement_count
+    end function
+
+    function c_placement_get_nodes(placement, capacity, xy, ids, tags, spacing) bind(C, &
+      name="pnpbs_placement_get_nodes")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: xy ! double *
+      type(c_ptr), value :: ids ! int64_t *
+      type(c_ptr), value :: tags ! int32_t *
+      type(c_ptr), value :: spacing ! double *
+      integer(c_int) :: c_placement_get_nodes
+    end function
+
+    function c_placement_ghost_count(placement, ghosts) bind(C, &
+      name="pnpbs_placement_ghost_count")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), intent(out) :: ghosts
+      integer(c_int) :: c_placement_ghost_count
+    end function
+
+    function c_placement_get_ghosts(placement, capacity, xy, ids, tags, spacing, owners) &
+      bind(C, name="pnpbs_placement_get_ghosts")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: xy ! double *
+      type(c_ptr), value :: ids ! int64_t *
+      type(c_ptr), value :: tags ! int32_t *
+      type(c_ptr), value :: spacing ! double *
+      type(c_ptr), value :: owners ! int32_t *
+      integer(c_int) :: c_placement_get_ghosts
+    end function
+
+    function c_placement_exchange_sizes(placement, neighbours, sends, receives) bind(C, &
+      name="pnpbs_placement_exchange_sizes")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int32_t), intent(out) :: neighbours
+      integer(c_int64_t), intent(out) :: sends, receives
+      integer(c_int) :: c_placement_exchange_sizes
+    end function
+
+    function c_placement_get_exchange(placement, neighbours, sends, receives, ranks, &
+      send_offsets, send_nodes, receive_offsets, receive_nodes) bind(C, &
+      name="pnpbs_placement_get_exchange")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int32_t), value :: neighbours
+      integer(c_int64_t), value :: sends, receives
+      type(c_ptr), value :: ranks ! int32_t *
+      type(c_ptr), value :: send_offsets ! int64_t *
+      type(c_ptr), value :: send_nodes ! int64_t *
+      type(c_ptr), value :: receive_offsets ! int64_t *
+      type(c_ptr), value :: receive_nodes ! int64_t *
+      integer(c_int) :: c_placement_get_exchange
+    end function
+
+    function c_placement_get_numbering(placement, capacity, first, count, ghost_numbers) &
+      bind(C, name="pnpbs_placement_get_numbering")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: first, count
+      type(c_ptr), value :: ghost_numbers ! int64_t *
+      integer(c_int) :: c_placement_get_numbering
+    end function
+
+    function c_placement_adjacency_size(placement, entries) bind(C, &
+      name="pnpbs_placement_adjacency_size")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), intent(out) :: entries
+      integer(c_int) :: c_placement_adjacency_size
+    end function
+
+    function c_placement_get_adjacency(placement, capacity, offsets, neighbours) bind(C, &
+      name="pnpbs_placement_get_adjacency")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: offsets ! int64_t *
+      type(c_ptr), value :: neighbours ! int64_t *
+      integer(c_int) :: c_placement_get_adjacency
+    end function
+
+    function c_placement_star_size(placement, entries) bind(C, name="pnpbs_placement_star_size")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), intent(out) :: entries
+      integer(c_int) :: c_placement_star_size
+    end function
+
+    function c_placement_get_stars(placement, capacity, offsets, neighbours, triangle) bind(C, &
+      name="pnpbs_placement_get_stars")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: offsets ! int64_t *
+      type(c_ptr), value :: neighbours ! int64_t *
+      type(c_ptr), value :: triangle ! int8_t *
+      integer(c_int) :: c_placement_get_stars
+    end function
+
+    function c_placement_get_triangles(placement, capacity, count, triangles) bind(C, &
+      name="pnpbs_placement_get_triangles")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: triangles ! int64_t *
+      integer(c_int) :: c_placement_get_triangles
+    end function
+
+    function c_placement_get_boundary_edges(placement, capacity, count, edges, tags) bind(C, &
+      name="pnpbs_placement_get_boundary_edges")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: edges ! int64_t *
+      type(c_ptr), value :: tags ! int32_t *
+      integer(c_int) :: c_placement_get_boundary_edges
+    end function
+
+    function c_placement_get_int64(placement, key, value) bind(C, &
+      name="pnpbs_placement_get_int64")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: key(*)
+      integer(c_int64_t), intent(out) :: value
+      integer(c_int) :: c_placement_get_int64
+    end function
+
+    function c_placement_get_double(placement, key, value) bind(C, &
+      name="pnpbs_placement_get_double")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: key(*)
+      real(c_double), intent(out) :: value
+      integer(c_int) :: c_placement_get_double
+    end function
+
+    function c_placement_get_string(placement, key, value) bind(C, &
+      name="pnpbs_placement_get_string")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: key(*)
+      type(c_ptr), intent(out) :: value
+      integer(c_int) :: c_placement_get_string
+    end function
+
+    function c_placement_warning_count(placement, count) bind(C, &
+      name="pnpbs_placement_warning_count")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int32_t), intent(out) :: count
+      integer(c_int) :: c_placement_warning_count
+    end function
+
+    function c_placement_get_warning(placement, index, text) bind(C, &
+      name="pnpbs_placement_get_warning")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int32_t), value :: index
+      type(c_ptr), intent(out) :: text
+      integer(c_int) :: c_placement_get_warning
+    end function
+
+    function c_placement_write(placement, path, elements) bind(C, name="pnpbs_placement_write")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t), value :: elements
+      integer(c_int) :: c_placement_write
+    end function
+
+    function c_placement_write_files(placement, n, paths, formats, elements) bind(C, &
+      name="pnpbs_placement_write_files")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int32_t), value :: n
+      type(c_ptr), intent(in) :: paths(*)
+      type(c_ptr), value :: formats ! const char *const *
+      type(c_ptr), value :: elements ! const int32_t *
+      integer(c_int) :: c_placement_write_files
+    end function
+
+    function c_discard_unfinished_files() bind(C, name="pnpbs_discard_unfinished_files")
+      import
+      implicit none
+      integer(c_int) :: c_discard_unfinished_files
+    end function
+  end interface
+end module pnpbs_c

@@ -1,0 +1,332 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What lies between the module pnpbs and the C interface: arrays become addresses, C's texts become
+!> Fortran's, and a status becomes stat and errmsg, or the end of the program.
+module pnpbs_calls
+  use, intrinsic :: iso_c_binding
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use pnpbs_c
+  implicit none
+  private
+  public :: arguments, conclude, text_of, c_text, count_from_one
+
+  !> The room in an array that was not given.
+  integer(c_int64_t), parameter :: unlimited = huge(0_c_int64_t)
+
+  !> The arguments of one call, and the first thing that is wrong with them. Over several ranks a
+  !> call must be made even then, or the other ranks would wait for ever: it is made with a capacity
+  !> of -1, which the library refuses on all of them.
+  type :: arguments
+    private
+    integer(c_int) :: status = PNPBS_OK
+    character(len=200) :: message = ' '
+  contains
+    procedure :: refuse
+    procedure :: require
+    procedure :: is_wrong
+    procedure :: capacity
+    ! place_<type>(name, array, [rows,] address, room): the address of an array's first element,
+    ! NULL if the array is not given, and the places or columns it has.
+    procedure :: place_int8
+    procedure :: place_int32
+    procedure :: place_int64
+    procedure :: place_int64_columns
+    procedure :: place_real
+    procedure :: place_real_columns
+    procedure :: place_real_pairs
+    procedure :: check_rows
+    procedure, private :: check_neighbours_in_memory
+  end type
+
+  ! The address of arrays without elements: given, but no room.
+  integer(c_int64_t), target, save :: nothing = 0
+
+  interface
+    function c_strlen(text) bind(C, name="strlen")
+      import
+      implicit none
+      type(c_ptr), value :: text
+      integer(c_size_t) :: c_strlen
+    end function
+  end interface
+
+contains
+
+  ! ------------------------------------------------------------ status ------------------------
+
+  !> How every call ends. With stat nothing stops: it gets the status, and errmsg, if there is one,
+  !> the message of an error (otherwise it stays as it is). Without stat, an error stops.
+  subroutine conclude(status, stat, errmsg, given)
+    integer(c_int), intent(in) :: status
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    class(arguments), intent(in), optional :: given
+    character(len=:), allocatable :: message
+    integer(c_int) :: found
+
+    found = status
+    message = ''
+    if (status < 0) message = text_of(c_last_error(c_null_ptr))
+    if (present(given)) then
+      if (given%is_wrong()) then
+        found = given%status
+        message = trim(given%message)
+      end if
+    end if
+    if (present(errmsg) .and. found < 0) errmsg = message
+    if (present(stat)) then
+      call tell(found, stat)
+    else if (found < 0) then
+      call give_up(text_of(c_status_string(found)) // ': ' // message)
+    end if
+  end subroutine
+
+  ! stat is of either kind, so that code compiled with eight-byte default integers need not care.
+  subroutine tell(status, stat)
+    integer(c_int), intent(in) :: status
+    class(*), intent(out) :: stat
+    select type (stat)
+    type is (integer(c_int32_t))
+      stat = int(status, c_int32_t)
+    type is (integer(c_int64_t))
+      stat = int(status, c_int64_t)
+    class default
+      call give_up('argument stat must be an integer of four or eight bytes')
+    end select
+  end subroutine
+
+  ! Not "stop <text>", which ends with status 0.
+  subroutine give_up(message)
+    character(len=*), intent(in) :: message
+    write (error_unit, '(2a)') 'pnpbs: ', message
+    stop 1
+  end subroutine
+
+  ! ------------------------------------------------------------ texts -------------------------
+
+  !> A text of the library's, copied.
+  function text_of(c) result(text)
+    type(c_ptr), intent(in) :: c
+    character(len=:), allocatable :: text
+    character(kind=c_char), pointer :: characters(:)
+    integer :: i, length
+
+    length = 0
+    if (c_associated(c)) length = int(c_strlen(c))
+    allocate (character(len=length) :: text)
+    if (length == 0) return
+    call c_f_pointer(c, characters, [length])
+    do i = 1, length
+      text(i:i) = characters(i)
+    end do
+  end function
+
+  !> A text for C, without the blanks at its end.
+  function c_text(text) result(c)
+    character(len=*), intent(in) :: text
+    character(kind=c_char, len=len_trim(text) + 1) :: c
+    c = trim(text) // c_null_char
+  end function
+
+  ! ------------------------------------------------------------ arguments ---------------------
+
+  !> Notes what is wrong; the first thing counts.
+  subroutine refuse(self, status, message)
+    class(arguments), intent(inout) :: self
+    integer(c_int), intent(in) :: status
+    character(len=*), intent(in) :: message
+    if (self%is_wrong()) return
+    self%status = status
+    self%message = message
+  end subroutine
+
+  !> Refuses an array with less room than is needed.
+  subroutine require(self, name, room, needed)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer(c_int64_t), intent(in) :: room, needed
+    character(len=100) :: places
+    if (room >= needed) return
+    write (places, '(a, i0, a, i0, a)') ' has room for ', room, '; ', needed, ' are needed'
+    call self%refuse(PNPBS_ERROR_CAPACITY, 'argument ' // name // trim(places))
+  end subroutine
+
+  function is_wrong(self)
+    class(arguments), intent(in) :: self
+    logical :: is_wrong
+    is_wrong = self%status /= PNPBS_OK
+  end function
+
+  !> The room to tell the library of: none at all if something is wrong.
+  function capacity(self, room)
+    class(arguments), intent(in) :: self
+    integer(c_int64_t), intent(in) :: room
+    integer(c_int64_t) :: capacity
+    capacity = room
+    if (self%is_wrong()) capacity = -1
+  end function
+
+  subroutine place_int8(self, name, array, address, room)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer(c_int8_t), intent(in), optional, target :: array(:)
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    call absent(address, room)
+    if (.not. present(array)) return
+    call empty(address, room)
+    if (size(array) == 0) return
+    address = c_loc(array(1))
+    room = size(array, kind=c_int64_t)
+    if (room > 1) call self%check_neighbours_in_memory(name, address, c_loc(array(2)), 1)
+  end subroutine
+
+  subroutine place_int32(self, name, array, address, room)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in), optional, target :: array(:)
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    call absent(address, room)
+    if (.not. present(array)) return
+    call empty(address, room)
+    if (size(array) == 0) return
+    address = c_loc(array(1))
+    room = size(array, kind=c_int64_t)
+    if (room > 1) call self%check_neighbours_in_memory(name, address, c_loc(array(2)), 4)
+  end subroutine
+
+  subroutine place_int64(self, name, array, address, room)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer(c_int64_t), intent(in), optional, target :: array(:)
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    call absent(address, room)
+    if (.not. present(array)) return
+    call empty(address, room)
+    if (size(array) == 0) return
+    address = c_loc(array(1))
+    room = size(array, kind=c_int64_t)
+    if (room > 1) call self%check_neighbours_in_memory(name, address, c_loc(array(2)), 8)
+  end subroutine
+
+  subroutine place_real(self, name, array, address, room)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in), optional, target :: array(:)
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    call absent(address, room)
+    if (.not. present(array)) return
+    call empty(address, room)
+    if (size(array) == 0) return
+    address = c_loc(array(1))
+    room = size(array, kind=c_int64_t)
+    if (room > 1) call self%check_neighbours_in_memory(name, address, c_loc(array(2)), 8)
+  end subroutine
+
+  subroutine place_int64_columns(self, name, array, rows, address, room)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer(c_int64_t), intent(in), optional, target :: array(:,:)
+    integer, intent(in) :: rows
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    call absent(address, room)
+    if (.not. present(array)) return
+    call empty(address, room)
+    call self%check_rows(name, size(array, 1), rows)
+    if (size(array) == 0 .or. self%is_wrong()) return
+    address = c_loc(array(1, 1))
+    room = size(array, 2, kind=c_int64_t)
+    call self%check_neighbours_in_memory(name, address, c_loc(array(2, 1)), 8)
+    if (room > 1) &
+      call self%check_neighbours_in_memory(name, address, c_loc(array(1, 2)), 8 * rows)
+  end subroutine
+
+  subroutine place_real_columns(self, name, array, rows, address, room)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in), optional, target :: array(:,:)
+    integer, intent(in) :: rows
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    call absent(address, room)
+    if (.not. present(array)) return
+    call empty(address, room)
+    call self%check_rows(name, size(array, 1), rows)
+    if (size(array) == 0 .or. self%is_wrong()) return
+    address = c_loc(array(1, 1))
+    room = size(array, 2, kind=c_int64_t)
+    call self%check_neighbours_in_memory(name, address, c_loc(array(2, 1)), 8)
+    if (room > 1) &
+      call self%check_neighbours_in_memory(name, address, c_loc(array(1, 2)), 8 * rows)
+  end subroutine
+
+  ! Pairs of points, (rows, 2, room).
+  subroutine place_real_pairs(self, name, array, rows, address, room)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in), optional, target :: array(:,:,:)
+    integer, intent(in) :: rows
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    call absent(address, room)
+    if (.not. present(array)) return
+    call empty(address, room)
+    call self%check_rows(name, size(array, 1), rows)
+    call self%check_rows(name, size(array, 2), 2)
+    if (size(array) == 0 .or. self%is_wrong()) return
+    address = c_loc(array(1, 1, 1))
+    room = size(array, 3, kind=c_int64_t)
+    call self%check_neighbours_in_memory(name, address, c_loc(array(2, 1, 1)), 8)
+    call self%check_neighbours_in_memory(name, address, c_loc(array(1, 2, 1)), 8 * rows)
+    if (room > 1) &
+      call self%check_neighbours_in_memory(name, address, c_loc(array(1, 1, 2)), 16 * rows)
+  end subroutine
+
+  subroutine absent(address, room)
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    address = c_null_ptr
+    room = unlimited
+  end subroutine
+
+  subroutine empty(address, room)
+    type(c_ptr), intent(out) :: address
+    integer(c_int64_t), intent(out) :: room
+    address = c_loc(nothing)
+    room = 0
+  end subroutine
+
+  !> Refuses an array whose first extent is not the right one.
+  subroutine check_rows(self, name, rows, needed)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: rows, needed
+    character(len=80) :: numbers
+    if (rows == needed) return
+    write (numbers, '(a, i0, a, i0, a)') ' has an extent of ', rows, ' where ', needed, ' is right'
+    call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
+  end subroutine
+
+  ! C sees arrays without gaps only.
+  subroutine check_neighbours_in_memory(self, name, first, second, bytes)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    type(c_ptr), intent(in) :: first, second
+    integer, intent(in) :: bytes
+    if (transfer(second, 0_c_intptr_t) - transfer(first, 0_c_intptr_t) == bytes) return
+    call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // ' has gaps in memory: ' // &
+      'give a whole array, or a section x(i:j) or x(:,i:j) of one')
+  end subroutine
+
+  !> Indices and offsets of C's, from 0, become Fortran's, from 1.
+  subroutine count_from_one(indices)
+    integer(c_int64_t), intent(inout) :: indices(:)
+    integer(c_int64_t) :: i
+    do i = 1, size(indices, kind=c_int64_t)
+      indices(i) = indices(i) + 1
+    end do
+  end subroutine
+end module pnpbs_calls

@@ -1,0 +1,23 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Curves for the tests of domains.
+module curves
+  use, intrinsic :: iso_c_binding
+  implicit none
+contains
+  !> An ellipse with the axes that user points to; fails without.
+  function ellipse(n, t, xy, user) bind(C)
+    integer(c_int64_t), value :: n
+    real(c_double), intent(in) :: t(n)
+    real(c_double), intent(out) :: xy(2, n)
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: ellipse
+    real(c_double), pointer :: axes(:)
+    ellipse = 4
+    xy = 0
+    if (.not. c_associated(user)) return
+    call c_f_pointer(user, axes, [2])
+    xy(1, :) = axes(1) * cos(t)
+    xy(2, :) = axes(2) * sin(t)
+    ellipse = 0
+  end function
+end module curves

@@ -1,0 +1,179 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Domains: every kind of curve, areas that are known, and arguments that are wrong.
+program test_domain
+  use, intrinsic :: iso_c_binding
+  use pnpbs
+  use expectations
+  use twins
+  use curves
+  implicit none
+  real(c_double), parameter :: pi = 3.14159265358979323846d0
+  real(c_double), parameter :: corners(2, 4) = reshape([0d0, 0d0, 2d0, 0d0, 2d0, 1d0, 0d0, 1d0], &
+                                                       [2, 4])
+  type(pnpbs_context) :: context
+  integer(c_int) :: stat
+  character(len=300) :: errmsg
+
+  call context%create_serial
+  call about_polylines
+  call about_arcs_and_curves
+  call about_graphs
+  call about_files
+  call about_wrong_arguments
+  call context%destroy
+  call finish
+
+contains
+
+  function area(domain)
+    type(pnpbs_domain), intent(in) :: domain
+    real(c_double) :: area
+    call domain%measure(area)
+  end function
+
+  subroutine about_polylines
+    type(pnpbs_domain) :: domain
+    real(c_double) :: low(2), high(2)
+    real(c_double), allocatable :: segments(:,:,:)
+    real(c_double) :: wide(3, 4)
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int64_t) :: count
+    call domain%create(context)
+    ! A section with gaps is packed on the way in.
+    wide = 9
+    wide(1:2, :) = corners
+    call domain%add_polyline(PNPBS_BOUNDARY, .true., wide(1:2, :), [3, 4, 5, 6], 0d0)
+    call domain%add_polyline(PNPBS_INNER, .false., &
+                             reshape([0.5d0, 0.5d0, 1.5d0, 0.5d0], [2, 2]), [7])
+    call domain%check
+    call expect(area(domain) == 2, 'area of a rectangle')
+    call domain%bounds(low, high)
+    call expect(all(low == 0) .and. all(high == [2d0, 1d0]), 'bounds')
+    call domain%segment_count(count)
+    call expect(count == 5, 'five segments')
+    allocate (segments(2, 2, count), tags(count))
+    call domain%get_segments(segments, tags)
+    call expect(twin_segments(domain%handle(), count, segments, tags) == 0, 'segments as in C')
+    call expect(any(tags == 7) .and. any(tags == 3), 'tags')
+    call domain%get_segments(segments(:, :, :4), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, '5')
+    call domain%get_segments(tags=tags(:0), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, '5')
+    call domain%destroy
+  end subroutine
+
+  subroutine about_arcs_and_curves
+    type(pnpbs_domain) :: domain
+    real(c_double), target :: axes(2)
+    call domain%create(context, 2)
+    call domain%add_arc(PNPBS_BOUNDARY, [1d0, 2d0], 3d0, 0d0, 2 * pi, 4)
+    call domain%add_arc(PNPBS_BOUNDARY, [1d0, 2d0], 1d0, 0d0, 2 * pi)
+    call expect(abs(area(domain) - 8 * pi) < 0.05, 'area of a ring')
+    call domain%destroy
+    axes = [2d0, 0.5d0]
+    call domain%create(context)
+    call domain%add_curve(PNPBS_BOUNDARY, ellipse, 0d0, 2 * pi, user=c_loc(axes(1)))
+    call expect(abs(area(domain) - pi) < 0.01, 'area of an ellipse')
+    call domain%destroy
+    call domain%create(context)
+    call domain%add_curve(PNPBS_BOUNDARY, ellipse, 0d0, 2 * pi, 5, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CALLBACK, errmsg, '4')
+    call domain%destroy
+  end subroutine
+
+  subroutine about_graphs
+    type(pnpbs_domain) :: domain
+    real(c_double) :: xy(2, 8)
+    integer(c_int64_t) :: ends(2, 8)
+    integer :: i
+    xy(:, 1:4) = corners
+    xy(:, 5:8) = 0.25d0 * corners + 0.25d0
+    do i = 1, 8
+      ends(:, i) = [i, i + 1]
+    end do
+    ends(2, 4) = 1
+    ends(2, 8) = 5
+    call domain%create(context)
+    call domain%add_pslg(xy, ends)
+    call expect(area(domain) == 2, 'area without its hole')
+    call domain%destroy
+    call domain%create(context)
+    call domain%add_pslg(xy, ends, [1, 2, 3, 4, 5, 6, 7, 8], [(2, i = 1, 8)], &
+                         reshape([0.4d0, 0.4d0], [2, 1]))
+    call expect(abs(area(domain) - 1.875d0) < 1d-14, 'area with its hole')
+    call domain%add_fixed_nodes(reshape([1.5d0, 0.75d0], [2, 1]), [9])
+    call domain%add_fixed_nodes(reshape([1.2d0, 0.75d0], [2, 1]))
+    call domain%check
+    call domain%destroy
+    ! The last vertex is number 8: Fortran counts from 1.
+    ends(2, 8) = 9
+    call domain%create(context)
+    call domain%add_pslg(xy, ends, stat=stat, errmsg=errmsg)
+    call expect(stat == PNPBS_ERROR_ARGUMENT .or. stat == PNPBS_ERROR_DOMAIN, 'a ninth vertex')
+    call domain%add_polyline(PNPBS_BOUNDARY, .true., corners)
+    call domain%add_polyline(PNPBS_BOUNDARY, .true., xy(:, 5:8))
+    call domain%destroy
+    call domain%create(context)
+    call domain%add_polyline(PNPBS_BOUNDARY, .true., corners)
+    call domain%add_polyline(PNPBS_INNER, .true., xy(:, 5:8))
+    call expect(area(domain) == 2, 'an inner loop')
+    call domain%add_hole([0.4d0, 0.4d0])
+    call expect(abs(area(domain) - 1.875d0) < 1d-14, 'a hole in the inner loop')
+    call domain%destroy
+  end subroutine
+
+  subroutine about_files
+    type(pnpbs_domain) :: domain
+    character(len=*), parameter :: nl = new_line('a')
+    character(len=*), parameter :: triangle = '3 2 0 0' // nl // '1 0 0' // nl // '2 1 0' // nl // &
+      '3 0 1' // nl // '3 0' // nl // '1 1 2' // nl // '2 2 3' // nl // '3 3 1' // nl // '0' // nl
+    call domain%create(context)
+    call domain%parse_poly(triangle, 'a triangle')
+    call expect(area(domain) == 0.5d0, 'area of a triangle')
+    call domain%destroy
+    open (17, file='fortran_triangle.poly', status='replace')
+    write (17, '(a)') triangle
+    close (17)
+    call domain%create(context)
+    call domain%read_poly('fortran_triangle.poly   ')
+    call expect(area(domain) == 0.5d0, 'area of a triangle from a file')
+    call domain%destroy
+    call domain%create(context)
+    call domain%read_poly('no/such/file.poly', stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'no/such/file.poly')
+    call domain%parse_poly('nonsense', 'My text', stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'My text')
+    call domain%destroy
+  end subroutine
+
+  subroutine about_wrong_arguments
+    type(pnpbs_domain) :: domain
+    real(c_double) :: three(3, 4), low(2), short(1)
+    three = 0
+    call domain%create(context)
+    call domain%check(stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_DOMAIN, errmsg, ' ')
+    call domain%add_polyline(PNPBS_BOUNDARY, .true., three, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xy has an extent of 3 where 2')
+    call domain%add_polyline(PNPBS_BOUNDARY, .true., corners, [1, 2, 3], stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'tags has room for 3; 4')
+    call domain%add_polyline(17, .true., corners, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '17')
+    call domain%add_polyline(PNPBS_BOUNDARY, .true., corners, corner_angle=999d0, stat=stat, &
+                             errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '999')
+    call domain%add_arc(PNPBS_BOUNDARY, [1d0], 1d0, 0d0, 1d0, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'centre')
+    call domain%add_arc(PNPBS_BOUNDARY, [1d0, 1d0], -1d0, 0d0, 1d0, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'radius')
+    call domain%add_hole([1d0], stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'point')
+    call domain%add_fixed_nodes(corners, [1], stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'tags')
+    call domain%bounds(low, short, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'high')
+    call domain%destroy
+    call domain%measure(low(1), stat)
+    call expect(stat == PNPBS_ERROR_HANDLE, 'a dead domain')
+  end subroutine
+end program test_domain

@@ -1,0 +1,268 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Placements of one process: nodes and lists as C has them, spacings, files, wrong arguments.
+program test_placement
+  use, intrinsic :: iso_c_binding
+  use pnpbs
+  use expectations
+  use twins
+  implicit none
+  type(pnpbs_context) :: context
+  integer(c_int) :: stat
+  character(len=300) :: errmsg
+
+  call context%create_serial
+  call about_a_square
+  call about_steps
+  call about_spacings
+  call about_given_nodes
+  call about_wrong_arguments
+  call about_files
+  call context%destroy
+  call pnpbs_finalize(stat)
+  call expect(stat == PNPBS_OK, 'finalize')
+  call finish
+
+contains
+
+  ! As examples/c/smallest: 80 nodes on the boundary, and Euler's formula.
+  subroutine about_a_square
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement, same
+    integer(c_int64_t) :: nodes, all_nodes, triangles, inserted, deleted
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int32_t) :: warnings
+    real(c_double) :: imbalance
+    character(len=:), allocatable :: hash, hash_again, text
+    call square(context, domain, placement, 0.05d0)
+    call placement%run(stat)
+    call expect(stat == PNPBS_OK .or. stat == PNPBS_NOT_CONVERGED, 'run')
+    call placement%count(nodes)
+    call expect(abs(nodes - 503) < 20, 'about 503 nodes')
+    allocate (tags(nodes))
+    call placement%get_nodes(tags=tags)
+    call expect(count(tags /= 0) == 80, '80 nodes on the boundary')
+    call placement%triangle_count(triangles)
+    call expect(triangles == 2 * nodes - 80 - 2, 'triangles by Euler''s formula')
+    call compare_with_c(placement)
+
+    call placement%get('nodes', all_nodes)
+    call expect(all_nodes == nodes, 'the statistic nodes')
+    call placement%get('imbalance', imbalance)
+    call expect(imbalance == 1, 'the statistic imbalance')
+    call placement%get('hash', hash)
+    call expect(len(hash) > 8, 'hash')
+    call placement%get('hash', nodes, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_KEY, errmsg, 'hash')
+    call placement%get('nodos', imbalance, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_KEY, errmsg, 'nodes')
+    call placement%get('nodes', text, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_KEY, errmsg, 'nodes')
+
+    call placement%warning_count(warnings)
+    call expect(warnings == 0, 'no warnings')
+    call placement%get_warning(1, text, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'index')
+    call placement%rebalance
+    call same%from_handle(placement%handle())
+    call same%get('hash', hash_again)
+    call expect(hash == hash_again, 'rebalancing moves no node')
+    call placement%adjust_population(inserted, deleted)
+    call expect(inserted >= 0 .and. deleted >= 0, 'population')
+    call placement%adjust_population
+    call placement%destroy
+    call same%count(nodes, stat)
+    call expect(stat == PNPBS_ERROR_HANDLE .and. nodes == 0, 'a dead placement')
+    call domain%destroy
+  end subroutine
+
+  subroutine about_steps
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    integer(c_int64_t) :: nodes, offsets(3), neighbours(1)
+    call square(context, domain, placement, 0.1d0)
+    call placement%count(nodes)
+    call expect(nodes == 0, 'no nodes yet')
+    call placement%get_adjacency(offsets, neighbours, stat)
+    call expect(stat == PNPBS_ERROR_STATE, 'no lists yet')
+    call placement%initialise
+    call placement%count(nodes)
+    call expect(nodes > 100, 'initial nodes')
+    call placement%step(3, stat)
+    call expect(stat == PNPBS_NOT_CONVERGED, 'three steps')
+    call placement%step(2_c_int64_t, stat)
+    call placement%step(-1, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '-1')
+    call compare_with_c(placement)
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  subroutine about_spacings
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    integer(c_int64_t) :: coarse, fine
+    real(c_double), allocatable :: d(:)
+    call square(context, domain, placement, 0.1d0)
+    call placement%set('steps', 60)
+    call placement%set_spacing_constant(-1d0, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_SPACING, errmsg, '-1')
+    call placement%set_spacing_at_nodes([1d0], stat)
+    call expect(stat == PNPBS_ERROR_STATE, 'values at no nodes')
+    call placement%run
+    call placement%count(coarse)
+    allocate (d(coarse))
+    d = 0.05d0
+    call placement%set_spacing_at_nodes(d)
+    call placement%run
+    call placement%count(fine)
+    call expect(fine > 3 * coarse, 'finer by values at nodes')
+    call placement%set_spacing_at_nodes(d, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'nodes')
+    ! x fastest: fine on the left, coarse on the right.
+    call placement%set_spacing_grid([0d0, 0d0], [1d0, 1d0], reshape([0.05d0, 0.2d0], [2, 1]))
+    call placement%run
+    call expect(left_of_middle(placement) > 0.7, 'finer on the left')
+    call placement%set_spacing_grid([0d0], [1d0, 1d0], reshape([0.05d0], [1, 1]), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'origin')
+    call placement%set_spacing_grid([0d0, 0d0], [1d0, 0d0], reshape([0.05d0], [1, 1]), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'step[1]')
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  function left_of_middle(placement) result(share)
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), allocatable :: xy(:,:)
+    integer(c_int64_t) :: nodes
+    real(c_double) :: share
+    call placement%count(nodes)
+    allocate (xy(2, nodes))
+    call placement%get_nodes(xy)
+    share = real(count(xy(1, :) < 0.5d0), c_double) / real(nodes, c_double)
+  end function
+
+  subroutine about_given_nodes
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    real(c_double) :: xy(2, 3)
+    integer(c_int64_t) :: ids(3), found(3)
+    integer(c_int64_t) :: nodes
+    integer(c_int64_t), allocatable :: all_ids(:)
+    integer(c_int32_t), allocatable :: tags(:)
+    integer :: i
+    xy = reshape([0.3d0, 0.3d0, 0.7d0, 0.4d0, 0.5d0, 0.7d0], [2, 3])
+    ids = [1000001, 1000005, 1000003]
+    call square(context, domain, placement, 0.4d0)
+    call placement%set_nodes(xy, ids)
+    call placement%initialise
+    call placement%count(nodes)
+    allocate (all_ids(nodes), tags(nodes))
+    call placement%get_nodes(ids=all_ids, tags=tags)
+    found = [(count(all_ids == ids(i) .and. tags == 0), i = 1, 3)]
+    call expect(all(found == 1), 'ids that were given')
+    call placement%set_nodes(xy)
+    call placement%set_nodes(xy, ids(:2), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'ids has room for 2; 3')
+    call placement%set_nodes(reshape(xy, [3, 2]), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xy')
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  subroutine about_wrong_arguments
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    integer(c_int64_t) :: nodes, entries, triangles
+    real(c_double), allocatable :: three(:,:)
+    integer(c_int64_t), allocatable :: ids(:), offsets(:), neighbours(:), corners(:,:)
+    integer(c_int8_t), allocatable :: triangle(:)
+    integer(c_int32_t) :: ranks(1)
+    call square(context, domain, placement, 0.2d0)
+    call placement%run
+    call placement%count(nodes)
+    allocate (three(3, nodes), ids(2 * nodes), offsets(nodes + 1))
+    call placement%get_nodes(three, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xy has an extent of 3 where 2')
+    call placement%get_nodes(three(1:2, :), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xy has gaps in memory')
+    call placement%get_nodes(ids=ids(::2), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'ids has gaps in memory')
+    call placement%get_nodes(ids=ids(2 * nodes:1:-1), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'ids has gaps in memory')
+    call placement%get_nodes(ids=ids(3:2 + nodes), stat=stat)
+    call expect(stat == PNPBS_OK, 'a section without gaps')
+    call placement%get_nodes(ids=ids(:nodes - 1), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'are needed')
+    call placement%get_nodes(stat=stat)
+    call expect(stat == PNPBS_OK, 'asking for nothing')
+
+    call placement%adjacency_size(entries)
+    allocate (neighbours(entries))
+    call placement%get_adjacency(offsets(:nodes), neighbours, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'offsets has room for')
+    call placement%get_adjacency(offsets, neighbours(:entries - 1), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'are needed')
+    call placement%star_size(entries)
+    allocate (triangle(entries))
+    call placement%get_stars(offsets(:1), neighbours, triangle, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'offsets has room for 1')
+    call placement%get_stars(offsets, neighbours, triangle(:5), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'are needed')
+    call placement%triangle_count(triangles)
+    allocate (corners(3, triangles))
+    call placement%get_triangles(corners(:, :0), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'are needed')
+    call placement%get_triangles(corners(1:2, :), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'triangles has an extent of 2')
+    call placement%get_boundary_edges(corners(:2, :), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'edges has gaps')
+    call placement%get_exchange(ranks, offsets(:0), ids, offsets, neighbours, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'send_offsets has room for 0; 1')
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  subroutine about_files
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    integer(c_int64_t) :: nodes
+    character(len=24) :: paths(3)
+    logical :: there
+    call square(context, domain, placement, 0.2d0)
+    call placement%write('fortran_none.csv', stat=stat)
+    call expect(stat == PNPBS_ERROR_STATE, 'nothing to write yet')
+    call placement%run
+    call placement%count(nodes)
+    call placement%write('fortran_square.csv')
+    call expect(lines_of('fortran_square.csv') == nodes + 1, 'a line for every node')
+    paths = ['fortran_a.csv           ', 'fortran_b.node          ', 'fortran_c.txt           ']
+    call placement%write_files(paths, ['    ', 'node', 'csv '], [.false., .true., .false.])
+    call expect(lines_of('fortran_a.csv') == nodes + 1, 'format of the extension')
+    call expect(lines_of('fortran_c.txt') == nodes + 1, 'format by name')
+    inquire (file='fortran_b.ele', exist=there)
+    call expect(there, 'elements where they were asked for')
+    call placement%write_files(paths(:2))
+    call placement%write('fortran_square.xyz', .true., stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xyz')
+    call placement%write('no/such/folder/a.csv', stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'no/such/folder')
+    call placement%write_files(paths, ['csv'], stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'formats has room for 1; 3')
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  function lines_of(path) result(n)
+    character(len=*), intent(in) :: path
+    integer(c_int64_t) :: n
+    integer :: status
+    n = 0
+    open (18, file=path, status='old', action='read')
+    do
+      read (18, *, iostat=status)
+      if (status /= 0) exit
+      n = n + 1
+    end do
+    close (18)
+  end function
+end program test_placement

@@ -1,0 +1,105 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Over the ranks of a communicator, as codes with mpif.h have it: the same nodes as one process
+!> gets alone, ghosts and patterns as C has them, errors on one rank that are all ranks' errors.
+program test_ranks
+  use, intrinsic :: iso_c_binding
+  use pnpbs
+  use expectations
+  use twins
+  use watchers
+  implicit none
+  include 'mpif.h'
+  type(cone), target :: asked
+  integer :: rank, size, ierror, length, half
+  character(len=MPI_MAX_LIBRARY_VERSION_STRING) :: library
+
+  call MPI_Init(ierror)
+  call MPI_Comm_rank(MPI_COMM_WORLD, rank, ierror)
+  call MPI_Comm_size(MPI_COMM_WORLD, size, ierror)
+  call MPI_Get_library_version(library, length, ierror)
+  call compare_with_serial(MPI_COMM_WORLD)
+  call MPI_Comm_split(MPI_COMM_WORLD, mod(rank, 2), rank, half, ierror)
+  call compare_with_serial(half)
+  call MPI_Comm_free(half, ierror)
+  call about_errors
+  call MPI_Finalize(ierror)
+  call finish
+
+contains
+
+  subroutine place(context, domain, placement)
+    type(pnpbs_context), intent(in) :: context
+    type(pnpbs_domain), intent(inout) :: domain
+    type(pnpbs_placement), intent(inout) :: placement
+    call square(context, domain, placement, 0.1d0)
+    call placement%set('steps', 60)
+    call placement%set_spacing_callback(cone_spacing, c_loc(asked))
+    call placement%run
+  end subroutine
+
+  subroutine compare_with_serial(comm)
+    integer, intent(in) :: comm
+    type(pnpbs_context) :: context, alone
+    type(pnpbs_domain) :: domain, domain_alone
+    type(pnpbs_placement) :: placement, placement_alone
+    character(len=:), allocatable :: hash, hash_alone
+    integer(c_int64_t) :: mine, all_nodes, nodes_alone
+    call context%create_mpi(comm, trim(library))
+    call alone%create_serial
+    call place(context, domain, placement)
+    call place(alone, domain_alone, placement_alone)
+    call placement%get('hash', hash)
+    call placement_alone%get('hash', hash_alone)
+    call expect(hash == hash_alone, 'the same nodes on any number of ranks')
+    call placement%count(mine)
+    call placement%get('nodes', all_nodes)
+    call placement_alone%count(nodes_alone)
+    call expect(all_nodes == nodes_alone .and. mine <= all_nodes, 'the nodes are shared')
+    call compare_with_c(placement)
+    call placement%rebalance
+    call compare_with_c(placement)
+    call placement_alone%destroy
+    call placement%destroy
+    call domain%destroy
+    call domain_alone%destroy
+    call context%destroy
+    call alone%destroy
+  end subroutine
+
+  subroutine about_errors
+    type(pnpbs_context) :: context
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    integer(c_int64_t) :: nodes, entries
+    integer(c_int64_t), allocatable :: offsets(:), neighbours(:)
+    real(c_double), allocatable :: xy(:,:)
+    integer(c_int) :: stat
+    character(len=300) :: errmsg
+    call context%create_mpi(MPI_COMM_NULL, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_MPI, errmsg, 'MPI_COMM_NULL')
+    call context%create_mpi(MPI_COMM_WORLD, 'Another MPI 3.0', stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_MPI, errmsg, 'Another MPI 3.0')
+
+    ! Too small an array on one rank, found by the module itself, fails on all.
+    call context%create_mpi(MPI_COMM_WORLD)
+    call place(context, domain, placement)
+    call placement%count(nodes)
+    call placement%adjacency_size(entries)
+    allocate (offsets(merge(nodes, nodes + 1, rank == size - 1)), neighbours(entries))
+    call placement%get_adjacency(offsets, neighbours, stat, errmsg)
+    call expect(stat < 0, 'an error on one rank is that of all')
+    if (rank == size - 1) &
+      call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'offsets has room for')
+    ! So does a wrong shape.
+    allocate (xy(merge(3, 2, rank == 0), 1))
+    xy = 0.5d0
+    call placement%set_nodes(xy, stat=stat, errmsg=errmsg)
+    call expect(stat < 0, 'a wrong shape on one rank')
+    if (rank == 0) call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xy has an extent of 3')
+    call placement%run(stat)
+    call expect(stat >= 0, 'it goes on afterwards')
+    call placement%destroy
+    call domain%destroy
+    call context%destroy
+  end subroutine
+end program test_ranks

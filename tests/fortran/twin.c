@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The C side of the tests of the Fortran module: asks the C interface for the same things on the
+ * same handles, and counts what differs. Indices come as Fortran has them, from 1.
+ */
+#include <pnpbs/pnpbs.h>
+#include <stdlib.h>
+#include <string.h>
+
+int64_t twin_nodes(int64_t handle, int64_t n, const double* xy, const int64_t* ids,
+                   const int32_t* tags, const double* d);
+int64_t twin_ghosts(int64_t handle, int64_t n, const double* xy, const int64_t* ids,
+                    const int32_t* tags, const double* d, const int32_t* owners,
+                    const int64_t* numbers);
+int64_t twin_lists(int64_t handle, int32_t stars, int64_t nodes, const int64_t* offsets,
+                   const int64_t* neighbours, const int8_t* triangle);
+int64_t twin_triangles(int64_t handle, int64_t n, const int64_t* triangles);
+int64_t twin_edges(int64_t handle, int64_t n, const int64_t* edges, const int32_t* tags);
+int64_t twin_exchange(int64_t handle, int32_t neighbours, const int32_t* ranks,
+                      const int64_t* send_offsets, const int64_t* send_nodes,
+                      const int64_t* receive_offsets, const int64_t* receive_nodes);
+int64_t twin_segments(int64_t handle, int64_t n, const double* segments, const int32_t* tags);
+
+static pnpbs_placement placement_of(int64_t handle) { return (pnpbs_placement)(intptr_t)handle; }
+
+static void* room(int64_t n, size_t size) { return calloc((size_t)n + 1, size); }
+
+/* How many of n indices are not one more than C's. */
+static int64_t shifted(int64_t n, const int64_t* ours, const int64_t* fortran) {
+  int64_t i, wrong = 0;
+  for (i = 0; i < n; ++i) wrong += ours[i] + 1 != fortran[i];
+  return wrong;
+}
+
+int64_t twin_nodes(int64_t handle, int64_t n, const double* xy, const int64_t* ids,
+                   const int32_t* tags, const double* d) {
+  const pnpbs_placement p = placement_of(handle);
+  double *x = room(2 * n, sizeof *x), *s = room(n, sizeof *s);
+  int64_t *i = room(n, sizeof *i), nodes = -1, wrong = 0;
+  int32_t* t = room(n, sizeof *t);
+  wrong += pnpbs_placement_count(p, &nodes) != PNPBS_OK || nodes != n;
+  wrong += pnpbs_placement_get_nodes(p, n, x, i, t, s) != PNPBS_OK;
+  wrong += memcmp(x, xy, (size_t)n * 2 * sizeof *x) != 0;
+  wrong += memcmp(i, ids, (size_t)n * sizeof *i) != 0;
+  wrong += memcmp(t, tags, (size_t)n * sizeof *t) != 0;
+  wrong += memcmp(s, d, (size_t)n * sizeof *s) != 0;
+  free(x), free(s), free(i), free(t);
+  return wrong;
+}
+
+int64_t twin_ghosts(int64_t handle, int64_t n, const double* xy, const int64_t* ids,
+                    const int32_t* tags, const double* d, const int32_t* owners,
+                    const int64_t* numbers) {
+  const pnpbs_placement p = placement_of(handle);
+  double *x = room(2 * n, sizeof *x), *s = room(n, sizeof *s);
+  int64_t *i = room(n, sizeof *i), ghosts = -1, wrong = 0;
+  int32_t *t = room(n, sizeof *t), *o = room(n, sizeof *o);
+  wrong += pnpbs_placement_ghost_count(p, &ghosts) != PNPBS_OK || ghosts != n;
+  wrong += pnpbs_placement_get_ghosts(p, n, x, i, t, s, o) != PNPBS_OK;
+  wrong += memcmp(x, xy, (size_t)n * 2 * sizeof *x) != 0;
+  wrong += memcmp(i, ids, (size_t)n * sizeof *i) != 0;
+  wrong += memcmp(t, tags, (size_t)n * sizeof *t) != 0;
+  wrong += memcmp(s, d, (size_t)n * sizeof *s) != 0;
+  wrong += memcmp(o, owners, (size_t)n * sizeof *o) != 0;
+  wrong += pnpbs_placement_get_numbering(p, n, NULL, NULL, i) != PNPBS_OK;
+  wrong += memcmp(i, numbers, (size_t)n * sizeof *i) != 0;
+  free(x), free(s), free(i), free(t), free(o);
+  return wrong;
+}
+
+int64_t twin_lists(int64_t handle, int32_t stars, int64_t nodes, const int64_t* offsets,
+                   const int64_t* neighbours, const int8_t* triangle) {
+  const pnpbs_placement p = placement_of(handle);
+  int64_t entries = -1, wrong = 0, *rows = room(nodes, sizeof *rows), *list;
+  int8_t* flags;
+  wrong += (stars ? pnpbs_placement_star_size(p, &entries)
+                  : pnpbs_placement_adjacency_size(p, &entries)) != PNPBS_OK;
+  if (entries != offsets[nodes] - 1) return 1;
+  list = room(entries, sizeof *list);
+  flags = room(entries, sizeof *flags);
+  wrong += (stars ? pnpbs_placement_get_stars(p, entries, rows, list, flags)
+                  : pnpbs_placement_get_adjacency(p, entries, rows, list)) != PNPBS_OK;
+  wrong += shifted(nodes + 1, rows, offsets) + shifted(entries, list, neighbours);
+  wrong += stars && memcmp(flags, triangle, (size_t)entries) != 0;
+  free(rows), free(list), free(flags);
+  return wrong;
+}
+
+int64_t twin_triangles(int64_t handle, int64_t n, const int64_t* triangles) {
+  int64_t *corners = room(3 * n, sizeof *corners), count = -1, wrong = 0;
+  wrong += pnpbs_placement_get_triangles(placement_of(handle), n, &count, corners) != PNPBS_OK;
+  wrong += count != n;
+  wrong += shifted(3 * n, corners, triangles);
+  free(corners);
+  return wrong;
+}
+
+int64_t twin_edges(int64_t handle, int64_t n, const int64_t* edges, const int32_t* tags) {
+  int64_t *ends = room(2 * n, sizeof *ends), count = -1, wrong = 0;
+  int32_t* t = room(n, sizeof *t);
+  wrong += pnpbs_placement_get_boundary_edges(placement_of(handle), n, &count, ends, t) != PNPBS_OK;
+  wrong += count != n;
+  wrong += shifted(2 * n, ends, edges) + (memcmp(t, tags, (size_t)n * sizeof *t) != 0);
+  free(ends), free(t);
+  return wrong;
+}
+
+int64_t twin_exchange(int64_t handle, int32_t neighbours, const int32_t* ranks,
+                      const int64_t* send_offsets, const int64_t* send_nodes,
+                      const int64_t* receive_offsets, const int64_t* receive_nodes) {
+  const pnpbs_placement p = placement_of(handle);
+  int32_t count = -1, *r = room(neighbours, sizeof *r);
+  int64_t sends = -1, receives = -1, wrong = 0, *so, *sn, *ro, *rn;
+  wrong += pnpbs_placement_exchange_sizes(p, &count, &sends, &receives) != PNPBS_OK;
+  wrong += count != neighbours;
+  so = room(neighbours, sizeof *so), ro = room(neighbours, sizeof *ro);
+  sn = room(sends, sizeof *sn), rn = room(receives, sizeof *rn);
+  wrong += pnpbs_placement_get_exchange(p, count, sends, receives, r, so, sn, ro, rn) != PNPBS_OK;
+  wrong += memcmp(r, ranks, (size_t)count * sizeof *r) != 0;
+  wrong += shifted(count + 1, so, send_offsets) + shifted(count + 1, ro, receive_offsets);
+  wrong += shifted(sends, sn, send_nodes) + shifted(receives, rn, receive_nodes);
+  free(r), free(so), free(sn), free(ro), free(rn);
+  return wrong;
+}
+
+int64_t twin_segments(int64_t handle, int64_t n, const double* segments, const int32_t* tags) {
+  const pnpbs_domain domain = (pnpbs_domain)(intptr_t)handle;
+  double* s = room(4 * n, sizeof *s);
+  int32_t* t = room(n, sizeof *t);
+  int64_t count = -1, wrong = 0;
+  wrong += pnpbs_domain_get_segments(domain, n, &count, s, t) != PNPBS_OK || count != n;
+  wrong += memcmp(s, segments, (size_t)n * 4 * sizeof *s) != 0;
+  wrong += memcmp(t, tags, (size_t)n * sizeof *t) != 0;
+  free(s), free(t);
+  return wrong;
+}

@@ -1,0 +1,181 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What the C interface says to the same questions (twin.c).
+module twins
+  use, intrinsic :: iso_c_binding
+  use pnpbs
+  use expectations
+  implicit none
+  private
+  public :: compare_with_c, twin_segments
+
+  interface
+    function twin_nodes(handle, n, xy, ids, tags, d) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      real(c_double), intent(in) :: xy(*), d(*)
+      integer(c_int64_t), intent(in) :: ids(*)
+      integer(c_int32_t), intent(in) :: tags(*)
+      integer(c_int64_t) :: twin_nodes
+    end function
+
+    function twin_ghosts(handle, n, xy, ids, tags, d, owners, numbers) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      real(c_double), intent(in) :: xy(*), d(*)
+      integer(c_int64_t), intent(in) :: ids(*), numbers(*)
+      integer(c_int32_t), intent(in) :: tags(*), owners(*)
+      integer(c_int64_t) :: twin_ghosts
+    end function
+
+    function twin_lists(handle, stars, nodes, offsets, neighbours, triangle) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, nodes
+      integer(c_int32_t), value :: stars
+      integer(c_int64_t), intent(in) :: offsets(*), neighbours(*)
+      integer(c_int8_t), intent(in) :: triangle(*)
+      integer(c_int64_t) :: twin_lists
+    end function
+
+    function twin_triangles(handle, n, triangles) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      integer(c_int64_t), intent(in) :: triangles(*)
+      integer(c_int64_t) :: twin_triangles
+    end function
+
+    function twin_edges(handle, n, edges, tags) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      integer(c_int64_t), intent(in) :: edges(*)
+      integer(c_int32_t), intent(in) :: tags(*)
+      integer(c_int64_t) :: twin_edges
+    end function
+
+    function twin_exchange(handle, neighbours, ranks, send_offsets, send_nodes, receive_offsets, &
+                           receive_nodes) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle
+      integer(c_int32_t), value :: neighbours
+      integer(c_int32_t), intent(in) :: ranks(*)
+      integer(c_int64_t), intent(in) :: send_offsets(*), send_nodes(*), receive_offsets(*)
+      integer(c_int64_t), intent(in) :: receive_nodes(*)
+      integer(c_int64_t) :: twin_exchange
+    end function
+
+    function twin_segments(handle, n, segments, tags) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      real(c_double), intent(in) :: segments(*)
+      integer(c_int32_t), intent(in) :: tags(*)
+      integer(c_int64_t) :: twin_segments
+    end function
+  end interface
+
+contains
+
+  !> Copies everything out that there is, and compares it with what C gets. Collective.
+  subroutine compare_with_c(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    call compare_nodes(placement)
+    call compare_ghosts(placement)
+    call compare_lists(placement)
+    call compare_elements(placement)
+    call compare_exchange(placement)
+  end subroutine
+
+  subroutine compare_nodes(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), allocatable :: xy(:,:), d(:)
+    integer(c_int64_t), allocatable :: ids(:)
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int64_t) :: n
+    call placement%count(n)
+    allocate (xy(2, n), ids(n), tags(n), d(n))
+    call placement%get_nodes(xy, ids, tags, d)
+    call expect(twin_nodes(placement%handle(), n, xy, ids, tags, d) == 0, 'nodes as in C')
+    ! One at a time, with more room than is needed, and left alone beyond.
+    deallocate (ids)
+    allocate (ids(n + 2))
+    ids = -7
+    xy = 0
+    call placement%get_nodes(ids=ids)
+    call expect(all(ids(n + 1:) == -7), 'room that is not needed')
+    call placement%get_nodes(xy=xy)
+    call expect(twin_nodes(placement%handle(), n, xy, ids, tags, d) == 0, 'nodes one by one')
+  end subroutine
+
+  subroutine compare_ghosts(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), allocatable :: xy(:,:), d(:)
+    integer(c_int64_t), allocatable :: ids(:), numbers(:)
+    integer(c_int32_t), allocatable :: tags(:), owners(:)
+    integer(c_int64_t) :: ghosts, nodes, first, mine
+    call placement%count(nodes)
+    call placement%ghost_count(ghosts)
+    allocate (xy(2, ghosts), ids(ghosts), tags(ghosts), d(ghosts), owners(ghosts), numbers(ghosts))
+    call placement%get_ghosts(xy, ids, tags, d, owners)
+    call placement%get_numbering(first, mine, numbers)
+    call expect(first >= 0 .and. mine == nodes, 'numbering')
+    call expect(twin_ghosts(placement%handle(), ghosts, xy, ids, tags, d, owners, numbers) == 0, &
+                'ghosts as in C')
+  end subroutine
+
+  subroutine compare_lists(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int64_t), allocatable :: offsets(:), neighbours(:), star_neighbours(:)
+    integer(c_int8_t), allocatable :: triangle(:)
+    integer(c_int64_t) :: nodes, entries
+    call placement%count(nodes)
+    allocate (offsets(nodes + 1))
+    call placement%adjacency_size(entries)
+    allocate (neighbours(entries), triangle(0))
+    call placement%get_adjacency(offsets, neighbours)
+    call expect(twin_lists(placement%handle(), 0, nodes, offsets, neighbours, triangle) == 0, &
+                'adjacency as in C')
+    deallocate (triangle)
+    call placement%star_size(entries)
+    allocate (star_neighbours(entries), triangle(entries))
+    call placement%get_stars(offsets, star_neighbours)
+    call placement%get_stars(offsets, star_neighbours, triangle)
+    call expect(twin_lists(placement%handle(), 1, nodes, offsets, star_neighbours, triangle) == 0, &
+                'stars as in C')
+  end subroutine
+
+  subroutine compare_elements(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int64_t), allocatable :: triangles(:,:), edges(:,:)
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int64_t) :: count
+    call placement%triangle_count(count)
+    allocate (triangles(3, count))
+    call placement%get_triangles(triangles)
+    call expect(twin_triangles(placement%handle(), count, triangles) == 0, 'triangles as in C')
+    call placement%boundary_edge_count(count)
+    allocate (edges(2, count), tags(count))
+    call placement%get_boundary_edges(edges)
+    call placement%get_boundary_edges(tags=tags)
+    call expect(twin_edges(placement%handle(), count, edges, tags) == 0, 'boundary edges as in C')
+  end subroutine
+
+  subroutine compare_exchange(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int32_t), allocatable :: ranks(:)
+    integer(c_int64_t), allocatable :: send_offsets(:), send_nodes(:)
+    integer(c_int64_t), allocatable :: receive_offsets(:), receive_nodes(:)
+    integer(c_int32_t) :: neighbours
+    integer(c_int64_t) :: sends, receives
+    call placement%exchange_sizes(neighbours, sends, receives)
+    allocate (ranks(neighbours), send_offsets(neighbours + 1), send_nodes(sends))
+    allocate (receive_offsets(neighbours + 1), receive_nodes(receives))
+    call placement%get_exchange(ranks, send_offsets, send_nodes, receive_offsets, receive_nodes)
+    call expect(twin_exchange(placement%handle(), neighbours, ranks, send_offsets, send_nodes, &
+                              receive_offsets, receive_nodes) == 0, 'exchange as in C')
+  end subroutine
+end module twins
