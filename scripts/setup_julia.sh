@@ -18,9 +18,12 @@ fail() {
   exit 1
 }
 
-command -v apt-get > /dev/null && [ -e "$keys" ] || fail "works with Debian's apt-get only"
+if ! command -v apt-get > /dev/null || ! [ -e "$keys" ]; then
+  fail "works with Debian's apt-get only"
+fi
 
 # The mirror that this machine's apt gets the main archive from.
+# shellcheck disable=SC2016  # apt's own variables
 mirror=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
   awk '$3 == "main" && $1 ~ /\/debian\/?$/ && $2 !~ /-/ { print $1; exit }')
 [ -n "$mirror" ] || fail "apt knows no mirror of Debian's archive"

@@ -10,6 +10,7 @@ unset DESTDIR PNPBS_LIBRARY
 "$2" --install "$1" --prefix "$work/first" > "$work/install.log"
 mv "$work/first" "$work/moved"
 export JULIA_LOAD_PATH="@stdlib:$work/moved/share/pnpbs/julia" JULIA_DEPOT_PATH="$work/depot"
+# shellcheck disable=SC2016  # Julia's own
 "$3" --startup-file=no --compiled-modules=no -e '
   using PNPBS
   path = PNPBS.LibPNPBS.library_path()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Contexts on communicators of MPI.jl. Nothing here needs MPI.jl to be loaded: from Julia 1.9 on an
-# extension hands its module over; below, it is looked for when it is needed.
+# Contexts on communicators of MPI.jl. Nothing here needs MPI.jl to be loaded: an extension hands its
+# module over where Julia has extensions (1.9 and later); elsewhere it is looked for when needed.
 
 const MPI_PACKAGE = Base.PkgId(Base.UUID("da04e1cc-30fd-572f-bb4f-1f8673147195"), "MPI")
 
@@ -42,11 +42,11 @@ function context_on(MPI::Module, comm; options...)
     return set!(context; options...)
 end
 
-if !isdefined(Base, :get_extension)
-    function Context(comm; options...)
-        MPI = get(Base.loaded_modules, MPI_PACKAGE, nothing)
-        MPI !== nothing && comm isa MPI.Comm || throw(ArgumentError(
-            "a context takes a communicator of MPI.jl or a Fortran handle, not a $(typeof(comm))"))
-        return context_on(MPI, comm; options...)
-    end
+# Before Julia 1.9, and where a later one has not loaded the extension. The extension's method is
+# the more specific one.
+function Context(comm; options...)
+    MPI = get(Base.loaded_modules, MPI_PACKAGE, nothing)
+    MPI !== nothing && comm isa MPI.Comm || throw(ArgumentError(
+        "a context takes a communicator of MPI.jl or a Fortran handle, not a $(typeof(comm))"))
+    return context_on(MPI, comm; options...)
 end
