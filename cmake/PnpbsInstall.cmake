@@ -106,3 +106,7 @@ if(EXISTS "${PROJECT_SOURCE_DIR}/README.md")
 endif()
 install(DIRECTORY examples/data examples/c examples/fortran DESTINATION "${data_dir}/examples"
         PATTERN ".clang-format" EXCLUDE)
+
+# ------------------------------------------------------------------ Julia -----------------------
+# Beside the library: the package looks for it in the prefix it lies in.
+install(DIRECTORY bindings/julia/PNPBS.jl DESTINATION "${data_dir}/julia")

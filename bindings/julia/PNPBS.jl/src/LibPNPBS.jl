@@ -1,0 +1,340 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+The C interface as it is: one Julia function for each function of `pnpbs.h`, of the same name and
+with the same arguments, which that header documents. Nothing here is checked or converted beyond
+what `ccall` does. A test compares every signature below with the header.
+"""
+module LibPNPBS
+
+include("library.jl")
+
+# The header's names for its types. Handles are keys of the library's, not addresses; callbacks are
+# pointers made by `@cfunction` (see callbacks.jl).
+const pnpbs_status = Int32
+const pnpbs_context = Ptr{Cvoid}
+const pnpbs_domain = Ptr{Cvoid}
+const pnpbs_placement = Ptr{Cvoid}
+const pnpbs_curve_fn = Ptr{Cvoid}
+const pnpbs_spacing_fn = Ptr{Cvoid}
+const pnpbs_monitor_fn = Ptr{Cvoid}
+
+const PNPBS_OK = 0
+const PNPBS_NOT_CONVERGED = 1
+const PNPBS_STOPPED = 2
+const PNPBS_ERROR_ARGUMENT = -1
+const PNPBS_ERROR_HANDLE = -2
+const PNPBS_ERROR_STATE = -3
+const PNPBS_ERROR_DOMAIN = -4
+const PNPBS_ERROR_SPACING = -5
+const PNPBS_ERROR_KEY = -6
+const PNPBS_ERROR_CAPACITY = -7
+const PNPBS_ERROR_FILE = -8
+const PNPBS_ERROR_CALLBACK = -9
+const PNPBS_ERROR_MEMORY = -10
+const PNPBS_ERROR_MPI = -11
+const PNPBS_ERROR_KOKKOS = -12
+const PNPBS_ERROR_UNSUPPORTED = -13
+const PNPBS_ERROR_INTERNAL = -14
+
+const PNPBS_BOUNDARY = 0
+const PNPBS_INNER = 1
+
+# ---------------------------------------------------------------- status and errors ----------
+pnpbs_status_string(status) =
+    @ccall $(symbol(:pnpbs_status_string))(status::pnpbs_status)::Cstring
+
+pnpbs_last_error(context) =
+    @ccall $(symbol(:pnpbs_last_error))(context::pnpbs_context)::Cstring
+
+pnpbs_version(major, minor, patch) =
+    @ccall $(symbol(:pnpbs_version))(
+        major::Ptr{Int32}, minor::Ptr{Int32}, patch::Ptr{Int32})::pnpbs_status
+
+pnpbs_build_info() =
+    @ccall $(symbol(:pnpbs_build_info))()::Cstring
+
+pnpbs_mpi_library() =
+    @ccall $(symbol(:pnpbs_mpi_library))()::Cstring
+
+# ---------------------------------------------------------------- context --------------------
+pnpbs_context_create_serial(context) =
+    @ccall $(symbol(:pnpbs_context_create_serial))(
+        context::Ptr{pnpbs_context})::pnpbs_status
+
+pnpbs_context_create_f(comm, context) =
+    @ccall $(symbol(:pnpbs_context_create_f))(
+        comm::Int32, context::Ptr{pnpbs_context})::pnpbs_status
+
+pnpbs_context_create_checked_f(comm, library, context) =
+    @ccall $(symbol(:pnpbs_context_create_checked_f))(
+        comm::Int32, library::Cstring, context::Ptr{pnpbs_context})::pnpbs_status
+
+pnpbs_context_destroy(context) =
+    @ccall $(symbol(:pnpbs_context_destroy))(context::Ptr{pnpbs_context})::pnpbs_status
+
+pnpbs_finalize() =
+    @ccall $(symbol(:pnpbs_finalize))()::pnpbs_status
+
+pnpbs_context_set(context, key, value) =
+    @ccall $(symbol(:pnpbs_context_set))(
+        context::pnpbs_context, key::Cstring, value::Cstring)::pnpbs_status
+
+pnpbs_context_set_int64(context, key, value) =
+    @ccall $(symbol(:pnpbs_context_set_int64))(
+        context::pnpbs_context, key::Cstring, value::Int64)::pnpbs_status
+
+pnpbs_context_set_double(context, key, value) =
+    @ccall $(symbol(:pnpbs_context_set_double))(
+        context::pnpbs_context, key::Cstring, value::Cdouble)::pnpbs_status
+
+# ---------------------------------------------------------------- tables ---------------------
+pnpbs_option_count(count) =
+    @ccall $(symbol(:pnpbs_option_count))(count::Ptr{Int32})::pnpbs_status
+
+pnpbs_option_info(index, name, type, default_value, range, help) =
+    @ccall $(symbol(:pnpbs_option_info))(
+        index::Int32, name::Ptr{Cstring}, type::Ptr{Cstring}, default_value::Ptr{Cstring},
+        range::Ptr{Cstring}, help::Ptr{Cstring})::pnpbs_status
+
+pnpbs_statistic_count(count) =
+    @ccall $(symbol(:pnpbs_statistic_count))(count::Ptr{Int32})::pnpbs_status
+
+pnpbs_statistic_info(index, name, type, help) =
+    @ccall $(symbol(:pnpbs_statistic_info))(
+        index::Int32, name::Ptr{Cstring}, type::Ptr{Cstring},
+        help::Ptr{Cstring})::pnpbs_status
+
+pnpbs_format_count(count) =
+    @ccall $(symbol(:pnpbs_format_count))(count::Ptr{Int32})::pnpbs_status
+
+pnpbs_format_info(index, name, help, binary, elements) =
+    @ccall $(symbol(:pnpbs_format_info))(
+        index::Int32, name::Ptr{Cstring}, help::Ptr{Cstring}, binary::Ptr{Int32},
+        elements::Ptr{Int32})::pnpbs_status
+
+# ---------------------------------------------------------------- domain ---------------------
+pnpbs_domain_create(context, dim, domain) =
+    @ccall $(symbol(:pnpbs_domain_create))(
+        context::pnpbs_context, dim::Int32, domain::Ptr{pnpbs_domain})::pnpbs_status
+
+pnpbs_domain_destroy(domain) =
+    @ccall $(symbol(:pnpbs_domain_destroy))(domain::Ptr{pnpbs_domain})::pnpbs_status
+
+pnpbs_domain_add_polyline(domain, role, closed, n, xy, tags, corner_angle) =
+    @ccall $(symbol(:pnpbs_domain_add_polyline))(
+        domain::pnpbs_domain, role::Int32, closed::Int32, n::Int64, xy::Ptr{Cdouble},
+        tags::Ptr{Int32}, corner_angle::Cdouble)::pnpbs_status
+
+pnpbs_domain_add_arc(domain, role, centre, radius, from, to, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_arc))(
+        domain::pnpbs_domain, role::Int32, centre::Ptr{Cdouble}, radius::Cdouble,
+        from::Cdouble, to::Cdouble, tag::Int32)::pnpbs_status
+
+pnpbs_domain_add_curve(domain, role, curve, user, from, to, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_curve))(
+        domain::pnpbs_domain, role::Int32, curve::pnpbs_curve_fn, user::Ptr{Cvoid},
+        from::Cdouble, to::Cdouble, tag::Int32)::pnpbs_status
+
+pnpbs_domain_add_pslg(domain, vertices, xy, vertex_tags, segments, segment_ends,
+                      segment_tags, holes, hole_points) =
+    @ccall $(symbol(:pnpbs_domain_add_pslg))(
+        domain::pnpbs_domain, vertices::Int64, xy::Ptr{Cdouble}, vertex_tags::Ptr{Int32},
+        segments::Int64, segment_ends::Ptr{Int64}, segment_tags::Ptr{Int32}, holes::Int64,
+        hole_points::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_domain_add_hole(domain, point) =
+    @ccall $(symbol(:pnpbs_domain_add_hole))(
+        domain::pnpbs_domain, point::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_domain_add_fixed_nodes(domain, n, xy, tags) =
+    @ccall $(symbol(:pnpbs_domain_add_fixed_nodes))(
+        domain::pnpbs_domain, n::Int64, xy::Ptr{Cdouble}, tags::Ptr{Int32})::pnpbs_status
+
+pnpbs_domain_read_poly(domain, path) =
+    @ccall $(symbol(:pnpbs_domain_read_poly))(
+        domain::pnpbs_domain, path::Cstring)::pnpbs_status
+
+pnpbs_domain_parse_poly(domain, text, length, name) =
+    @ccall $(symbol(:pnpbs_domain_parse_poly))(
+        domain::pnpbs_domain, text::Ptr{UInt8}, length::Int64, name::Cstring)::pnpbs_status
+
+pnpbs_domain_check(domain) =
+    @ccall $(symbol(:pnpbs_domain_check))(domain::pnpbs_domain)::pnpbs_status
+
+pnpbs_domain_bounds(domain, low, high) =
+    @ccall $(symbol(:pnpbs_domain_bounds))(
+        domain::pnpbs_domain, low::Ptr{Cdouble}, high::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_domain_measure(domain, measure) =
+    @ccall $(symbol(:pnpbs_domain_measure))(
+        domain::pnpbs_domain, measure::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_domain_get_segments(domain, capacity, count, segments, tags) =
+    @ccall $(symbol(:pnpbs_domain_get_segments))(
+        domain::pnpbs_domain, capacity::Int64, count::Ptr{Int64}, segments::Ptr{Cdouble},
+        tags::Ptr{Int32})::pnpbs_status
+
+# ---------------------------------------------------------------- placement ------------------
+pnpbs_placement_create(context, domain, placement) =
+    @ccall $(symbol(:pnpbs_placement_create))(
+        context::pnpbs_context, domain::pnpbs_domain,
+        placement::Ptr{pnpbs_placement})::pnpbs_status
+
+pnpbs_placement_destroy(placement) =
+    @ccall $(symbol(:pnpbs_placement_destroy))(
+        placement::Ptr{pnpbs_placement})::pnpbs_status
+
+pnpbs_placement_set(placement, key, value) =
+    @ccall $(symbol(:pnpbs_placement_set))(
+        placement::pnpbs_placement, key::Cstring, value::Cstring)::pnpbs_status
+
+pnpbs_placement_set_int64(placement, key, value) =
+    @ccall $(symbol(:pnpbs_placement_set_int64))(
+        placement::pnpbs_placement, key::Cstring, value::Int64)::pnpbs_status
+
+pnpbs_placement_set_double(placement, key, value) =
+    @ccall $(symbol(:pnpbs_placement_set_double))(
+        placement::pnpbs_placement, key::Cstring, value::Cdouble)::pnpbs_status
+
+pnpbs_placement_set_spacing_constant(placement, d) =
+    @ccall $(symbol(:pnpbs_placement_set_spacing_constant))(
+        placement::pnpbs_placement, d::Cdouble)::pnpbs_status
+
+pnpbs_placement_set_spacing_callback(placement, spacing, user) =
+    @ccall $(symbol(:pnpbs_placement_set_spacing_callback))(
+        placement::pnpbs_placement, spacing::pnpbs_spacing_fn,
+        user::Ptr{Cvoid})::pnpbs_status
+
+pnpbs_placement_set_spacing_grid(placement, size, origin, step, values) =
+    @ccall $(symbol(:pnpbs_placement_set_spacing_grid))(
+        placement::pnpbs_placement, size::Ptr{Int64}, origin::Ptr{Cdouble},
+        step::Ptr{Cdouble}, values::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_set_spacing_at_nodes(placement, n, d) =
+    @ccall $(symbol(:pnpbs_placement_set_spacing_at_nodes))(
+        placement::pnpbs_placement, n::Int64, d::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_set_monitor(placement, monitor, user) =
+    @ccall $(symbol(:pnpbs_placement_set_monitor))(
+        placement::pnpbs_placement, monitor::pnpbs_monitor_fn,
+        user::Ptr{Cvoid})::pnpbs_status
+
+pnpbs_placement_set_nodes(placement, n, xy, ids) =
+    @ccall $(symbol(:pnpbs_placement_set_nodes))(
+        placement::pnpbs_placement, n::Int64, xy::Ptr{Cdouble},
+        ids::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_initialise(placement) =
+    @ccall $(symbol(:pnpbs_placement_initialise))(placement::pnpbs_placement)::pnpbs_status
+
+pnpbs_placement_step(placement, n) =
+    @ccall $(symbol(:pnpbs_placement_step))(
+        placement::pnpbs_placement, n::Int64)::pnpbs_status
+
+pnpbs_placement_adjust_population(placement, inserted, deleted) =
+    @ccall $(symbol(:pnpbs_placement_adjust_population))(
+        placement::pnpbs_placement, inserted::Ptr{Int64}, deleted::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_rebalance(placement) =
+    @ccall $(symbol(:pnpbs_placement_rebalance))(placement::pnpbs_placement)::pnpbs_status
+
+pnpbs_placement_run(placement) =
+    @ccall $(symbol(:pnpbs_placement_run))(placement::pnpbs_placement)::pnpbs_status
+
+pnpbs_placement_count(placement, nodes) =
+    @ccall $(symbol(:pnpbs_placement_count))(
+        placement::pnpbs_placement, nodes::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_nodes(placement, capacity, xy, ids, tags, spacing) =
+    @ccall $(symbol(:pnpbs_placement_get_nodes))(
+        placement::pnpbs_placement, capacity::Int64, xy::Ptr{Cdouble}, ids::Ptr{Int64},
+        tags::Ptr{Int32}, spacing::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_ghost_count(placement, ghosts) =
+    @ccall $(symbol(:pnpbs_placement_ghost_count))(
+        placement::pnpbs_placement, ghosts::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_ghosts(placement, capacity, xy, ids, tags, spacing, owners) =
+    @ccall $(symbol(:pnpbs_placement_get_ghosts))(
+        placement::pnpbs_placement, capacity::Int64, xy::Ptr{Cdouble}, ids::Ptr{Int64},
+        tags::Ptr{Int32}, spacing::Ptr{Cdouble}, owners::Ptr{Int32})::pnpbs_status
+
+pnpbs_placement_exchange_sizes(placement, neighbours, sends, receives) =
+    @ccall $(symbol(:pnpbs_placement_exchange_sizes))(
+        placement::pnpbs_placement, neighbours::Ptr{Int32}, sends::Ptr{Int64},
+        receives::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_exchange(placement, neighbours, sends, receives, ranks, send_offsets,
+                             send_nodes, receive_offsets, receive_nodes) =
+    @ccall $(symbol(:pnpbs_placement_get_exchange))(
+        placement::pnpbs_placement, neighbours::Int32, sends::Int64, receives::Int64,
+        ranks::Ptr{Int32}, send_offsets::Ptr{Int64}, send_nodes::Ptr{Int64},
+        receive_offsets::Ptr{Int64}, receive_nodes::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_numbering(placement, capacity, first, count, ghost_numbers) =
+    @ccall $(symbol(:pnpbs_placement_get_numbering))(
+        placement::pnpbs_placement, capacity::Int64, first::Ptr{Int64}, count::Ptr{Int64},
+        ghost_numbers::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_adjacency_size(placement, entries) =
+    @ccall $(symbol(:pnpbs_placement_adjacency_size))(
+        placement::pnpbs_placement, entries::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_adjacency(placement, capacity, offsets, neighbours) =
+    @ccall $(symbol(:pnpbs_placement_get_adjacency))(
+        placement::pnpbs_placement, capacity::Int64, offsets::Ptr{Int64},
+        neighbours::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_star_size(placement, entries) =
+    @ccall $(symbol(:pnpbs_placement_star_size))(
+        placement::pnpbs_placement, entries::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_stars(placement, capacity, offsets, neighbours, triangle) =
+    @ccall $(symbol(:pnpbs_placement_get_stars))(
+        placement::pnpbs_placement, capacity::Int64, offsets::Ptr{Int64},
+        neighbours::Ptr{Int64}, triangle::Ptr{Int8})::pnpbs_status
+
+pnpbs_placement_get_triangles(placement, capacity, count, triangles) =
+    @ccall $(symbol(:pnpbs_placement_get_triangles))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},
+        triangles::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_boundary_edges(placement, capacity, count, edges, tags) =
+    @ccall $(symbol(:pnpbs_placement_get_boundary_edges))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, edges::Ptr{Int64},
+        tags::Ptr{Int32})::pnpbs_status
+
+pnpbs_placement_get_int64(placement, key, value) =
+    @ccall $(symbol(:pnpbs_placement_get_int64))(
+        placement::pnpbs_placement, key::Cstring, value::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_double(placement, key, value) =
+    @ccall $(symbol(:pnpbs_placement_get_double))(
+        placement::pnpbs_placement, key::Cstring, value::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_get_string(placement, key, value) =
+    @ccall $(symbol(:pnpbs_placement_get_string))(
+        placement::pnpbs_placement, key::Cstring, value::Ptr{Cstring})::pnpbs_status
+
+pnpbs_placement_warning_count(placement, count) =
+    @ccall $(symbol(:pnpbs_placement_warning_count))(
+        placement::pnpbs_placement, count::Ptr{Int32})::pnpbs_status
+
+pnpbs_placement_get_warning(placement, index, text) =
+    @ccall $(symbol(:pnpbs_placement_get_warning))(
+        placement::pnpbs_placement, index::Int32, text::Ptr{Cstring})::pnpbs_status
+
+# ---------------------------------------------------------------- files ----------------------
+pnpbs_placement_write(placement, path, elements) =
+    @ccall $(symbol(:pnpbs_placement_write))(
+        placement::pnpbs_placement, path::Cstring, elements::Int32)::pnpbs_status
+
+pnpbs_placement_write_files(placement, n, paths, formats, elements) =
+    @ccall $(symbol(:pnpbs_placement_write_files))(
+        placement::pnpbs_placement, n::Int32, paths::Ptr{Cstring}, formats::Ptr{Cstring},
+        elements::Ptr{Int32})::pnpbs_status
+
+pnpbs_discard_unfinished_files() =
+    @ccall $(symbol(:pnpbs_discard_unfinished_files))()::pnpbs_status
+
+end

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+Parallel node placement by bubble simulation: given a domain and a node-spacing function d(x), it
+returns nodes whose mutual distances follow d, with their adjacency lists, boundary tags and
+Delaunay stars, the same ones for any number of threads and MPI ranks.
+
+    using PNPBS
+    Context() do context
+        domain = Domain(context)
+        add_polyline!(domain, [0 1 1 0; 0 0 1 1])
+        placement = Placement(domain)
+        set_spacing!(placement, 0.05)
+        run!(placement)
+        nodes(placement).points
+    end
+
+Points are columns of `(2, n)` matrices; local indices and offsets count from 1, global ids and MPI
+ranks from 0. "Collective" functions must be called by all ranks of the context in the same order,
+and throw on all of them or on none; "local" ones need not. One task at a time may use a context.
+"""
+module PNPBS
+
+using Libdl
+
+export Context, Domain, Placement, CompressedRows, PNPBSError
+export set!, set_spacing!, set_monitor!, set_nodes!
+export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_fixed_nodes!
+export read_poly!, parse_poly!, check_domain, bounds, measure, outline
+export initialise!, run!, step!, adjust_population!, rebalance!
+export node_count, nodes, ghost_count, ghosts, exchange_pattern, numbering
+export adjacency, stars, triangles, boundary_edges
+export statistic, statistics, warnings, write_file, write_files
+export option_table, statistic_table, format_table, library_version, build_info, mpi_library
+
+include("LibPNPBS.jl")
+include("errors.jl")
+include("rows.jl")
+include("callbacks.jl")
+include("context.jl")
+include("domain.jl")
+include("placement.jl")
+include("results.jl")
+include("tables.jl")
+include("mpi.jl")
+
+__init__() = make_callback_pointers()
+
+end

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Julia functions as the library's callbacks. A static trampoline gets the function through the
+# `user` pointer (closures in @cfunction do not exist on every processor). No exception may pass
+# through the library: the trampoline keeps it in the context and returns nonzero, and `check`
+# throws it when the call has come back.
+
+# Mutable, because its address is what the library holds; whoever hands it over keeps it alive.
+mutable struct Callback
+    f::Any
+    context::Any
+end
+
+user_pointer(callback::Callback) = pointer_from_objref(callback)
+
+# Calls `f(callback)`, whose result is the library's, unless an exception is on its way already.
+function guarded(f, user::Ptr{Cvoid})
+    callback = unsafe_pointer_to_objref(user)::Callback
+    callback.context.exception === nothing || return Int32(1)
+    try
+        return Int32(f(callback))
+    catch e
+        callback.context.exception = Some(e)
+        return Int32(1)
+    end
+end
+
+# Copies, so that a function that keeps or changes its argument does no harm.
+copied(values::Ptr{Float64}, size...) = copy(unsafe_wrap(Array, values, size))
+
+function store!(out::Ptr{Float64}, values::AbstractArray{<:Real}, wanted, what)
+    size(values) == wanted || throw(DimensionMismatch(
+        "the $what function returned an array of size $(size(values)); $wanted was expected"))
+    copyto!(unsafe_wrap(Array, out, wanted), values)
+    return nothing
+end
+
+function store!(out::Ptr{Float64}, value, wanted, what)
+    throw(ArgumentError("the $what function returned $(repr(value)); an array of numbers of size " *
+                        "$wanted was expected"))
+end
+
+function call_spacing(n::Int64, dim::Int32, xyz::Ptr{Float64}, d::Ptr{Float64}, user::Ptr{Cvoid})
+    n == 0 && return Int32(0)
+    return guarded(user) do callback
+        values = callback.f(copied(xyz, Int(dim), Int(n)))
+        store!(d, values, (Int(n),), "spacing")
+        return 0
+    end
+end
+
+function call_curve(n::Int64, t::Ptr{Float64}, xy::Ptr{Float64}, user::Ptr{Cvoid})
+    n == 0 && return Int32(0)
+    return guarded(user) do callback
+        points = callback.f(copied(t, Int(n)))
+        store!(xy, points, (2, Int(n)), "curve")
+        return 0
+    end
+end
+
+# Only `true` stops: a monitor that ends with a print returns nothing.
+function call_monitor(fraction::Float64, step::Int64, nodes::Int64, max_speed::Float64,
+                      user::Ptr{Cvoid})
+    return guarded(callback -> callback.f(fraction, step, nodes, max_speed) === true, user)
+end
+
+# Pointers are of this process, so they are made when the package is loaded.
+const spacing_pointer = Ref{Ptr{Cvoid}}(C_NULL)
+const curve_pointer = Ref{Ptr{Cvoid}}(C_NULL)
+const monitor_pointer = Ref{Ptr{Cvoid}}(C_NULL)
+
+function make_callback_pointers()
+    spacing_pointer[] = @cfunction(call_spacing, Int32,
+                                   (Int64, Int32, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}))
+    curve_pointer[] = @cfunction(call_curve, Int32,
+                                 (Int64, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}))
+    monitor_pointer[] = @cfunction(call_monitor, Int32,
+                                   (Float64, Int64, Int64, Float64, Ptr{Cvoid}))
+    return nothing
+end

@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""
+    Domain(context::Context; dim = 2)
+
+An empty domain in the plane, to which curves, holes and fixed nodes are added. What lies behind an
+odd number of boundary curves is inside; holes and islands nest to any depth. Every function on
+domains is local, and its points are the columns of a `(2, n)` matrix.
+
+A curve's `role` is `:boundary`, which separates inside from outside, or `:inner`, which lies in the
+domain and which the nodes follow. Its `tag` is a nonzero integer that marks the nodes on it.
+"""
+mutable struct Domain
+    handle::LibPNPBS.pnpbs_domain
+    context::Context
+    callbacks::Vector{Callback}
+end
+
+function Domain(context::Context; dim::Integer = 2)
+    handle = Ref{LibPNPBS.pnpbs_domain}(C_NULL)
+    check(context, LibPNPBS.pnpbs_domain_create(live(context), dim, handle))
+    domain = Domain(handle[], context, Callback[])
+    push!(context.children, domain)
+    return domain
+end
+
+Base.isopen(domain::Domain) = domain.handle != C_NULL
+
+function Base.close(domain::Domain)
+    isopen(domain) || return nothing
+    check(domain.context, LibPNPBS.pnpbs_domain_destroy(Ref(domain.handle)))
+    domain.handle = C_NULL
+    forget!(domain.context, domain)
+    return nothing
+end
+
+Base.show(io::IO, domain::Domain) = print(io, "PNPBS.Domain(", isopen(domain) ? "" : "closed", ")")
+
+function role_number(role::Symbol)
+    role === :boundary && return LibPNPBS.PNPBS_BOUNDARY
+    role === :inner && return LibPNPBS.PNPBS_INNER
+    throw(ArgumentError("role is :$role; :boundary or :inner was expected"))
+end
+
+"""
+    add_polyline!(domain, xy; closed = true, role = :boundary, tags = nothing, corner_angle = 0)
+
+Adds straight segments through the columns of `xy`; `closed` leads one from the last to the first.
+`tags` is one for all segments or one for each. With `corner_angle = 0` every vertex becomes a
+node; otherwise those where the direction turns by more than so many degrees, and between them the
+polyline stands for a smooth curve.
+"""
+function add_polyline!(domain::Domain, xy::AbstractMatrix{<:Real}; closed::Bool = true,
+                       role::Symbol = :boundary, tags = nothing, corner_angle::Real = 0)
+    points = as_points(xy, "xy")
+    n = size(points, 2)
+    segment_tags = as_tags(tags, closed ? n : max(n - 1, 0), "tags")
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_polyline(live(domain), role_number(role), closed, n, points,
+                                             segment_tags, corner_angle))
+    return domain
+end
+
+"""
+    add_arc!(domain, centre, radius; from = 0, to = 2pi, role = :boundary, tag = 1)
+
+Adds a circular arc between two angles in radians; a full circle by default. Its ends join curves
+that end at the same point.
+"""
+function add_arc!(domain::Domain, centre, radius::Real; from::Real = 0, to::Real = 2pi,
+                  role::Symbol = :boundary, tag::Integer = 1)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_arc(live(domain), role_number(role), as_point(centre, "centre"),
+                                        radius, from, to, tag))
+    return domain
+end
+
+"""
+    add_curve!(f, domain, from, to; role = :boundary, tag = 1)
+
+Adds the curve of a function: `f(t)` gets a vector of parameters between `from` and `to` and returns
+the points as a `(2, length(t))` matrix. It must always give the same point for the same parameter,
+be continuous, and not cross itself. Corners are where curves meet.
+
+    add_curve!(domain, 0, 2pi) do t
+        [cos.(t) 0.5 .* sin.(t)]'
+    end
+"""
+function add_curve!(f, domain::Domain, from::Real, to::Real; role::Symbol = :boundary,
+                    tag::Integer = 1)
+    callback = Callback(f, domain.context)
+    GC.@preserve callback begin
+        code = LibPNPBS.pnpbs_domain_add_curve(live(domain), role_number(role), curve_pointer[],
+                                               user_pointer(callback), from, to, tag)
+    end
+    check(domain.context, code)
+    push!(domain.callbacks, callback)
+    return domain
+end
+
+"""
+    add_pslg!(domain, xy, segments; vertex_tags = nothing, segment_tags = nothing, holes = nothing)
+
+Adds a planar straight-line graph as Triangle means it: what the segments enclose is the domain,
+but for the regions that contain a hole point. `segments` is `(2, m)`, indices of columns of `xy`
+from 1; `holes` is `(2, h)`. Every vertex becomes a node.
+"""
+function add_pslg!(domain::Domain, xy::AbstractMatrix{<:Real}, segments::AbstractMatrix{<:Integer};
+                   vertex_tags = nothing, segment_tags = nothing,
+                   holes::Union{Nothing,AbstractMatrix{<:Real}} = nothing)
+    points = as_points(xy, "xy")
+    require_points(segments, "segments")
+    hole_points = holes === nothing ? zeros(2, 0) : as_points(holes, "holes")
+    n, m = size(points, 2), size(segments, 2)
+    ends = Matrix{Int64}(segments) .- 1
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_pslg(live(domain), n, points,
+                                         as_tags(vertex_tags, n, "vertex_tags"), m, ends,
+                                         as_tags(segment_tags, m, "segment_tags"),
+                                         size(hole_points, 2), hole_points))
+    return domain
+end
+
+"""
+    add_hole!(domain, point)
+
+Removes the region around a point from the domain.
+"""
+function add_hole!(domain::Domain, point)
+    check(domain.context, LibPNPBS.pnpbs_domain_add_hole(live(domain), as_point(point, "point")))
+    return domain
+end
+
+"""
+    add_fixed_nodes!(domain, xy; tags = nothing)
+
+Adds nodes that must appear exactly, inside the domain or on a vertex of its curves.
+"""
+function add_fixed_nodes!(domain::Domain, xy::AbstractMatrix{<:Real}; tags = nothing)
+    points = as_points(xy, "xy")
+    n = size(points, 2)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_fixed_nodes(live(domain), n, points, as_tags(tags, n, "tags")))
+    return domain
+end
+
+"""
+    read_poly!(domain, path)
+
+Adds what a file of Triangle's .poly format describes.
+"""
+function read_poly!(domain::Domain, path::AbstractString)
+    check(domain.context, LibPNPBS.pnpbs_domain_read_poly(live(domain), path))
+    return domain
+end
+
+"""
+    parse_poly!(domain, text; name = "text")
+
+Adds what a text in Triangle's .poly format describes; messages call it `name`.
+"""
+function parse_poly!(domain::Domain, text::AbstractString; name::AbstractString = "text")
+    bytes = String(text)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_parse_poly(live(domain), bytes, sizeof(bytes), name))
+    return domain
+end
+
+"""
+    check_domain(domain)
+
+Checks the whole geometry: duplicate vertices, crossings, open boundaries, hole points outside. A
+[`PNPBSError`](@ref) with status `:error_domain` names the vertex or segment. Placements check as
+well; asking early costs nothing extra.
+"""
+function check_domain(domain::Domain)
+    check(domain.context, LibPNPBS.pnpbs_domain_check(live(domain)))
+    return nothing
+end
+
+"""
+    bounds(domain) -> (low, high)
+
+The corners of the bounding box of the curves.
+"""
+function bounds(domain::Domain)
+    low, high = zeros(2), zeros(2)
+    check(domain.context, LibPNPBS.pnpbs_domain_bounds(live(domain), low, high))
+    return low, high
+end
+
+"""
+    measure(domain) -> Float64
+
+The area of the inside.
+"""
+function measure(domain::Domain)
+    area = Ref(0.0)
+    check(domain.context, LibPNPBS.pnpbs_domain_measure(live(domain), area))
+    return area[]
+end
+
+"""
+    outline(domain) -> (segments, tags)
+
+Straight segments that show the domain, curves finely sampled, for pictures: `segments[:, 1, k]` and
+`segments[:, 2, k]` are the ends of the k-th.
+"""
+function outline(domain::Domain)
+    count = Ref{Int64}(0)
+    ask(capacity, segments, tags) =
+        check(domain.context, LibPNPBS.pnpbs_domain_get_segments(live(domain), capacity, count,
+                                                                 segments, tags))
+    ask(0, C_NULL, C_NULL)
+    segments, tags = zeros(2, 2, count[]), zeros(Int32, count[])
+    ask(count[], segments, tags)
+    return (segments = segments, tags = tags)
+end

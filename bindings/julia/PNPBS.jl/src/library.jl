@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Where the shared library is, and its functions by name. It is looked for when it is first needed,
+# so that an image made by precompilation never remembers a path.
+using Libdl
+
+const PACKAGE = Base.UUID("c5532396-b5c1-415c-b7a9-3fa63870194d")
+# The interface this package is written for. While the major version is 0, a new minor one may
+# change it.
+const INTERFACE = (0, 1)
+const opened = Ref{Ptr{Cvoid}}(C_NULL)
+const opened_path = Ref("")
+
+# LocalPreferences.toml, from Julia 1.6 on.
+function preferred_library()
+    isdefined(Base, :get_preferences) || return nothing
+    return get(Base.get_preferences(PACKAGE), "library", nothing)
+end
+
+# An installed package lies in <prefix>/share/pnpbs/julia/PNPBS.jl, the library in <prefix>/lib.
+function installed_beside()
+    prefix = normpath(@__DIR__, "..", "..", "..", "..", "..")
+    folders = [joinpath(prefix, "lib"), joinpath(prefix, "lib64"),
+               joinpath(prefix, "lib", "$(Sys.ARCH)-linux-gnu")]
+    names = joinpath.(folders, "libpnpbs.$(Libdl.dlext)")
+    found = findfirst(isfile, names)
+    return found === nothing ? nothing : names[found]
+end
+
+"""
+    LibPNPBS.library_path() -> String
+
+The path or name of the library that is opened, or would be: the environment variable
+`PNPBS_LIBRARY`, or the preference `library`, or the library that this package was installed with,
+or whatever the system finds as `libpnpbs`.
+"""
+function library_path()
+    isempty(opened_path[]) || return opened_path[]
+    for candidate in (get(ENV, "PNPBS_LIBRARY", nothing), preferred_library(), installed_beside())
+        (candidate === nothing || isempty(candidate)) || return String(candidate)
+    end
+    # By the name its users are linked with: the one without a number comes with development only.
+    return Sys.islinux() ? "libpnpbs.so.0" : "libpnpbs"
+end
+
+# Two different interfaces must not meet: what would come of it is a crash.
+function require_interface(major, minor, path)
+    (major, minor) == INTERFACE ||
+        error("$path is PNPBS $major.$minor, but this package is for $(join(INTERFACE, '.')); ",
+              "use the package of the same version")
+    return nothing
+end
+
+function require_version(library, path)
+    major, minor = Ref{Int32}(), Ref{Int32}()
+    ccall(dlsym(library, :pnpbs_version), Int32, (Ptr{Int32}, Ptr{Int32}, Ptr{Int32}), major, minor,
+          C_NULL)
+    return require_interface(major[], minor[], path)
+end
+
+function open_library()
+    path = library_path()
+    library = try
+        dlopen(path, RTLD_LAZY | RTLD_LOCAL)
+    catch e
+        error("cannot open the PNPBS library \"$path\": $(sprint(showerror, e))\n",
+              "Set the environment variable PNPBS_LIBRARY (or the preference `library` of PNPBS) ",
+              "to the path of libpnpbs.$(Libdl.dlext), or put its folder into the loader's ",
+              "search path.")
+    end
+    require_version(library, path)
+    opened_path[] = path
+    opened[] = library
+    return library
+end
+
+symbol(name::Symbol) = dlsym(opened[] == C_NULL ? open_library() : opened[], name)

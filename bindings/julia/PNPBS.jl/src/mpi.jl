@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Contexts on communicators of MPI.jl. Nothing here needs MPI.jl to be loaded: an extension hands its
+# module over where Julia has extensions (1.9 and later); elsewhere it is looked for when needed.
+
+const MPI_PACKAGE = Base.PkgId(Base.UUID("da04e1cc-30fd-572f-bb4f-1f8673147195"), "MPI")
+
+# A C int is the Fortran handle itself (MPICH). Anything else (a pointer in Open MPI, an unsigned
+# integer in MPItrampoline) MPI converts; all are passed as integers of a pointer's size are.
+fortran_handle(MPI::Module, value::Cint) = value
+
+function fortran_handle(MPI::Module, value)
+    library = isdefined(MPI, :API) ? MPI.API.libmpi : MPI.libmpi
+    convert_handle = Libdl.dlsym(Libdl.dlopen(library), :MPI_Comm_c2f)
+    return ccall(convert_handle, Cint, (UInt,), UInt(value))
+end
+
+# Open contexts that MPI.Finalize must end, in the order in which they were made: the same one on
+# all ranks.
+const contexts_of_mpi = Context[]
+
+function close_contexts_of_mpi()
+    foreach(close, copy(contexts_of_mpi))
+    empty!(contexts_of_mpi)
+    return nothing
+end
+
+function close_with_mpi(MPI::Module, context)
+    filter!(isopen, contexts_of_mpi)
+    if isempty(contexts_of_mpi) && isdefined(MPI, :add_finalize_hook!)
+        MPI.add_finalize_hook!(close_contexts_of_mpi)
+    end
+    push!(contexts_of_mpi, context)
+    return nothing
+end
+
+# MPI.Comm's value means something only while MPI runs; otherwise the library says what is wrong.
+function context_on(MPI::Module, comm; options...)
+    running = MPI.Initialized() && !MPI.Finalized()
+    handle = running ? fortran_handle(MPI, comm.val) : Int32(0)
+    context = Context(handle; library = MPI.Get_library_version())
+    close_with_mpi(MPI, context)
+    return set!(context; options...)
+end
+
+# Before Julia 1.9, and where a later one has not loaded the extension. The extension's method is
+# the more specific one.
+function Context(comm; options...)
+    MPI = get(Base.loaded_modules, MPI_PACKAGE, nothing)
+    MPI !== nothing && comm isa MPI.Comm || throw(ArgumentError(
+        "a context takes a communicator of MPI.jl or a Fortran handle, not a $(typeof(comm))"))
+    return context_on(MPI, comm; options...)
+end

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""
+    Placement(domain::Domain; options...)
+
+A placement of nodes in a domain, on the domain's context. Options are as in [`set!`](@ref); the
+others are those of the context. Set a spacing ([`set_spacing!`](@ref)), then [`run!`](@ref).
+Collective.
+"""
+mutable struct Placement
+    handle::LibPNPBS.pnpbs_placement
+    context::Context
+    domain::Domain
+    # Kept alive: the library holds their addresses. The nodes there are remember the spacing that
+    # they were placed with, so a spacing that is replaced is needed until the next run.
+    spacing::Union{Callback,Nothing}
+    spacings_before::Vector{Callback}
+    monitor::Union{Callback,Nothing}
+end
+
+function Placement(domain::Domain; options...)
+    context = domain.context
+    handle = Ref{LibPNPBS.pnpbs_placement}(C_NULL)
+    check(context, LibPNPBS.pnpbs_placement_create(live(context), live(domain), handle))
+    placement = Placement(handle[], context, domain, nothing, Callback[], nothing)
+    push!(context.children, placement)
+    try
+        return set!(placement; options...)
+    catch
+        close(placement)
+        rethrow()
+    end
+end
+
+Base.isopen(placement::Placement) = placement.handle != C_NULL
+
+function Base.close(placement::Placement)
+    isopen(placement) || return nothing
+    check(placement, LibPNPBS.pnpbs_placement_destroy(Ref(placement.handle)))
+    placement.handle = C_NULL
+    forget!(placement.context, placement)
+    return nothing
+end
+
+function Base.show(io::IO, placement::Placement)
+    what = isopen(placement) ? "$(node_count(placement)) nodes here" : "closed"
+    print(io, "PNPBS.Placement(", what, ")")
+end
+
+check(placement::Placement, code) = check(placement.context, code)
+
+function set!(placement::Placement; options...)
+    for (key, value) in options
+        check(placement, set_placement_option(live(placement), string(key), value))
+    end
+    return placement
+end
+
+set_placement_option(handle, key, value::Integer) =
+    LibPNPBS.pnpbs_placement_set_int64(handle, key, value)
+set_placement_option(handle, key, value::Real) =
+    LibPNPBS.pnpbs_placement_set_double(handle, key, value)
+set_placement_option(handle, key, value) =
+    LibPNPBS.pnpbs_placement_set(handle, key, string(value))
+
+# ---------------------------------------------------------------- spacing -----------------------
+"""
+    set_spacing!(placement, d::Real)
+    set_spacing!(f, placement)
+    set_spacing!(placement, values::AbstractMatrix; origin, step)
+    set_spacing!(placement, d::AbstractVector)
+
+The node spacing d(x), the wanted distance between neighbouring nodes about x. On a placement that
+has nodes the spacing is replaced: the nodes stay, and the next run starts from them. Collective.
+
+- A number: the same everywhere.
+- A function: `f(x)` gets points as the columns of a `(2, n)` matrix and returns a vector of n
+  values. It must always give the same value for the same point, and is asked for different points
+  on different ranks, so nothing collective may happen inside. An exception that it throws comes
+  out of the call in progress.
+- A matrix: values on a rectangular grid whose first point is `origin`, with distances `step`; the
+  first index goes along x. Linear between the grid's points, constant beyond its edge.
+- A vector: values at the nodes of this rank, in the order of [`nodes`](@ref); linear on each
+  triangle of their triangulation.
+
+For example
+
+    set_spacing!(placement) do x
+        0.01 .+ 0.05 .* hypot.(x[1, :], x[2, :])
+    end
+"""
+function set_spacing!(placement::Placement, d::Real)
+    check(placement, LibPNPBS.pnpbs_placement_set_spacing_constant(live(placement), d))
+    return keep_spacing!(placement, nothing)
+end
+
+function set_spacing!(f, placement::Placement)
+    callback = Callback(f, placement.context)
+    GC.@preserve callback begin
+        code = LibPNPBS.pnpbs_placement_set_spacing_callback(live(placement), spacing_pointer[],
+                                                             user_pointer(callback))
+    end
+    check(placement, code)
+    return keep_spacing!(placement, callback)
+end
+
+function set_spacing!(placement::Placement, values::AbstractMatrix{<:Real}; origin, step)
+    check(placement,
+          LibPNPBS.pnpbs_placement_set_spacing_grid(live(placement), Int64[size(values)...],
+                                                    as_point(origin, "origin"),
+                                                    as_point(step, "step"),
+                                                    convert(Matrix{Float64}, values)))
+    return keep_spacing!(placement, nothing)
+end
+
+function set_spacing!(placement::Placement, d::AbstractVector{<:Real})
+    # A wrong length is the library's to find: it tells all ranks.
+    check(placement,
+          LibPNPBS.pnpbs_placement_set_spacing_at_nodes(live(placement), length(d),
+                                                        convert(Vector{Float64}, d)))
+    return keep_spacing!(placement, nothing)
+end
+
+function keep_spacing!(placement, callback)
+    placement.spacing === nothing || push!(placement.spacings_before, placement.spacing)
+    placement.spacing = callback
+    return placement
+end
+
+"""
+    set_monitor!(f, placement)
+    set_monitor!(placement, nothing)
+
+Calls `f(fraction, step, nodes, max_speed)` now and then during a run; when it returns `true`, the
+run ends early with valid nodes and the outcome `:stopped`. Anything else goes on. The second form
+removes the monitor. Local.
+"""
+function set_monitor!(f, placement::Placement)
+    callback = Callback(f, placement.context)
+    GC.@preserve callback begin
+        code = LibPNPBS.pnpbs_placement_set_monitor(live(placement), monitor_pointer[],
+                                                    user_pointer(callback))
+    end
+    check(placement, code)
+    placement.monitor = callback
+    return placement
+end
+
+function set_monitor!(placement::Placement, ::Nothing)
+    check(placement, LibPNPBS.pnpbs_placement_set_monitor(live(placement), C_NULL, C_NULL))
+    placement.monitor = nothing
+    return placement
+end
+
+"""
+    set_nodes!(placement, xy; ids = nothing)
+
+Inner nodes to start from instead of the library's own: the columns of `xy`, on any ranks, with
+distinct global ids from 0 on if `ids` are given. The boundary is laid by the library. Clears the
+nodes there are. Collective.
+"""
+function set_nodes!(placement::Placement, xy::AbstractMatrix{<:Real};
+                    ids::Union{Nothing,AbstractVector{<:Integer}} = nothing)
+    points = as_points(xy, "xy")
+    n = size(points, 2)
+    wrong = ids !== nothing && length(ids) != n
+    # Where the ids are too many or too few on one rank, the library hears of it, and so do the
+    # other ranks, which would wait otherwise.
+    given = ids === nothing ? C_NULL : convert(Vector{Int64}, ids)
+    code = LibPNPBS.pnpbs_placement_set_nodes(live(placement), wrong ? -1 : n, points, given)
+    wrong && require_length(ids, n, "ids")
+    check(placement, code)
+    return placement
+end
+
+# ---------------------------------------------------------------- running -----------------------
+"""
+    initialise!(placement)
+
+Checks domain and spacing and lays the nodes that the simulation starts from. [`run!`](@ref) and
+[`step!`](@ref) do it where it is needed. Collective.
+"""
+function initialise!(placement::Placement)
+    check(placement, LibPNPBS.pnpbs_placement_initialise(live(placement)))
+    return placement
+end
+
+"""
+    run!(placement) -> Symbol
+
+Places the nodes: the whole job. Run again, after another spacing perhaps, it starts from the nodes
+there are. The outcome is `:ok`; `:not_converged` if the step limit came before the bubbles rested,
+which is no failure; or `:stopped` by the monitor. In all three cases the nodes are valid.
+Collective.
+"""
+function run!(placement::Placement)
+    outcome = check(placement, LibPNPBS.pnpbs_placement_run(live(placement)))
+    empty!(placement.spacings_before)
+    return outcome
+end
+
+"""
+    step!(placement, n = 1) -> Symbol
+
+Advances the simulation by n steps. The outcome is as in [`run!`](@ref), `:ok` when the bubbles
+rest. Collective.
+"""
+step!(placement::Placement, n::Integer = 1) =
+    check(placement, LibPNPBS.pnpbs_placement_step(live(placement), n))
+
+"""
+    adjust_population!(placement) -> (inserted, deleted)
+
+Deletes nodes where they are too dense and inserts where they are too sparse, once, now. Collective.
+"""
+function adjust_population!(placement::Placement)
+    inserted, deleted = Ref{Int64}(0), Ref{Int64}(0)
+    check(placement,
+          LibPNPBS.pnpbs_placement_adjust_population(live(placement), inserted, deleted))
+    return (inserted = inserted[], deleted = deleted[])
+end
+
+"""
+    rebalance!(placement)
+
+Deals the work out to the ranks anew. The nodes stay as they are; who owns them changes. A run does
+so by itself where it pays. Collective.
+"""
+function rebalance!(placement::Placement)
+    check(placement, LibPNPBS.pnpbs_placement_rebalance(live(placement)))
+    return placement
+end

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What a placement holds, copied out. Local indices count this rank's nodes from 1, then its ghosts;
+# global ids are the library's, from 0, the same for any number of ranks.
+
+"""
+    node_count(placement) -> Int
+
+The number of nodes of this rank. Local.
+"""
+function node_count(placement::Placement)
+    n = Ref{Int64}(0)
+    check(placement, LibPNPBS.pnpbs_placement_count(live(placement), n))
+    return Int(n[])
+end
+
+"""
+    nodes(placement) -> (points, ids, tags, spacing)
+
+The nodes of this rank in their local order: `points` is `(2, n)`; `ids` are global; `tags` are 0
+for inner nodes and otherwise that of the boundary, curve or fixed node; `spacing` is d at the
+node. Local.
+"""
+function nodes(placement::Placement)
+    n = node_count(placement)
+    points, ids = zeros(2, n), zeros(Int64, n)
+    tags, spacing = zeros(Int32, n), zeros(n)
+    check(placement, LibPNPBS.pnpbs_placement_get_nodes(live(placement), n, points, ids, tags,
+                                                        spacing))
+    return (points = points, ids = ids, tags = tags, spacing = spacing)
+end
+
+"""
+    ghost_count(placement) -> Int
+
+The number of ghosts: nodes of other ranks that this rank sees near its own. Collective.
+"""
+function ghost_count(placement::Placement)
+    n = Ref{Int64}(0)
+    check(placement, LibPNPBS.pnpbs_placement_ghost_count(live(placement), n))
+    return Int(n[])
+end
+
+"""
+    ghosts(placement) -> (points, ids, tags, spacing, owners)
+
+The ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars and triangles
+ghost g has the local index `node_count(placement) + g`. Collective.
+"""
+function ghosts(placement::Placement)
+    n = ghost_count(placement)
+    points, ids = zeros(2, n), zeros(Int64, n)
+    tags, spacing, owners = zeros(Int32, n), zeros(n), zeros(Int32, n)
+    check(placement, LibPNPBS.pnpbs_placement_get_ghosts(live(placement), n, points, ids, tags,
+                                                         spacing, owners))
+    return (points = points, ids = ids, tags = tags, spacing = spacing, owners = owners)
+end
+
+"""
+    exchange_pattern(placement) -> (ranks, send, receive)
+
+How values at nodes reach their ghosts on other ranks: send the values at the nodes `send[k]` to
+`ranks[k]`, and put what comes from there into `receive[k]`, in the same order. `send` and
+`receive` are [`CompressedRows`](@ref) of local indices; ranks count from 0, as MPI's do. Right
+until nodes move. Collective.
+"""
+function exchange_pattern(placement::Placement)
+    neighbours, sends, receives = Ref{Int32}(0), Ref{Int64}(0), Ref{Int64}(0)
+    check(placement, LibPNPBS.pnpbs_placement_exchange_sizes(live(placement), neighbours, sends,
+                                                             receives))
+    ranks = zeros(Int32, neighbours[])
+    send_offsets, send_nodes = zeros(Int64, neighbours[] + 1), zeros(Int64, sends[])
+    receive_offsets, receive_nodes = zeros(Int64, neighbours[] + 1), zeros(Int64, receives[])
+    check(placement, LibPNPBS.pnpbs_placement_get_exchange(live(placement), neighbours[], sends[],
+                                                           receives[], ranks, send_offsets,
+                                                           send_nodes, receive_offsets,
+                                                           receive_nodes))
+    return (ranks = ranks, send = rows_of_indices(send_offsets, send_nodes),
+            receive = rows_of_indices(receive_offsets, receive_nodes))
+end
+
+"""
+    numbering(placement) -> (first, count, ghosts)
+
+Numbers that are contiguous per rank, from 0 over all ranks, as PETSc and hypre want them: local
+node i has the number `first + i - 1`, and ghost g has `ghosts[g]`. Unlike the ids they depend on
+the ranks. Collective.
+"""
+function numbering(placement::Placement)
+    first, count = Ref{Int64}(0), Ref{Int64}(0)
+    numbers = zeros(Int64, ghost_count(placement))
+    check(placement, LibPNPBS.pnpbs_placement_get_numbering(live(placement), length(numbers), first,
+                                                            count, numbers))
+    return (first = first[], count = count[], ghosts = numbers)
+end
+
+"""
+    adjacency(placement) -> CompressedRows{Int64}
+
+The adjacency lists: row i has the local indices of the nodes within `adjacency_radius` of node i,
+in the order of global ids. Pairs that a boundary separates are not neighbours. Collective.
+"""
+function adjacency(placement::Placement)
+    entries = Ref{Int64}(0)
+    check(placement, LibPNPBS.pnpbs_placement_adjacency_size(live(placement), entries))
+    offsets, neighbours = zeros(Int64, node_count(placement) + 1), zeros(Int64, entries[])
+    check(placement, LibPNPBS.pnpbs_placement_get_adjacency(live(placement), entries[], offsets,
+                                                            neighbours))
+    return rows_of_indices(offsets, neighbours)
+end
+
+"""
+    stars(placement) -> (neighbours, triangle)
+
+Each node's star in the constrained Delaunay triangulation of the domain. `neighbours[i]` has the
+local indices of node i's neighbours, counter-clockwise; `triangle[i][k]` tells whether the node,
+its k-th neighbour and the next one around are a triangle of the domain, or whether a gap lies
+between them. Both are [`CompressedRows`](@ref). Collective.
+"""
+function stars(placement::Placement)
+    entries = Ref{Int64}(0)
+    check(placement, LibPNPBS.pnpbs_placement_star_size(live(placement), entries))
+    offsets, neighbours = zeros(Int64, node_count(placement) + 1), zeros(Int64, entries[])
+    triangle = zeros(Int8, entries[])
+    check(placement, LibPNPBS.pnpbs_placement_get_stars(live(placement), entries[], offsets,
+                                                        neighbours, triangle))
+    rows = rows_of_indices(offsets, neighbours)
+    flags = CompressedRows(rows.offsets, Vector{Bool}(triangle .!= 0))
+    return (neighbours = rows, triangle = flags)
+end
+
+"""
+    triangles(placement) -> Matrix{Int64}
+
+The triangles, `(3, n)` local indices, counter-clockwise, each once: a triangle is the rank's that
+owns its node with the least id, other corners may be ghosts. Collective.
+"""
+function triangles(placement::Placement)
+    count = Ref{Int64}(0)
+    ask(capacity, corners) =
+        check(placement, LibPNPBS.pnpbs_placement_get_triangles(live(placement), capacity, count,
+                                                                corners))
+    ask(0, C_NULL)
+    corners = zeros(Int64, 3, count[])
+    ask(count[], corners)
+    return corners .+= 1
+end
+
+"""
+    boundary_edges(placement) -> (edges, tags)
+
+The edges between consecutive nodes on boundary and inner curves: `(2, n)` local indices, and the
+tags of the curves. An edge is the rank's that owns its first node. Local.
+"""
+function boundary_edges(placement::Placement)
+    count = Ref{Int64}(0)
+    ask(capacity, edges, tags) =
+        check(placement, LibPNPBS.pnpbs_placement_get_boundary_edges(live(placement), capacity,
+                                                                     count, edges, tags))
+    ask(0, C_NULL, C_NULL)
+    edges, tags = zeros(Int64, 2, count[]), zeros(Int32, count[])
+    ask(count[], edges, tags)
+    return (edges = edges .+= 1, tags = tags)
+end
+
+# ---------------------------------------------------------------- statistics --------------------
+"""
+    statistic(placement, key)
+
+A statistic by its name, such as `"nodes"`, `"hash"` or `:imbalance`: an `Int64`, a `Float64` or a
+`String`. [`statistic_table`](@ref) lists them. Collective.
+"""
+function statistic(placement::Placement, key)
+    name = string(key)
+    row = findfirst(row -> row.name == name, statistic_table())
+    return statistic(placement, name, row === nothing ? "real" : statistic_table()[row].type)
+end
+
+function statistic(placement::Placement, name, type)
+    if type == "integer"
+        value = Ref{Int64}(0)
+        check(placement, LibPNPBS.pnpbs_placement_get_int64(live(placement), name, value))
+        return value[]
+    elseif type == "real"
+        real = Ref(0.0)
+        check(placement, LibPNPBS.pnpbs_placement_get_double(live(placement), name, real))
+        return real[]
+    else
+        text = Ref{Cstring}()
+        check(placement, LibPNPBS.pnpbs_placement_get_string(live(placement), name, text))
+        return string_or_empty(text[])
+    end
+end
+
+"""
+    statistics(placement) -> Dict{String,Any}
+
+All statistics, by name. Collective.
+"""
+statistics(placement::Placement) =
+    Dict{String,Any}(row.name => statistic(placement, row.name, row.type)
+                     for row in statistic_table())
+
+"""
+    warnings(placement) -> Vector{String}
+
+Warnings about domain and spacing: a feature smaller than the spacing, an unused vertex. Local.
+"""
+function warnings(placement::Placement)
+    count = Ref{Int32}(0)
+    check(placement, LibPNPBS.pnpbs_placement_warning_count(live(placement), count))
+    return String[warning(placement, i) for i in 0:(count[] - 1)]
+end
+
+function warning(placement, i)
+    text = Ref{Cstring}()
+    check(placement, LibPNPBS.pnpbs_placement_get_warning(live(placement), i, text))
+    return string_or_empty(text[])
+end
+
+# ---------------------------------------------------------------- files -------------------------
+"""
+    write_file(placement, path; elements = false) -> Symbol
+
+Writes the nodes of all ranks, and the triangles if `elements`, into one file whose extension is its
+format ([`format_table`](@ref)): .vtu, .pvtu, .msh, .node, .ele, .csv. The file appears when it is
+complete. The outcome is `:ok`, or `:stopped` by the monitor, which leaves the old file. Collective.
+"""
+write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
+    check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path, elements))
+
+"""
+    write_files(placement, paths; formats = nothing, elements = false) -> Symbol
+
+Writes several files, which appear together when all are complete. `formats` are names of formats,
+or `nothing` (also for single ones) for those of the extensions; `elements` is one for all or one
+for each. Collective.
+"""
+function write_files(placement::Placement, paths::AbstractVector{<:AbstractString};
+                     formats::Union{Nothing,AbstractVector} = nothing, elements = false)
+    n = length(paths)
+    formats === nothing || require_length(formats, n, "formats")
+    elements isa Bool || require_length(elements, n, "elements")
+    # Strings of ours, kept alive while the library reads through the pointers to them.
+    own_paths = String.(paths)
+    own_formats = formats === nothing ? nothing :
+                  Union{String,Nothing}[f === nothing ? f : string(f) for f in formats]
+    GC.@preserve own_paths own_formats begin
+        code = LibPNPBS.pnpbs_placement_write_files(live(placement), n, c_strings(own_paths),
+                                                    own_formats === nothing ? C_NULL :
+                                                    c_strings(own_formats),
+                                                    elements isa Bool ? fill(Int32(elements), n) :
+                                                    Vector{Int32}(elements))
+    end
+    return check(placement, code)
+end
+
+c_strings(texts) = Cstring[text === nothing ? Cstring(C_NULL) :
+                           Base.unsafe_convert(Cstring, text) for text in texts]

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Over the ranks of MPI_COMM_WORLD, by its raw Fortran handle. Run by mpirun.
+using PNPBS
+using Test
+
+include("support.jl")
+include("open_mpi.jl")
+
+OpenMPI.init()
+const rank, ranks = OpenMPI.rank(), OpenMPI.size()
+const world = OpenMPI.fortran_handle(OpenMPI.world())
+
+@testset "the nodes are those of one process" begin
+    context = Context(world; library = OpenMPI.version())
+    placement = placed_square(context)
+    alone = Context(context -> statistic(placed_square(context), "hash"))
+    @test statistic(placement, "hash") == alone
+    @test OpenMPI.sum_over_ranks(Int64(node_count(placement))) == statistic(placement, "nodes")
+
+    # Triangles: each once over all ranks.
+    placed = nodes(placement)
+    b = OpenMPI.sum_over_ranks(Int64(count(!=(0), placed.tags)))
+    n = statistic(placement, "nodes")
+    @test OpenMPI.sum_over_ranks(Int64(size(triangles(placement), 2))) == 2n - b - 2
+    close(context)
+end
+
+@testset "ghosts and the exchange" begin
+    context = Context(world)
+    placement = placed_square(context)
+    own, others = nodes(placement), ghosts(placement)
+    n, g = node_count(placement), ghost_count(placement)
+    @test size(others.points) == (2, g) && (g > 0) == (ranks > 1)
+    @test all(others.owners .!= rank) && isempty(intersect(own.ids, others.ids))
+    @test others.spacing ≈ graded(others.points)
+    lists = adjacency(placement)
+    @test length(lists) == n && maximum(lists.entries) <= n + g
+    ids = [own.ids; others.ids]
+    points = [own.points others.points]
+    @test all(issorted(ids[list]) for list in lists)
+    @test all(hypot((points[:, i] - points[:, j])...) < 0.2 for i in 1:n for j in lists[i])
+
+    # Ids sent by the pattern arrive where the ghosts have them; so do the contiguous numbers.
+    pattern = exchange_pattern(placement)
+    numbers = numbering(placement)
+    @test numbers.count == n
+    mine = collect(numbers.first .+ (0:(n - 1)))
+    for (k, other) in enumerate(pattern.ranks)
+        places = pattern.receive[k]
+        @test all(others.owners[places .- n] .== other)
+        @test OpenMPI.exchange(own.ids[pattern.send[k]], other, length(places)) == ids[places]
+        @test OpenMPI.exchange(mine[pattern.send[k]], other, length(places)) ==
+              numbers.ghosts[places .- n]
+    end
+    close(context)
+end
+
+@testset "what fails on one rank fails on all" begin
+    context = Context(world)
+    placement = Placement(square_domain(context); steps = 20)
+    last_rank = ranks - 1
+    # Every rank is asked for some points; on the last one the function throws.
+    set_spacing!(placement) do x
+        rank == last_rank && error("not today")
+        fill(0.05, size(x, 2))
+    end
+    e = thrown(() -> run!(placement))
+    if rank == last_rank
+        @test e == ErrorException("not today")
+    else
+        @test e isa PNPBSError && e.status === :error_callback
+        @test occursin("rank $last_rank", e.message)
+    end
+    set_spacing!(placement, 0.05)
+    given = rank == last_rank ? [1, 2] : [10 + rank]
+    e = thrown(() -> set_nodes!(placement, reshape([0.5, 0.5 + rank / 10], 2, 1); ids = given))
+    @test rank == last_rank ? e isa DimensionMismatch :
+          e isa PNPBSError && e.status === :error_argument
+    e = thrown(() -> set_spacing!(placement, rank == last_rank ? -1 : 0.05))
+    @test e isa PNPBSError && e.status === :error_spacing && occursin("-1", e.message)
+    @test run!(placement) in (:ok, :not_converged)
+
+    # One rank's monitor stops all of them.
+    set_nodes!(placement, zeros(2, 0))
+    set!(placement; steps = 100)
+    set_monitor!((_...) -> rank == last_rank, placement)
+    @test run!(placement) === :stopped
+    close(context)
+end
+
+@testset "do over ranks" begin
+    kept = Ref{Any}()
+    # Every rank ends normally: closed. Where f throws, the others may never come.
+    Context(context -> (kept[] = context), world)
+    @test !isopen(kept[])
+    @test_throws ErrorException Context(context -> (kept[] = context; error("x")), world)
+    @test isopen(kept[])
+    close(kept[])
+end
+
+@testset "no communicator" begin
+    @test fails(() -> Context(OpenMPI.fortran_handle(OpenMPI.null())), :error_mpi)
+    @test fails(() -> Context(world; library = "Another MPI 1.0"), :error_mpi, "Another MPI 1.0")
+end
+
+const forgotten = Context(world)
+OpenMPI.finalize()
+
+@testset "after MPI has ended" begin
+    @test fails(() -> Context(world), :error_mpi, "finali")
+    close(forgotten)
+    @test !isopen(forgotten)
+    @test Context(context -> node_count(placed_square(context))) > 0
+end

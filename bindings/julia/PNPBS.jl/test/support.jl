@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What several tests need.
+
+# The exception that f throws, or nothing.
+function thrown(f)
+    try
+        f()
+        return nothing
+    catch e
+        return e
+    end
+end
+
+# Whether f throws the library's error of this status, with these words in its message.
+function fails(f, status::Symbol, words...)
+    e = thrown(f)
+    good = e isa PNPBSError && e.status === status && all(word -> occursin(word, e.message), words)
+    good || @info "not the error that was expected" status words e
+    return good
+end
+
+function square_domain(context)
+    domain = Domain(context)
+    return add_polyline!(domain, [0 1 1 0; 0 0 1 1])
+end
+
+graded(x) = 0.04 .+ 0.05 .* x[1, :]
+
+# Few steps: these tests are about the interface, not about quality.
+function placed_square(context; spacing = graded)
+    placement = Placement(square_domain(context); steps = 40)
+    set_spacing!(spacing, placement)
+    run!(placement)
+    return placement
+end

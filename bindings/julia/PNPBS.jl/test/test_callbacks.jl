@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Julia functions that the library calls, and what they throw.
+
+struct Unlucky <: Exception
+    point::Vector{Float64}
+end
+
+@testset "spacing functions" begin
+    Context() do context
+        placement = Placement(square_domain(context); steps = 20)
+        shapes = Set()
+        set_spacing!(placement) do x
+            push!(shapes, (typeof(x), size(x, 1)))
+            fill(0.1, size(x, 2))
+        end
+        GC.gc()
+        @test run!(placement) in (:ok, :not_converged)
+        @test shapes == Set([(Matrix{Float64}, 2)])
+        constant = Placement(placement.domain; steps = 20)
+        set_spacing!(constant, 0.1)
+        run!(constant)
+        @test statistic(constant, "hash") == statistic(placement, "hash")
+        # What it does to its argument is its own affair.
+        set_spacing!(x -> (x .= 7; fill(0.1, size(x, 2))), constant)
+        run!(set_nodes!(constant, zeros(2, 0)))
+        @test node_count(constant) > 0
+    end
+end
+
+@testset "exceptions come out as they are" begin
+    Context() do context
+        placement = Placement(square_domain(context); steps = 20)
+        set_spacing!(x -> throw(Unlucky(x[:, 1])), placement)
+        e = thrown(() -> run!(placement))
+        @test e isa Unlucky && length(e.point) == 2
+        # Nothing is left over: the next call works, and so does the next run.
+        @test node_count(placement) == 0
+        set_spacing!(x -> fill(0.1, size(x, 2)), placement)
+        @test run!(placement) in (:ok, :not_converged)
+
+        # An exception in a later run leaves the nodes as they were.
+        hash = statistic(placement, "hash")
+        set_spacing!(x -> error("no more"), placement)
+        @test_throws ErrorException("no more") run!(placement)
+        @test statistic(placement, "hash") == hash
+
+        # What a function returns is checked before the library sees it.
+        set_spacing!(x -> [0.1], placement)
+        @test_throws DimensionMismatch run!(placement)
+        set_spacing!(x -> fill(0.1, 1, size(x, 2)), placement)
+        @test_throws DimensionMismatch run!(placement)
+        set_spacing!(x -> 0.1, placement)
+        @test_throws ArgumentError run!(placement)
+        # Values are the library's to judge.
+        set_spacing!(x -> fill(NaN, size(x, 2)), placement)
+        @test fails(() -> run!(placement), :error_spacing, "nan")
+    end
+end
+
+@testset "monitors" begin
+    Context() do context
+        placement = Placement(square_domain(context); steps = 100)
+        set_spacing!(placement, 0.05)
+        seen = []
+        set_monitor!((arguments...) -> (push!(seen, arguments); nothing), placement)
+        @test run!(placement) in (:ok, :not_converged)
+        @test !isempty(seen) && seen[1] isa Tuple{Float64,Int64,Int64,Float64}
+        @test issorted(first.(seen)) && all(0 .<= first.(seen) .<= 1)
+
+        set_nodes!(placement, zeros(2, 0))
+        set_monitor!((fraction, step, n, speed) -> fraction > 0.3, placement)
+        @test run!(placement) === :stopped
+        @test node_count(placement) > 0
+
+        set_monitor!((_...) -> error("in the monitor"), placement)
+        @test_throws ErrorException("in the monitor") run!(placement)
+        set_monitor!(placement, nothing)
+        @test run!(placement) in (:ok, :not_converged)
+    end
+end
+
+@testset "curves" begin
+    Context() do context
+        domain = Domain(context)
+        @test_throws ErrorException("no curve") add_curve!(t -> error("no curve"), domain, 0, 1)
+        @test_throws DimensionMismatch add_curve!(t -> zeros(length(t), 2), domain, 0, 1)
+        # A curve that fails later, when a placement is initialised.
+        healthy = Ref(true)
+        add_curve!(domain, 0, 2pi) do t
+            healthy[] || error("worn out")
+            [cos.(t) sin.(t)]'
+        end
+        placement = Placement(domain; steps = 10)
+        set_spacing!(placement, 0.2)
+        healthy[] = false
+        @test_throws ErrorException("worn out") run!(placement)
+        healthy[] = true
+        # The function stays, though the domain is closed and forgotten.
+        close(domain)
+        GC.gc()
+        @test run!(placement) in (:ok, :not_converged)
+    end
+end
+
+@testset "inside a callback only queries work" begin
+    Context() do context
+        placement = Placement(square_domain(context); steps = 100)
+        set_spacing!(placement, 0.2)
+        for (forbidden, what) in ((() -> run!(placement), "run"), (() -> close(context), "close"),
+                                  (() -> set_spacing!(placement, 1), "set"))
+            inside = Any[nothing]
+            set_monitor!((_...) -> (inside[1] = thrown(forbidden); true), placement)
+            @test run!(placement) === :stopped
+            @test inside[1] isa PNPBSError && inside[1].status === :error_state
+        end
+        @test isopen(context) && isopen(placement)
+        counts = Int[]
+        set_monitor!((_...) -> (push!(counts, node_count(placement)); false), placement)
+        run!(placement)
+        @test !isempty(counts)
+    end
+end

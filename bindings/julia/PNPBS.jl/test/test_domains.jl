@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
+@testset "domains" begin
+    Context() do context
+        # A plate with a round hole, an elliptic hole by a callback, and an inner line.
+        plate = Domain(context)
+        add_polyline!(plate, [0 4 4 0; 0 0 2 2]; tags = [1, 2, 3, 4])
+        add_arc!(plate, (1, 1), 0.5; tag = 5)
+        add_curve!(plate, 0, 2pi; tag = 6) do t
+            [3 .+ 0.5 .* cos.(t) 1 .+ 0.25 .* sin.(t)]'
+        end
+        add_polyline!(plate, [2 2; 0.5 1.5]; role = :inner, closed = false, tags = 7)
+        add_fixed_nodes!(plate, reshape([0.2, 1.5], 2, 1); tags = 8)
+        @test check_domain(plate) === nothing
+        @test bounds(plate) == ([0, 0], [4, 2])
+        @test measure(plate) ≈ 8 - pi / 4 - pi / 8 rtol = 1e-3
+
+        placement = Placement(plate; steps = 20)
+        set_spacing!(placement, 0.1)
+        run!(placement)
+        placed = nodes(placement)
+        @test Set(placed.tags) == Set(0:8)
+        @test placed.points[:, findfirst(==(8), placed.tags)] == [0.2, 1.5]
+        on_ellipse = placed.points[:, placed.tags .== 6]
+        u, v = (on_ellipse[1, :] .- 3) ./ 0.5, (on_ellipse[2, :] .- 1) ./ 0.25
+        @test all(hypot.(u, v) .≈ 1)
+
+        shown = outline(plate)
+        @test size(shown.segments)[1:2] == (2, 2) && size(shown.segments, 3) == length(shown.tags)
+        @test Set(shown.tags) == Set(1:7)
+    end
+end
+
+@testset "graphs and .poly" begin
+    Context() do context
+        # A square with a square hole; the graph's indices count from 1.
+        xy = [0 3 3 0 1 2 2 1; 0 0 3 3 1 1 2 2]
+        ends = [1 2 3 4 5 6 7 8; 2 3 4 1 6 7 8 5]
+        graph = add_pslg!(Domain(context), xy, ends; holes = reshape([1.5, 1.5], 2, 1),
+                          segment_tags = [1, 1, 1, 1, 2, 2, 2, 2])
+        @test measure(graph) ≈ 8
+        @test fails(() -> add_pslg!(Domain(context), xy, ends .+ 1), :error_argument, "8")
+
+        text = "4 2 0 0\n1 0 0\n2 2 0\n3 2 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n"
+        @test measure(parse_poly!(Domain(context), text)) ≈ 2
+        path, io = mktemp()
+        write(io, text)
+        close(io)
+        @test measure(read_poly!(Domain(context), path)) ≈ 2
+        @test fails(() -> read_poly!(Domain(context), "/none.poly"), :error_file, "/none.poly")
+        @test fails(() -> parse_poly!(Domain(context), "4 2 x"; name = "mine"), :error_file, "mine")
+
+        # A region between a boundary and an inner curve, taken out by a point.
+        ring = add_polyline!(Domain(context), [0 3 3 0; 0 0 3 3])
+        add_polyline!(ring, [1 2 2 1; 1 1 2 2]; role = :inner)
+        add_hole!(ring, [1.5, 1.5])
+        @test measure(ring) ≈ 8
+    end
+end
+
+@testset "wrong domains" begin
+    Context() do context
+        domain = Domain(context)
+        @test fails(() -> Domain(context; dim = 3), :error_unsupported, "dim")
+        @test fails(() -> add_arc!(domain, (0, 0), -1), :error_argument, "radius", "-1")
+        @test_throws DimensionMismatch add_polyline!(domain, [0 0; 1 0; 1 1])
+        @test_throws DimensionMismatch add_polyline!(domain, [0 1 1; 0 0 1]; tags = [1, 2])
+        @test_throws DimensionMismatch add_arc!(domain, (0, 0, 0), 1)
+        @test_throws ArgumentError add_arc!(domain, (0, 0), 1; role = :outer)
+        add_polyline!(domain, [0 1 0 1; 0 1 1 0])
+        @test fails(() -> check_domain(domain), :error_domain)
+    end
+end

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The package as such: names, tables, the library it loads.
+
+# What a program prints in a process of its own; this one has its library already.
+function in_another_process(program; library = "")
+    command = `$(Base.julia_cmd()) --compiled-modules=no --startup-file=no -e $program`
+    output = IOBuffer()
+    withenv("PNPBS_LIBRARY" => library, "JULIA_LOAD_PATH" => join(LOAD_PATH, ":")) do
+        run(pipeline(ignorestatus(command), stdout = output, stderr = output))
+    end
+    return String(take!(output))
+end
+
+@testset "names" begin
+    documented = Base.Docs.meta(PNPBS)
+    undocumented = [name for name in names(PNPBS)
+                    if !haskey(documented, Base.Docs.Binding(PNPBS, name))]
+    @test isempty(undocumented)
+    @test isempty(detect_ambiguities(PNPBS))
+    raw = PNPBS.LibPNPBS
+    is_call(name) = startswith(string(name), "pnpbs_") && getfield(raw, name) isa Function
+    functions = filter(is_call, names(raw, all = true))
+    @test length(functions) >= 70
+    @test all(name -> raw.symbol(name) != C_NULL, functions)
+    # Pkg of this Julia understands the project file.
+    folder = dirname(@__DIR__)
+    named = in_another_process("using Pkg; Pkg.activate(\"$folder\"); print(Pkg.project().name)")
+    @test endswith(named, "PNPBS")
+end
+
+@testset "tables" begin
+    @test library_version() == v"0.1.0"
+    @test occursin("version: 0.1.0", build_info())
+    @test mpi_library() isa String
+    steps = only(filter(row -> row.name == "steps", option_table()))
+    @test steps.type == "integer" && parse(Int, steps.default) > 0 && !isempty(steps.help)
+    @test Set(row.type for row in statistic_table()) == Set(["integer", "real", "string"])
+    formats = Dict(row.name => row for row in format_table())
+    @test formats["vtu"].binary && formats["vtu"].elements
+    @test !formats["csv"].binary && !formats["csv"].elements
+end
+
+@testset "options" begin
+    Context(steps = 7) do context
+        placement = Placement(square_domain(context))
+        set_spacing!(placement, 0.1)
+        @test run!(placement) === :not_converged
+        @test statistic(placement, "steps") <= 7
+        @test set!(placement; steps = 9, method = :paper, rest_length = 1.05) === placement
+        @test fails(() -> set!(placement; stepz = 9), :error_key, "steps")
+        @test fails(() -> set!(placement; steps = -1), :error_argument, "steps", "-1")
+        @test fails(() -> set!(placement; method = "papers"), :error_argument, "paper")
+        @test fails(() -> set!(context; stepz = 9), :error_key, "steps")
+        @test fails(() -> Placement(placement.domain; steps = "many"), :error_argument, "many")
+        @test length(context.children) == 2
+    end
+end
+
+@testset "errors are readable" begin
+    text = sprint(showerror, PNPBSError(:error_spacing, "d is 0"))
+    @test text == "PNPBSError (error_spacing): d is 0"
+    @test PNPBS.status_name(-5) === :error_spacing
+    @test PNPBS.status_name(0) === :ok && PNPBS.status_name(2) === :stopped
+    @test PNPBS.status_name(-99) === Symbol("status_-99")
+end
+
+@testset "the library's path" begin
+    @test isfile(PNPBS.LibPNPBS.library_path())
+    missing_library = in_another_process("using PNPBS; build_info()", library = "/none/libpnpbs.so")
+    @test occursin("cannot open the PNPBS library \"/none/libpnpbs.so\"", missing_library)
+    @test occursin("Set the environment variable PNPBS_LIBRARY", missing_library)
+    chosen = in_another_process("using PNPBS; print(PNPBS.LibPNPBS.library_path())",
+                                library = "/a.so")
+    @test chosen == "/a.so"
+    @test PNPBS.LibPNPBS.require_interface(0, 1, "x.so") === nothing
+    e = thrown(() -> PNPBS.LibPNPBS.require_interface(0, 2, "x.so"))
+    @test e.msg == "x.so is PNPBS 0.2, but this package is for 0.1; " *
+                   "use the package of the same version"
+end
+
+@testset "the end" begin
+    @test PNPBS.discard_unfinished_files() === nothing
+    after = in_another_process("""
+        using PNPBS
+        PNPBS.shutdown()
+        Context() do context
+            p = Placement(add_polyline!(Domain(context), [0 1 1; 0 0 1]))
+            set_spacing!(p, 0.1)
+            println(run!(p))
+            PNPBS.shutdown()
+            run!(p)
+        end"""; library = PNPBS.LibPNPBS.library_path())
+    @test startswith(after, r"ok|not_converged") && occursin("(error_kokkos)", after)
+end
+
+@testset "compressed rows" begin
+    rows = CompressedRows([1, 3, 3, 4], [10, 20, 30])
+    @test length(rows) == 3 && size(rows) == (3,)
+    @test rows[1] == [10, 20] && isempty(rows[2]) && rows[3] == [30]
+    @test [sum(row) for row in rows] == [30, 0, 30]
+    @test collect(rows) isa Vector{eltype(rows)}
+    @test_throws BoundsError rows[4]
+    @test parent(rows[1]) === rows.entries
+end

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Results against what can be counted or computed again from the points alone.
+
+function pairs_within(points, spacing, radius)
+    n = size(points, 2)
+    return [[j for j in 1:n if j != i && hypot(points[1, i] - points[1, j],
+                                               points[2, i] - points[2, j]) <
+                               radius * (spacing[i] + spacing[j]) / 2] for i in 1:n]
+end
+
+function doubled_area(points, corners)
+    (a, b, c) = (points[:, k] for k in corners)
+    return (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1])
+end
+
+@testset "results" begin
+    Context() do context
+        placement = placed_square(context)
+        n = node_count(placement)
+        placed = nodes(placement)
+        @test size(placed.points) == (2, n)
+        @test eltype(placed.points) == Float64 && all(0 .<= placed.points .<= 1)
+        @test length(unique(placed.ids)) == n
+        @test placed.spacing ≈ graded(placed.points)
+
+        # Euler: n nodes, b of them on the boundary of a domain without holes, make 2n - b - 2.
+        corners = triangles(placement)
+        b = count(!=(0), placed.tags)
+        @test size(corners) == (3, 2n - b - 2)
+        areas = [doubled_area(placed.points, corners[:, k]) for k in 1:size(corners, 2)]
+        @test all(areas .> 0) && sum(areas) / 2 ≈ 1
+
+        edges, tags = boundary_edges(placement)
+        @test size(edges) == (2, b) && tags == ones(Int32, b)
+        @test sort(edges[1, :]) == sort(edges[2, :]) == findall(!=(0), placed.tags)
+
+        lists = adjacency(placement)
+        radius = parse(Float64, only(row.default for row in option_table()
+                                     if row.name == "adjacency_radius"))
+        @test [sort(list) for list in lists] ==
+              pairs_within(placed.points, placed.spacing, radius)
+        @test all(issorted(placed.ids[list]) for list in lists)
+
+        around, triangle = stars(placement)
+        @test around.offsets === triangle.offsets && length(around) == n
+        @test sum(sum, triangle) == 3 * size(corners, 2)
+        star_triangles = Set(Set([i, around[i][k], around[i][mod1(k + 1, end)]])
+                             for i in 1:n for k in eachindex(around[i]) if triangle[i][k])
+        @test star_triangles == Set(Set(corners[:, k]) for k in 1:size(corners, 2))
+
+        # One process has no ghosts.
+        @test ghost_count(placement) == 0 && isempty(ghosts(placement).owners)
+        @test isempty(exchange_pattern(placement).ranks)
+        @test numbering(placement) == (first = 0, count = n, ghosts = Int64[])
+    end
+end
+
+@testset "statistics" begin
+    Context() do context
+        placement = placed_square(context)
+        @test statistic(placement, "nodes") === Int64(node_count(placement))
+        @test statistic(placement, :imbalance) isa Float64
+        @test statistic(placement, "hash") isa String
+        @test fails(() -> statistic(placement, "nodez"), :error_key, "nodes")
+        all_of_them = statistics(placement)
+        @test length(all_of_them) == length(statistic_table())
+        @test all_of_them["hash"] == statistic(placement, "hash")
+        # The same input gives the same nodes.
+        @test statistic(placed_square(context), "hash") == all_of_them["hash"]
+        @test statistic(placed_square(context; spacing = x -> 0.9 .* graded(x)), "hash") !=
+              all_of_them["hash"]
+
+        @test isempty(warnings(placement))
+        text = "5 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n5 .5 .5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n"
+        unused = Placement(parse_poly!(Domain(context), text))
+        set_spacing!(unused, 0.2)
+        initialise!(unused)
+        @test length(warnings(unused)) == 1 && occursin("vertex", warnings(unused)[1])
+    end
+end
+
+@testset "steps and population" begin
+    Context() do context
+        placement = Placement(square_domain(context); steps = 20)
+        @test fails(() -> run!(placement), :error_state, "set_spacing")
+        @test fails(() -> set_spacing!(placement, -0.1), :error_spacing, "-0.1")
+        set_spacing!(placement, 0.1)
+        @test initialise!(placement) === placement && node_count(placement) > 80
+        @test step!(placement, 3) in (:ok, :not_converged)
+        @test step!(placement) in (:ok, :not_converged)
+        @test fails(() -> step!(placement, -1), :error_argument, "-1")
+        before = node_count(placement)
+        change = adjust_population!(placement)
+        @test node_count(placement) == before + change.inserted - change.deleted
+        hash = statistic(placement, "hash")
+        rebalance!(placement)
+        @test statistic(placement, "hash") == hash
+    end
+end
+
+@testset "files" begin
+    Context() do context
+        placement = placed_square(context)
+        n = node_count(placement)
+        mktempdir() do folder
+            path = joinpath(folder, "nodes.csv")
+            @test write_file(placement, path) === :ok
+            lines = readlines(path)
+            @test length(lines) == n + 1 && startswith(lines[1], "id,x,y")
+            placed = nodes(placement)
+            order = sortperm(placed.ids)
+            @test [parse.(Float64, split(line, ",")[2:3]) for line in lines[2:end]] ==
+                  [placed.points[:, i] for i in order]
+            a, b = joinpath(folder, "a.node"), joinpath(folder, "b.txt")
+            @test write_files(placement, [a, b]; formats = [nothing, "csv"],
+                              elements = [true, false]) === :ok
+            @test read(b) == read(path)
+            @test length(readlines(joinpath(folder, "a.ele"))) > size(triangles(placement), 2)
+            unknown = joinpath(folder, "x.xyz")
+            @test fails(() -> write_file(placement, unknown), :error_argument, "xyz")
+            @test fails(() -> write_file(placement, "/none/x.csv"), :error_file, "/none")
+            @test_throws DimensionMismatch write_files(placement, [a, b]; formats = ["csv"])
+        end
+    end
+end

@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compares the C header with the Julia package's ccalls, argument by argument: count, type, by
+value or by reference; also the callbacks' signatures, status codes and constants. Prints each
+difference and fails on any.
+
+usage: check_ccalls.py <pnpbs.h> <folder of PNPBS.jl> [--self-test]
+
+--self-test changes the header in many ways, one at a time, and fails unless each is noticed.
+"""
+import re
+import sys
+from pathlib import Path
+
+# What a C type must be called in a ccall. Other names are the header's own, the same in both.
+JULIA_NAMES = {
+    "int8_t": {"Int8"},
+    "int32_t": {"Int32"},
+    "int64_t": {"Int64"},
+    "double": {"Cdouble", "Float64"},
+}
+
+
+# ---------------------------------------------------------------- the header ---------------------
+def read_header(text):
+    text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
+    statuses = {m[0]: int(m[1]) for m in re.findall(r"X\((PNPBS_\w+), (-?\d+),", text)}
+    constants = {m[0]: int(m[1]) for m in re.findall(r"#define (PNPBS_[A-Z]+) (\d+)\s", text)}
+    text = re.sub(r"^#.*?(?<!\\)$", "", text, flags=re.S | re.M)
+    functions, callbacks = {}, {}
+    pattern = r"PNPBS_API\s+([^;()]*?)(\w+)\s*\(([^)]*)\)\s*;"
+    for result, name, arguments in re.findall(pattern, text):
+        functions[name] = (c_type(result), c_arguments(arguments))
+    pattern = r"typedef\s+(\w+)\s*\(\*(\w+)\)\s*\(([^)]*)\)\s*;"
+    for result, name, arguments in re.findall(pattern, text):
+        callbacks[name] = (c_type(result), c_arguments(arguments))
+    return functions, callbacks, {**statuses, **constants}
+
+
+def c_arguments(text):
+    text = " ".join(text.split())
+    if text in ("", "void"):
+        return []
+    return [c_type(re.sub(r"\w+$", "", argument.strip())) for argument in text.split(",")]
+
+
+def c_type(text):
+    """(name of the type pointed to, number of pointers); const makes no difference to a call."""
+    text = re.sub(r"\bconst\b", " ", text)
+    return text.replace("*", " ").strip(), text.count("*")
+
+
+# ---------------------------------------------------------------- the Julia files ----------------
+def read_package(folder):
+    raw = (folder / "src/LibPNPBS.jl").read_text()
+    functions = {}
+    pattern = (r"^(\w+)\(([^)]*)\) =\s*@ccall \$\(symbol\(:(\w+)\)\)\((.*?)\)::(\w+)$")
+    for name, names, symbol, arguments, result in re.findall(pattern, raw, flags=re.S | re.M):
+        parts = [part.split("::") for part in split_arguments(arguments)]
+        forwarded = [part.strip() for part in names.split(",") if part.strip()]
+        functions[name] = (julia_type(result), [julia_type(part[1]) for part in parts], symbol,
+                           forwarded == [part[0].strip() for part in parts])
+    constants = {n: int(v) for n, v in re.findall(r"^const (PNPBS_\w+) = (-?\d+)$", raw, re.M)}
+    aliases = dict(re.findall(r"^const (pnpbs_\w+) = (\S+)$", raw, re.M))
+    return functions, read_callbacks((folder / "src/callbacks.jl").read_text()), constants, aliases
+
+
+def read_callbacks(text):
+    callbacks = {}
+    pattern = r"(\w+)_pointer\[\] = @cfunction\((\w+), (\w+),\s*\(([^)]*)\)\)"
+    for kind, function, result, arguments in re.findall(pattern, text):
+        declared = re.search(r"function " + function + r"\(([^)]*)\)", text)
+        own = [julia_type(part.split("::")[1]) for part in split_arguments(declared[1])]
+        callbacks[f"pnpbs_{kind}_fn"] = (
+            julia_type(result), [julia_type(part) for part in split_arguments(arguments)], own)
+    return callbacks
+
+
+def split_arguments(text):
+    return [part for part in (piece.strip() for piece in text.split(",")) if part]
+
+
+def julia_type(text):
+    text, pointers = text.strip(), 0
+    while text.startswith("Ptr{") and text.endswith("}"):
+        text, pointers = text[4:-1], pointers + 1
+    return text, pointers
+
+
+# ---------------------------------------------------------------- comparing ----------------------
+def same(c, julia):
+    (c_name, c_pointers), (name, pointers) = c, julia
+    if c_name == "char":  # text: Cstring, or bytes with a length of their own
+        return (name, pointers) in (("Cstring", c_pointers - 1), ("UInt8", c_pointers))
+    if c_name == "void":
+        return (name, pointers) == ("Cvoid", c_pointers)
+    return name in JULIA_NAMES.get(c_name, {c_name}) and pointers == c_pointers
+
+
+def spell(kind):
+    return kind[0] + "*" * kind[1]
+
+
+def signature_differences(name, c, result, arguments):
+    c_result, c_list = c
+    if not same(c_result, result):
+        yield f"{name}: returns {spell(c_result)} in C, {spell(result)} in Julia"
+    if len(c_list) != len(arguments):
+        yield f"{name}: {len(c_list)} arguments in C, {len(arguments)} in Julia"
+        return
+    for i, (wanted, found) in enumerate(zip(c_list, arguments), 1):
+        if not same(wanted, found):
+            yield f"{name}: argument {i} is {spell(wanted)} in C, {spell(found)} in Julia"
+
+
+def name_differences(what, wanted, found):
+    for name in sorted(set(wanted) - set(found)):
+        yield f"{name}: a {what} of the header, missing in Julia"
+    for name in sorted(set(found) - set(wanted)):
+        yield f"{name}: a {what} in Julia, missing in the header"
+
+
+def differences(header, package):
+    functions, callbacks, constants = header
+    ccalls, pointers, numbers, aliases = package
+    yield from name_differences("function", functions, ccalls)
+    for name in sorted(set(functions) & set(ccalls)):
+        result, arguments, symbol, forwarded = ccalls[name]
+        yield from signature_differences(name, functions[name], result, arguments)
+        if symbol != name:
+            yield f"{name}: calls {symbol}"
+        if not forwarded:
+            yield f"{name}: the ccall's arguments are not the function's, in their order"
+    yield from name_differences("callback", callbacks, pointers)
+    for name in sorted(set(callbacks) & set(pointers)):
+        result, arguments, own = pointers[name]
+        yield from signature_differences(name, callbacks[name], result, arguments)
+        if own != arguments:
+            yield f"{name}: @cfunction and the function disagree"
+    yield from name_differences("constant", constants, numbers)
+    for name in sorted(set(constants) & set(numbers)):
+        if constants[name] != numbers[name]:
+            yield f"{name}: {constants[name]} in C, {numbers[name]} in Julia"
+    # The header's own types: an enum is an int, handles and functions are pointers.
+    for name, julia in sorted(aliases.items()):
+        if julia != ("Int32" if name == "pnpbs_status" else "Ptr{Cvoid}"):
+            yield f"{name}: stands for {julia}"
+
+
+# ---------------------------------------------------------------- can it fail? -------------------
+# What is done, the text of the header that is changed, and what it becomes.
+MUTATIONS = [
+    ("an argument less", "pnpbs_context context, int32_t dim,", "pnpbs_context context,"),
+    ("an argument more", "_run(pnpbs_placement placement)",
+     "_run(pnpbs_placement placement, int32_t more)"),
+    ("a wider integer", "pnpbs_context context, int32_t dim,",
+     "pnpbs_context context, int64_t dim,"),
+    ("by reference, not by value", "placement, double d);", "placement, double *d);"),
+    ("by value, not by reference", "domain, const double *point", "domain, double point"),
+    ("another handle", "_run(pnpbs_placement placement)", "_run(pnpbs_domain placement)"),
+    ("arguments exchanged", "(pnpbs_placement placement, int64_t n);",
+     "(int64_t n, pnpbs_placement placement);"),
+    ("another result", "const char *pnpbs_build_info(void)", "pnpbs_status pnpbs_build_info(void)"),
+    ("a new function", "PNPBS_API pnpbs_status pnpbs_finalize(void);",
+     "PNPBS_API pnpbs_status pnpbs_finalize(void); PNPBS_API pnpbs_status pnpbs_new(void);"),
+    ("a function less", "PNPBS_API pnpbs_status pnpbs_finalize(void);", ""),
+    ("a callback's argument", "int64_t nodes, double max_speed,\n",
+     "int32_t nodes, double max_speed,\n"),
+    ("a status renumbered", "X(PNPBS_STOPPED, 2,", "X(PNPBS_STOPPED, 3,"),
+    ("a new status", "X(PNPBS_STOPPED, 2,", 'X(PNPBS_PAUSED, 3, "") X(PNPBS_STOPPED, 2,'),
+    ("a constant changed", "#define PNPBS_INNER 1", "#define PNPBS_INNER 2"),
+]
+
+
+def self_test(text, package):
+    missed = []
+    for what, old, new in MUTATIONS:
+        changed = text.replace(old, new, 1)
+        if changed == text:
+            missed.append(f"{what}: the header no longer has the text to change")
+            continue
+        found = list(differences(read_header(changed), package))
+        if found:
+            print(f"{what}: {found[0]}")
+        else:
+            missed.append(what)
+    return missed
+
+
+def main():
+    text = Path(sys.argv[1]).read_text()
+    package = read_package(Path(sys.argv[2]))
+    header = read_header(text)
+    found = list(differences(header, package))
+    # What the patterns above overlook would agree with anything.
+    if len(header[0]) != len(re.findall(r"^PNPBS_API ", text, re.M)):
+        found.append("not every declaration of the header was understood")
+    print("\n".join(found) or f"{len(header[0])} functions, {len(header[1])} callbacks agree")
+    failed = bool(found)
+    if not failed and "--self-test" in sys.argv:
+        missed = self_test(text, package)
+        failed = bool(missed)
+        print("".join(f"not noticed: {what}\n" for what in missed), end="")
+    sys.exit(1 if failed else 0)
+
+
+main()

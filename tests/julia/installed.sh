@@ -1,0 +1,29 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# The installed package, in a prefix that was moved: it finds the library beside it, and runs the
+# example of its page.
+# usage: installed.sh <build folder> <cmake> <julia> <source folder>
+set -eu
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+unset DESTDIR PNPBS_LIBRARY
+"$2" --install "$1" --prefix "$work/first" > "$work/install.log"
+mv "$work/first" "$work/moved"
+export JULIA_LOAD_PATH="@stdlib:$work/moved/share/pnpbs/julia" JULIA_DEPOT_PATH="$work/depot"
+# shellcheck disable=SC2016  # Julia's own
+"$3" --startup-file=no --compiled-modules=no -e '
+  using PNPBS
+  path = PNPBS.LibPNPBS.library_path()
+  startswith(path, ARGS[1]) || error("the library found is $path")' "$work/moved"
+"$3" --startup-file=no --compiled-modules=no \
+  "$work/moved/share/pnpbs/julia/PNPBS.jl/test/run_page.jl" "$4/docs/julia.md"
+# Precompiled, as users have it: nothing of the library's may be kept in the image.
+for turn in first second; do
+  "$3" --startup-file=no -e '
+    using PNPBS
+    n = Context() do context
+      domain = add_polyline!(Domain(context), [0 1 1 0; 0 0 1 1])
+      node_count(initialise!(set_spacing!(x -> fill(0.1, size(x, 2)), Placement(domain))))
+    end
+    println(ARGS[1], ": ", n, " nodes"); n > 90 || exit(1)' "$turn"
+done
