@@ -12,6 +12,9 @@ import re
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "linkage"))
+import c_header
+
 # What a C type must be called in a ccall. Other names are the header's own, the same in both.
 JULIA_NAMES = {
     "int8_t": {"Int8"},
@@ -23,25 +26,12 @@ JULIA_NAMES = {
 
 # ---------------------------------------------------------------- the header ---------------------
 def read_header(text):
-    text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
-    statuses = {m[0]: int(m[1]) for m in re.findall(r"X\((PNPBS_\w+), (-?\d+),", text)}
-    constants = {m[0]: int(m[1]) for m in re.findall(r"#define (PNPBS_[A-Z]+) (\d+)\s", text)}
-    text = re.sub(r"^#.*?(?<!\\)$", "", text, flags=re.S | re.M)
-    functions, callbacks = {}, {}
-    pattern = r"PNPBS_API\s+([^;()]*?)(\w+)\s*\(([^)]*)\)\s*;"
-    for result, name, arguments in re.findall(pattern, text):
-        functions[name] = (c_type(result), c_arguments(arguments))
-    pattern = r"typedef\s+(\w+)\s*\(\*(\w+)\)\s*\(([^)]*)\)\s*;"
-    for result, name, arguments in re.findall(pattern, text):
-        callbacks[name] = (c_type(result), c_arguments(arguments))
-    return functions, callbacks, {**statuses, **constants}
-
-
-def c_arguments(text):
-    text = " ".join(text.split())
-    if text in ("", "void"):
-        return []
-    return [c_type(re.sub(r"\w+$", "", argument.strip())) for argument in text.split(",")]
+    kinds = [{name: (c_type(function.result), [c_type(one.type) for one in function.arguments])
+              for name, function in read(text).items()}
+             for read in (c_header.functions, c_header.callbacks)]
+    constants = {name: value for name, value in c_header.constants(text).items()
+                 if not name.startswith("PNPBS_VERSION_")}
+    return (*kinds, constants)
 
 
 def c_type(text):
@@ -162,7 +152,7 @@ MUTATIONS = [
      "(int64_t n, pnpbs_placement placement);"),
     ("another result", "const char *pnpbs_build_info(void)", "pnpbs_status pnpbs_build_info(void)"),
     ("a new function", "PNPBS_API pnpbs_status pnpbs_finalize(void);",
-     "PNPBS_API pnpbs_status pnpbs_finalize(void); PNPBS_API pnpbs_status pnpbs_new(void);"),
+     "PNPBS_API pnpbs_status pnpbs_finalize(void);\nPNPBS_API pnpbs_status pnpbs_new(void);"),
     ("a function less", "PNPBS_API pnpbs_status pnpbs_finalize(void);", ""),
     ("a callback's argument", "int64_t nodes, double max_speed,\n",
      "int32_t nodes, double max_speed,\n"),
