@@ -138,8 +138,6 @@ class Level {
   // what they need farther away is asked for.
   static constexpr int kStarHops = 3;
   static constexpr int kRungeKuttaStages = 4;
-  // d may grow by this factor above its samples in a leaf before ghosts could be missing.
-  static constexpr double kRoomForGrowth = 1.25;
   static constexpr double kWorkPerNode = 16;  // in estimates
 
   SpacingEvaluator evaluator() const;

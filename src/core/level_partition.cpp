@@ -2,7 +2,6 @@
 // The partition of a level: the background tree, refined on each rank where its own nodes and
 // ghosts can be, and its cells dealt out by the work in them.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -71,12 +70,10 @@ constexpr const char* kSpacingsDiffer =
 // Ranks whose callbacks tell different things would wait for each other for ever.
 void Level::require_same_ground(const PartitionCells& cells) const {
   std::uint64_t fingerprint = 0;
-  const auto add = [&](double value) {
-    fingerprint = mixed(fingerprint ^ std::bit_cast<std::uint64_t>(value));
-  };
   for (const BoundaryNode& node : boundary_.nodes)
-    for (double coordinate : node.position) add(coordinate);
-  for (std::int32_t c = 0; c < cells.count(); ++c) add(cells.largest_spacing(c));
+    for (double coordinate : node.position) fingerprint = mixed_with(fingerprint, coordinate);
+  for (std::int32_t c = 0; c < cells.count(); ++c)
+    fingerprint = mixed_with(fingerprint, cells.largest_spacing(c));
   if (!comm_->same_on_all(fingerprint)) throw Error(PNPBS_ERROR_SPACING, kSpacingsDiffer);
 }
 
@@ -86,7 +83,7 @@ void Level::require_same_leaves() const {
   std::vector<std::uint64_t> found(static_cast<std::size_t>(distribution_.cells().count()), 0);
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
     std::uint64_t& cell = found[static_cast<std::size_t>(distribution_.cell_of(leaf))];
-    cell = mixed(cell ^ std::bit_cast<std::uint64_t>(map_.leaf_spacing(leaf)));
+    cell = mixed_with(cell, map_.leaf_spacing(leaf));
   }
   struct Finding {
     std::int32_t cell;
@@ -126,16 +123,16 @@ std::function<bool(std::int32_t)> Level::owns_leaf() const {
 std::vector<PartitionCell> Level::rough_cells() {
   constexpr int kUniformDepth = 3, kPasses = 3, kCellsPerRank = 32;
   double most = std::numeric_limits<double>::infinity();
+  std::vector<std::int64_t> work;
   for (int pass = 0; pass < kPasses; ++pass) {
     map_.build_part(*comm_, domain_->bounds(), boundary_, evaluator(), settings_.max_nodes,
                     [&](const BackgroundTree<2>& tree, std::int32_t c, double nodes) {
                       return tree.cell(c).depth < kUniformDepth || nodes > most;
                     });
-    const std::vector<std::int64_t> work = expected_work();
+    work = expected_work();
     most = static_cast<double>(std::accumulate(work.begin(), work.end(), std::int64_t{0})) /
            (kWorkPerNode * kCellsPerRank * comm_->size());
   }
-  const std::vector<std::int64_t> work = expected_work();
   std::vector<PartitionCell> cells;
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
     const BackgroundTree<2>::Cell& cell = map_.tree().cell(map_.tree().leaf_cell(leaf));

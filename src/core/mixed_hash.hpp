@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace pnpbs {
@@ -11,6 +12,11 @@ inline std::uint64_t mixed(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
   return z ^ (z >> 31);
+}
+
+// A hash that also depends on every bit of the value.
+inline std::uint64_t mixed_with(std::uint64_t hash, double value) {
+  return mixed(hash ^ std::bit_cast<std::uint64_t>(value));
 }
 
 }  // namespace pnpbs

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <limits>
 #include <new>
@@ -19,12 +18,6 @@ namespace pnpbs {
 namespace {
 
 constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
-
-std::uint64_t bits(double value) {
-  std::uint64_t b;
-  std::memcpy(&b, &value, sizeof b);
-  return b;
-}
 
 }  // namespace
 
@@ -77,7 +70,7 @@ void Placement::require_same_options() const {
 
 void Placement::require_same_domain() const {
   std::uint64_t fingerprint = 0;
-  const auto add = [&](double value) { fingerprint = mixed(fingerprint ^ bits(value)); };
+  const auto add = [&](double value) { fingerprint = mixed_with(fingerprint, value); };
   for (const BoundaryCurve& curve : domain_->curves()) {
     add(curve.tag);
     for (const Point<2>& x : curve.points)
@@ -445,7 +438,7 @@ std::uint64_t Placement::hash() const {
   return comm_->sum(sum_of("pnpbs::hash", nodes.count, [&](std::int64_t i) -> std::uint64_t {
     if (!nodes.owned(i)) return 0;
     std::uint64_t h = mixed(static_cast<std::uint64_t>(nodes.id(i)));
-    for (int k = 0; k < 2; ++k) h = mixed(h ^ bits(nodes.x[k](i)));
+    for (int k = 0; k < 2; ++k) h = mixed_with(h, nodes.x[k](i));
     return mixed(h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(nodes.tag(i))));
   }));
 }

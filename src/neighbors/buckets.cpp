@@ -7,13 +7,6 @@
 
 namespace pnpbs {
 
-namespace {
-
-// d may grow in a bucket by this factor before its links are made anew.
-constexpr double kRoomForGrowth = 1.25;
-
-}  // namespace
-
 template <int Dim>
 bool Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, double radius) {
   find_buckets(tree, nodes);

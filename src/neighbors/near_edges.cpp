@@ -17,7 +17,7 @@ void NearEdges::prepare(const DomainMap& map, double radius) {
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     near.clear();
     const std::int32_t cell = map.tree().leaf_cell(leaf);
-    const double reach = 1.25 * radius * map.leaf_largest_spacing(leaf);
+    const double reach = kRoomForGrowth * radius * map.leaf_largest_spacing(leaf);
     leaf_reach_[static_cast<std::size_t>(leaf)] = reach;
     const double half_diagonal = 0.7072 * map.tree().cell_side(cell);
     map.for_edges_near(map.tree().cell_centre(cell), half_diagonal + reach,

@@ -35,6 +35,9 @@ class LeafGraph {
   std::vector<std::int32_t> neighbours_;
 };
 
+// d may grow in a leaf by this factor above what is known of it before a link could be missing.
+inline constexpr double kRoomForGrowth = 1.25;
+
 // The graph for bubbles that reach so far from each leaf.
 template <int Dim>
 struct LeafLinks {
