@@ -150,8 +150,7 @@ pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n, con
 
 pnpbs_status pnpbs_placement_initialise(pnpbs_placement placement) {
   return collective(placement, [](Placement& p) {
-    p.initialise();
-    return PNPBS_OK;
+    return status_of(p.initialise());
   });
 }
 

@@ -9,8 +9,6 @@ namespace pnpbs {
 
 namespace {
 
-// d may vary by this factor within a patch.
-constexpr double kPatchVariation = 1.08;
 // New nodes stay this many d away from the boundary.
 constexpr double kFillClearance = 0.5;
 

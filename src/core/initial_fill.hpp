@@ -14,6 +14,9 @@
 
 namespace pnpbs {
 
+// d may vary by this factor within a patch.
+inline constexpr double kPatchVariation = 1.08;
+
 // d in a cell of the tree, put together from its leaves.
 struct SpacingSummary {
   double least = std::numeric_limits<double>::infinity();

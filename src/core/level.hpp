@@ -33,9 +33,10 @@ namespace pnpbs {
 // A node as it comes from outside or from an earlier level.
 struct GivenNode {
   Point<2> position;
-  std::int64_t id;    // -1: give it one
-  bool inner = true;  // a boundary node is laid afresh; one that was there keeps its id
-  double d = 0;       // spacing it was placed for; 0 if not known
+  std::int64_t id;         // -1: give it one
+  bool inner = true;       // a boundary node is laid afresh; one that was there keeps its id
+  std::int32_t leaf = -1;  // of the level it is given to, once found
+  double d = 0;            // spacing it was placed for; 0 if not known
 };
 
 // What became of given nodes, on all ranks.
@@ -47,6 +48,11 @@ struct TakenNodes {
 struct PopulationCounts {
   std::int64_t inserted = 0;
   std::int64_t deleted = 0;
+};
+
+struct SpacingVariation {
+  double least = kFarAway, largest = 0;
+  double steepest = 0;  // growth of d per unit of length
 };
 
 struct Speeds {
@@ -123,6 +129,11 @@ class Level {
   double imbalance() const;
   std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }
   std::vector<GivenNode> owned_nodes() const;
+  // What the next finer level begins with: the inner nodes of this rank, and the middle of every
+  // edge of its stars that is long for half the spacing. Collective.
+  std::vector<GivenNode> refined();
+  // By the samples of d in the leaves. Collective.
+  SpacingVariation spacing_variation() const;
   std::int64_t owned_count() const;
   // Rank that owns a node (this one's own and ghosts).
   int owner_of(std::int64_t i) const {
@@ -177,10 +188,14 @@ class Level {
 
   double widest_radius() const;
   double edge_radius() const;
+  bool on_one_edge(std::int64_t i, std::int64_t j) const;
   void number_and_store(std::vector<GivenNode> inner);
   void scatter_to_owners(std::vector<GivenNode>& given) const;
   std::vector<double> wanted_nodes() const;
   std::vector<LeafSummary> summaries_of_unrefined_leaves() const;
+  void find_leaves(std::vector<GivenNode>& given) const;
+  bool has_place(const GivenNode& node) const;
+  void sort_by_place(std::vector<GivenNode>& given) const;
   void thin(std::vector<GivenNode>& inner) const;
   void keep_boundary_ids(const std::vector<GivenNode>& given);
   void make_lists_and_stars(int hops, double radius, int rings);

@@ -61,6 +61,8 @@ void Level::fill() {
   agreed(*comm_, [&] {
     for (const Point<2>& x : hexagonal_fill(map_, domain_->bounds(), owns_leaf(), unrefined))
       inner.push_back({x, -1});
+    find_leaves(inner);
+    sort_by_place(inner);
   });
   number_and_store(std::move(inner));
 }
@@ -94,55 +96,132 @@ std::vector<LeafSummary> Level::summaries_of_unrefined_leaves() const {
   return unrefined;
 }
 
+std::vector<GivenNode> Level::refined() {
+  constexpr double kLong = 1.4;  // in units of the finer spacing
+  drop_anchors();
+  exchange(kStarHops);
+  make_lists_and_stars(kStarHops, settings_.list_radius, 0);
+  std::vector<GivenNode> finer;
+  agreed(*comm_, [&] {
+    finer.reserve(static_cast<std::size_t>(nodes_.count) * 4);
+    for (std::int64_t i = 0; i < nodes_.count; ++i) {
+      if (!nodes_.owned(i)) continue;
+      if (nodes_.moves(i)) finer.push_back({nodes_.position(i), -1, true, -1, 0.5 * nodes_.d(i)});
+      // An edge is its end's with the lesser id.
+      stars_.for_neighbours(i, [&](std::int64_t j, bool) {
+        if (nodes_.id(j) < nodes_.id(i) || on_one_edge(i, j)) return;
+        const Point<2> x = nodes_.position(i), y = nodes_.position(j);
+        const double d = 0.25 * (nodes_.d(i) + nodes_.d(j));
+        if (distance<2>(x, y) > kLong * d)
+          finer.push_back({{0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1])}, -1, true, -1, d});
+      });
+    }
+  });
+  return finer;
+}
+
+// Are these the ends of a boundary edge?
+bool Level::on_one_edge(std::int64_t i, std::int64_t j) const {
+  return !nodes_.moves(i) && !nodes_.moves(j) &&
+         fans_.joined(nodes_.boundary_node(i), nodes_.boundary_node(j));
+}
+
+SpacingVariation Level::spacing_variation() const {
+  constexpr double kBetweenSamples = 0.7;  // the farthest of a leaf, in units of its side
+  SpacingVariation own;
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    if (!distribution_.owns(leaf) || map_.leaf_outside(leaf)) continue;
+    const double least = map_.leaf_least_spacing(leaf), largest = map_.leaf_largest_spacing(leaf);
+    // Next to the boundary the samples may be those of the cell above.
+    const double cell = map_.tree().cell_side(map_.tree().leaf_cell(leaf)),
+                 way = kBetweenSamples * (map_.leaf_has_edges(leaf) ? 2 * cell : cell);
+    own.least = std::min(own.least, least);
+    own.largest = std::max(own.largest, largest);
+    own.steepest = std::max(own.steepest, (largest - least) / way);
+  }
+  return {-comm_->largest(-own.least), comm_->largest(own.largest), comm_->largest(own.steepest)};
+}
+
 TakenNodes Level::take(std::vector<GivenNode> given, std::int64_t next_id) {
   const PhaseTimer timer(timers_, Phase::fill);
   next_id_ = next_id;
   scatter_to_owners(given);
   keep_boundary_ids(given);
-  std::vector<GivenNode> inner;
-  std::uint64_t left_out = 0;
-  for (const GivenNode& node : given) {
-    if (!node.inner) continue;
-    if (fits(node.position, map_.leaf_spacing(map_.tree().leaf_at(node.position))))
-      inner.push_back(node);
-    else
-      ++left_out;
+  std::erase_if(given, [](const GivenNode& node) { return !node.inner; });
+  find_leaves(given);
+  const std::size_t all = given.size();
+  std::erase_if(given, [this](const GivenNode& node) { return !has_place(node); });
+  const std::size_t fitting = given.size();
+  sort_by_place(given);
+  thin(given);
+  const std::size_t taken = given.size();
+  number_and_store(std::move(given));
+  return {static_cast<std::int64_t>(comm_->sum(all - fitting)),
+          static_cast<std::int64_t>(comm_->sum(fitting - taken))};
+}
+
+void Level::find_leaves(std::vector<GivenNode>& given) const {
+  for_each("pnpbs::Level::find_leaves", static_cast<std::int64_t>(given.size()),
+           [&](std::int64_t k) {
+             GivenNode& node = given[static_cast<std::size_t>(k)];
+             node.leaf = map_.tree().leaf_at(node.position);
+           });
+}
+
+// In the domain, and not too close to its boundary. In the middle of a leaf without edges there is
+// nothing to ask.
+bool Level::has_place(const GivenNode& node) const {
+  const double d = map_.leaf_spacing(node.leaf);
+  if (!map_.leaf_outside(node.leaf) && !map_.leaf_has_edges(node.leaf)) {
+    const Box<2> box = map_.tree().cell_box(map_.tree().leaf_cell(node.leaf));
+    double to_side = kFarAway;
+    for (int k = 0; k < 2; ++k)
+      to_side = std::min({to_side, node.position[k] - box.low[k], box.high[k] - node.position[k]});
+    if (to_side > kBoundaryClearance * d) return true;
   }
-  const std::uint64_t before = inner.size();
-  thin(inner);
-  const std::uint64_t thinned = before - inner.size();
-  number_and_store(std::move(inner));
-  return {static_cast<std::int64_t>(comm_->sum(left_out)),
-          static_cast<std::int64_t>(comm_->sum(thinned))};
+  return fits(node.position, d);
+}
+
+// By leaf, in Morton order, and by place within it, so that nothing depends on where nodes came
+// from.
+void Level::sort_by_place(std::vector<GivenNode>& given) const {
+  std::vector<std::size_t> begin(static_cast<std::size_t>(map_.tree().leaf_count()) + 1, 0);
+  for (const GivenNode& node : given) ++begin[static_cast<std::size_t>(node.leaf) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<GivenNode> sorted(given.size());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const GivenNode& node : given) sorted[next[static_cast<std::size_t>(node.leaf)]++] = node;
+  given = std::move(sorted);
+  for_each("pnpbs::Level::sort_by_place", map_.tree().leaf_count(), [&](std::int64_t leaf) {
+    const auto first = given.begin() + static_cast<std::ptrdiff_t>(begin[leaf]);
+    const auto last = given.begin() + static_cast<std::ptrdiff_t>(begin[leaf + 1]);
+    std::sort(first, last, [](const GivenNode& a, const GivenNode& b) {
+      return std::tie(a.position[1], a.position[0], a.id) <
+             std::tie(b.position[1], b.position[0], b.id);
+    });
+  });
 }
 
 // Where nodes are many times too dense for d, because d has grown since they were placed or because
 // they were given so, contests would take long to delete them. Each then counts for the share that
 // should stay, and along the Morton order of the leaves a node stays whenever the sum of the shares
-// passes a whole number.
+// passes a whole number. The nodes are sorted by place.
 void Level::thin(std::vector<GivenNode>& inner) const {
   constexpr double kCrowded = 1.5;  // times the nodes that d asks for in a leaf, and a few
   constexpr std::int64_t kOne = std::int64_t{1} << 32;
-  const BackgroundTree<2>& tree = map_.tree();
-  const auto leaf_of = [&](const GivenNode& node) {
-    return static_cast<std::size_t>(tree.leaf_at(node.position));
-  };
+  const auto leaf_of = [](const GivenNode& node) { return static_cast<std::size_t>(node.leaf); };
   const std::vector<double> wanted = wanted_nodes();
-  std::vector<double> given_in(static_cast<std::size_t>(tree.leaf_count()), 0);
+  std::vector<double> given_in(wanted.size(), 0);
   for (const GivenNode& node : inner) given_in[leaf_of(node)] += 1;
   const auto share_of = [&](const GivenNode& node) {
     const std::size_t leaf = leaf_of(node);
-    const double d = map_.leaf_spacing(static_cast<std::int32_t>(leaf));
+    const double d = map_.leaf_spacing(node.leaf);
     double share = 1;
     if (node.d > 0 && d > 1.02 * node.d) share = (node.d / d) * (node.d / d);
     if (given_in[leaf] > kCrowded * wanted[leaf] + 4)
       share = std::min(share, wanted[leaf] / given_in[leaf]);
     return static_cast<std::int64_t>(share * static_cast<double>(kOne));
   };
-  std::sort(inner.begin(), inner.end(), [&](const GivenNode& a, const GivenNode& b) {
-    return std::make_tuple(leaf_of(a), a.position[1], a.position[0], a.id) <
-           std::make_tuple(leaf_of(b), b.position[1], b.position[0], b.id);
-  });
   std::vector<std::int64_t> sums(given_in.size(), 0);
   for (const GivenNode& node : inner) sums[leaf_of(node)] += share_of(node);
   std::int64_t end = 0;
@@ -156,55 +235,52 @@ void Level::thin(std::vector<GivenNode>& inner) const {
 }
 
 // New ids go by bucket in Morton order, boundary nodes first, then by place, so that the order of
-// ids is nearly the order in memory.
+// ids is nearly the order in memory. The nodes are sorted by place.
 void Level::number_and_store(std::vector<GivenNode> inner) {
   ++version_;
-  struct Entry {
-    std::int32_t leaf;
-    std::int32_t boundary_node;  // the number of boundary nodes for an inner one
-    Point<2> x;
-    std::int64_t id;
-    bool operator<(const Entry& other) const {
-      return std::tie(leaf, boundary_node, x[1], x[0], id) <
-             std::tie(other.leaf, other.boundary_node, other.x[1], other.x[0], other.id);
-    }
-  };
-  const BackgroundTree<2>& tree = map_.tree();
-  const std::int32_t boundary_count = static_cast<std::int32_t>(boundary_.nodes.size());
-  std::vector<Entry> entries;
-  for (std::int32_t b = 0; b < boundary_count; ++b) {
-    const Point<2>& x = boundary_.nodes[static_cast<std::size_t>(b)].position;
-    const std::int32_t leaf = tree.leaf_at(x);
-    if (distribution_.owns(leaf))
-      entries.push_back({leaf, b, x, boundary_ids_[static_cast<std::size_t>(b)]});
-  }
-  double most_id = static_cast<double>(next_id_ - 1);
-  for (const GivenNode& node : inner) {
-    entries.push_back({tree.leaf_at(node.position), boundary_count, node.position, node.id});
-    most_id = std::max(most_id, static_cast<double>(node.id));
-  }
-  next_id_ = static_cast<std::int64_t>(comm_->largest(most_id)) + 1;
-  std::sort(entries.begin(), entries.end());
   // Nodes in one place would never part: the first of them counts.
-  entries.erase(std::unique(entries.begin(), entries.end(),
-                            [](const Entry& a, const Entry& b) { return a.x == b.x; }),
-                entries.end());
+  inner.erase(
+      std::unique(inner.begin(), inner.end(),
+                  [](const GivenNode& a, const GivenNode& b) { return a.position == b.position; }),
+      inner.end());
+  double most_id = static_cast<double>(next_id_ - 1);
+  for (const GivenNode& node : inner) most_id = std::max(most_id, static_cast<double>(node.id));
+  next_id_ = static_cast<std::int64_t>(comm_->largest(most_id)) + 1;
 
-  std::vector<std::int64_t> new_ids(static_cast<std::size_t>(tree.leaf_count()), 0);
-  for (const Entry& entry : entries) new_ids[static_cast<std::size_t>(entry.leaf)] += entry.id < 0;
+  std::vector<std::pair<std::int32_t, std::int32_t>> own_boundary;  // leaf and node
+  for (std::size_t b = 0; b < boundary_.nodes.size(); ++b) {
+    const std::int32_t leaf = map_.tree().leaf_at(boundary_.nodes[b].position);
+    if (distribution_.owns(leaf)) own_boundary.emplace_back(leaf, static_cast<std::int32_t>(b));
+  }
+  std::sort(own_boundary.begin(), own_boundary.end());
+
+  std::vector<std::int64_t> new_ids(static_cast<std::size_t>(map_.tree().leaf_count()), 0);
+  for (const auto& [leaf, b] : own_boundary)
+    new_ids[static_cast<std::size_t>(leaf)] += boundary_ids_[static_cast<std::size_t>(b)] < 0;
+  for (const GivenNode& node : inner) new_ids[static_cast<std::size_t>(node.leaf)] += node.id < 0;
   std::vector<std::int64_t> next = distribution_.prefix_sums(*comm_, std::move(new_ids), next_id_);
+  const auto number = [&](std::int64_t id, std::int32_t leaf) {
+    return id >= 0 ? id : next[static_cast<std::size_t>(leaf)]++;
+  };
 
   nodes_.count = 0;
   in_buckets_ = false;
-  nodes_.reserve(static_cast<std::int64_t>(entries.size() + entries.size() / 64) + 64);
-  for (const Entry& entry : entries) {
-    const std::int64_t id = entry.id >= 0 ? entry.id : next[static_cast<std::size_t>(entry.leaf)]++;
-    const bool inner_node = entry.boundary_node == boundary_count;
-    nodes_.append(
-        entry.x, 1, id,
-        inner_node ? 0 : boundary_.nodes[static_cast<std::size_t>(entry.boundary_node)].tag,
-        inner_node ? -1 : entry.boundary_node);
+  const std::size_t count = own_boundary.size() + inner.size();
+  nodes_.reserve(static_cast<std::int64_t>(count + count / 64) + 64);
+  auto of_boundary = own_boundary.begin();
+  const auto store_boundary_until = [&](std::int32_t last_leaf) {
+    for (; of_boundary != own_boundary.end() && of_boundary->first <= last_leaf; ++of_boundary) {
+      const auto& [leaf, b] = *of_boundary;
+      const BoundaryNode& node = boundary_.nodes[static_cast<std::size_t>(b)];
+      nodes_.append(node.position, 1, number(boundary_ids_[static_cast<std::size_t>(b)], leaf),
+                    node.tag, b);
+    }
+  };
+  for (const GivenNode& node : inner) {
+    store_boundary_until(node.leaf);
+    nodes_.append(node.position, 1, number(node.id, node.leaf), 0, -1);
   }
+  store_boundary_until(map_.tree().leaf_count());
   refresh_spacing();
   exchange(step_hops());
 }

@@ -200,7 +200,7 @@ std::vector<GivenNode> Level::owned_nodes() const {
   std::vector<GivenNode> owned;
   for (std::int64_t i = 0; i < nodes_.count; ++i)
     if (nodes_.owned(i))
-      owned.push_back({nodes_.position(i), nodes_.id(i), nodes_.moves(i), nodes_.d(i)});
+      owned.push_back({nodes_.position(i), nodes_.id(i), nodes_.moves(i), -1, nodes_.d(i)});
   return owned;
 }
 

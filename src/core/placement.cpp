@@ -19,6 +19,9 @@ namespace {
 
 constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
 
+// The steps' part of a run's work, for its progress: the rest are the finishing sweeps.
+constexpr double kStepsShare = 0.9;
+
 }  // namespace
 
 void Placement::set_spacing(std::shared_ptr<const Spacing<2>> spacing) {
@@ -36,29 +39,29 @@ void Placement::forget_nodes() { level_.reset(); }
 
 // ------------------------------------------------------------------ making a level -------------
 
-void Placement::initialise() {
+Outcome Placement::initialise() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   require_same_options();
   std::unique_ptr<Level> before = std::move(level_);
   try {
-    make_level();
+    return make_level();
   } catch (...) {
     level_ = std::move(before);
     throw;
   }
 }
 
-// A level for the present spacing, with the present options.
-void Placement::prepare_level() {
+// A level for the present spacing, with the present options. Stopped if the monitor has stopped
+// what leads to it.
+Outcome Placement::prepare_level() {
   const Settings settings(options_);
   require_same_options();
   const bool make =
       !level_ || spacing_replaced_ || settings.growth_limit != level_->settings().growth_limit;
-  if (comm_->largest(make) > 0)
-    make_level();
-  else
-    level_->change_settings(settings);
+  if (comm_->largest(make) > 0) return make_level();
+  level_->change_settings(settings);
+  return Outcome::converged;
 }
 
 // Ranks with other options or another domain would wait for each other for ever.
@@ -83,60 +86,82 @@ void Placement::require_same_domain() const {
                 "the domains differ between ranks: every rank describes the whole domain");
 }
 
+// The spacing as it counts: as given, or with its growth limited.
+std::shared_ptr<const Spacing<2>> Placement::limited_spacing(const Settings& settings) {
+  std::shared_ptr<const Spacing<2>> spacing = spacing_;
+  agreed(*comm_, [&] {
+    if (settings.growth_limit == 0) return;
+    const PhaseTimer timer(timers_, Phase::spacing);
+    spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, spacing_, settings.growth_limit,
+                                                     settings.max_nodes);
+  });
+  return spacing;
+}
+
+// A level without inner nodes yet.
+std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> spacing,
+                                              const Settings& settings) {
+  std::unique_ptr<Level> level;
+  agreed(*comm_, [&] {
+    // A copy: the caller may go on to change the domain.
+    level = std::make_unique<Level>(comm_, std::make_shared<PlaneDomain>(*domain_),
+                                    std::move(spacing), settings, timers_);
+    level->lay_boundary();
+  });
+  level->grow_tree();
+  return level;
+}
+
 // Lays the boundary at the present spacing and puts in the inner nodes: those of the level before
-// if there is one, those given, or a fill.
-void Placement::make_level() {
+// if there is one, those given, those of a coarser level refined, or a fill.
+Outcome Placement::make_level() {
   if (!spacing_)
     throw Error(PNPBS_ERROR_STATE,
                 "the placement has no spacing yet: call one of the set_spacing functions first");
   const Settings settings(options_);
-  std::unique_ptr<Level> next;
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain();
-  agreed(*comm_, [&] {
-    std::shared_ptr<const Spacing<2>> spacing = spacing_;
-    if (settings.growth_limit > 0) {
-      const PhaseTimer timer(timers_, Phase::spacing);
-      spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, spacing_, settings.growth_limit,
-                                                       settings.max_nodes);
-    }
-    // A copy: the caller may go on to change the domain.
-    next = std::make_unique<Level>(comm_, std::make_shared<PlaneDomain>(*domain_), spacing,
-                                   settings, timers_);
-    next->lay_boundary();
-  });
-  next->grow_tree();
+  const std::shared_ptr<const Spacing<2>> spacing = limited_spacing(settings);
+  std::unique_ptr<Level> next = empty_level(spacing, settings);
   TakenNodes taken;
+  Outcome outcome = Outcome::converged;
+  coarser_levels_ = 0;
   if (level_) {
     taken = next->take(level_->owned_nodes(), level_->next_id());
     taken.left_out = 0;  // not the user's
   } else if (start_from_given_) {
     taken = next->take(given_, 0);
   } else {
-    next->fill();
+    coarser_levels_ = coarser_levels_that_pay(*next);
+    if (coarser_levels_ > 0)
+      next->take(nodes_from_coarser_levels(spacing, settings, outcome), 0);
+    else
+      next->fill();
   }
   // Nothing has failed: from here on the new level counts.
-  if (level_) {
-    rebuilds_before_ += level_->rebuilds();
-    rebalances_before_ += level_->rebalances();
-  }
-  level_ = std::move(next);
-  order_version_ = lists_version_ = stars_version_ = -1;
+  adopt_level(std::move(next));
   dropped_ = taken.left_out;
   deleted_ += taken.thinned;
   warnings_ = domain_->warnings();
   warnings_.insert(warnings_.end(), level_->boundary().warnings.begin(),
                    level_->boundary().warnings.end());
   spacing_replaced_ = false;
-  begin_schedule();
+  begin_schedule(coarser_levels_ > 0);
+  return outcome;
 }
 
-void Placement::begin_schedule() {
-  schedule_step_ = 0;
-  schedule_ended_ = false;
-  population_settled_ = false;
-  quiet_events_ = 0;
-  imbalance_reached_ = 1;
+void Placement::adopt_level(std::unique_ptr<Level> next) {
+  if (level_) {
+    rebuilds_before_ += level_->rebuilds();
+    rebalances_before_ += level_->rebalances();
+  }
+  level_ = std::move(next);
+  order_version_ = lists_version_ = stars_version_ = -1;
+}
+
+void Placement::begin_schedule(bool refined) {
+  schedule_ = Schedule();
+  schedule_.refined = refined;
 }
 
 // ------------------------------------------------------------------ the time loop --------------
@@ -162,11 +187,12 @@ auto Placement::while_moving(const Work& work) {
 Outcome Placement::run() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  prepare_level();
+  if (prepare_level() == Outcome::stopped) return Outcome::stopped;
   return while_moving([this] {
-    if (schedule_ended_) begin_schedule();
-    const Outcome outcome = advance(level_->settings().steps, 0.95);
-    schedule_ended_ = true;
+    if (schedule_.ended) begin_schedule(false);
+    const Outcome outcome =
+        advance(level_->settings().steps, {schedule_.refined ? kCoarseShare : 0, kStepsShare});
+    schedule_.ended = true;
     if (outcome != Outcome::stopped) finish();
     return outcome;
   });
@@ -177,25 +203,25 @@ Outcome Placement::step(std::int64_t n) {
   if (!comm_->same_on_all(static_cast<std::uint64_t>(n)))
     throw Error(PNPBS_ERROR_ARGUMENT, "argument n differs between ranks");
   const PhaseTimer timer(timers_, Phase::total);
-  prepare_level();
+  if (prepare_level() == Outcome::stopped) return Outcome::stopped;
   return while_moving([&] {
-    if (schedule_ended_) begin_schedule();
-    const std::int64_t until = schedule_step_ > kNoLimit - n ? kNoLimit : schedule_step_ + n;
-    return advance(until, 1.0);
+    if (schedule_.ended) begin_schedule(false);
+    const std::int64_t until = schedule_.step > kNoLimit - n ? kNoLimit : schedule_.step + n;
+    return advance(until, {0, 1});
   });
 }
 
 // Steps on to step number `until` of the schedule, or until the bubbles rest. Events happen at
-// step numbers fixed in advance. `share` is the part of the call's work that this is.
-Outcome Placement::advance(std::int64_t until, double share) {
+// step numbers fixed in advance. `part` is the part of the call's work that this is.
+Outcome Placement::advance(std::int64_t until, ProgressPart part) {
   const Settings& settings = level_->settings();
-  const double first = static_cast<double>(schedule_step_);
+  const double first = static_cast<double>(schedule_.step);
   Outcome outcome = Outcome::not_converged;
   stop_reason_ = StopReason::step_limit;
   std::exception_ptr failure;  // of this rank: told to the others at the next event
   bool started = true;
-  while (schedule_step_ < until) {
-    if (started || schedule_step_ % settings.event_interval % settings.exchange_interval == 0)
+  while (schedule_.step < until) {
+    if (started || schedule_.step % settings.event_interval % settings.exchange_interval == 0)
       level_->exchange_for_steps(failure);
     started = false;
     try {
@@ -205,15 +231,15 @@ Outcome Placement::advance(std::int64_t until, double share) {
       failure = std::current_exception();
     }
     level_->count_step();
-    ++schedule_step_;
+    ++schedule_.step;
     ++steps_done_;
-    const bool is_event = schedule_step_ % settings.event_interval == 0;
-    if (is_event || schedule_step_ == until) agree_on_failure(*comm_, failure);
+    const bool is_event = schedule_.step % settings.event_interval == 0;
+    if (is_event || schedule_.step == until) agree_on_failure(*comm_, failure);
     if (!is_event) continue;
     event();
-    const double done = (static_cast<double>(schedule_step_) - first) /
+    const double done = (static_cast<double>(schedule_.step) - first) /
                         std::max(1.0, static_cast<double>(until) - first);
-    if (monitor_stops(share * done)) {
+    if (monitor_stops(part.begin + done * (part.end - part.begin))) {
       outcome = Outcome::stopped;
       stop_reason_ = StopReason::monitor;
       break;
@@ -231,9 +257,14 @@ Outcome Placement::advance(std::int64_t until, double share) {
 void Placement::event() {
   const Settings& settings = level_->settings();
   last_speeds_ = level_->speeds();
+  printf("  %ld nodes step %ld speeds %.4f %.3f\n", (long)count(), (long)schedule_.step,
+         last_speeds_.mean, last_speeds_.largest);
   level_->refresh_spacing();
-  if (schedule_step_ > settings.population_until && !far_too_few()) population_settled_ = true;
-  if (!population_settled_)
+  const double population_until =
+      std::floor(settings.population_share * static_cast<double>(level_->settings().steps));
+  if (static_cast<double>(schedule_.step) > population_until && !far_too_few())
+    schedule_.population_settled = true;
+  if (!schedule_.population_settled)
     control_population();  // renews the ghosts, too; else the next step does
   keep_balance();
 }
@@ -243,14 +274,15 @@ void Placement::keep_balance() {
   if (!level_->distributed()) return;
   constexpr double kNoBetter = 1.02;
   const double imbalance = level_->imbalance();
-  if (imbalance <= std::max(level_->settings().rebalance_above, kNoBetter * imbalance_reached_))
+  if (imbalance <=
+      std::max(level_->settings().rebalance_above, kNoBetter * schedule_.imbalance_reached))
     return;
   rebalance_now();
 }
 
 void Placement::rebalance_now() {
   level_->rebalance();
-  imbalance_reached_ = level_->imbalance();
+  schedule_.imbalance_reached = level_->imbalance();
 }
 
 void Placement::rebalance() {
@@ -272,6 +304,7 @@ void Placement::control_population() {
   constexpr int kMostRounds = 20;
   constexpr double kRefillBelow = 5.5;  // overlap ratio
   constexpr double kMuch = 0.002;       // share of the nodes
+  constexpr double kRefinedPays = 5;    // times the option's share
   const double nodes = static_cast<double>(global_count());
   double changed = 0;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -282,15 +315,20 @@ void Placement::control_population() {
     changed += acted;
     if (acted < kMuch * nodes) break;
   }
-  // Twice in a row: nodes that have just come may make room for more.
-  quiet_events_ = changed <= level_->settings().population_pays * nodes ? quiet_events_ + 1 : 0;
-  population_settled_ = quiet_events_ >= 2 && !far_too_few();
+  const Settings& settings = level_->settings();
+  // Nodes that have just come may make room for more: so twice in a row. After a coarser level
+  // there is little left to do.
+  const bool quiet =
+      changed <= (schedule_.refined ? kRefinedPays : 1) * settings.population_pays * nodes;
+  schedule_.quiet_events = quiet ? schedule_.quiet_events + 1 : 0;
+  schedule_.population_settled =
+      schedule_.quiet_events >= (schedule_.refined ? 1 : 2) && !far_too_few();
 }
 
 // While the population still changes, rest means nothing.
 bool Placement::bubbles_rest() const {
   const Settings& settings = level_->settings();
-  return population_settled_ && last_speeds_.mean < settings.tolerance_mean &&
+  return schedule_.population_settled && last_speeds_.mean < settings.tolerance_mean &&
          last_speeds_.largest < settings.tolerance_max;
 }
 

@@ -15,6 +15,21 @@
 
 namespace pnpbs {
 
+// Where the simulation of a level is. Events happen at step numbers of it.
+struct Schedule {
+  std::int64_t step = 0;
+  bool refined = false;  // it began with the nodes of a coarser level
+  bool ended = false;
+  bool population_settled = false;
+  int quiet_events = 0;          // that changed too little to pay, in a row
+  double imbalance_reached = 1;  // by the last rebalancing
+};
+
+// The part of a call's work that is in progress, for the monitor: from a fraction to another.
+struct ProgressPart {
+  double begin = 0, end = 1;
+};
+
 enum class Outcome { converged, not_converged, stopped };
 
 // Why a run ended, for the report.
@@ -44,7 +59,8 @@ class Placement {
     return monitor_ && monitor_(fraction, steps_done_, nodes, last_speeds_.largest);
   }
 
-  void initialise();
+  // converged, or stopped by the monitor
+  Outcome initialise();
   Outcome step(std::int64_t n);
   Outcome run();
   PopulationCounts adjust_population();
@@ -82,7 +98,8 @@ class Placement {
   const Timers& timers() const { return timers_; }
   const Communicator& communicator() const { return *comm_; }
   const std::shared_ptr<const Communicator>& ranks() const { return comm_; }
-  std::int64_t steps_done() const { return steps_done_; }
+  std::int64_t steps_done() const { return steps_done_; }  // on all levels
+  int coarser_levels() const { return coarser_levels_; }
   std::int64_t rebuilds() const { return rebuilds_before_ + (level_ ? level_->rebuilds() : 0); }
   std::int64_t rebalances() const {
     return rebalances_before_ + (level_ ? level_->rebalances() : 0);
@@ -96,15 +113,23 @@ class Placement {
   std::uint64_t hash() const;
 
  private:
-  void prepare_level();
-  void make_level();
+  Outcome prepare_level();
+  Outcome make_level();
+  std::shared_ptr<const Spacing<2>> limited_spacing(const Settings& settings);
+  std::unique_ptr<Level> empty_level(std::shared_ptr<const Spacing<2>> spacing,
+                                     const Settings& settings);
+  void adopt_level(std::unique_ptr<Level> next);
+  int coarser_levels_that_pay(const Level& finest) const;
+  std::vector<GivenNode> nodes_from_coarser_levels(const std::shared_ptr<const Spacing<2>>& spacing,
+                                                   const Settings& settings, Outcome& outcome);
   void require_same_options() const;
   void require_same_domain() const;
   template <class Work>
   auto while_moving(const Work& work);
-  void begin_schedule();
+  void begin_schedule(bool refined);
+  static constexpr double kCoarseShare = 0.5;  // of a run's work, for its progress
   bool bubbles_rest() const;
-  Outcome advance(std::int64_t until, double share);
+  Outcome advance(std::int64_t until, ProgressPart part);
   void event();
   void control_population();
   void keep_balance();
@@ -124,11 +149,8 @@ class Placement {
   bool start_from_given_ = false;
   bool spacing_replaced_ = false;  // since the level was made
 
-  std::int64_t schedule_step_ = 0;  // in the run in progress
-  bool schedule_ended_ = false;
-  bool population_settled_ = false;
-  int quiet_events_ = 0;          // that changed too little to pay, in a row
-  double imbalance_reached_ = 1;  // by the last rebalancing
+  int coarser_levels_ = 0;  // that the nodes came from
+  Schedule schedule_;       // of the level there is
   Speeds last_speeds_;
   std::int64_t steps_done_ = 0, inserted_ = 0, deleted_ = 0, dropped_ = 0, rebuilds_before_ = 0,
                rebalances_before_ = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/settings.hpp"
 
-#include <cmath>
-
 namespace pnpbs {
 
 Settings::Settings(const Options& o)
@@ -11,7 +9,11 @@ Settings::Settings(const Options& o)
       runge_kutta_finish(o.choice("finish") == "runge_kutta"),
       rest_length(o.real("rest_length")),
       steps(o.integer("steps")),
+      levels(static_cast<int>(o.integer("levels"))),
+      coarsest_steps(o.integer("coarsest_steps")),
+      refined_steps(o.integer("refined_steps")),
       event_interval(o.integer("event_interval")),
+      population_share(o.real("population_share")),
       population_pays(o.real("population_pays")),
       tolerance_mean(o.real("tolerance_mean")),
       tolerance_max(o.real("tolerance_max")),
@@ -29,8 +31,6 @@ Settings::Settings(const Options& o)
   motion.most = o.real("max_move");
   population.delete_above = o.real("delete_above");
   population.insert_below = o.real("insert_below");
-  population_until = static_cast<std::int64_t>(
-      std::floor(o.real("population_share") * static_cast<double>(steps)));
   sweep.weight = o.real("sweep_weight");
   // The lists must reach beyond the force, or they could never be kept for a step.
   const double least_radius = force_range() + 0.1;

@@ -21,9 +21,12 @@ struct Settings {
   double rest_length;
   Motion motion;
   std::int64_t steps;
+  int levels;                   // coarser ones
+  std::int64_t coarsest_steps;  // on the coarsest of several levels
+  std::int64_t refined_steps;   // on those between it and the finest
   std::int64_t event_interval;
-  std::int64_t population_until;  // step number
-  double population_pays;         // share of the nodes
+  double population_share;  // of the steps
+  double population_pays;   // share of the nodes
   PopulationRule population;
   double tolerance_mean, tolerance_max;  // scaled speeds
   std::int64_t sweeps;

@@ -72,7 +72,10 @@ const std::vector<StatisticRow>& statistic_table() {
           [](P p) { return p.has_nodes() ? p.level().boundary_nodes() : std::int64_t{0}; },
           "nodes on boundary and inner curves, and fixed nodes"),
       integer(
-          "steps", [](P p) { return p.steps_done(); }, "time steps done"),
+          "steps", [](P p) { return p.steps_done(); }, "time steps done, on coarser levels, too"),
+      integer(
+          "levels", [](P p) { return std::int64_t{p.coarser_levels()}; },
+          "coarser levels that the nodes came from"),
       integer(
           "rebuilds", [](P p) { return p.rebuilds(); }, "times the adjacency lists were made"),
       integer(

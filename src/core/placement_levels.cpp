@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Multilevel bubble simulation: the first nodes of a level come from a coarser one, where what is
+// wrong over long distances settles in few and cheap steps. Each level has twice the spacing of
+// the next; to refine it, a node comes into the middle of every edge of its Delaunay stars, which
+// leaves nearly every node with its six neighbours.
+#include <algorithm>
+#include <cmath>
+
+#include "core/placement.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+class MultipliedSpacing : public Spacing<2> {
+ public:
+  MultipliedSpacing(std::shared_ptr<const Spacing<2>> spacing, double factor)
+      : spacing_(std::move(spacing)), factor_(factor) {}
+
+  void evaluate(std::int64_t n, const Point<2>* x, double* d) const override {
+    spacing_->evaluate(n, x, d);
+    for (std::int64_t i = 0; i < n; ++i) d[i] *= factor_;
+  }
+
+ private:
+  std::shared_ptr<const Spacing<2>> spacing_;
+  double factor_;
+};
+
+double coarser_by(int level) { return std::ldexp(1.0, level); }
+
+// A coarser level runs like a placement of its own; the coarsest has the most to settle. Room for a
+// node that is missing there is missing on every finer one, too.
+Settings settings_of_level(Settings settings, bool coarsest) {
+  constexpr double kPopulationShare = 0.75, kMoreRoom = 0.3;  // overlap ratio
+  settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
+  settings.population_share = kPopulationShare;
+  settings.population.insert_below += kMoreRoom;
+  return settings;
+}
+
+}  // namespace
+
+// None where d is nearly the same everywhere: then one hexagonal lattice fills the domain. A level
+// of few nodes has nothing to settle over long distances, and bubbles of a spacing that varies from
+// one to the next have no rest.
+int Placement::coarser_levels_that_pay(const Level& finest) const {
+  constexpr double kLeastNodes = 500;  // of the coarsest
+  constexpr double kSteepest = 0.5;    // growth of d per unit of length
+  const SpacingVariation d = finest.spacing_variation();
+  const double nodes = finest.expected_nodes();
+  int levels = 0;
+  while (levels < finest.settings().levels && d.largest > kPatchVariation * d.least &&
+         nodes >= kLeastNodes * std::pow(coarser_by(levels + 1), 2) &&
+         d.steepest * coarser_by(levels + 1) <= kSteepest)
+    ++levels;
+  return levels;
+}
+
+// From the coarsest level down to twice the spacing. If the monitor stops them, refined nodes are
+// returned nevertheless, as they are.
+std::vector<GivenNode> Placement::nodes_from_coarser_levels(
+    const std::shared_ptr<const Spacing<2>>& spacing, const Settings& settings, Outcome& outcome) {
+  std::vector<GivenNode> nodes;
+  try {
+    for (int l = coarser_levels_; l > 0; --l) {
+      std::unique_ptr<Level> level =
+          empty_level(std::make_shared<MultipliedSpacing>(spacing, coarser_by(l)),
+                      settings_of_level(settings, l == coarser_levels_));
+      if (l == coarser_levels_)
+        level->fill();
+      else
+        level->take(std::move(nodes), 0);
+      adopt_level(std::move(level));
+      begin_schedule(false);
+      const ProgressPart part{kCoarseShare * (coarser_levels_ - l) / coarser_levels_,
+                              kCoarseShare * (coarser_levels_ - l + 1) / coarser_levels_};
+      if (outcome != Outcome::stopped) outcome = advance(level_->settings().steps, part);
+      nodes = level_->refined();
+    }
+    if (outcome != Outcome::stopped) outcome = Outcome::converged;
+    adopt_level(nullptr);
+  } catch (...) {
+    level_.reset();
+    throw;
+  }
+  return nodes;
+}
+
+}  // namespace pnpbs
