@@ -22,21 +22,12 @@ export OMP_NUM_THREADS=2
 with_mpi=$(grep -q '^PNPBS_ENABLE_MPI:BOOL=ON' "$build/CMakeCache.txt" && echo yes || echo no)
 uses_mpi() { grep -q pnpbs_mpi.h "$1"/*.c; }
 
-# An example's own words: "<what>: <number>, expected <number>", or "expected about <number>".
+# Runs a program and judges it by the lines that it prints.
+rules=$(dirname "$0")/check_lines.awk
 run_and_compare() {
   "$@" > "$work/output" < /dev/null
   sed 's/^/   /' "$work/output"
-  awk '
-    match($0, /: [-0-9.]+, expected (about )?[-0-9.]+$/) {
-      split(substr($0, RSTART + 2), part, ", expected ")
-      about = sub(/^about /, "", part[2])
-      allowed = about ? 0.04 * part[2] + 1e-12 : 0
-      difference = part[1] - part[2]
-      if (difference < 0) difference = -difference
-      if (difference > allowed) { print "   WRONG: " $0; bad = 1 }
-      checked++
-    }
-    END { exit bad || !checked }' "$work/output"
+  awk -f "$rules" "$work/output"
 }
 
 say "headers, each by itself"
