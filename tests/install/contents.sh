@@ -8,7 +8,6 @@ set -eu
 . "$1"
 . "$scripts/common.sh"
 cd "$prefix"
-soversion=${version%%.*}
 configuration=$(echo "${build_type:-noconfig}" | tr '[:upper:]' '[:lower:]')
 
 # ------------------------------------------------------------------ what there should be --------
@@ -126,8 +125,11 @@ for page in README.md docs/*.md; do
   grep -oE '\]\([^)# ]+' "$page" | sed 's/^](//' > "$work/links" || true
   while read -r link; do
     case $link in
-      http* | ../examples/* | ../bindings/* | ../include/* | examples/* | include/*) continue ;;
+      http*) continue ;;
+      # To what the source tree has elsewhere.
+      ../* | examples/* | include/*) target=$source/$(dirname "$page")/$link ;;
+      *) target=$(dirname "$page")/$link ;;
     esac
-    [ -e "$(dirname "$page")/$link" ] || fail "$page: $link is not there"
+    [ -e "$target" ] || fail "$page: $link is not there"
   done < "$work/links"
 done
