@@ -121,15 +121,16 @@ fi
 # ------------------------------------------------------------------ links in the documents ------
 say "links between installed documents"
 cd "$datadir/doc/pnpbs"
-for page in README.md docs/*.md; do
-  grep -oE '\]\([^)# ]+' "$page" | sed 's/^](//' > "$work/links" || true
+find . -name '*.md' | sed 's,^\./,,' > "$work/pages"
+while read -r page; do
+  grep -oE '\]\([^)# ]+' "$page" | sed 's/^](//' | grep -v '^https*:' > "$work/links" || true
   while read -r link; do
-    case $link in
-      http*) continue ;;
-      # To what the source tree has elsewhere.
-      ../* | examples/* | include/*) target=$source/$(dirname "$page")/$link ;;
-      *) target=$(dirname "$page")/$link ;;
+    # Where it leads in the source tree, of which only these lie here, in the same places.
+    target=$(realpath -m --relative-to="$source" "$source/$(dirname "$page")/$link")
+    case $target in
+      README.md | LICENSE | docs/*) ;;
+      *) target=$source/$target ;;
     esac
     [ -e "$target" ] || fail "$page: $link is not there"
   done < "$work/links"
-done
+done < "$work/pages"
