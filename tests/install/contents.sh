@@ -78,7 +78,7 @@ say "the library's names"
   fail "libpnpbs.so.$soversion"
 readelf -d "$libdir/libpnpbs.so" > "$work/dynamic"
 grep -q "SONAME.*\[libpnpbs\.so\.$soversion\]" "$work/dynamic" || fail "SONAME"
-if [ -z "$kokkos_is_shared" ]; then
+if [ "$kokkos_is_shared" = FALSE ]; then
   if grep -E 'NEEDED.*(libkokkos|libstdc)' "$work/dynamic"; then
     fail "Kokkos and the C++ library should be inside"
   fi

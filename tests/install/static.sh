@@ -28,7 +28,7 @@ if readelf -d "$work/smallest" | grep libpnpbs; then
 fi
 run_and_compare "$work/smallest"
 
-if [ "$with_mpi" = 0 ] && [ -z "$kokkos_is_shared" ]; then
+if [ "$with_mpi" = 0 ] && [ "$kokkos_is_shared" = FALSE ]; then
   say "all static"
   # shellcheck disable=SC2046,SC2086  # words on purpose
   "$cc" -static -std=c99 $flags "$program" -o "$work/all_static" $(pkg-config --static --libs pnpbs)
