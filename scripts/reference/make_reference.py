@@ -301,7 +301,8 @@ def beyond_c(sources, links):
     lines = ["What the languages have besides.\n", "**Fortran**\n"]
     own = [one for one in sources.fortran if not one.calls and "handle" in one.name]
     lines.append("```fortran\n" + "\n".join(one.call for one in own) + "\n```\n")
-    lines.append("Handles as integers, for common blocks: [fortran.md](../fortran.md#what-differs-from-c).\n")
+    lines.append("Handles as integers, for common blocks: "
+                 "[fortran.md](../fortran.md#what-differs-from-c).\n")
     lines.append("**Julia**\n")
     for one in sources.julia.docstrings:
         if links.julia[one] != "README.md#beyond-c":
@@ -327,7 +328,8 @@ How to use them for a task: [the guides](../README.md#guides).
     text += ("| [options](options.md) | name, type, default and range of each |\n"
              "| [statistics](statistics.md) | the keys of the report |\n")
     for title, rows in sources.opening.items():
-        text += f"\n## {title}\n\n" + table(["", ""], [[word, links.linked(what)] for word, what in rows])
+        text += f"\n## {title}\n\n"
+        text += table(["", ""], [[word, links.linked(what)] for word, what in rows])
     text += """
 In Fortran every procedure that returns no value takes `stat` and `errmsg` besides, both optional:
 without `stat` an error stops the program. In Julia an error is an exception. Local indices and
@@ -371,7 +373,7 @@ def main():
     if "--check" in sys.argv:
         found = list(differences(folder, made))
         print("\n".join(found) or f"{len(made)} pages are as the sources have them")
-        sys.exit("write them anew: scripts/reference/make_reference.py <libpnpbs.so>" if found else 0)
+        sys.exit("write them anew: --target pnpbs-reference" if found else 0)
     folder.mkdir(exist_ok=True)
     for old in folder.glob("*.md"):
         old.unlink()
