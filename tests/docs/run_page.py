@@ -7,7 +7,7 @@
   ```text           page, all in one folder, and print exactly this
   ```sh             alone: for the reader, not run
 
-Every named program must be used by a command that is run, and no program may be without a name. The
+Every named file must be used by a command that is run, and no program may be without a name. The
 folder has `examples`, as a clone has. Compilers are called with warnings as errors.
 
 usage: run_page.py <prefix> <page>
@@ -98,16 +98,14 @@ def run(block, expected, folder, variables):
     return None
 
 
-def programs_amiss(page, commands):
-    """Programs that nobody would run, a line each."""
+def unused(page, commands):
+    """Programs and files that no command would meet, a line each."""
     for block in page:
-        pattern = PROGRAMS.get(block.language)
-        if pattern is None or not (block.file or re.search(pattern, block.text, re.M)):
-            continue
-        if not block.file:
-            yield f"line {block.line}: a program without the name of a file"
-        elif not re.search(rf"\b{re.escape(block.file)}\b", commands):
+        program = PROGRAMS.get(block.language)
+        if block.file and not re.search(rf"\b{re.escape(block.file)}\b", commands):
             yield f"line {block.line}: no command that is run uses {block.file}"
+        elif not block.file and program is not None and re.search(program, block.text, re.M):
+            yield f"line {block.line}: a program without the name of a file"
 
 
 def run_page(prefix, page):
@@ -117,7 +115,7 @@ def run_page(prefix, page):
              if one.language == "sh" and other.language == "text" and other.follows]
     if not pairs:
         return ["nothing on this page is run"]
-    wrong = list(programs_amiss(found, "".join(one.text for one, _ in pairs)))
+    wrong = list(unused(found, "".join(one.text for one, _ in pairs)))
     with tempfile.TemporaryDirectory() as name:
         work = pathlib.Path(name)
         put_tools(work / "tools")
