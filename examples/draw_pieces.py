@@ -157,7 +157,7 @@ def main():
     figure.savefig(options.picture, dpi=100)
     if options.picture.endswith(".png"):
         with Image.open(options.picture) as image:
-            small = image.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+            small = image.convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE)
         small.save(options.picture, optimize=True)
 
 
