@@ -177,11 +177,16 @@ static void solve(const mesh *m, const exchange *e, const matrix *a, double *u) 
   double *r = room(m->owned, sizeof(double)), *q = room(m->owned, sizeof(double));
   double *p = room(m->all, sizeof(double)), rr, rr_before, enough, alpha;
   int64_t i;
+  int steps = 0;
   multiply(m, e, a, u, q);
   for (i = 0; i < m->owned; ++i) p[i] = r[i] = m->tags[i] != 0 ? 0 : -q[i];
   rr = dot(m, r, r);
   enough = 1e-20 * rr;
   while (rr > enough) {
+    if (++steps > 10000) {
+      fprintf(stderr, "conjugate gradients do not converge\n");
+      MPI_Abort(m->comm, 1);
+    }
     multiply(m, e, a, p, q);
     alpha = rr / dot(m, p, q);
     for (i = 0; i < m->owned; ++i) u[i] += alpha * p[i];

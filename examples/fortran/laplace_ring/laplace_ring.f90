@@ -11,6 +11,7 @@
 ! With a folder, which must be there, every rank writes its piece of the solution.
 module ring
   use, intrinsic :: iso_c_binding, only: c_double, c_int8_t, c_int32_t, c_int64_t
+  use, intrinsic :: iso_fortran_env, only: error_unit
   use mpi
   use pnpbs
   implicit none
@@ -188,7 +189,9 @@ contains
     real(c_double), intent(inout) :: u(:)
     real(c_double) :: r(m%owned), q(m%owned), p(m%all), rr, rr_before, enough, alpha
     integer(c_int64_t) :: n
+    integer :: steps, ierror
     n = m%owned
+    steps = 0
     call multiply(m, e, a, u, q)
     r = merge(0d0, -q, m%tags(:n) /= 0)
     p = 0
@@ -196,6 +199,11 @@ contains
     rr = dot(m, r, r)
     enough = 1d-20 * rr
     do while (rr > enough)
+      steps = steps + 1
+      if (steps > 10000) then
+        write (error_unit, '(a)') 'conjugate gradients do not converge'
+        call MPI_Abort(m%comm, 1, ierror)
+      end if
       call multiply(m, e, a, p, q)
       alpha = rr / dot(m, p, q)
       u(:n) = u(:n) + alpha * p(:n)
