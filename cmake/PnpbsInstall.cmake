@@ -104,7 +104,8 @@ install(FILES LICENSE DESTINATION "${doc_dir}")
 if(EXISTS "${PROJECT_SOURCE_DIR}/README.md")
   install(FILES README.md DESTINATION "${doc_dir}")
 endif()
-install(DIRECTORY examples/data examples/c examples/fortran DESTINATION "${data_dir}/examples"
+install(DIRECTORY examples/data examples/c examples/fortran examples/julia
+        DESTINATION "${data_dir}/examples"
         PATTERN ".clang-format" EXCLUDE)
 
 # ------------------------------------------------------------------ Julia -----------------------
