@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A meshless Laplacian on the adjacency lists, and Poisson's equation solved with it, on any number of
-# ranks. Each node gets weights for itself and its list by RBF-FD: the formula that is exact for the
-# polyharmonic splines |x - x_j|^5 of the list's nodes plus all polynomials up to a degree (N. Flyer,
-# B. Fornberg, V. Bayona, G. Barnett, "On the role of polynomials in RBF-FD approximations: I",
-# J. Comput. Phys. 321 (2016) 21-38).
+# A meshless Laplacian on the adjacency lists, and Poisson's equation solved with it, on any number
+# of ranks. Each node gets weights for itself and its list by RBF-FD: they give the Laplacian of the
+# interpolant of polyharmonic splines |x - x_j|^5 at the list's nodes and polynomials up to a degree
+# (N. Flyer, B. Fornberg, V. Bayona, G. Barnett, "On the role of polynomials in RBF-FD
+# approximations: I. Interpolation and accuracy", J. Comput. Phys. 321 (2016) 21-38).
 #
 # What to check: with polynomials of degree m the formula is exact for them up to rounding, at every
 # node; the Laplacian of a smooth function converges with order m - 1, that is 3 inside and 2 on the
-# boundary; and so does the solution of Poisson's equation, at least. It does better, with order 4, for
-# the errors of the formula differ in sign from node to node and mostly cancel.
+# boundary; and so does the solution of Poisson's equation, at least. It does better, with order 4,
+# for the errors of the formula differ in sign from node to node and mostly cancel.
 #
 #   julia laplacian_stencils.jl [FOLDER]                one process
 #   mpiexec -n 4 julia laplacian_stencils.jl [FOLDER]   with MPI.jl in the environment
@@ -33,7 +33,7 @@ at_points(f, points) = [f(points[1, i], points[2, i]) for i in 1:size(points, 2)
 
 # A rounded triangle with a hole of radius 1/2. The spacing is 0.4 h at the hole and h a distance of
 # 1 from it. The lists must be long enough for the polynomials, also at the boundary, where they are
-# one-sided: a radius of 3 spacings gives 22 neighbours and more inside, 14 and more on the boundary.
+# one-sided: a radius of 3 spacings gives 21 neighbours and more inside, 14 and more on the boundary.
 function place(context, h)
     domain = Domain(context)
     add_curve!(domain, 0, 2pi) do t
@@ -97,7 +97,7 @@ function seen_from(i, list, points, d)
     return x, y
 end
 
-# Also gives the largest error of the formulas on the polynomials that they must be exact for.
+# The stencils, and their largest error on the polynomials that they must be exact for.
 function laplacian_stencils(points, spacing, tags, lists)
     stencils = Stencils(lists, zeros(length(lists)), zeros(length(lists.entries)))
     largest_error = 0.0
@@ -115,7 +115,7 @@ function laplacian_stencils(points, spacing, tags, lists)
     return stencils, largest_error
 end
 
-# Values at this rank's nodes, of a function given at its nodes and ghosts.
+# The Laplacian at this rank's nodes of a function given at its nodes and ghosts.
 function laplacian!(values, stencils, u)
     offsets, neighbours = stencils.lists.offsets, stencils.lists.entries
     for i in eachindex(values)
@@ -233,13 +233,12 @@ end
 
 # ---------------------------------------------------------------- several spacings --------------
 function main(comm, folder)
-    talk = my_rank(comm) == 0
     BLAS.set_num_threads(1)
     context = comm === nothing ? Context() : Context(comm)
     spacings = [0.1, 0.07, 0.05]
     results = [solve(context, comm, h, h == last(spacings) ? folder : "") for h in spacings]
     close(context)
-    talk || return
+    my_rank(comm) == 0 || return
 
     println("                Laplacian, rms error     solution, error")
     println("    h   nodes   inside   on boundary     rms       largest")
