@@ -22,7 +22,7 @@ def missing(root):
     for language, title in LANGUAGES.items():
         table = re.search(rf"^\| \[?{title}\b[^\n]*\n\| --- .*?(?=\n\n|\Z)", text, re.M | re.S)
         for example in sorted((root / "examples" / language).glob("*/")):
-            if not table or f"| `{example.name}` |" not in table[0]:
+            if not table or f"| [{example.name}](../examples/{language}/{example.name}" not in table[0]:
                 yield f"examples/{language}/{example.name}"
 
 
@@ -36,7 +36,7 @@ def self_test():
             (root / "docs" / page).touch()
         (root / "docs/README.md").write_text(
             "(method.md) (reference/README.md)\n\n| [C](x) | of a page |\n\n"
-            "| [C](x) | |\n| --- | --- |\n| `one` | |\n\n| Julia | |\n| --- | --- |\n")
+            "| [C](x) | |\n| --- | --- |\n| [one](../examples/c/one) | |\n\n| Julia | |\n| --- | --- |\n")
         found = list(missing(root))
         assert found == ["docs/guide/adapt.md", "examples/c/two", "examples/julia/one"], found
 
