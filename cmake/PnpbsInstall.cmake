@@ -92,20 +92,37 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs.pc"
      INPUT "${PROJECT_BINARY_DIR}/pnpbs.pc.configured")
 install(FILES "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs.pc"
         DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
-if(PNPBS_BUILD_FORTRAN)
-  configure_file(pkgconfig/pnpbs-fortran.pc.in "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs-fortran.pc"
-                 @ONLY)
-  install(FILES "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs-fortran.pc"
+
+# A module in front of that one, of the same prefix.
+function(pnpbs_install_pc module)
+  configure_file(pkgconfig/${module}.pc.in "${PROJECT_BINARY_DIR}/pkgconfig/${module}.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/pkgconfig/${module}.pc"
           DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+endfunction()
+if(PNPBS_BUILD_FORTRAN)
+  pnpbs_install_pc(pnpbs-fortran)
+endif()
+if(PNPBS_HAVE_MPI)
+  # Nothing where the compiler finds MPI by itself.
+  set(PNPBS_PC_MPI_CFLAGS "")
+  foreach(folder IN LISTS MPI_C_INCLUDE_DIRS)
+    string(APPEND PNPBS_PC_MPI_CFLAGS " -I${folder}")
+  endforeach()
+  foreach(definition IN LISTS MPI_C_COMPILE_DEFINITIONS)
+    string(APPEND PNPBS_PC_MPI_CFLAGS " -D${definition}")
+  endforeach()
+  string(REPLACE ";" " " mpi_flags "${MPI_C_COMPILE_OPTIONS}")
+  string(APPEND PNPBS_PC_MPI_CFLAGS " ${mpi_flags}")
+  string(REPLACE ";" " " PNPBS_PC_MPI_LIBS " ${MPI_C_LINK_FLAGS} ${MPI_C_LIBRARIES}")
+  pnpbs_install_pc(pnpbs-mpi)
 endif()
 
 # ------------------------------------------------------------------ texts, examples -------------
-install(FILES LICENSE DESTINATION "${doc_dir}")
-if(EXISTS "${PROJECT_SOURCE_DIR}/README.md")
-  install(FILES README.md DESTINATION "${doc_dir}")
-endif()
-install(DIRECTORY examples/data examples/c examples/fortran DESTINATION "${data_dir}/examples"
-        PATTERN ".clang-format" EXCLUDE)
+install(FILES LICENSE README.md DESTINATION "${doc_dir}")
+# In a folder as here, for the links of README.md.
+install(DIRECTORY docs DESTINATION "${doc_dir}" PATTERN "pnpbs.1" EXCLUDE)
+install(DIRECTORY examples DESTINATION "${data_dir}" PATTERN ".clang-format" EXCLUDE
+        PATTERN "__pycache__" EXCLUDE)
 
 # ------------------------------------------------------------------ Julia -----------------------
 # Beside the library: the package looks for it in the prefix it lies in.

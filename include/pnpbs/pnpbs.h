@@ -264,7 +264,7 @@ PNPBS_API pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t
  *  PNPBS_ERROR_FILE with file, line and what was expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
 
-/** The same from memory. @param[in] name  what to call the text in messages */
+/** The same from memory. Local. @param[in] name  what to call the text in messages */
 PNPBS_API pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text,
                                                int64_t length, const char *name);
 

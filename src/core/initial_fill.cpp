@@ -78,6 +78,8 @@ class Fill {
     return steps >= 8 ? extent / steps : step;
   }
 
+  // Whose a node on the border of two leaves is, leaf_holds alone decides: by the arithmetic of
+  // leaf_at, which numbers the nodes and gives them their ranks. The box differs in last digits.
   void fill_leaf(std::int32_t leaf, const Lattice& lattice) {
     const BackgroundTree<2>& tree = map_.tree();
     const Box<2> box = tree.cell_box(tree.leaf_cell(leaf));
@@ -86,13 +88,13 @@ class Fill {
         static_cast<std::int64_t>(std::ceil((box.low[1] - bounds_.low[1]) / lattice.row)) - 1;
     for (std::int64_t row = first_row;; ++row) {
       const double y = bounds_.low[1] + lattice.row * static_cast<double>(row);
-      if (y >= box.high[1]) break;
+      if (y >= box.high[1] + 0.5 * lattice.row) break;
       const double shift = bounds_.low[0] + (row % 2 != 0 ? 0.5 * lattice.step : 0.0);
       auto column = static_cast<std::int64_t>(std::ceil((box.low[0] - shift) / lattice.step)) - 1;
       for (;; ++column) {
         const Point<2> x{shift + lattice.step * static_cast<double>(column), y};
-        if (x[0] >= box.high[0]) break;
-        if (x[0] < box.low[0] || y < box.low[1]) continue;
+        if (x[0] >= box.high[0] + 0.5 * lattice.step) break;
+        if (!tree.leaf_holds(leaf, x)) continue;
         if (!map_.inside_in_leaf(leaf, x)) continue;
         if (map_.clearance(x, kFillClearance * d) < kFillClearance * d) continue;
         points_.push_back(x);

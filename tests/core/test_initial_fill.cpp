@@ -139,6 +139,26 @@ START_TEST(as_many_as_d_means) {
 }
 END_TEST
 
+// Lattices of which nodes lie, but for the last digits, on borders of leaves: each node is made by
+// the leaf that leaf_at says, by which nodes are numbered and dealt to ranks, and by no other.
+START_TEST(each_leaf_makes_its_own) {
+  for (const double d : {0.05, 0.0625, 0.0697, 0.07, 0.0714, 0.08, 0.1}) {
+    const Filled filled([](PlaneDomain& p) { add_loop(p, rectangle(-1, -1, 1, 1)); }, constant(d));
+    std::size_t made = 0;
+    for (std::int32_t leaf = 0; leaf < filled.map.tree().leaf_count(); ++leaf) {
+      const std::vector<P> own = pnpbs::hexagonal_fill(
+          filled.map, filled.domain.bounds(), [leaf](std::int32_t other) { return other == leaf; });
+      for (const P& x : own) ck_assert_int_eq(filled.map.tree().leaf_at(x), leaf);
+      made += own.size();
+    }
+    ck_assert_uint_eq(made, filled.nodes.size());
+    std::vector<P> sorted = filled.nodes;
+    std::sort(sorted.begin(), sorted.end());
+    quick_assert(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+  }
+}
+END_TEST
+
 START_TEST(no_room_for_any) {
   const Filled strip([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 0.09)); }, constant(0.1));
   quick_assert(strip.nodes.empty());
@@ -201,5 +221,6 @@ END_TEST
 int main() {
   return run_kernel_suite("initial_fill",
                           {hexagonal_where_d_is_constant, exactly_hexagonal, as_many_as_d_means,
-                           no_room_for_any, levels_number_their_nodes, levels_take_given_nodes});
+                           each_leaf_makes_its_own, no_room_for_any, levels_number_their_nodes,
+                           levels_take_given_nodes});
 }

@@ -1,8 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The installed package, in a prefix that was moved: it finds the library beside it, and runs the
-# example of its page.
-# usage: installed.sh <build folder> <cmake> <julia> <source folder>
+# The installed package, in a prefix that was moved: it finds the library beside it.
+# usage: installed.sh <build folder> <cmake> <julia>
 set -eu
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -15,8 +14,6 @@ export JULIA_LOAD_PATH="@stdlib:$work/moved/share/pnpbs/julia" JULIA_DEPOT_PATH=
   using PNPBS
   path = PNPBS.LibPNPBS.library_path()
   startswith(path, ARGS[1]) || error("the library found is $path")' "$work/moved"
-"$3" --startup-file=no --compiled-modules=no \
-  "$work/moved/share/pnpbs/julia/PNPBS.jl/test/run_page.jl" "$4/docs/julia.md"
 # Precompiled, as users have it: nothing of the library's may be kept in the image.
 for turn in first second; do
   "$3" --startup-file=no -e '

@@ -57,7 +57,7 @@ static void move_to_frame(spot *s, int frame) {
 }
 
 static double wanted_nodes(const spot *s) {
-  const int cells = 1500;
+  const int cells = 500;
   double sum = 0;
   int i, j;
   for (j = 0; j < cells; ++j)

@@ -52,12 +52,37 @@ function exchange(values::Vector{Int64}, rank, count)
     return received
 end
 
-function sum_over_ranks(value::Int64)
-    total = Ref{Int64}(0)
-    @ccall $(mpi(:MPI_Allreduce))(Ref(value)::Ptr{Int64}, total::Ptr{Int64}, 1::Cint,
-                                  int64()::Ptr{Cvoid}, mpi(:ompi_mpi_op_sum)::Ptr{Cvoid},
-                                  world()::Ptr{Cvoid})::Cint
-    return total[]
+# The datatype of an array's elements, and the operation of a function.
+datatype(::Type{Int64}) = int64()
+datatype(::Type{Float64}) = mpi(:ompi_mpi_double)
+operation(::typeof(+)) = mpi(:ompi_mpi_op_sum)
+operation(::typeof(max)) = mpi(:ompi_mpi_op_max)
+operation(::typeof(min)) = mpi(:ompi_mpi_op_min)
+
+function reduce_over_ranks(value::T, op, comm) where {T}
+    result = Ref(value)
+    @ccall $(mpi(:MPI_Allreduce))(Ref(value)::Ptr{T}, result::Ptr{T}, 1::Cint,
+                                  datatype(T)::Ptr{Cvoid}, operation(op)::Ptr{Cvoid},
+                                  comm::Ptr{Cvoid})::Cint
+    return result[]
 end
+
+sum_over_ranks(value::Int64) = reduce_over_ranks(value, +, world())
+
+# Begin to send or receive an array, and return the request. The array must live until the request
+# has been waited for.
+start_send(values::Array, rank, tag, comm) = start(mpi(:MPI_Isend), values, rank, tag, comm)
+start_receive(values::Array, rank, tag, comm) = start(mpi(:MPI_Irecv), values, rank, tag, comm)
+
+function start(call, values::Array{T}, rank, tag, comm) where {T}
+    request = Ref{Ptr{Cvoid}}(C_NULL)
+    @ccall $call(values::Ptr{T}, length(values)::Cint, datatype(T)::Ptr{Cvoid}, rank::Cint,
+                 tag::Cint, comm::Ptr{Cvoid}, request::Ptr{Ptr{Cvoid}})::Cint
+    return request[]
+end
+
+wait_all(requests::Vector{Ptr{Cvoid}}) =
+    @ccall $(mpi(:MPI_Waitall))(length(requests)::Cint, requests::Ptr{Ptr{Cvoid}},
+                                C_NULL::Ptr{Cvoid})::Cint
 
 end

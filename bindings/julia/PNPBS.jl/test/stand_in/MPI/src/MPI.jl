@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-A stand-in for MPI.jl where none can be installed: what PNPBS uses of it, under the same names, on
-Open MPI. It is for tests of how PNPBS meets MPI.jl, and for nothing else.
+A stand-in for MPI.jl where none can be installed: what PNPBS and its examples use of it, under the
+same names, on Open MPI. It is for tests of how they meet MPI.jl, and for nothing else.
 """
 module MPI
 
@@ -27,6 +27,27 @@ Finalized() = OpenMPI.flag(:MPI_Finalized)
 Comm_rank(comm) = OpenMPI.number(:MPI_Comm_rank, comm.val)
 Comm_size(comm) = OpenMPI.number(:MPI_Comm_size, comm.val)
 Get_library_version() = OpenMPI.version()
+
+# A reduction of one number, and messages, in forms without keywords, which MPI.jl 0.15 to 0.20 have.
+Allreduce(value, op, comm) = OpenMPI.reduce_over_ranks(value, op, comm.val)
+
+# A request keeps its array alive.
+struct Request
+    val::Ptr{Cvoid}
+    buffer::Array
+end
+
+Isend(buffer::Array, dest::Integer, tag::Integer, comm::Comm) =
+    Request(OpenMPI.start_send(buffer, dest, tag, comm.val), buffer)
+Irecv!(buffer::Array, source::Integer, tag::Integer, comm::Comm) =
+    Request(OpenMPI.start_receive(buffer, source, tag, comm.val), buffer)
+
+# MPI.jl has it by this name since 0.20.
+function Waitall(requests::Vector{Request})
+    GC.@preserve requests OpenMPI.wait_all([request.val for request in requests])
+    return nothing
+end
+
 add_finalize_hook!(f) = push!(finalize_hooks, f)
 
 function Finalize()

@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring
+# 0.5 <= r <= 1 with u = log r on both circles, which is then the solution everywhere. Linear finite
+# elements, built node by node: the row of a node comes from the triangles of its Delaunay star
+# alone, so every rank assembles the rows of its own nodes without a mesh file and without a
+# message. examples/c/laplace_ring is the same program in C, which tells what to check.
+#
+#   julia laplace_ring.jl [FOLDER]                one process
+#   mpiexec -n 4 julia laplace_ring.jl [FOLDER]   with MPI.jl in the environment
+#
+# With a folder, which must be there, every rank writes its piece of the solution.
+using PNPBS
+using Printf
+
+# With MPI.jl, if it is there, on all ranks. Without it `comm` is nothing, and all nodes are here.
+const with_mpi = Base.find_package("MPI") !== nothing
+if with_mpi
+    import MPI
+end
+
+const inner_radius, outer_radius, d = 0.5, 1.0, 0.03
+const INNER_CIRCLE, OUTER_CIRCLE = 1, 2
+
+# This rank's nodes, followed by its ghosts: the nodes of other ranks next to them.
+struct Mesh{C}
+    comm::C
+    owned::Int
+    xy::Matrix{Float64}      # (2, all), all with the ghosts
+    tags::Vector{Int32}      # [all]
+    corners::Matrix{Int64}   # (3, triangles)
+end
+
+# The rows of this rank's nodes: besides the diagonal, one entry for each node of the star, those of
+# row i from offsets[i] to offsets[i + 1] - 1.
+struct StarMatrix
+    offsets::Vector{Int64}
+    columns::Vector{Int64}
+    diagonal::Vector{Float64}
+    values::Vector{Float64}
+end
+
+known_solution(x, y) = log(hypot(x, y))
+known_solution(xy::Matrix, i) = known_solution(xy[1, i], xy[2, i])
+
+# ---------------------------------------------------------------- from the library --------------
+function get_mesh(placement, comm)
+    own, others = nodes(placement), ghosts(placement)
+    return Mesh(comm, node_count(placement), [own.points others.points], [own.tags; others.tags],
+                triangles(placement))
+end
+
+# Cotangent of the angle at a in the triangle of the nodes a, b, c, counter-clockwise.
+function cotangent(xy, a, b, c)
+    bx, by = xy[1, b] - xy[1, a], xy[2, b] - xy[2, a]
+    cx, cy = xy[1, c] - xy[1, a], xy[2, c] - xy[2, a]
+    return (bx * cx + by * cy) / (bx * cy - by * cx)
+end
+
+# For linear elements the integral of grad phi_i . grad phi_j over a triangle is -1/2 times the
+# cotangent of the angle opposite to the edge from i to j; and every row sums to zero.
+function assemble(placement, mesh)
+    star = stars(placement)
+    offsets, columns = star.neighbours.offsets, star.neighbours.entries
+    a = StarMatrix(offsets, columns, zeros(mesh.owned), zeros(length(columns)))
+    for i in 1:mesh.owned, k in offsets[i]:(offsets[i + 1] - 1)
+        star.triangle.entries[k] || continue        # a gap outside the domain
+        next = k + 1 < offsets[i + 1] ? k + 1 : offsets[i]
+        at_next = cotangent(mesh.xy, columns[next], i, columns[k]) / 2
+        at_k = cotangent(mesh.xy, columns[k], columns[next], i) / 2
+        a.values[k] -= at_next
+        a.values[next] -= at_k
+        a.diagonal[i] += at_next + at_k
+    end
+    return a
+end
+
+# ---------------------------------------------------------------- the solver --------------------
+over_ranks(op, part, comm) = MPI.Allreduce(part, op, comm)
+over_ranks(op, part, ::Nothing) = part
+sum_over_ranks(mesh, part) = over_ranks(+, part, mesh.comm)
+
+function dot(mesh, x, y)
+    part = 0.0
+    for i in 1:mesh.owned
+        part += x[i] * y[i]
+    end
+    return sum_over_ranks(mesh, part)
+end
+
+# y = A x at this rank's nodes, after the ghosts of x have got the values that their owners have.
+function multiply!(y, a, x, mesh, exchange)
+    update_ghosts!(x, exchange, mesh.comm)
+    for i in 1:mesh.owned
+        s = a.diagonal[i] * x[i]
+        for k in a.offsets[i]:(a.offsets[i + 1] - 1)
+            s += a.values[k] * x[a.columns[k]]
+        end
+        y[i] = s
+    end
+    return y
+end
+
+# Conjugate gradients: A u = 0 at the inner nodes. On the boundary u stays as it is, because the
+# residual there counts as zero.
+function solve!(u, a, mesh, exchange)
+    inner = mesh.tags[1:mesh.owned] .== 0
+    q = zeros(mesh.owned)
+    r = -inner .* multiply!(q, a, u, mesh, exchange)
+    p = zero(u)
+    p[1:mesh.owned] = r
+    rr = dot(mesh, r, r)
+    enough = 1e-20 * rr
+    while rr > enough
+        multiply!(q, a, p, mesh, exchange)
+        alpha = rr / dot(mesh, p, q)
+        for i in 1:mesh.owned
+            u[i] += alpha * p[i]
+            r[i] = inner[i] ? r[i] - alpha * q[i] : 0.0
+        end
+        rr_before, rr = rr, dot(mesh, r, r)
+        for i in 1:mesh.owned
+            p[i] = r[i] + rr / rr_before * p[i]
+        end
+    end
+    return update_ghosts!(u, exchange, mesh.comm)
+end
+
+# ---------------------------------------------------------------- the results -------------------
+function largest_error(mesh, u)
+    part = maximum(abs(u[i] - known_solution(mesh.xy, i)) for i in 1:mesh.owned)
+    return over_ranks(max, part, mesh.comm)
+end
+
+# Root of the integral of (u - log r)^2, by the middles of the triangles' edges.
+function l2_error(mesh, u)
+    part = 0.0
+    for t in 1:size(mesh.corners, 2)
+        a, b, c = mesh.corners[:, t]
+        area = triangle_area(mesh.xy, a, b, c)
+        for (i, j) in ((a, b), (b, c), (c, a))
+            x, y = (mesh.xy[1, i] + mesh.xy[1, j]) / 2, (mesh.xy[2, i] + mesh.xy[2, j]) / 2
+            part += area / 3 * ((u[i] + u[j]) / 2 - known_solution(x, y))^2
+        end
+    end
+    return sqrt(sum_over_ranks(mesh, part))
+end
+
+triangle_area(xy, a, b, c) = ((xy[1, b] - xy[1, a]) * (xy[2, c] - xy[2, a]) -
+                              (xy[2, b] - xy[2, a]) * (xy[1, c] - xy[1, a])) / 2
+
+# The integral of the normal derivative over the outer circle: what A u leaves there.
+function outer_flux(a, u, mesh, exchange)
+    q = multiply!(zeros(mesh.owned), a, u, mesh, exchange)
+    return sum_over_ranks(mesh, sum(q[mesh.tags[1:mesh.owned] .== OUTER_CIRCLE]))
+end
+
+function print_results(a, u, mesh, exchange)
+    area = pi * (outer_radius^2 - inner_radius^2)
+    bound = d^2 / 6 / inner_radius^2
+    n = sum_over_ranks(mesh, mesh.owned)
+    n_triangles = sum_over_ranks(mesh, size(mesh.corners, 2))
+    boundary = sum_over_ranks(mesh, count(!=(0), mesh.tags[1:mesh.owned]))
+    flux = outer_flux(a, u, mesh, exchange)
+    largest, l2 = largest_error(mesh, u), l2_error(mesh, u)
+    my_rank(mesh.comm) == 0 || return
+    @printf("nodes: %d, expected about %.0f\n", n, 2 * area / sqrt(3) / d^2 + boundary / 2)
+    @printf("triangles: %d, expected %d\n", n_triangles, 2n - boundary)
+    @printf("flux through the outer circle: %.5f, expected about %.5f\n", flux, 2pi)
+    @printf("largest error: %.8f, expected at most %.8f\n", largest, bound)
+    @printf("L2 error: %.8f, expected at most %.8f\n", l2, bound * sqrt(area))
+end
+
+my_rank(comm) = MPI.Comm_rank(comm)
+my_rank(::Nothing) = 0
+
+# FOLDER/laplace_ring_<rank>.vtk, for examples/draw_pieces.py or ParaView.
+function write_piece(folder, mesh, u)
+    n, m = size(mesh.xy, 2), size(mesh.corners, 2)
+    errors = [abs(u[i] - known_solution(mesh.xy, i)) for i in 1:n]
+    path = joinpath(folder, "laplace_ring_" * lpad(my_rank(mesh.comm), 3, '0') * ".vtk")
+    open(path, "w") do file
+        println(file, "# vtk DataFile Version 3.0\nlaplace_ring\nASCII\nDATASET UNSTRUCTURED_GRID")
+        println(file, "POINTS $n double")
+        foreach(i -> @printf(file, "%.9g %.9g 0\n", mesh.xy[1, i], mesh.xy[2, i]), 1:n)
+        println(file, "CELLS $m $(4m)")
+        foreach(t -> println(file, "3 ", join(mesh.corners[:, t] .- 1, " ")), 1:m)
+        println(file, "CELL_TYPES $m\n", repeat("5\n", m), "POINT_DATA $n")
+        for (name, values) in (("solution", u), ("error", errors))
+            println(file, "SCALARS $name double\nLOOKUP_TABLE default")
+            foreach(value -> @printf(file, "%.9g\n", value), values)
+        end
+    end
+end
+
+# ---------------------------------------------------------------- the program -------------------
+function main(comm, folder)
+    context = comm === nothing ? Context() : Context(comm)    # any communicator of yours
+    ring = Domain(context)
+    add_arc!(ring, (0, 0), inner_radius; tag = INNER_CIRCLE)
+    add_arc!(ring, (0, 0), outer_radius; tag = OUTER_CIRCLE)
+    placement = Placement(ring)
+    set_spacing!(placement, d)
+    run!(placement)
+
+    mesh = get_mesh(placement, comm)
+    exchange = exchange_pattern(placement)
+    a = assemble(placement, mesh)
+    u = [tag == 0 ? 0.0 : known_solution(mesh.xy, i) for (i, tag) in enumerate(mesh.tags)]
+    solve!(u, a, mesh, exchange)
+    print_results(a, u, mesh, exchange)
+    folder === nothing || write_piece(folder, mesh, u)
+    close(context)
+end
+
+with_mpi && MPI.Init()
+main(with_mpi ? MPI.COMM_WORLD : nothing, isempty(ARGS) ? nothing : ARGS[1])
+with_mpi && MPI.Finalize()

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a user of PNPBS.jl can call, by its docstrings, and which C functions each of it reaches,
+as plain data."""
+
+import re
+from typing import NamedTuple
+
+# Every call passes through these; what they ask is no service of the function that was called.
+CHECKS = {"check", "check_without_context", "live"}
+# What reaches the user in another way than through a function that he calls.
+OTHERWISE = {"pnpbs_last_error": "PNPBSError"}
+
+
+class Docstring(NamedTuple):
+    names: tuple  # what it documents: ("set_spacing!",)
+    signatures: tuple
+    text: str
+    file: str
+
+
+def docstrings(text, file):
+    found = []
+    for body in re.findall(r'^"""\n(.*?)^"""$', text, re.S | re.M):
+        head, _, rest = body.partition("\n\n")
+        lines = head.rstrip().splitlines()
+        if not all(line.startswith("    ") for line in lines):
+            continue  # of a module
+        signatures = tuple(line.strip() for line in lines)
+        names = dict.fromkeys(re.match(r"[\w.]+!?", line)[0] for line in signatures)
+        found.append(Docstring(tuple(names), signatures, rest.strip(), file))
+    return found
+
+
+def definitions(text):
+    """[(function's name, its source)] of what is defined at the left margin."""
+    text = re.sub(r'^"""\n.*?^"""$', "", text, flags=re.S | re.M)
+    text = re.sub(r"#.*$", "", text, flags=re.M)
+    found = []
+    for match in re.finditer(r"^(function )?(?:Base\.)?(\w+!?)\(", text, re.M):
+        rest = text[match.start():]
+        stop = re.search(r"^end\b" if match[1] else r"\n(?=\S)", rest[1:], re.M)
+        found.append((match[2], rest[:stop.end() + 1] if stop else rest))
+    return found
+
+
+class Package:
+    def __init__(self, folder):
+        texts = {path.name: path.read_text() for path in sorted((folder / "src").glob("*.jl"))}
+        raw = texts.pop("LibPNPBS.jl")
+        self.raw = set(re.findall(r"^(pnpbs_\w+)\(", raw, re.M))
+        texts.pop("library.jl")  # the raw layer's own
+        self.docstrings = [one for file, text in texts.items() for one in docstrings(text, file)]
+        self.sources = {}
+        for text in texts.values():
+            for name, source in definitions(text):
+                self.sources[name] = self.sources.get(name, "") + source
+        self.documented = {name: one for one in self.docstrings for name in one.names}
+
+    def reached(self, name, seen=None):
+        """C functions that a function calls, itself or through functions without a docstring."""
+        seen = seen if seen is not None else {name}
+        source = self.sources.get(name, "")
+        found = set(re.findall(r"LibPNPBS\.(pnpbs_\w+)", source))
+        for other in set(re.findall(r"\b([a-z]\w*!?)(?=[(,. ])", source)) - seen - CHECKS:
+            if other in self.sources and other not in self.documented:
+                seen.add(other)
+                found |= self.reached(other, seen)
+        return found
+
+    def of_c_function(self, c_name):
+        """The docstrings of the functions that stand for a C function."""
+        if c_name in OTHERWISE:
+            return [self.documented[OTHERWISE[c_name]]]
+        return [one for one in self.docstrings
+                if any(c_name in self.reached(name) for name in one.names)]

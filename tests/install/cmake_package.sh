@@ -1,0 +1,95 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# What find_package(pnpbs) gives, and what it says where it gives nothing.
+# usage: cmake_package.sh <settings>
+# shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
+set -eu
+. "$1"
+. "$scripts/common.sh"
+cases=0
+
+# A project with these languages (C, CXX, Fortran; with blanks between) and these lines.
+project() {
+  cases=$((cases + 1))
+  folder=$work/project_$cases
+  mkdir "$folder"
+  {
+    echo "cmake_minimum_required(VERSION 3.22)"
+    echo "project(asks LANGUAGES $1)"
+    printf '%s\n' "$2"
+  } > "$folder/CMakeLists.txt"
+  "$cmake" -S "$folder" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_C_COMPILER="$cc" -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_Fortran_COMPILER="$fc" \
+    > "$work/log" 2>&1
+}
+
+works() {
+  say "works: $1: $2"
+  project "$1" "$2" || { cat "$work/log"; fail "should work"; }
+}
+
+# Languages, lines, and what the message must contain, however CMake has broken its lines.
+is_refused() {
+  say "is refused: $1: $2"
+  if project "$1" "$2"; then
+    fail "should be refused"
+  fi
+  tr -s ' \n' '  ' < "$work/log" > "$work/message"
+  grep -qF -e "$3" "$work/message" || { cat "$work/log"; fail "should say: $3"; }
+}
+
+# Says in CMake that something must hold.
+require() { echo "if(NOT ($1))"; echo "message(FATAL_ERROR \"$2\")"; echo "endif()"; }
+
+minor=${version%.*}
+major=${version%%.*}
+next="$major.$((${minor#*.} + 1))"
+
+works C "find_package(pnpbs $minor REQUIRED)
+$(require "pnpbs_VERSION VERSION_EQUAL $version AND TARGET pnpbs::pnpbs" "wrong version or no target")
+$(require "NOT TARGET pnpbs::fortran AND NOT TARGET pnpbs::mpi" "targets that nobody asked for")
+get_target_property(needs pnpbs::pnpbs INTERFACE_LINK_LIBRARIES)
+$(require "NOT needs" "pnpbs::pnpbs brings others")"
+works C "find_package(pnpbs $version EXACT REQUIRED)"
+works C "find_package(pnpbs REQUIRED)
+find_package(pnpbs REQUIRED)"
+is_refused C "find_package(pnpbs $next REQUIRED)" "version: $version"
+is_refused C "find_package(pnpbs $next REQUIRED)" "compatible with requested version \"$next\""
+is_refused C "find_package(pnpbs $((major + 1)) REQUIRED)" "version: $version"
+is_refused C "find_package(pnpbs REQUIRED COMPONENTS Pascal)" \
+  "pnpbs has no component Pascal; there are Fortran and MPI"
+works C "find_package(pnpbs REQUIRED OPTIONAL_COMPONENTS Pascal)
+$(require "NOT pnpbs_Pascal_FOUND AND pnpbs_FOUND" "an optional component is not optional")"
+
+# ------------------------------------------------------------------ MPI -------------------------
+uses_mpi="file(WRITE \"\${CMAKE_BINARY_DIR}/a.c\" \"#include <pnpbs/pnpbs_mpi.h>
+int main(void) { return (int)sizeof(&pnpbs_context_create_mpi) == 0; }\")
+add_executable(a \"\${CMAKE_BINARY_DIR}/a.c\")
+target_link_libraries(a PRIVATE pnpbs::mpi)"
+if [ "$with_mpi" = 1 ]; then
+  for languages in C CXX "C CXX"; do
+    works "$languages" "find_package(pnpbs REQUIRED COMPONENTS MPI)
+$(require "pnpbs_MPI_FOUND AND TARGET pnpbs::mpi AND TARGET pnpbs::pnpbs" "no component MPI")
+set(CMAKE_CXX_STANDARD 11)
+$(case $languages in CXX) echo "$uses_mpi" | sed 's/a\.c/a.cpp/' ;; *) echo "$uses_mpi" ;; esac)"
+    quietly "$cmake" --build "$folder/build"
+  done
+  works C "find_package(pnpbs REQUIRED COMPONENTS MPI)
+find_package(pnpbs REQUIRED COMPONENTS MPI)"
+  is_refused C "set(CMAKE_DISABLE_FIND_PACKAGE_MPI ON)
+find_package(pnpbs REQUIRED COMPONENTS MPI)" "The component MPI found no MPI"
+else
+  is_refused C "find_package(pnpbs REQUIRED COMPONENTS MPI)" "was built without MPI"
+fi
+
+# ------------------------------------------------------------------ Fortran ---------------------
+is_refused C "find_package(pnpbs REQUIRED COMPONENTS Fortran)" \
+  "The component Fortran needs a Fortran compiler: enable_language(Fortran) first."
+works C "find_package(pnpbs REQUIRED OPTIONAL_COMPONENTS Fortran)
+$(require "NOT pnpbs_Fortran_FOUND" "a module without a compiler")"
+if [ -n "$fc" ]; then
+  works Fortran "find_package(pnpbs $minor REQUIRED COMPONENTS Fortran)
+$(require "pnpbs_Fortran_FOUND AND TARGET pnpbs::fortran" "no component Fortran")"
+  is_refused Fortran "find_package(pnpbs REQUIRED COMPONENTS Fortran MPI)" \
+    "$([ "$with_mpi" = 1 ] && echo "enable_language(C) or enable_language(CXX) first" || echo "was built without MPI")"
+fi

@@ -1,0 +1,27 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# The installed command finds its library where the tree was moved to, and has a manual page.
+# usage: command.sh <settings>
+# shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
+set -eu
+. "$1"
+. "$scripts/common.sh"
+[ "$with_command" = ON ] || nothing_to_test "this build has no command"
+export OMP_NUM_THREADS=2
+
+command=$prefix/$bindir/pnpbs
+"$command" --version | grep -F "$version" || fail "not version $version"
+# 3: the step limit came first, and the nodes are there.
+"$command" --quiet --domain "$prefix/$datadir/pnpbs/examples/data/lake_victoria.poly" --spacing 5 \
+  --output "$work/lake.node" || [ $? = 3 ]
+[ -s "$work/lake.node" ] || fail "no nodes were written"
+
+page=$prefix/$mandir/man1/pnpbs.1
+grep -q "^\.TH PNPBS 1 .*\"PNPBS $version\"" "$page" || fail "the manual page is not of $version"
+if command -v mandoc > /dev/null; then
+  mandoc -Tlint "$page" || fail "mandoc -Tlint $page"
+fi
+if command -v groff > /dev/null; then
+  groff -man -ww -Tutf8 -z "$page" 2> "$work/warnings"
+  [ ! -s "$work/warnings" ] || fail "$(cat "$work/warnings")"
+fi

@@ -1,0 +1,136 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# The installed tree file by file: all that belongs there, nothing else, and nothing that names the
+# folders of the machine it was built on.
+# usage: contents.sh <settings>
+# shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
+set -eu
+. "$1"
+. "$scripts/common.sh"
+cd "$prefix"
+configuration=$(echo "${build_type:-noconfig}" | tr '[:upper:]' '[:lower:]')
+
+# ------------------------------------------------------------------ what there should be --------
+# A folder of the source tree, file for file: folder, where it lies in the prefix.
+same_files() {
+  (cd "$source/$1" && find . -type f ! -name .clang-format ! -path '*/__pycache__/*') |
+    sed "s,^\.,$2,"
+}
+
+expected_files() {
+  echo "$includedir/pnpbs/pnpbs.h"
+  echo "$includedir/pnpbs/pnpbs_mpi.h"
+  echo "$libdir/libpnpbs.so"
+  echo "$libdir/libpnpbs.so.$soversion"
+  echo "$libdir/libpnpbs.so.$version"
+  for file in Config ConfigVersion Targets "Targets-$configuration"; do
+    echo "$libdir/cmake/pnpbs/pnpbs$file.cmake"
+  done
+  echo "$libdir/pkgconfig/pnpbs.pc"
+  if [ "$with_mpi" = 1 ]; then
+    echo "$libdir/pkgconfig/pnpbs-mpi.pc"
+  fi
+  if [ "$with_static" = ON ]; then
+    echo "$libdir/libpnpbs.a"
+  fi
+  if [ "$with_command" = ON ]; then
+    echo "$bindir/pnpbs"
+    echo "$mandir/man1/pnpbs.1"
+  fi
+  for module in pnpbs_c pnpbs_calls pnpbs; do
+    echo "$datadir/pnpbs/fortran/$module.f90"
+    if [ -n "$fc" ]; then
+      echo "$includedir/pnpbs/fortran/$module.mod"
+    fi
+  done
+  if [ -n "$fc" ]; then
+    echo "$libdir/libpnpbs_fortran.a"
+    echo "$libdir/pkgconfig/pnpbs-fortran.pc"
+    echo "$libdir/cmake/pnpbs/pnpbsFortranTargets.cmake"
+    echo "$libdir/cmake/pnpbs/pnpbsFortranTargets-$configuration.cmake"
+  fi
+  echo "$datadir/doc/pnpbs/LICENSE"
+  echo "$datadir/doc/pnpbs/README.md"
+  same_files docs "$datadir/doc/pnpbs/docs" | grep -v '/pnpbs\.1$'
+  same_files examples "$datadir/pnpbs/examples"
+  same_files bindings/julia "$datadir/pnpbs/julia"
+}
+
+say "files ('<' is missing, '>' does not belong there)"
+expected_files | sort > "$work/expected"
+find . -not -type d | sed 's,^\./,,' | sort > "$work/found"
+diff "$work/expected" "$work/found" || fail "not the files that should be there"
+
+say "contents of what is copied"
+for pair in include/pnpbs:$includedir/pnpbs bindings/julia:$datadir/pnpbs/julia \
+  examples:$datadir/pnpbs/examples docs:$datadir/doc/pnpbs/docs; do
+  same_files "${pair%%:*}" "${pair#*:}" | grep -v '/pnpbs\.1$' > "$work/copied"
+  [ -s "$work/copied" ] || fail "$pair: no files"
+  while read -r file; do
+    cmp "$source/${pair%%:*}/${file#"${pair#*:}"/}" "$file"
+  done < "$work/copied"
+done
+
+# ------------------------------------------------------------------ the library -----------------
+say "the library's names"
+[ "$(readlink "$libdir/libpnpbs.so")" = "libpnpbs.so.$soversion" ] || fail "libpnpbs.so"
+[ "$(readlink "$libdir/libpnpbs.so.$soversion")" = "libpnpbs.so.$version" ] ||
+  fail "libpnpbs.so.$soversion"
+readelf -d "$libdir/libpnpbs.so" > "$work/dynamic"
+grep -q "SONAME.*\[libpnpbs\.so\.$soversion\]" "$work/dynamic" || fail "SONAME"
+if [ "$kokkos_is_shared" = FALSE ]; then
+  if grep -E 'NEEDED.*(libkokkos|libstdc)' "$work/dynamic"; then
+    fail "Kokkos and the C++ library should be inside"
+  fi
+fi
+
+# ------------------------------------------------------------------ folders of this machine -----
+# Texts in a file, compressed ones included, that name the source or the build folder.
+named_folders() {
+  case $1 in
+    *.mod) gzip -dc "$1" ;;
+    *) cat "$1" ;;
+  esac | strings -a | grep -F -e "$source/" -e "$build/"
+}
+
+# A Kokkos in the source tree's own .deps is linked where it lies: the rpath to a shared one, and
+# what pkg-config --static tells. gfortran keeps the names of the sources of what it compiles, for
+# its messages, and has no option against it.
+allowed() {
+  case $1 in
+    *.so.* | *.pc) grep -vF "$kokkos_folder" ;;
+    *libpnpbs_fortran.a) grep -vF "$source/bindings/fortran/" ;;
+    *) cat ;;
+  esac
+}
+
+if [ "$build_type" = Release ]; then
+  say "no folder of the machine that built it"
+  find . -type f > "$work/files"
+  while read -r file; do
+    named_folders "$file" | allowed "$file" | sed "s,^,$file: ," || true
+  done < "$work/files" > "$work/leaks"
+  if [ -s "$work/leaks" ]; then
+    fail "$(cat "$work/leaks")"
+  fi
+  # The search works: it finds what a build tree has in it.
+  named_folders "$build/CMakeCache.txt" > "$work/leaks"
+  [ -s "$work/leaks" ] || fail "the search finds nothing where there is something"
+fi
+
+# ------------------------------------------------------------------ links in the documents ------
+say "links between installed documents"
+cd "$datadir/doc/pnpbs"
+find . -name '*.md' | sed 's,^\./,,' > "$work/pages"
+while read -r page; do
+  grep -oE '\]\([^)# ]+' "$page" | sed 's/^](//' | grep -v '^https*:' > "$work/links" || true
+  while read -r link; do
+    # Where it leads in the source tree, of which only these lie here, in the same places.
+    target=$(realpath -m --relative-to="$source" "$source/$(dirname "$page")/$link")
+    case $target in
+      README.md | LICENSE | docs/*) ;;
+      *) target=$source/$target ;;
+    esac
+    [ -e "$target" ] || fail "$page: $link is not there"
+  done < "$work/links"
+done < "$work/pages"

@@ -1,0 +1,69 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# An installed example, as its readers build it: with its Makefile, which knows pkg-config alone,
+# and with its CMakeLists.txt, which knows find_package alone. Every number that it checks must be
+# right, and the same from both builds and, if it is on MPI, on any number of ranks.
+# usage: example.sh <settings> <c or fortran> <name>
+# shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
+set -eu
+. "$1"
+. "$scripts/common.sh"
+language=$2 name=$3
+folder=$prefix/$datadir/pnpbs/examples/$language/$name
+
+on_mpi=no
+if grep -qiE 'pnpbs_mpi\.h|<mpi\.h>|mpif\.h|use +(, *intrinsic *:: *)?mpi' "$folder"/*.[cfF]*; then
+  on_mpi=yes
+  [ "$with_mpi" = 1 ] || nothing_to_test "$name is on MPI, and this build has none"
+fi
+
+# Fortran traps invalid numbers; free form is checked strictly, older code has its own flags.
+fortran_flags() {
+  [ "$fc_id" = GNU ] || return 0
+  echo "-ffpe-trap=invalid,zero,overflow"
+  for source_file in "$folder"/*.[fF] "$folder"/*.for; do
+    [ ! -e "$source_file" ] || return 0
+  done
+  echo "-std=f2003 -fimplicit-none -Wall -Werror"
+}
+c_flags="-std=c99 -O2 -Wall -Wextra -pedantic -Werror"
+
+make_it() {
+  if [ "$language" = c ]; then
+    # In the environment: an example on MPI names its compiler itself.
+    CC=$cc quietly make -C "$work/make" CFLAGS="$c_flags" PKG_CONFIG_PATH="$PKG_CONFIG_PATH"
+  else
+    compiler=$fc
+    [ $on_mpi = no ] || compiler=mpifort
+    quietly make -C "$work/make" FC="$compiler $(fortran_flags | tr '\n' ' ')" \
+      PKG_CONFIG_PATH="$PKG_CONFIG_PATH"
+  fi
+}
+
+cmake_it() {
+  if [ "$language" = c ]; then
+    build_with_cmake "$folder" "$work/cmake" -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS="$c_flags"
+  else
+    build_with_cmake "$folder" "$work/cmake" -DCMAKE_Fortran_COMPILER="$fc" \
+      -DCMAKE_Fortran_FLAGS="$(fortran_flags | tr '\n' ' ')"
+  fi
+}
+
+say "$name with pkg-config"
+cp -r "$folder" "$work/make"
+(unset CMAKE_PREFIX_PATH && make_it)
+say "$name with CMake"
+(unset PKG_CONFIG_PATH && cmake_it)
+
+if [ $on_mpi = yes ]; then
+  export OMP_NUM_THREADS=1
+  for ranks in 1 2 4; do
+    say "on $ranks ranks"
+    run_and_compare on_ranks $ranks "$work/make/$name"
+  done
+  say "CMake's on 2 ranks"
+  run_and_compare on_ranks 2 "$work/cmake/$name"
+else
+  OMP_NUM_THREADS=2 run_and_compare "$work/make/$name"
+  OMP_NUM_THREADS=1 run_and_compare "$work/cmake/$name"
+fi

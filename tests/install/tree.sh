@@ -1,0 +1,12 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs into an empty prefix and moves the prefix: the copy that the other tests work on.
+# usage: tree.sh <settings>
+# shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
+set -eu
+. "$1"
+unset DESTDIR
+first=$(dirname "$prefix")/first
+rm -rf "$first" "$prefix"
+"$cmake" --install "$build" --prefix "$first"
+mv "$first" "$prefix"

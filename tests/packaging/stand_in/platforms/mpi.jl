@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Stands in for Yggdrasil's file of this name.
+module MPI
+import BinaryBuilder
+const augment = "augment_mpi!(platform) = platform"
+augment_platforms(platforms) = platforms, [BinaryBuilder.Dependency("MPICH_jll", "")]
+end

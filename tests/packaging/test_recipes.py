@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The recipes of packaging/ as far as they can be tested without the package managers: they run
+against stand-ins, name CMake options that exist, and are of the project's version. So are all
+files that tell a version.
+usage: test_recipes.py <source folder> <version> <julia, or ''>"""
+
+import itertools
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).parent
+SOURCE, VERSION, JULIA = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3]
+sys.path.insert(0, str(HERE / "stand_in"))
+
+import spack_recipe  # pylint: disable=wrong-import-position
+
+ZEROS = "0" * 64
+
+
+def options():
+    """The CMake options there are."""
+    text = "\n".join(path.read_text() for path in (SOURCE / "cmake").glob("*.cmake"))
+    found = set(re.findall(r"^option\(\s*(PNPBS_\w+)", text, re.M))
+    return found | set(re.findall(r"^set\(\s*(PNPBS_\w+)\s+\S+\s+CACHE\b", text, re.M))
+
+
+class Versions(unittest.TestCase):
+    def test_are_the_same_everywhere(self):
+        numbers = VERSION.split(".")
+        header = (SOURCE / "include/pnpbs/pnpbs.h").read_text()
+        for name, number in zip(("MAJOR", "MINOR", "PATCH"), numbers):
+            self.assertRegex(header, rf"(?m)^#define PNPBS_VERSION_{name} {number}$")
+        for file, line in (
+                ("include/pnpbs/pnpbs.h", f'#define PNPBS_VERSION_STRING "{VERSION}"'),
+                ("bindings/julia/PNPBS.jl/Project.toml", f'version = "{VERSION}"'),
+                ("packaging/yggdrasil/build_tarballs.jl", f'version = v"{VERSION}"')):
+            self.assertIn(line, (SOURCE / file).read_text().splitlines(), file)
+        self.assertRegex((SOURCE / "docs/pnpbs.1").read_text(), rf'(?m)^\.TH .*"PNPBS {VERSION}"')
+
+
+class Options(unittest.TestCase):
+    def test_are_read(self):
+        self.assertLessEqual({"PNPBS_ENABLE_MPI", "PNPBS_BUILD_FORTRAN", "PNPBS_ARCH"}, options())
+        self.assertNotIn("PNPBS_HAVE_MPI", options())
+
+    def test_are_those_of_the_page(self):
+        page = (SOURCE / "docs/building.md").read_text()
+        self.assertEqual(set(re.findall(r"^\| `(PNPBS_\w+)`", page, re.M)), options())
+
+
+class Spack(unittest.TestCase):
+    recipe = spack_recipe.Recipe(SOURCE / "packaging/spack/package.py")
+
+    def test_version(self):
+        self.assertIn(VERSION, self.recipe.versions)
+        self.assertIn(f"pnpbs-{VERSION}.", self.recipe.package.url)
+
+    def test_says_honestly_that_there_is_no_release(self):
+        # An address with a checksum that is none, or the other way round, is a mistake.
+        released = ".invalid" not in self.recipe.package.url
+        self.assertEqual(self.recipe.versions[VERSION] != ZEROS, released)
+
+    def test_names_options_that_exist(self):
+        for values in itertools.product((True, False), repeat=len(self.recipe.variants)):
+            variants = dict(zip(self.recipe.variants, values))
+            told = self.recipe.cmake_args(variants)
+            ours = {option for option in told if option.startswith("PNPBS_")}
+            self.assertLessEqual(ours, options())
+            for option, variant in (("PNPBS_ENABLE_MPI", "mpi"), ("PNPBS_BUILD_CLI", "cli"),
+                                    ("PNPBS_BUILD_FORTRAN", "fortran"),
+                                    ("PNPBS_INSTALL_STATIC", "static")):
+                self.assertEqual(told[option], "ON" if variants[variant] else "OFF", option)
+
+    def test_conditions_name_variants(self):
+        for condition in self.recipe.all_conditions:
+            for name in re.findall(r"[+~](\w+)", condition):
+                self.assertIn(name, self.recipe.variants)
+
+    def test_dependencies(self):
+        def needed(**variants):
+            all_variants = {**self.recipe.variants, **variants}
+            return {re.match(r"[\w-]+", spec)[0] for spec, condition in self.recipe.dependencies
+                    if spack_recipe.holds(condition, all_variants)}
+
+        command = {"cli11", "nlohmann-json", "muparser", "cairo"}
+        self.assertLessEqual(command | {"mpi", "metis", "kokkos", "fortran"}, needed())
+        self.assertFalse(command & needed(cli=False))
+        self.assertFalse({"mpi", "metis"} & needed(mpi=False))
+        self.assertNotIn("fortran", needed(fortran=False))
+        self.assertIn("kokkos@4.5:5", " ".join(spec for spec, _ in self.recipe.dependencies))
+
+
+class Yggdrasil(unittest.TestCase):
+    path = SOURCE / "packaging/yggdrasil/build_tarballs.jl"
+    text = path.read_text()
+    script = re.search(r'^script = raw"""(.*?)^"""', text, re.S | re.M)[1]
+
+    def test_names_options_that_exist(self):
+        named = set(re.findall(r"-D(PNPBS_\w+)=", self.script))
+        self.assertGreater(len(named), 3)
+        self.assertLessEqual(named, options())
+
+    def test_says_honestly_that_there_is_no_release(self):
+        url, sha = re.search(r'ArchiveSource\("([^"]*/pnpbs-[^"]*)",\s*"(\w{64})"', self.text).groups()
+        self.assertEqual(sha != ZEROS, ".invalid" not in url)
+
+    def test_script_is_bash(self):
+        subprocess.run(["bash", "-n"], input=self.script, text=True, check=True)
+
+    @unittest.skipUnless(JULIA, "no Julia")
+    def test_runs_against_a_stand_in(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder) / "P" / "PNPBS"
+            place.mkdir(parents=True)
+            shutil.copy(self.path, place)
+            shutil.copytree(HERE / "stand_in" / "platforms", pathlib.Path(folder) / "platforms")
+            environment = {**os.environ, "JULIA_DEPOT_PATH": f"{folder}/depot",
+                           "JULIA_LOAD_PATH": f"@stdlib:{HERE / 'stand_in'}"}
+            told = subprocess.run(
+                [JULIA, "--startup-file=no", "--compiled-modules=no", "-O0", "build_tarballs.jl"],
+                cwd=place, env=environment, check=True, capture_output=True, text=True).stdout
+        lines = told.splitlines()
+        for line in ("name: PNPBS", f"version: {VERSION}", "platform: linux 64 glibc",
+                     "product: libpnpbs", "dependency: METIS_jll", "dependency: MPICH_jll"):
+            self.assertIn(line, lines)
+        self.assertEqual(sum(line.startswith("platform: ") for line in lines), 1)
+        self.assertTrue(any(f"/pnpbs-{VERSION}.tar.gz " in line for line in lines), told)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
