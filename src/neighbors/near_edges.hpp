@@ -52,6 +52,19 @@ class NearEdges {
   View<char> any_;
 };
 
+// Who sees whom among the nodes, as lists ask.
+struct SightPastEdges {
+  const Nodes<2>& nodes;
+  const NearEdges& near_edges;
+  const DomainMap& map;
+  const BoundaryFans& fans;
+
+  bool may_hide(std::int64_t i) const { return near_edges.any(i); }
+  bool visible(std::int64_t i, std::int64_t j) const {
+    return near_edges.visible(nodes, map, fans, i, j);
+  }
+};
+
 // Does the straight way between two nodes stay inside the domain, as far as `edges` (all that can
 // lie between them) tell? Boundary nodes are given by their index, inner ones by -1.
 template <class Edges>
