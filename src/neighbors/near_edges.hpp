@@ -65,6 +65,16 @@ struct SightPastEdges {
   }
 };
 
+// Have the boxes of segments xy and ab no point in common?
+inline bool boxes_are_apart(const Point<2>& x, const Point<2>& y, const Point<2>& a,
+                            const Point<2>& b) {
+  bool apart = false;
+  for (int k = 0; k < 2; ++k)
+    apart = apart | (std::max(x[k], y[k]) < std::min(a[k], b[k])) |
+            (std::max(a[k], b[k]) < std::min(x[k], y[k]));
+  return apart;
+}
+
 // Does the straight way between two nodes stay inside the domain, as far as `edges` (all that can
 // lie between them) tell? Boundary nodes are given by their index, inner ones by -1.
 template <class Edges>
@@ -93,6 +103,7 @@ bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>&
   };
   for (std::int32_t e : edges) {
     const Point<2>&a = map.edge_begin(e), &b = map.edge_end(e);
+    if (boxes_are_apart(x, y, a, b)) continue;  // most are
     const int side_a = orientation(x, y, a), side_b = orientation(x, y, b);
     if (side_a * side_b < 0 && orientation(a, b, x) * orientation(a, b, y) < 0) return false;
     if (side_a == 0 && stops(a, map.edge(e).begin)) return false;
