@@ -43,11 +43,15 @@ class NearEdges {
   bool way_between_is_free(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
                            std::int64_t i, std::int64_t j, std::int64_t wide) const;
 
+  class Finder;  // of the edges near nodes
+  void add_box(const Point<2>& a, const Point<2>& b, double reach);
+
   double radius_ = 0;
   std::array<View<double>, 2> at_;
   std::vector<double> leaf_reach_;         // how far from the leaf its edges were gathered
   std::vector<std::int32_t> leaf_offset_;  // edges near each leaf
   std::vector<std::int32_t> leaf_edges_;
+  std::array<std::vector<double>, 2> low_, high_;  // boxes of leaf_edges_, a little too large
   ChunkedRows<std::int32_t> edges_;
   View<char> any_;
 };
