@@ -97,15 +97,23 @@ void AdjacencyList<Dim>::BlockWriter<Sight>::operator()(std::int64_t block,
                                                         std::vector<std::int32_t>& out) {
   const std::int32_t pad = static_cast<std::int32_t>(nodes.count);
   const std::size_t first = out.size();
+  const auto end_of = [&](std::int32_t rows) {
+    return first + static_cast<std::size_t>(rows) * kLanes;
+  };
+  std::int32_t length = 0;
   for (std::int64_t i = block * kLanes; i < std::min((block + 1) * kLanes, nodes.count); ++i) {
-    const std::size_t end = first + static_cast<std::size_t>(find_neighbours(i)) * kLanes;
-    if (end > out.size()) out.resize(end, pad);
+    const std::int32_t found = find_neighbours(i);
+    if (found > length) {
+      length = found;
+      if (end_of(length) > out.size()) out.resize(end_of(length + 2), pad);
+    }
     std::int32_t* at = out.data() + first + i % kLanes;
     candidates.for_neighbours(i, [&](std::int32_t j) {
       *at = j;
       at += kLanes;
     });
   }
+  out.resize(end_of(length));
 }
 
 template <int Dim>

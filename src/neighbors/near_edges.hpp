@@ -108,10 +108,13 @@ bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>&
   for (std::int32_t e : edges) {
     const Point<2>&a = map.edge_begin(e), &b = map.edge_end(e);
     if (boxes_are_apart(x, y, a, b)) continue;  // most are
-    const int side_a = orientation(x, y, a), side_b = orientation(x, y, b);
+    const std::int32_t begin = map.edge(e).begin, end = map.edge(e).end;
+    // Of ends that are x or y themselves this much is known, and exact arithmetic is slow.
+    const int side_a = begin == boundary_x || begin == boundary_y ? 0 : orientation(x, y, a);
+    const int side_b = end == boundary_x || end == boundary_y ? 0 : orientation(x, y, b);
     if (side_a * side_b < 0 && orientation(a, b, x) * orientation(a, b, y) < 0) return false;
-    if (side_a == 0 && stops(a, map.edge(e).begin)) return false;
-    if (side_b == 0 && stops(b, map.edge(e).end)) return false;
+    if (side_a == 0 && stops(a, begin)) return false;
+    if (side_b == 0 && stops(b, end)) return false;
   }
   return true;
 }
