@@ -155,26 +155,27 @@ typename Candidates<Dim>::Surroundings Candidates<Dim>::surroundings(
 template <int Dim>
 void Candidates<Dim>::add_near(const Nodes<Dim>& nodes, const Surroundings& around,
                                std::int32_t first, std::int32_t last) {
-  const auto room = index(count_ + last - first);
+  const auto room = index(count_ + last - first + 1);  // what is left out is written, too
   if (found_.size() < room) found_.resize(room + kTestWord);
   const std::int64_t* const ids = nodes.id.data();
   Found* next = found_.data() + count_;
-  for (std::int32_t start = first; start < last; start += kTestWord) {
-    const std::int32_t n = std::min(kTestWord, last - start), groups = groups_of(n);
-    std::uint64_t bits = ~std::uint64_t{0} >> (kTestWord - n);
-    if (start + groups * kTestGroup <= nodes.count) {  // else without a test
-      std::array<const double*, Dim> xs;
-      for (int k = 0; k < Dim; ++k) xs[k] = nodes.x[k].data() + start;
-      bits &= near_bits<Dim>(xs, nodes.d.data() + start, groups, half_radius_, around.largest,
-                             [box = around.box](int k, double x) {
-                               return std::min(std::max(x, box.low[k]), box.high[k]);
-                             });
-    }
-    for (; bits != 0; bits &= bits - 1) {
-      const std::int32_t j = start + std::countr_zero(bits);
-      *next++ = {ids[j], j};
+  std::int32_t start = first;
+  for (; start < last && start + kTestGroup <= nodes.count; start += kTestGroup) {
+    std::array<const double*, Dim> xs;
+    for (int k = 0; k < Dim; ++k) xs[k] = nodes.x[k].data() + start;
+    std::uint64_t bits = near_bits<Dim>(xs, nodes.d.data() + start, 1, half_radius_, around.largest,
+                                        [box = around.box](int k, double x) {
+                                          return std::min(std::max(x, box.low[k]), box.high[k]);
+                                        });
+    bits &= (std::uint64_t{1} << std::min(kTestGroup, last - start)) - 1;
+    // One in three is near: branches would be guessed wrong too often.
+    for (std::int32_t lane = 0; lane < kTestGroup; ++lane) {
+      *next = {ids[start + lane], start + lane};
+      next += bits >> lane & 1;
     }
   }
+  // The last nodes of all, fewer than a group, without a test.
+  for (; start < last; ++start) *next++ = {ids[start], start};
   count_ = static_cast<std::int32_t>(next - found_.data());
 }
 
