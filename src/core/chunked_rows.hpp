@@ -29,9 +29,7 @@ class ChunkedRows {
         if (c * ChunkRows + k < rows) writer(c * ChunkRows + k, chunk.entries);
       }
       chunk.offset[ChunkRows] = static_cast<std::int32_t>(chunk.entries.size());
-      // A vector grows by doubling: give back what is far too much.
-      if (chunk.entries.capacity() > chunk.entries.size() + chunk.entries.size() / 4)
-        chunk.entries.shrink_to_fit();
+      give_back(chunk.entries);
     });
   }
 
@@ -43,6 +41,16 @@ class ChunkedRows {
   }
 
  private:
+  // A vector grows by doubling: gives back what is far too much, but keeps some room for the next
+  // time, when the rows may be a little longer.
+  static void give_back(std::vector<T>& entries) {
+    if (entries.capacity() <= entries.size() + entries.size() / 4) return;
+    std::vector<T> fitting;
+    fitting.reserve(entries.size() + entries.size() / 16);
+    fitting.assign(entries.begin(), entries.end());
+    entries.swap(fitting);
+  }
+
   struct Chunk {
     std::vector<T> entries;
     std::array<std::int32_t, ChunkRows + 1> offset{};

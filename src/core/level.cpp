@@ -95,9 +95,7 @@ void Level::rebuild_lists(double radius, const Field<2>& seen_from) {
     plan_.follow(buckets_.order(), nodes_.count);
   in_buckets_ = true;
   near_edges_.build(nodes_, seen_from, buckets_, map_);
-  lists_.build(nodes_, buckets_, radius, [this](std::int64_t i, std::int64_t j) {
-    return near_edges_.visible(nodes_, map_, fans_, i, j);
-  });
+  lists_.build(nodes_, buckets_, radius, SightPastEdges{nodes_, near_edges_, map_, fans_});
   reserve_field<2>(next_, "pnpbs::Level::next", nodes_.capacity());
   reserve_field<2>(listed_, "pnpbs::Level::listed", nodes_.capacity());
   set_padding();

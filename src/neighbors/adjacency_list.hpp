@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "core/chunked_rows.hpp"
 #include "core/nodes.hpp"
 #include "neighbors/buckets.hpp"
+#include "neighbors/candidates.hpp"
 
 namespace pnpbs {
 
@@ -26,11 +26,12 @@ struct ListBlock {
 template <int Dim>
 class AdjacencyList {
  public:
-  // Lists the pairs for which visible(i, j) holds; nodes must be sorted by bucket.
-  // Visible must be symmetric and is asked for pairs within the radius only.
-  template <class Visible>
+  // Lists the pairs within the radius that see each other; nodes must be sorted by bucket.
+  // Sight has may_hide(i), does anything near i hide others from it, and visible(i, j), which must
+  // be symmetric and is asked for pairs within the radius of whose nodes one may_hide.
+  template <class Sight>
   void build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
-             const Visible& visible);
+             const Sight& sight);
 
   double radius() const { return radius_; }
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
@@ -52,36 +53,19 @@ class AdjacencyList {
   }
 
  private:
-  // Nodes near one bucket, copied together so that the distance tests run over plain arrays.
-  struct Candidates {
-    std::int32_t bucket = -1;
-    std::array<std::vector<double>, Dim> x;
-    std::vector<double> d;
-    std::vector<std::uint8_t> is_near;
-    std::vector<std::int32_t> node;  // and eight more, so that whole groups can be read
-    std::int32_t count = 0;
-    std::int32_t first_own = 0;  // place of the bucket's own first node
-
-    void gather(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, std::int32_t of_bucket);
-    // Fills hits with the nodes within radius of node i, itself left out; returns how many.
-    // `first` is the first node of the bucket, in which i lies.
-    std::int32_t find(const Nodes<Dim>& nodes, std::int64_t i, std::int64_t first, double radius,
-                      std::vector<std::int32_t>& hits);
-  };
-
-  static void sort_by_id(const Nodes<Dim>& nodes, std::int32_t* first, std::int32_t* last);
   // Writes the lists of the nodes of one block after the other.
-  template <class Visible>
+  template <class Sight>
   struct BlockWriter {
     const Nodes<Dim>& nodes;
     const Buckets<Dim>& buckets;
     double radius;
-    const Visible& visible;
-    Candidates candidates{};
-    std::vector<std::int32_t> hits{}, all{};
+    const Sight& sight;
+    Candidates<Dim> candidates{};
+    bool all_visible = true;  // of the candidates
 
     void operator()(std::int64_t block, std::vector<std::int32_t>& out);
-    void list(std::int64_t i);
+    void look_at_bucket(std::int32_t bucket);
+    std::int32_t find_neighbours(std::int64_t i);
   };
 
   std::int64_t count_ = 0;
@@ -90,119 +74,56 @@ class AdjacencyList {
 };
 
 template <int Dim>
-void AdjacencyList<Dim>::Candidates::gather(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets,
-                                            std::int32_t of_bucket) {
-  bucket = of_bucket;
-  node.clear();
-  first_own = 0;
-  buckets.for_neighbours(bucket, [&](std::int32_t other) {
-    if (other == bucket) first_own = static_cast<std::int32_t>(node.size());
-    for (std::int32_t j = buckets.begin(other); j < buckets.end(other); ++j) node.push_back(j);
-  });
-  const std::size_t n = node.size();
-  count = static_cast<std::int32_t>(n);
-  for (int k = 0; k < Dim; ++k) x[k].resize(n);
-  d.resize(n);
-  is_near.assign(n + 8, 0);  // no hits beyond the last
-  node.resize(n + 8, 0);
-  for (std::size_t c = 0; c < n; ++c) {
-    for (int k = 0; k < Dim; ++k) x[k][c] = nodes.x[k](node[c]);
-    d[c] = nodes.d(node[c]);
-  }
+template <class Sight>
+void AdjacencyList<Dim>::BlockWriter<Sight>::look_at_bucket(std::int32_t bucket) {
+  candidates.gather(nodes, buckets, radius, bucket);
+  all_visible = true;
+  for (std::int32_t c = 0; c < candidates.count(); ++c)
+    all_visible = all_visible && !sight.may_hide(candidates.node(c));
 }
 
 template <int Dim>
-std::int32_t AdjacencyList<Dim>::Candidates::find(const Nodes<Dim>& nodes, std::int64_t i,
-                                                  std::int64_t first, double radius,
-                                                  std::vector<std::int32_t>& hits) {
-  const std::int32_t n = count;
-  if (hits.size() < node.size()) hits.resize(node.size());
-  const Point<Dim> own = nodes.position(i);
-  const double d_own = nodes.d(i), half = 0.5 * radius;
-  std::uint8_t* const near = is_near.data();
-  const double* const ds = d.data();
-  std::array<const double*, Dim> xs;
-  for (int k = 0; k < Dim; ++k) xs[k] = x[k].data();
-#pragma omp simd
-  for (std::int32_t c = 0; c < n; ++c) {
-    double square = 0;
-    for (int k = 0; k < Dim; ++k) square += (xs[k][c] - own[k]) * (xs[k][c] - own[k]);
-    const double reach = half * (d_own + ds[c]);
-    near[c] = square < reach * reach;
-  }
-  near[first_own + (i - first)] = 0;
-  // Eight tests are looked at together: nine in ten are misses, and then cost next to nothing.
-  std::int32_t found = 0;
-  for (std::int32_t c = 0; c < n; c += 8) {
-    std::uint64_t any;
-    std::memcpy(&any, near + c, sizeof any);
-    if (any == 0) continue;
-    for (std::int32_t k = c; k < c + 8; ++k) {
-      hits[static_cast<std::size_t>(found)] = node[static_cast<std::size_t>(k)];
-      found += near[k];
-    }
-  }
-  return found;
-}
-
-// Insertion sort: the entries are few and nearly in order already.
-template <int Dim>
-void AdjacencyList<Dim>::sort_by_id(const Nodes<Dim>& nodes, std::int32_t* first,
-                                    std::int32_t* last) {
-  const std::int64_t* const id = nodes.id.data();
-  for (std::int32_t* next = first; next < last; ++next) {
-    const std::int32_t j = *next;
-    const std::int64_t id_j = id[j];
-    std::int32_t* at = next;
-    for (; at > first && id[at[-1]] > id_j; --at) *at = at[-1];
-    *at = j;
-  }
-}
-
-// Appends the list of node i to `all`.
-template <int Dim>
-template <class Visible>
-void AdjacencyList<Dim>::BlockWriter<Visible>::list(std::int64_t i) {
-  const std::int32_t bucket = buckets.bucket_of(i);
-  if (bucket != candidates.bucket) candidates.gather(nodes, buckets, bucket);
-  const std::int32_t found = candidates.find(nodes, i, buckets.begin(bucket), radius, hits);
-  const std::size_t first = all.size();
-  for (std::int32_t h = 0; h < found; ++h) {
-    const std::int32_t j = hits[static_cast<std::size_t>(h)];
-    if (visible(i, j)) all.push_back(j);
-  }
-  sort_by_id(nodes, all.data() + first, all.data() + all.size());
+template <class Sight>
+std::int32_t AdjacencyList<Dim>::BlockWriter<Sight>::find_neighbours(std::int64_t i) {
+  if (buckets.bucket_of(i) != candidates.bucket()) look_at_bucket(buckets.bucket_of(i));
+  if (!all_visible)
+    candidates.keep_neighbours(i, [&](std::int64_t j) { return sight.visible(i, j); });
+  return candidates.neighbour_count(i);
 }
 
 template <int Dim>
-template <class Visible>
-void AdjacencyList<Dim>::BlockWriter<Visible>::operator()(std::int64_t block,
-                                                          std::vector<std::int32_t>& out) {
+template <class Sight>
+void AdjacencyList<Dim>::BlockWriter<Sight>::operator()(std::int64_t block,
+                                                        std::vector<std::int32_t>& out) {
   const std::int32_t pad = static_cast<std::int32_t>(nodes.count);
-  std::array<std::size_t, kLanes + 1> start{};
-  std::size_t longest = 0;
-  all.clear();
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const std::int64_t i = block * kLanes + static_cast<std::int64_t>(lane);
-    if (i < nodes.count) list(i);
-    start[lane + 1] = all.size();
-    longest = std::max(longest, start[lane + 1] - start[lane]);
-  }
-  for (std::size_t k = 0; k < longest; ++k)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t at = start[lane] + k;
-      out.push_back(at < start[lane + 1] ? all[at] : pad);
+  const std::size_t first = out.size();
+  const auto end_of = [&](std::int32_t rows) {
+    return first + static_cast<std::size_t>(rows) * kLanes;
+  };
+  std::int32_t length = 0;
+  for (std::int64_t i = block * kLanes; i < std::min((block + 1) * kLanes, nodes.count); ++i) {
+    const std::int32_t found = find_neighbours(i);
+    if (found > length) {
+      length = found;
+      if (end_of(length) > out.size()) out.resize(end_of(length + 2), pad);
     }
+    std::int32_t* at = out.data() + first + i % kLanes;
+    candidates.for_neighbours(i, [&](std::int32_t j) {
+      *at = j;
+      at += kLanes;
+    });
+  }
+  out.resize(end_of(length));
 }
 
 template <int Dim>
-template <class Visible>
+template <class Sight>
 void AdjacencyList<Dim>::build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
-                               const Visible& visible) {
+                               const Sight& sight) {
   count_ = nodes.count;
   radius_ = radius;
   blocks_.build("pnpbs::AdjacencyList::build", block_count(), [&] {
-    return BlockWriter<Visible>{nodes, buckets, radius, visible};
+    return BlockWriter<Sight>{nodes, buckets, radius, sight};
   });
 }
 

@@ -15,13 +15,26 @@ bool Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, doub
   return reordered;
 }
 
+// Most nodes are where they were when they were sorted last: each bucket asks for its own first.
 template <int Dim>
 void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes) {
   if (static_cast<std::int64_t>(bucket_of_.extent(0)) < nodes.capacity())
     bucket_of_ = make_view<std::int32_t>("pnpbs::Buckets::bucket_of", nodes.capacity());
+  const bool was_sorted = start_.size() == static_cast<std::size_t>(tree.leaf_count()) + 1;
+  const auto known = was_sorted ? std::min<std::int64_t>(start_.back(), nodes.count) : 0;
   const View<std::int32_t> bucket = bucket_of_;
-  for_each("pnpbs::Buckets::find", nodes.count,
-           [&, bucket](std::int64_t i) { bucket(i) = tree.leaf_at(nodes.position(i)); });
+  if (was_sorted)
+    for_each("pnpbs::Buckets::find_near", tree.leaf_count(), [&, bucket](std::int64_t b) {
+      const std::int32_t leaf = static_cast<std::int32_t>(b);
+      const Box<Dim> box = tree.fine_box(leaf);
+      for (std::int64_t i = begin(leaf); i < std::min<std::int64_t>(end(leaf), known); ++i) {
+        const Point<Dim> x = nodes.position(i);
+        bucket(i) = tree.fine_box_holds(box, x) ? leaf : tree.leaf_at(x);
+      }
+    });
+  for_each("pnpbs::Buckets::find", nodes.count - known, [&, bucket](std::int64_t k) {
+    bucket(known + k) = tree.leaf_at(nodes.position(known + k));
+  });
 }
 
 // Counting sort; stable, so that nodes which stay keep their order.

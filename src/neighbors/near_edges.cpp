@@ -2,6 +2,8 @@
 #include "neighbors/near_edges.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "geometry/segments.hpp"
 
@@ -13,6 +15,10 @@ void NearEdges::prepare(const DomainMap& map, double radius) {
   leaf_reach_.assign(static_cast<std::size_t>(leaves), 0);
   leaf_offset_.assign(1, 0);
   leaf_edges_.clear();
+  for (int k = 0; k < 2; ++k) {
+    low_[k].clear();
+    high_[k].clear();
+  }
   std::vector<std::int32_t> near;
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     near.clear();
@@ -25,34 +31,95 @@ void NearEdges::prepare(const DomainMap& map, double radius) {
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     leaf_edges_.insert(leaf_edges_.end(), near.begin(), near.end());
+    for (std::int32_t e : near) add_box(map.edge_begin(e), map.edge_end(e), reach);
     leaf_offset_.push_back(static_cast<std::int32_t>(leaf_edges_.size()));
   }
 }
+
+// Larger than the edge's own by what rounding can do to a distance from it.
+void NearEdges::add_box(const Point<2>& a, const Point<2>& b, double reach) {
+  constexpr double kRounding = 1e-12;  // thousands of times that of one operation
+  for (int k = 0; k < 2; ++k) {
+    const double room = kRounding * (std::fabs(a[k]) + std::fabs(b[k]) + reach);
+    low_[k].push_back(std::min(a[k], b[k]) - room);
+    high_[k].push_back(std::max(a[k], b[k]) + room);
+  }
+}
+
+// Writes the edges near the nodes at consecutive places, one after the other.
+class NearEdges::Finder {
+ public:
+  Finder(const NearEdges& edges, const Nodes<2>& nodes, const Buckets<2>& buckets,
+         const DomainMap& map)
+      : of_(edges), nodes_(nodes), buckets_(buckets), map_(map) {}
+
+  void operator()(std::int64_t i, std::vector<std::int32_t>& out) {
+    const std::size_t before = out.size();
+    const double reach = of_.radius_ * nodes_.d(i);
+    const Point<2> x{of_.at_[0](i), of_.at_[1](i)};
+    if (buckets_.bucket_of(i) != bucket_) {
+      bucket_ = buckets_.bucket_of(i);
+      box_ = map_.tree().fine_box(bucket_);
+    }
+    const std::int32_t leaf =
+        map_.tree().fine_box_holds(box_, x) ? bucket_ : map_.tree().leaf_at(x);
+    const auto keep_if_near = [&](std::int32_t e) {
+      if (distance_to_segment(map_.edge_begin(e), map_.edge_end(e), x) <= reach) out.push_back(e);
+    };
+    if (reach <= of_.leaf_reach_[static_cast<std::size_t>(leaf)])
+      for_boxes_near(leaf, x, reach, keep_if_near);
+    else
+      map_.for_edges_near(x, reach, keep_if_near);
+    of_.any_(i) = out.size() > before;
+  }
+
+ private:
+  // Calls visit(edge) for those edges of the leaf whose boxes are within reach of x.
+  template <class Visit>
+  void for_boxes_near(std::int32_t leaf, const Point<2>& x, double reach,
+                      const Visit& visit) const {
+    constexpr std::int32_t kWord = 64;
+    const std::int32_t end = of_.leaf_offset_[static_cast<std::size_t>(leaf) + 1];
+    for (std::int32_t e = of_.leaf_offset_[static_cast<std::size_t>(leaf)]; e < end; e += kWord)
+      for (std::uint64_t bits = boxes_near(e, std::min(kWord, end - e), x, reach); bits != 0;
+           bits &= bits - 1)
+        visit(of_.leaf_edges_[static_cast<std::size_t>(e + std::countr_zero(bits))]);
+  }
+
+  // A bit for each of n boxes.
+  std::uint64_t boxes_near(std::int32_t first, std::int32_t n, const Point<2>& x,
+                           double reach) const {
+    constexpr double kRoom = 1 + 1e-12;  // rounding again
+    const double limit = kRoom * reach * reach;
+    const double *const low_x = of_.low_[0].data() + first,
+                        *const low_y = of_.low_[1].data() + first,
+                        *const high_x = of_.high_[0].data() + first,
+                        *const high_y = of_.high_[1].data() + first;
+    std::uint64_t bits = 0;
+#pragma omp simd reduction(| : bits)
+    for (std::uint64_t c = 0; c < static_cast<std::uint64_t>(n); ++c) {
+      const double gap_x = x[0] - std::min(std::max(x[0], low_x[c]), high_x[c]);
+      const double gap_y = x[1] - std::min(std::max(x[1], low_y[c]), high_y[c]);
+      bits |= static_cast<std::uint64_t>(gap_x * gap_x + gap_y * gap_y <= limit) << c;
+    }
+    return bits;
+  }
+
+  const NearEdges& of_;
+  const Nodes<2>& nodes_;
+  const Buckets<2>& buckets_;
+  const DomainMap& map_;
+  std::int32_t bucket_ = -1;
+  Box<2> box_{};  // of the bucket
+};
 
 void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
                       const Buckets<2>& buckets, const DomainMap& map) {
   at_ = at;
   if (static_cast<std::int64_t>(any_.extent(0)) < nodes.capacity())
     any_ = make_view<char>("pnpbs::NearEdges::any", nodes.capacity());
-  const auto write = [&](std::int64_t i, std::vector<std::int32_t>& out) {
-    const std::size_t before = out.size();
-    const double reach = radius_ * nodes.d(i);
-    const Point<2> x{at[0](i), at[1](i)};
-    const std::int32_t bucket = buckets.bucket_of(i);
-    const std::size_t leaf =
-        static_cast<std::size_t>(map.tree().leaf_holds(bucket, x) ? bucket : map.tree().leaf_at(x));
-    const auto keep_if_near = [&](std::int32_t e) {
-      if (distance_to_segment(map.edge_begin(e), map.edge_end(e), x) <= reach) out.push_back(e);
-    };
-    if (reach <= leaf_reach_[leaf]) {
-      for (std::int32_t e = leaf_offset_[leaf]; e < leaf_offset_[leaf + 1]; ++e)
-        keep_if_near(leaf_edges_[static_cast<std::size_t>(e)]);
-    } else {
-      map.for_edges_near(x, reach, keep_if_near);
-    }
-    any_(i) = out.size() > before;
-  };
-  edges_.build("pnpbs::NearEdges::build", nodes.count, [&] { return write; });
+  edges_.build("pnpbs::NearEdges::build", nodes.count,
+               [&] { return Finder(*this, nodes, buckets, map); });
 }
 
 bool NearEdges::way_between_is_free(const Nodes<2>& nodes, const DomainMap& map,

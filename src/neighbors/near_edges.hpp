@@ -43,14 +43,41 @@ class NearEdges {
   bool way_between_is_free(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
                            std::int64_t i, std::int64_t j, std::int64_t wide) const;
 
+  class Finder;  // of the edges near nodes
+  void add_box(const Point<2>& a, const Point<2>& b, double reach);
+
   double radius_ = 0;
   std::array<View<double>, 2> at_;
   std::vector<double> leaf_reach_;         // how far from the leaf its edges were gathered
   std::vector<std::int32_t> leaf_offset_;  // edges near each leaf
   std::vector<std::int32_t> leaf_edges_;
+  std::array<std::vector<double>, 2> low_, high_;  // boxes of leaf_edges_, a little too large
   ChunkedRows<std::int32_t> edges_;
   View<char> any_;
 };
+
+// Who sees whom among the nodes, as lists ask.
+struct SightPastEdges {
+  const Nodes<2>& nodes;
+  const NearEdges& near_edges;
+  const DomainMap& map;
+  const BoundaryFans& fans;
+
+  bool may_hide(std::int64_t i) const { return near_edges.any(i); }
+  bool visible(std::int64_t i, std::int64_t j) const {
+    return near_edges.visible(nodes, map, fans, i, j);
+  }
+};
+
+// Have the boxes of segments xy and ab no point in common?
+inline bool boxes_are_apart(const Point<2>& x, const Point<2>& y, const Point<2>& a,
+                            const Point<2>& b) {
+  bool apart = false;
+  for (int k = 0; k < 2; ++k)
+    apart = apart | (std::max(x[k], y[k]) < std::min(a[k], b[k])) |
+            (std::max(a[k], b[k]) < std::min(x[k], y[k]));
+  return apart;
+}
 
 // Does the straight way between two nodes stay inside the domain, as far as `edges` (all that can
 // lie between them) tell? Boundary nodes are given by their index, inner ones by -1.
@@ -80,10 +107,14 @@ bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>&
   };
   for (std::int32_t e : edges) {
     const Point<2>&a = map.edge_begin(e), &b = map.edge_end(e);
-    const int side_a = orientation(x, y, a), side_b = orientation(x, y, b);
+    if (boxes_are_apart(x, y, a, b)) continue;  // most are
+    const std::int32_t begin = map.edge(e).begin, end = map.edge(e).end;
+    // Of ends that are x or y themselves this much is known, and exact arithmetic is slow.
+    const int side_a = begin == boundary_x || begin == boundary_y ? 0 : orientation(x, y, a);
+    const int side_b = end == boundary_x || end == boundary_y ? 0 : orientation(x, y, b);
     if (side_a * side_b < 0 && orientation(a, b, x) * orientation(a, b, y) < 0) return false;
-    if (side_a == 0 && stops(a, map.edge(e).begin)) return false;
-    if (side_b == 0 && stops(b, map.edge(e).end)) return false;
+    if (side_a == 0 && stops(a, begin)) return false;
+    if (side_b == 0 && stops(b, end)) return false;
   }
   return true;
 }

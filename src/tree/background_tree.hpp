@@ -105,17 +105,30 @@ class BackgroundTree {
     return c;
   }
 
-  // Is x in the half-open box of this leaf? Decided with the arithmetic of leaf_at.
-  bool leaf_holds(std::int32_t leaf, const Point<Dim>& x) const {
+  // The half-open box of a leaf in cells of the largest depth, for many questions about it.
+  Box<Dim> fine_box(std::int32_t leaf) const {
     const Cell& c = cell(leaf_cell(leaf));
-    const double cells = static_cast<double>(1u << (kMaxDepth - c.depth));  // of the largest depth
+    const double cells = static_cast<double>(1u << (kMaxDepth - c.depth));
+    Box<Dim> box;
+    for (int k = 0; k < Dim; ++k) {
+      box.low[k] = cells * c.index[k];
+      box.high[k] = cells * (c.index[k] + 1.0);
+    }
+    return box;
+  }
+
+  // Is x in the leaf with this box? Decided with the arithmetic of leaf_at.
+  bool fine_box_holds(const Box<Dim>& box, const Point<Dim>& x) const {
+    bool holds = true;
     for (int k = 0; k < Dim; ++k) {
       const double t = (x[k] - origin_[k]) * scale_;
-      const double low = cells * c.index[k];
-      const double high = cells * (c.index[k] + 1.0);
-      if (!(t >= low && t < high)) return false;
+      holds = holds && t >= box.low[k] && t < box.high[k];
     }
-    return true;
+    return holds;
+  }
+
+  bool leaf_holds(std::int32_t leaf, const Point<Dim>& x) const {
+    return fine_box_holds(fine_box(leaf), x);
   }
 
   // Calls visit(leaf) for all leaves whose closed box meets the closed box given, in Morton order.

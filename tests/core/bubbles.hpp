@@ -60,10 +60,17 @@ struct Bubbles {
     for (const Bubble<Dim>& b : bubbles) nodes.append(b.x, b.d, b.id, 0, b.moves ? -1 : 0);
   }
 
+  // Any node may hide others.
+  template <class Visible>
+  struct Sight {
+    const Visible& visible;
+    bool may_hide(std::int64_t) const { return true; }
+  };
+
   template <class Visible>
   void list(double radius, const Visible& visible) {
     buckets.sort(tree, nodes, radius);
-    lists.build(nodes, buckets, radius, visible);
+    lists.build(nodes, buckets, radius, Sight<Visible>{visible});
     pad(nodes.x);
     nodes.d(nodes.count) = 1;
   }

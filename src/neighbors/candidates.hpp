@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The nodes of one bucket and the candidates for their lists: all nodes that are near the box of
+// those in the bucket, by increasing id and copied together. The distance tests then run over plain
+// arrays, and whatever they find is in the order of the lists.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "core/nodes.hpp"
+#include "neighbors/buckets.hpp"
+
+namespace pnpbs {
+
+inline constexpr std::int32_t kTestGroup = 8;  // tests done side by side
+inline constexpr std::int32_t kTestWord = 64;  // tests whose results are kept in one number
+
+// A bit for each of some groups of bubbles: is it less than half_radius * (d + d_c) away from the
+// point with the coordinates nearest(k, x_c[k])?
+template <int Dim, class Nearest>
+inline std::uint64_t near_bits(const std::array<const double*, Dim>& xs, const double* ds,
+                               std::int32_t groups, double half_radius, double d,
+                               const Nearest& nearest) {
+  std::uint64_t bits = 0;
+  const std::uint64_t tests = static_cast<std::uint64_t>(groups) * kTestGroup;
+#pragma omp simd reduction(| : bits)
+  for (std::uint64_t c = 0; c < tests; ++c) {
+    double square = 0;
+    for (int k = 0; k < Dim; ++k) {
+      const double gap = xs[k][c] - nearest(k, xs[k][c]);
+      square += gap * gap;
+    }
+    const double reach = half_radius * (d + ds[c]);
+    bits |= static_cast<std::uint64_t>(square < reach * reach) << c;
+  }
+  return bits;
+}
+
+template <int Dim>
+class Candidates {
+ public:
+  // Looks at this bucket, which must not be empty, for lists of this radius.
+  void gather(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
+              std::int32_t bucket);
+
+  std::int32_t bucket() const { return bucket_; }
+  std::int32_t count() const { return count_; }
+  std::int32_t node(std::int32_t c) const { return found_[index(c)].node; }
+
+  // How many neighbours node i of the bucket has among them.
+  std::int32_t neighbour_count(std::int64_t i) const {
+    std::int32_t n = 0;
+    const std::uint64_t* const bits = bits_of(i);
+    for (std::int32_t w = 0; w < words_; ++w) n += std::popcount(bits[w]);
+    return n;
+  }
+
+  // Calls visit(j) for them.
+  template <class Visit>
+  void for_neighbours(std::int64_t i, const Visit& visit) const {
+    const std::uint64_t* const bits = bits_of(i);
+    for (std::int32_t w = 0; w < words_; ++w)
+      for (std::uint64_t left = bits[w]; left != 0; left &= left - 1)
+        visit(found_[index(w * kTestWord + std::countr_zero(left))].node);
+  }
+
+  // Drops those for which keep(j) does not hold.
+  template <class Keep>
+  void keep_neighbours(std::int64_t i, const Keep& keep) {
+    std::uint64_t* const bits = bits_.data() + index(i - first_) * index(words_);
+    for (std::int32_t w = 0; w < words_; ++w)
+      for (std::uint64_t left = bits[w]; left != 0; left &= left - 1)
+        if (!keep(found_[index(w * kTestWord + std::countr_zero(left))].node))
+          bits[w] &= ~(left & (~left + 1));
+  }
+
+ private:
+  struct Found {
+    std::int64_t id;
+    std::int32_t node;
+  };
+  // What holds all nodes of the bucket.
+  struct Surroundings {
+    Box<Dim> box;
+    double largest;  // spacing
+  };
+
+  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+  static std::int32_t groups_of(std::int32_t n) { return (n + kTestGroup - 1) / kTestGroup; }
+  const std::uint64_t* bits_of(std::int64_t i) const {
+    return bits_.data() + index(i - first_) * index(words_);
+  }
+  Surroundings surroundings(const Nodes<Dim>& nodes) const;
+  void add_near(const Nodes<Dim>& nodes, const Surroundings& around, std::int32_t first,
+                std::int32_t last);
+  void sort_by_id();
+  void copy(const Nodes<Dim>& nodes);
+  void test();
+
+  std::int32_t bucket_ = -1;
+  std::int32_t first_ = 0, last_ = 0;  // the bucket's own nodes
+  double half_radius_ = 0;
+  std::int32_t count_ = 0;
+  std::int32_t words_ = 0;                  // of bits for each node
+  std::vector<Found> found_;                // and room for more
+  std::array<std::vector<double>, Dim> x_;  // whole groups, filled up with what is near nothing
+  std::vector<double> d_;
+  std::vector<std::int32_t> own_;    // places of the bucket's own nodes among the candidates
+  std::vector<std::uint64_t> bits_;  // for each own node: which are its neighbours?
+};
+
+template <int Dim>
+void Candidates<Dim>::gather(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
+                             std::int32_t bucket) {
+  bucket_ = bucket;
+  first_ = buckets.begin(bucket);
+  last_ = buckets.end(bucket);
+  half_radius_ = 0.5 * radius;
+  count_ = 0;
+  const Surroundings around = surroundings(nodes);
+  // Buckets that follow each other do so in memory.
+  std::int32_t first = 0, last = 0;
+  buckets.for_neighbours(bucket, [&](std::int32_t other) {
+    if (buckets.begin(other) != last) {
+      add_near(nodes, around, first, last);
+      first = buckets.begin(other);
+    }
+    last = buckets.end(other);
+  });
+  add_near(nodes, around, first, last);
+  sort_by_id();
+  copy(nodes);
+  test();
+}
+
+template <int Dim>
+typename Candidates<Dim>::Surroundings Candidates<Dim>::surroundings(
+    const Nodes<Dim>& nodes) const {
+  Surroundings around{{nodes.position(first_), nodes.position(first_)}, nodes.d(first_)};
+  for (std::int32_t i = first_ + 1; i < last_; ++i) {
+    for (int k = 0; k < Dim; ++k) {
+      around.box.low[k] = std::min(around.box.low[k], nodes.x[k](i));
+      around.box.high[k] = std::max(around.box.high[k], nodes.x[k](i));
+    }
+    around.largest = std::max(around.largest, nodes.d(i));
+  }
+  return around;
+}
+
+// The arithmetic is that of the tests of pairs: rounding keeps the order of numbers, so that no
+// node is left out here that is near one of the bucket.
+template <int Dim>
+void Candidates<Dim>::add_near(const Nodes<Dim>& nodes, const Surroundings& around,
+                               std::int32_t first, std::int32_t last) {
+  const auto room = index(count_ + last - first + 1);  // what is left out is written, too
+  if (found_.size() < room) found_.resize(room + kTestWord);
+  const std::int64_t* const ids = nodes.id.data();
+  Found* next = found_.data() + count_;
+  std::int32_t start = first;
+  for (; start < last && start + kTestGroup <= nodes.count; start += kTestGroup) {
+    std::array<const double*, Dim> xs;
+    for (int k = 0; k < Dim; ++k) xs[k] = nodes.x[k].data() + start;
+    std::uint64_t bits = near_bits<Dim>(xs, nodes.d.data() + start, 1, half_radius_, around.largest,
+                                        [box = around.box](int k, double x) {
+                                          return std::min(std::max(x, box.low[k]), box.high[k]);
+                                        });
+    bits &= (std::uint64_t{1} << std::min(kTestGroup, last - start)) - 1;
+    // One in three is near: branches would be guessed wrong too often.
+    for (std::int32_t lane = 0; lane < kTestGroup; ++lane) {
+      *next = {ids[start + lane], start + lane};
+      next += bits >> lane & 1;
+    }
+  }
+  // The last nodes of all, fewer than a group, without a test.
+  for (; start < last; ++start) *next++ = {ids[start], start};
+  count_ = static_cast<std::int32_t>(next - found_.data());
+}
+
+// Ids follow the order of the buckets but for nodes that have changed theirs or came later.
+template <int Dim>
+void Candidates<Dim>::sort_by_id() {
+  constexpr std::int32_t kMany = 256;
+  Found *const first = found_.data(), *const last = first + count_;
+  if (count_ > kMany) {
+    std::sort(first, last, [](const Found& a, const Found& b) { return a.id < b.id; });
+    return;
+  }
+  for (Found* next = first + 1; next < last; ++next) {
+    if (next[-1].id < next->id) continue;
+    const Found moving = *next;
+    Found* at = next;
+    for (; at > first && at[-1].id > moving.id; --at) *at = at[-1];
+    *at = moving;
+  }
+}
+
+template <int Dim>
+void Candidates<Dim>::copy(const Nodes<Dim>& nodes) {
+  const std::int32_t padded = groups_of(count_) * kTestGroup;
+  if (d_.size() < index(padded)) {
+    for (int k = 0; k < Dim; ++k) x_[k].resize(index(padded + kTestWord));
+    d_.resize(index(padded + kTestWord));
+  }
+  const auto own = static_cast<std::uint32_t>(last_ - first_);
+  if (own_.size() <= own) own_.resize(own + 8);
+  for (std::int32_t c = 0; c < count_; ++c) {
+    const std::int32_t j = node(c);
+    for (int k = 0; k < Dim; ++k) x_[k][index(c)] = nodes.x[k](j);
+    d_[index(c)] = nodes.d(j);
+    // Behind the own ones is one place for all others.
+    own_[std::min(static_cast<std::uint32_t>(j - first_), own)] = c;
+  }
+  for (std::int32_t c = count_; c < padded; ++c) {
+    for (int k = 0; k < Dim; ++k) x_[k][index(c)] = kFarAway;
+    d_[index(c)] = 0;
+  }
+}
+
+// Each node of the bucket against all candidates but itself.
+template <int Dim>
+void Candidates<Dim>::test() {
+  const std::int32_t groups = groups_of(count_), groups_per_word = kTestWord / kTestGroup;
+  words_ = (groups + groups_per_word - 1) / groups_per_word;
+  const std::size_t room = index(last_ - first_) * index(words_);
+  if (bits_.size() < room) bits_.resize(2 * room);
+  std::uint64_t* bits = bits_.data();
+  for (std::int32_t o = 0; o < last_ - first_; ++o, bits += words_) {
+    const std::int32_t own = own_[index(o)];
+    Point<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = x_[k][index(own)];
+    for (std::int32_t w = 0; w < words_; ++w) {
+      std::array<const double*, Dim> xs;
+      for (int k = 0; k < Dim; ++k) xs[k] = x_[k].data() + w * kTestWord;
+      bits[w] = near_bits<Dim>(xs, d_.data() + w * kTestWord,
+                               std::min(groups_per_word, groups - w * groups_per_word),
+                               half_radius_, d_[index(own)], [x](int k, double) { return x[k]; });
+    }
+    bits[own / kTestWord] &= ~(std::uint64_t{1} << (own % kTestWord));
+  }
+}
+
+}  // namespace pnpbs
