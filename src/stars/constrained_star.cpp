@@ -130,7 +130,7 @@ class GiftWrap {
       if (k < 0) return false;
       const StarPoint b = around_[index(k)];
       if (!everything_ && needed_reach(a, b) > reach_) return false;
-      star.push_back({static_cast<std::uint32_t>(a.node), 1});
+      star.push_back({a.node, true});
       if (b.node == last) return true;
       a = b;
     }
@@ -152,7 +152,7 @@ class GiftWrap {
       const int first = find_boundary_node(from.other), last = find_boundary_node(to.other);
       if (first < 0 || last < 0) return false;
       if (!from.inside_after) {
-        star.push_back({static_cast<std::uint32_t>(around_[index(first)].node), 0});
+        star.push_back({around_[index(first)].node, false});
         continue;
       }
       if (!wrap_from(first, around_[index(last)].node, star)) return false;
@@ -183,7 +183,7 @@ double constrained_star(const StarInput& input, std::int64_t i, double first_rea
     if (everything) break;
   }
   // Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
-  if (star.size() > before) star.back().triangle = 0;
+  if (star.size() > before) star.back() = {star.back().value(), false};
   return 0;
 }
 
