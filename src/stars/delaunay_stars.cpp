@@ -25,24 +25,29 @@ class StarWriter {
   using Entry = DelaunayStars::Entry;
 
  public:
-  StarWriter(const StarInput& input, std::vector<double>& needs) : in_(input), needs_(needs) {}
+  // fresh_sight: were the lists, and the edges near nodes, made for where the nodes are?
+  StarWriter(const StarInput& input, bool fresh_sight, std::vector<double>& needs)
+      : in_(input), fresh_sight_(fresh_sight), needs_(needs) {}
 
   void operator()(std::int64_t block, std::vector<Entry>& out) {
     const std::int64_t count = in_.nodes.count;
     std::int64_t self[kLanes];
-    double proven_reach[kLanes];
+    double listed_reach[kLanes], hull_reach[kLanes];
     block_nodes(block, count, self);
-    for (std::size_t lane = 0; lane < kLanes; ++lane)
-      proven_reach[lane] = self[lane] < count ? reach_of_list(self[lane], reach_[lane]) : 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::int64_t i = self[lane];
+      listed_reach[lane] = i < count ? reach_of_list(i) : 0;
+      hull_reach[lane] = i < count && !in_.near_edges.any(i) ? listed_reach[lane] : 0;
+    }
     find_block_hull_stars(in_.lists.block(block), static_cast<std::int32_t>(count),
-                          in_.nodes.x[0].data(), in_.nodes.x[1].data(), self, proven_reach, hulls_);
+                          in_.nodes.x[0].data(), in_.nodes.x[1].data(), self, hull_reach, hulls_);
     others_.clear();
     std::size_t longest = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       first_other_[lane] = others_.size();
       size_[lane] = static_cast<std::size_t>(hulls_.size[lane]);
       if (!hulls_.found[lane]) {
-        if (self[lane] < count) add_other_star(self[lane], reach_[lane], proven_reach[lane] > 0);
+        if (self[lane] < count) add_other_star(self[lane], listed_reach[lane]);
         size_[lane] = others_.size() - first_other_[lane];
       }
       longest = std::max(longest, size_[lane]);
@@ -51,13 +56,12 @@ class StarWriter {
   }
 
  private:
-  // How far from node i the list is known to hold every node, or 0 if boundary edges are about or
-  // not all nodes are known; `reach` is how far it would hold them.
-  double reach_of_list(std::int64_t i, double& reach) {
+  // The list of node i holds all nodes that it sees and that are nearer than this; 0 if not all are
+  // known there.
+  double reach_of_list(std::int64_t i) {
     const Nodes<2>& nodes = in_.nodes;
     if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
-    reach = 0.5 * in_.lists.radius() * (nodes.d(i) + least_);
-    if (in_.near_edges.any(i)) return 0;
+    const double reach = 0.5 * in_.lists.radius() * (nodes.d(i) + least_);
     const bool known = !rim_ || in_.known.covers(in_.map, box_around<2>(nodes.position(i), reach));
     return known ? reach : 0;
   }
@@ -81,10 +85,17 @@ class StarWriter {
     return {in_.nodes.position(j), in_.nodes.id(j), static_cast<std::int32_t>(j)};
   }
 
-  void add_other_star(std::int64_t i, double reach, bool listed) {
-    if (listed && add_hull_star(i, reach)) return;
-    const double needs = constrained_star(in_, i, std::max(reach, in_.nodes.d(i)), others_);
+  void add_other_star(std::int64_t i, double listed_reach) {
+    const bool near_edges = in_.near_edges.any(i);
+    if (!near_edges && listed_reach > 0 && add_hull_star(i, listed_reach)) return;
+    const double needs = constrained_star(in_, i, near_edges && fresh_sight_ ? listed_reach : 0,
+                                          first_reach(i), others_);
     if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
+  }
+
+  double first_reach(std::int64_t i) {
+    if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
+    return std::max(0.5 * in_.lists.radius() * (in_.nodes.d(i) + least_), in_.nodes.d(i));
   }
 
   bool add_hull_star(std::int64_t i, double reach) {
@@ -116,12 +127,12 @@ class StarWriter {
   }
 
   const StarInput& in_;
+  bool fresh_sight_;
   std::vector<double>& needs_;
   std::vector<StarPoint> around_;
   BlockHullStars hulls_;
   std::vector<Entry> others_;  // stars of the block that are not among the hulls
   std::array<std::size_t, kLanes> first_other_{}, size_{};
-  std::array<double, kLanes> reach_{};
   std::int32_t bucket_ = -1;
   double least_ = 0;  // spacing in the buckets around
   bool rim_ = false;  // do the lists of some nodes in the bucket reach into the unknown?
@@ -132,8 +143,9 @@ class StarWriter {
 void DelaunayStars::build(const StarInput& input) {
   count_ = input.nodes.count;
   needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(count_), 0);
+  const bool fresh_sight = input.near_edges.built_where_nodes_are(input.nodes);
   blocks_.build("pnpbs::DelaunayStars::build", block_count(),
-                [&] { return StarWriter(input, needs_); });
+                [&] { return StarWriter(input, fresh_sight, needs_); });
 }
 
 }  // namespace pnpbs
