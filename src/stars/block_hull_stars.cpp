@@ -26,7 +26,7 @@ constexpr double kLeastGap = 1e-4;  // in units of the reach
 // Reaches for which the products of six lengths neither overflow nor lose bits.
 constexpr double kLeastReach = 1e-30, kLargestReach = 1e30;
 
-constexpr std::int32_t kNoKey = 0x7ffffff0;  // comes last; names place 0
+constexpr std::int32_t kNoKey = 0x7ffffff0;  // comes last, whatever place it names
 constexpr std::int32_t kKeyIndex = kMostListed - 1;
 constexpr double kQuarterTurn = 1 << 24;
 constexpr std::int32_t kTurnMask = (1 << 26) - 1;
@@ -75,7 +75,7 @@ class BlockHull {
       own_x[lane] = x[self[lane]];
       own_y[lane] = y[self[lane]];
       nearest_[lane] = 1e300;
-      nearest_x_[lane] = nearest_y_[lane] = 0;
+      nearest_place_[lane] = 0;
       left_[lane] = 0;
     }
     for (int k = 0; k < listed_; ++k) {
@@ -84,10 +84,10 @@ class BlockHull {
         const std::int32_t j = entries_[k * kLanes + lane];
         const double dx = x[j] - own_x[lane], dy = y[j] - own_y[lane];
         const double square = j != pad ? dx * dx + dy * dy : 1e300;
-        const bool nearer = square < nearest_[lane];
-        nearest_[lane] = nearer ? square : nearest_[lane];
-        nearest_x_[lane] = nearer ? dx : nearest_x_[lane];
-        nearest_y_[lane] = nearer ? dy : nearest_y_[lane];
+        const double least = nearest_[lane];
+        const std::int32_t nearer = square < least ? -1 : 0;
+        nearest_[lane] = square < least ? square : least;
+        nearest_place_[lane] = (nearest_place_[lane] & ~nearer) | (k & nearer);
         left_[lane] += j != pad ? 1 : 0;
         dx_[k][lane] = dx;
         dy_[k][lane] = dy;
@@ -106,8 +106,10 @@ class BlockHull {
   void key_by_angle() {
     Integers first;
 #pragma omp simd
-    for (int lane = 0; lane < kLanes; ++lane)
-      first[lane] = angle(nearest_x_[lane], nearest_y_[lane]);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::int32_t at = nearest_place_[lane] * kLanes + lane;
+      first[lane] = angle(dx_[0][at], dy_[0][at]);
+    }
     for (int k = 0; k < listed_; ++k) {
 #pragma omp simd
       for (int lane = 0; lane < kLanes; ++lane) {
@@ -187,7 +189,7 @@ class BlockHull {
         sure_[lane] &= (inside | outside) | (1 - here);
         const std::int32_t drop = outside & here & sure_[lane];
         // The nearest, which comes last here and first in the keys, always belongs.
-        key_[row][lane] = drop && k < left_[lane] ? kNoKey : key_[row][lane];
+        key_[row][lane] |= k < left_[lane] ? kNoKey & -drop : 0;
         dropped[lane] += drop;
       }
     }
@@ -219,7 +221,8 @@ class BlockHull {
   int length_ = 0;  // of the longest star so far
   Integers left_;   // neighbours listed and not dropped
   Integers sure_;   // 0: given up
-  Lanes nearest_, nearest_x_, nearest_y_;
+  Lanes nearest_;   // squared distance
+  Integers nearest_place_;
   Lanes dx_[kMostListed], dy_[kMostListed];  // as listed
   Integers key_[kMostListed];
   Lanes x_[kMostListed + 2], y_[kMostListed + 2], square_[kMostListed + 2];  // as sorted
