@@ -30,6 +30,13 @@ class NearEdges {
 
   std::span<const std::int32_t> edges_of(std::int64_t i) const { return edges_.row(i); }
 
+  // Are the nodes where they were for build()?
+  bool built_where_nodes_are(const Nodes<2>& nodes) const {
+    return sum_of("pnpbs::NearEdges::built_where_nodes_are", nodes.count, [&](std::int64_t i) {
+             return at_[0](i) != nodes.x[0](i) || at_[1](i) != nodes.x[1](i);
+           }) == 0;
+  }
+
   // Does no boundary edge separate nodes i and j? For pairs within radius * (d_i + d_j) / 2.
   bool visible(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
                std::int64_t i, std::int64_t j) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "geometry/predicates.hpp"
 #include "stars/hull_star.hpp"
@@ -16,13 +17,16 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class GiftWrap {
  public:
+  // From the list of node i, which holds all that it sees within reach.
+  GiftWrap(const StarInput& input, std::int64_t i, double reach)
+      : GiftWrap(input, i, reach, false, {}) {
+    gather_listed();
+  }
+
+  // From all nodes within reach.
   GiftWrap(const StarInput& input, std::int64_t i, double reach, bool everything)
-      : in_(input),
-        centre_(node(i)),
-        boundary_(input.nodes.boundary_node(i)),
-        reach_(reach),
-        everything_(everything) {
-    gather();
+      : GiftWrap(input, i, reach, everything, {}) {
+    gather_all();
   }
 
   // False if nodes beyond the reach may matter. Where all are within reach, none can.
@@ -35,13 +39,32 @@ class GiftWrap {
   }
 
  private:
+  struct Nothing {};
+  GiftWrap(const StarInput& input, std::int64_t i, double reach, bool everything, Nothing)
+      : in_(input),
+        centre_(node(i)),
+        boundary_(input.nodes.boundary_node(i)),
+        reach_(reach),
+        everything_(everything) {}
+
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
   StarPoint node(std::int64_t j) const {
     return {in_.nodes.position(j), in_.nodes.id(j), static_cast<std::int32_t>(j)};
   }
 
-  void gather() {
+  // Edges between any two of them are within reach as well, and so near to the node.
+  void gather_listed() {
+    around_.reserve(16);
+    in_.lists.for_neighbours(centre_.node, [&](std::int64_t j) {
+      const double gap = squared_distance<2>(centre_.position, in_.nodes.position(j));
+      if (gap > 0 && gap <= reach_ * reach_) around_.push_back(node(j));
+    });
+    edges_ = in_.near_edges.edges_of(centre_.node);
+    sees_centre_.assign(around_.size(), 1);
+  }
+
+  void gather_all() {
     const Point<2>& x = centre_.position;
     in_.map.tree().for_leaves_in(box_around<2>(x, reach_), [&](std::int32_t leaf) {
       for (std::int32_t j = in_.buckets.begin(leaf); j < in_.buckets.end(leaf); ++j) {
@@ -49,9 +72,10 @@ class GiftWrap {
         if (j != centre_.node && gap > 0 && gap <= reach_ * reach_) around_.push_back(node(j));
       }
     });
-    in_.map.for_edges_near(x, reach_, [&](std::int32_t e) { edges_.push_back(e); });
-    std::sort(edges_.begin(), edges_.end());
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    in_.map.for_edges_near(x, reach_, [&](std::int32_t e) { found_edges_.push_back(e); });
+    std::sort(found_edges_.begin(), found_edges_.end());
+    found_edges_.erase(std::unique(found_edges_.begin(), found_edges_.end()), found_edges_.end());
+    edges_ = found_edges_;
     sees_centre_.assign(around_.size(), -1);
   }
 
@@ -130,7 +154,7 @@ class GiftWrap {
       if (k < 0) return false;
       const StarPoint b = around_[index(k)];
       if (!everything_ && needed_reach(a, b) > reach_) return false;
-      star.push_back({static_cast<std::uint32_t>(a.node), 1});
+      star.push_back({a.node, true});
       if (b.node == last) return true;
       a = b;
     }
@@ -152,7 +176,7 @@ class GiftWrap {
       const int first = find_boundary_node(from.other), last = find_boundary_node(to.other);
       if (first < 0 || last < 0) return false;
       if (!from.inside_after) {
-        star.push_back({static_cast<std::uint32_t>(around_[index(first)].node), 0});
+        star.push_back({around_[index(first)].node, false});
         continue;
       }
       if (!wrap_from(first, around_[index(last)].node, star)) return false;
@@ -166,15 +190,17 @@ class GiftWrap {
   double reach_;
   bool everything_;  // is every node within reach?
   std::vector<StarPoint> around_;
-  std::vector<std::int32_t> edges_;
+  std::span<const std::int32_t> edges_;  // all that can lie between any of the nodes
+  std::vector<std::int32_t> found_edges_;
   std::vector<signed char> sees_centre_;  // -1 not asked yet
 };
 
 }  // namespace
 
-double constrained_star(const StarInput& input, std::int64_t i, double first_reach,
-                        std::vector<Entry>& star) {
+double constrained_star(const StarInput& input, std::int64_t i, double listed_reach,
+                        double first_reach, std::vector<Entry>& star) {
   const std::size_t before = star.size();
+  if (listed_reach > 0 && GiftWrap(input, i, listed_reach).wrap(star)) return 0;
   for (double reach = first_reach;; reach *= 1.5) {
     star.resize(before);
     if (!input.known.covers(input.map, box_around<2>(input.nodes.position(i), reach))) return reach;
@@ -183,7 +209,7 @@ double constrained_star(const StarInput& input, std::int64_t i, double first_rea
     if (everything) break;
   }
   // Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
-  if (star.size() > before) star.back().triangle = 0;
+  if (star.size() > before) star.back() = {star.back().value(), false};
   return 0;
 }
 

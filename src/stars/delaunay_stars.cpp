@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "forces/bubble_force.hpp"
+#include "stars/block_hull_stars.hpp"
 #include "stars/constrained_star.hpp"
 #include "stars/hull_star.hpp"
 
@@ -18,23 +20,52 @@ double least_spacing_around(const Buckets<2>& buckets, std::int32_t bucket) {
   return least;
 }
 
-// Finds the stars of consecutive nodes.
+// Finds the stars of consecutive blocks of nodes.
 class StarWriter {
- public:
-  StarWriter(const StarInput& input, std::vector<double>& needs) : in_(input), needs_(needs) {}
+  using Entry = DelaunayStars::Entry;
 
-  void operator()(std::int64_t i, std::vector<DelaunayStars::Entry>& out) {
-    const Nodes<2>& nodes = in_.nodes;
-    if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
-    // The lists hold every node nearer than this, if it is known.
-    const double reach = 0.5 * in_.lists.radius() * (nodes.d(i) + least_);
-    const bool listed = !rim_ || in_.known.covers(in_.map, box_around<2>(nodes.position(i), reach));
-    if (listed && !in_.near_edges.any(i) && add_hull_star(i, reach, out)) return;
-    const double needs = constrained_star(in_, i, std::max(reach, nodes.d(i)), out);
-    if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
+ public:
+  // fresh_sight: were the lists, and the edges near nodes, made for where the nodes are?
+  StarWriter(const StarInput& input, bool fresh_sight, std::vector<double>& needs)
+      : in_(input), fresh_sight_(fresh_sight), needs_(needs) {}
+
+  void operator()(std::int64_t block, std::vector<Entry>& out) {
+    const std::int64_t count = in_.nodes.count;
+    std::int64_t self[kLanes];
+    double listed_reach[kLanes], hull_reach[kLanes];
+    block_nodes(block, count, self);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::int64_t i = self[lane];
+      listed_reach[lane] = i < count ? reach_of_list(i) : 0;
+      hull_reach[lane] = i < count && !in_.near_edges.any(i) ? listed_reach[lane] : 0;
+    }
+    find_block_hull_stars(in_.lists.block(block), static_cast<std::int32_t>(count),
+                          in_.nodes.x[0].data(), in_.nodes.x[1].data(), self, hull_reach, hulls_);
+    others_.clear();
+    std::size_t longest = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      first_other_[lane] = others_.size();
+      size_[lane] = static_cast<std::size_t>(hulls_.size[lane]);
+      if (!hulls_.found[lane]) {
+        if (self[lane] < count) add_other_star(self[lane], listed_reach[lane]);
+        size_[lane] = others_.size() - first_other_[lane];
+      }
+      longest = std::max(longest, size_[lane]);
+    }
+    write(self, longest, out);
   }
 
  private:
+  // The list of node i holds all nodes that it sees and that are nearer than this; 0 if not all are
+  // known there.
+  double reach_of_list(std::int64_t i) {
+    const Nodes<2>& nodes = in_.nodes;
+    if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
+    const double reach = 0.5 * in_.lists.radius() * (nodes.d(i) + least_);
+    const bool known = !rim_ || in_.known.covers(in_.map, box_around<2>(nodes.position(i), reach));
+    return known ? reach : 0;
+  }
+
   void look_at_bucket(std::int32_t bucket) {
     bucket_ = bucket;
     least_ = least_spacing_around(in_.buckets, bucket);
@@ -54,17 +85,54 @@ class StarWriter {
     return {in_.nodes.position(j), in_.nodes.id(j), static_cast<std::int32_t>(j)};
   }
 
-  bool add_hull_star(std::int64_t i, double reach, std::vector<DelaunayStars::Entry>& out) {
+  void add_other_star(std::int64_t i, double listed_reach) {
+    const bool near_edges = in_.near_edges.any(i);
+    if (!near_edges && listed_reach > 0 && add_hull_star(i, listed_reach)) return;
+    const double needs = constrained_star(in_, i, near_edges && fresh_sight_ ? listed_reach : 0,
+                                          first_reach(i), others_);
+    if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
+  }
+
+  double first_reach(std::int64_t i) {
+    if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
+    return std::max(0.5 * in_.lists.radius() * (in_.nodes.d(i) + least_), in_.nodes.d(i));
+  }
+
+  bool add_hull_star(std::int64_t i, double reach) {
     around_.clear();
     in_.lists.for_neighbours(i, [&](std::int64_t j) { around_.push_back(point(j)); });
     if (!hull_star(point(i), reach, around_)) return false;
-    for (const StarPoint& p : around_) out.push_back({static_cast<std::uint32_t>(p.node), 1});
+    for (const StarPoint& p : around_) others_.push_back({p.node, true});
     return true;
   }
 
+  // The rows of the block: sizes, then `longest` rows of entries.
+  void write(const std::int64_t (&self)[kLanes], std::size_t longest, std::vector<Entry>& out) {
+    const std::size_t begin = out.size();
+    out.resize(begin + (longest + 1) * kLanes);
+    Entry* const sizes = out.data() + begin;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      Entry* const rows = sizes + kLanes + lane;
+      const std::size_t n = size_[lane];
+      bool closed = n > 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        rows[k * kLanes] = hulls_.found[lane] ? Entry{hulls_.node[k][lane], true}
+                                              : others_[first_other_[lane] + k];
+        closed = closed && rows[k * kLanes].flag();
+      }
+      const Entry filler{n > 0 ? rows[0].value() : self[lane], false};
+      for (std::size_t k = n; k < longest; ++k) rows[k * kLanes] = filler;
+      sizes[lane] = {static_cast<std::int64_t>(n), closed};
+    }
+  }
+
   const StarInput& in_;
+  bool fresh_sight_;
   std::vector<double>& needs_;
   std::vector<StarPoint> around_;
+  BlockHullStars hulls_;
+  std::vector<Entry> others_;  // stars of the block that are not among the hulls
+  std::array<std::size_t, kLanes> first_other_{}, size_{};
   std::int32_t bucket_ = -1;
   double least_ = 0;  // spacing in the buckets around
   bool rim_ = false;  // do the lists of some nodes in the bucket reach into the unknown?
@@ -73,9 +141,11 @@ class StarWriter {
 }  // namespace
 
 void DelaunayStars::build(const StarInput& input) {
-  needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(input.nodes.count), 0);
-  stars_.build("pnpbs::DelaunayStars::build", input.nodes.count,
-               [&] { return StarWriter(input, needs_); });
+  count_ = input.nodes.count;
+  needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(count_), 0);
+  const bool fresh_sight = input.near_edges.built_where_nodes_are(input.nodes);
+  blocks_.build("pnpbs::DelaunayStars::build", block_count(),
+                [&] { return StarWriter(input, fresh_sight, needs_); });
 }
 
 }  // namespace pnpbs

@@ -28,32 +28,61 @@ struct StarInput {
   const KnownRegion& known;
 };
 
+// Laid out like the lists: in blocks of kLanes nodes, the k-th neighbours of a block side by side.
 class DelaunayStars {
  public:
+  // A number and a flag. Of a neighbour j: is (i, j, next neighbour) a triangle of the domain?
   struct Entry {
-    std::uint32_t node : 31;
-    std::uint32_t triangle : 1;
+    std::uint32_t bits;
+
+    Entry() = default;
+    Entry(std::int64_t value, bool flag)
+        : bits(static_cast<std::uint32_t>(value) | (flag ? 0x80000000U : 0U)) {}
+    std::int32_t value() const { return static_cast<std::int32_t>(bits & 0x7fffffffU); }
+    bool flag() const { return bits >> 31 != 0; }
+  };
+
+  struct Block {
+    const Entry* sizes;    // [kLanes]; flagged if the star is all triangles
+    const Entry* entries;  // [length][kLanes]; shorter stars are filled up with their first entry
+    std::int32_t length;
   };
 
   void build(const StarInput& input);
+
+  std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
+
+  Block block(std::int64_t b) const {
+    const std::span<const Entry> rows = blocks_.row(b);
+    return {rows.data(), rows.data() + kLanes, static_cast<std::int32_t>(rows.size() / kLanes) - 1};
+  }
 
   // Calls visit(j, triangle) for the neighbours of node i, counter-clockwise; `triangle` tells
   // whether (i, j, next neighbour) is a triangle of the domain. The neighbour after the last is
   // the first.
   template <class Visit>
   void for_neighbours(std::int64_t i, const Visit& visit) const {
-    for (const Entry entry : stars_.row(i))
-      visit(static_cast<std::int64_t>(entry.node), entry.triangle != 0);
+    const Block stars = block(i / kLanes);
+    const std::int64_t lane = i % kLanes;
+    const std::int32_t n = stars.sizes[lane].value();
+    for (std::int32_t k = 0; k < n; ++k) {
+      const Entry entry = stars.entries[k * kLanes + lane];
+      visit(static_cast<std::int64_t>(entry.value()), entry.flag());
+    }
   }
 
   // Calls visit(j, k) for the triangles (i, j, k) around node i.
   template <class Visit>
   void for_triangles(std::int64_t i, const Visit& visit) const {
-    const std::span<const Entry> star = stars_.row(i);
-    for (std::size_t k = 0; k < star.size(); ++k)
-      if (star[k].triangle)
-        visit(static_cast<std::int64_t>(star[k].node),
-              static_cast<std::int64_t>(star[k + 1 < star.size() ? k + 1 : 0].node));
+    const Block stars = block(i / kLanes);
+    const std::int64_t lane = i % kLanes;
+    const std::int32_t n = stars.sizes[lane].value();
+    for (std::int32_t k = 0; k < n; ++k) {
+      const Entry entry = stars.entries[k * kLanes + lane];
+      if (!entry.flag()) continue;
+      const Entry next = stars.entries[(k + 1 < n ? k + 1 : 0) * kLanes + lane];
+      visit(static_cast<std::int64_t>(entry.value()), static_cast<std::int64_t>(next.value()));
+    }
   }
 
   // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
@@ -61,13 +90,12 @@ class DelaunayStars {
     return needs_.empty() ? 0 : needs_[static_cast<std::size_t>(i)];
   }
 
-  std::int32_t size(std::int64_t i) const {
-    return static_cast<std::int32_t>(stars_.row(i).size());
-  }
+  std::int32_t size(std::int64_t i) const { return block(i / kLanes).sizes[i % kLanes].value(); }
 
  private:
-  ChunkedRows<Entry> stars_;
-  std::vector<double> needs_;  // of the nodes; empty where everything is known
+  std::int64_t count_ = 0;
+  ChunkedRows<Entry, 64> blocks_;  // the sizes, then the entries
+  std::vector<double> needs_;      // of the nodes; empty where everything is known
 };
 
 }  // namespace pnpbs

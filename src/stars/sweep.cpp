@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
+#include "forces/bubble_force.hpp"
 #include "forces/schemes.hpp"
-#include "stars/triangle_quality.hpp"
+#include "stars/sweep_guard.hpp"
 
 namespace pnpbs {
 
@@ -12,50 +13,39 @@ namespace {
 
 Point<2> at(const std::array<View<double>, 2>& x, std::int64_t i) { return {x[0](i), x[1](i)}; }
 
-// Where the sweep would take node i; its own place if it may not move.
-Point<2> proposed_place(const Nodes<2>& nodes, const DelaunayStars& stars,
-                        const NearEdges& near_edges, const DomainMap& map, const SweepRule& rule,
-                        std::int64_t i) {
-  const Point<2> x = nodes.position(i);
-  if (!nodes.moves(i) || stars.size(i) < 3) return x;
-  Point<2> mean{};
-  bool closed = true;
-  stars.for_neighbours(i, [&](std::int64_t j, bool triangle) {
-    for (int k = 0; k < 2; ++k) mean[k] += nodes.x[k](j);
-    closed = closed && triangle;
-  });
-  if (!closed) return x;
-  std::array<double, 2> move;
-  for (int k = 0; k < 2; ++k) move[k] = rule.weight * (mean[k] / stars.size(i) - x[k]);
-  clamp_move<2>(move, rule.most * nodes.d(i));
-  const Point<2> y{x[0] + move[0], x[1] + move[1]};
-  if (!near_edges.any(i)) return y;
-  const KeptOff kept = keep_off(map, near_edges.edges_of(i), x, y, nodes.d(i));
-  return kept.room ? kept.position : x;
-}
-
-// Worst quality of triangle (i, j, k) when i has moved and the others have or have not.
-double worst_if_moved(const Nodes<2>& nodes, const std::array<View<double>, 2>& proposed,
-                      std::int64_t i, std::int64_t j, std::int64_t k) {
-  const Point<2> a = at(proposed, i);
-  const Point<2> b[2] = {nodes.position(j), at(proposed, j)};
-  const Point<2> c[2] = {nodes.position(k), at(proposed, k)};
-  return std::min({triangle_quality(a, b[0], c[0]), triangle_quality(a, b[0], c[1]),
-                   triangle_quality(a, b[1], c[0]), triangle_quality(a, b[1], c[1])});
-}
-
-// May node i go to its proposed place, whatever its neighbours do? Then no order, and no rounds,
-// come into the decision.
-bool may_move(const Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule& rule,
-              const std::array<View<double>, 2>& proposed, std::int64_t i) {
-  bool allowed = true;
-  stars.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-    if (!allowed) return;
-    const double after = worst_if_moved(nodes, proposed, i, j, k);
-    if (after >= rule.bad_below) return;
-    allowed = after >= triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k));
-  });
-  return allowed;
+// Where the sweep would take the nodes of block b; their own places if they may not move.
+void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
+             const DomainMap& map, const SweepRule& rule,
+             const std::array<View<double>, 2>& proposed, std::int64_t b) {
+  const DelaunayStars::Block block = stars.block(b);
+  const Positions<2> x = positions_of<2>(nodes.x);
+  std::array<double, kLanes> sum_x{}, sum_y{};
+  const DelaunayStars::Entry* entries = block.entries;
+  for (std::int32_t k = 0; k < block.length; ++k, entries += kLanes) {
+#pragma omp simd
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::int32_t j = entries[lane].value();
+      const double there = k < block.sizes[lane].value() ? 1.0 : 0.0;
+      sum_x[lane] += there * x[0][j];
+      sum_y[lane] += there * x[1][j];
+    }
+  }
+  const std::int64_t first = b * kLanes;
+  const int lanes = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
+  for (int lane = 0; lane < lanes; ++lane) {
+    const std::int64_t i = first + lane;
+    const std::int32_t n = block.sizes[lane].value();
+    const bool may = nodes.moves(i) && n >= 3 && block.sizes[lane].flag();
+    std::array<double, 2> move{rule.weight * (sum_x[lane] / n - x[0][i]),
+                               rule.weight * (sum_y[lane] / n - x[1][i])};
+    clamp_move<2>(move, rule.most * nodes.d(i));
+    proposed[0](i) = may ? x[0][i] + move[0] : x[0][i];
+    proposed[1](i) = may ? x[1][i] + move[1] : x[1][i];
+    if (!may || !near_edges.any(i)) continue;
+    const KeptOff kept =
+        keep_off(map, near_edges.edges_of(i), nodes.position(i), at(proposed, i), nodes.d(i));
+    for (int k = 0; k < 2; ++k) proposed[k](i) = kept.room ? kept.position[k] : x[k][i];
+  }
 }
 
 }  // namespace
@@ -63,13 +53,11 @@ bool may_move(const Nodes<2>& nodes, const DelaunayStars& stars, const SweepRule
 void sweep(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
            const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& proposed,
            const View<char>& allowed) {
-  for_each("pnpbs::sweep::propose", nodes.count, [&](std::int64_t i) {
-    const Point<2> y = proposed_place(nodes, stars, near_edges, map, rule, i);
-    proposed[0](i) = y[0];
-    proposed[1](i) = y[1];
-  });
-  for_each("pnpbs::sweep::guard", nodes.count, [&](std::int64_t i) {
-    allowed(i) = nodes.moves(i) && may_move(nodes, stars, rule, proposed, i);
+  const QualityBound bound(rule.bad_below);
+  for_each("pnpbs::sweep::propose", stars.block_count(),
+           [&](std::int64_t b) { propose(nodes, stars, near_edges, map, rule, proposed, b); });
+  for_each("pnpbs::sweep::guard", stars.block_count(), [&](std::int64_t b) {
+    guard_block(nodes, stars, rule.bad_below, bound, proposed, allowed, b);
   });
   for_each("pnpbs::sweep::go", nodes.count, [&](std::int64_t i) {
     if (allowed(i)) nodes.set_position(i, at(proposed, i));

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The guard of the sweeps. Most nodes pass it by a bound without square roots, a block of them at a
+// time; the others are looked at one by one.
+#pragma once
+
+#include "stars/delaunay_stars.hpp"
+#include "stars/triangle_quality.hpp"
+
+namespace pnpbs {
+
+// Which nodes of block b may go to their proposed places: none of their triangles gets worse that
+// is or becomes bad, i.e. below the quality bad_below, for which `bound` is. 0 for nodes that do
+// not move at all.
+void guard_block(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_below,
+                 const QualityBound& bound, const std::array<View<double>, 2>& proposed,
+                 const View<char>& allowed, std::int64_t b);
+
+}  // namespace pnpbs
