@@ -107,8 +107,8 @@ class BlockHull {
     Integers first;
 #pragma omp simd
     for (int lane = 0; lane < kLanes; ++lane) {
-      const std::int32_t at = nearest_place_[lane] * kLanes + lane;
-      first[lane] = angle(dx_[0][at], dy_[0][at]);
+      const std::int32_t place = nearest_place_[lane];
+      first[lane] = angle(dx_[place][lane], dy_[place][lane]);
     }
     for (int k = 0; k < listed_; ++k) {
 #pragma omp simd
@@ -147,8 +147,8 @@ class BlockHull {
         const std::int32_t after = k - left_[lane];
         const std::int32_t again = after == 1 ? key_[1][lane] : key_[0][lane];
         const std::int32_t key = after < 0 ? key_[row][lane] : again;
-        const std::int32_t at = (key & kKeyIndex) * kLanes + lane;
-        const double px = dx_[0][at], py = dy_[0][at];
+        const std::int32_t place = key & kKeyIndex;
+        const double px = dx_[place][lane], py = dy_[place][lane];
         x_[k][lane] = px;
         y_[k][lane] = py;
         square_[k][lane] = px * px + py * py;
