@@ -148,21 +148,39 @@ void Level::finish_by_runge_kutta() {
 // Inner nodes near the boundary are held off it; then the new positions become the positions.
 void Level::take_next_positions() {
   ++version_;
-  travelled_ = largest_of("pnpbs::Level::take_next", nodes_.count, 0.0, [this](std::int64_t i) {
-    if (near_edges_.any(i) && nodes_.moves(i)) {
-      const std::span<const std::int32_t> edges = near_edges_.edges_of(i);
-      const Point<2> from = nodes_.position(i), to{next_[0](i), next_[1](i)};
-      const KeptOff kept = keep_off(map_, edges, from, to, nodes_.d(i));
-      for (int k = 0; k < 2; ++k) {
-        if (kept.position[k] != to[k])
-          nodes_.v[k](i) = (kept.position[k] - from[k]) / settings_.motion.dt;
-        next_[k](i) = kept.position[k];
-      }
-    }
-    const double dx = next_[0](i) - listed_[0](i), dy = next_[1](i) - listed_[1](i);
-    return std::sqrt(dx * dx + dy * dy) / nodes_.d(i);
+  constexpr std::int64_t kChunk = 64;
+  const std::int64_t chunks = (nodes_.count + kChunk - 1) / kChunk;
+  const double square = largest_of("pnpbs::Level::take_next", chunks, 0.0, [this](std::int64_t c) {
+    const std::int64_t first = c * kChunk, last = std::min(first + kChunk, nodes_.count);
+    for (std::int64_t i = first; i < last; ++i)
+      if (near_edges_.any(i) && nodes_.moves(i)) hold_off_boundary(i);
+    return largest_way(first, last);
   });
+  travelled_ = std::sqrt(square);
   std::swap(nodes_.x, next_);
+}
+
+void Level::hold_off_boundary(std::int64_t i) const {
+  const Point<2> from = nodes_.position(i), to{next_[0](i), next_[1](i)};
+  const KeptOff kept = keep_off(map_, near_edges_.edges_of(i), from, to, nodes_.d(i));
+  for (int k = 0; k < 2; ++k) {
+    if (kept.position[k] != to[k])
+      nodes_.v[k](i) = (kept.position[k] - from[k]) / settings_.motion.dt;
+    next_[k](i) = kept.position[k];
+  }
+}
+
+// The square of the longest way of these nodes since the lists were made, in units of d.
+double Level::largest_way(std::int64_t first, std::int64_t last) const {
+  const double *const x = next_[0].data(), *const y = next_[1].data(), *const d = nodes_.d.data(),
+                      *const listed_x = listed_[0].data(), *const listed_y = listed_[1].data();
+  double largest = 0;
+#pragma omp simd reduction(max : largest)
+  for (std::int64_t i = first; i < last; ++i) {
+    const double dx = x[i] - listed_x[i], dy = y[i] - listed_y[i];
+    largest = std::max(largest, (dx * dx + dy * dy) / (d[i] * d[i]));
+  }
+  return largest;
 }
 
 }  // namespace pnpbs

@@ -210,6 +210,8 @@ class Level {
   bool fits(const Point<2>& x, double d) const;
   bool has_no_room(std::int64_t i) const;
   void take_next_positions();
+  void hold_off_boundary(std::int64_t i) const;
+  double largest_way(std::int64_t first, std::int64_t last) const;
   void rebuild_lists(double radius, const Field<2>& seen_from);
   void drop_anchors();
   void set_padding();

@@ -257,8 +257,6 @@ Outcome Placement::advance(std::int64_t until, ProgressPart part) {
 void Placement::event() {
   const Settings& settings = level_->settings();
   last_speeds_ = level_->speeds();
-  printf("  %ld nodes step %ld speeds %.4f %.3f\n", (long)count(), (long)schedule_.step,
-         last_speeds_.mean, last_speeds_.largest);
   level_->refresh_spacing();
   const double population_until =
       std::floor(settings.population_share * static_cast<double>(level_->settings().steps));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The force between two bubbles as a function of w = distance / desired distance, where the
 // desired distance is (d_i + d_j) / 2. Positive pushes. `range` is the w from which on it is 0.
+// per_length(distance, desired) is the force over the distance, what a kernel multiplies with the
+// vector between the two.
 #pragma once
 
 namespace pnpbs {
@@ -14,6 +16,9 @@ struct CubicLaw {
     const double f = k0 * (w * w * (1.25 * w - 2.375) + 1.125);
     return w <= range ? f : 0.0;
   }
+  double per_length(double distance, double desired) const {
+    return (*this)(distance / desired) / distance;
+  }
 };
 
 // A linear push up to a rest length a little above the desired distance, no pull. Around five- and
@@ -26,6 +31,12 @@ struct LinearPush {
   double operator()(double w) const {
     const double f = k0 * (1.0 - w / range);
     return f > 0.0 ? f : 0.0;
+  }
+  // With one division: they are what the kernel's time goes into.
+  double per_length(double distance, double desired) const {
+    const double rest = range * desired;
+    const double gap = rest - distance;
+    return k0 * (gap > 0.0 ? gap : 0.0) / (rest * distance);
   }
 };
 

@@ -5,6 +5,8 @@
 // velocities in the nodes; nodes that do not move keep theirs.
 #pragma once
 
+#include <algorithm>
+
 #include "forces/bubble_force.hpp"
 
 namespace pnpbs {
@@ -34,6 +36,43 @@ inline void clamp_move(std::array<double, Dim>& move, double most) {
   for (int k = 0; k < Dim; ++k) move[k] *= factor;
 }
 
+// The move of n consecutive nodes from `first` on, under these forces: velocities into v, positions
+// into `next`. A lane computes the same bits whatever n is.
+template <int Dim>
+inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std::int64_t first,
+                        int n, const Positions<Dim>& x, const double* d,
+                        const std::int32_t* boundary_node, const std::array<double*, Dim>& v,
+                        const std::array<double*, Dim>& next) {
+  const double slow = 1 / (1 + motion.damping * motion.dt);
+  BlockVector<Dim> move;
+  std::array<double, kLanes> square{}, most{};
+  double too_far = 0;
+#pragma omp simd reduction(max : too_far)
+  for (int lane = 0; lane < n; ++lane) {
+    const std::int64_t i = first + lane;
+    const double mobile = boundary_node[i] < 0 ? slow : 0.0;
+    double sum = 0;
+    for (int k = 0; k < Dim; ++k) {
+      move[k][lane] = motion.dt * (mobile * (v[k][i] + motion.dt * d[i] * force[k][lane]));
+      sum += move[k][lane] * move[k][lane];
+    }
+    square[lane] = sum;
+    most[lane] = motion.most * d[i];
+    too_far = std::max(too_far, sum - most[lane] * most[lane]);
+  }
+  if (too_far > 0)
+    for (int lane = 0; lane < n; ++lane)
+      if (square[lane] > most[lane] * most[lane])
+        for (int k = 0; k < Dim; ++k) move[k][lane] *= most[lane] / std::sqrt(square[lane]);
+  const double per_time = 1 / motion.dt;
+#pragma omp simd
+  for (int lane = 0; lane < n; ++lane)
+    for (int k = 0; k < Dim; ++k) {
+      v[k][first + lane] = per_time * move[k][lane];
+      next[k][first + lane] = x[k][first + lane] + move[k][lane];
+    }
+}
+
 // One force evaluation per step: the damping is taken implicitly, the position follows the new
 // velocity (symplectic Euler for c = 0). First order, stable for dt < 0.816 sqrt(m/k0) or so.
 template <int Dim, class Law>
@@ -41,26 +80,19 @@ void damped_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const
                  const Motion& motion, const Field<Dim>& next) {
   const Positions<Dim> x = positions_of<Dim>(nodes.x);
   const double* const d = nodes.d.data();
-  const double slow = 1 / (1 + motion.damping * motion.dt);
+  std::array<double*, Dim> v, to;
+  for (int k = 0; k < Dim; ++k) {
+    v[k] = nodes.v[k].data();
+    to[k] = next[k].data();
+  }
   for_each("pnpbs::damped_step", lists.block_count(), [=, &nodes, &lists](std::int64_t b) {
     std::int64_t self[kLanes];
     block_nodes(b, nodes.count, self);
     BlockVector<Dim> force;
     block_force<Dim>(lists.block(b), law, x, d, self, force);
-    for (int lane = 0; lane < kLanes && self[lane] < nodes.count; ++lane) {
-      const std::int64_t i = self[lane];
-      const double mobile = nodes.moves(i) ? 1.0 : 0.0;
-      std::array<double, Dim> move;
-      for (int k = 0; k < Dim; ++k) {
-        const double v = mobile * slow * (nodes.v[k](i) + motion.dt * d[i] * force[k][lane]);
-        move[k] = motion.dt * v;
-      }
-      clamp_move<Dim>(move, motion.most * d[i]);
-      for (int k = 0; k < Dim; ++k) {
-        nodes.v[k](i) = move[k] / motion.dt;
-        next[k](i) = x[k][i] + move[k];
-      }
-    }
+    const std::int64_t first = b * kLanes;
+    const int n = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
+    damped_move<Dim>(force, motion, first, n, x, d, nodes.boundary_node.data(), v, to);
   });
 }
 
