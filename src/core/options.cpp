@@ -27,7 +27,7 @@ const std::vector<OptionRow>& option_table() {
        "in units of sqrt(m / k0) of a scaled bubble"},
       {"damping", T::real, "0.25", "0.7", 0, 100, nullptr,
        "c of equation (1), in units of sqrt(k0 m) of a scaled bubble"},
-      {"max_move", T::real, "0.05", nullptr, 1e-3, 0.2, nullptr,
+      {"max_move", T::real, "0.03", nullptr, 1e-3, 0.2, nullptr,
        "no step moves a node by more than this many spacings"},
       {"steps", T::integer, "300", "1000", 0, 1e9, nullptr, "most steps of a run"},
       {"levels", T::integer, "2", "0", 0, 10, nullptr,
