@@ -129,9 +129,10 @@ class Level {
   double imbalance() const;
   std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }
   std::vector<GivenNode> owned_nodes() const;
-  // What the next finer level begins with: the inner nodes of this rank, and the middle of every
-  // edge of its stars that is long for half the spacing. Collective.
-  std::vector<GivenNode> refined();
+  // What a level of another spacing begins with: the nodes of this rank and, where that is finer,
+  // new ones on the edges of their stars and in their triangles: where it is half of the present
+  // one, in the middle of every edge. Collective.
+  std::vector<GivenNode> refined(const Spacing<2>& next);
   // By the samples of d in the leaves. Collective.
   SpacingVariation spacing_variation() const;
   std::int64_t owned_count() const;
@@ -188,6 +189,7 @@ class Level {
 
   double widest_radius() const;
   double edge_radius() const;
+  std::vector<double> spacing_at_owned_nodes(const Spacing<2>& spacing) const;
   bool on_one_edge(std::int64_t i, std::int64_t j) const;
   void number_and_store(std::vector<GivenNode> inner);
   void scatter_to_owners(std::vector<GivenNode>& given) const;

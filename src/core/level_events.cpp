@@ -12,32 +12,38 @@
 
 namespace pnpbs {
 
-// By the owners; ghosts get theirs with the next exchange. The spacing is asked equally often on
-// all ranks: it may live distributed over them.
-void Level::refresh_spacing() {
-  ++version_;
-  const PhaseTimer timer(timers_, Phase::spacing);
+// In the order of memory. The spacing is asked equally often on all ranks: it may live distributed
+// over them. Collective.
+std::vector<double> Level::spacing_at_owned_nodes(const Spacing<2>& spacing) const {
   constexpr std::int64_t kBatch = 1 << 16;  // bounds the memory for the points handed out
   const std::int64_t last =
       static_cast<std::int64_t>(comm_->largest(static_cast<double>(nodes_.count)));
+  std::vector<double> all;
   agreed(*comm_, [&] {
-    std::vector<std::int64_t> who;
     std::vector<Point<2>> x;
-    std::vector<double> d;  // the nodes' own d stays as it is if the callback fails
+    all.reserve(static_cast<std::size_t>(nodes_.count));
     for (std::int64_t first = 0; first < last; first += kBatch) {
-      who.clear();
       x.clear();
-      for (std::int64_t i = first; i < std::min(first + kBatch, nodes_.count); ++i) {
-        if (!nodes_.owned(i)) continue;
-        who.push_back(i);
-        x.push_back(nodes_.position(i));
-      }
-      d.resize(x.size());
-      evaluate_spacing<2>(*spacing_, domain_->area(), static_cast<std::int64_t>(x.size()), x.data(),
-                          d.data());
-      for (std::size_t k = 0; k < who.size(); ++k) nodes_.d(who[k]) = d[k];
+      for (std::int64_t i = first; i < std::min(first + kBatch, nodes_.count); ++i)
+        if (nodes_.owned(i)) x.push_back(nodes_.position(i));
+      const std::size_t before = all.size();
+      all.resize(before + x.size());
+      evaluate_spacing<2>(spacing, domain_->area(), static_cast<std::int64_t>(x.size()), x.data(),
+                          all.data() + before);
     }
   });
+  return all;
+}
+
+// By the owners; ghosts get theirs with the next exchange. If the callback fails, all stays as it
+// is.
+void Level::refresh_spacing() {
+  ++version_;
+  const PhaseTimer timer(timers_, Phase::spacing);
+  const std::vector<double> d = spacing_at_owned_nodes(*spacing_);
+  std::size_t owned = 0;
+  for (std::int64_t i = 0; i < nodes_.count; ++i)
+    if (nodes_.owned(i)) nodes_.d(i) = d[owned++];
   drop_anchors();
   ghost_hops_ = 0;
 }

@@ -96,28 +96,64 @@ std::vector<LeafSummary> Level::summaries_of_unrefined_leaves() const {
   return unrefined;
 }
 
-std::vector<GivenNode> Level::refined() {
-  constexpr double kLong = 1.4;  // in units of the finer spacing
+namespace {
+
+// Into how many pieces of length d a length is cut; one that is long by 1.4 is halved.
+int pieces_of(double length, double d) { return static_cast<int>(length / d + 0.6); }
+
+// New nodes on the edge from x to y, cut into equal pieces: so many where it is long enough.
+void cut_edge(const Point<2>& x, const Point<2>& y, double d, int most,
+              std::vector<GivenNode>& nodes) {
+  const int pieces = std::min(most, pieces_of(distance<2>(x, y), d));
+  for (int k = 1; k < pieces; ++k) {
+    const double a = static_cast<double>(k) / pieces;
+    nodes.push_back({{x[0] + a * (y[0] - x[0]), x[1] + a * (y[1] - x[1])}, -1, true, -1, d});
+  }
+}
+
+// New nodes within a triangle whose edges are cut into three pieces or more.
+void fill_triangle(const std::array<Point<2>, 3>& x, double d, int most,
+                   std::vector<GivenNode>& nodes) {
+  const double around = distance<2>(x[0], x[1]) + distance<2>(x[1], x[2]) + distance<2>(x[2], x[0]);
+  const int pieces = std::min(most, pieces_of(around / 3, d));
+  for (int a = 1; a < pieces - 1; ++a)
+    for (int b = 1; b < pieces - a; ++b) {
+      Point<2> y;
+      for (int k = 0; k < 2; ++k)
+        y[k] = x[0][k] + (a * (x[1][k] - x[0][k]) + b * (x[2][k] - x[0][k])) / pieces;
+      nodes.push_back({y, -1, true, -1, d});
+    }
+}
+
+}  // namespace
+
+std::vector<GivenNode> Level::refined(const Spacing<2>& next) {
   drop_anchors();
   exchange(kStarHops);
   make_lists_and_stars(kStarHops, settings_.list_radius, 0);
-  std::vector<GivenNode> finer;
+  std::vector<GivenNode> nodes = owned_nodes();
+  const std::vector<double> spacing = spacing_at_owned_nodes(next);
   agreed(*comm_, [&] {
-    finer.reserve(static_cast<std::size_t>(nodes_.count) * 4);
+    std::size_t owned = 0;
     for (std::int64_t i = 0; i < nodes_.count; ++i) {
       if (!nodes_.owned(i)) continue;
-      if (nodes_.moves(i)) finer.push_back({nodes_.position(i), -1, true, -1, 0.5 * nodes_.d(i)});
-      // An edge is its end's with the lesser id.
+      const double d = spacing[owned++];
+      // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
+      const int pieces = pieces_of(nodes_.d(i), d);
+      if (pieces < 2) continue;
+      // Edges and triangles are their node's with the least id.
+      const Point<2> x = nodes_.position(i);
       stars_.for_neighbours(i, [&](std::int64_t j, bool) {
-        if (nodes_.id(j) < nodes_.id(i) || on_one_edge(i, j)) return;
-        const Point<2> x = nodes_.position(i), y = nodes_.position(j);
-        const double d = 0.25 * (nodes_.d(i) + nodes_.d(j));
-        if (distance<2>(x, y) > kLong * d)
-          finer.push_back({{0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1])}, -1, true, -1, d});
+        if (nodes_.id(i) < nodes_.id(j) && !on_one_edge(i, j))
+          cut_edge(x, nodes_.position(j), d, pieces, nodes);
+      });
+      stars_.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+        if (nodes_.id(i) < nodes_.id(j) && nodes_.id(i) < nodes_.id(k))
+          fill_triangle({x, nodes_.position(j), nodes_.position(k)}, d, pieces, nodes);
       });
     }
   });
-  return finer;
+  return nodes;
 }
 
 // Are these the ends of a boundary edge?

@@ -35,7 +35,7 @@ const std::vector<OptionRow>& option_table() {
        "fewer where d varies too fast for them or asks for few nodes"},
       {"coarsest_steps", T::integer, "200", nullptr, 0, 1e9, nullptr,
        "most steps on the coarsest of several levels"},
-      {"refined_steps", T::integer, "40", nullptr, 0, 1e9, nullptr,
+      {"refined_steps", T::integer, "60", nullptr, 0, 1e9, nullptr,
        "most steps on the levels between the coarsest and the finest"},
       {"event_interval", T::integer, "20", "8", 1, 1e6, nullptr,
        "steps between events: refresh of d, population, stop test, monitor"},

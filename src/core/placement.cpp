@@ -112,8 +112,8 @@ std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> 
   return level;
 }
 
-// Lays the boundary at the present spacing and puts in the inner nodes: those of the level before
-// if there is one, those given, those of a coarser level refined, or a fill.
+// Lays the boundary at the present spacing and puts in the inner nodes: those of the level before,
+// refined where it was coarser, those given, those that coarser levels lead to, or a fill.
 Outcome Placement::make_level() {
   if (!spacing_)
     throw Error(PNPBS_ERROR_STATE,
@@ -127,7 +127,7 @@ Outcome Placement::make_level() {
   Outcome outcome = Outcome::converged;
   coarser_levels_ = 0;
   if (level_) {
-    taken = next->take(level_->owned_nodes(), level_->next_id());
+    taken = next->take(level_->refined(*spacing), level_->next_id());
     taken.left_out = 0;  // not the user's
   } else if (start_from_given_) {
     taken = next->take(given_, 0);
@@ -300,7 +300,7 @@ bool Placement::far_too_few() const {
 // they change much.
 void Placement::control_population() {
   constexpr int kMostRounds = 20;
-  constexpr double kRefillBelow = 5.5;  // overlap ratio
+  constexpr double kRefillBelow = 5.8;  // overlap ratio
   constexpr double kMuch = 0.002;       // share of the nodes
   constexpr double kRefinedPays = 5;    // times the option's share
   const double nodes = static_cast<double>(global_count());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Multilevel bubble simulation: the first nodes of a level come from a coarser one, where what is
-// wrong over long distances settles in few and cheap steps. Each level has twice the spacing of
-// the next; to refine it, a node comes into the middle of every edge of its Delaunay stars, which
-// leaves nearly every node with its six neighbours.
+// wrong over long distances settles in cheap steps. Each level has twice the spacing of the next;
+// to refine it, a node comes into the middle of every edge of its Delaunay stars, which leaves
+// nearly every node with its six neighbours.
 #include <algorithm>
 #include <cmath>
 
@@ -28,6 +28,19 @@ class MultipliedSpacing : public Spacing<2> {
 };
 
 double coarser_by(int level) { return std::ldexp(1.0, level); }
+
+std::shared_ptr<const Spacing<2>> spacing_of_level(const std::shared_ptr<const Spacing<2>>& spacing,
+                                                   int level) {
+  if (level == 0) return spacing;
+  return std::make_shared<MultipliedSpacing>(spacing, coarser_by(level));
+}
+
+// All nodes of a level are numbered anew, and the boundary is laid anew.
+std::vector<GivenNode> new_nodes(std::vector<GivenNode> nodes) {
+  std::erase_if(nodes, [](const GivenNode& node) { return !node.inner; });
+  for (GivenNode& node : nodes) node.id = -1;
+  return nodes;
+}
 
 // A coarser level runs like a placement of its own; the coarsest has the most to settle. Room for a
 // node that is missing there is missing on every finer one, too.
@@ -64,9 +77,8 @@ std::vector<GivenNode> Placement::nodes_from_coarser_levels(
   std::vector<GivenNode> nodes;
   try {
     for (int l = coarser_levels_; l > 0; --l) {
-      std::unique_ptr<Level> level =
-          empty_level(std::make_shared<MultipliedSpacing>(spacing, coarser_by(l)),
-                      settings_of_level(settings, l == coarser_levels_));
+      std::unique_ptr<Level> level = empty_level(spacing_of_level(spacing, l),
+                                                 settings_of_level(settings, l == coarser_levels_));
       if (l == coarser_levels_)
         level->fill();
       else
@@ -76,7 +88,7 @@ std::vector<GivenNode> Placement::nodes_from_coarser_levels(
       const ProgressPart part{kCoarseShare * (coarser_levels_ - l) / coarser_levels_,
                               kCoarseShare * (coarser_levels_ - l + 1) / coarser_levels_};
       if (outcome != Outcome::stopped) outcome = advance(level_->settings().steps, part);
-      nodes = level_->refined();
+      nodes = new_nodes(level_->refined(*spacing_of_level(spacing, l - 1)));
     }
     if (outcome != Outcome::stopped) outcome = Outcome::converged;
     adopt_level(nullptr);

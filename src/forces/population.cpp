@@ -22,28 +22,57 @@ struct Bid {
 
 enum class Action : char { none, remove, insert };
 
-// The free place beside a sparse bubble: one spacing away, on the side away from its neighbours.
 template <int Dim>
-bool free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
-                Point<Dim>& place) {
+double dot(const Point<Dim>& a, const Point<Dim>& b) {
+  double sum = 0;
+  for (int k = 0; k < Dim; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+// Square to `a`: the axis that is least along it, without the part along it.
+template <int Dim>
+Point<Dim> square_to(const Point<Dim>& a) {
+  int least = 0;
+  for (int k = 1; k < Dim; ++k)
+    if (std::fabs(a[k]) < std::fabs(a[least])) least = k;
+  Point<Dim> b{};
+  b[least] = 1;
+  const double length = dot<Dim>(a, a);
+  if (length == 0) return b;
+  for (int k = 0; k < Dim; ++k) b[k] -= a[least] * a[k] / length;
+  return b;
+}
+
+// The free place beside a sparse bubble: one spacing away, on the side away from its neighbours.
+// Where they balance, as in a row of nodes, that is beside the row.
+template <int Dim>
+Point<Dim> free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i) {
+  constexpr double kBalanced = 0.1;  // of what they would be on one side
   const Point<Dim> x = nodes.position(i);
-  Point<Dim> crowd{};
+  Point<Dim> crowd{}, to_nearest{};
+  double weights = 0, nearest = std::numeric_limits<double>::infinity();
   lists.for_neighbours(i, [&](std::int64_t j) {
     const Point<Dim> y = nodes.position(j);
     const double gap = distance<Dim>(x, y);
     if (gap == 0) return;
     const double weight = 1 / (gap * gap);
     for (int k = 0; k < Dim; ++k) crowd[k] += weight * (y[k] - x[k]);
+    weights += weight * gap;
+    if (gap >= nearest) return;
+    nearest = gap;
+    for (int k = 0; k < Dim; ++k) to_nearest[k] = y[k] - x[k];
   });
-  double length = 0;
-  for (int k = 0; k < Dim; ++k) length += crowd[k] * crowd[k];
-  length = std::sqrt(length);
-  for (int k = 0; k < Dim; ++k) {
-    // No neighbours at all, or a perfectly balanced few: any fixed direction will do.
-    const double direction = length > 0 ? -crowd[k] / length : (k == 0 ? 1.0 : 0.0);
-    place[k] = x[k] + nodes.d(i) * direction;
+  Point<Dim> away;
+  for (int k = 0; k < Dim; ++k) away[k] = -crowd[k];
+  if (dot<Dim>(away, away) <= kBalanced * kBalanced * weights * weights) {
+    away = square_to<Dim>(to_nearest);
+    if (dot<Dim>(away, crowd) > 0)
+      for (int k = 0; k < Dim; ++k) away[k] = -away[k];
   }
-  return true;
+  const double length = std::sqrt(dot<Dim>(away, away));
+  Point<Dim> place;
+  for (int k = 0; k < Dim; ++k) place[k] = x[k] + nodes.d(i) * (away[k] / length);
+  return place;
 }
 
 // Is there room at `place` among the neighbours of i and theirs?
@@ -94,9 +123,8 @@ PopulationChange<Dim> choose_population_change(
       defect = ratio - rule.ideal;
       action(i) = Action::remove;
     } else if (ratio < rule.insert_below) {
-      Point<Dim> place;
-      if (free_place<Dim>(nodes, lists, i, place) &&
-          has_room<Dim>(nodes, lists, i, place, rule.least_gap) && fits(place, nodes.d(i))) {
+      const Point<Dim> place = free_place<Dim>(nodes, lists, i);
+      if (has_room<Dim>(nodes, lists, i, place, rule.least_gap) && fits(place, nodes.d(i))) {
         defect = rule.ideal - ratio;
         action(i) = Action::insert;
       }
@@ -118,9 +146,7 @@ PopulationChange<Dim> choose_population_change(
     if (action(i) == Action::remove) {
       change.deleted.push_back(static_cast<std::int32_t>(i));
     } else {
-      Point<Dim> place;
-      free_place<Dim>(nodes, lists, i, place);
-      change.born.push_back({place, nodes.id(i), nodes.d(i)});
+      change.born.push_back({free_place<Dim>(nodes, lists, i), nodes.id(i), nodes.d(i)});
       change.parents.push_back(static_cast<std::int32_t>(i));
     }
   }
