@@ -13,66 +13,69 @@ namespace pnpbs {
 const std::vector<OptionRow>& option_table() {
   using T = OptionType;
   static const std::vector<OptionRow> table = {
-      {"method", T::choice, "default", nullptr, 0, 0, "default | paper",
+      {"method", T::choice, "default", nullptr, nullptr, 0, 0, "default | paper",
        "preset for the options below: what measures best, or the paper's scheme to the letter"},
-      {"law", T::choice, "push", "cubic", 0, 0, "push | cubic",
+      {"effort", T::choice, "default", nullptr, nullptr, 0, 0, "default | best",
+       "preset, too: fast and good, or some five times slower for the best spacing there is"},
+      {"law", T::choice, "push", "cubic", nullptr, 0, 0, "push | cubic",
        "force between bubbles: linear push, or equation (2) of the paper"},
-      {"scheme", T::choice, "damped", "predictor_corrector", 0, 0, "damped | predictor_corrector",
+      {"scheme", T::choice, "damped", "predictor_corrector", nullptr, 0, 0,
+       "damped | predictor_corrector",
        "time step of equation (1): one force per step, or the paper's Euler predictor-corrector"},
-      {"finish", T::choice, "none", "runge_kutta", 0, 0, "none | runge_kutta",
+      {"finish", T::choice, "none", "runge_kutta", nullptr, 0, 0, "none | runge_kutta",
        "last step of a run: as the others, or fourth-order Runge-Kutta"},
-      {"rest_length", T::real, "1.06", nullptr, 0.8, 1.4, nullptr,
+      {"rest_length", T::real, "1.06", nullptr, "1.03", 0.8, 1.4, nullptr,
        "where the push ends, in desired distances"},
-      {"time_step", T::real, "0.8", "0.3", 1e-3, 2, nullptr,
+      {"time_step", T::real, "0.8", "0.3", nullptr, 1e-3, 2, nullptr,
        "in units of sqrt(m / k0) of a scaled bubble"},
-      {"damping", T::real, "0.25", "0.7", 0, 100, nullptr,
+      {"damping", T::real, "0.2", "0.7", "0.05", 0, 100, nullptr,
        "c of equation (1), in units of sqrt(k0 m) of a scaled bubble"},
-      {"max_move", T::real, "0.03", nullptr, 1e-3, 0.2, nullptr,
+      {"max_move", T::real, "0.03", nullptr, nullptr, 1e-3, 0.2, nullptr,
        "no step moves a node by more than this many spacings"},
-      {"steps", T::integer, "300", "1000", 0, 1e9, nullptr, "most steps of a run"},
-      {"levels", T::integer, "2", "0", 0, 10, nullptr,
+      {"steps", T::integer, "300", "1000", nullptr, 0, 1e9, nullptr, "most steps of a run"},
+      {"levels", T::integer, "2", "0", "4", 0, 10, nullptr,
        "coarser levels that the first nodes come from, each with twice the spacing of the next; "
        "fewer where d varies too fast for them or asks for few nodes"},
-      {"coarsest_steps", T::integer, "200", nullptr, 0, 1e9, nullptr,
+      {"coarsest_steps", T::integer, "200", nullptr, "1000", 0, 1e9, nullptr,
        "most steps on the coarsest of several levels"},
-      {"refined_steps", T::integer, "60", nullptr, 0, 1e9, nullptr,
+      {"refined_steps", T::integer, "60", nullptr, "500", 0, 1e9, nullptr,
        "most steps on the levels between the coarsest and the finest"},
-      {"event_interval", T::integer, "20", "8", 1, 1e6, nullptr,
+      {"event_interval", T::integer, "20", "8", nullptr, 1, 1e6, nullptr,
        "steps between events: refresh of d, population, stop test, monitor"},
-      {"population_share", T::real, "0.6", "0.75", 0, 1, nullptr,
+      {"population_share", T::real, "0.6", "0.75", nullptr, 0, 1, nullptr,
        "the population is adjusted during this share of the steps at most"},
-      {"population_pays", T::real, "0.0002", nullptr, 0, 1, nullptr,
+      {"population_pays", T::real, "0.0002", nullptr, nullptr, 0, 1, nullptr,
        "... and until two events in a row change no more than this share of the nodes"},
-      {"delete_above", T::real, "7.5", "9", 6, 100, nullptr,
+      {"delete_above", T::real, "7.5", "9", nullptr, 6, 100, nullptr,
        "bubbles with a larger overlap ratio are deleted"},
-      {"insert_below", T::real, "5", nullptr, 0, 6, nullptr,
+      {"insert_below", T::real, "5", nullptr, "4.75", 0, 6, nullptr,
        "beside bubbles with a smaller overlap ratio new ones are inserted"},
-      {"tolerance_mean", T::real, "0.006", "0.001", 0, 1, nullptr,
+      {"tolerance_mean", T::real, "0.006", "0.001", "0.0002", 0, 1, nullptr,
        "the bubbles rest when their mean scaled speed is below this ..."},
-      {"tolerance_max", T::real, "0.15", "0.05", 0, 10, nullptr,
+      {"tolerance_max", T::real, "0.15", "0.05", nullptr, 0, 10, nullptr,
        "... and their largest one below this (spacings per unit of time)"},
-      {"sweeps", T::integer, "5", "0", 0, 10000, nullptr,
+      {"sweeps", T::integer, "4", "0", "5", 0, 10000, nullptr,
        "finishing sweeps towards the mean of the Delaunay neighbours"},
-      {"sweep_weight", T::real, "0.6", nullptr, 0, 1, nullptr,
+      {"sweep_weight", T::real, "0.6", nullptr, nullptr, 0, 1, nullptr,
        "share of the way to that mean that a sweep goes"},
-      {"list_radius", T::real, "1.6", "1.7", 1.5, 3, nullptr,
+      {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
        "radius of the lists during the run, in desired distances"},
-      {"adjacency_radius", T::real, "1.7", nullptr, 0.5, 3, nullptr,
+      {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 3, nullptr,
        "radius of the adjacency lists handed out, in desired distances"},
-      {"growth_limit", T::real, "0", nullptr, 0, 1e6, nullptr,
+      {"growth_limit", T::real, "0", nullptr, nullptr, 0, 1e6, nullptr,
        "d may grow by at most this much per unit of length; 0 is no limit"},
-      {"exchange_interval", T::integer, "5", nullptr, 1, 64, nullptr,
+      {"exchange_interval", T::integer, "5", nullptr, nullptr, 1, 64, nullptr,
        "steps between exchanges of ghosts between ranks"},
-      {"rebalance_above", T::real, "1.1", nullptr, 1, 1e6, nullptr,
+      {"rebalance_above", T::real, "1.1", nullptr, nullptr, 1, 1e6, nullptr,
        "the work is dealt out anew at an event when its largest share passes the mean by this "
        "factor"},
-      {"halo_deficit", T::integer, "0", nullptr, 0, 64, nullptr,
+      {"halo_deficit", T::integer, "0", nullptr, nullptr, 0, 64, nullptr,
        "for tests: ghost layers are this many hops too thin, which changes the result"},
-      {"metis_seed", T::integer, "1", nullptr, 0, 2e9, nullptr,
+      {"metis_seed", T::integer, "1", nullptr, nullptr, 0, 2e9, nullptr,
        "seed of the partition; the nodes do not depend on it"},
-      {"max_nodes", T::integer, "100000000", nullptr, 1, 2e9, nullptr,
+      {"max_nodes", T::integer, "100000000", nullptr, nullptr, 1, 2e9, nullptr,
        "more nodes than this are taken for a mistake in d"},
-      {"threads", T::integer, "0", nullptr, 0, 4096, nullptr,
+      {"threads", T::integer, "0", nullptr, nullptr, 0, 4096, nullptr,
        "threads of the process, set on the context before anything runs; 0: OMP_NUM_THREADS or "
        "KOKKOS_NUM_THREADS, else the cores there are, divided by our ranks on the node"},
   };
@@ -185,9 +188,14 @@ std::string Options::text(const char* key) const {
   const auto found = values_.find(key);
   if (found != values_.end()) return found->second;
   const OptionRow& row = find_row(key);
-  const auto method = values_.find("method");
-  const bool paper = method != values_.end() && method->second == "paper";
-  return paper && row.paper_value ? row.paper_value : row.default_value;
+  if (row.paper_value && chosen("method", "paper")) return row.paper_value;
+  if (row.best_value && chosen("effort", "best")) return row.best_value;
+  return row.default_value;
+}
+
+bool Options::chosen(const char* preset, const char* value) const {
+  const auto found = values_.find(preset);
+  return found != values_.end() && found->second == value;
 }
 
 std::size_t Options::fingerprint() const {

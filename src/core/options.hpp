@@ -17,6 +17,7 @@ struct OptionRow {
   OptionType type;
   const char* default_value;
   const char* paper_value;  // the default under method=paper; NULL where it is the same
+  const char* best_value;   // the default under effort=best, likewise
   double least, most;       // range of numbers
   const char* choices;      // "a | b" for choices
   const char* help;
@@ -45,6 +46,7 @@ class Options {
 
  private:
   std::string text(const char* key) const;
+  bool chosen(const char* preset, const char* value) const;
   std::map<std::string, std::string, std::less<>> values_;  // checked texts
 };
 

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Coarser levels: when there are any, that they can be watched and stopped, that they help.
+ */
+#include "api_support.h"
+
+static job graded_square(cone* d) {
+  job it = square_job(1);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, d));
+  return it;
+}
+
+START_TEST(as_many_as_pay) {
+  static cone graded = {0.0048, 0.016, 0.5, 0.5}; /* some 10 000 nodes */
+  static cone few = {0.06, 0.2, 0.5, 0.5};
+  static cone steep = {0.002, 0.3, 0.5, 0.5};
+  static const struct {
+    cone* d;
+    const char *key, *value;
+    int levels;
+  } cases[] = {
+      {&graded, "levels", "2", 2},     {&graded, "levels", "1", 1}, {&graded, "levels", "0", 0},
+      {&graded, "method", "paper", 0}, {&few, "levels", "2", 0},    {&steep, "levels", "2", 0},
+      {&graded, "effort", "best", 2},
+  };
+  int k;
+  for (k = 0; k < COUNT_OF(cases); ++k) {
+    job it = graded_square(cases[k].d);
+    MUST(pnpbs_placement_set(it.placement, cases[k].key, cases[k].value));
+    MUST(pnpbs_placement_initialise(it.placement));
+    ck_assert_msg(integer_of(it.placement, "levels") == cases[k].levels, "%s=%s: %d levels, not %d",
+                  cases[k].key, cases[k].value, (int)integer_of(it.placement, "levels"),
+                  cases[k].levels);
+    job_end(&it);
+  }
+}
+END_TEST
+
+/* A constant d has its one lattice. */
+START_TEST(none_for_constant_spacing) {
+  job it = square_job(1);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.008));
+  MUST(pnpbs_placement_initialise(it.placement));
+  ck_assert_int_eq(integer_of(it.placement, "levels"), 0);
+  ck_assert_int_eq(integer_of(it.placement, "steps"), 0);
+  job_end(&it);
+}
+END_TEST
+
+static double deviation_with(const char* key, const char* value) {
+  static cone graded = {0.0048, 0.016, 0.5, 0.5};
+  job it = graded_square(&graded);
+  double deviation;
+  MUST(pnpbs_placement_set(it.placement, key, value));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  deviation = real_of(it.placement, "d_error.deviation");
+  check_placement(it.placement, 1);
+  job_end(&it);
+  return deviation;
+}
+
+START_TEST(more_effort_is_better) {
+  const double plain = deviation_with("effort", "default"), best = deviation_with("effort", "best");
+  ck_assert_msg(best < 0.95 * plain, "deviation %.4f, by default %.4f", best, plain);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- watched --------------- */
+
+typedef struct {
+  int calls, stop_at;
+  double last_fraction;
+  int64_t most_nodes;
+} watcher;
+
+static int32_t watch(double fraction, int64_t step, int64_t nodes, double max_speed, void* user) {
+  watcher* it = user;
+  (void)step;
+  (void)max_speed;
+  ck_assert_msg(fraction >= it->last_fraction && fraction <= 1, "the fraction went from %g to %g",
+                it->last_fraction, fraction);
+  /* From level to level there are more. */
+  ck_assert_msg((double)nodes > 0.95 * (double)it->most_nodes, "%d nodes after %d", (int)nodes,
+                (int)it->most_nodes);
+  it->last_fraction = fraction;
+  if (nodes > it->most_nodes) it->most_nodes = nodes;
+  return it->calls++ == it->stop_at;
+}
+
+/* Stopped on a coarser level, there are nodes of the spacing asked for nevertheless; and the next
+ * run goes on from them. */
+START_TEST(they_can_be_stopped) {
+  static cone graded = {0.0048, 0.016, 0.5, 0.5};
+  watcher seen = {0, 1, 0, 0};
+  job it = graded_square(&graded);
+  int64_t nodes;
+  const int by_run = _i;
+  seen.stop_at = 2 * _i;
+  MUST(pnpbs_placement_set_monitor(it.placement, watch, &seen));
+  MUST_BE(PNPBS_STOPPED,
+          by_run ? pnpbs_placement_run(it.placement) : pnpbs_placement_initialise(it.placement));
+  ck_assert_int_eq(seen.calls, seen.stop_at + 1);
+  ck_assert_double_lt(seen.last_fraction, 0.5);
+  nodes = integer_of(it.placement, "nodes");
+  ck_assert_int_gt(nodes, 10 * seen.most_nodes);
+  check_placement(it.placement, 1);
+  seen.last_fraction = 0;
+  seen.stop_at = -1;
+  MUST(pnpbs_placement_run(it.placement));
+  ck_assert_double_eq(seen.last_fraction, 1);
+  ck_assert_int_lt(llabs(integer_of(it.placement, "nodes") - nodes), nodes / 20);
+  check_placement(it.placement, 1);
+  job_end(&it);
+}
+END_TEST
+
+/* d fails while a coarser level asks for it: the placement is as it was. */
+typedef struct {
+  int calls, fail_at;
+} failing;
+
+static int32_t failing_spacing(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
+  static cone graded = {0.0048, 0.016, 0.5, 0.5};
+  failing* it = user;
+  if (it->calls++ == it->fail_at) return 1;
+  return cone_spacing(n, dim, xyz, d, &graded);
+}
+
+START_TEST(a_failure_leaves_nothing) {
+  failing f = {0, -1};
+  job it = square_job(1);
+  int calls, k;
+  hash_text hash;
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, failing_spacing, &f));
+  MUST(pnpbs_placement_initialise(it.placement));
+  calls = f.calls;
+  hash = hash_of(it.placement);
+  ck_assert_int_eq(integer_of(it.placement, "levels"), 2);
+  for (k = 1; k < 4; ++k) {
+    f.calls = 0;
+    f.fail_at = calls * k / 4;
+    MUST_BE(PNPBS_ERROR_CALLBACK, pnpbs_placement_initialise(it.placement));
+    f.fail_at = -1;
+    ck_assert_str_eq(hash_of(it.placement).text, hash.text);
+  }
+  MUST(pnpbs_placement_run(it.placement));
+  check_placement(it.placement, 1);
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("levels");
+  TCase* tests = tcase_create("levels");
+  tcase_add_test(tests, as_many_as_pay);
+  tcase_add_test(tests, none_for_constant_spacing);
+  tcase_add_test(tests, more_effort_is_better);
+  tcase_add_loop_test(tests, they_can_be_stopped, 0, 2);
+  tcase_add_test(tests, a_failure_leaves_nothing);
+  suite_add_tcase(suite, tests);
+  return run_suite(suite);
+}

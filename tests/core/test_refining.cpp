@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a finer level begins with, counted by Euler's formula: n nodes, b of them on the boundary of
+// a domain without holes, have 3 n - 3 - b edges, b of them on the boundary, and 2 n - b - 2
+// triangles.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "level_run.hpp"
+#include "run_kernel_suite.hpp"
+
+using pnpbs::GivenNode;
+using pnpbs::PlaneDomain;
+using shapes::add_loop;
+using shapes::rectangle;
+using P = pnpbs::Point<2>;
+
+namespace {
+
+void square(PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 1)); }
+
+// A square in which the bubbles rest.
+struct Rested {
+  LevelRun run;
+  std::int64_t n, b;
+
+  explicit Rested(const Plane& d) : run(square, d) {
+    run.level->fill();
+    run.steps(60);
+    n = run.level->owned_count();
+    b = run.level->boundary_nodes();
+  }
+};
+
+std::vector<GivenNode> new_ones(const std::vector<GivenNode>& nodes) {
+  std::vector<GivenNode> found;
+  for (const GivenNode& node : nodes)
+    if (node.id < 0) found.push_back(node);
+  return found;
+}
+
+// Is x in the middle between two of the nodes? By all pairs.
+bool halves_a_pair(const std::vector<GivenNode>& nodes, const P& x, double longest) {
+  for (const GivenNode& a : nodes) {
+    if (a.id < 0 || pnpbs::distance<2>(a.position, x) > longest) continue;
+    const P other{2 * x[0] - a.position[0], 2 * x[1] - a.position[1]};
+    for (const GivenNode& c : nodes)
+      if (c.id >= 0 && pnpbs::distance<2>(c.position, other) < 1e-12) return true;
+  }
+  return false;
+}
+
+START_TEST(half_the_spacing_halves_every_edge) {
+  Rested level(constant(0.05));
+  const std::vector<GivenNode> nodes = level.run.level->refined(*spacing_of(constant(0.025)));
+  const std::vector<GivenNode> born = new_ones(nodes);
+  ck_assert_int_eq(born.size(), 3 * level.n - 3 - 2 * level.b);
+  ck_assert_int_eq(nodes.size() - born.size(), level.n);
+  for (const GivenNode& node : born) {
+    quick_assert(halves_a_pair(nodes, node.position, 0.05));
+    quick_assert(node.inner && node.d == 0.025);
+  }
+}
+END_TEST
+
+START_TEST(a_third_fills_triangles_too) {
+  Rested level(constant(0.05));
+  const std::vector<GivenNode> born =
+      new_ones(level.run.level->refined(*spacing_of(constant(0.05 / 3))));
+  // An edge that is short by a sixth is only halved: few.
+  const double edges = static_cast<double>(3 * level.n - 3 - 2 * level.b),
+               triangles = static_cast<double>(2 * level.n - level.b - 2);
+  ck_assert_double_le(static_cast<double>(born.size()), 2 * edges + triangles);
+  ck_assert_double_ge(static_cast<double>(born.size()), 0.98 * (2 * edges + triangles));
+  std::set<P> places;
+  for (const GivenNode& node : born) places.insert(node.position);
+  ck_assert_uint_eq(places.size(), born.size());
+}
+END_TEST
+
+START_TEST(only_where_it_is_finer) {
+  Rested level(constant(0.05));
+  for (const double d : {0.2, 0.05, 0.04}) {
+    const std::vector<GivenNode> nodes = level.run.level->refined(*spacing_of(constant(d)));
+    ck_assert_int_eq(nodes.size(), level.n);
+    ck_assert_uint_eq(new_ones(nodes).size(), 0);
+  }
+  // Edges are their end's with the lesser id: so much is not sure beside the line.
+  const std::vector<GivenNode> born = new_ones(level.run.level->refined(
+      *spacing_of([](double x, double) { return x < 0.5 ? 0.025 : 0.05; })));
+  ck_assert_double_ge(static_cast<double>(born.size()),
+                      0.9 * static_cast<double>(3 * level.n - 3 - 2 * level.b) / 2);
+  for (const GivenNode& node : born) quick_assert(node.position[0] < 0.5 + 0.03);
+}
+END_TEST
+
+// Nodes that stay keep ids and places; the level made of them rests with about six neighbours each.
+START_TEST(a_refined_level_is_nearly_right) {
+  Rested coarse(constant(0.05));
+  LevelRun fine(square, constant(0.025));
+  const std::vector<GivenNode> nodes = coarse.run.level->refined(*spacing_of(constant(0.025)));
+  const pnpbs::TakenNodes taken = fine.level->take(nodes, coarse.run.level->next_id());
+  ck_assert_int_eq(taken.thinned, 0);
+  // The boundary is laid anew, at half of the spacing.
+  ck_assert_int_eq(fine.level->boundary_nodes(), 2 * coarse.b);
+  ck_assert_int_eq(fine.level->owned_count() + taken.left_out,
+                   coarse.n - coarse.b + (3 * coarse.n - 3 - 2 * coarse.b) + 2 * coarse.b);
+  const double wanted = pnpbs::kHexagonalDensity / (0.025 * 0.025) + 0.5 * 160;
+  ck_assert_double_le(std::fabs(static_cast<double>(fine.level->owned_count()) / wanted - 1), 0.03);
+  fine.renew_stars();
+  std::int64_t six = 0, inner = 0;
+  for (std::int64_t i = 0; i < fine.level->nodes().count; ++i) {
+    if (!fine.level->nodes().moves(i)) continue;
+    ++inner;
+    six += fine.level->stars().size(i) == 6;
+  }
+  ck_assert_double_ge(static_cast<double>(six), 0.93 * static_cast<double>(inner));
+}
+END_TEST
+
+}  // namespace
+
+int main() {
+  return run_kernel_suite("refining",
+                          {half_the_spacing_halves_every_edge, a_third_fills_triangles_too,
+                           only_where_it_is_finer, a_refined_level_is_nearly_right});
+}
