@@ -43,6 +43,7 @@ struct GivenNode {
 struct TakenNodes {
   std::int64_t left_out = 0;  // outside, or too close to the boundary
   std::int64_t thinned = 0;   // too dense for d
+  std::int64_t numbered = 0;  // those that came without an id
 };
 
 struct PopulationCounts {

@@ -191,9 +191,12 @@ TakenNodes Level::take(std::vector<GivenNode> given, std::int64_t next_id) {
   sort_by_place(given);
   thin(given);
   const std::size_t taken = given.size();
+  const auto numbered = static_cast<std::uint64_t>(
+      std::count_if(given.begin(), given.end(), [](const GivenNode& node) { return node.id < 0; }));
   number_and_store(std::move(given));
   return {static_cast<std::int64_t>(comm_->sum(all - fitting)),
-          static_cast<std::int64_t>(comm_->sum(fitting - taken))};
+          static_cast<std::int64_t>(comm_->sum(fitting - taken)),
+          static_cast<std::int64_t>(comm_->sum(numbered))};
 }
 
 void Level::find_leaves(std::vector<GivenNode>& given) const {

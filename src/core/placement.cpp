@@ -124,11 +124,13 @@ Outcome Placement::make_level() {
   const std::shared_ptr<const Spacing<2>> spacing = limited_spacing(settings);
   std::unique_ptr<Level> next = empty_level(spacing, settings);
   TakenNodes taken;
+  std::int64_t inserted = 0;
   Outcome outcome = Outcome::converged;
   coarser_levels_ = 0;
   if (level_) {
     taken = next->take(level_->refined(*spacing), level_->next_id());
     taken.left_out = 0;  // not the user's
+    inserted = taken.numbered;
   } else if (start_from_given_) {
     taken = next->take(given_, 0);
   } else {
@@ -141,6 +143,7 @@ Outcome Placement::make_level() {
   // Nothing has failed: from here on the new level counts.
   adopt_level(std::move(next));
   dropped_ = taken.left_out;
+  inserted_ += inserted;
   deleted_ += taken.thinned;
   warnings_ = domain_->warnings();
   warnings_.insert(warnings_.end(), level_->boundary().warnings.begin(),

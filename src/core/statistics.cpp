@@ -79,9 +79,11 @@ const std::vector<StatisticRow>& statistic_table() {
       integer(
           "rebuilds", [](P p) { return p.rebuilds(); }, "times the adjacency lists were made"),
       integer(
-          "inserted", [](P p) { return p.inserted(); }, "nodes inserted by population control"),
+          "inserted", [](P p) { return p.inserted(); },
+          "nodes inserted by population control, or where d has become finer"),
       integer(
-          "deleted", [](P p) { return p.deleted(); }, "nodes deleted by population control"),
+          "deleted", [](P p) { return p.deleted(); },
+          "nodes deleted by population control, or where d has become coarser"),
       integer(
           "dropped", [](P p) { return p.dropped(); },
           "nodes given by the user that lie outside or too close to the boundary"),

@@ -10,7 +10,7 @@
 Every named file must be used by a command that is run, and no program may be without a name. The
 folder has `examples`, as a clone has. Compilers are called with warnings as errors.
 
-usage: run_page.py <prefix> <page>
+usage: run_page.py <prefix> <page> [--update]     (--update: what is printed goes into the page)
 """
 
 import os
@@ -87,15 +87,24 @@ def missing_tool(commands, path):
 
 
 def run(block, expected, folder, variables):
-    """What is wrong with what the commands print, or None."""
+    """What is wrong with what the commands print, or None; and what they print."""
     done = subprocess.run(["sh", "-e", "-c", block.text], cwd=folder, env=variables, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE)
     if done.returncode != 0:
-        return f"exit code {done.returncode}\n{done.stdout}{done.stderr}"
+        return f"exit code {done.returncode}\n{done.stdout}{done.stderr}", expected
     if done.stdout != expected:
-        return f"expected\n{expected}printed\n{done.stdout}{done.stderr}"
-    return None
+        return f"expected\n{expected}printed\n{done.stdout}{done.stderr}", done.stdout
+    return None, done.stdout
+
+
+def with_output(page, block, expected, printed):
+    """The page, the text that follows a block of commands replaced."""
+    lines = page.splitlines(keepends=True)
+    before = "".join(lines[:block.line - 1])
+    rest = page[len(before):]
+    shown = f"```text\n{expected}```\n"
+    return before + rest.replace(shown, f"```text\n{printed}```\n", 1)
 
 
 def unused(page, commands):
@@ -108,14 +117,15 @@ def unused(page, commands):
             yield f"line {block.line}: a program without the name of a file"
 
 
-def run_page(prefix, page):
-    """Lines that tell what is wrong with a page."""
+def run_page(prefix, page, update=None):
+    """Lines that tell what is wrong with a page. update(page) gets it as it should be."""
     found = blocks(page)
     pairs = [(one, other.text) for one, other in zip(found, found[1:])
              if one.language == "sh" and other.language == "text" and other.follows]
     if not pairs:
         return ["nothing on this page is run"]
     wrong = list(unused(found, "".join(one.text for one, _ in pairs)))
+    outputs = []
     with tempfile.TemporaryDirectory() as name:
         work = pathlib.Path(name)
         put_tools(work / "tools")
@@ -131,16 +141,23 @@ def run_page(prefix, page):
             if tool:
                 print(f"line {block.line}: left out, for there is no {tool}")
                 continue
-            difference = run(block, expected, folder, variables)
+            difference, printed = run(block, expected, folder, variables)
+            outputs.append((block, expected, printed))
             print(f"line {block.line}: " + ("differs" if difference else "as the page has it"))
             if difference:
                 wrong.append(f"line {block.line}: {difference}")
+    if update:
+        # From the last one up, so that the lines before stay where they are.
+        for block, expected, printed in reversed(outputs):
+            page = with_output(page, block, expected, printed)
+        update(page)
     return wrong
 
 
 def main():
     prefix, page = (pathlib.Path(one).resolve() for one in sys.argv[1:3])
-    wrong = run_page(prefix, page.read_text())
+    update = page.write_text if "--update" in sys.argv else None
+    wrong = run_page(prefix, page.read_text(), update)
     print("\n".join(wrong))
     sys.exit(1 if wrong else 0)
 
