@@ -235,4 +235,8 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.stderr.write("\ninterrupted; comparison.json holds what was done, for --from\n")
+        sys.exit(130)

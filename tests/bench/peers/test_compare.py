@@ -5,9 +5,11 @@ peer that fails, and a machine that has none. PNPBS_COMMAND is the command to co
 import importlib.util
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -101,6 +103,29 @@ class Compare(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("no tool to run", done.stderr)
         self.assertIn("needs the command jigsaw", done.stderr)
+
+    def test_interrupt(self):
+        """Between the first run, ours, and the end of a fake one that would last a minute."""
+        fake = self.folder / "bin"
+        fake.mkdir()
+        (fake / "gmsh").write_text("#!/bin/sh\n[ \"$1\" = --version ] && exec echo 1\n"
+                                   f"touch {self.folder}/begun\nexec sleep 60\n")
+        (fake / "gmsh").chmod(0o755)
+        # In a group of its own, so that the signal reaches all of it, as from a terminal.
+        running = subprocess.Popen(
+            [sys.executable, "-B", PROGRAM, "--nodes", "500", "--cases", "uniform-square",
+             "--tools", "PNPBS,gmsh", "--no-forces", "--output", self.output, "--path", fake,
+             "--pnpbs", COMMAND], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+            stdin=subprocess.DEVNULL, start_new_session=True)
+        deadline = time.monotonic() + 60
+        while not (self.folder / "begun").exists() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        os.killpg(running.pid, signal.SIGINT)
+        told = running.communicate(timeout=30)[1]
+        self.assertEqual(running.returncode, 130)
+        self.assertIn("interrupted", told)
+        self.assertNotIn("Traceback", told)
+        self.assertEqual([r["tool"] for r in self.results()["placements"]], ["PNPBS, default"])
 
     def test_bad_arguments(self):
         for arguments, told in ((("--cases", "nowhere"), "unknown case nowhere"),
