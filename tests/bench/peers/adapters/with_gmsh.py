@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gmsh, by its command or its Python package, with the spacing as a background field."""
+import re
+import sys
+
+import numpy as np
+from adapters import tool
+from measure import Failed, measure
+
+AS_COMMAND = "import gmsh, sys; gmsh.initialize(sys.argv, run=True); gmsh.finalize()"
+
+
+def geometry(case):
+    """The domain and its spacing in gmsh's language."""
+    domain, lines = case.domain, []
+    for i, (x, y) in enumerate(domain.vertices.tolist(), 1):
+        lines.append(f"Point({i}) = {{{x!r}, {y!r}, 0}};")
+    line, loops = 0, domain.loops()
+    for number, loop in enumerate(loops, 1):
+        first = line + 1
+        for a, b in zip(loop, np.roll(loop, -1)):
+            line += 1
+            lines.append(f"Line({line}) = {{{a + 1}, {b + 1}}};")
+        lines.append(f"Curve Loop({number}) = {{{first}:{line}}};")
+    lines.append(f"Plane Surface(1) = {{1:{len(loops)}}};")
+    lines += ["Mesh.MeshSizeExtendFromBoundary = 0;", "Mesh.MeshSizeFromPoints = 0;"]
+    if case.slope == 0:
+        lines += [f"Mesh.MeshSize{bound} = {case.constant!r};" for bound in ("Min", "Max")]
+    else:
+        lines += ["Field[1] = MathEval;", f'Field[1].F = "{case.formula("Sqrt")}";',
+                  "Background Field = 1;"]
+    return "\n".join(lines) + "\n"
+
+
+def read_msh(path):
+    """The nodes of the triangles in a file of format 2.2."""
+    with open(path) as file:
+        for line in file:
+            if line.startswith("$Nodes"):
+                break
+        count = int(next(file))
+        nodes = np.loadtxt(file, usecols=(0, 1, 2), max_rows=count, ndmin=2)
+        used = set()
+        for line in file:
+            words = line.split()
+            if len(words) > 5 and words[1] == "2":
+                used.update(words[-3:])
+    return nodes[np.isin(nodes[:, 0], [int(number) for number in used]), 1:]
+
+
+class Gmsh(tool.Tool):
+    needs = "the command gmsh (Debian's package gmsh) or the Python package gmsh"
+
+    def __init__(self, name, algorithm, smoothing):
+        self.name = f"gmsh, {name}"
+        self.setting = f"-2 -algo {algorithm} -smooth {smoothing}"
+        self.options = self.setting.split()
+
+    def command(self):
+        if tool.command("gmsh"):
+            return ["gmsh"]
+        return [sys.executable, "-c", AS_COMMAND]
+
+    def available(self):
+        return bool(tool.command("gmsh")) or tool.module("gmsh")
+
+    def version(self):
+        return tool.output_of(*self.command(), "--version").splitlines()[-1]
+
+    def run(self, case, folder, time_limit):
+        (folder / "case.geo").write_text(geometry(case))
+        used = measure([*self.command(), "case.geo", *self.options, "-nt", 1, "-format", "msh22",
+                        "-o", "nodes.msh"], folder, time_limit)
+        if not (folder / "nodes.msh").exists():
+            raise Failed("wrote no file")
+        # "Done meshing 2D (Wall 0.1s, CPU 0.1s)", and 1D.
+        told = re.findall(r"Done meshing \dD \(Wall ([\d.e+-]+)s", used.stdout)
+        return tool.Outcome(read_msh(folder / "nodes.msh"), used.seconds,
+                            sum(map(float, told)) if told else None, used.peak_bytes)
+
+
+def tools():
+    # A smoothing step is gmsh's default.
+    return [Gmsh("frontal", "front2d", 1), Gmsh("frontal, 10 smoothings", "front2d", 10),
+            Gmsh("Delaunay", "del2d", 1)]

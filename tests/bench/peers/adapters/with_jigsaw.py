@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""JIGSAW, by its command, with the spacing on a grid."""
+import re
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from adapters import tool
+from measure import measure
+
+GRID = 400  # points a side, between which JIGSAW takes the spacing to be linear
+
+
+def geometry(domain):
+    lines = ["mshid=1", "ndims=2", f"point={len(domain.vertices)}"]
+    lines += [f"{x!r};{y!r};0" for x, y in domain.vertices.tolist()]
+    lines.append(f"edge2={len(domain.segments)}")
+    lines += [f"{a};{b};0" for a, b in domain.segments.tolist()]
+    return "\n".join(lines) + "\n"
+
+
+def spacing_grid(case):
+    low, high = case.domain.vertices.min(0), case.domain.vertices.max(0)
+    x, y = (np.linspace(a, b, GRID) for a, b in zip(low, high))
+    lines = ["mshid=3;euclidean-grid", "ndims=2"]
+    for axis, values in enumerate((x, y), 1):
+        lines.append(f"coord={axis};{GRID}")
+        lines += [repr(v) for v in values.tolist()]
+    # All heights of the first column, then the next one.
+    grid = np.column_stack([part.ravel() for part in np.meshgrid(x, y, indexing="ij")])
+    lines.append(f"value={GRID * GRID};1")
+    lines += [repr(v) for v in case.spacing(grid).tolist()]
+    return "\n".join(lines) + "\n"
+
+
+def read_points(path):
+    """Of the triangles only."""
+    text = path.read_text()
+    points = block(text, "point")[:, :2]
+    triangles = block(text, "tria3")[:, :3].astype(int)
+    return points[np.unique(triangles)]
+
+
+def block(text, name):
+    count, start = re.search(rf"^{name}=(\d+)\n", text, re.MULTILINE | re.IGNORECASE), 0
+    start = count.end()
+    lines = text[start:].split("\n", int(count[1]))[:int(count[1])]
+    return np.array([[float(word) for word in line.split(";")] for line in lines])
+
+
+class Jigsaw(tool.Tool):
+    needs = "the command jigsaw"
+
+    def __init__(self, name, sweeps):
+        self.name = f"JIGSAW, {name}"
+        self.setting = f"delfront, OPTM_ITER {sweeps}"
+        self.sweeps = sweeps
+
+    def available(self):
+        return bool(tool.command("jigsaw"))
+
+    def version(self):
+        # Told by a run only, before it looks for the files.
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "none.jig").write_text("GEOM_FILE = none\nMESH_FILE = none\n"
+                                                   "VERBOSITY = 1\n")
+            told = re.search(r"JIGSAW VERSION ([\d.]+)",
+                             tool.output_of("jigsaw", Path(folder) / "none.jig"))
+        return told[1] if told else "unknown version"
+
+    def run(self, case, folder, time_limit):
+        (folder / "domain.msh").write_text(geometry(case.domain))
+        settings = {"GEOM_FILE": "domain.msh", "MESH_FILE": "nodes.msh", "MESH_DIMS": 2,
+                    "GEOM_FEAT": "TRUE", "MESH_TOP1": "TRUE", "HFUN_SCAL": "ABSOLUTE",
+                    "OPTM_ITER": self.sweeps, "NUMTHREAD": 1, "VERBOSITY": 1}
+        if case.slope == 0:
+            settings["HFUN_HMAX"] = repr(case.constant)
+            settings["HFUN_HMIN"] = repr(case.constant)
+        else:
+            (folder / "spacing.msh").write_text(spacing_grid(case))
+            settings["HFUN_FILE"] = "spacing.msh"
+            settings["HFUN_HMAX"] = repr(float(1e6 * case.constant))  # the file's alone
+            settings["HFUN_HMIN"] = 0
+        (folder / "case.jig").write_text(
+            "".join(f"{key} = {value}\n" for key, value in settings.items()))
+        used = measure(["jigsaw", "case.jig"], folder, time_limit)
+        return tool.Outcome(read_points(folder / "nodes.msh"), used.seconds,
+                            seconds_without_files(used.stdout), used.peak_bytes)
+
+
+def seconds_without_files(text):
+    """The log has a line "Done. (1.0e-02sec)" for each of its parts, files among them."""
+    parts = re.split(r"^\s*(?:#-+|(?=(?:Reading|Writing) ))", text, flags=re.MULTILINE)
+    times = [float(told) for part in parts if not re.match(r"\s*(Reading|Writing) ", part)
+             for told in re.findall(r"Done\.\s+\(([\d.e+-]+)sec\)", part)]
+    return sum(times) if times else None
+
+
+def tools():
+    return [Jigsaw("unoptimised", 0), Jigsaw("default", 16)]

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a force evaluation costs: ours, and that of LAMMPS, a molecular dynamics code that knows
+nothing of node placement but evaluates short-range pair forces from adjacency lists as we do."""
+import json
+import math
+import re
+
+from adapters import tool
+from cases import make_uniform_square
+from measure import measure
+
+STEPS = 300
+LIST_RADIUS = 1.6  # spacings: PNPBS's default, and LAMMPS's cutoff and skin here
+
+# A periodic hexagonal lattice of spacing 1, each atom moved a little. Without an integrator no
+# atom moves, so lists are made once.
+LAMMPS_INPUT = """units lj
+dimension 2
+boundary p p p
+atom_style atomic
+lattice hex {density!r}
+region box block 0 {columns} 0 {rows} -0.5 0.5
+create_box 1 box
+create_atoms 1 box
+mass 1 1.0
+displace_atoms all random 0.05 0.05 0 12345
+pair_style lj/cut 1.5
+pair_coeff 1 1 1.0 0.890898718140339
+neighbor {skin!r} bin
+neigh_modify every 1000000000 delay 0 check no
+thermo {steps}
+run {steps}
+"""
+
+
+def lammps_rows(nodes, folder, time_limit):
+    # Two atoms in each of the columns x rows cells.
+    columns = math.ceil(math.sqrt(nodes / 2 * math.sqrt(3)))
+    rows = math.ceil(nodes / 2 / columns)
+    (folder / "in.lammps").write_text(
+        LAMMPS_INPUT.format(density=2 / math.sqrt(3), columns=columns, rows=rows, steps=STEPS,
+                            skin=round(LIST_RADIUS - 1.5, 6)))
+    rows = []
+    styles = [("lj/cut", []), ("lj/cut/opt", ["-sf", "opt"])]
+    known = tool.output_of("lmp", "-h")
+    for style, suffix in styles:
+        if not re.search(rf"\s{style}\s", known):
+            continue
+        used = measure(["lmp", "-in", "in.lammps", "-log", "none", *suffix], folder, time_limit)
+        rows.append(read_lammps(used.stdout, style))
+    return rows
+
+
+def read_lammps(text, style):
+    atoms = int(re.search(r"Loop time of \S+ on 1 procs for \d+ steps with (\d+) atoms", text)[1])
+    pair = float(re.search(r"^Pair\s*\|\s*\S+\s*\|\s*(\S+)", text, re.MULTILINE)[1])
+    listed = int(re.search(r"Total # of neighbors = (\d+)", text)[1])
+    # Each pair is in one of its atoms' lists; we count it at both.
+    return {"tool": f"LAMMPS, {style}", "nodes": atoms, "listed": 2 * listed / atoms,
+            "nanoseconds": 1e9 * pair / (atoms * STEPS), "what": "forces alone, each pair once"}
+
+
+def pnpbs_row(program, nodes, folder, time_limit):
+    """A run of exactly so many steps; the list lengths are those of its end."""
+    case = make_uniform_square(nodes)
+    case.domain.write_poly(folder / "case.poly")
+    command = [program, "--domain", "case.poly", "--spacing", case.formula(), "--report",
+               "report.json", "--output", "nodes.csv", "--threads", 1, "--quiet"]
+    for option in (f"steps={STEPS}", "tolerance_mean=0", "tolerance_max=0",
+                   f"list_radius={LIST_RADIUS}"):
+        command += ["--set", option]
+    measure(command, folder, time_limit, accepted=(0, 3))
+    report = json.loads((folder / "report.json").read_text())
+    count, steps = report["nodes"], report["steps"]
+    # The unit of work.owned is a listed pair, and each node counts as 8 more.
+    return {"tool": "PNPBS", "nodes": count, "listed": report["work"]["owned"] / count - 8,
+            "nanoseconds": 1e9 * report["seconds"]["motion"] / (count * steps),
+            "what": "forces and time step, each pair from both sides"}
+
+
+def lammps_version():
+    told = re.search(r"Simulator - (.*)", tool.output_of("lmp", "-h"))
+    return told[1] if told else "unknown version"
+
+
+def compare(program, nodes, folder, time_limit):
+    rows = []
+    if program:
+        rows.append(pnpbs_row(program, nodes, folder, time_limit))
+    if tool.command("lmp"):
+        rows += lammps_rows(nodes, folder, time_limit)
+    return rows

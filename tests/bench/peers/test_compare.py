@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""compare.py from its command line: a case of 500 nodes with ours and the peers that are here, a
+peer that fails, and a machine that has none. PNPBS_COMMAND is the command to compare."""
+import importlib.util
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = Path(__file__).with_name("compare.py")
+COMMAND = os.environ["PNPBS_COMMAND"]
+
+
+def compare(output, *arguments, environment=None):
+    return subprocess.run([sys.executable, "-B", PROGRAM, "--nodes", "500", "--output", output,
+                           "--pnpbs", COMMAND, *arguments], capture_output=True, text=True,
+                          stdin=subprocess.DEVNULL, env={**os.environ, **(environment or {})},
+                          check=False)
+
+
+class Compare(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.output = self.folder / "out"
+
+    def results(self):
+        return json.loads((self.output / "comparison.json").read_text())
+
+    def test_ours_and_what_is_here(self):
+        done = compare(self.output, "--cases", "graded-square", "--repeat", "2",
+                       "--ours", "few sweeps: sweeps=2 sweep_weight=0.5")
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        results = self.results()
+        tools = [r["tool"] for r in results["placements"]]
+        self.assertEqual(tools[:2], ["PNPBS, default", "PNPBS, few sweeps"])
+        words = (self.output / "comparison.md").read_text()
+        for result in results["placements"]:
+            self.assertNotIn("failed", result)
+            m = result["measures"]
+            self.assertTrue(400 < m["nodes"] < 650, result)
+            self.assertTrue(0.85 < m["quality_mean"] <= 1, result)
+            self.assertAlmostEqual(m["covered"], 1, 6)
+            self.assertTrue(0 < result["inner_seconds"] <= result["seconds"], result)
+            self.assertGreater(result["peak_bytes"], 1e6)
+            self.assertIn(f"| {result['tool']} | {m['nodes']} |", words)
+            self.assertIn(result["tool"], done.stdout)
+        for tool in results["tools"]:
+            self.assertIn(f"| {tool['name']} | {tool['version']} |", words)
+        for left_out in results["left_out"]:
+            self.assertIn(f"- {left_out['name']}: {left_out['why']}", words)
+        self.assertIn("TetGen", [t["name"] for t in results["left_out"]])
+        self.assertEqual(results["forces"][0]["tool"], "PNPBS")
+        self.assertTrue(5 < results["forces"][0]["listed"] < 8, results["forces"])
+        # The command on the page names no folder of this machine.
+        self.assertNotIn(str(self.folder), words)
+        if importlib.util.find_spec("matplotlib"):
+            for name in ("quality_speed", "histogram"):
+                picture = self.output / "images" / f"comparison_{name}.png"
+                self.assertEqual(picture.read_bytes()[1:4], b"PNG")
+                self.assertLess(picture.stat().st_size, 200e3)
+                self.assertIn(f"images/comparison_{name}.png", words)
+
+        again = self.folder / "again"
+        done = compare(again, "--from", self.output / "comparison.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((again / "comparison.md").read_text(), words)
+
+    def test_a_tool_that_fails_is_told(self):
+        fake = self.folder / "bin"
+        fake.mkdir()
+        (fake / "gmsh").write_text("#!/bin/sh\necho 'out of paper' >&2\nexit 7\n")
+        (fake / "gmsh").chmod(0o755)
+        done = compare(self.output, "--cases", "uniform-square", "--tools", "PNPBS,gmsh",
+                       "--no-forces", "--path", fake)
+        self.assertEqual(done.returncode, 1)
+        failed = [r for r in self.results()["placements"] if "failed" in r]
+        self.assertEqual({r["tool"].split(",")[0] for r in failed}, {"gmsh"})
+        self.assertEqual({r["failed"] for r in failed}, {"status 7: out of paper"})
+        words = (self.output / "comparison.md").read_text()
+        self.assertIn("| gmsh, frontal | failed: status 7: out of paper |", words)
+        self.assertIn("failed: status 7: out of paper", done.stdout)
+        self.assertIn("| PNPBS, default | ", words)
+
+    def test_nothing_installed(self):
+        empty = self.folder / "empty"
+        empty.mkdir()
+        done = compare(self.output, "--cases", "uniform-annulus", "--tools", "PNPBS,JIGSAW",
+                       environment={"PATH": str(empty)})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        results = self.results()
+        self.assertEqual([r["tool"] for r in results["placements"]], ["PNPBS, default"])
+        self.assertIn("JIGSAW, default", [t["name"] for t in results["left_out"]])
+        self.assertIn("LAMMPS", [t["name"] for t in results["left_out"]])
+        done = compare(self.output, "--tools", "JIGSAW", environment={"PATH": str(empty)})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("no tool to run", done.stderr)
+        self.assertIn("needs the command jigsaw", done.stderr)
+
+    def test_interrupt(self):
+        """Between the first run, ours, and the end of a fake one that would last a minute."""
+        fake = self.folder / "bin"
+        fake.mkdir()
+        (fake / "gmsh").write_text("#!/bin/sh\n[ \"$1\" = --version ] && exec echo 1\n"
+                                   f"touch {self.folder}/begun\nexec sleep 60\n")
+        (fake / "gmsh").chmod(0o755)
+        # In a group of its own, so that the signal reaches all of it, as from a terminal.
+        running = subprocess.Popen(
+            [sys.executable, "-B", PROGRAM, "--nodes", "500", "--cases", "uniform-square",
+             "--tools", "PNPBS,gmsh", "--no-forces", "--output", self.output, "--path", fake,
+             "--pnpbs", COMMAND], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+            stdin=subprocess.DEVNULL, start_new_session=True)
+        deadline = time.monotonic() + 60
+        while not (self.folder / "begun").exists() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        os.killpg(running.pid, signal.SIGINT)
+        told = running.communicate(timeout=30)[1]
+        self.assertEqual(running.returncode, 130)
+        self.assertIn("interrupted", told)
+        self.assertNotIn("Traceback", told)
+        self.assertEqual([r["tool"] for r in self.results()["placements"]], ["PNPBS, default"])
+
+    def test_bad_arguments(self):
+        for arguments, told in ((("--cases", "nowhere"), "unknown case nowhere"),
+                                (("--ours", "best"), "name: key=value"),
+                                (("--repeat", "0"), "--repeat")):
+            done = compare(self.output, *arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(told, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
