@@ -367,7 +367,9 @@ PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int6
                                                  const double *xy, const int64_t *ids);
 
 /** Checks domain and spacing, builds the background tree, lays the boundary nodes and the
- *  initial inner nodes. Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK, _MEMORY. */
+ *  initial inner nodes. Where d varies these come from coarser levels (option `levels`), which are
+ *  run. Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK, _MEMORY. Returns PNPBS_OK, or
+ *  PNPBS_STOPPED if the monitor stopped a coarser level: there are nodes all the same. */
 PNPBS_API pnpbs_status pnpbs_placement_initialise(pnpbs_placement placement);
 
 /** Advances the simulation by n steps, with the events (refresh of d, population, stop test)

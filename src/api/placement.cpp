@@ -149,9 +149,7 @@ pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n, con
 }
 
 pnpbs_status pnpbs_placement_initialise(pnpbs_placement placement) {
-  return collective(placement, [](Placement& p) {
-    return status_of(p.initialise());
-  });
+  return collective(placement, [](Placement& p) { return status_of(p.initialise()); });
 }
 
 pnpbs_status pnpbs_placement_step(pnpbs_placement placement, int64_t n) {
