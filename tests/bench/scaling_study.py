@@ -29,7 +29,7 @@ BYTES_PER_GHOST = 32  # position and velocity
 NEIGHBOURS_OF_A_SQUARE = 8
 
 # Options of the default method, and of src/core/level_ranks.cpp.
-REST_LENGTH, MAX_MOVE, LIST_RADIUS, GHOST_LIFE = 1.06, 0.05, 1.6, 20
+REST_LENGTH, MAX_MOVE, LIST_RADIUS, GHOST_LIFE = 1.06, 0.03, 1.6, 20
 MEAN_LEAF_SIDE = 3  # spacings; leaves are 2 to 4 wide
 
 
@@ -120,7 +120,8 @@ def decompose(args, case, ranks, *more):
     scale = (nodes_at_scale_1 / args.nodes) ** 0.5
     command = [args.mpiexec, "--oversubscribe", "--bind-to", "none"]
     command += ["--mca", "mpi_yield_when_idle", "1", "-np", ranks, args.program, name, scale]
-    command += [*more, f"exchange_interval={args.interval}"]
+    # One level: a coarser one would take steps, of other numbers of nodes.
+    command += [*more, f"exchange_interval={args.interval}", "levels=0"]
     environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_WAIT_POLICY="passive")
     try:
         done = subprocess.run([str(part) for part in command], env=environment,
