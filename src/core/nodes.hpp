@@ -16,6 +16,13 @@ namespace pnpbs {
 inline constexpr double kFarAway = 1e100;
 
 template <int Dim>
+Point<Dim> point_at(const std::array<View<double>, Dim>& x, std::int64_t i) {
+  Point<Dim> p;
+  for (int k = 0; k < Dim; ++k) p[k] = x[k](i);
+  return p;
+}
+
+template <int Dim>
 struct Nodes {
   std::int64_t count = 0;
   std::array<View<double>, Dim> x;       // position
@@ -73,11 +80,7 @@ struct Nodes {
     ++count;
   }
 
-  Point<Dim> position(std::int64_t i) const {
-    Point<Dim> p;
-    for (int k = 0; k < Dim; ++k) p[k] = x[k](i);
-    return p;
-  }
+  Point<Dim> position(std::int64_t i) const { return point_at<Dim>(x, i); }
   void set_position(std::int64_t i, const Point<Dim>& p) const {
     for (int k = 0; k < Dim; ++k) x[k](i) = p[k];
   }

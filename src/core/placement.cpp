@@ -262,7 +262,7 @@ void Placement::event() {
   last_speeds_ = level_->speeds();
   level_->refresh_spacing();
   const double population_until =
-      std::floor(settings.population_share * static_cast<double>(level_->settings().steps));
+      std::floor(settings.population_share * static_cast<double>(settings.steps));
   if (static_cast<double>(schedule_.step) > population_until && !far_too_few())
     schedule_.population_settled = true;
   if (!schedule_.population_settled)

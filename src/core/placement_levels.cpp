@@ -3,7 +3,6 @@
 // wrong over long distances settles in cheap steps. Each level has twice the spacing of the next;
 // to refine it, a node comes into the middle of every edge of its Delaunay stars, which leaves
 // nearly every node with its six neighbours.
-#include <algorithm>
 #include <cmath>
 
 #include "core/placement.hpp"

@@ -45,7 +45,6 @@ inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std
                         const std::array<double*, Dim>& next) {
   const double slow = 1 / (1 + motion.damping * motion.dt);
   BlockVector<Dim> move;
-  std::array<double, kLanes> square{}, most{};
   double too_far = 0;
 #pragma omp simd reduction(max : too_far)
   for (int lane = 0; lane < n; ++lane) {
@@ -56,14 +55,16 @@ inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std
       move[k][lane] = motion.dt * (mobile * (v[k][i] + motion.dt * d[i] * force[k][lane]));
       sum += move[k][lane] * move[k][lane];
     }
-    square[lane] = sum;
-    most[lane] = motion.most * d[i];
-    too_far = std::max(too_far, sum - most[lane] * most[lane]);
+    const double most = motion.most * d[i];
+    too_far = std::max(too_far, sum - most * most);
   }
-  if (too_far > 0)
-    for (int lane = 0; lane < n; ++lane)
-      if (square[lane] > most[lane] * most[lane])
-        for (int k = 0; k < Dim; ++k) move[k][lane] *= most[lane] / std::sqrt(square[lane]);
+  // Few blocks have a node that is too fast.
+  for (int lane = 0; too_far > 0 && lane < n; ++lane) {
+    std::array<double, Dim> of_lane;
+    for (int k = 0; k < Dim; ++k) of_lane[k] = move[k][lane];
+    clamp_move<Dim>(of_lane, motion.most * d[first + lane]);
+    for (int k = 0; k < Dim; ++k) move[k][lane] = of_lane[k];
+  }
   const double per_time = 1 / motion.dt;
 #pragma omp simd
   for (int lane = 0; lane < n; ++lane)

@@ -60,8 +60,7 @@ class StarWriter {
   // known there.
   double reach_of_list(std::int64_t i) {
     const Nodes<2>& nodes = in_.nodes;
-    if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
-    const double reach = 0.5 * in_.lists.radius() * (nodes.d(i) + least_);
+    const double reach = least_reach(i);
     const bool known = !rim_ || in_.known.covers(in_.map, box_around<2>(nodes.position(i), reach));
     return known ? reach : 0;
   }
@@ -89,13 +88,14 @@ class StarWriter {
     const bool near_edges = in_.near_edges.any(i);
     if (!near_edges && listed_reach > 0 && add_hull_star(i, listed_reach)) return;
     const double needs = constrained_star(in_, i, near_edges && fresh_sight_ ? listed_reach : 0,
-                                          first_reach(i), others_);
+                                          std::max(least_reach(i), in_.nodes.d(i)), others_);
     if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
   }
 
-  double first_reach(std::int64_t i) {
+  // Of the list of node i, whatever is around it.
+  double least_reach(std::int64_t i) {
     if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
-    return std::max(0.5 * in_.lists.radius() * (in_.nodes.d(i) + least_), in_.nodes.d(i));
+    return 0.5 * in_.lists.radius() * (in_.nodes.d(i) + least_);
   }
 
   bool add_hull_star(std::int64_t i, double reach) {

@@ -11,8 +11,6 @@ namespace pnpbs {
 
 namespace {
 
-Point<2> at(const std::array<View<double>, 2>& x, std::int64_t i) { return {x[0](i), x[1](i)}; }
-
 // Where the sweep would take the nodes of block b; their own places if they may not move.
 void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
              const DomainMap& map, const SweepRule& rule,
@@ -42,8 +40,8 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
     proposed[0](i) = may ? x[0][i] + move[0] : x[0][i];
     proposed[1](i) = may ? x[1][i] + move[1] : x[1][i];
     if (!may || !near_edges.any(i)) continue;
-    const KeptOff kept =
-        keep_off(map, near_edges.edges_of(i), nodes.position(i), at(proposed, i), nodes.d(i));
+    const KeptOff kept = keep_off(map, near_edges.edges_of(i), nodes.position(i),
+                                  point_at<2>(proposed, i), nodes.d(i));
     for (int k = 0; k < 2; ++k) proposed[k](i) = kept.room ? kept.position[k] : x[k][i];
   }
 }
@@ -60,7 +58,7 @@ void sweep(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& n
     guard_block(nodes, stars, rule.bad_below, bound, proposed, allowed, b);
   });
   for_each("pnpbs::sweep::go", nodes.count, [&](std::int64_t i) {
-    if (allowed(i)) nodes.set_position(i, at(proposed, i));
+    if (allowed(i)) nodes.set_position(i, point_at<2>(proposed, i));
   });
 }
 

@@ -9,14 +9,12 @@ namespace pnpbs {
 
 namespace {
 
-Point<2> at(const std::array<View<double>, 2>& x, std::int64_t i) { return {x[0](i), x[1](i)}; }
-
 // Worst quality of triangle (i, j, k) when i has moved and the others have or have not.
 double worst_if_moved(const Nodes<2>& nodes, const std::array<View<double>, 2>& proposed,
                       std::int64_t i, std::int64_t j, std::int64_t k) {
-  const Point<2> a = at(proposed, i);
-  const Point<2> b[2] = {nodes.position(j), at(proposed, j)};
-  const Point<2> c[2] = {nodes.position(k), at(proposed, k)};
+  const Point<2> a = point_at<2>(proposed, i);
+  const Point<2> b[2] = {nodes.position(j), point_at<2>(proposed, j)};
+  const Point<2> c[2] = {nodes.position(k), point_at<2>(proposed, k)};
   return std::min({triangle_quality(a, b[0], c[0]), triangle_quality(a, b[0], c[1]),
                    triangle_quality(a, b[1], c[0]), triangle_quality(a, b[1], c[1])});
 }
