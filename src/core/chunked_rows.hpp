@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/execution.hpp"
@@ -33,6 +34,10 @@ class ChunkedRows {
     });
   }
 
+  std::span<T> row(std::int64_t i) {
+    const std::span<const T> row = std::as_const(*this).row(i);
+    return {const_cast<T*>(row.data()), row.size()};
+  }
   std::span<const T> row(std::int64_t i) const {
     const Chunk& chunk = chunks_[static_cast<std::size_t>(i / ChunkRows)];
     const std::size_t k = static_cast<std::size_t>(i % ChunkRows);

@@ -99,7 +99,8 @@ class Level {
   // Deals the tree out anew by the work counted. Collective.
   void rebalance();
   void renew_stars();
-  void sweep(std::int64_t times);
+  // On the Delaunay stars: finishing sweeps, and the repair of defects by the settings' rule.
+  PopulationCounts sweep_and_repair(std::int64_t sweeps);
 
   // --- for extraction: lists with this radius, fresh at the present positions ---
   void rebuild_lists(double radius);
@@ -111,6 +112,7 @@ class Level {
   const DomainMap& map() const { return map_; }
   const AdjacencyList<2>& lists() const { return lists_; }
   const DelaunayStars& stars() const { return stars_; }
+  const NearEdges& near_edges() const { return near_edges_; }
   const Settings& settings() const { return settings_; }
   std::int64_t next_id() const { return next_id_; }
   // Changes whenever nodes move, in space or in memory.
@@ -209,6 +211,8 @@ class Level {
   void fetch_nodes_in(const std::vector<Box<2>>& boxes);
   Bytes nodes_for(const Parcel& asked);
   void number_births(std::vector<Birth<2>> born);
+  void sweep_over_stars(std::int64_t times);
+  void repair_bad_triangles();
   void delete_nodes(const std::vector<std::int32_t>& deleted);
   bool fits(const Point<2>& x, double d) const;
   bool has_no_room(std::int64_t i) const;

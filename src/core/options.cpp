@@ -58,6 +58,13 @@ const std::vector<OptionRow>& option_table() {
        "finishing sweeps towards the mean of the Delaunay neighbours"},
       {"sweep_weight", T::real, "0.6", nullptr, nullptr, 0, 1, nullptr,
        "share of the way to that mean that a sweep goes"},
+      {"repairs", T::integer, "10", "0", nullptr, 0, 10000, nullptr,
+       "most rounds in which bad triangles are repaired after the sweeps; before the sweeps, nodes "
+       "that are one too many go; 0: neither"},
+      {"repair_below", T::real, "0.82", nullptr, "0.87", 0, 1, nullptr,
+       "triangles are bad whose quality, 2 r_in / R, or 1.365 times the sine of the smallest angle "
+       "is "
+       "below this"},
       {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
        "radius of the lists during the run, in desired distances"},
       {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 3, nullptr,

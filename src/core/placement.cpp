@@ -352,7 +352,7 @@ void Placement::finish() {
     level_->count_step();
     ++steps_done_;
   }
-  level_->sweep(settings.sweeps);
+  count_population_change(level_->sweep_and_repair(settings.sweeps));
   level_->refresh_spacing();
   monitor_stops(1.0);
 }

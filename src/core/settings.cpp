@@ -32,6 +32,8 @@ Settings::Settings(const Options& o)
   population.delete_above = o.real("delete_above");
   population.insert_below = o.real("insert_below");
   sweep.weight = o.real("sweep_weight");
+  repair.rounds = o.integer("repairs");
+  repair.bad_below = o.real("repair_below");
   // The lists must reach beyond the force, or they could never be kept for a step.
   const double least_radius = force_range() + 0.1;
   if (list_radius < least_radius) list_radius = least_radius;

@@ -8,6 +8,7 @@
 #include "forces/pair_laws.hpp"
 #include "forces/population.hpp"
 #include "forces/schemes.hpp"
+#include "stars/bad_triangles.hpp"
 #include "stars/sweep.hpp"
 
 namespace pnpbs {
@@ -31,6 +32,7 @@ struct Settings {
   double tolerance_mean, tolerance_max;  // scaled speeds
   std::int64_t sweeps;
   SweepRule sweep;
+  RepairRule repair;
   double list_radius, adjacency_radius;
   double growth_limit;
   std::int64_t max_nodes;

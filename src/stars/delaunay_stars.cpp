@@ -148,4 +148,38 @@ void DelaunayStars::build(const StarInput& input) {
                 [&] { return StarWriter(input, fresh_sight, needs_); });
 }
 
+DelaunayStars::Column DelaunayStars::column(std::int64_t i) {
+  const std::span<Entry> rows = blocks_.row(i / kLanes);
+  const std::int64_t lane = i % kLanes;
+  return {rows.data() + lane, rows.data() + kLanes + lane,
+          static_cast<std::int32_t>(rows.size() / kLanes) - 1};
+}
+
+std::int32_t DelaunayStars::place_in_star(const Column& star, std::int64_t neighbour) const {
+  std::int32_t k = 0;
+  while (k < star.size->value() && star.at(k).value() != neighbour) ++k;
+  return k;
+}
+
+void DelaunayStars::replace(std::int64_t i, std::int64_t neighbour, std::int64_t by) {
+  const Column star = column(i);
+  for (std::int32_t k = 0; k < star.length; ++k)
+    if (star.at(k).value() == neighbour) star.at(k) = {by, star.at(k).flag()};
+}
+
+void DelaunayStars::remove(std::int64_t i, std::int64_t neighbour) {
+  const Column star = column(i);
+  const std::int32_t n = star.size->value(), there = place_in_star(star, neighbour);
+  if (there == n) return;
+  for (std::int32_t k = there; k + 1 < n; ++k) star.at(k) = star.at(k + 1);
+  *star.size = {n - 1, star.size->flag()};
+  for (std::int32_t k = n - 1; k < star.length; ++k) star.at(k) = {star.at(0).value(), false};
+}
+
+void DelaunayStars::clear(std::int64_t i) {
+  const Column star = column(i);
+  *star.size = {0, false};
+  for (std::int32_t k = 0; k < star.length; ++k) star.at(k) = {i, false};
+}
+
 }  // namespace pnpbs

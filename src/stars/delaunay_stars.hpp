@@ -91,8 +91,26 @@ class DelaunayStars {
   }
 
   std::int32_t size(std::int64_t i) const { return block(i / kLanes).sizes[i % kLanes].value(); }
+  // Is the star all triangles?
+  bool closed(std::int64_t i) const { return block(i / kLanes).sizes[i % kLanes].flag(); }
+
+  // --- changes by hand, until the next build; the triangles left are the caller's business ---
+  void replace(std::int64_t i, std::int64_t neighbour, std::int64_t by);
+  void remove(std::int64_t i, std::int64_t neighbour);
+  void clear(std::int64_t i);
 
  private:
+  // The star of a node as it lies in its block.
+  struct Column {
+    Entry* size;
+    Entry* first;
+    std::int32_t length;  // of the block
+
+    Entry& at(std::int32_t k) const { return first[k * kLanes]; }
+  };
+  Column column(std::int64_t i);
+  std::int32_t place_in_star(const Column& star, std::int64_t neighbour) const;
+
   std::int64_t count_ = 0;
   ChunkedRows<Entry, 64> blocks_;  // the sizes, then the entries
   std::vector<double> needs_;      // of the nodes; empty where everything is known

@@ -141,4 +141,23 @@ void guard_block(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_b
   }
 }
 
+std::vector<std::int32_t> nodes_with_doubtful_triangles(const Nodes<2>& nodes,
+                                                        const DelaunayStars& stars,
+                                                        double quality) {
+  const QualityBound bound(quality);
+  std::vector<char> doubtful(static_cast<std::size_t>(nodes.count));
+  for_each("pnpbs::nodes_with_doubtful_triangles", stars.block_count(), [&](std::int64_t b) {
+    const DelaunayStars::Block block = stars.block(b);
+    if (block.length == 0) return;
+    std::int32_t sure[kLanes];
+    find_surely_allowed(nodes, block, bound, nodes.x, b, sure);
+    for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes.count); ++i)
+      doubtful[static_cast<std::size_t>(i)] = sure[i % kLanes] == 0;
+  });
+  std::vector<std::int32_t> found;
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (doubtful[static_cast<std::size_t>(i)] != 0) found.push_back(static_cast<std::int32_t>(i));
+  return found;
+}
+
 }  // namespace pnpbs

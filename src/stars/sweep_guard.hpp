@@ -3,6 +3,9 @@
 // time; the others are looked at one by one.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "stars/delaunay_stars.hpp"
 #include "stars/triangle_quality.hpp"
 
@@ -14,5 +17,9 @@ namespace pnpbs {
 void guard_block(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_below,
                  const QualityBound& bound, const std::array<View<double>, 2>& proposed,
                  const View<char>& allowed, std::int64_t b);
+
+// The nodes, in the order of memory, that may have a triangle below this quality.
+std::vector<std::int32_t> nodes_with_doubtful_triangles(const Nodes<2>& nodes,
+                                                        const DelaunayStars& stars, double quality);
 
 }  // namespace pnpbs

@@ -65,6 +65,34 @@ START_TEST(more_effort_is_better) {
 }
 END_TEST
 
+/* Of five sets, the least quality. */
+static double least_quality_with(const char* key, const char* value) {
+  double least = 1;
+  int k;
+  for (k = 0; k < 5; ++k) {
+    cone graded = {0.0048, 0.016, 0.5, 0.5};
+    job it = graded_square(&graded);
+    result nodes;
+    graded.a *= 1 + 0.01 * k;
+    MUST(pnpbs_placement_set(it.placement, key, value));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    nodes = result_of(it.placement);
+    check_result(&nodes, 1);
+    if (quality_of(&nodes).least < least) least = quality_of(&nodes).least;
+    result_free(&nodes);
+    job_end(&it);
+  }
+  return least;
+}
+
+START_TEST(defects_are_repaired) {
+  const double with = least_quality_with("repairs", "10"),
+               without = least_quality_with("repairs", "0");
+  ck_assert_msg(with > 0.8 && without < 0.78, "least quality %.3f, without repairs %.3f", with,
+                without);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- watched --------------- */
 
 typedef struct {
@@ -155,6 +183,7 @@ int main(void) {
   tcase_add_test(tests, as_many_as_pay);
   tcase_add_test(tests, none_for_constant_spacing);
   tcase_add_test(tests, more_effort_is_better);
+  tcase_add_test(tests, defects_are_repaired);
   tcase_add_loop_test(tests, they_can_be_stopped, 0, 2);
   tcase_add_test(tests, a_failure_leaves_nothing);
   suite_add_tcase(suite, tests);

@@ -91,7 +91,7 @@ std::vector<pnpbs::GivenNode> shaken(const Case& c, std::uint64_t seed) {
 
 void finish(Level& level) {
   level.finish_by_runge_kutta();
-  level.sweep(6);
+  level.sweep_and_repair(6);
 }
 
 void expect_rebuilds_do_not_matter(const Case& c) {

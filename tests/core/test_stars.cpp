@@ -94,7 +94,7 @@ void expect_stars(const std::string& what, const Build& build, const Plane& d,
     run.renew_stars();
     expect_reference(*run.level, what + " after " + std::to_string(until) + " steps");
   }
-  run.level->sweep(5);
+  run.level->sweep_and_repair(5);
   run.renew_stars();
   expect_reference(*run.level, what + " after sweeps");
 }

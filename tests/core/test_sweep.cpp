@@ -4,52 +4,16 @@
 #include <cmath>
 #include <vector>
 
-#include "random.hpp"
+#include "distorted_nodes.hpp"
 #include "run_kernel_suite.hpp"
-#include "star_triangles.hpp"
 
 using pnpbs::Level;
 using pnpbs::PlaneDomain;
-using shapes::add_chain;
 using shapes::add_loop;
 using shapes::rectangle;
 using P = pnpbs::Point<2>;
 
 namespace {
-
-// 2 r_in / R by the angles, as 8 sin(A/2) sin(B/2) sin(C/2).
-double quality(const P& a, const P& b, const P& c) {
-  if (pnpbs::orientation(a, b, c) < 0) return -quality(a, c, b);
-  const auto half_sine = [](const P& at, const P& u, const P& w) {
-    const double cross = (u[0] - at[0]) * (w[1] - at[1]) - (u[1] - at[1]) * (w[0] - at[0]);
-    const double dot = (u[0] - at[0]) * (w[0] - at[0]) + (u[1] - at[1]) * (w[1] - at[1]);
-    return std::sin(0.5 * std::atan2(cross, dot));
-  };
-  return 8 * half_sine(a, b, c) * half_sine(b, c, a) * half_sine(c, a, b);
-}
-
-// Triangles by the ids of their corners, counter-clockwise, and where the nodes are.
-using Places = std::map<std::int64_t, P>;
-Places places_by_id(const Level& level) {
-  Places places;
-  for (std::int64_t i = 0; i < level.nodes().count; ++i)
-    places[level.nodes().id(i)] = level.nodes().position(i);
-  return places;
-}
-
-std::vector<Triangle> triangles_by_id(const Level& level) {
-  std::vector<Triangle> triangles;
-  for (std::int64_t i = 0; i < level.nodes().count; ++i)
-    level.stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-      if (i < j && i < k)
-        triangles.push_back({level.nodes().id(i), level.nodes().id(j), level.nodes().id(k)});
-    });
-  return triangles;
-}
-
-double quality_of(const Triangle& t, const Places& places) {
-  return quality(places.at(t[0]), places.at(t[1]), places.at(t[2]));
-}
 
 double mean_quality(const std::vector<Triangle>& triangles, const Places& places) {
   double sum = 0;
@@ -57,45 +21,21 @@ double mean_quality(const std::vector<Triangle>& triangles, const Places& places
   return sum / static_cast<double>(triangles.size());
 }
 
-// Distorted nodes: a fill, every node moved at random by up to 0.4 d.
-LevelRun distorted(const Build& build, const Plane& d, std::uint64_t seed, double bad_below) {
-  LevelRun fill(build, d);
-  fill.level->fill();
-  std::vector<pnpbs::GivenNode> nodes = inner_nodes_of(*fill.level);
-  Random random(seed);
-  for (pnpbs::GivenNode& node : nodes)
-    for (double& x : node.position)
-      x += random.between(-0.4, 0.4) * d(node.position[0], node.position[1]);
-  LevelRun run(build, d, {}, [&](pnpbs::Settings& s) { s.sweep.bad_below = bad_below; });
-  run.level->take(nodes, 0);
-  run.renew_stars();
-  return run;
-}
-
-struct Shape {
-  Build build;
-  Plane d;
-};
-
-std::vector<Shape> shapes_to_sweep() {
-  const Build square = [](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
-  const Build slit = [square](PlaneDomain& p) {
-    square(p);
-    add_chain(p, {0.2, 0.5, 0.6, 0.53, 0.62, 0.8});
-  };
-  const Build lake = [](PlaneDomain& p) { add_lake(p, "lake_victoria"); };
-  return {{square, constant(0.03)},
-          {slit, [](double x, double y) { return 0.01 + 0.05 * std::hypot(x, y); }},
-          {lake, [](double x, double y) { return 2 + 0.03 * std::hypot(x, y); }}};
+// To be swept with this guard, and not repaired.
+LevelRun sweep_only(const Shape& shape, std::uint64_t seed, double bad_below) {
+  return distorted(shape.build, shape.d, seed, [&](pnpbs::Settings& s) {
+    s.sweep.bad_below = bad_below;
+    s.repair.rounds = 0;
+  });
 }
 
 // Triangles that are bad after as many sweeps over the same stars, and were better before.
 std::int64_t spoilt(const Shape& shape, std::uint64_t seed, std::int64_t sweeps, double bad_below,
                     double limit) {
-  LevelRun run = distorted(shape.build, shape.d, seed, bad_below);
+  LevelRun run = sweep_only(shape, seed, bad_below);
   const std::vector<Triangle> triangles = triangles_by_id(*run.level);
   const Places before = places_by_id(*run.level);
-  run.level->sweep(sweeps);
+  run.level->sweep_and_repair(sweeps);
   const Places after = places_by_id(*run.level);
   ck_assert_double_gt(mean_quality(triangles, after), mean_quality(triangles, before) + 0.002);
   return std::count_if(triangles.begin(), triangles.end(), [&](const Triangle& t) {
@@ -110,7 +50,7 @@ START_TEST(no_bad_triangle_gets_worse) {
   const double limit = pnpbs::SweepRule{}.bad_below;
   std::uint64_t seed = 100;
   std::int64_t without_guard = 0;
-  for (const Shape& shape : shapes_to_sweep())
+  for (const Shape& shape : shapes_to_finish())
     for (const std::int64_t sweeps : {1, 5}) {
       ck_assert_int_eq(spoilt(shape, ++seed, sweeps, limit, limit), 0);
       without_guard += spoilt(shape, seed, sweeps, -2, limit);
@@ -129,7 +69,7 @@ START_TEST(nodes_go_towards_the_mean) {
   Random random(110);
   for (pnpbs::GivenNode& node : nodes)
     for (double& x : node.position) x += random.between(-0.04, 0.04) * 0.05;
-  LevelRun run(square, d);
+  LevelRun run(square, d, {{"repairs", "0"}});
   run.level->take(nodes, 0);
   run.renew_stars();
   const Level& level = *run.level;
@@ -148,7 +88,7 @@ START_TEST(nodes_go_towards_the_mean) {
       if (level.nodes().moves(i)) goal[k] += 0.6 * (mean[k] / n - x[k]);
     expected[level.nodes().id(i)] = goal;
   }
-  run.level->sweep(1);
+  run.level->sweep_and_repair(1);
   ck_assert_uint_gt(expected.size(), 300);
   const Places after = places_by_id(level);
   for (const auto& [id, goal] : expected)
@@ -159,11 +99,11 @@ END_TEST
 // No sweep moves a node by more than a tenth of d, across the boundary, or too near to it.
 START_TEST(sweeps_move_a_little_and_keep_off) {
   std::uint64_t seed = 120;
-  for (const Shape& shape : shapes_to_sweep()) {
-    LevelRun run = distorted(shape.build, shape.d, ++seed, 0.75);
+  for (const Shape& shape : shapes_to_finish()) {
+    LevelRun run = sweep_only(shape, ++seed, 0.75);
     for (int round = 0; round < 12; ++round) {
       const Places before = places_by_id(*run.level);
-      run.level->sweep(1);
+      run.level->sweep_and_repair(1);
       for (std::int64_t i = 0; i < run.level->nodes().count; ++i) {
         const P x = run.level->nodes().position(i), from = before.at(run.level->nodes().id(i));
         const double d = run.level->nodes().d(i);
@@ -182,9 +122,9 @@ START_TEST(sweeps_move_a_little_and_keep_off) {
 END_TEST
 
 START_TEST(sweeping_nothing_does_nothing) {
-  LevelRun run = distorted(shapes_to_sweep()[0].build, constant(0.05), 130, 0.75);
+  LevelRun run = sweep_only(shapes_to_finish()[0], 130, 0.75);
   const Places before = places_by_id(*run.level);
-  run.level->sweep(0);
+  run.level->sweep_and_repair(0);
   quick_assert(places_by_id(*run.level) == before);
 }
 END_TEST

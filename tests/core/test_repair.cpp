@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Repair of the last defects: nodes that are one too many, and bad triangles.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "distorted_nodes.hpp"
+#include "run_kernel_suite.hpp"
+#include "stars/bad_triangles.hpp"
+#include "stars/surplus_nodes.hpp"
+
+using pnpbs::DelaunayStars;
+using pnpbs::GivenNode;
+using pnpbs::Level;
+using shapes::add_loop;
+using shapes::rectangle;
+using P = pnpbs::Point<2>;
+
+namespace {
+
+const Build kSquare = [](pnpbs::PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
+constexpr double kD = 0.05;
+
+// The inner nodes of a lattice, and more of them, with ids from kMore on; then the boundary's.
+constexpr std::int64_t kMore = 100000, kBoundary = 200000;
+LevelRun lattice_with(const std::vector<P>& more) {
+  LevelRun fill(kSquare, constant(kD));
+  fill.level->fill();
+  std::vector<GivenNode> nodes = inner_nodes_of(*fill.level);
+  std::int64_t id = kMore;
+  for (const P& x : more) nodes.push_back({x, id++});
+  LevelRun run(kSquare, constant(kD));
+  ck_assert_int_eq(run.level->take(nodes, kBoundary).thinned, 0);
+  run.renew_stars();
+  return run;
+}
+
+// The middle of an edge of the lattice: from its node nearest to a point, about in that direction.
+P middle_of_edge(const P& near, double angle) {
+  const LevelRun run = lattice_with({});
+  const pnpbs::Nodes<2>& nodes = run.level->nodes();
+  const auto nearest_to = [&](const P& x) {
+    std::int64_t best = 0;
+    for (std::int64_t i = 1; i < nodes.count; ++i)
+      if (pnpbs::distance<2>(nodes.position(i), x) < pnpbs::distance<2>(nodes.position(best), x))
+        best = i;
+    return nodes.position(best);
+  };
+  const P a = nearest_to(near);
+  const P b = nearest_to({a[0] + kD * std::cos(angle), a[1] + kD * std::sin(angle)});
+  return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+}
+
+std::int64_t nodes_added(const Level& level) {
+  std::int64_t count = 0;
+  for (std::int64_t i = 0; i < level.nodes().count; ++i)
+    count += level.nodes().id(i) >= kMore && level.nodes().id(i) < kBoundary;
+  return count;
+}
+
+// The shape of a triangle by its angles.
+double shape_of(const Triangle& t, const Places& places) {
+  const P a = places.at(t[0]), b = places.at(t[1]), c = places.at(t[2]);
+  const auto angle = [](const P& at, const P& u, const P& w) {
+    const double cross = (u[0] - at[0]) * (w[1] - at[1]) - (u[1] - at[1]) * (w[0] - at[0]);
+    const double dot = (u[0] - at[0]) * (w[0] - at[0]) + (u[1] - at[1]) * (w[1] - at[1]);
+    return std::atan2(cross, dot);
+  };
+  const double least = std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)});
+  return std::min(quality(a, b, c), 1.365 * std::sin(least));
+}
+
+}  // namespace
+
+START_TEST(node_in_the_middle_of_an_edge_goes) {
+  for (const double angle : {0.0, 1.05, 2.09}) {
+    LevelRun run = lattice_with({middle_of_edge({0.3, 0.4}, angle), middle_of_edge({0.6, 0.7}, 0)});
+    const std::int64_t nodes = run.level->nodes().count;
+    ck_assert_int_eq(run.level->sweep_and_repair(0).deleted, 2);
+    ck_assert_int_eq(run.level->nodes().count, nodes - 2);
+    ck_assert_int_eq(nodes_added(*run.level), 0);
+  }
+}
+END_TEST
+
+// The stars without the node are those of the lattice.
+START_TEST(stars_close_over_the_hole) {
+  const LevelRun lattice = lattice_with({});
+  LevelRun run = lattice_with({middle_of_edge({0.3, 0.4}, 0), middle_of_edge({0.6, 0.7}, 1.05)});
+  DelaunayStars stars = run.level->stars();
+  const std::vector<std::int32_t> surplus =
+      pnpbs::take_out_surplus_nodes(run.level->nodes(), stars);
+  ck_assert_uint_eq(surplus.size(), 2);
+  const auto triangles = [](const Level& level, const DelaunayStars& of) {
+    std::multiset<std::array<std::int64_t, 3>> all;  // from each corner
+    for (std::int64_t i = 0; i < level.nodes().count; ++i)
+      of.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+        all.insert({level.nodes().id(i), level.nodes().id(j), level.nodes().id(k)});
+      });
+    return all;
+  };
+  quick_assert(triangles(*run.level, stars) == triangles(*lattice.level, lattice.level->stars()));
+  for (const std::int32_t i : surplus) {
+    ck_assert_int_eq(stars.size(i), 0);
+    quick_assert(!stars.closed(i));
+  }
+}
+END_TEST
+
+// Two nodes on one edge are neighbours, and both have four.
+START_TEST(neighbours_do_not_both_go) {
+  const P middle = middle_of_edge({0.4, 0.5}, 0);
+  LevelRun run = lattice_with({{middle[0] - kD / 6, middle[1]}, {middle[0] + kD / 6, middle[1]}});
+  DelaunayStars stars = run.level->stars();
+  int few = 0;
+  for (std::int64_t i = 0; i < run.level->nodes().count; ++i)
+    few += stars.closed(i) && stars.size(i) <= 4;
+  ck_assert_int_eq(few, 2);
+  ck_assert_uint_eq(pnpbs::take_out_surplus_nodes(run.level->nodes(), stars).size(), 0);
+}
+END_TEST
+
+// In the middle of four nodes on a square a node has four good triangles: it stays.
+START_TEST(good_node_with_four_neighbours_stays) {
+  std::vector<GivenNode> nodes;
+  const double d = 0.25;
+  for (int i = 1; i < 4; ++i)
+    for (int j = 1; j < 4; ++j) nodes.push_back({{d * i, d * j}, 3 * i + j});
+  const std::size_t corners = nodes.size();
+  nodes.push_back({{1.5 * d, 1.5 * d}, 100});
+  nodes.push_back({{2.5 * d, 2.5 * d}, 101});
+  LevelRun run(kSquare, constant(d));
+  run.level->take(nodes, 200);
+  run.renew_stars();
+  DelaunayStars stars = run.level->stars();
+  std::int64_t with_four = 0;
+  for (std::int64_t i = 0; i < run.level->nodes().count; ++i)
+    with_four += run.level->nodes().id(i) >= 100 && stars.size(i) == 4;
+  ck_assert_uint_eq(corners, 9);
+  ck_assert_int_gt(with_four, 0);
+  ck_assert_uint_eq(pnpbs::take_out_surplus_nodes(run.level->nodes(), stars).size(), 0);
+}
+END_TEST
+
+START_TEST(shape_by_the_angles) {
+  Random random(150);
+  for (int n = 0; n < 1000; ++n) {
+    Places places;
+    for (std::int64_t k = 0; k < 3; ++k) places[k] = {random.between(0, 1), random.between(0, 1)};
+    Triangle t{0, 1, 2};
+    if (pnpbs::orientation(places[0], places[1], places[2]) < 0) t = {0, 2, 1};
+    const double shape = pnpbs::triangle_shape(places[t[0]], places[t[1]], places[t[2]]);
+    ck_assert_double_eq_tol(shape, shape_of(t, places), 1e-9);
+    ck_assert_double_lt(pnpbs::triangle_shape(places[t[0]], places[t[2]], places[t[1]]), 0);
+  }
+}
+END_TEST
+
+// No triangle that is bad gets worse, no good one bad, and nearly every worst one gets better.
+START_TEST(bad_triangles_get_better) {
+  std::uint64_t seed = 160;
+  for (const Shape& shape : shapes_to_finish()) {
+    LevelRun run = distorted(shape.build, shape.d, ++seed, {});
+    run.level->sweep_and_repair(3);  // so that few are bad
+    run.renew_stars();
+    const double bad = pnpbs::RepairRule{}.bad_below;
+    const std::vector<Triangle> triangles = triangles_by_id(*run.level);
+    const Places before = places_by_id(*run.level);
+    pnpbs::BadTriangleRepair repair(run.level->nodes(), run.level->stars(), run.level->near_edges(),
+                                    run.level->map(), bad);
+    std::int64_t moved = 0;
+    for (int round = 0; round < 10; ++round) moved += repair.round();
+    const Places after = places_by_id(*run.level);
+    double sum_before = 0, sum_after = 0;
+    for (const Triangle& t : triangles) {
+      const double was = shape_of(t, before), is = shape_of(t, after);
+      ck_assert_double_ge(is, std::min(was, bad) - 1e-9);
+      sum_before += std::max(0.0, bad - was);
+      sum_after += std::max(0.0, bad - is);
+    }
+    ck_assert_int_gt(moved, 5);
+    ck_assert_double_lt(sum_after, 0.8 * sum_before);
+  }
+}
+END_TEST
+
+// It moves only nodes of bad triangles, and keeps them off the boundary.
+START_TEST(repair_leaves_the_rest_alone) {
+  std::uint64_t seed = 170;
+  for (const Shape& shape : shapes_to_finish()) {
+    LevelRun run = distorted(shape.build, shape.d, ++seed, {});
+    const double bad = pnpbs::RepairRule{}.bad_below;
+    const Places before = places_by_id(*run.level);
+    std::set<std::int64_t> of_bad;
+    for (const Triangle& t : triangles_by_id(*run.level))
+      if (shape_of(t, before) < bad + 1e-9) of_bad.insert(t.begin(), t.end());
+    pnpbs::BadTriangleRepair repair(run.level->nodes(), run.level->stars(), run.level->near_edges(),
+                                    run.level->map(), bad);
+    ck_assert_int_gt(repair.round(), 0);
+    const pnpbs::Nodes<2>& nodes = run.level->nodes();
+    for (std::int64_t i = 0; i < nodes.count; ++i) {
+      if (nodes.position(i) == before.at(nodes.id(i))) continue;
+      quick_assert(nodes.moves(i));
+      quick_assert(of_bad.count(nodes.id(i)) == 1);
+      quick_assert(run.level->map().inside(nodes.position(i)));
+      ck_assert_double_ge(run.level->map().clearance(nodes.position(i), nodes.d(i)),
+                          0.35 * nodes.d(i) * (1 - 1e-12));
+    }
+  }
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite(
+      "repair", {node_in_the_middle_of_an_edge_goes, stars_close_over_the_hole,
+                 neighbours_do_not_both_go, good_node_with_four_neighbours_stays,
+                 shape_by_the_angles, bad_triangles_get_better, repair_leaves_the_rest_alone});
+}
