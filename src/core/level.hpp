@@ -99,6 +99,8 @@ class Level {
   // Deals the tree out anew by the work counted. Collective.
   void rebalance();
   void renew_stars();
+  // At the end of a run, before its sweeps: nodes go that have no room. Collective.
+  PopulationCounts remove_crowded();
   // On the Delaunay stars: finishing sweeps, and the repair of defects by the settings' rule.
   PopulationCounts sweep_and_repair(std::int64_t sweeps);
 
@@ -215,7 +217,12 @@ class Level {
   void repair_bad_triangles();
   void delete_nodes(const std::vector<std::int32_t>& deleted);
   bool fits(const Point<2>& x, double d) const;
+  bool between_edges(std::int64_t i) const;
+  template <class Visit>
+  void for_coinciding(std::int64_t i, const Visit& visit) const;
   bool has_no_room(std::int64_t i) const;
+  std::vector<std::int32_t> crowded_nodes() const;
+  void look_around();
   void take_next_positions();
   void hold_off_boundary(std::int64_t i) const;
   double largest_way(std::int64_t first, std::int64_t last) const;
@@ -262,6 +269,7 @@ class Level {
   bool lists_valid_ = false;
   std::int64_t rebuilds_ = 0;
   std::int64_t version_ = 0;
+  std::int64_t looked_around_ = -1;  // version when lists and stars were made for sweeps
 };
 
 }  // namespace pnpbs

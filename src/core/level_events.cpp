@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What happens to a level at events: refresh of d, population, stars, sweeps.
+// What happens to a level at events: refresh of d, population, speeds.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/level.hpp"
 #include "forces/population.hpp"
-#include "geometry/keep_off.hpp"
-#include "geometry/segments.hpp"
 #include "parallel/records.hpp"
-#include "stars/bad_triangles.hpp"
-#include "stars/surplus_nodes.hpp"
-#include "stars/sweep.hpp"
 
 namespace pnpbs {
 
@@ -49,23 +43,6 @@ void Level::refresh_spacing() {
     if (nodes_.owned(i)) nodes_.d(i) = d[owned++];
   drop_anchors();
   ghost_hops_ = 0;
-}
-
-// Between boundary edges, or on top of another node: of two that nearly coincide the one with the
-// larger id, because they push each other no more.
-bool Level::has_no_room(std::int64_t i) const {
-  constexpr double kNearlyCoincide = 0.2;  // in units of d
-  const Point<2> x = nodes_.position(i);
-  double gap = kFarAway;
-  for (std::int32_t e : near_edges_.edges_of(i))
-    gap = std::min(gap, distance_to_segment(map_.edge_begin(e), map_.edge_end(e), x));
-  bool room = gap >= kLeastClearance * nodes_.d(i);
-  lists_.for_neighbours(i, [&](std::int64_t j) {
-    if (nodes_.moves(j) && nodes_.id(j) < nodes_.id(i) &&
-        distance<2>(x, nodes_.position(j)) < kNearlyCoincide * nodes_.d(i))
-      room = false;
-  });
-  return !room;
 }
 
 void Level::exchange_for_stars() { exchange(kStarHops); }
@@ -152,60 +129,6 @@ Speeds Level::speeds() const {
   const std::int64_t moving = std::max<std::int64_t>(1, all - boundary_nodes());
   speeds.mean = from_fixed_point(comm_->sum(sum)) / static_cast<double>(moving);
   return speeds;
-}
-
-// In blocks of a few sweeps, within which the stars stay as they are. Surplus nodes leave the stars
-// before the first sweep, so that the others can fill their places, and the level after the block.
-PopulationCounts Level::sweep_and_repair(std::int64_t sweeps) {
-  constexpr std::int64_t kBlock = 5;
-  const bool repairs = settings_.repair.rounds > 0;
-  // The guard of a node asks where its neighbours want to go, which their stars tell. Those change
-  // with a surplus node one ring farther away, and whether that goes hangs on the ring around it.
-  const int rings = repairs ? 3 : 1;
-  PopulationCounts counts;
-  for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
-       done += kBlock) {
-    ++version_;
-    drop_anchors();
-    exchange(kStarHops);
-    make_lists_and_stars(kStarHops, settings_.list_radius, rings);
-    const PhaseTimer timer(timers_, Phase::sweeps);
-    std::vector<std::int32_t> surplus;
-    agreed(*comm_, [&] {
-      if (done == 0 && repairs) surplus = take_out_surplus_nodes(nodes_, stars_);
-    });
-    sweep_over_stars(std::min(kBlock, sweeps - done));
-    if (done + kBlock >= sweeps && repairs) repair_bad_triangles();
-    for (std::int32_t i : surplus) counts.deleted += nodes_.owned(i);
-    if (!surplus.empty()) delete_nodes(surplus);
-  }
-  return counts;
-}
-
-void Level::sweep_over_stars(std::int64_t times) {
-  View<char> allowed;
-  agreed(*comm_, [&] { allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count); });
-  for (std::int64_t s = 0; s < times; ++s) {
-    renew_ghosts();
-    pnpbs::sweep(nodes_, stars_, near_edges_, map_, settings_.sweep, next_, allowed);
-    ghosts_exact_ = false;
-  }
-  lists_valid_ = false;
-}
-
-void Level::repair_bad_triangles() {
-  renew_ghosts();
-  std::optional<BadTriangleRepair> repair;
-  agreed(*comm_,
-         [&] { repair.emplace(nodes_, stars_, near_edges_, map_, settings_.repair.bad_below); });
-  for (std::int64_t round = 0; round < settings_.repair.rounds; ++round) {
-    renew_ghosts();
-    std::int64_t moved = 0;
-    agreed(*comm_, [&] { moved = repair->round(); });
-    ghosts_exact_ = false;
-    if (comm_->sum(static_cast<std::uint64_t>(moved)) == 0) break;
-  }
-  lists_valid_ = false;
 }
 
 }  // namespace pnpbs

@@ -352,6 +352,7 @@ void Placement::finish() {
     level_->count_step();
     ++steps_done_;
   }
+  count_population_change(level_->remove_crowded());
   count_population_change(level_->sweep_and_repair(settings.sweeps));
   level_->refresh_spacing();
   monitor_stops(1.0);

@@ -197,6 +197,40 @@ START_TEST(a_spacing_larger_than_a_feature) {
 }
 END_TEST
 
+/* d jumps by a factor of 25: */
+static int32_t coarse_beside_fine(int64_t n, int32_t dim, const double* xyz, double* d,
+                                  void* user) {
+  int64_t i;
+  (void)user;
+  for (i = 0; i < n; ++i) d[i] = xyz[dim * i] < 0.52 ? 0.3 : 0.012;
+  return 0;
+}
+
+/* the coarse side begins with far too many nodes, which are pressed into its corners. Of those that
+ * have ended up in one place, the first stays. */
+START_TEST(a_crowded_corner) {
+  static const char* const options[][2] = {{"steps", "40"}, {"steps", "60"}, {"sweeps", "4"}};
+  job it = square_job(1);
+  result nodes;
+  int64_t i, j;
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, coarse_beside_fine, NULL));
+  MUST(pnpbs_placement_set(it.placement, "sweeps", "0"));
+  MUST(pnpbs_placement_set(it.placement, options[_i][0], options[_i][1]));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_gt(integer_of(it.placement, "deleted"), 20);
+  nodes = result_of(it.placement);
+  check_result(&nodes, 1);
+  for (i = 0; i < nodes.n; ++i)
+    for (j = 0; j < i; ++j) { /* in the order of their ids */
+      const double gap =
+          hypot(nodes.xy[2 * i] - nodes.xy[2 * j], nodes.xy[2 * i + 1] - nodes.xy[2 * j + 1]);
+      if (nodes.tags[i] == 0 && nodes.tags[j] == 0) ck_assert(gap >= 0.19 * nodes.d[i]);
+    }
+  result_free(&nodes);
+  job_end(&it);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- methods --------------- */
 
 typedef struct {
@@ -308,6 +342,7 @@ int main(void) {
   tcase_add_loop_test(room, scales, 0, 6);
   tcase_add_test(room, more_nodes_than_allowed);
   tcase_add_test(room, a_spacing_larger_than_a_feature);
+  tcase_add_loop_test(room, a_crowded_corner, 0, 3);
   suite_add_tcase(suite, room);
   tcase_add_loop_test(method_cases, methods_run, 0, COUNT_OF(methods));
   tcase_add_test(method_cases, the_paper_is_a_preset);

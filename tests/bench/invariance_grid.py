@@ -3,14 +3,17 @@
 """The promise, on the whole grid: one and the same nodes for any number of ranks and threads, any
 exchange interval and any partition, uniform and graded. Writes a Markdown table with the hash,
 the seconds and the most nodes that a rank holds (its ghosts included); exit status 1 if any hash
-differs from that of one rank and thread. docs/benchmarks.md tells how to read it."""
+differs from that of one rank and thread, or a run fails. docs/benchmarks.md tells how to read it."""
 import argparse
 import itertools
-import os
-import subprocess
 import sys
-import time
 from pathlib import Path
+
+sys.dont_write_bytecode = True
+
+from programs import Failed, line_of_ranks  # noqa: E402
+from progress import Progress  # noqa: E402
+from tables import table_head, table_row  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "examples" / "data"
@@ -50,73 +53,85 @@ def arguments():
 
 
 def place(args, case, ranks, threads, interval, seed):
-    """The fields of the line that place_on_ranks prints, or what went wrong as {"error": ...}."""
+    """The fields of the line that place_on_ranks prints."""
     name, nodes_at_scale_1 = CASES[case]
     scale = (nodes_at_scale_1 / args.nodes) ** 0.5
-    command = [args.mpiexec, "--oversubscribe", "--bind-to", "none"]
-    command += ["--mca", "mpi_yield_when_idle", "1", "-np", ranks, args.program, name, scale]
-    command += [f"exchange_interval={interval}", f"metis_seed={seed}", *args.set]
-    environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive")
+    options = [f"exchange_interval={interval}", f"metis_seed={seed}", *args.set]
+    line = line_of_ranks(args.mpiexec, ranks, threads, args.time_limit, args.program, name, scale,
+                         *options)
+    if "hash" not in line:
+        raise Failed("it printed no hash")
+    return line
+
+
+class CaseResult:
+    """Of one case: the run on one rank and thread, and the rows of all others beside it."""
+
+    def __init__(self, case):
+        self.case, self.reference, self.why_none = case, None, ""
+        self.rows, self.differing, self.failed = [], 0, 0
+
+    def add(self, setting, line):
+        same = line["hash"] == self.reference["hash"]
+        self.differing += not same
+        told = [line["hash"], line["seconds"], line["held"], "" if same else "**differs**"]
+        self.rows.append([self.case, *setting, *told])
+
+    def add_failure(self, setting, why):
+        self.failed += 1
+        self.rows.append([self.case, *setting, "", "", "", f"**failed**: {why}"])
+
+    def summary(self):
+        if not self.reference:
+            return [self.case, "", f"**failed**: {self.why_none}", "", 0, "", ""]
+        return [self.case, self.reference["nodes"], self.reference["hash"],
+                self.reference["seconds"], len(self.rows), self.differing, self.failed]
+
+    def promise_kept(self):
+        return self.reference is not None and self.differing == 0 and self.failed == 0
+
+
+def run_case(args, case, grid, progress):
+    result = CaseResult(case)
+    progress.begin(f"{case} on 1 x 1")
     try:
-        done = subprocess.run([str(part) for part in command], env=environment,
-                              stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                              timeout=args.time_limit)
-    except subprocess.TimeoutExpired:
-        return {"error": f"not done after {args.time_limit:.0f} s"}
-    words = done.stdout.split()
-    if done.returncode != 0 or "hash" not in words:
-        return {"error": (done.stderr.strip().splitlines() or ["no output"])[0]}
-    return dict(zip(words[0::2], words[1::2]))
+        result.reference = place(args, case, 1, 1, 5, 1)
+    except Failed as failed:  # without it there is nothing to compare with
+        result.why_none = failed
+        progress.end(1 + len(grid))
+        return result
+    progress.end()
+    for setting in grid:
+        progress.begin(f"{case} on {setting[0]} x {setting[1]}")
+        try:
+            result.add(setting, place(args, case, *setting))
+        except Failed as failed:
+            result.add_failure(setting, failed)
+        progress.end()
+    return result
 
 
-def show_progress(done, total, started, what):
-    if not sys.stderr.isatty():
-        return
-    width = 30
-    filled = width * done // total
-    left = (time.monotonic() - started) / done * (total - done) if done else 0
-    sys.stderr.write(f"\r\033[K[{'#' * filled}{' ' * (width - filled)}] {done}/{total}, "
-                     f"about {left / 60:.0f} min left, {what}")
-    if done == total:
-        sys.stderr.write("\n")
-    sys.stderr.flush()
+def page(results):
+    lines = table_head(["case", "nodes", "hash of 1 rank, 1 thread", "seconds", "other runs",
+                        "differing", "failed"])
+    lines += [table_row(result.summary()) for result in results]
+    lines += ["", *table_head(["case", "ranks", "threads", "k", "seed", "hash", "seconds",
+                               "most nodes held", ""])]
+    lines += [table_row(row) for result in results for row in result.rows]
+    return "\n".join([*lines, ""])
 
 
 def main():
     args = arguments()
     # One rank has no partition and nothing to exchange, but must not care either.
     grid = list(itertools.product(args.ranks, args.threads, args.intervals, args.seeds))
-    total, done, started = len(args.cases) * (len(grid) + 1), 0, time.monotonic()
-    rows, summary, failed = [], [], 0
-    for case in args.cases:
-        reference = place(args, case, 1, 1, 5, 1)
-        done += 1
-        differing = 0
-        for ranks, threads, interval, seed in grid:
-            show_progress(done, total, started, f"{case} on {ranks} x {threads}")
-            line = place(args, case, ranks, threads, interval, seed)
-            done += 1
-            same = "error" not in line and line["hash"] == reference.get("hash")
-            differing += not same
-            told = (f"{line['hash']} | {line['seconds']} | {line['held']}" if "error" not in line
-                    else f"{line['error']} | |")
-            rows.append(f"| {case} | {ranks} | {threads} | {interval} | {seed} | {told} |"
-                        + ("" if same else " **differs**"))
-        summary.append(f"| {case} | {reference.get('nodes', '')} | "
-                       f"{reference.get('hash', reference.get('error'))} | "
-                       f"{reference.get('seconds', '')} | {len(grid)} | {differing} |")
-        failed += differing
-    show_progress(done, total, started, "done")
-    text = "\n".join(
-        ["| case | nodes | hash of 1 rank, 1 thread | seconds | other runs | differing |",
-         "| --- | --- | --- | --- | --- | --- |", *summary, "",
-         "| case | ranks | threads | k | seed | hash | seconds | most nodes held |",
-         "| --- | --- | --- | --- | --- | --- | --- | --- |", *rows, ""])
+    progress = Progress(len(args.cases) * (len(grid) + 1))
+    results = [run_case(args, case, grid, progress) for case in args.cases]
     if args.output:
-        args.output.write_text(text)
+        args.output.write_text(page(results))
     else:
-        print(text)
-    return 1 if failed else 0
+        print(page(results))
+    return 0 if all(result.promise_kept() for result in results) else 1
 
 
 if __name__ == "__main__":

@@ -7,11 +7,14 @@ and, with --plot, a picture. docs/scaling.md tells how to read it."""
 import argparse
 import json
 import math
-import os
-import subprocess
 import sys
-import time
 from pathlib import Path
+
+sys.dont_write_bytecode = True
+
+from programs import Failed, line_of_ranks  # noqa: E402
+from progress import Progress  # noqa: E402
+from tables import grouped  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "examples" / "data"
@@ -118,37 +121,15 @@ def decompose(args, case, ranks, *more):
     """What decomposition prints, as numbers; None, and a line of why, if it does not."""
     name, nodes_at_scale_1, _ = CASES[case]
     scale = (nodes_at_scale_1 / args.nodes) ** 0.5
-    command = [args.mpiexec, "--oversubscribe", "--bind-to", "none"]
-    command += ["--mca", "mpi_yield_when_idle", "1", "-np", ranks, args.program, name, scale]
     # One level: a coarser one would take steps, of other numbers of nodes.
-    command += [*more, f"exchange_interval={args.interval}", "levels=0"]
-    environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_WAIT_POLICY="passive")
+    options = [f"exchange_interval={args.interval}", "levels=0"]
     try:
-        done = subprocess.run([str(part) for part in command], env=environment,
-                              stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                              timeout=args.time_limit)
-    except subprocess.TimeoutExpired:
-        sys.stderr.write(f"\n{case} on {ranks} ranks: not done after {args.time_limit:.0f} s\n")
+        line = line_of_ranks(args.mpiexec, ranks, 1, args.time_limit, args.program, name, scale,
+                             *more, *options)
+    except Failed as failed:
+        sys.stderr.write(f"\n{case} on {ranks} ranks: {failed}\n")
         return None
-    if done.returncode != 0:
-        told = (done.stderr.strip().splitlines() or ["no output"])[0]
-        sys.stderr.write(f"\n{case} on {ranks} ranks: {told}\n")
-        return None
-    words = done.stdout.split()
-    return {key: float(value) for key, value in zip(words[0::2], words[1::2])}
-
-
-def show_progress(done, total, started, what):
-    if not sys.stderr.isatty():
-        return
-    width = 30
-    filled = width * done // total
-    left = (time.monotonic() - started) / done * (total - done) if done else 0
-    sys.stderr.write(f"\r\033[K[{'#' * filled}{' ' * (width - filled)}] {done}/{total}, "
-                     f"about {left / 60:.0f} min left, {what}")
-    if done == total:
-        sys.stderr.write("\n")
-    sys.stderr.flush()
+    return {key: float(value) for key, value in line.items()}
 
 
 def run_all(args):
@@ -159,25 +140,21 @@ def run_all(args):
     kept = {}
     if args.figures and args.figures.exists():
         kept = json.loads(args.figures.read_text())
-    started, found = time.monotonic(), {}
-    for done, job in enumerate(jobs):
-        show_progress(done, len(jobs), started, f"{job[0]} on {job[1]}")
+    progress, found = Progress(len(jobs)), {}
+    for job in jobs:
+        progress.begin(f"{job[0]} on {job[1]}")
         key = " ".join(str(part) for part in (*job, f"{args.nodes:g}", args.interval))
         found[job] = kept.get(key) or decompose(args, *job)
         if found[job] and args.figures:
             kept[key] = found[job]
             args.figures.write_text(json.dumps(kept, indent=1))
-    show_progress(len(jobs), len(jobs), started, "done")
+        progress.end()
     alone, shared = found.pop(jobs[0]), found.pop(jobs[1])
     if not alone or not shared:
         sys.exit("the whole runs failed, and without them there is no model")
     lines = {case: [line for job, line in found.items() if line and job[0] == case]
              for case in args.cases}
     return {case: found for case, found in lines.items() if found}, alone, shared
-
-
-def grouped(number):
-    return f"{number:,.0f}".replace(",", " ")
 
 
 def decomposition_table(args, case, lines, cluster):

@@ -65,6 +65,15 @@ if [ "$(field "$expected" inserted)" -lt 50 ] || [ "$(field "$expected" deleted)
   echo "population control had little to do: $expected"
   failed=1
 fi
+# Where d jumps, nodes are pressed together after the last population event; they go at the end.
+begin jump-square 1 steps=40 sweeps=0
+compare 2 1 4 1
+compare 3 2 1 2
+compare 8 1 5 1
+if [ "$(field "$expected" deleted)" -lt 20 ]; then
+  echo "no crowd had to go at the end: $expected"
+  failed=1
+fi
 
 # It can fail: no rank sees half of the nodes, and ghost layers too thin give another set.
 line=$(place 8 1 graded-square 2 exchange_interval=2 sweeps=0)

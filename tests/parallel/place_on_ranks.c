@@ -2,7 +2,7 @@
  *
  * Places nodes over the ranks of MPI_COMM_WORLD and prints the hash: the same for any number of
  * ranks. usage: place_on_ranks CASE SCALE [key=value]...  with CASE one of graded-square,
- * uniform-square, or a .poly file (graded) */
+ * uniform-square, jump-square, or a .poly file (graded) */
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>

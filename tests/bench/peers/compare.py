@@ -14,7 +14,8 @@ import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import force_evaluation  # noqa: E402
 import machine  # noqa: E402
@@ -23,8 +24,9 @@ from adapters import with_cgal, with_gmsh, with_jigsaw, with_pnpbs, with_triangl
 from cases import CASES  # noqa: E402
 from evaluate import evaluate  # noqa: E402
 from measure import Failed  # noqa: E402
+from progress import Progress  # noqa: E402
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = HERE.parents[2]
 
 NOT_COMPARED = [
     {"name": "TetGen", "why": "makes tetrahedra in volumes; there is nothing in the plane to "
@@ -72,39 +74,6 @@ def arguments():
     if args.repeat < 1 or min(args.nodes) < 100:
         parser.error("--repeat must be 1 or more, --nodes 100 or more")
     return args
-
-
-class Progress:
-    """A bar on a terminal, tqdm's if it is there; else a line for each job."""
-
-    def __init__(self, total):
-        self.total, self.done, self.bar = total, 0, None
-        if sys.stderr.isatty():
-            try:
-                from tqdm import tqdm
-                self.bar = tqdm(total=total, unit="run", dynamic_ncols=True)
-            except ImportError:
-                pass
-
-    def begin(self, what):
-        if self.bar is not None:
-            self.bar.set_postfix_str(what)
-        elif sys.stderr.isatty():
-            filled = 30 * self.done // self.total
-            sys.stderr.write(f"\r\033[K[{'#' * filled}{' ' * (30 - filled)}] "
-                             f"{self.done}/{self.total} {what}")
-            sys.stderr.flush()
-        else:
-            sys.stderr.write(f"{self.done + 1}/{self.total} {what}\n")
-
-    def end(self):
-        self.done += 1
-        if self.bar is not None:
-            self.bar.update()
-            if self.done == self.total:
-                self.bar.close()
-        elif sys.stderr.isatty() and self.done == self.total:
-            sys.stderr.write("\r\033[K")
 
 
 def sort_out(args):

@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The results as tables: for the terminal and as a page in Markdown."""
+from tables import grouped, table_head, table_row
 
 TITLES = ["tool", "nodes", "s", "s without start and files", "nodes/s", "MB",
           "quality: mean / 99 % above / least", "least where wide", "least angle where wide",
           "edge over d", "nearest over d, deviation", "cell radius over nearest, 99 % below",
           "crossing", "covered"]
-
-
-def grouped(number):
-    return f"{number:,.0f}".replace(",", " ")
 
 
 def speed(result):
@@ -67,10 +64,6 @@ def text_tables(results):
     return "\n".join(lines)
 
 
-def markdown_row(cells):
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
-
-
 def machine_lines(results):
     m = results["machine"]
     lines = [f"{m['date']}, one thread of an {m['processor']}, {m['cores']} cores, "
@@ -78,8 +71,8 @@ def machine_lines(results):
              f"Python {m['python']}, NumPy {m['numpy']}, SciPy {m['scipy']}. "
              f"Times and memory are medians of {results['repeat']}. Made by", "",
              "```sh", results["command"], "```", ""]
-    lines += ["| tool | version | told |", "| --- | --- | --- |"]
-    lines += [markdown_row([t["name"], t["version"], t["setting"]]) for t in results["tools"]]
+    lines += table_head(["tool", "version", "told"])
+    lines += [table_row([t["name"], t["version"], t["setting"]]) for t in results["tools"]]
     if results["left_out"]:
         lines += ["", "Left out:", ""]
         lines += [f"- {t['name']}: {t['why']}" for t in results["left_out"]]
@@ -115,17 +108,16 @@ def markdown(results, pictures):
         lines += [f"![quality against speed]({pictures['quality_speed']})", ""]
     for group in groups(results).values():
         lines += [f"## {title(group[0])[0].upper()}{title(group[0])[1:]}", "",
-                  markdown_row(TITLES), "| --- |" + " --- |" * (len(TITLES) - 1)]
-        lines += [markdown_row(row(result)) for result in group] + [""]
+                  *table_head(TITLES)]
+        lines += [table_row(row(result)) for result in group] + [""]
     if "histogram" in pictures:
         lines += [f"![histogram of quality]({pictures['histogram']})", ""]
     if results["forces"]:
         lines += ["## Force evaluation", "",
                   "A hexagonal lattice for LAMMPS, our own run on the uniform square for us; lists "
                   "to 1.6 spacings, made by each for its own nodes; one thread.", "",
-                  "| tool | nodes | listed neighbours | ns per node and step | of |",
-                  "| --- | --- | --- | --- | --- |"]
-        lines += [markdown_row([r["tool"], grouped(r["nodes"]), f"{r['listed']:.1f}",
+                  *table_head(["tool", "nodes", "listed neighbours", "ns per node and step", "of"])]
+        lines += [table_row([r["tool"], grouped(r["nodes"]), f"{r['listed']:.1f}",
                                 f"{r['nanoseconds']:.1f}", r["what"]])
                   for r in results["forces"]] + [""]
     return "\n".join(lines)

@@ -37,8 +37,9 @@ def memory_gib():
 
 
 def system():
+    release = ".".join(platform.release().split(".")[:2])
     try:
-        return platform.freedesktop_os_release()["PRETTY_NAME"] + ", Linux " + platform.release()
+        return f"{platform.freedesktop_os_release()['PRETTY_NAME']}, Linux {release}"
     except (AttributeError, OSError):  # not from Python 3.10 on, or not Linux
         return platform.platform()
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finishing a level on the Delaunay stars: sweeps, and the repair of defects.
+#include <algorithm>
+#include <optional>
+
+#include "core/level.hpp"
+#include "stars/bad_triangles.hpp"
+#include "stars/surplus_nodes.hpp"
+#include "stars/sweep.hpp"
+
+namespace pnpbs {
+
+// Lists and stars of the present positions, from which visibility is judged from now on.
+void Level::look_around() {
+  // The guard of a node asks where its neighbours want to go, which their stars tell. Those change
+  // with a surplus node one ring farther away, and whether that goes hangs on the ring around it.
+  const int rings = settings_.repair.rounds > 0 ? 3 : 1;
+  drop_anchors();
+  exchange(kStarHops);
+  make_lists_and_stars(kStarHops, settings_.list_radius, rings);
+  looked_around_ = version_;
+}
+
+// In blocks of a few sweeps, within which the stars stay as they are. Surplus nodes leave the stars
+// before the first sweep, so that the others can fill their places, and the level after the block.
+PopulationCounts Level::sweep_and_repair(std::int64_t sweeps) {
+  constexpr std::int64_t kBlock = 5;
+  const bool repairs = settings_.repair.rounds > 0;
+  PopulationCounts counts;
+  for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
+       done += kBlock) {
+    if (looked_around_ != version_) look_around();
+    ++version_;
+    const PhaseTimer timer(timers_, Phase::sweeps);
+    std::vector<std::int32_t> surplus;
+    agreed(*comm_, [&] {
+      if (done == 0 && repairs) surplus = take_out_surplus_nodes(nodes_, stars_);
+    });
+    sweep_over_stars(std::min(kBlock, sweeps - done));
+    if (done + kBlock >= sweeps && repairs) repair_bad_triangles();
+    for (std::int32_t i : surplus) counts.deleted += nodes_.owned(i);
+    if (!surplus.empty()) delete_nodes(surplus);
+  }
+  return counts;
+}
+
+void Level::sweep_over_stars(std::int64_t times) {
+  View<char> allowed;
+  agreed(*comm_, [&] { allowed = make_view<char>("pnpbs::Level::allowed", nodes_.count); });
+  for (std::int64_t s = 0; s < times; ++s) {
+    renew_ghosts();
+    pnpbs::sweep(nodes_, stars_, near_edges_, map_, settings_.sweep, next_, allowed);
+    ghosts_exact_ = false;
+  }
+  lists_valid_ = false;
+}
+
+void Level::repair_bad_triangles() {
+  renew_ghosts();
+  std::optional<BadTriangleRepair> repair;
+  agreed(*comm_,
+         [&] { repair.emplace(nodes_, stars_, near_edges_, map_, settings_.repair.bad_below); });
+  for (std::int64_t round = 0; round < settings_.repair.rounds; ++round) {
+    renew_ghosts();
+    std::int64_t moved = 0;
+    agreed(*comm_, [&] { moved = repair->round(); });
+    ghosts_exact_ = false;
+    if (comm_->sum(static_cast<std::uint64_t>(moved)) == 0) break;
+  }
+  lists_valid_ = false;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nodes that have no room: between boundary edges, or on top of another node.
+#include <algorithm>
+
+#include "core/level.hpp"
+#include "geometry/keep_off.hpp"
+#include "geometry/segments.hpp"
+
+namespace pnpbs {
+
+// The nodes with smaller ids that node i nearly coincides with: those push it no more.
+template <class Visit>
+void Level::for_coinciding(std::int64_t i, const Visit& visit) const {
+  constexpr double kNearlyCoincide = 0.2;  // in units of d
+  const Point<2> x = nodes_.position(i);
+  lists_.for_neighbours(i, [&](std::int64_t j) {
+    if (nodes_.moves(j) && nodes_.id(j) < nodes_.id(i) &&
+        distance<2>(x, nodes_.position(j)) < kNearlyCoincide * nodes_.d(i))
+      visit(j);
+  });
+}
+
+bool Level::between_edges(std::int64_t i) const {
+  double gap = kFarAway;
+  for (std::int32_t e : near_edges_.edges_of(i))
+    gap = std::min(gap,
+                   distance_to_segment(map_.edge_begin(e), map_.edge_end(e), nodes_.position(i)));
+  return gap < kLeastClearance * nodes_.d(i);
+}
+
+// Between boundary edges, or on top of another node: of two that nearly coincide the one with the
+// larger id.
+bool Level::has_no_room(std::int64_t i) const {
+  bool room = !between_edges(i);
+  for_coinciding(i, [&](std::int64_t) { room = false; });
+  return !room;
+}
+
+// After the last population event nodes may still be pressed into a corner until they coincide.
+// Here nothing is born, so there is no contest: of many in one place all go at once but the first.
+// One that only coincides with nodes that may go themselves waits for the next round.
+PopulationCounts Level::remove_crowded() {
+  PopulationCounts counts;
+  while (true) {
+    look_around();
+    std::vector<std::int32_t> crowded;
+    agreed(*comm_, [&] { crowded = crowded_nodes(); });
+    const auto own = std::count_if(crowded.begin(), crowded.end(),
+                                   [this](std::int32_t i) { return nodes_.owned(i) != 0; });
+    if (comm_->sum(static_cast<std::uint64_t>(own)) == 0) return counts;
+    counts.deleted += own;
+    ++version_;
+    delete_nodes(crowded);
+  }
+}
+
+std::vector<std::int32_t> Level::crowded_nodes() const {
+  const PhaseTimer timer(timers_, Phase::population);
+  const View<char> no_room = make_view<char>("pnpbs::Level::no_room", nodes_.count);
+  for_each("pnpbs::Level::no_room", nodes_.count,
+           [&](std::int64_t i) { no_room(i) = nodes_.moves(i) && has_no_room(i); });
+  std::vector<std::int32_t> crowded;
+  for (std::int64_t i = 0; i < nodes_.count; ++i) {
+    if (!no_room(i)) continue;
+    bool goes = between_edges(i);
+    for_coinciding(i, [&](std::int64_t j) { goes = goes || !no_room(j); });
+    if (goes) crowded.push_back(static_cast<std::int32_t>(i));
+  }
+  return crowded;
+}
+
+}  // namespace pnpbs

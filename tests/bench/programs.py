@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Running the benchmark programs, alone or on ranks."""
+import os
+import subprocess
+
+
+class Failed(Exception):
+    """A run that gave no result; tells why."""
+
+
+def text_of(command, threads, time_limit):
+    """What it prints. Nothing is read from standard input."""
+    environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive")
+    try:
+        done = subprocess.run([str(word) for word in command], env=environment,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              timeout=time_limit)
+    except subprocess.TimeoutExpired:
+        raise Failed(f"not done after {time_limit:.0f} s") from None
+    if done.returncode != 0:
+        raise Failed(f"status {done.returncode}: {first_words(done.stderr)}")
+    return done.stdout
+
+
+def first_words(text):
+    """The first paragraph in one line. Open MPI draws rules around what it has to say."""
+    said = []
+    for line in text.splitlines():
+        line = line.strip()
+        if line.strip("-=*"):
+            said.append(line)
+        elif said:
+            break
+    return " ".join(said) or "no message"
+
+
+def line_of_ranks(mpiexec, ranks, threads, time_limit, program, *arguments):
+    """The pairs of words that a program prints on so many ranks, which may be more than cores."""
+    command = [mpiexec, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
+               "-np", ranks, program, *arguments]
+    text = text_of(command, threads, time_limit)
+    words = text.split()
+    if len(words) < 2:
+        raise Failed("it printed nothing")
+    return dict(zip(words[0::2], words[1::2]))
