@@ -54,7 +54,7 @@ const std::vector<OptionRow>& option_table() {
        "the bubbles rest when their mean scaled speed is below this ..."},
       {"tolerance_max", T::real, "0.15", "0.05", nullptr, 0, 10, nullptr,
        "... and their largest one below this (spacings per unit of time)"},
-      {"sweeps", T::integer, "4", "0", "5", 0, 10000, nullptr,
+      {"sweeps", T::integer, "4", "0", "8", 0, 10000, nullptr,
        "finishing sweeps towards the mean of the Delaunay neighbours"},
       {"sweep_weight", T::real, "0.6", nullptr, nullptr, 0, 1, nullptr,
        "share of the way to that mean that a sweep goes"},

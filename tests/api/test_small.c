@@ -305,7 +305,8 @@ START_TEST(the_paper_is_a_preset) {
   static const char* const options[][2] = {
       {"law", "cubic"},          {"scheme", "predictor_corrector"},
       {"finish", "runge_kutta"}, {"sweeps", "0"},
-      {"steps", "50"},           {"list_radius", "1.7"},
+      {"repairs", "0"},          {"steps", "50"},
+      {"list_radius", "1.7"},
   };
   job it = square_job(1), plain = square_job(1), other = square_job(1);
   int k;
