@@ -8,7 +8,7 @@ EDGE_BOUND = 1.45
 
 
 class Cgal(tool.Tool):
-    needs = "pnpbs-cgal-mesh (cmake --build build/release --target pnpbs-bench)"
+    needs = "pnpbs-cgal-mesh (cmake --build build/release --target pnpbs-cgal-mesh)"
 
     def __init__(self, steps):
         self.steps = steps

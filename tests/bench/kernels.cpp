@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// pnpbs-bench-kernels: what the kernels cost by themselves, on a hexagonal lattice in the unit
+// square whose nodes were moved a little at random, with lists of the radius that a run has and of
+// a larger one, which reaches some of the second shell. Usage:
+//   pnpbs-bench-kernels [--nodes N] [--repeat R] [--moved M]
+// M: most that a coordinate is moved by, in spacings. Medians of the repetitions; threads as
+// OMP_NUM_THREADS says.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/kokkos_runtime.hpp"
+#include "core/level_run.hpp"
+#include "core/random.hpp"
+#include "forces/schemes.hpp"
+
+namespace {
+
+using pnpbs::AdjacencyList;
+using pnpbs::CubicLaw;
+using pnpbs::Field;
+using pnpbs::kLanes;
+using pnpbs::Level;
+using pnpbs::LinearPush;
+using pnpbs::Nodes;
+using pnpbs::Phase;
+
+struct Arguments {
+  double nodes = 1e5, moved = 0.1;
+  int repeat = 15;
+};
+
+Arguments read(int argc, char** argv) {
+  Arguments arguments;
+  for (int a = 1; a < argc; a += 2) {
+    const std::string name = argv[a];
+    const double value = a + 1 < argc ? std::atof(argv[a + 1]) : 0;
+    if (name == "--nodes" && value >= 100) {
+      arguments.nodes = value;
+    } else if (name == "--repeat" && value >= 1) {
+      arguments.repeat = static_cast<int>(value);
+    } else if (name == "--moved" && value >= 0) {
+      arguments.moved = value;
+    } else {
+      std::fprintf(stderr, "usage: %s [--nodes N] [--repeat R] [--moved M]\n", argv[0]);
+      std::exit(2);
+    }
+  }
+  return arguments;
+}
+
+// The seconds that each kernel took, once per repetition; in the order of their first time.
+class Rows {
+ public:
+  void add(const std::string& name, double seconds) {
+    if (seconds_.count(name) == 0) names_.push_back(name);
+    seconds_[name].push_back(seconds);
+  }
+  template <class Kernel>
+  void measure(const std::string& name, const Kernel& kernel) {
+    const auto start = std::chrono::steady_clock::now();
+    kernel();
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    add(name, passed.count());
+  }
+  void print_medians(double nodes) {
+    for (const std::string& name : names_) {
+      std::vector<double>& seconds = seconds_[name];
+      std::sort(seconds.begin(), seconds.end());
+      std::printf("  %-32s %7.2f ns per node\n", name.c_str(),
+                  1e9 * seconds[seconds.size() / 2] / nodes);
+    }
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::map<std::string, std::vector<double>> seconds_;
+};
+
+// Each pair is in the lists of both its nodes, and is evaluated for both.
+template <class Law>
+void evaluate_forces(const Nodes<2>& nodes, const AdjacencyList<2>& lists, const Law& law,
+                     const Field<2>& forces) {
+  const pnpbs::Positions<2> x = pnpbs::positions_of<2>(nodes.x);
+  const double* const d = nodes.d.data();
+  double* const to[2] = {forces[0].data(), forces[1].data()};
+  pnpbs::for_each("pnpbs::bench::forces", lists.block_count(), [=, &nodes, &lists](std::int64_t b) {
+    std::int64_t self[kLanes];
+    pnpbs::block_nodes(b, nodes.count, self);
+    pnpbs::BlockVector<2> force;
+    pnpbs::block_force<2>(lists.block(b), law, x, d, self, force);
+    for (int k = 0; k < 2; ++k) std::copy(force[k].begin(), force[k].end(), to[k] + b * kLanes);
+  });
+}
+
+double listed_per_node(const Nodes<2>& nodes, const AdjacencyList<2>& lists) {
+  std::int64_t listed = 0;
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    lists.for_neighbours(i, [&](std::int64_t) { ++listed; });
+  return static_cast<double>(listed) / static_cast<double>(nodes.count);
+}
+
+void fill_square(pnpbs::PlaneDomain& domain) {
+  shapes::add_loop(domain, shapes::rectangle(0, 0, 1, 1));
+}
+
+std::vector<pnpbs::GivenNode> moved_lattice(double d, double most) {
+  LevelRun lattice(fill_square, constant(d));
+  lattice.level->fill();
+  std::vector<pnpbs::GivenNode> nodes = inner_nodes_of(*lattice.level);
+  Random random(1);
+  for (pnpbs::GivenNode& node : nodes)
+    for (double& x : node.position) x += random.between(-most * d, most * d);
+  return nodes;
+}
+
+struct Scratch {
+  Field<2> there;
+  pnpbs::Stages<2> stages;
+};
+
+void measure_forces(const Level& level, const Scratch& scratch, Rows& rows) {
+  const Nodes<2>& nodes = level.nodes();
+  const LinearPush push{1, level.settings().rest_length};
+  rows.measure("force, push", [&] { evaluate_forces(nodes, level.lists(), push, scratch.there); });
+  rows.measure("force, cubic",
+               [&] { evaluate_forces(nodes, level.lists(), CubicLaw{}, scratch.there); });
+}
+
+// Velocities change, positions do not: so all steps begin at the same ones.
+void measure_steps(const Level& level, Scratch& scratch, Rows& rows) {
+  const Nodes<2>& nodes = level.nodes();
+  const AdjacencyList<2>& lists = level.lists();
+  const pnpbs::Motion& motion = level.settings().motion;
+  const LinearPush push{1, level.settings().rest_length};
+  const CubicLaw cubic;
+  rows.measure("damped step, push",
+               [&] { pnpbs::damped_step<2>(nodes, lists, push, motion, scratch.there); });
+  rows.measure("damped step, cubic",
+               [&] { pnpbs::damped_step<2>(nodes, lists, cubic, motion, scratch.there); });
+  rows.measure("predictor-corrector step, cubic", [&] {
+    pnpbs::predictor_corrector_step<2>(nodes, lists, cubic, motion, scratch.stages, scratch.there);
+  });
+  rows.measure("Runge-Kutta step, cubic", [&] {
+    pnpbs::runge_kutta_step<2>(nodes, lists, cubic, motion, scratch.stages, scratch.there);
+  });
+}
+
+// What a phase of the level takes, divided by how often it is done.
+template <class Work>
+void measure_phase(const std::string& name, const pnpbs::Timers& timers, Phase phase, int times,
+                   Rows& rows, const Work& work) {
+  const double before = timers.seconds(phase);
+  work();
+  rows.add(name, (timers.seconds(phase) - before) / times);
+}
+
+void run(const Arguments& arguments, const char* list_radius) {
+  constexpr int kSweeps = 5;  // a block, within which the stars stay
+  const double d = std::sqrt(2 / std::sqrt(3.0) / arguments.nodes);
+  const std::vector<pnpbs::GivenNode> lattice = moved_lattice(d, arguments.moved);
+  LevelRun run(fill_square, constant(d), {{"list_radius", list_radius}});
+  Level& level = *run.level;
+  Scratch scratch;
+  Rows rows;
+  double listed = 0;
+  for (int r = 0; r < arguments.repeat; ++r) {
+    level.take(lattice, 0);
+    measure_phase("lists", *run.timers, Phase::lists, 1, rows, [&] { level.rebuild_lists(); });
+    listed = listed_per_node(level.nodes(), level.lists());
+    pnpbs::reserve_field<2>(scratch.there, "pnpbs::bench::there", level.nodes().count + kLanes);
+    measure_forces(level, scratch, rows);
+    measure_steps(level, scratch, rows);
+    measure_phase("stars", *run.timers, Phase::stars, 1, rows, [&] { level.renew_stars(); });
+    measure_phase("sweep", *run.timers, Phase::sweeps, kSweeps, rows,
+                  [&] { level.sweep(kSweeps); });
+  }
+  const double nodes = static_cast<double>(level.nodes().count);
+  std::printf("list radius %s: %.0f nodes, %.2f listed neighbours per node\n", list_radius, nodes,
+              listed);
+  rows.print_medians(nodes);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Arguments arguments = read(argc, argv);
+  pnpbs::start_kokkos(0, 1, [] {});
+  for (const char* list_radius : {"1.6", "1.7"}) run(arguments, list_radius);
+  pnpbs::end_kokkos();
+  return 0;
+}

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The studies as they are run, with small node sets: the schedule study's page, and what the grid
+of invariance says of runs that differ and of runs that fail. PNPBS_BENCH is the program
+pnpbs-bench; an mpirun is played."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+BENCH = os.environ["PNPBS_BENCH"]
+
+
+def run(script, *words):
+    return subprocess.run([sys.executable, "-B", HERE / script, *(str(word) for word in words)],
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True)
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def program(self, text):
+        path = self.folder / "program"
+        path.write_text("#!/bin/sh\n" + text)
+        path.chmod(0o755)
+        return path
+
+
+class Schedule(InFolder):
+    def study(self, *words):
+        return run("schedule_study.py", "--nodes", 1000, "--program", BENCH, *words)
+
+    def rows(self, page):
+        """By heading, the rows of its table, cells without bold."""
+        tables, heading = {}, None
+        for line in page.splitlines():
+            if line.startswith("#"):
+                heading = line.strip("# ")
+            elif line.startswith("| ") and "---" not in line:
+                tables.setdefault(heading, []).append([c.strip(" *") for c in line.split("|")[1:-1]])
+        return {name: rows[1:] for name, rows in tables.items()}
+
+    def test_page(self):
+        output, figures = self.folder / "page.md", self.folder / "figures.json"
+        words = ["--scales", 2, "--options", "sweeps", "--presets", "default",
+                 "--output", output, "--figures", figures]
+        done = self.study(*words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = output.read_text()
+        rows = self.rows(page)["sweeps"]
+        self.assertEqual([row[0] for row in rows], ["0", "2", "4", "6", "10"])
+        self.assertIn("| **4** |", page)
+        quality = [float(row[4]) for row in rows]
+        self.assertLess(quality[0], quality[2])  # what the sweeps are for
+        self.assertEqual(rows[2][2], "1.00")
+        for row in rows:
+            self.assertGreater(float(row[1].replace(" ", "")), 1000)
+        self.assertNotIn(str(self.folder), page)
+        # What is measured is not measured again.
+        kept = json.loads(figures.read_text())
+        self.assertEqual(len(kept), 2 * 5)
+        for runs in kept.values():
+            runs["mean"] = 0.5
+        figures.write_text(json.dumps(kept))
+        self.study(*words)
+        self.assertEqual({row[4] for row in self.rows(output.read_text())["sweeps"]}, {"0.50000"})
+
+    def test_default_of_a_preset(self):
+        done = self.study("--scales", 1, "--options", "damping")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        default, best = done.stdout.split("## effort=best")
+        self.assertIn("| **0.2** |", default)
+        self.assertIn("| **0.05** |", best)
+
+    def test_a_run_that_fails(self):
+        failing = self.program("echo 'no more paper' >&2\nexit 3\n")
+        done = self.study("--scales", 1, "--options", "levels", "--program", failing)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("failed: status 3: no more paper", done.stdout)
+
+    def test_bad_arguments(self):
+        for words, told in ((("--options", "colour"), "unknown option colour"),
+                            (("--presets", "worst"), "unknown preset worst"),
+                            (("--scales", 0), "--scales")):
+            done = self.study(*words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(told, done.stderr)
+
+
+class Grid(InFolder):
+    """The played mpirun knows the ranks by what stands behind -np."""
+
+    def grid(self, mpirun):
+        return run("invariance_grid.py", "--program", mpirun, "--mpiexec", mpirun, "--cases",
+                   "graded-square", "--ranks", "1,2", "--threads", 1, "--intervals", 5, "--seeds", 1)
+
+    LINE = "echo hash $hash nodes 7 held 7 seconds 0.1\n"
+    RANKS = "while [ \"$1\" != -np ]; do shift; done\nranks=$2\n"
+
+    def test_same(self):
+        done = self.grid(self.program("hash=abc\n" + self.LINE))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("| graded-square | 7 | abc | 0.1 | 2 | 0 | 0 |", done.stdout)
+
+    def test_differs(self):
+        done = self.grid(self.program(self.RANKS + "hash=$ranks\n" + self.LINE))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("| graded-square | 7 | 1 | 0.1 | 2 | 1 | 0 |", done.stdout)
+        self.assertIn("| graded-square | 2 | 1 | 5 | 1 | 2 | 0.1 | 7 | **differs** |", done.stdout)
+
+    def test_a_run_that_fails_does_not_differ(self):
+        fails = "[ $ranks = 2 ] && { echo no room >&2; exit 4; }\nhash=abc\n"
+        done = self.grid(self.program(self.RANKS + fails + self.LINE))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("| graded-square | 7 | abc | 0.1 | 2 | 0 | 1 |", done.stdout)
+        self.assertIn("**failed**: status 4: no room", done.stdout)
+        self.assertNotIn("**differs**", done.stdout)
+
+    def test_mpirun_that_refuses(self):
+        done = self.grid(self.program(
+            "{ echo -----; echo mpirun has detected an attempt; echo to run as root.; echo;"
+            " echo Running as root is discouraged; echo -----; } >&2\nexit 1\n"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("**failed**: status 1: mpirun has detected an attempt to run as root. |",
+                      done.stdout)
+        self.assertNotIn("differs", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
