@@ -33,10 +33,10 @@ const std::vector<OptionRow>& option_table() {
       {"max_move", T::real, "0.03", nullptr, nullptr, 1e-3, 0.2, nullptr,
        "no step moves a node by more than this many spacings"},
       {"steps", T::integer, "300", "1000", nullptr, 0, 1e9, nullptr, "most steps of a run"},
-      {"levels", T::integer, "2", "0", "4", 0, 10, nullptr,
+      {"levels", T::integer, "3", "0", "4", 0, 10, nullptr,
        "coarser levels that the first nodes come from, each with twice the spacing of the next; "
        "fewer where d varies too fast for them or asks for few nodes"},
-      {"coarsest_steps", T::integer, "200", nullptr, "1000", 0, 1e9, nullptr,
+      {"coarsest_steps", T::integer, "600", nullptr, "1000", 0, 1e9, nullptr,
        "most steps on the coarsest of several levels"},
       {"refined_steps", T::integer, "60", nullptr, "500", 0, 1e9, nullptr,
        "most steps on the levels between the coarsest and the finest"},
