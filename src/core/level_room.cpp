@@ -3,15 +3,46 @@
 #include <algorithm>
 
 #include "core/level.hpp"
+#include "forces/bubble_force.hpp"
 #include "geometry/keep_off.hpp"
 #include "geometry/segments.hpp"
 
 namespace pnpbs {
 
+namespace {
+
+constexpr double kNearlyCoincide = 0.2;  // in units of d
+
+// Has any node of block b a listed neighbour within so many of its d?
+bool any_within(const Nodes<2>& nodes, const AdjacencyList<2>& lists, double reach,
+                std::int64_t b) {
+  const Positions<2> x = positions_of<2>(nodes.x);
+  std::int64_t self[kLanes];
+  block_nodes(b, nodes.count, self);
+  double own[2][kLanes], square_reach[kLanes];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    for (int k = 0; k < 2; ++k) own[k][lane] = x[k][self[lane]];
+    square_reach[lane] = reach * reach * nodes.d(self[lane]) * nodes.d(self[lane]);
+  }
+  const ListBlock list = lists.block(b);
+  const std::int32_t* entries = list.entries;
+  double within = -1;
+  for (std::int32_t n = 0; n < list.length; ++n, entries += kLanes) {
+#pragma omp simd reduction(max : within)
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::int32_t j = entries[lane];
+      const double dx = own[0][lane] - x[0][j], dy = own[1][lane] - x[1][j];
+      within = std::max(within, square_reach[lane] - (dx * dx + dy * dy));
+    }
+  }
+  return within >= 0;
+}
+
+}  // namespace
+
 // The nodes with smaller ids that node i nearly coincides with: those push it no more.
 template <class Visit>
 void Level::for_coinciding(std::int64_t i, const Visit& visit) const {
-  constexpr double kNearlyCoincide = 0.2;  // in units of d
   const Point<2> x = nodes_.position(i);
   lists_.for_neighbours(i, [&](std::int64_t j) {
     if (nodes_.moves(j) && nodes_.id(j) < nodes_.id(i) &&
@@ -56,9 +87,13 @@ PopulationCounts Level::remove_crowded() {
 
 std::vector<std::int32_t> Level::crowded_nodes() const {
   const PhaseTimer timer(timers_, Phase::population);
+  constexpr double kALittleMore = 1.001;  // so that rounding decides nothing here
   const View<char> no_room = make_view<char>("pnpbs::Level::no_room", nodes_.count);
-  for_each("pnpbs::Level::no_room", nodes_.count,
-           [&](std::int64_t i) { no_room(i) = nodes_.moves(i) && has_no_room(i); });
+  for_each("pnpbs::Level::no_room", lists_.block_count(), [&](std::int64_t b) {
+    const bool look = any_within(nodes_, lists_, kALittleMore * kNearlyCoincide, b);
+    for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes_.count); ++i)
+      no_room(i) = nodes_.moves(i) && (look ? has_no_room(i) : between_edges(i));
+  });
   std::vector<std::int32_t> crowded;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!no_room(i)) continue;

@@ -164,7 +164,7 @@ void run(const Arguments& arguments, const char* list_radius) {
   constexpr int kSweeps = 5;  // a block, within which the stars stay
   const double d = std::sqrt(2 / std::sqrt(3.0) / arguments.nodes);
   const std::vector<pnpbs::GivenNode> lattice = moved_lattice(d, arguments.moved);
-  LevelRun run(fill_square, constant(d), {{"list_radius", list_radius}});
+  LevelRun run(fill_square, constant(d), {{"list_radius", list_radius}, {"repairs", "0"}});
   Level& level = *run.level;
   Scratch scratch;
   Rows rows;
@@ -178,7 +178,7 @@ void run(const Arguments& arguments, const char* list_radius) {
     measure_steps(level, scratch, rows);
     measure_phase("stars", *run.timers, Phase::stars, 1, rows, [&] { level.renew_stars(); });
     measure_phase("sweep", *run.timers, Phase::sweeps, kSweeps, rows,
-                  [&] { level.sweep(kSweeps); });
+                  [&] { level.sweep_and_repair(kSweeps); });
   }
   const double nodes = static_cast<double>(level.nodes().count);
   std::printf("list radius %s: %.0f nodes, %.2f listed neighbours per node\n", list_radius, nodes,
