@@ -201,6 +201,7 @@ class Level {
   std::vector<double> wanted_nodes() const;
   std::vector<LeafSummary> summaries_of_unrefined_leaves() const;
   void find_leaves(std::vector<GivenNode>& given) const;
+  void keep_those_with_place(std::vector<GivenNode>& given) const;
   bool has_place(const GivenNode& node) const;
   void sort_by_place(std::vector<GivenNode>& given) const;
   void thin(std::vector<GivenNode>& inner) const;

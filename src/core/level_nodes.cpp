@@ -186,7 +186,7 @@ TakenNodes Level::take(std::vector<GivenNode> given, std::int64_t next_id) {
   std::erase_if(given, [](const GivenNode& node) { return !node.inner; });
   find_leaves(given);
   const std::size_t all = given.size();
-  std::erase_if(given, [this](const GivenNode& node) { return !has_place(node); });
+  keep_those_with_place(given);
   const std::size_t fitting = given.size();
   sort_by_place(given);
   thin(given);
@@ -209,16 +209,21 @@ void Level::find_leaves(std::vector<GivenNode>& given) const {
 
 // In the domain, and not too close to its boundary. In the middle of a leaf without edges there is
 // nothing to ask.
+void Level::keep_those_with_place(std::vector<GivenNode>& given) const {
+  std::vector<char> stays(given.size());
+  for_each("pnpbs::Level::has_place", static_cast<std::int64_t>(given.size()), [&](std::int64_t n) {
+    const auto k = static_cast<std::size_t>(n);
+    stays[k] = has_place(given[k]);
+  });
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < given.size(); ++k)
+    if (stays[k] != 0) given[kept++] = given[k];
+  given.resize(kept);
+}
+
 bool Level::has_place(const GivenNode& node) const {
-  const double d = map_.leaf_spacing(node.leaf);
-  if (!map_.leaf_outside(node.leaf) && !map_.leaf_has_edges(node.leaf)) {
-    const Box<2> box = map_.tree().cell_box(map_.tree().leaf_cell(node.leaf));
-    double to_side = kFarAway;
-    for (int k = 0; k < 2; ++k)
-      to_side = std::min({to_side, node.position[k] - box.low[k], box.high[k] - node.position[k]});
-    if (to_side > kBoundaryClearance * d) return true;
-  }
-  return fits(node.position, d);
+  if (near_edges_.leaf_is_clear(node.leaf)) return !map_.leaf_outside(node.leaf);
+  return fits(node.position, map_.leaf_spacing(node.leaf));
 }
 
 // By leaf, in Morton order, and by place within it, so that nothing depends on where nodes came

@@ -216,9 +216,19 @@ std::int64_t Level::node_work(std::int64_t i) const {
 }
 
 void Level::count_work() {
+  const auto none = static_cast<std::int32_t>(nodes_.count);  // what short lists are filled with
   owned_work_ = static_cast<std::int64_t>(
-      sum_of("pnpbs::Level::count_work", nodes_.count,
-             [this](std::int64_t i) { return nodes_.owned(i) ? node_work(i) : 0; }));
+      sum_of("pnpbs::Level::count_work", lists_.block_count(), [&](std::int64_t b) {
+        const ListBlock list = lists_.block(b);
+        std::int64_t pairs[kLanes]{};
+        for (std::int32_t k = 0; k < list.length; ++k)
+          for (int lane = 0; lane < kLanes; ++lane)
+            pairs[lane] += list.entries[k * kLanes + lane] != none;
+        std::int64_t work = 0;
+        for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes_.count); ++i)
+          if (nodes_.owned(i)) work += kNodeWork + pairs[i % kLanes];
+        return work;
+      }));
   work_is_old_ = false;
 }
 

@@ -6,7 +6,6 @@
 #include <exception>
 #include <limits>
 #include <new>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/kokkos_runtime.hpp"
@@ -18,6 +17,31 @@ namespace pnpbs {
 namespace {
 
 constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+
+// The nodes that are owned, or those that are not, in the order of their ids. These are nearly
+// dense where a rank has them all; then no sort is needed.
+void append_by_id(const Nodes<2>& nodes, bool owned, std::vector<std::int32_t>& order) {
+  constexpr std::int64_t kDense = 4;  // ids to a node
+  const auto first = static_cast<std::ptrdiff_t>(order.size());
+  std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = -1;
+  for (std::int32_t i = 0; i < nodes.count; ++i) {
+    if ((nodes.owned(i) != 0) != owned) continue;
+    order.push_back(i);
+    least = std::min(least, nodes.id(i));
+    most = std::max(most, nodes.id(i));
+  }
+  const auto begin = order.begin() + first;
+  if (most - least >= kDense * (order.end() - begin)) {
+    std::sort(begin, order.end(),
+              [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
+    return;
+  }
+  if (begin == order.end()) return;
+  std::vector<std::int32_t> node_of(static_cast<std::size_t>(most - least + 1), -1);
+  for (auto i = begin; i != order.end(); ++i)
+    node_of[static_cast<std::size_t>(nodes.id(*i) - least)] = *i;
+  std::copy_if(node_of.begin(), node_of.end(), begin, [](std::int32_t i) { return i >= 0; });
+}
 
 // The steps' part of a run's work, for its progress: the rest are the finishing sweeps.
 constexpr double kStepsShare = 0.9;
@@ -391,12 +415,10 @@ void Placement::prepare_order() {
   if (order_version_ == level_->version()) return;
   // Owned nodes first, then ghosts, each by id.
   const Nodes<2>& nodes = level_->nodes();
-  by_id_.resize(static_cast<std::size_t>(nodes.count));
-  std::iota(by_id_.begin(), by_id_.end(), 0);
-  std::sort(by_id_.begin(), by_id_.end(), [&](std::int32_t a, std::int32_t b) {
-    if (nodes.owned(a) != nodes.owned(b)) return nodes.owned(a) != 0;
-    return nodes.id(a) < nodes.id(b);
-  });
+  by_id_.clear();
+  by_id_.reserve(static_cast<std::size_t>(nodes.count));
+  append_by_id(nodes, true, by_id_);
+  append_by_id(nodes, false, by_id_);
   place_.resize(by_id_.size());
   for (std::size_t p = 0; p < by_id_.size(); ++p)
     place_[static_cast<std::size_t>(by_id_[p])] = static_cast<std::int32_t>(p);

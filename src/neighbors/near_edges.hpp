@@ -26,6 +26,12 @@ class NearEdges {
   void build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
              const Buckets<2>& buckets, const DomainMap& map);
 
+  // Is no edge near any place in this leaf?
+  bool leaf_is_clear(std::int32_t leaf) const {
+    const auto l = static_cast<std::size_t>(leaf);
+    return leaf_offset_[l] == leaf_offset_[l + 1];
+  }
+
   bool any(std::int64_t i) const { return any_(i) != 0; }
 
   std::span<const std::int32_t> edges_of(std::int64_t i) const { return edges_.row(i); }
