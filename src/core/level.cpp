@@ -36,6 +36,7 @@ void Level::lay_boundary() {
     boundary_.edges.push_back({node, node, boundary_.nodes[f].tag, true, true});
   }
   fans_.build(boundary_);
+  boundary_sight_.reset(boundary_.nodes.size());
   boundary_ids_.assign(boundary_.nodes.size(), -1);
 }
 
@@ -52,10 +53,12 @@ void Level::change_settings(const Settings& settings) {
 }
 
 // Between events a node may come within the clearance of edges that were this far from it.
-double Level::edge_radius() const {
+double Level::meeting_radius() const {
   const double way = settings_.motion.most * static_cast<double>(settings_.event_interval);
-  return std::max(widest_radius(), kBoundaryClearance + way);
+  return kBoundaryClearance + way;
 }
+
+double Level::edge_radius() const { return std::max(widest_radius(), meeting_radius()); }
 
 double Level::widest_radius() const {
   return std::max(settings_.list_radius, settings_.adjacency_radius);
@@ -95,7 +98,9 @@ void Level::rebuild_lists(double radius, const Field<2>& seen_from) {
     plan_.follow(buckets_.order(), nodes_.count);
   in_buckets_ = true;
   near_edges_.build(nodes_, seen_from, buckets_, map_);
-  lists_.build(nodes_, buckets_, radius, SightPastEdges{nodes_, near_edges_, map_, fans_});
+  boundary_sight_.look(nodes_, near_edges_, map_, fans_);
+  lists_.build(nodes_, buckets_, radius,
+               SightPastEdges{nodes_, near_edges_, boundary_sight_, map_, fans_});
   reserve_field<2>(next_, "pnpbs::Level::next", nodes_.capacity());
   reserve_field<2>(listed_, "pnpbs::Level::listed", nodes_.capacity());
   set_padding();
@@ -150,10 +155,11 @@ void Level::take_next_positions() {
   ++version_;
   constexpr std::int64_t kChunk = 64;
   const std::int64_t chunks = (nodes_.count + kChunk - 1) / kChunk;
-  const double square = largest_of("pnpbs::Level::take_next", chunks, 0.0, [this](std::int64_t c) {
+  const double meeting = meeting_radius();
+  const double square = largest_of("pnpbs::Level::take_next", chunks, 0.0, [&](std::int64_t c) {
     const std::int64_t first = c * kChunk, last = std::min(first + kChunk, nodes_.count);
     for (std::int64_t i = first; i < last; ++i)
-      if (near_edges_.any(i) && nodes_.moves(i)) hold_off_boundary(i);
+      if (near_edges_.any_within(i, meeting * nodes_.d(i)) && nodes_.moves(i)) hold_off_boundary(i);
     return largest_way(first, last);
   });
   travelled_ = std::sqrt(square);

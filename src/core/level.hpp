@@ -18,6 +18,7 @@
 #include "geometry/domain_map.hpp"
 #include "geometry/plane_domain.hpp"
 #include "neighbors/adjacency_list.hpp"
+#include "neighbors/boundary_sight.hpp"
 #include "neighbors/buckets.hpp"
 #include "neighbors/near_edges.hpp"
 #include "parallel/communicator.hpp"
@@ -193,6 +194,7 @@ class Level {
   void migrate();
 
   double widest_radius() const;
+  double meeting_radius() const;
   double edge_radius() const;
   std::vector<double> spacing_at_owned_nodes(const Spacing<2>& spacing) const;
   bool on_one_edge(std::int64_t i, std::int64_t j) const;
@@ -259,6 +261,7 @@ class Level {
 
   Buckets<2> buckets_;
   NearEdges near_edges_;
+  BoundarySight boundary_sight_;
   AdjacencyList<2> lists_;
   DelaunayStars stars_;
   KnownRegion known_;  // while stars are made: where all nodes are known

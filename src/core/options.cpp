@@ -35,7 +35,8 @@ const std::vector<OptionRow>& option_table() {
       {"steps", T::integer, "300", "1000", nullptr, 0, 1e9, nullptr, "most steps of a run"},
       {"levels", T::integer, "3", "0", "4", 0, 10, nullptr,
        "coarser levels that the first nodes come from, each with twice the spacing of the next; "
-       "fewer where d varies too fast for them or asks for few nodes"},
+       "fewer where d varies too fast for them or asks for few nodes, or the boundary for too "
+       "many"},
       {"coarsest_steps", T::integer, "600", nullptr, "1000", 0, 1e9, nullptr,
        "most steps on the coarsest of several levels"},
       {"refined_steps", T::integer, "60", nullptr, "500", 0, 1e9, nullptr,

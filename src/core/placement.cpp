@@ -158,7 +158,7 @@ Outcome Placement::make_level() {
   } else if (start_from_given_) {
     taken = next->take(given_, 0);
   } else {
-    coarser_levels_ = coarser_levels_that_pay(*next);
+    coarser_levels_ = coarser_levels_that_pay(*next, spacing);
     if (coarser_levels_ > 0)
       next->take(nodes_from_coarser_levels(spacing, settings, outcome), 0);
     else

@@ -119,7 +119,9 @@ class Placement {
   std::unique_ptr<Level> empty_level(std::shared_ptr<const Spacing<2>> spacing,
                                      const Settings& settings);
   void adopt_level(std::unique_ptr<Level> next);
-  int coarser_levels_that_pay(const Level& finest) const;
+  int coarser_levels_that_pay(const Level& finest,
+                              const std::shared_ptr<const Spacing<2>>& spacing) const;
+  bool boundary_leaves_room(const Spacing<2>& coarser, double boundary_nodes, double nodes) const;
   std::vector<GivenNode> nodes_from_coarser_levels(const std::shared_ptr<const Spacing<2>>& spacing,
                                                    const Settings& settings, Outcome& outcome);
   void require_same_options() const;

@@ -55,8 +55,9 @@ Settings settings_of_level(Settings settings, bool coarsest) {
 
 // None where d is nearly the same everywhere: then one hexagonal lattice fills the domain. A level
 // of few nodes has nothing to settle over long distances, and bubbles of a spacing that varies from
-// one to the next have no rest.
-int Placement::coarser_levels_that_pay(const Level& finest) const {
+// one to the next have no rest. Collective, as the spacing is asked.
+int Placement::coarser_levels_that_pay(const Level& finest,
+                                       const std::shared_ptr<const Spacing<2>>& spacing) const {
   constexpr double kLeastNodes = 500;  // of the coarsest
   constexpr double kSteepest = 0.5;    // growth of d per unit of length
   const SpacingVariation d = finest.spacing_variation();
@@ -64,9 +65,29 @@ int Placement::coarser_levels_that_pay(const Level& finest) const {
   int levels = 0;
   while (levels < finest.settings().levels && d.largest > kPatchVariation * d.least &&
          nodes >= kLeastNodes * std::pow(coarser_by(levels + 1), 2) &&
-         d.steepest * coarser_by(levels + 1) <= kSteepest)
+         d.steepest * coarser_by(levels + 1) <= kSteepest &&
+         boundary_leaves_room(*spacing_of_level(spacing, levels + 1),
+                              static_cast<double>(finest.boundary_nodes()) / coarser_by(levels + 1),
+                              nodes / std::pow(coarser_by(levels + 1), 2)))
     ++levels;
   return levels;
+}
+
+// Corners, the few nodes that a small hole needs, and fixed nodes are on every level, however
+// coarse: where they are many among a level's nodes, it settles nothing, bubbles come and go
+// between them, and each has dozens of edges near it. Of a coarser level with this spacing, is what
+// its boundary has beyond the nodes that the spacing asks for there little beside all of its nodes?
+bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_nodes,
+                                     double nodes) const {
+  constexpr double kMostForced = 0.2;
+  double laid = 0;
+  agreed(*comm_, [&] {
+    const SpacingEvaluator checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+      evaluate_spacing<2>(coarser, domain_->area(), n, x, d);
+    };
+    laid = static_cast<double>(lay_boundary(*domain_, checked).nodes.size());
+  });
+  return laid - boundary_nodes <= kMostForced * nodes;
 }
 
 // From the coarsest level down to twice the spacing. If the monitor stops them, refined nodes are

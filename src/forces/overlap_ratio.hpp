@@ -10,16 +10,20 @@
 
 namespace pnpbs {
 
+// What a bubble j at distance l adds to the sum of bubble i.
+inline double overlap(double d_i, double d_j, double l) {
+  const double term = d_i + 0.5 * d_j - l;
+  return term > 0 ? term : 0.0;
+}
+
 template <int Dim>
 double overlap_ratio(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i) {
   const Point<Dim> x = nodes.position(i);
-  const double radius = 0.5 * nodes.d(i);
   double sum = 0;
   lists.for_neighbours(i, [&](std::int64_t j) {
-    const double term = 2 * radius + 0.5 * nodes.d(j) - distance<Dim>(x, nodes.position(j));
-    sum += term > 0 ? term : 0.0;
+    sum += overlap(nodes.d(i), nodes.d(j), distance<Dim>(x, nodes.position(j)));
   });
-  return sum / radius;
+  return sum / (0.5 * nodes.d(i));
 }
 
 }  // namespace pnpbs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "forces/population.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -91,6 +92,35 @@ bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int
   return room;
 }
 
+// The overlap ratio that a bubble like i would have at `place`, as far as i, its neighbours and
+// theirs tell.
+template <int Dim>
+double overlap_ratio_at(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
+                        const Point<Dim>& place) {
+  struct Term {
+    std::int64_t id;
+    double overlap;
+    bool operator<(const Term& other) const { return id < other.id; }
+    bool operator==(const Term& other) const { return id == other.id; }
+  };
+  std::vector<Term> terms;
+  const auto add = [&](std::int64_t j) {
+    const double gap = distance<Dim>(nodes.position(j), place);
+    const Term term{nodes.id(j), overlap(nodes.d(i), nodes.d(j), gap)};
+    if (term.overlap > 0) terms.push_back(term);
+  };
+  add(i);
+  lists.for_neighbours(i, [&](std::int64_t j) {
+    add(j);
+    lists.for_neighbours(j, add);
+  });
+  std::sort(terms.begin(), terms.end());
+  terms.erase(std::unique(terms.begin(), terms.end()), terms.end());
+  double sum = 0;
+  for (const Term& term : terms) sum += term.overlap;
+  return sum / (0.5 * nodes.d(i));
+}
+
 template <int Dim>
 Bid strongest_around(const AdjacencyList<Dim>& lists, const View<Bid>& bids, std::int64_t i) {
   Bid best = bids(i);
@@ -124,7 +154,10 @@ PopulationChange<Dim> choose_population_change(
       action(i) = Action::remove;
     } else if (ratio < rule.insert_below) {
       const Point<Dim> place = free_place<Dim>(nodes, lists, i);
-      if (has_room<Dim>(nodes, lists, i, place, rule.least_gap) && fits(place, nodes.d(i))) {
+      // Between boundary nodes that are dense for d a new bubble may be one too many: it would
+      // go at once, and come again.
+      if (has_room<Dim>(nodes, lists, i, place, rule.least_gap) && fits(place, nodes.d(i)) &&
+          overlap_ratio_at<Dim>(nodes, lists, i, place) <= rule.delete_above) {
         defect = rule.ideal - ratio;
         action(i) = Action::insert;
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/keep_off.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "geometry/predicates.hpp"
@@ -35,11 +36,24 @@ bool crosses_any(const DomainMap& map, std::span<const std::int32_t> edges, cons
   return false;
 }
 
+// Is every edge farther from `to` than `wanted`, and too far to be met on the way there?
+bool clear_of_all(const DomainMap& map, std::span<const std::int32_t> edges, const Point<2>& from,
+                  const Point<2>& to, double wanted) {
+  constexpr double kRounding = 1 + 1e-9;
+  double square = wanted * wanted, way = 0;
+  for (int k = 0; k < 2; ++k) way += (to[k] - from[k]) * (to[k] - from[k]);
+  square = kRounding * std::max(square, way);
+  for (std::int32_t e : edges)
+    if (squared_distance_to_segment(map.edge_begin(e), map.edge_end(e), to) < square) return false;
+  return true;
+}
+
 }  // namespace
 
 KeptOff keep_off(const DomainMap& map, std::span<const std::int32_t> edges, const Point<2>& from,
                  const Point<2>& to, double d) {
   const double wanted = kBoundaryClearance * d;
+  if (clear_of_all(map, edges, from, to, wanted)) return {to, true};  // nearly always
   Point<2> x = crosses_any(map, edges, from, to) ? from : to;
   Point<2> wall{};
   double gap = nearest_edge(map, edges, x, wall);

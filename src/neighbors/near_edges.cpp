@@ -63,14 +63,19 @@ class NearEdges::Finder {
     }
     const std::int32_t leaf =
         map_.tree().fine_box_holds(box_, x) ? bucket_ : map_.tree().leaf_at(x);
+    double nearest = reach;
     const auto keep_if_near = [&](std::int32_t e) {
-      if (distance_to_segment(map_.edge_begin(e), map_.edge_end(e), x) <= reach) out.push_back(e);
+      const double gap = distance_to_segment(map_.edge_begin(e), map_.edge_end(e), x);
+      if (gap > reach) return;
+      out.push_back(e);
+      nearest = std::min(nearest, gap);
     };
     if (reach <= of_.leaf_reach_[static_cast<std::size_t>(leaf)])
       for_boxes_near(leaf, x, reach, keep_if_near);
     else
       map_.for_edges_near(x, reach, keep_if_near);
     of_.any_(i) = out.size() > before;
+    if (out.size() > before) of_.gap_(i) = nearest;
   }
 
  private:
@@ -116,8 +121,10 @@ class NearEdges::Finder {
 void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
                       const Buckets<2>& buckets, const DomainMap& map) {
   at_ = at;
-  if (static_cast<std::int64_t>(any_.extent(0)) < nodes.capacity())
+  if (static_cast<std::int64_t>(any_.extent(0)) < nodes.capacity()) {
     any_ = make_view<char>("pnpbs::NearEdges::any", nodes.capacity());
+    gap_ = make_view<double>("pnpbs::NearEdges::gap", nodes.capacity());
+  }
   edges_.build("pnpbs::NearEdges::build", nodes.count,
                [&] { return Finder(*this, nodes, buckets, map); });
 }

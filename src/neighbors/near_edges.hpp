@@ -34,6 +34,9 @@ class NearEdges {
 
   bool any(std::int64_t i) const { return any_(i) != 0; }
 
+  // Does an edge come nearer to node i than this, if that is no more than radius * d_i?
+  bool any_within(std::int64_t i, double reach) const { return any(i) && gap_(i) <= reach; }
+
   std::span<const std::int32_t> edges_of(std::int64_t i) const { return edges_.row(i); }
 
   // Are the nodes where they were for build()?
@@ -43,18 +46,26 @@ class NearEdges {
            }) == 0;
   }
 
-  // Does no boundary edge separate nodes i and j? For pairs within radius * (d_i + d_j) / 2.
-  bool visible(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
-               std::int64_t i, std::int64_t j) const {
-    // Whatever lies between the two is within their distance of either, and that is at most
-    // radius times the larger spacing.
-    const std::int64_t wide = nodes.d(i) >= nodes.d(j) ? i : j;
-    return !any(wide) || way_between_is_free(nodes, map, fans, i, j, wide);
+  double radius() const { return radius_; }
+
+  // Is no edge near enough to the two nodes to meet the way between them? Whatever meets it has
+  // distances from the two that add up to no more than its length.
+  bool off_the_way(const Nodes<2>& nodes, std::int64_t i, std::int64_t j) const {
+    constexpr double kRounding = 1 - 1e-9;
+    const double gaps = kRounding * (gap(nodes, i) + gap(nodes, j));
+    const double x = at_[0](i) - at_[0](j), y = at_[1](i) - at_[1](j);
+    return x * x + y * y < gaps * gaps;
   }
 
- private:
+  // Does none of the edges near node `wide` separate nodes i and j?
   bool way_between_is_free(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
                            std::int64_t i, std::int64_t j, std::int64_t wide) const;
+
+ private:
+  // To the nearest edge, radius * d if none is nearer.
+  double gap(const Nodes<2>& nodes, std::int64_t i) const {
+    return any(i) ? gap_(i) : radius_ * nodes.d(i);
+  }
 
   class Finder;  // of the edges near nodes
   void add_box(const Point<2>& a, const Point<2>& b, double reach);
@@ -67,19 +78,7 @@ class NearEdges {
   std::array<std::vector<double>, 2> low_, high_;  // boxes of leaf_edges_, a little too large
   ChunkedRows<std::int32_t> edges_;
   View<char> any_;
-};
-
-// Who sees whom among the nodes, as lists ask.
-struct SightPastEdges {
-  const Nodes<2>& nodes;
-  const NearEdges& near_edges;
-  const DomainMap& map;
-  const BoundaryFans& fans;
-
-  bool may_hide(std::int64_t i) const { return near_edges.any(i); }
-  bool visible(std::int64_t i, std::int64_t j) const {
-    return near_edges.visible(nodes, map, fans, i, j);
-  }
+  View<double> gap_;  // to the nearest edge, where there is any
 };
 
 // Have the boxes of segments xy and ab no point in common?

@@ -47,6 +47,29 @@ START_TEST(none_for_constant_spacing) {
 }
 END_TEST
 
+/* Small holes have their corners on every level: 36 of them, twelve nodes each, are few among 2500
+ * nodes, but many among 600. */
+START_TEST(fewer_where_the_boundary_is_fine) {
+  static cone graded = {0.0048, 0.016, 0.5, 0.5};
+  enum { ROW = 6, CORNERS = 12 };
+  job it = graded_square(&graded);
+  int k, c;
+  for (k = 0; k < ROW * ROW; ++k) {
+    const double x = (k % ROW + 0.5) / ROW, y = (k / ROW + 0.5) / ROW;
+    double hole[2 * CORNERS];
+    for (c = 0; c < CORNERS; ++c) {
+      hole[2 * c] = x + 0.012 * cos(2 * c * acos(-1.0) / CORNERS);
+      hole[2 * c + 1] = y + 0.012 * sin(2 * c * acos(-1.0) / CORNERS);
+    }
+    MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, CORNERS, hole, NULL, 0));
+  }
+  MUST(pnpbs_placement_set(it.placement, "levels", "4"));
+  MUST(pnpbs_placement_initialise(it.placement));
+  ck_assert_int_eq(integer_of(it.placement, "levels"), 1);
+  job_end(&it);
+}
+END_TEST
+
 static double lost_quality_with(const char* key, const char* value) {
   static cone graded = {0.0048, 0.016, 0.5, 0.5};
   job it = graded_square(&graded);
@@ -186,6 +209,7 @@ int main(void) {
   TCase* tests = tcase_create("levels");
   tcase_add_test(tests, as_many_as_pay);
   tcase_add_test(tests, none_for_constant_spacing);
+  tcase_add_test(tests, fewer_where_the_boundary_is_fine);
   tcase_add_test(tests, more_effort_is_better);
   tcase_add_test(tests, defects_are_repaired);
   tcase_add_loop_test(tests, they_can_be_stopped, 0, 2);

@@ -108,10 +108,13 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
     for (int k = 0; k < Dim; ++k)
       result.place[k] = own.x[k] - own.d * (length > 0 ? crowd[k] / length : (k == 0 ? -1.0 : 0.0));
     if (!freedom.fits(result.place[0], result.place[1])) return result;
-    for (std::size_t j : within_hops<Dim>(set, i, 2, radius))
-      if (j != i &&
-          pnpbs::distance<Dim>(set[j].x, result.place) < rule.least_gap * 0.5 * (own.d + set[j].d))
-        return result;
+    double there = 0;  // the new bubble's ratio
+    for (std::size_t j : within_hops<Dim>(set, i, 2, radius)) {
+      const double gap = pnpbs::distance<Dim>(set[j].x, result.place);
+      if (j != i && gap < rule.least_gap * 0.5 * (own.d + set[j].d)) return result;
+      there += std::max(0.0, own.d + set[j].d / 2 - gap) / (own.d / 2);
+    }
+    if (there > rule.delete_above) return result;
     result.defect = rule.ideal - ratio;
   }
   return result;
@@ -285,6 +288,22 @@ START_TEST(nothing_is_born_on_neighbours_of_neighbours) {
 }
 END_TEST
 
+// Beyond the free place, as far from it as that is allowed, lie nodes that are dense for d, as at a
+// small hole: what were born there would be one too many and go at once.
+START_TEST(nothing_is_born_that_would_have_to_go) {
+  const double d = 0.1, degree = std::acos(-1.0) / 180;
+  Set<2> set{
+      {{0, 0}, d, 0}, {{-0.75 * d, 0.45 * d}, d, 1, false}, {{-0.75 * d, -0.45 * d}, d, 2, false}};
+  for (int k = 0; k < 8; ++k) {
+    const double angle = (-75 + k * 150 / 7.0) * degree;
+    set.push_back({{d + 0.7 * d * std::cos(angle), 0.7 * d * std::sin(angle)}, d, 3 + k, false});
+  }
+  quick_assert(choose<2>(set, {}).born.empty());
+  set.erase(set.begin() + 4, set.begin() + 10);
+  ck_assert_uint_eq(choose<2>(set, {}).born.size(), 1);
+}
+END_TEST
+
 START_TEST(contests_are_won_as_by_search) {
   Random random(63);
   const SpacingFunction<2> plane = [](const Point<2>& x) { return 0.05 + 0.06 * x[0]; };
@@ -327,5 +346,6 @@ int main() {
       {perfect_lattices_stay, a_hole_is_filled_once, one_too_many_is_deleted,
        boundary_nodes_neither_go_nor_give_birth, nodes_without_room_go_first,
        nothing_is_born_where_it_does_not_fit, nothing_is_born_on_neighbours_of_neighbours,
-       contests_are_won_as_by_search, winners_are_far_apart});
+       nothing_is_born_that_would_have_to_go, contests_are_won_as_by_search,
+       winners_are_far_apart});
 }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/boundary_sight.hpp"
+
+#include <algorithm>
+
+namespace pnpbs {
+
+namespace {
+
+// The boundary nodes at the ends of the edges near x, by number.
+std::vector<std::int32_t> boundary_nodes_near(const DomainMap& map, const Point<2>& x,
+                                              double reach) {
+  std::vector<std::int32_t> near;
+  map.for_edges_near(x, reach, [&](std::int32_t e) {
+    for (const std::int32_t node : {map.edge(e).begin, map.edge(e).end}) near.push_back(node);
+  });
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return near;
+}
+
+}  // namespace
+
+void BoundarySight::reset(std::size_t boundary_nodes) {
+  seen_.assign(boundary_nodes, {});
+  reach_.assign(boundary_nodes, 0);
+}
+
+void BoundarySight::look(const Nodes<2>& nodes, const NearEdges& near_edges, const DomainMap& map,
+                         const BoundaryFans& fans) {
+  constexpr std::int64_t kChunk = 256;
+  const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
+  for_each_guarded("pnpbs::BoundarySight::look", chunks, [&](std::int64_t chunk) {
+    const std::int64_t last = std::min((chunk + 1) * kChunk, nodes.count);
+    for (std::int64_t i = chunk * kChunk; i < last; ++i)
+      if (!nodes.moves(i)) look_from(nodes, i, near_edges, map, fans);
+  });
+}
+
+void BoundarySight::look_from(const Nodes<2>& nodes, std::int64_t i, const NearEdges& near_edges,
+                              const DomainMap& map, const BoundaryFans& fans) {
+  constexpr double kRounding = 1 + 1e-9;
+  const std::int32_t b = nodes.boundary_node(i);
+  const auto index = static_cast<std::size_t>(b);
+  const double reach = near_edges.radius() * nodes.d(i);
+  if (reach_[index] == reach) return;
+  const Point<2> x = nodes.position(i);
+  std::vector<std::int32_t> seen = boundary_nodes_near(map, x, kRounding * reach);
+  std::erase_if(seen, [&](std::int32_t c) {
+    const Point<2>& y = map.boundary().nodes[static_cast<std::size_t>(c)].position;
+    return c == b || distance<2>(x, y) > kRounding * reach ||
+           !way_is_free(map, fans, x, b, y, c, near_edges.edges_of(i));
+  });
+  seen_[index] = std::move(seen);
+  reach_[index] = reach;
+}
+
+bool BoundarySight::sees(std::int32_t b, std::int32_t c) const {
+  const std::vector<std::int32_t>& row = seen_[static_cast<std::size_t>(b)];
+  return std::binary_search(row.begin(), row.end(), c);
+}
+
+bool SightPastEdges::sees_past_edges(std::int64_t wide, std::int64_t other) const {
+  const std::int32_t b = nodes.boundary_node(wide), c = nodes.boundary_node(other);
+  if (b >= 0 && c >= 0) return boundary_sight.sees(b, c);
+  return near_edges.way_between_is_free(nodes, map, fans, wide, other, wide);
+}
+
+}  // namespace pnpbs
