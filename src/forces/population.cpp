@@ -121,13 +121,27 @@ double overlap_ratio_at(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists
   return sum / (0.5 * nodes.d(i));
 }
 
+// The contest: does no node within three hops bid more than node i? Nodes across a hole from each
+// other are two spacings apart, which two hops around it may not bridge.
 template <int Dim>
-Bid strongest_around(const AdjacencyList<Dim>& lists, const View<Bid>& bids, std::int64_t i) {
-  Bid best = bids(i);
-  lists.for_neighbours(i, [&](std::int64_t j) {
-    if (bids(j).beats(best)) best = bids(j);
-  });
-  return best;
+bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<double>& defects,
+          std::int64_t i) {
+  constexpr int kHops = 3;
+  const Bid own{defects(i), nodes.id(i)};
+  bool strongest = true;
+  std::vector<std::int64_t> reached{i};
+  std::size_t begin = 0;
+  for (int hop = 0; hop < kHops && strongest; ++hop) {
+    const std::size_t end = reached.size();
+    for (std::size_t k = begin; k < end && strongest; ++k)
+      lists.for_neighbours(reached[k], [&](std::int64_t j) {
+        if (Bid{defects(j), nodes.id(j)}.beats(own)) strongest = false;
+        if (hop + 1 < kHops && std::find(reached.begin(), reached.end(), j) == reached.end())
+          reached.push_back(j);
+      });
+    begin = end;
+  }
+  return strongest;
 }
 
 }  // namespace
@@ -137,20 +151,18 @@ PopulationChange<Dim> choose_population_change(
     const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const PopulationRule& rule,
     const std::function<bool(std::int64_t)>& must_go,
     const std::function<bool(const Point<Dim>&, double)>& fits) {
-  View<Bid> bids = make_view<Bid>("pnpbs::population::bids", nodes.count);
-  View<Bid> seen = make_view<Bid>("pnpbs::population::seen", nodes.count);
-  View<Action> action = make_view<Action>("pnpbs::population::action", nodes.count);
+  const View<double> defects = make_view<double>("pnpbs::population::defects", nodes.count);
+  const View<Action> action = make_view<Action>("pnpbs::population::action", nodes.count);
   for_each_guarded("pnpbs::population::bid", nodes.count, [&](std::int64_t i) {
-    bids(i) = Bid{};
+    defects(i) = 0;
     action(i) = Action::none;
     if (!nodes.moves(i)) return;
     const double ratio = overlap_ratio<Dim>(nodes, lists, i);
-    double defect = 0;
     if (must_go(i)) {
-      defect = std::numeric_limits<double>::max();
+      defects(i) = std::numeric_limits<double>::max();
       action(i) = Action::remove;
     } else if (ratio > rule.delete_above) {
-      defect = ratio - rule.ideal;
+      defects(i) = ratio - rule.ideal;
       action(i) = Action::remove;
     } else if (ratio < rule.insert_below) {
       const Point<Dim> place = free_place<Dim>(nodes, lists, i);
@@ -158,29 +170,29 @@ PopulationChange<Dim> choose_population_change(
       // go at once, and come again.
       if (has_room<Dim>(nodes, lists, i, place, rule.least_gap) && fits(place, nodes.d(i)) &&
           overlap_ratio_at<Dim>(nodes, lists, i, place) <= rule.delete_above) {
-        defect = rule.ideal - ratio;
+        defects(i) = rule.ideal - ratio;
         action(i) = Action::insert;
       }
     }
-    if (action(i) != Action::none) bids(i) = Bid{defect, nodes.id(i)};
   });
-  // Three hops: nodes across a hole from each other are two spacings apart, which two hops around
-  // it may not bridge.
-  for_each("pnpbs::population::first_hop", nodes.count,
-           [&](std::int64_t i) { seen(i) = strongest_around<Dim>(lists, bids, i); });
-  const View<Bid> farther = bids;  // what was bid is not needed any more
-  for_each("pnpbs::population::second_hop", nodes.count,
-           [&](std::int64_t i) { farther(i) = strongest_around<Dim>(lists, seen, i); });
-
+  std::vector<std::int32_t> bidders;  // mostly few
+  for (std::int32_t i = 0; i < nodes.count; ++i)
+    if (action(i) != Action::none) bidders.push_back(i);
+  std::vector<char> winner(bidders.size());
+  for_each_guarded("pnpbs::population::contest", static_cast<std::int64_t>(bidders.size()),
+                   [&](std::int64_t b) {
+                     const auto k = static_cast<std::size_t>(b);
+                     winner[k] = wins<Dim>(nodes, lists, defects, bidders[k]);
+                   });
   PopulationChange<Dim> change;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    if (action(i) == Action::none || strongest_around<Dim>(lists, farther, i).id != nodes.id(i))
-      continue;
+  for (std::size_t b = 0; b < bidders.size(); ++b) {
+    if (winner[b] == 0) continue;
+    const std::int32_t i = bidders[b];
     if (action(i) == Action::remove) {
-      change.deleted.push_back(static_cast<std::int32_t>(i));
+      change.deleted.push_back(i);
     } else {
       change.born.push_back({free_place<Dim>(nodes, lists, i), nodes.id(i), nodes.d(i)});
-      change.parents.push_back(static_cast<std::int32_t>(i));
+      change.parents.push_back(i);
     }
   }
   return change;
