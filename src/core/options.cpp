@@ -51,7 +51,7 @@ const std::vector<OptionRow>& option_table() {
        "bubbles with a larger overlap ratio are deleted"},
       {"insert_below", T::real, "5", nullptr, "4.75", 0, 6, nullptr,
        "beside bubbles with a smaller overlap ratio new ones are inserted"},
-      {"tolerance_mean", T::real, "0.006", "0.001", "0.0002", 0, 1, nullptr,
+      {"tolerance_mean", T::real, "0.006", "0.001", "0.001", 0, 1, nullptr,
        "the bubbles rest when their mean scaled speed is below this ..."},
       {"tolerance_max", T::real, "0.15", "0.05", nullptr, 0, 10, nullptr,
        "... and their largest one below this (spacings per unit of time)"},
