@@ -41,12 +41,14 @@ void Level::lay_boundary() {
 }
 
 void Level::change_settings(const Settings& settings) {
-  const double edges_before = edge_radius(), widest_before = widest_radius(),
-               list_before = settings_.list_radius;
+  const double edges_before = edge_radius(), meeting_before = meeting_radius(),
+               widest_before = widest_radius(), list_before = settings_.list_radius;
   settings_ = settings;
   ghost_hops_ = 0;
   if (widest_radius() != widest_before || settings_.list_radius != list_before)
     tree_hops_ = 0;  // a hop has another length now
+  // Nodes count as far from the boundary by the steps that were left since their anchors.
+  if (meeting_radius() != meeting_before) drop_anchors();
   if (edge_radius() == edges_before) return;
   near_edges_.prepare(map_, edge_radius());
   lists_valid_ = false;

@@ -12,9 +12,10 @@ namespace pnpbs {
 
 // Lists and stars of the present positions, from which visibility is judged from now on.
 void Level::look_around() {
-  // The guard of a node asks where its neighbours want to go, which their stars tell. Those change
-  // with a surplus node one ring farther away, and whether that goes hangs on the ring around it.
-  const int rings = settings_.repair.rounds > 0 ? 3 : 1;
+  // The guard of a node asks where its neighbours want to go, which their stars tell. Without a
+  // surplus node in between a node of the second ring may be a neighbour, too; its star changes
+  // with a surplus node in the third, and whether that goes hangs on the ring around it.
+  const int rings = settings_.repair.rounds > 0 ? 4 : 1;
   drop_anchors();
   exchange(kStarHops);
   make_lists_and_stars(kStarHops, settings_.list_radius, rings);

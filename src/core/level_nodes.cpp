@@ -207,8 +207,6 @@ void Level::find_leaves(std::vector<GivenNode>& given) const {
            });
 }
 
-// In the domain, and not too close to its boundary. In the middle of a leaf without edges there is
-// nothing to ask.
 void Level::keep_those_with_place(std::vector<GivenNode>& given) const {
   std::vector<char> stays(given.size());
   for_each("pnpbs::Level::has_place", static_cast<std::int64_t>(given.size()), [&](std::int64_t n) {
@@ -221,6 +219,7 @@ void Level::keep_those_with_place(std::vector<GivenNode>& given) const {
   given.resize(kept);
 }
 
+// In the domain, and not too close to its boundary.
 bool Level::has_place(const GivenNode& node) const {
   if (near_edges_.leaf_is_clear(node.leaf)) return !map_.leaf_outside(node.leaf);
   return fits(node.position, map_.leaf_spacing(node.leaf));

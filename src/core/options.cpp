@@ -64,8 +64,7 @@ const std::vector<OptionRow>& option_table() {
        "that are one too many go; 0: neither"},
       {"repair_below", T::real, "0.82", nullptr, "0.87", 0, 1, nullptr,
        "triangles are bad whose quality, 2 r_in / R, or 1.365 times the sine of the smallest angle "
-       "is "
-       "below this"},
+       "is below this"},
       {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
        "radius of the lists during the run, in desired distances"},
       {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 3, nullptr,

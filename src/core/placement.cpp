@@ -31,16 +31,21 @@ void append_by_id(const Nodes<2>& nodes, bool owned, std::vector<std::int32_t>& 
     most = std::max(most, nodes.id(i));
   }
   const auto begin = order.begin() + first;
-  if (most - least >= kDense * (order.end() - begin)) {
+  if (begin == order.end()) return;
+  bool sort = most - least >= kDense * (order.end() - begin);
+  if (!sort) {
+    std::vector<std::int32_t> node_of(static_cast<std::size_t>(most - least + 1), -1);
+    for (auto i = begin; i != order.end(); ++i) {
+      std::int32_t& node = node_of[static_cast<std::size_t>(nodes.id(*i) - least)];
+      sort = sort || node >= 0;  // two ranks were given the same id
+      node = *i;
+    }
+    if (!sort)
+      std::copy_if(node_of.begin(), node_of.end(), begin, [](std::int32_t i) { return i >= 0; });
+  }
+  if (sort)
     std::sort(begin, order.end(),
               [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
-    return;
-  }
-  if (begin == order.end()) return;
-  std::vector<std::int32_t> node_of(static_cast<std::size_t>(most - least + 1), -1);
-  for (auto i = begin; i != order.end(); ++i)
-    node_of[static_cast<std::size_t>(nodes.id(*i) - least)] = *i;
-  std::copy_if(node_of.begin(), node_of.end(), begin, [](std::int32_t i) { return i >= 0; });
 }
 
 // The steps' part of a run's work, for its progress: the rest are the finishing sweeps.
@@ -323,7 +328,7 @@ bool Placement::far_too_few() const {
 }
 
 // Adjusts the population while it pays. A new spacing may ask for many times the nodes there are,
-// and one contest lets at most one act within two hops: so there are more rounds at once while
+// and one contest lets at most one act within three hops: so there are more rounds at once while
 // they change much.
 void Placement::control_population() {
   constexpr int kMostRounds = 20;

@@ -76,7 +76,7 @@ int Placement::coarser_levels_that_pay(const Level& finest,
 // Corners, the few nodes that a small hole needs, and fixed nodes are on every level, however
 // coarse: where they are many among a level's nodes, it settles nothing, bubbles come and go
 // between them, and each has dozens of edges near it. Of a coarser level with this spacing, is what
-// its boundary has beyond the nodes that the spacing asks for there little beside all of its nodes?
+// its boundary has beyond its share of the finest one's little beside all of its nodes?
 bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_nodes,
                                      double nodes) const {
   constexpr double kMostForced = 0.2;

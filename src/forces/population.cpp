@@ -135,6 +135,7 @@ bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<d
     const std::size_t end = reached.size();
     for (std::size_t k = begin; k < end && strongest; ++k)
       lists.for_neighbours(reached[k], [&](std::int64_t j) {
+        if (!strongest) return;
         if (Bid{defects(j), nodes.id(j)}.beats(own)) strongest = false;
         if (hop + 1 < kHops && std::find(reached.begin(), reached.end(), j) == reached.end())
           reached.push_back(j);

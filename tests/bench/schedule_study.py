@@ -26,8 +26,8 @@ REPEAT_DEFAULT = 3  # all speeds are compared with its
 # Values of each option beside its default, by preset.
 GRIDS = {
     "default": {
-        "levels": [0, 1, 2, 3],
-        "coarsest_steps": [50, 100, 200, 400, 800],
+        "levels": [0, 1, 2, 3, 4],
+        "coarsest_steps": [50, 100, 200, 300, 600],
         "refined_steps": [20, 40, 60, 100, 200],
         "steps": [20, 40, 80, 300],
         "time_step": [0.4, 0.6, 0.8, 1.0],
@@ -43,6 +43,8 @@ GRIDS = {
         "list_radius": [1.5, 1.6, 1.7, 1.8],
         "sweeps": [0, 2, 4, 6, 10],
         "sweep_weight": [0.5, 0.6, 0.7],
+        "repairs": [0, 1, 10, 30],
+        "repair_below": [0.78, 0.82, 0.85, 0.87],
     },
     "best": {
         "levels": [2, 3, 4],
@@ -54,8 +56,10 @@ GRIDS = {
         "rest_length": [1.02, 1.03, 1.04, 1.06],
         "max_move": [0.02, 0.03, 0.05],
         "insert_below": [4.5, 4.75, 5],
-        "tolerance_mean": [0.0001, 0.0002, 0.0005, 0.001],
-        "sweeps": [2, 5, 10],
+        "tolerance_mean": [0.0002, 0.0005, 0.001, 0.002],
+        "sweeps": [5, 8, 12],
+        "repairs": [0, 10],
+        "repair_below": [0.82, 0.85, 0.87],
     },
 }
 
