@@ -196,7 +196,33 @@ START_TEST(ways_through_boundary_nodes) {
 }
 END_TEST
 
+// How far a node may come until the next event decides whether the boundary concerns it. Where
+// options change that, nodes count from where they are.
+START_TEST(changed_options_count_from_here) {
+  LevelRun run([](PlaneDomain& p) { shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1)); },
+               [](double x, double) { return 0.03 + 0.04 * x; }, {{"event_interval", "100"}});
+  run.level->fill();
+  run.steps(10, false, false);
+  const auto away_from_anchor = [&] {
+    const pnpbs::Nodes<2>& nodes = run.level->nodes();
+    int away = 0;
+    for (std::int64_t i = 0; i < nodes.count; ++i)
+      away += nodes.anchor[0](i) != nodes.x[0](i) || nodes.anchor[1](i) != nodes.x[1](i);
+    return away;
+  };
+  pnpbs::Options options;
+  options.set("event_interval", "100");
+  options.set("damping", "0.5");
+  run.level->change_settings(pnpbs::Settings(options));
+  ck_assert_int_gt(away_from_anchor(), 100);
+  options.set("event_interval", "22");
+  run.level->change_settings(pnpbs::Settings(options));
+  ck_assert_int_eq(away_from_anchor(), 0);
+}
+END_TEST
+
 int main() {
   return run_kernel_suite("visibility",
-                          {boundaries_separate, shorelines_separate, ways_through_boundary_nodes});
+                          {boundaries_separate, shorelines_separate, ways_through_boundary_nodes,
+                           changed_options_count_from_here});
 }
