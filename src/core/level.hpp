@@ -13,6 +13,7 @@
 #include "core/initial_fill.hpp"
 #include "core/settings.hpp"
 #include "core/timers.hpp"
+#include "forces/population.hpp"
 #include "forces/schemes.hpp"
 #include "geometry/boundary_fans.hpp"
 #include "geometry/domain_map.hpp"
@@ -96,6 +97,8 @@ class Level {
   // Inserts beside bubbles with an overlap ratio below the option's, or below `refill` if that is
   // more.
   PopulationCounts adjust_population(double refill = 0);
+  // Deletes and inserts where defects of the Delaunay stars are repaired by it. Collective.
+  PopulationCounts repair_defects();
   Speeds speeds() const;
   // Deals the tree out anew by the work counted. Collective.
   void rebalance();
@@ -215,9 +218,11 @@ class Level {
                                           std::vector<char>& reached) const;
   void fetch_nodes_in(const std::vector<Box<2>>& boxes);
   Bytes nodes_for(const Parcel& asked);
+  PopulationCounts carry_out(PopulationChange<2> change);
   void number_births(std::vector<Birth<2>> born);
   void sweep_over_stars(std::int64_t times);
   void repair_bad_triangles();
+  void repair_triangles_below(double shape);
   void delete_nodes(const std::vector<std::int32_t>& deleted);
   bool fits(const Point<2>& x, double d) const;
   bool between_edges(std::int64_t i) const;
@@ -225,7 +230,7 @@ class Level {
   void for_coinciding(std::int64_t i, const Visit& visit) const;
   bool has_no_room(std::int64_t i) const;
   std::vector<std::int32_t> crowded_nodes() const;
-  void look_around();
+  void prepare_finish();
   void take_next_positions();
   void hold_off_boundary(std::int64_t i) const;
   double largest_way(std::int64_t first, std::int64_t last) const;
@@ -273,7 +278,7 @@ class Level {
   bool lists_valid_ = false;
   std::int64_t rebuilds_ = 0;
   std::int64_t version_ = 0;
-  std::int64_t looked_around_ = -1;  // version when lists and stars were made for sweeps
+  std::int64_t prepared_ = -1;  // version when lists and stars were made for the finish
 };
 
 }  // namespace pnpbs

@@ -6,6 +6,7 @@
 #include "core/level.hpp"
 #include "forces/population.hpp"
 #include "parallel/records.hpp"
+#include "stars/defects.hpp"
 
 namespace pnpbs {
 
@@ -61,6 +62,24 @@ PopulationCounts Level::adjust_population(double refill) {
         nodes_, lists_, rule, [this](std::int64_t i) { return has_no_room(i); },
         [this](const Point<2>& x, double d) { return fits(x, d); });
   });
+  return carry_out(std::move(change));
+}
+
+PopulationCounts Level::repair_defects() {
+  ++version_;
+  drop_anchors();
+  exchange(kPopulationHops);
+  make_lists_and_stars(kPopulationHops, settings_.list_radius, kDefectRings);
+  PopulationChange<2> change;
+  agreed(*comm_, [&] {
+    const PhaseTimer timer(timers_, Phase::population);
+    change = choose_defect_repairs(nodes_, stars_, settings_.defects.bad_below,
+                                   [this](const Point<2>& x, double d) { return fits(x, d); });
+  });
+  return carry_out(std::move(change));
+}
+
+PopulationCounts Level::carry_out(PopulationChange<2> change) {
   const PhaseTimer timer(timers_, Phase::population);
   // Each is its owner's to count and to number, a birth the parent's owner's.
   PopulationCounts counts;

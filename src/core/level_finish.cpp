@@ -10,16 +10,20 @@
 
 namespace pnpbs {
 
-// Lists and stars of the present positions, from which visibility is judged from now on.
-void Level::look_around() {
+// Lists and, unless nothing of the finish asks for them, stars of the present positions, from which
+// visibility is judged from now on.
+void Level::prepare_finish() {
   // The guard of a node asks where its neighbours want to go, which their stars tell. Without a
   // surplus node in between a node of the second ring may be a neighbour, too; its star changes
   // with a surplus node in the third, and whether that goes hangs on the ring around it.
   const int rings = settings_.repair.rounds > 0 ? 4 : 1;
   drop_anchors();
   exchange(kStarHops);
-  make_lists_and_stars(kStarHops, settings_.list_radius, rings);
-  looked_around_ = version_;
+  if (settings_.sweeps > 0 || settings_.repair.rounds > 0)
+    make_lists_and_stars(kStarHops, settings_.list_radius, rings);
+  else
+    agreed(*comm_, [this] { rebuild_lists(); });
+  prepared_ = version_;
 }
 
 // In blocks of a few sweeps, within which the stars stay as they are. Surplus nodes leave the stars
@@ -30,7 +34,7 @@ PopulationCounts Level::sweep_and_repair(std::int64_t sweeps) {
   PopulationCounts counts;
   for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
        done += kBlock) {
-    if (looked_around_ != version_) look_around();
+    if (prepared_ != version_) prepare_finish();
     ++version_;
     const PhaseTimer timer(timers_, Phase::sweeps);
     std::vector<std::int32_t> surplus;
@@ -56,11 +60,17 @@ void Level::sweep_over_stars(std::int64_t times) {
   lists_valid_ = false;
 }
 
+// The worst first: what bars a triangle from getting better may itself be only just good enough.
 void Level::repair_bad_triangles() {
+  const RepairRule& rule = settings_.repair;
+  repair_triangles_below(std::min(rule.worst_below, rule.bad_below));
+  if (rule.worst_below < rule.bad_below) repair_triangles_below(rule.bad_below);
+}
+
+void Level::repair_triangles_below(double shape) {
   renew_ghosts();
   std::optional<BadTriangleRepair> repair;
-  agreed(*comm_,
-         [&] { repair.emplace(nodes_, stars_, near_edges_, map_, settings_.repair.bad_below); });
+  agreed(*comm_, [&] { repair.emplace(nodes_, stars_, near_edges_, map_, shape); });
   for (std::int64_t round = 0; round < settings_.repair.rounds; ++round) {
     renew_ghosts();
     std::int64_t moved = 0;

@@ -73,7 +73,7 @@ bool Level::has_no_room(std::int64_t i) const {
 PopulationCounts Level::remove_crowded() {
   PopulationCounts counts;
   while (true) {
-    look_around();
+    prepare_finish();
     std::vector<std::int32_t> crowded;
     agreed(*comm_, [&] { crowded = crowded_nodes(); });
     const auto own = std::count_if(crowded.begin(), crowded.end(),

@@ -16,7 +16,7 @@ const std::vector<OptionRow>& option_table() {
       {"method", T::choice, "default", nullptr, nullptr, 0, 0, "default | paper",
        "preset for the options below: what measures best, or the paper's scheme to the letter"},
       {"effort", T::choice, "default", nullptr, nullptr, 0, 0, "default | best",
-       "preset, too: fast and good, or some five times slower for the best spacing there is"},
+       "preset, too: fast and good, or some three times slower for the best spacing there is"},
       {"law", T::choice, "push", "cubic", nullptr, 0, 0, "push | cubic",
        "force between bubbles: linear push, or equation (2) of the paper"},
       {"scheme", T::choice, "damped", "predictor_corrector", nullptr, 0, 0,
@@ -51,7 +51,7 @@ const std::vector<OptionRow>& option_table() {
        "bubbles with a larger overlap ratio are deleted"},
       {"insert_below", T::real, "5", nullptr, "4.75", 0, 6, nullptr,
        "beside bubbles with a smaller overlap ratio new ones are inserted"},
-      {"tolerance_mean", T::real, "0.006", "0.001", "0.001", 0, 1, nullptr,
+      {"tolerance_mean", T::real, "0.006", "0.001", "0.003", 0, 1, nullptr,
        "the bubbles rest when their mean scaled speed is below this ..."},
       {"tolerance_max", T::real, "0.15", "0.05", nullptr, 0, 10, nullptr,
        "... and their largest one below this (spacings per unit of time)"},
@@ -59,6 +59,9 @@ const std::vector<OptionRow>& option_table() {
        "finishing sweeps towards the mean of the Delaunay neighbours"},
       {"sweep_weight", T::real, "0.6", nullptr, nullptr, 0, 1, nullptr,
        "share of the way to that mean that a sweep goes"},
+      {"defect_repairs", T::integer, "0", nullptr, "1", 0, 1000, nullptr,
+       "most rounds at the end of every level in which nodes come or go where one is missing or "
+       "too many: tried on a copy of the nodes around, and kept where the triangles are better"},
       {"repairs", T::integer, "10", "0", nullptr, 0, 10000, nullptr,
        "most rounds in which bad triangles are repaired after the sweeps; before the sweeps, nodes "
        "that are one too many go; 0: neither"},

@@ -381,10 +381,19 @@ void Placement::finish() {
     level_->count_step();
     ++steps_done_;
   }
+  repair_defects();
   count_population_change(level_->remove_crowded());
   count_population_change(level_->sweep_and_repair(settings.sweeps));
   level_->refresh_spacing();
   monitor_stops(1.0);
+}
+
+// Where a node is one too many or one is missing that the overlap ratios do not tell.
+void Placement::repair_defects() {
+  for (std::int64_t round = 0; round < level_->settings().defects.rounds; ++round) {
+    const PopulationCounts change = count_population_change(level_->repair_defects());
+    if (change.inserted + change.deleted == 0) break;
+  }
 }
 
 PopulationCounts Placement::adjust_population() {

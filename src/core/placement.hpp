@@ -138,6 +138,7 @@ class Placement {
   void rebalance_now();
   bool far_too_few() const;
   bool monitor_stops(double fraction);
+  void repair_defects();
   void finish();
   PopulationCounts count_population_change(PopulationCounts change);
 

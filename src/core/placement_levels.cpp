@@ -48,6 +48,7 @@ Settings settings_of_level(Settings settings, bool coarsest) {
   settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
   settings.population_share = kPopulationShare;
   settings.population.insert_below += kMoreRoom;
+  settings.defects.bad_below = 0;  // no triangle is handed on
   return settings;
 }
 
@@ -108,6 +109,7 @@ std::vector<GivenNode> Placement::nodes_from_coarser_levels(
       const ProgressPart part{kCoarseShare * (coarser_levels_ - l) / coarser_levels_,
                               kCoarseShare * (coarser_levels_ - l + 1) / coarser_levels_};
       if (outcome != Outcome::stopped) outcome = advance(level_->settings().steps, part);
+      if (outcome != Outcome::stopped) repair_defects();
       nodes = new_nodes(level_->refined(*spacing_of_level(spacing, l - 1)));
     }
     if (outcome != Outcome::stopped) outcome = Outcome::converged;

@@ -33,6 +33,7 @@ Settings::Settings(const Options& o)
   population.insert_below = o.real("insert_below");
   sweep.weight = o.real("sweep_weight");
   repair.rounds = o.integer("repairs");
+  defects.rounds = o.integer("defect_repairs");
   repair.bad_below = o.real("repair_below");
   // The lists must reach beyond the force, or they could never be kept for a step.
   const double least_radius = force_range() + 0.1;

@@ -9,6 +9,7 @@
 #include "forces/population.hpp"
 #include "forces/schemes.hpp"
 #include "stars/bad_triangles.hpp"
+#include "stars/defects.hpp"
 #include "stars/sweep.hpp"
 
 namespace pnpbs {
@@ -33,6 +34,7 @@ struct Settings {
   std::int64_t sweeps;
   SweepRule sweep;
   RepairRule repair;
+  DefectRule defects;
   double list_radius, adjacency_radius;
   double growth_limit;
   std::int64_t max_nodes;

@@ -16,7 +16,8 @@ namespace pnpbs {
 
 struct RepairRule {
   std::int64_t rounds = 10;
-  double bad_below = 0.82;  // shape of a triangle
+  double bad_below = 0.82;    // shape of a triangle
+  double worst_below = 0.82;  // these first
 };
 
 // The quality of a triangle, 2 r_in / R, or the sine of its smallest angle times a weight if that

@@ -196,13 +196,14 @@ double quality(const double* a, const double* b, const double* c) {
 }
 
 quality_summary quality_of(const result* it) {
-  quality_summary all = {0, 1};
+  quality_summary all = {0, 1, 0};
   int64_t t;
   for (t = 0; t < it->triangles; ++t) {
     const int64_t* v = it->corners + 3 * t;
     const double q = quality(it->xy + 2 * v[0], it->xy + 2 * v[1], it->xy + 2 * v[2]);
     all.mean += q / (double)it->triangles;
     all.least = fmin(all.least, q);
+    if (q < 0.95) all.below_95 += 1 / (double)it->triangles;
   }
   return all;
 }

@@ -122,6 +122,7 @@ double clearance(const result* it, int64_t node); /* from boundary edges it does
 double quality(const double* a, const double* b, const double* c);
 typedef struct {
   double mean, least;
+  double below_95; /* share of the triangles */
 } quality_summary;
 quality_summary quality_of(const result* it);
 

@@ -211,9 +211,36 @@ START_TEST(repair_leaves_the_rest_alone) {
 }
 END_TEST
 
+// More triangles count as bad, and so more would bar the worst ones from getting better: they come
+// first.
+START_TEST(a_higher_bound_costs_the_worst_nothing) {
+  std::uint64_t seed = 190;
+  for (const Shape& shape : shapes_to_finish()) {
+    const auto least_with = [&](double bad_below) {
+      LevelRun run = distorted(shape.build, shape.d, seed, [&](pnpbs::Settings& settings) {
+        settings.repair.bad_below = bad_below;
+      });
+      run.renew_stars();
+      const std::vector<Triangle> triangles = triangles_by_id(*run.level);
+      run.level->sweep_and_repair(3);
+      const Places places = places_by_id(*run.level);
+      double least = 1;
+      for (const Triangle& t : triangles)
+        if (places.count(t[0]) * places.count(t[1]) * places.count(t[2]) > 0)
+          least = std::min(least, shape_of(t, places));
+      return least;
+    };
+    ++seed;
+    const double least = least_with(pnpbs::RepairRule{}.worst_below);
+    ck_assert_double_ge(least_with(0.95), least - 1e-9);
+  }
+}
+END_TEST
+
 int main() {
   return run_kernel_suite(
-      "repair", {node_in_the_middle_of_an_edge_goes, stars_close_over_the_hole,
-                 neighbours_do_not_both_go, good_node_with_four_neighbours_stays,
-                 shape_by_the_angles, bad_triangles_get_better, repair_leaves_the_rest_alone});
+      "repair",
+      {node_in_the_middle_of_an_edge_goes, stars_close_over_the_hole, neighbours_do_not_both_go,
+       good_node_with_four_neighbours_stays, shape_by_the_angles, bad_triangles_get_better,
+       repair_leaves_the_rest_alone, a_higher_bound_costs_the_worst_nothing});
 }

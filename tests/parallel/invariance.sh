@@ -83,6 +83,17 @@ compare 5 2 1 2
 compare 8 1 5 1
 compare 16 1 2 1
 require_at_least 20 deleted "no surplus node had to go"
+# Many defects, far from rest, so that repairs have much to try and often bar each other.
+begin graded-square 8 steps=0 levels=0 defect_repairs=6 sweeps=0 repairs=0
+compare 2 1 4 1
+compare 3 2 1 2
+compare 5 1 5 1
+compare 16 1 2 1
+require_at_least 20 inserted "no defect asked for one more node"
+require_at_least 20 deleted "no defect asked for one node less"
+begin "$data/great_lakes.poly" 8 effort=best
+compare 3 1 4 1
+compare 8 2 2 2
 
 # It can fail: no rank sees half of the nodes, and ghost layers too thin give another set.
 line=$(place 8 1 graded-square 2 exchange_interval=2 sweeps=0)
