@@ -161,7 +161,8 @@ void Level::take_next_positions() {
   const double square = largest_of("pnpbs::Level::take_next", chunks, 0.0, [&](std::int64_t c) {
     const std::int64_t first = c * kChunk, last = std::min(first + kChunk, nodes_.count);
     for (std::int64_t i = first; i < last; ++i)
-      if (near_edges_.any_within(i, meeting * nodes_.d(i)) && nodes_.moves(i)) hold_off_boundary(i);
+      if (near_edges_.edge_within(i, meeting * nodes_.d(i)) && nodes_.moves(i))
+        hold_off_boundary(i);
     return largest_way(first, last);
   });
   travelled_ = std::sqrt(square);

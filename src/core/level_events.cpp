@@ -57,8 +57,9 @@ PopulationCounts Level::adjust_population(double refill) {
     const PhaseTimer timer(timers_, Phase::population);
     PopulationRule rule = settings_.population;
     rule.insert_below = std::max(rule.insert_below, refill);
+    const View<char> no_room = nodes_without_room();
     change = choose_population_change<2>(
-        nodes_, lists_, rule, [this](std::int64_t i) { return has_no_room(i); },
+        nodes_, lists_, rule, [&](std::int64_t i) { return no_room(i) != 0; },
         [this](const Point<2>& x, double d) { return fits(x, d); });
   });
   const PhaseTimer timer(timers_, Phase::population);

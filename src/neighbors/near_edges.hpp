@@ -35,7 +35,7 @@ class NearEdges {
   bool any(std::int64_t i) const { return any_(i) != 0; }
 
   // Does an edge come nearer to node i than this, if that is no more than radius * d_i?
-  bool any_within(std::int64_t i, double reach) const { return any(i) && gap_(i) <= reach; }
+  bool edge_within(std::int64_t i, double reach) const { return any(i) && gap_(i) <= reach; }
 
   std::span<const std::int32_t> edges_of(std::int64_t i) const { return edges_.row(i); }
 
