@@ -11,6 +11,7 @@ namespace pnpbs {
 
 void NearEdges::prepare(const DomainMap& map, double radius) {
   radius_ = radius;
+  at_boundary_nodes_.assign(map.boundary().nodes.size(), {});
   const std::int32_t leaves = map.tree().leaf_count();
   leaf_reach_.assign(static_cast<std::size_t>(leaves), 0);
   leaf_offset_.assign(1, 0);
@@ -49,14 +50,35 @@ void NearEdges::add_box(const Point<2>& a, const Point<2>& b, double reach) {
 // Writes the edges near the nodes at consecutive places, one after the other.
 class NearEdges::Finder {
  public:
-  Finder(const NearEdges& edges, const Nodes<2>& nodes, const Buckets<2>& buckets,
-         const DomainMap& map)
+  Finder(NearEdges& edges, const Nodes<2>& nodes, const Buckets<2>& buckets, const DomainMap& map)
       : of_(edges), nodes_(nodes), buckets_(buckets), map_(map) {}
 
   void operator()(std::int64_t i, std::vector<std::int32_t>& out) {
     const std::size_t before = out.size();
+    const double nearest = nodes_.moves(i) ? find(i, out) : find_once(i, out);
+    of_.any_(i) = out.size() > before;
+    if (out.size() > before) of_.gap_(i) = nearest;
+  }
+
+ private:
+  double find_once(std::int64_t i, std::vector<std::int32_t>& out) {
+    const auto b = static_cast<std::size_t>(nodes_.boundary_node(i));
+    Found& found = of_.at_boundary_nodes_[b];
     const double reach = of_.radius_ * nodes_.d(i);
-    const Point<2> x{of_.at_[0](i), of_.at_[1](i)};
+    if (found.reach != reach) {
+      found.reach = 0;
+      found.edges.clear();
+      found.nearest = find(i, found.edges);
+      found.reach = reach;
+    }
+    out.insert(out.end(), found.edges.begin(), found.edges.end());
+    return found.nearest;
+  }
+
+  // Returns the distance from the nearest.
+  double find(std::int64_t i, std::vector<std::int32_t>& out) {
+    const double reach = of_.radius_ * nodes_.d(i);
+    const Point<2> x = point_at<2>(of_.at_, i);
     if (buckets_.bucket_of(i) != bucket_) {
       bucket_ = buckets_.bucket_of(i);
       box_ = map_.tree().fine_box(bucket_);
@@ -74,11 +96,9 @@ class NearEdges::Finder {
       for_boxes_near(leaf, x, reach, keep_if_near);
     else
       map_.for_edges_near(x, reach, keep_if_near);
-    of_.any_(i) = out.size() > before;
-    if (out.size() > before) of_.gap_(i) = nearest;
+    return nearest;
   }
 
- private:
   // Calls visit(edge) for those edges of the leaf whose boxes are within reach of x.
   template <class Visit>
   void for_boxes_near(std::int32_t leaf, const Point<2>& x, double reach,
@@ -110,7 +130,7 @@ class NearEdges::Finder {
     return bits;
   }
 
-  const NearEdges& of_;
+  NearEdges& of_;
   const Nodes<2>& nodes_;
   const Buckets<2>& buckets_;
   const DomainMap& map_;

@@ -22,7 +22,7 @@ class NearEdges {
 
   // At every rebuild of the lists: the edges within radius * d_i of each node, the nodes being at
   // `at`. During the run that is where they were at the last event, so that it does not matter
-  // when the lists are made.
+  // when the lists are made. Those of boundary nodes, which do not move, are found once.
   void build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
              const Buckets<2>& buckets, const DomainMap& map);
 
@@ -68,6 +68,11 @@ class NearEdges {
   }
 
   class Finder;  // of the edges near nodes
+  struct Found {
+    double reach = 0;  // how far was looked; 0: not yet
+    double nearest = 0;
+    std::vector<std::int32_t> edges;
+  };
   void add_box(const Point<2>& a, const Point<2>& b, double reach);
 
   double radius_ = 0;
@@ -76,6 +81,7 @@ class NearEdges {
   std::vector<std::int32_t> leaf_offset_;  // edges near each leaf
   std::vector<std::int32_t> leaf_edges_;
   std::array<std::vector<double>, 2> low_, high_;  // boxes of leaf_edges_, a little too large
+  std::vector<Found> at_boundary_nodes_;
   ChunkedRows<std::int32_t> edges_;
   View<char> any_;
   View<double> gap_;  // to the nearest edge, where there is any
