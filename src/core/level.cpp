@@ -170,7 +170,8 @@ void Level::take_next_positions() {
 }
 
 void Level::hold_off_boundary(std::int64_t i) const {
-  const Point<2> from = nodes_.position(i), to{next_[0](i), next_[1](i)};
+  const Point<2> from = nodes_.position(i), to = point_at<2>(next_, i);
+  if (near_edges_.stays_clear(i, from, to, kBoundaryClearance * nodes_.d(i))) return;
   const KeptOff kept = keep_off(map_, near_edges_.edges_of(i), from, to, nodes_.d(i));
   for (int k = 0; k < 2; ++k) {
     if (kept.position[k] != to[k])

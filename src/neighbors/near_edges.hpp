@@ -37,6 +37,16 @@ class NearEdges {
   // Does an edge come nearer to node i than this, if that is no more than radius * d_i?
   bool edge_within(std::int64_t i, double reach) const { return any(i) && gap_(i) <= reach; }
 
+  // Does node i, which has edges near it, stay clear of all of them by more than `clearance` and by
+  // more than the way itself when it goes from one point to another? As far as its gap and how far
+  // it has come since tell: true is sure, false is not.
+  bool stays_clear(std::int64_t i, const Point<2>& from, const Point<2>& to,
+                   double clearance) const {
+    constexpr double kRounding = 1 + 1e-8;
+    const double come = distance<2>(point_at<2>(at_, i), to);
+    return gap_(i) > kRounding * (come + std::max(clearance, distance<2>(from, to)));
+  }
+
   std::span<const std::int32_t> edges_of(std::int64_t i) const { return edges_.row(i); }
 
   // Are the nodes where they were for build()?
