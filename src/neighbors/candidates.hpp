@@ -67,14 +67,19 @@ class Candidates {
         visit(found_[index(w * kTestWord + std::countr_zero(left))].node);
   }
 
-  // Drops those for which keep(j) does not hold.
+  // Drops the pairs for which keep(i, j), which must be symmetric, does not hold. Two nodes of the
+  // bucket are asked for once.
   template <class Keep>
-  void keep_neighbours(std::int64_t i, const Keep& keep) {
-    std::uint64_t* const bits = bits_.data() + index(i - first_) * index(words_);
-    for (std::int32_t w = 0; w < words_; ++w)
-      for (std::uint64_t left = bits[w]; left != 0; left &= left - 1)
-        if (!keep(found_[index(w * kTestWord + std::countr_zero(left))].node))
-          bits[w] &= ~(left & (~left + 1));
+  void keep_pairs(const Keep& keep) {
+    for (std::int32_t o = 0; o < last_ - first_; ++o)
+      for (std::int32_t w = 0; w < words_; ++w)
+        for (std::uint64_t left = row(o)[w]; left != 0; left &= left - 1) {
+          const std::int32_t c = w * kTestWord + std::countr_zero(left), j = node(c);
+          const bool own = first_ <= j && j < last_;
+          if ((own && j - first_ < o) || keep(first_ + o, j)) continue;
+          drop(o, c);
+          if (own) drop(j - first_, own_[index(o)]);
+        }
   }
 
  private:
@@ -90,8 +95,13 @@ class Candidates {
 
   static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
   static std::int32_t groups_of(std::int32_t n) { return (n + kTestGroup - 1) / kTestGroup; }
-  const std::uint64_t* bits_of(std::int64_t i) const {
-    return bits_.data() + index(i - first_) * index(words_);
+  const std::uint64_t* row(std::int64_t own) const {
+    return bits_.data() + index(own) * index(words_);
+  }
+  const std::uint64_t* bits_of(std::int64_t i) const { return row(i - first_); }
+  void drop(std::int32_t own, std::int32_t c) {
+    bits_[index(own) * index(words_) + index(c / kTestWord)] &=
+        ~(std::uint64_t{1} << (c % kTestWord));
   }
   Surroundings surroundings(const Nodes<Dim>& nodes) const;
   void add_near(const Nodes<Dim>& nodes, const Surroundings& around, std::int32_t first,
