@@ -56,8 +56,10 @@ void BoundarySight::look_from(const Nodes<2>& nodes, std::int64_t i, const NearE
 }
 
 bool BoundarySight::sees(std::int32_t b, std::int32_t c) const {
-  const std::vector<std::int32_t>& row = seen_[static_cast<std::size_t>(b)];
-  return std::binary_search(row.begin(), row.end(), c);
+  // Some ten, compared side by side.
+  bool seen = false;
+  for (const std::int32_t other : seen_[static_cast<std::size_t>(b)]) seen = seen | (other == c);
+  return seen;
 }
 
 bool SightPastEdges::sees_past_edges(std::int64_t wide, std::int64_t other) const {
