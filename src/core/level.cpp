@@ -76,12 +76,22 @@ bool Level::lists_may_miss_a_pair() const {
   return !lists_valid_ || travelled_ + ahead > 0.5 * (lists_.radius() - settings_.force_range());
 }
 
-void Level::rebuild_lists() { rebuild_lists(settings_.list_radius, nodes_.anchor); }
+void Level::rebuild_lists() {
+  rebuild_lists(settings_.list_radius, nodes_.anchor);
+  reserve_field<2>(listed_, "pnpbs::Level::listed", nodes_.capacity());
+  for_each("pnpbs::Level::listed", nodes_.count, [this](std::int64_t i) {
+    for (int k = 0; k < 2; ++k) listed_[k](i) = nodes_.x[k](i);
+  });
+  travelled_ = 0;
+  lists_valid_ = true;
+}
 
-// At the present positions; the next step makes its own again.
+// At the present positions; the next step makes its own again. Until then there are stars, and no
+// need to know where nodes were: the two take their memory in turn.
 void Level::rebuild_lists(double radius) {
-  rebuild_lists(radius, nodes_.x);
+  listed_ = {};
   lists_valid_ = false;
+  rebuild_lists(radius, nodes_.x);
 }
 
 // An event: from now on visibility is judged from here.
@@ -104,13 +114,7 @@ void Level::rebuild_lists(double radius, const Field<2>& seen_from) {
   lists_.build(nodes_, buckets_, radius,
                SightPastEdges{nodes_, near_edges_, boundary_sight_, map_, fans_});
   reserve_field<2>(next_, "pnpbs::Level::next", nodes_.capacity());
-  reserve_field<2>(listed_, "pnpbs::Level::listed", nodes_.capacity());
   set_padding();
-  for_each("pnpbs::Level::listed", nodes_.count, [this](std::int64_t i) {
-    for (int k = 0; k < 2; ++k) listed_[k](i) = nodes_.x[k](i);
-  });
-  travelled_ = 0;
-  lists_valid_ = true;
   ++rebuilds_;
   if (work_is_old_) count_work();
 }
