@@ -50,7 +50,7 @@ void Level::change_settings(const Settings& settings) {
   // Nodes count as far from the boundary by the steps that were left since their anchors.
   if (meeting_radius() != meeting_before) drop_anchors();
   if (edge_radius() == edges_before) return;
-  near_edges_.prepare(map_, edge_radius());
+  near_edges_.prepare(map_, *links_, edge_radius());
   lists_valid_ = false;
 }
 

@@ -62,10 +62,12 @@ class DomainMap {
   template <class Visit>
   void for_edges_near(const Point<2>& x, double reach, const Visit& visit) const {
     const Box<2> box{{x[0] - reach, x[1] - reach}, {x[0] + reach, x[1] + reach}};
-    tree_.for_leaves_in(box, [&](std::int32_t leaf) {
-      for (std::int32_t e = edge_offset_[index(leaf)]; e < edge_offset_[index(leaf) + 1]; ++e)
-        visit(leaf_edges_[static_cast<std::size_t>(e)]);
-    });
+    tree_.for_leaves_in(box, [&](std::int32_t leaf) { for_edges_of_leaf(leaf, visit); });
+  }
+  template <class Visit>
+  void for_edges_of_leaf(std::int32_t leaf, const Visit& visit) const {
+    for (std::int32_t e = edge_offset_[index(leaf)]; e < edge_offset_[index(leaf) + 1]; ++e)
+      visit(leaf_edges_[static_cast<std::size_t>(e)]);
   }
 
   const Point<2>& edge_begin(std::int32_t e) const { return edge_ends_[index(e)].begin; }

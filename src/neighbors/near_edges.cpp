@@ -9,7 +9,7 @@
 
 namespace pnpbs {
 
-void NearEdges::prepare(const DomainMap& map, double radius) {
+void NearEdges::prepare(const DomainMap& map, const LeafLinks<2>& links, double radius) {
   radius_ = radius;
   at_boundary_nodes_.assign(map.boundary().nodes.size(), {});
   const std::int32_t leaves = map.tree().leaf_count();
@@ -22,19 +22,31 @@ void NearEdges::prepare(const DomainMap& map, double radius) {
   }
   std::vector<std::int32_t> near;
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    near.clear();
-    const std::int32_t cell = map.tree().leaf_cell(leaf);
     const double reach = kRoomForGrowth * radius * map.leaf_largest_spacing(leaf);
     leaf_reach_[static_cast<std::size_t>(leaf)] = reach;
-    const double half_diagonal = 0.7072 * map.tree().cell_side(cell);
-    map.for_edges_near(map.tree().cell_centre(cell), half_diagonal + reach,
-                       [&](std::int32_t e) { near.push_back(e); });
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    gather_near(map, links, leaf, near);
     leaf_edges_.insert(leaf_edges_.end(), near.begin(), near.end());
     for (std::int32_t e : near) add_box(map.edge_begin(e), map.edge_end(e), reach);
     leaf_offset_.push_back(static_cast<std::int32_t>(leaf_edges_.size()));
   }
+}
+
+// All edges within its reach of a leaf, and some more, by number.
+void NearEdges::gather_near(const DomainMap& map, const LeafLinks<2>& links, std::int32_t leaf,
+                            std::vector<std::int32_t>& near) const {
+  near.clear();
+  const auto gather = [&](std::int32_t e) { near.push_back(e); };
+  const double reach = leaf_reach_[static_cast<std::size_t>(leaf)];
+  if (reach <= links.reach[static_cast<std::size_t>(leaf)]) {
+    links.graph.for_neighbours(leaf,
+                               [&](std::int32_t other) { map.for_edges_of_leaf(other, gather); });
+  } else {
+    const std::int32_t cell = map.tree().leaf_cell(leaf);
+    const double half_diagonal = 0.7072 * map.tree().cell_side(cell);
+    map.for_edges_near(map.tree().cell_centre(cell), half_diagonal + reach, gather);
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
 }
 
 // Larger than the edge's own by what rounding can do to a distance from it.
@@ -54,6 +66,9 @@ class NearEdges::Finder {
       : of_(edges), nodes_(nodes), buckets_(buckets), map_(map) {}
 
   void operator()(std::int64_t i, std::vector<std::int32_t>& out) {
+    if (buckets_.bucket_of(i) != bucket_) look_at_bucket(buckets_.bucket_of(i));
+    of_.any_(i) = 0;
+    if (nothing_near_) return;
     const std::size_t before = out.size();
     const double nearest = nodes_.moves(i) ? find(i, out) : find_once(i, out);
     of_.any_(i) = out.size() > before;
@@ -61,6 +76,17 @@ class NearEdges::Finder {
   }
 
  private:
+  // Most buckets have no edge near them, and all of their nodes were in their leaf.
+  void look_at_bucket(std::int32_t bucket) {
+    bucket_ = bucket;
+    box_ = map_.tree().fine_box(bucket);
+    const double reach = of_.leaf_reach_[static_cast<std::size_t>(bucket)];
+    nothing_near_ = of_.leaf_is_clear(bucket);
+    for (std::int64_t i = buckets_.begin(bucket); nothing_near_ && i < buckets_.end(bucket); ++i)
+      nothing_near_ = map_.tree().fine_box_holds(box_, point_at<2>(of_.at_, i)) &&
+                      of_.radius_ * nodes_.d(i) <= reach;
+  }
+
   double find_once(std::int64_t i, std::vector<std::int32_t>& out) {
     const auto b = static_cast<std::size_t>(nodes_.boundary_node(i));
     Found& found = of_.at_boundary_nodes_[b];
@@ -79,10 +105,6 @@ class NearEdges::Finder {
   double find(std::int64_t i, std::vector<std::int32_t>& out) {
     const double reach = of_.radius_ * nodes_.d(i);
     const Point<2> x = point_at<2>(of_.at_, i);
-    if (buckets_.bucket_of(i) != bucket_) {
-      bucket_ = buckets_.bucket_of(i);
-      box_ = map_.tree().fine_box(bucket_);
-    }
     const std::int32_t leaf =
         map_.tree().fine_box_holds(box_, x) ? bucket_ : map_.tree().leaf_at(x);
     double nearest = reach;
@@ -135,7 +157,8 @@ class NearEdges::Finder {
   const Buckets<2>& buckets_;
   const DomainMap& map_;
   std::int32_t bucket_ = -1;
-  Box<2> box_{};  // of the bucket
+  Box<2> box_{};               // of the bucket
+  bool nothing_near_ = false;  // to any node of it
 };
 
 void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,

@@ -17,8 +17,8 @@ namespace pnpbs {
 
 class NearEdges {
  public:
-  // Once per level: which edges come near which leaf.
-  void prepare(const DomainMap& map, double radius);
+  // Once per level: which edges come near which leaf. The links tell which leaves are near it.
+  void prepare(const DomainMap& map, const LeafLinks<2>& links, double radius);
 
   // At every rebuild of the lists: the edges within radius * d_i of each node, the nodes being at
   // `at`. During the run that is where they were at the last event, so that it does not matter
@@ -83,6 +83,8 @@ class NearEdges {
     double nearest = 0;
     std::vector<std::int32_t> edges;
   };
+  void gather_near(const DomainMap& map, const LeafLinks<2>& links, std::int32_t leaf,
+                   std::vector<std::int32_t>& near) const;
   void add_box(const Point<2>& a, const Point<2>& b, double reach);
 
   double radius_ = 0;
