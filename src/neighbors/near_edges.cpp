@@ -67,12 +67,14 @@ class NearEdges::Finder {
 
   void operator()(std::int64_t i, std::vector<std::int32_t>& out) {
     if (buckets_.bucket_of(i) != bucket_) look_at_bucket(buckets_.bucket_of(i));
-    of_.any_(i) = 0;
-    if (nothing_near_) return;
+    if (nothing_near_) {
+      of_.any_(i) = 0;
+      of_.gap_(i) = of_.radius_ * nodes_.d(i);
+      return;
+    }
     const std::size_t before = out.size();
-    const double nearest = nodes_.moves(i) ? find(i, out) : find_once(i, out);
+    of_.gap_(i) = nodes_.moves(i) ? find(i, out) : find_once(i, out);
     of_.any_(i) = out.size() > before;
-    if (out.size() > before) of_.gap_(i) = nearest;
   }
 
  private:
@@ -101,7 +103,7 @@ class NearEdges::Finder {
     return found.nearest;
   }
 
-  // Returns the distance from the nearest.
+  // Returns the distance from the nearest, or how far was looked.
   double find(std::int64_t i, std::vector<std::int32_t>& out) {
     const double reach = of_.radius_ * nodes_.d(i);
     const Point<2> x = point_at<2>(of_.at_, i);

@@ -60,9 +60,9 @@ class NearEdges {
 
   // Is no edge near enough to the two nodes to meet the way between them? Whatever meets it has
   // distances from the two that add up to no more than its length.
-  bool off_the_way(const Nodes<2>& nodes, std::int64_t i, std::int64_t j) const {
+  bool off_the_way(std::int64_t i, std::int64_t j) const {
     constexpr double kRounding = 1 - 1e-9;
-    const double gaps = kRounding * (gap(nodes, i) + gap(nodes, j));
+    const double gaps = kRounding * (gap_(i) + gap_(j));
     const double x = at_[0](i) - at_[0](j), y = at_[1](i) - at_[1](j);
     return x * x + y * y < gaps * gaps;
   }
@@ -72,11 +72,6 @@ class NearEdges {
                            std::int64_t i, std::int64_t j, std::int64_t wide) const;
 
  private:
-  // To the nearest edge, radius * d if none is nearer.
-  double gap(const Nodes<2>& nodes, std::int64_t i) const {
-    return any(i) ? gap_(i) : radius_ * nodes.d(i);
-  }
-
   class Finder;  // of the edges near nodes
   struct Found {
     double reach = 0;  // how far was looked; 0: not yet
@@ -96,7 +91,7 @@ class NearEdges {
   std::vector<Found> at_boundary_nodes_;
   ChunkedRows<std::int32_t> edges_;
   View<char> any_;
-  View<double> gap_;  // to the nearest edge, where there is any
+  View<double> gap_;  // to the nearest edge, radius * d if none is nearer
 };
 
 // Have the boxes of segments xy and ab no point in common?
