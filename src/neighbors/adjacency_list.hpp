@@ -76,11 +76,8 @@ template <int Dim>
 template <class Sight>
 void AdjacencyList<Dim>::BlockWriter<Sight>::look_at_bucket(std::int32_t bucket) {
   candidates.gather(nodes, buckets, radius, bucket);
-  bool all_visible = true;
-  for (std::int32_t c = 0; c < candidates.count(); ++c)
-    all_visible = all_visible && !sight.may_hide(candidates.node(c));
-  if (!all_visible)
-    candidates.keep_pairs([&](std::int64_t i, std::int64_t j) { return sight.visible(i, j); });
+  candidates.keep_pairs([&](std::int64_t i) { return sight.may_hide(i); },
+                        [&](std::int64_t i, std::int64_t j) { return sight.visible(i, j); });
 }
 
 template <int Dim>
