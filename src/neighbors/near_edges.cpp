@@ -85,28 +85,41 @@ class NearEdges::Finder {
     const double reach = of_.leaf_reach_[static_cast<std::size_t>(bucket)];
     nothing_near_ = of_.leaf_is_clear(bucket);
     for (std::int64_t i = buckets_.begin(bucket); nothing_near_ && i < buckets_.end(bucket); ++i)
-      nothing_near_ = map_.tree().fine_box_holds(box_, point_at<2>(of_.at_, i)) &&
-                      of_.radius_ * nodes_.d(i) <= reach;
+      nothing_near_ =
+          map_.tree().fine_box_holds(box_, of_.place_of(i)) && of_.radius_ * nodes_.d(i) <= reach;
   }
 
   double find_once(std::int64_t i, std::vector<std::int32_t>& out) {
-    const auto b = static_cast<std::size_t>(nodes_.boundary_node(i));
-    Found& found = of_.at_boundary_nodes_[b];
+    const std::int32_t b = nodes_.boundary_node(i);
+    Found& found = of_.at_boundary_nodes_[static_cast<std::size_t>(b)];
     const double reach = of_.radius_ * nodes_.d(i);
     if (found.reach != reach) {
       found.reach = 0;
       found.edges.clear();
       found.nearest = find(i, found.edges);
+      found.beyond = reach;
+      for (std::int32_t e : found.edges)
+        found.beyond = std::min(found.beyond, distance_beyond(b, e, of_.place_of(i)));
       found.reach = reach;
     }
     out.insert(out.end(), found.edges.begin(), found.edges.end());
     return found.nearest;
   }
 
+  // From boundary node b, at x, to an edge; to the far end of its own.
+  double distance_beyond(std::int32_t b, std::int32_t e, const Point<2>& x) const {
+    const BoundaryEdge& edge = map_.edge(e);
+    const bool begins = edge.begin == b, ends = edge.end == b;
+    if (begins && ends) return kFarAway;  // a fixed node
+    if (begins) return distance<2>(x, map_.edge_end(e));
+    if (ends) return distance<2>(x, map_.edge_begin(e));
+    return distance_to_segment(map_.edge_begin(e), map_.edge_end(e), x);
+  }
+
   // Returns the distance from the nearest, or how far was looked.
   double find(std::int64_t i, std::vector<std::int32_t>& out) {
     const double reach = of_.radius_ * nodes_.d(i);
-    const Point<2> x = point_at<2>(of_.at_, i);
+    const Point<2> x = of_.place_of(i);
     const std::int32_t leaf =
         map_.tree().fine_box_holds(box_, x) ? bucket_ : map_.tree().leaf_at(x);
     double nearest = reach;
@@ -177,9 +190,8 @@ void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& 
 bool NearEdges::way_between_is_free(const Nodes<2>& nodes, const DomainMap& map,
                                     const BoundaryFans& fans, std::int64_t i, std::int64_t j,
                                     std::int64_t wide) const {
-  const Point<2> x{at_[0](i), at_[1](i)}, y{at_[0](j), at_[1](j)};
-  return way_is_free(map, fans, x, nodes.boundary_node(i), y, nodes.boundary_node(j),
-                     edges_of(wide));
+  return way_is_free(map, fans, place_of(i), nodes.boundary_node(i), place_of(j),
+                     nodes.boundary_node(j), edges_of(wide));
 }
 
 }  // namespace pnpbs
