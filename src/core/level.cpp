@@ -50,7 +50,7 @@ void Level::change_settings(const Settings& settings) {
   // Nodes count as far from the boundary by the steps that were left since their anchors.
   if (meeting_radius() != meeting_before) drop_anchors();
   if (edge_radius() == edges_before) return;
-  near_edges_.prepare(map_, edge_radius());
+  near_edges_.prepare(map_, *links_, edge_radius());
   lists_valid_ = false;
 }
 
@@ -76,12 +76,22 @@ bool Level::lists_may_miss_a_pair() const {
   return !lists_valid_ || travelled_ + ahead > 0.5 * (lists_.radius() - settings_.force_range());
 }
 
-void Level::rebuild_lists() { rebuild_lists(settings_.list_radius, nodes_.anchor); }
+void Level::rebuild_lists() {
+  rebuild_lists(settings_.list_radius, nodes_.anchor);
+  reserve_field<2>(listed_, "pnpbs::Level::listed", nodes_.capacity());
+  for_each("pnpbs::Level::listed", nodes_.count, [this](std::int64_t i) {
+    for (int k = 0; k < 2; ++k) listed_[k](i) = nodes_.x[k](i);
+  });
+  travelled_ = 0;
+  lists_valid_ = true;
+}
 
-// At the present positions; the next step makes its own again.
+// At the present positions; the next step makes its own again. Until then there are stars, and no
+// need to know where nodes were: the two take their memory in turn.
 void Level::rebuild_lists(double radius) {
-  rebuild_lists(radius, nodes_.x);
+  listed_ = {};
   lists_valid_ = false;
+  rebuild_lists(radius, nodes_.x);
 }
 
 // An event: from now on visibility is judged from here.
@@ -104,13 +114,7 @@ void Level::rebuild_lists(double radius, const Field<2>& seen_from) {
   lists_.build(nodes_, buckets_, radius,
                SightPastEdges{nodes_, near_edges_, boundary_sight_, map_, fans_});
   reserve_field<2>(next_, "pnpbs::Level::next", nodes_.capacity());
-  reserve_field<2>(listed_, "pnpbs::Level::listed", nodes_.capacity());
   set_padding();
-  for_each("pnpbs::Level::listed", nodes_.count, [this](std::int64_t i) {
-    for (int k = 0; k < 2; ++k) listed_[k](i) = nodes_.x[k](i);
-  });
-  travelled_ = 0;
-  lists_valid_ = true;
   ++rebuilds_;
   if (work_is_old_) count_work();
 }
@@ -161,7 +165,8 @@ void Level::take_next_positions() {
   const double square = largest_of("pnpbs::Level::take_next", chunks, 0.0, [&](std::int64_t c) {
     const std::int64_t first = c * kChunk, last = std::min(first + kChunk, nodes_.count);
     for (std::int64_t i = first; i < last; ++i)
-      if (near_edges_.any_within(i, meeting * nodes_.d(i)) && nodes_.moves(i)) hold_off_boundary(i);
+      if (near_edges_.edge_within(i, meeting * nodes_.d(i)) && nodes_.moves(i))
+        hold_off_boundary(i);
     return largest_way(first, last);
   });
   travelled_ = std::sqrt(square);
@@ -169,7 +174,8 @@ void Level::take_next_positions() {
 }
 
 void Level::hold_off_boundary(std::int64_t i) const {
-  const Point<2> from = nodes_.position(i), to{next_[0](i), next_[1](i)};
+  const Point<2> from = nodes_.position(i), to = point_at<2>(next_, i);
+  if (near_edges_.stays_clear(i, from, to, kBoundaryClearance * nodes_.d(i))) return;
   const KeptOff kept = keep_off(map_, near_edges_.edges_of(i), from, to, nodes_.d(i));
   for (int k = 0; k < 2; ++k) {
     if (kept.position[k] != to[k])

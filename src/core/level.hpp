@@ -228,7 +228,7 @@ class Level {
   bool between_edges(std::int64_t i) const;
   template <class Visit>
   void for_coinciding(std::int64_t i, const Visit& visit) const;
-  bool has_no_room(std::int64_t i) const;
+  View<char> nodes_without_room() const;
   std::vector<std::int32_t> crowded_nodes() const;
   void prepare_finish();
   void take_next_positions();

@@ -13,13 +13,14 @@ namespace pnpbs {
 // In the order of memory. The spacing is asked equally often on all ranks: it may live distributed
 // over them. Collective.
 std::vector<double> Level::spacing_at_owned_nodes(const Spacing<2>& spacing) const {
-  constexpr std::int64_t kBatch = 1 << 16;  // bounds the memory for the points handed out
+  constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points handed out
   const std::int64_t last =
       static_cast<std::int64_t>(comm_->largest(static_cast<double>(nodes_.count)));
   std::vector<double> all;
   agreed(*comm_, [&] {
     std::vector<Point<2>> x;
     all.reserve(static_cast<std::size_t>(nodes_.count));
+    x.reserve(static_cast<std::size_t>(std::min(kBatch, nodes_.count)));
     for (std::int64_t first = 0; first < last; first += kBatch) {
       x.clear();
       for (std::int64_t i = first; i < std::min(first + kBatch, nodes_.count); ++i)
@@ -58,8 +59,9 @@ PopulationCounts Level::adjust_population(double refill) {
     const PhaseTimer timer(timers_, Phase::population);
     PopulationRule rule = settings_.population;
     rule.insert_below = std::max(rule.insert_below, refill);
+    const View<char> no_room = nodes_without_room();
     change = choose_population_change<2>(
-        nodes_, lists_, rule, [this](std::int64_t i) { return has_no_room(i); },
+        nodes_, lists_, rule, [&](std::int64_t i) { return no_room(i) != 0; },
         [this](const Point<2>& x, double d) { return fits(x, d); });
   });
   return carry_out(std::move(change));

@@ -103,7 +103,7 @@ void Level::require_same_leaves() const {
 
 // What goes by the leaves of the tree.
 void Level::look_at_new_tree() {
-  near_edges_.prepare(map_, edge_radius());
+  near_edges_.prepare(map_, *links_, edge_radius());
   forget_what_goes_by_leaves();
 }
 

@@ -5,7 +5,6 @@
 #include "core/level.hpp"
 #include "forces/bubble_force.hpp"
 #include "geometry/keep_off.hpp"
-#include "geometry/segments.hpp"
 
 namespace pnpbs {
 
@@ -14,8 +13,8 @@ namespace {
 constexpr double kNearlyCoincide = 0.2;  // in units of d
 
 // Has any node of block b a listed neighbour within so many of its d?
-bool any_within(const Nodes<2>& nodes, const AdjacencyList<2>& lists, double reach,
-                std::int64_t b) {
+bool any_neighbour_within(const Nodes<2>& nodes, const AdjacencyList<2>& lists, double reach,
+                          std::int64_t b) {
   const Positions<2> x = positions_of<2>(nodes.x);
   std::int64_t self[kLanes];
   block_nodes(b, nodes.count, self);
@@ -51,20 +50,27 @@ void Level::for_coinciding(std::int64_t i, const Visit& visit) const {
   });
 }
 
+// As the edges were found where the nodes are.
 bool Level::between_edges(std::int64_t i) const {
-  double gap = kFarAway;
-  for (std::int32_t e : near_edges_.edges_of(i))
-    gap = std::min(gap,
-                   distance_to_segment(map_.edge_begin(e), map_.edge_end(e), nodes_.position(i)));
-  return gap < kLeastClearance * nodes_.d(i);
+  return near_edges_.edge_within(i, kLeastClearance * nodes_.d(i));
 }
 
-// Between boundary edges, or on top of another node: of two that nearly coincide the one with the
-// larger id.
-bool Level::has_no_room(std::int64_t i) const {
-  bool room = !between_edges(i);
-  for_coinciding(i, [&](std::int64_t) { room = false; });
-  return !room;
+// A flag for each node that is between boundary edges, or on top of another node: of two that
+// nearly coincide it is the one with the larger id. Lists must be fresh, and made where the nodes
+// are.
+View<char> Level::nodes_without_room() const {
+  constexpr double kALittleMore = 1.001;  // so that rounding decides nothing here
+  const View<char> no_room = make_view<char>("pnpbs::Level::no_room", nodes_.count);
+  for_each("pnpbs::Level::no_room", lists_.block_count(), [&](std::int64_t b) {
+    const bool look = any_neighbour_within(nodes_, lists_, kALittleMore * kNearlyCoincide, b);
+    for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes_.count); ++i) {
+      no_room(i) = 0;
+      if (!nodes_.moves(i)) continue;
+      no_room(i) = between_edges(i);
+      if (look) for_coinciding(i, [&](std::int64_t) { no_room(i) = 1; });
+    }
+  });
+  return no_room;
 }
 
 // After the last population event nodes may still be pressed into a corner until they coincide.
@@ -87,13 +93,7 @@ PopulationCounts Level::remove_crowded() {
 
 std::vector<std::int32_t> Level::crowded_nodes() const {
   const PhaseTimer timer(timers_, Phase::population);
-  constexpr double kALittleMore = 1.001;  // so that rounding decides nothing here
-  const View<char> no_room = make_view<char>("pnpbs::Level::no_room", nodes_.count);
-  for_each("pnpbs::Level::no_room", lists_.block_count(), [&](std::int64_t b) {
-    const bool look = any_within(nodes_, lists_, kALittleMore * kNearlyCoincide, b);
-    for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes_.count); ++i)
-      no_room(i) = nodes_.moves(i) && (look ? has_no_room(i) : between_edges(i));
-  });
+  const View<char> no_room = nodes_without_room();
   std::vector<std::int32_t> crowded;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!no_room(i)) continue;

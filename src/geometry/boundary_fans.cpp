@@ -15,11 +15,11 @@ int half(const Point<2>& centre, const Point<2>& x) {
   return x[0] > centre[0] ? 0 : 1;
 }
 
-// Does direction a come before b, counter-clockwise from the positive x axis?
-bool before(const Point<2>& centre, const Point<2>& a, const Point<2>& b) {
+// Positive if direction a comes before b, counter-clockwise from the positive x axis, negative if
+// after, 0 if they are the same.
+int before(const Point<2>& centre, const Point<2>& a, const Point<2>& b) {
   const int half_a = half(centre, a), half_b = half(centre, b);
-  if (half_a != half_b) return half_a < half_b;
-  return orientation(centre, a, b) > 0;
+  return half_a != half_b ? half_b - half_a : orientation(centre, a, b);
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ void BoundaryFans::build(const Boundary& boundary) {
     const Point<2> centre = boundary.nodes[n].position;
     std::sort(edges_.begin() + offset_[n], edges_.begin() + offset_[n + 1],
               [&](const FanEdge& a, const FanEdge& b) {
-                return before(centre, position(a.other), position(b.other));
+                return before(centre, position(a.other), position(b.other)) > 0;
               });
   }
 }
@@ -68,9 +68,9 @@ BoundaryFans::Sectors BoundaryFans::sectors_towards(const Boundary& boundary, st
   std::int32_t sector = end(node) - 1;
   for (std::int32_t k = begin(node); k < end(node); ++k) {
     const Point<2>& far = boundary.nodes[static_cast<std::size_t>(edge(k).other)].position;
-    const bool x_before = before(centre, x, far);
-    if (!x_before && !before(centre, far, x)) return {k, k > begin(node) ? k - 1 : end(node) - 1};
-    if (x_before) break;
+    const int x_before = before(centre, x, far);
+    if (x_before == 0) return {k, k > begin(node) ? k - 1 : end(node) - 1};
+    if (x_before > 0) break;
     sector = k;
   }
   return {sector, sector};

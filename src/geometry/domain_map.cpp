@@ -214,7 +214,10 @@ void DomainMap::build_part(const Communicator& comm, const Box<2>& bounds, const
 
 void DomainMap::grow(const Communicator& comm, const Box<2>& bounds, Growth growth,
                      const MaySplit& may_split) {
-  agreed(comm, [&] { growth.sample_boundary_nodes(); });
+  agreed(comm, [&] {
+    gather_edge_ends();
+    growth.sample_boundary_nodes();
+  });
   std::int32_t parents = 0;  // first cell of the depth above
   const auto split_depth = [&](const BackgroundTree<2>& tree, std::int32_t first, std::int32_t last,
                                std::vector<char>& split) {
@@ -240,6 +243,13 @@ void DomainMap::grow(const Communicator& comm, const Box<2>& bounds, Growth grow
   };
   tree_.build(bounds, split_depth, [&](bool more) { return comm.largest(more) > 0; });
   keep_leaves(growth);
+}
+
+void DomainMap::gather_edge_ends() {
+  edge_ends_.clear();
+  for (const BoundaryEdge& e : boundary_->edges)
+    edge_ends_.push_back(
+        {boundary_->nodes[index(e.begin)].position, boundary_->nodes[index(e.end)].position});
 }
 
 void DomainMap::keep_leaves(const Growth& growth) {

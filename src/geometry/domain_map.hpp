@@ -62,18 +62,16 @@ class DomainMap {
   template <class Visit>
   void for_edges_near(const Point<2>& x, double reach, const Visit& visit) const {
     const Box<2> box{{x[0] - reach, x[1] - reach}, {x[0] + reach, x[1] + reach}};
-    tree_.for_leaves_in(box, [&](std::int32_t leaf) {
-      for (std::int32_t e = edge_offset_[index(leaf)]; e < edge_offset_[index(leaf) + 1]; ++e)
-        visit(leaf_edges_[static_cast<std::size_t>(e)]);
-    });
+    tree_.for_leaves_in(box, [&](std::int32_t leaf) { for_edges_of_leaf(leaf, visit); });
+  }
+  template <class Visit>
+  void for_edges_of_leaf(std::int32_t leaf, const Visit& visit) const {
+    for (std::int32_t e = edge_offset_[index(leaf)]; e < edge_offset_[index(leaf) + 1]; ++e)
+      visit(leaf_edges_[static_cast<std::size_t>(e)]);
   }
 
-  const Point<2>& edge_begin(std::int32_t e) const {
-    return boundary_->nodes[index(edge(e).begin)].position;
-  }
-  const Point<2>& edge_end(std::int32_t e) const {
-    return boundary_->nodes[index(edge(e).end)].position;
-  }
+  const Point<2>& edge_begin(std::int32_t e) const { return edge_ends_[index(e)].begin; }
+  const Point<2>& edge_end(std::int32_t e) const { return edge_ends_[index(e)].end; }
   const BoundaryEdge& edge(std::int32_t e) const { return boundary_->edges[index(e)]; }
 
   // Distance from x to the nearest boundary edge, or `reach` if none is nearer.
@@ -87,11 +85,17 @@ class DomainMap {
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   Side side(std::int32_t leaf) const { return side_[index(leaf)]; }
+  void gather_edge_ends();
   void keep_leaves(const Growth& growth);
+
+  struct Ends {
+    Point<2> begin, end;
+  };
 
   BackgroundTree<2> tree_;
   const Boundary* boundary_ = nullptr;
-  std::vector<Side> side_;              // of the leaves
+  std::vector<Ends> edge_ends_;  // of the edges: asked far more often than anything else of them
+  std::vector<Side> side_;       // of the leaves
   std::vector<Point<2>> reference_;     // a point in each leaf ...
   std::vector<char> reference_inside_;  // ... and whether it lies inside
   std::vector<double> leaf_spacing_, leaf_least_, leaf_largest_;

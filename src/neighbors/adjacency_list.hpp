@@ -61,7 +61,6 @@ class AdjacencyList {
     double radius;
     const Sight& sight;
     Candidates<Dim> candidates{};
-    bool all_visible = true;  // of the candidates
 
     void operator()(std::int64_t block, std::vector<std::int32_t>& out);
     void look_at_bucket(std::int32_t bucket);
@@ -77,17 +76,14 @@ template <int Dim>
 template <class Sight>
 void AdjacencyList<Dim>::BlockWriter<Sight>::look_at_bucket(std::int32_t bucket) {
   candidates.gather(nodes, buckets, radius, bucket);
-  all_visible = true;
-  for (std::int32_t c = 0; c < candidates.count(); ++c)
-    all_visible = all_visible && !sight.may_hide(candidates.node(c));
+  candidates.keep_pairs([&](std::int64_t i) { return sight.may_hide(i); },
+                        [&](std::int64_t i, std::int64_t j) { return sight.visible(i, j); });
 }
 
 template <int Dim>
 template <class Sight>
 std::int32_t AdjacencyList<Dim>::BlockWriter<Sight>::find_neighbours(std::int64_t i) {
   if (buckets.bucket_of(i) != candidates.bucket()) look_at_bucket(buckets.bucket_of(i));
-  if (!all_visible)
-    candidates.keep_neighbours(i, [&](std::int64_t j) { return sight.visible(i, j); });
   return candidates.neighbour_count(i);
 }
 

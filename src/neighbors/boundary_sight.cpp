@@ -56,13 +56,19 @@ void BoundarySight::look_from(const Nodes<2>& nodes, std::int64_t i, const NearE
 }
 
 bool BoundarySight::sees(std::int32_t b, std::int32_t c) const {
-  const std::vector<std::int32_t>& row = seen_[static_cast<std::size_t>(b)];
-  return std::binary_search(row.begin(), row.end(), c);
+  // Some ten, compared side by side.
+  bool seen = false;
+  for (const std::int32_t other : seen_[static_cast<std::size_t>(b)]) seen = seen | (other == c);
+  return seen;
 }
 
 bool SightPastEdges::sees_past_edges(std::int64_t wide, std::int64_t other) const {
   const std::int32_t b = nodes.boundary_node(wide), c = nodes.boundary_node(other);
   if (b >= 0 && c >= 0) return boundary_sight.sees(b, c);
+  if (b >= 0 && near_edges.leaves_boundary_behind(wide, b, other))
+    return fans.leads_inside(map.boundary(), b, near_edges.place_of(other));
+  if (c >= 0 && near_edges.leaves_boundary_behind(other, c, wide))
+    return fans.leads_inside(map.boundary(), c, near_edges.place_of(wide));
   return near_edges.way_between_is_free(nodes, map, fans, wide, other, wide);
 }
 

@@ -50,8 +50,9 @@ struct SightPastEdges {
     // radius times the larger spacing.
     const bool i_wide = nodes.d(i) >= nodes.d(j);
     const std::int64_t wide = i_wide ? i : j;
-    return !near_edges.any(wide) || near_edges.off_the_way(nodes, i, j) ||
-           sees_past_edges(wide, i_wide ? j : i);
+    // Which of the first two holds cannot be guessed, that one does can: both are tested.
+    const bool surely = !near_edges.any(wide) | near_edges.off_the_way(i, j);
+    return surely || sees_past_edges(wide, i_wide ? j : i);
   }
 
   bool sees_past_edges(std::int64_t wide, std::int64_t other) const;

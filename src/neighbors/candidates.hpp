@@ -67,14 +67,30 @@ class Candidates {
         visit(found_[index(w * kTestWord + std::countr_zero(left))].node);
   }
 
-  // Drops those for which keep(j) does not hold.
-  template <class Keep>
-  void keep_neighbours(std::int64_t i, const Keep& keep) {
-    std::uint64_t* const bits = bits_.data() + index(i - first_) * index(words_);
-    for (std::int32_t w = 0; w < words_; ++w)
-      for (std::uint64_t left = bits[w]; left != 0; left &= left - 1)
-        if (!keep(found_[index(w * kTestWord + std::countr_zero(left))].node))
-          bits[w] &= ~(left & (~left + 1));
+  // Drops the pairs for which keep(i, j), which must be symmetric, does not hold; asked for once if
+  // both nodes are of the bucket, and only where may_hide(i) or may_hide(j).
+  template <class MayHide, class Keep>
+  void keep_pairs(const MayHide& may_hide, const Keep& keep) {
+    hiding_.assign(index(words_), 0);
+    std::uint64_t any = 0;
+    for (std::int32_t c = 0; c < count_; ++c) {
+      const std::uint64_t hides = may_hide(node(c));
+      hiding_[index(c / kTestWord)] |= hides << (c % kTestWord);
+      any |= hides;
+    }
+    if (any == 0) return;  // nearly always
+    for (std::int32_t o = 0; o < last_ - first_; ++o) {
+      const std::uint64_t all = may_hide(first_ + o) ? ~std::uint64_t{0} : 0;
+      for (std::int32_t w = 0; w < words_; ++w)
+        for (std::uint64_t left = row(o)[w] & (hiding_[index(w)] | all); left != 0;
+             left &= left - 1) {
+          const std::int32_t c = w * kTestWord + std::countr_zero(left), j = node(c);
+          const bool own = first_ <= j && j < last_;
+          if ((own && j - first_ < o) || keep(first_ + o, j)) continue;
+          drop(o, c);
+          if (own) drop(j - first_, own_[index(o)]);
+        }
+    }
   }
 
  private:
@@ -90,8 +106,13 @@ class Candidates {
 
   static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
   static std::int32_t groups_of(std::int32_t n) { return (n + kTestGroup - 1) / kTestGroup; }
-  const std::uint64_t* bits_of(std::int64_t i) const {
-    return bits_.data() + index(i - first_) * index(words_);
+  const std::uint64_t* row(std::int64_t own) const {
+    return bits_.data() + index(own) * index(words_);
+  }
+  const std::uint64_t* bits_of(std::int64_t i) const { return row(i - first_); }
+  void drop(std::int32_t own, std::int32_t c) {
+    bits_[index(own) * index(words_) + index(c / kTestWord)] &=
+        ~(std::uint64_t{1} << (c % kTestWord));
   }
   Surroundings surroundings(const Nodes<Dim>& nodes) const;
   void add_near(const Nodes<Dim>& nodes, const Surroundings& around, std::int32_t first,
@@ -108,8 +129,9 @@ class Candidates {
   std::vector<Found> found_;                // and room for more
   std::array<std::vector<double>, Dim> x_;  // whole groups, filled up with what is near nothing
   std::vector<double> d_;
-  std::vector<std::int32_t> own_;    // places of the bucket's own nodes among the candidates
-  std::vector<std::uint64_t> bits_;  // for each own node: which are its neighbours?
+  std::vector<std::int32_t> own_;      // places of the bucket's own nodes among the candidates
+  std::vector<std::uint64_t> bits_;    // for each own node: which are its neighbours?
+  std::vector<std::uint64_t> hiding_;  // which of them all may hide others?
 };
 
 template <int Dim>

@@ -9,8 +9,9 @@
 
 namespace pnpbs {
 
-void NearEdges::prepare(const DomainMap& map, double radius) {
+void NearEdges::prepare(const DomainMap& map, const LeafLinks<2>& links, double radius) {
   radius_ = radius;
+  at_boundary_nodes_.assign(map.boundary().nodes.size(), {});
   const std::int32_t leaves = map.tree().leaf_count();
   leaf_reach_.assign(static_cast<std::size_t>(leaves), 0);
   leaf_offset_.assign(1, 0);
@@ -21,19 +22,31 @@ void NearEdges::prepare(const DomainMap& map, double radius) {
   }
   std::vector<std::int32_t> near;
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    near.clear();
-    const std::int32_t cell = map.tree().leaf_cell(leaf);
     const double reach = kRoomForGrowth * radius * map.leaf_largest_spacing(leaf);
     leaf_reach_[static_cast<std::size_t>(leaf)] = reach;
-    const double half_diagonal = 0.7072 * map.tree().cell_side(cell);
-    map.for_edges_near(map.tree().cell_centre(cell), half_diagonal + reach,
-                       [&](std::int32_t e) { near.push_back(e); });
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    gather_near(map, links, leaf, near);
     leaf_edges_.insert(leaf_edges_.end(), near.begin(), near.end());
     for (std::int32_t e : near) add_box(map.edge_begin(e), map.edge_end(e), reach);
     leaf_offset_.push_back(static_cast<std::int32_t>(leaf_edges_.size()));
   }
+}
+
+// All edges within its reach of a leaf, and some more, by number.
+void NearEdges::gather_near(const DomainMap& map, const LeafLinks<2>& links, std::int32_t leaf,
+                            std::vector<std::int32_t>& near) const {
+  near.clear();
+  const auto gather = [&](std::int32_t e) { near.push_back(e); };
+  const double reach = leaf_reach_[static_cast<std::size_t>(leaf)];
+  if (reach <= links.reach[static_cast<std::size_t>(leaf)]) {
+    links.graph.for_neighbours(leaf,
+                               [&](std::int32_t other) { map.for_edges_of_leaf(other, gather); });
+  } else {
+    const std::int32_t cell = map.tree().leaf_cell(leaf);
+    const double half_diagonal = 0.7072 * map.tree().cell_side(cell);
+    map.for_edges_near(map.tree().cell_centre(cell), half_diagonal + reach, gather);
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
 }
 
 // Larger than the edge's own by what rounding can do to a distance from it.
@@ -49,18 +62,64 @@ void NearEdges::add_box(const Point<2>& a, const Point<2>& b, double reach) {
 // Writes the edges near the nodes at consecutive places, one after the other.
 class NearEdges::Finder {
  public:
-  Finder(const NearEdges& edges, const Nodes<2>& nodes, const Buckets<2>& buckets,
-         const DomainMap& map)
+  Finder(NearEdges& edges, const Nodes<2>& nodes, const Buckets<2>& buckets, const DomainMap& map)
       : of_(edges), nodes_(nodes), buckets_(buckets), map_(map) {}
 
   void operator()(std::int64_t i, std::vector<std::int32_t>& out) {
-    const std::size_t before = out.size();
-    const double reach = of_.radius_ * nodes_.d(i);
-    const Point<2> x{of_.at_[0](i), of_.at_[1](i)};
-    if (buckets_.bucket_of(i) != bucket_) {
-      bucket_ = buckets_.bucket_of(i);
-      box_ = map_.tree().fine_box(bucket_);
+    if (buckets_.bucket_of(i) != bucket_) look_at_bucket(buckets_.bucket_of(i));
+    if (nothing_near_) {
+      of_.any_(i) = 0;
+      of_.gap_(i) = of_.radius_ * nodes_.d(i);
+      return;
     }
+    const std::size_t before = out.size();
+    of_.gap_(i) = nodes_.moves(i) ? find(i, out) : find_once(i, out);
+    of_.any_(i) = out.size() > before;
+  }
+
+ private:
+  // Most buckets have no edge near them, and all of their nodes were in their leaf.
+  void look_at_bucket(std::int32_t bucket) {
+    bucket_ = bucket;
+    box_ = map_.tree().fine_box(bucket);
+    const double reach = of_.leaf_reach_[static_cast<std::size_t>(bucket)];
+    nothing_near_ = of_.leaf_is_clear(bucket);
+    for (std::int64_t i = buckets_.begin(bucket); nothing_near_ && i < buckets_.end(bucket); ++i)
+      nothing_near_ =
+          map_.tree().fine_box_holds(box_, of_.place_of(i)) && of_.radius_ * nodes_.d(i) <= reach;
+  }
+
+  double find_once(std::int64_t i, std::vector<std::int32_t>& out) {
+    const std::int32_t b = nodes_.boundary_node(i);
+    Found& found = of_.at_boundary_nodes_[static_cast<std::size_t>(b)];
+    const double reach = of_.radius_ * nodes_.d(i);
+    if (found.reach != reach) {
+      found.reach = 0;
+      found.edges.clear();
+      found.nearest = find(i, found.edges);
+      found.beyond = reach;
+      for (std::int32_t e : found.edges)
+        found.beyond = std::min(found.beyond, distance_beyond(b, e, of_.place_of(i)));
+      found.reach = reach;
+    }
+    out.insert(out.end(), found.edges.begin(), found.edges.end());
+    return found.nearest;
+  }
+
+  // From boundary node b, at x, to an edge; to the far end of its own.
+  double distance_beyond(std::int32_t b, std::int32_t e, const Point<2>& x) const {
+    const BoundaryEdge& edge = map_.edge(e);
+    const bool begins = edge.begin == b, ends = edge.end == b;
+    if (begins && ends) return kFarAway;  // a fixed node
+    if (begins) return distance<2>(x, map_.edge_end(e));
+    if (ends) return distance<2>(x, map_.edge_begin(e));
+    return distance_to_segment(map_.edge_begin(e), map_.edge_end(e), x);
+  }
+
+  // Returns the distance from the nearest, or how far was looked.
+  double find(std::int64_t i, std::vector<std::int32_t>& out) {
+    const double reach = of_.radius_ * nodes_.d(i);
+    const Point<2> x = of_.place_of(i);
     const std::int32_t leaf =
         map_.tree().fine_box_holds(box_, x) ? bucket_ : map_.tree().leaf_at(x);
     double nearest = reach;
@@ -74,11 +133,9 @@ class NearEdges::Finder {
       for_boxes_near(leaf, x, reach, keep_if_near);
     else
       map_.for_edges_near(x, reach, keep_if_near);
-    of_.any_(i) = out.size() > before;
-    if (out.size() > before) of_.gap_(i) = nearest;
+    return nearest;
   }
 
- private:
   // Calls visit(edge) for those edges of the leaf whose boxes are within reach of x.
   template <class Visit>
   void for_boxes_near(std::int32_t leaf, const Point<2>& x, double reach,
@@ -110,12 +167,13 @@ class NearEdges::Finder {
     return bits;
   }
 
-  const NearEdges& of_;
+  NearEdges& of_;
   const Nodes<2>& nodes_;
   const Buckets<2>& buckets_;
   const DomainMap& map_;
   std::int32_t bucket_ = -1;
-  Box<2> box_{};  // of the bucket
+  Box<2> box_{};               // of the bucket
+  bool nothing_near_ = false;  // to any node of it
 };
 
 void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
@@ -132,9 +190,8 @@ void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& 
 bool NearEdges::way_between_is_free(const Nodes<2>& nodes, const DomainMap& map,
                                     const BoundaryFans& fans, std::int64_t i, std::int64_t j,
                                     std::int64_t wide) const {
-  const Point<2> x{at_[0](i), at_[1](i)}, y{at_[0](j), at_[1](j)};
-  return way_is_free(map, fans, x, nodes.boundary_node(i), y, nodes.boundary_node(j),
-                     edges_of(wide));
+  return way_is_free(map, fans, place_of(i), nodes.boundary_node(i), place_of(j),
+                     nodes.boundary_node(j), edges_of(wide));
 }
 
 }  // namespace pnpbs

@@ -17,12 +17,12 @@ namespace pnpbs {
 
 class NearEdges {
  public:
-  // Once per level: which edges come near which leaf.
-  void prepare(const DomainMap& map, double radius);
+  // Once per level: which edges come near which leaf. The links tell which leaves are near it.
+  void prepare(const DomainMap& map, const LeafLinks<2>& links, double radius);
 
   // At every rebuild of the lists: the edges within radius * d_i of each node, the nodes being at
   // `at`. During the run that is where they were at the last event, so that it does not matter
-  // when the lists are made.
+  // when the lists are made. Those of boundary nodes, which do not move, are found once.
   void build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
              const Buckets<2>& buckets, const DomainMap& map);
 
@@ -35,7 +35,17 @@ class NearEdges {
   bool any(std::int64_t i) const { return any_(i) != 0; }
 
   // Does an edge come nearer to node i than this, if that is no more than radius * d_i?
-  bool any_within(std::int64_t i, double reach) const { return any(i) && gap_(i) <= reach; }
+  bool edge_within(std::int64_t i, double reach) const { return any(i) && gap_(i) <= reach; }
+
+  // Does node i, which has edges near it, stay clear of all of them by more than `clearance` and by
+  // more than the way itself when it goes from one point to another? As far as its gap and how far
+  // it has come since tell: true is sure, false is not.
+  bool stays_clear(std::int64_t i, const Point<2>& from, const Point<2>& to,
+                   double clearance) const {
+    constexpr double kRounding = 1 + 1e-8;
+    const double come = distance<2>(place_of(i), to);
+    return gap_(i) > kRounding * (come + std::max(clearance, distance<2>(from, to)));
+  }
 
   std::span<const std::int32_t> edges_of(std::int64_t i) const { return edges_.row(i); }
 
@@ -48,13 +58,19 @@ class NearEdges {
 
   double radius() const { return radius_; }
 
+  // Where node i was for build().
+  Point<2> place_of(std::int64_t i) const { return point_at<2>(at_, i); }
+
   // Is no edge near enough to the two nodes to meet the way between them? Whatever meets it has
   // distances from the two that add up to no more than its length.
-  bool off_the_way(const Nodes<2>& nodes, std::int64_t i, std::int64_t j) const {
-    constexpr double kRounding = 1 - 1e-9;
-    const double gaps = kRounding * (gap(nodes, i) + gap(nodes, j));
-    const double x = at_[0](i) - at_[0](j), y = at_[1](i) - at_[1](j);
-    return x * x + y * y < gaps * gaps;
+  bool off_the_way(std::int64_t i, std::int64_t j) const {
+    return shorter_than(i, j, gap_(i) + gap_(j));
+  }
+
+  // Does the way from boundary node b, the number of node i, to inner node j meet nothing of the
+  // boundary but perhaps b's own edges?
+  bool leaves_boundary_behind(std::int64_t i, std::int32_t b, std::int64_t j) const {
+    return shorter_than(i, j, at_boundary_nodes_[static_cast<std::size_t>(b)].beyond + gap_(j));
   }
 
   // Does none of the edges near node `wide` separate nodes i and j?
@@ -62,12 +78,22 @@ class NearEdges {
                            std::int64_t i, std::int64_t j, std::int64_t wide) const;
 
  private:
-  // To the nearest edge, radius * d if none is nearer.
-  double gap(const Nodes<2>& nodes, std::int64_t i) const {
-    return any(i) ? gap_(i) : radius_ * nodes.d(i);
+  // Is the way between two nodes surely shorter than that?
+  bool shorter_than(std::int64_t i, std::int64_t j, double length) const {
+    constexpr double kRounding = 1 - 1e-9;
+    const double x = at_[0](i) - at_[0](j), y = at_[1](i) - at_[1](j);
+    return x * x + y * y < (kRounding * length) * (kRounding * length);
   }
 
   class Finder;  // of the edges near nodes
+  struct Found {
+    double reach = 0;  // how far was looked; 0: not yet
+    double nearest = 0;
+    double beyond = 0;  // to the nearest edge or node of the boundary that is not its own
+    std::vector<std::int32_t> edges;
+  };
+  void gather_near(const DomainMap& map, const LeafLinks<2>& links, std::int32_t leaf,
+                   std::vector<std::int32_t>& near) const;
   void add_box(const Point<2>& a, const Point<2>& b, double reach);
 
   double radius_ = 0;
@@ -76,9 +102,10 @@ class NearEdges {
   std::vector<std::int32_t> leaf_offset_;  // edges near each leaf
   std::vector<std::int32_t> leaf_edges_;
   std::array<std::vector<double>, 2> low_, high_;  // boxes of leaf_edges_, a little too large
+  std::vector<Found> at_boundary_nodes_;           // by number
   ChunkedRows<std::int32_t> edges_;
   View<char> any_;
-  View<double> gap_;  // to the nearest edge, where there is any
+  View<double> gap_;  // to the nearest edge, radius * d if none is nearer
 };
 
 // Have the boxes of segments xy and ab no point in common?

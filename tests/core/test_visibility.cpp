@@ -196,6 +196,30 @@ START_TEST(ways_through_boundary_nodes) {
 }
 END_TEST
 
+// Nodes driven against the boundary, far between two events: none comes nearer than it may, whether
+// its edges are tested in a step or not.
+START_TEST(nodes_stay_off_the_boundary) {
+  LevelRun run([](PlaneDomain& p) { shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1)); },
+               constant(0.1), {{"event_interval", "100"}});
+  run.level->fill();
+  run.steps(1, false, false);
+  const double d = 0.1, toward_wall = -1.5 * d;
+  std::int64_t at_wall = 0;
+  for (int step = 0; step < 60; ++step) {
+    const pnpbs::Nodes<2>& nodes = run.level->nodes();
+    for (std::int64_t i = 0; i < nodes.count; ++i)
+      if (nodes.moves(i)) nodes.v[0](i) = toward_wall;
+    run.steps(1, false, false);
+    for (std::int64_t i = 0; i < nodes.count; ++i) {
+      if (!nodes.moves(i)) continue;
+      ck_assert_double_ge(nodes.x[0](i), 0.4 * d * (1 - 1e-9));
+      at_wall += nodes.x[0](i) < 0.5 * d;
+    }
+  }
+  ck_assert_int_gt(at_wall, 100);
+}
+END_TEST
+
 // How far a node may come until the next event decides whether the boundary concerns it. Where
 // options change that, nodes count from where they are.
 START_TEST(changed_options_count_from_here) {
@@ -224,5 +248,5 @@ END_TEST
 int main() {
   return run_kernel_suite("visibility",
                           {boundaries_separate, shorelines_separate, ways_through_boundary_nodes,
-                           changed_options_count_from_here});
+                           nodes_stay_off_the_boundary, changed_options_count_from_here});
 }

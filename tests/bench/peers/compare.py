@@ -21,6 +21,7 @@ import force_evaluation  # noqa: E402
 import machine  # noqa: E402
 import page  # noqa: E402
 from adapters import with_cgal, with_gmsh, with_jigsaw, with_pnpbs, with_triangle  # noqa: E402
+from adapters.tool import DoesNotStart, command  # noqa: E402
 from cases import CASES  # noqa: E402
 from evaluate import evaluate  # noqa: E402
 from measure import Failed  # noqa: E402
@@ -77,15 +78,27 @@ def arguments():
 
 
 def sort_out(args):
-    """Tools that can run, and what is left out with the reason."""
+    """Tools that can run with their versions, and what is left out with the reason."""
     tools = [*with_pnpbs.tools(args.pnpbs, args.ours), *with_gmsh.tools(), *with_cgal.tools(),
              *with_triangle.tools(), *with_jigsaw.tools()]
     wanted = [t for t in tools
               if not args.tools or any(word.lower() in t.name.lower() for word in args.tools)]
-    there = [t for t in wanted if t.available()]
-    left_out = [{"name": t.name, "why": f"not found; needs {t.needs}"}
-                for t in wanted if not t.available()]
-    return there, left_out
+    left_out = []
+    versions = [version_or_why_not(t.name, t.available(), t.needs, t.version, left_out)
+                for t in wanted]
+    return [(t, version) for t, version in zip(wanted, versions) if version], left_out
+
+
+def version_or_why_not(name, is_there, needs, ask_version, left_out):
+    """The version of a tool that starts; of others None, and the reason in left_out."""
+    try:
+        if is_there:
+            return ask_version()
+        why = f"not found; needs {needs}"
+    except DoesNotStart as error:
+        why = f"found, but does not start: {error}"
+    left_out.append({"name": name, "why": why})
+    return None
 
 
 def place(tool, case, args):
@@ -108,14 +121,15 @@ def run_all(args):
     if not there:
         sys.exit("no tool to run:\n" + "\n".join(f"  {t['name']}: {t['why']}" for t in left_out))
     forces = not args.no_forces
-    if forces and not force_evaluation.tool.command("lmp"):
-        left_out.append({"name": "LAMMPS", "why": "not found; needs the command lmp (Debian's "
-                                                  "package lammps)"})
+    lammps_version = forces and version_or_why_not(
+        "LAMMPS", command("lmp"), "the command lmp (Debian's package lammps)",
+        force_evaluation.lammps_version, left_out)
     results = {"machine": machine.describe(), "command": shown_command(), "repeat": args.repeat,
-               "tools": [{"name": t.name, "version": t.version(), "setting": t.setting}
-                         for t in there],
+               "tools": [{"name": t.name, "version": version, "setting": t.setting}
+                         for t, version in there],
                "left_out": left_out + NOT_COMPARED, "placements": [], "forces": []}
-    jobs = [(nodes, name, tool) for nodes in args.nodes for name in args.cases for tool in there]
+    jobs = [(nodes, name, tool) for nodes in args.nodes for name in args.cases
+            for tool, _ in there]
     progress = Progress(len(jobs) + (len(args.nodes) if forces else 0))
     cases = {(n, name): CASES[name](n) for n in args.nodes for name in args.cases}
     for nodes, name, tool in jobs:
@@ -132,24 +146,24 @@ def run_all(args):
     for nodes in args.nodes if forces else []:
         progress.begin(f"force evaluation, {nodes}")
         try:
-            results["forces"] += compare_forces(args, nodes)
+            results["forces"] += compare_forces(args, bool(lammps_version), nodes)
         except (Failed, OSError) as error:
             results["left_out"].append({"name": f"force evaluation, {nodes} nodes",
                                         "why": str(error)})
         progress.end()
     if any(r["tool"].startswith("LAMMPS") for r in results["forces"]):
-        results["tools"].append({"name": "LAMMPS", "version": force_evaluation.lammps_version(),
+        results["tools"].append({"name": "LAMMPS", "version": lammps_version,
                                  "setting": "force evaluation, at the end of this page"})
     return results
 
 
-def compare_forces(args, nodes):
+def compare_forces(args, with_lammps, nodes):
     """Medians over the repetitions, tool by tool."""
     runs = []
     with tempfile.TemporaryDirectory(prefix="pnpbs-compare-") as folder:
         for _ in range(args.repeat):
-            runs.append(force_evaluation.compare(with_pnpbs.find(args.pnpbs), nodes, Path(folder),
-                                                 args.time_limit))
+            runs.append(force_evaluation.compare(with_pnpbs.find(args.pnpbs), with_lammps, nodes,
+                                                 Path(folder), args.time_limit))
     return [{**rows[0], "nanoseconds": statistics.median(r["nanoseconds"] for r in rows)}
             for rows in zip(*runs)]
 

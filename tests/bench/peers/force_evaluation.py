@@ -42,7 +42,7 @@ def lammps_rows(nodes, folder, time_limit):
                             skin=round(LIST_RADIUS - 1.5, 6)))
     rows = []
     styles = [("lj/cut", []), ("lj/cut/opt", ["-sf", "opt"])]
-    known = tool.output_of("lmp", "-h")
+    known = tool.answer_of("lmp", "-h")
     for style, suffix in styles:
         if not re.search(rf"\s{style}\s", known):
             continue
@@ -79,14 +79,18 @@ def pnpbs_row(program, nodes, folder, time_limit):
 
 
 def lammps_version():
-    told = re.search(r"Simulator - (.*)", tool.output_of("lmp", "-h"))
-    return told[1] if told else "unknown version"
+    """Raises DoesNotStart."""
+    said = tool.answer_of("lmp", "-h")
+    told = re.search(r"Simulator - (.*)", said)
+    if not told:
+        raise tool.DoesNotStart(f"its help is not that of LAMMPS: {tool.last_line(said)}")
+    return told[1]
 
 
-def compare(program, nodes, folder, time_limit):
+def compare(program, with_lammps, nodes, folder, time_limit):
     rows = []
     if program:
         rows.append(pnpbs_row(program, nodes, folder, time_limit))
-    if tool.command("lmp"):
+    if with_lammps:
         rows += lammps_rows(nodes, folder, time_limit)
     return rows

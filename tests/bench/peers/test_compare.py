@@ -73,11 +73,17 @@ class Compare(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((again / "comparison.md").read_text(), words)
 
+    def fake(self, name, text):
+        """A folder for --path with a program of that name and those lines of shell."""
+        folder = self.folder / "bin"
+        folder.mkdir(exist_ok=True)
+        (folder / name).write_text(text)
+        (folder / name).chmod(0o755)
+        return folder
+
     def test_a_tool_that_fails_is_told(self):
-        fake = self.folder / "bin"
-        fake.mkdir()
-        (fake / "gmsh").write_text("#!/bin/sh\necho 'out of paper' >&2\nexit 7\n")
-        (fake / "gmsh").chmod(0o755)
+        fake = self.fake("gmsh", "#!/bin/sh\n[ \"$1\" = --version ] && exec echo 1\n"
+                                 "echo 'out of paper' >&2\nexit 7\n")
         done = compare(self.output, "--cases", "uniform-square", "--tools", "PNPBS,gmsh",
                        "--no-forces", "--path", fake)
         self.assertEqual(done.returncode, 1)
@@ -88,6 +94,39 @@ class Compare(unittest.TestCase):
         self.assertIn("| gmsh, frontal | failed: status 7: out of paper |", words)
         self.assertIn("failed: status 7: out of paper", done.stdout)
         self.assertIn("| PNPBS, default | ", words)
+
+    def test_a_tool_that_does_not_start_is_left_out(self):
+        """By a status, by an interpreter that is not there, by an answer that is something else's.
+        What is left runs, and nothing has failed."""
+        fake = self.fake("lmp", "#!/bin/sh\necho 'lmp: no libfftw3.so.3' >&2\nexit 127\n")
+        self.fake("gmsh", "#!/nowhere/sh\n")
+        self.fake("jigsaw", "#!/bin/sh\necho 'a saw for wood'\n")
+        alone = {"PATH": str(fake)}  # or the next program of that name would be tried
+        done = compare(self.output, "--cases", "uniform-square", "--tools", "PNPBS,gmsh,JIGSAW",
+                       environment=alone)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        results = self.results()
+        self.assertEqual([r["tool"] for r in results["placements"]], ["PNPBS, default"])
+        self.assertEqual([r["tool"] for r in results["forces"]], ["PNPBS"])
+        self.assertEqual([t["name"] for t in results["tools"]], ["PNPBS, default"])
+        why = {t["name"]: t["why"] for t in results["left_out"]}
+        page = (self.output / "comparison.md").read_text()
+        for name, reason in (("LAMMPS", "status 127: lmp: no libfftw3.so.3"),
+                             ("gmsh, frontal", "No such file or directory"),
+                             ("JIGSAW, default", "a saw for wood")):
+            self.assertTrue(why[name].startswith("found, but does not start: "), why)
+            self.assertIn(reason, why[name])
+            self.assertIn(f"- {name}: {why[name]}", page)
+
+        # One of another name that answers, and one that says nothing.
+        for text, reason in (("echo 'line printer'\n", "not that of LAMMPS: line printer"),
+                             ("exit 0\n", "it says nothing")):
+            self.fake("lmp", "#!/bin/sh\n" + text)
+            done = compare(self.output, "--cases", "uniform-square", "--tools", "PNPBS",
+                           environment=alone)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            why = {t["name"]: t["why"] for t in self.results()["left_out"]}
+            self.assertIn(reason, why["LAMMPS"])
 
     def test_nothing_installed(self):
         empty = self.folder / "empty"
@@ -106,11 +145,8 @@ class Compare(unittest.TestCase):
 
     def test_interrupt(self):
         """Between the first run, ours, and the end of a fake one that would last a minute."""
-        fake = self.folder / "bin"
-        fake.mkdir()
-        (fake / "gmsh").write_text("#!/bin/sh\n[ \"$1\" = --version ] && exec echo 1\n"
-                                   f"touch {self.folder}/begun\nexec sleep 60\n")
-        (fake / "gmsh").chmod(0o755)
+        fake = self.fake("gmsh", "#!/bin/sh\n[ \"$1\" = --version ] && exec echo 1\n"
+                                 f"touch {self.folder}/begun\nexec sleep 60\n")
         # In a group of its own, so that the signal reaches all of it, as from a terminal.
         running = subprocess.Popen(
             [sys.executable, "-B", PROGRAM, "--nodes", "500", "--cases", "uniform-square",

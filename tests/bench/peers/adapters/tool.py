@@ -21,6 +21,10 @@ class Outcome:
     more: dict = dataclasses.field(default_factory=dict)
 
 
+class DoesNotStart(Exception):
+    """A tool that is there cannot be used; the text says why."""
+
+
 class Tool:
     name = ""      # as the table has it, with the setting
     setting = ""   # one line on what it was told to do
@@ -30,6 +34,8 @@ class Tool:
         raise NotImplementedError
 
     def version(self):
+        """Asked of the tool itself, so that one that is there but broken is found out before the
+        first case. Raises DoesNotStart."""
         raise NotImplementedError
 
     def run(self, case, folder, time_limit):
@@ -64,10 +70,29 @@ def version_of_package(name):
         return "unknown version"
 
 
-def output_of(*command):
-    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL,
-                          check=False)
-    return (done.stdout + done.stderr).strip()
+def answer_of(*command, any_status=False, time_limit=60):
+    """What a command prints that is asked for its version. Raises DoesNotStart, also where it ends
+    with another status than 0, unless any will do."""
+    try:
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True,
+                              errors="replace", stdin=subprocess.DEVNULL, timeout=time_limit,
+                              check=False)
+    except OSError as error:
+        raise DoesNotStart(str(error)) from None
+    except subprocess.TimeoutExpired:
+        raise DoesNotStart(f"no answer within {time_limit:g} s") from None
+    told = (done.stdout + done.stderr).strip()
+    if not told or (done.returncode != 0 and not any_status):
+        raise DoesNotStart(f"status {done.returncode}: {last_line(told)}")
+    return told
+
+
+def last_line(text):
+    return text.splitlines()[-1].strip() if text else "it says nothing"
+
+
+def require_import(package):
+    answer_of(sys.executable, "-c", f"import {package}; print('it is there')")
 
 
 def python(script, *arguments):

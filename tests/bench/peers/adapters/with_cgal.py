@@ -22,7 +22,7 @@ class Cgal(tool.Tool):
         return self.program() is not None
 
     def version(self):
-        return tool.output_of(self.program(), "--version")
+        return tool.answer_of(self.program(), "--version")
 
     def run(self, case, folder, time_limit):
         case.domain.write_poly(folder / "case.poly")

@@ -65,7 +65,7 @@ class Gmsh(tool.Tool):
         return bool(tool.command("gmsh")) or tool.module("gmsh")
 
     def version(self):
-        return tool.output_of(*self.command(), "--version").splitlines()[-1]
+        return tool.answer_of(*self.command(), "--version").splitlines()[-1]
 
     def run(self, case, folder, time_limit):
         (folder / "case.geo").write_text(geometry(case))

@@ -64,8 +64,10 @@ class Jigsaw(tool.Tool):
         with tempfile.TemporaryDirectory() as folder:
             (Path(folder) / "none.jig").write_text("GEOM_FILE = none\nMESH_FILE = none\n"
                                                    "VERBOSITY = 1\n")
-            told = re.search(r"JIGSAW VERSION ([\d.]+)",
-                             tool.output_of("jigsaw", Path(folder) / "none.jig"))
+            said = tool.answer_of("jigsaw", Path(folder) / "none.jig", any_status=True)
+        if "JIGSAW" not in said:
+            raise tool.DoesNotStart(tool.last_line(said))
+        told = re.search(r"JIGSAW VERSION ([\d.]+)", said)
         return told[1] if told else "unknown version"
 
     def run(self, case, folder, time_limit):

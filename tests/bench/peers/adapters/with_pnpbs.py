@@ -19,7 +19,7 @@ class Pnpbs(tool.Tool):
         return self.program is not None
 
     def version(self):
-        return tool.output_of(self.program, "--version").splitlines()[0]
+        return tool.answer_of(self.program, "--version").splitlines()[0]
 
     def run(self, case, folder, time_limit):
         case.domain.write_poly(folder / "case.poly")

@@ -21,6 +21,7 @@ class Triangle(tool.Tool):
         return tool.module(self.package)
 
     def version(self):
+        tool.require_import(self.package)
         return f"{self.package} {tool.version_of_package(self.package)}"
 
     def run(self, case, folder, time_limit):
