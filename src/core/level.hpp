@@ -155,6 +155,8 @@ class Level {
   // For the stars of our nodes and their neighbours, and for lists of any radius, where d is even;
   // what they need farther away is asked for.
   static constexpr int kStarHops = 3;
+  // The same for the stars that sweeps and repairs look at, some neighbours farther away.
+  static constexpr int kRepairHops = 4;
   static constexpr int kRungeKuttaStages = 4;
   static constexpr double kWorkPerNode = 16;  // in estimates
 

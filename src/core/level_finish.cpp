@@ -17,8 +17,8 @@ void Level::look_around() {
   // with a surplus node in the third, and whether that goes hangs on the ring around it.
   const int rings = settings_.repair.rounds > 0 ? 4 : 1;
   drop_anchors();
-  exchange(kStarHops);
-  make_lists_and_stars(kStarHops, settings_.list_radius, rings);
+  exchange(kRepairHops);
+  make_lists_and_stars(kRepairHops, settings_.list_radius, rings);
   looked_around_ = version_;
 }
 

@@ -46,7 +46,7 @@ int Level::step_hops() const {
 
 int Level::deepest_hops() const {
   // One more because nodes drift out of their leaves, and one to see who is beyond.
-  return std::max({step_hops(), hops_for(kRungeKuttaStages), kPopulationHops, kStarHops}) + 2;
+  return std::max({step_hops(), hops_for(kRungeKuttaStages), kPopulationHops, kRepairHops}) + 2;
 }
 
 std::int64_t Level::ghost_life() const { return std::max(kGhostLife, settings_.exchange_interval); }
