@@ -136,8 +136,9 @@ struct DomainMap::Growth {
     std::vector<double> d(points.size());
     spacing(static_cast<std::int64_t>(points.size()), points.data(), d.data());
     std::size_t next = 0;
+    std::vector<double> values;
     for (std::int32_t c = first; c < last; ++c) {
-      std::vector<double> values;
+      values.clear();
       for (; next < owner.size() && owner[next] == c; ++next) values.push_back(d[next]);
       add_boundary_samples(tree.cell_box(c), cells[index(c)], values);
       take_samples(values, cells[index(c)]);
@@ -252,6 +253,9 @@ void DomainMap::keep_leaves(const Growth& growth) {
   leaf_largest_.clear();
   leaf_edges_.clear();
   edge_offset_.assign(1, 0);
+  cell_has_edges_.clear();
+  for (const Growth::CellState& cell : growth.cells)
+    cell_has_edges_.push_back(cell.first_edge < cell.last_edge);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const Growth::CellState& cell = growth.cells[index(tree_.leaf_cell(leaf))];
     side_.push_back(cell.outside                        ? Side::outside

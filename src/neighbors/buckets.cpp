@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/counting_sort.hpp"
+
 namespace pnpbs {
 
 template <int Dim>
@@ -37,24 +39,24 @@ void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim
   });
 }
 
-// Counting sort; stable, so that nodes which stay keep their order.
+// Stable, so that nodes which stay keep their order.
 template <int Dim>
 bool Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
-  start_.assign(static_cast<std::size_t>(buckets) + 1, 0);
-  bool ordered = true;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    ++start_[index(bucket_of_(i)) + 1];
-    ordered = ordered && (i == 0 || bucket_of_(i - 1) <= bucket_of_(i));
-  }
-  for (std::int32_t b = 0; b < buckets; ++b) start_[index(b) + 1] += start_[index(b)];
-  if (ordered) return false;
+  const View<std::int32_t> bucket = bucket_of_;
+  const auto bucket_of = [bucket](std::int64_t i) { return bucket(i); };
+  CountingSort sorted(nodes.count, buckets, bucket_of);
+  start_ = sorted.start();
+  if (sorted.in_order()) return false;
   from_ = nodes.order_scratch();
-  std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
-  for (std::int64_t i = 0; i < nodes.count; ++i)
-    from_(next[index(bucket_of_(i))]++) = static_cast<std::int32_t>(i);
+  const View<std::int32_t> from = from_;
+  sorted.for_places(bucket_of, [from](std::int64_t i, std::int32_t place) {
+    from(place) = static_cast<std::int32_t>(i);
+  });
   nodes.permute(from_);
-  for (std::int32_t b = 0; b < buckets; ++b)
-    for (std::int32_t i = start_[index(b)]; i < start_[index(b) + 1]; ++i) bucket_of_(i) = b;
+  for_each("pnpbs::Buckets::order_nodes", buckets, [&, bucket](std::int64_t b) {
+    const auto leaf = static_cast<std::int32_t>(b);
+    for (std::int32_t i = begin(leaf); i < end(leaf); ++i) bucket(i) = leaf;
+  });
   return true;
 }
 
@@ -66,19 +68,29 @@ void Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<
   if (!links_)
     links_ = std::make_shared<const LeafLinks<Dim>>(
         tree, std::vector<double>(static_cast<std::size_t>(buckets), 0));
-  least_.assign(static_cast<std::size_t>(buckets), std::numeric_limits<double>::infinity());
-  std::vector<double> grown;  // reaches, if one is larger than it was
-  for (std::int32_t b = 0; b < buckets; ++b) {
+  least_.resize(static_cast<std::size_t>(buckets));
+  const auto largest_in = [&](std::int32_t bucket) {
     double largest = 0;
-    for (std::int32_t i = begin(b); i < end(b); ++i) {
+    for (std::int32_t i = begin(bucket); i < end(bucket); ++i)
       largest = std::max(largest, nodes.d(i));
-      least_[index(b)] = std::min(least_[index(b)], nodes.d(i));
-    }
-    if (radius * largest <= links_->reach[index(b)]) continue;
-    if (grown.empty()) grown = links_->reach;
-    grown[index(b)] = radius * largest * kRoomForGrowth;
+    return largest;
+  };
+  const double grown =
+      largest_of("pnpbs::Buckets::gather_spacings", buckets, 0.0, [&](std::int64_t b) {
+        const auto bucket = static_cast<std::int32_t>(b);
+        double least = std::numeric_limits<double>::infinity();
+        for (std::int32_t i = begin(bucket); i < end(bucket); ++i)
+          least = std::min(least, nodes.d(i));
+        least_[index(bucket)] = least;
+        return radius * largest_in(bucket) > links_->reach[index(bucket)] ? 1.0 : 0.0;
+      });
+  if (grown == 0) return;
+  std::vector<double> reach = links_->reach;
+  for (std::int32_t b = 0; b < buckets; ++b) {
+    const double largest = radius * largest_in(b);
+    if (largest > reach[index(b)]) reach[index(b)] = largest * kRoomForGrowth;
   }
-  if (!grown.empty()) links_ = std::make_shared<const LeafLinks<Dim>>(tree, std::move(grown));
+  links_ = std::make_shared<const LeafLinks<Dim>>(tree, std::move(reach));
 }
 
 template class Buckets<2>;
