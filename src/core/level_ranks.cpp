@@ -188,16 +188,32 @@ void Level::migrate() {
   lists_valid_ = false;
 }
 
-// Every node to the rank that owns its place, from wherever it is.
-void Level::scatter_to_owners(std::vector<GivenNode>& given) const {
+// Every node to the rank that owns its place, from wherever it is; most are there already.
+void Level::scatter_to_owners(GivenNodes& given) const {
   if (!distributed()) return;
-  given = delivered<GivenNode>(*comm_, given, [this](const GivenNode& node) {
+  const auto owner_of = [this](const GivenNode& node) {
     return distribution_.owner_at(node.position);
-  });
+  };
+  const View<std::int32_t> owner =
+      make_view<std::int32_t>("pnpbs::Level::owner", static_cast<std::int64_t>(given.size()));
+  for_each("pnpbs::Level::find_owners", static_cast<std::int64_t>(given.size()),
+           [&](std::int64_t k) { owner(k) = owner_of(given[static_cast<std::size_t>(k)]); });
+  std::vector<GivenNode> leaving;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    if (owner(k) == comm_->rank())
+      given[kept++] = given[k];
+    else
+      leaving.push_back(given[k]);
+  }
+  given.resize(kept);
+  const std::vector<GivenNode> arrived = delivered<GivenNode>(*comm_, leaving, owner_of);
+  given.insert(given.end(), arrived.begin(), arrived.end());
 }
 
-std::vector<GivenNode> Level::owned_nodes() const {
-  std::vector<GivenNode> owned;
+GivenNodes Level::owned_nodes() const {
+  GivenNodes owned;
+  owned.reserve(static_cast<std::size_t>(owned_count()));
   for (std::int64_t i = 0; i < nodes_.count; ++i)
     if (nodes_.owned(i))
       owned.push_back({nodes_.position(i), nodes_.id(i), nodes_.moves(i), -1, nodes_.d(i)});

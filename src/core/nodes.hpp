@@ -67,17 +67,22 @@ struct Nodes {
   void append(const Point<Dim>& position, double spacing, std::int64_t node_id,
               std::int32_t node_tag, std::int32_t on_boundary) {
     if (count + 1 > capacity()) reserve(count + count / 8 + 64);
+    put(count++, position, spacing, node_id, node_tag, on_boundary);
+  }
+
+  // At a place that there is room for.
+  void put(std::int64_t i, const Point<Dim>& position, double spacing, std::int64_t node_id,
+           std::int32_t node_tag, std::int32_t on_boundary) const {
     for (int k = 0; k < Dim; ++k) {
-      x[k](count) = position[k];
-      v[k](count) = 0;
-      anchor[k](count) = position[k];
+      x[k](i) = position[k];
+      v[k](i) = 0;
+      anchor[k](i) = position[k];
     }
-    d(count) = spacing;
-    id(count) = node_id;
-    tag(count) = node_tag;
-    boundary_node(count) = on_boundary;
-    owned(count) = 1;
-    ++count;
+    d(i) = spacing;
+    id(i) = node_id;
+    tag(i) = node_tag;
+    boundary_node(i) = on_boundary;
+    owned(i) = 1;
   }
 
   Point<Dim> position(std::int64_t i) const { return point_at<Dim>(x, i); }

@@ -58,7 +58,7 @@ void Placement::set_spacing(std::shared_ptr<const Spacing<2>> spacing) {
   spacing_replaced_ = true;
 }
 
-void Placement::set_nodes(std::vector<GivenNode> nodes) {
+void Placement::set_nodes(GivenNodes nodes) {
   given_ = std::move(nodes);
   start_from_given_ = true;
   level_.reset();
