@@ -216,6 +216,7 @@ class Level {
   void sweep_over_stars(std::int64_t times);
   void repair_bad_triangles();
   void delete_nodes(const std::vector<std::int32_t>& deleted);
+  void keep_nodes(const View<std::int32_t>& places, std::int64_t kept);
   bool fits(const Point<2>& x, double d) const;
   bool between_edges(std::int64_t i) const;
   template <class Visit>
@@ -247,8 +248,7 @@ class Level {
 
   std::shared_ptr<const LeafLinks<2>> links_;  // leaves of which one reaches the other
   Distribution distribution_;
-  int tree_hops_ = 0;        // the tree is refined so far around the leaves we own
-  bool in_buckets_ = false;  // the nodes are in the order of the buckets
+  int tree_hops_ = 0;  // the tree is refined so far around the leaves we own
   GhostPlan plan_;
   int ghost_hops_ = 0;         // ghosts reach so far; 0: they must be chosen anew
   bool ghosts_exact_ = false;  // nothing has moved since they came

@@ -90,17 +90,24 @@ PopulationCounts Level::adjust_population(double refill) {
 }
 
 void Level::delete_nodes(const std::vector<std::int32_t>& deleted) {
+  constexpr std::int64_t kChunk = 4096;
   const View<std::int32_t> stay = nodes_.order_scratch();
-  std::int64_t kept = 0;
-  std::size_t next = 0;
-  for (std::int32_t i = 0; i < nodes_.count; ++i) {
-    if (next < deleted.size() && deleted[next] == i)
-      ++next;
-    else
-      stay(kept++) = i;
-  }
-  nodes_.keep(stay, kept);
-  in_buckets_ = false;
+  const std::int64_t chunks = (nodes_.count + kChunk - 1) / kChunk;
+  for_each("pnpbs::Level::delete_nodes", chunks, [&](std::int64_t chunk) {
+    auto next = std::lower_bound(deleted.begin(), deleted.end(), chunk * kChunk);
+    for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes_.count); ++i) {
+      if (next != deleted.end() && *next == i)
+        ++next;
+      else
+        stay(i - (next - deleted.begin())) = static_cast<std::int32_t>(i);
+    }
+  });
+  keep_nodes(stay, nodes_.count - static_cast<std::int64_t>(deleted.size()));
+}
+
+void Level::keep_nodes(const View<std::int32_t>& places, std::int64_t kept) {
+  nodes_.keep(places, kept);
+  buckets_.keep(places, kept);
 }
 
 // The owner of the leaf a node is born in numbers it: ids by bucket in Morton order, then by
@@ -117,7 +124,6 @@ void Level::number_births(std::vector<Birth<2>> born) {
   std::vector<std::int64_t> next = distribution_.prefix_sums(*comm_, std::move(new_ids), next_id_);
   std::sort(born.begin(), born.end(),
             [](const Birth<2>& a, const Birth<2>& b) { return a.parent < b.parent; });
-  in_buckets_ = false;
   for (const Birth<2>& birth : born)
     nodes_.append(birth.position, birth.d,
                   next[static_cast<std::size_t>(tree.leaf_at(birth.position))]++, 0, -1);

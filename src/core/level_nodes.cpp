@@ -415,7 +415,7 @@ void Level::number_and_store(GivenNodes inner) {
   nodes_.count = 0;
   nodes_.reserve(static_cast<std::int64_t>(count + count / 64) + 64);
   nodes_.count = static_cast<std::int64_t>(count);
-  in_buckets_ = false;
+  buckets_.forget_nodes();
   blocks.for_each_node(
       [&](std::size_t place, const LeafNode& node) {
         const BoundaryNode& laid = boundary_.nodes[static_cast<std::size_t>(node.node)];

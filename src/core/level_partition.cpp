@@ -109,7 +109,6 @@ void Level::look_at_new_tree() {
 
 void Level::forget_what_goes_by_leaves() {
   buckets_.reset(links_);
-  in_buckets_ = false;
   plan_ = GhostPlan();
   ghost_hops_ = 0;
   lists_valid_ = false;

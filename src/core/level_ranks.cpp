@@ -107,7 +107,6 @@ void Level::exchange(int hops) {
     failure = std::current_exception();
   }
   attempt([&] { append_arriving(halo, incoming); });
-  in_buckets_ = false;
   lists_valid_ = false;
   agree_on_failure(*comm_, failure);
   ghost_hops_ = hops;
@@ -121,7 +120,7 @@ void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!nodes_.owned(i)) continue;
-    if (in_buckets_ && halo.quiet(buckets_.bucket_of(i))) {
+    if (buckets_.knows(i) && halo.quiet(buckets_.bucket_of(i))) {
       stay(kept++) = static_cast<std::int32_t>(i);
       continue;
     }
@@ -142,7 +141,7 @@ void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
     nodes_.owned(i) = ours;
     stay(kept++) = static_cast<std::int32_t>(i);
   }
-  nodes_.keep(stay, kept);
+  keep_nodes(stay, kept);
 }
 
 // Ghosts, and nodes that have drifted to us: those, others may have as ghosts.
@@ -180,10 +179,9 @@ void Level::migrate() {
   const std::vector<PackedNode> arriving = delivered(*comm_, leaving, owner_at);
   agreed(*comm_,
          [&] { nodes_.reserve_with_room(kept + static_cast<std::int64_t>(arriving.size())); });
-  nodes_.keep(stay, kept);
+  keep_nodes(stay, kept);
   for (const PackedNode& node : arriving) append(nodes_, node, true);
   ++version_;
-  in_buckets_ = false;
   ghost_hops_ = 0;
   lists_valid_ = false;
 }

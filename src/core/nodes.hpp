@@ -108,17 +108,8 @@ struct Nodes {
 
   // Keeps the first `kept` nodes named, whose places increase, and drops the others.
   void keep(const View<std::int32_t>& places, std::int64_t kept) {
-    for (int k = 0; k < Dim; ++k) {
-      keep_in_array(x[k], places, kept);
-      keep_in_array(v[k], places, kept);
-      keep_in_array(anchor[k], places, kept);
-    }
-    keep_in_array(d, places, kept);
-    keep_in_array(id, places, kept);
-    keep_in_array(tag, places, kept);
-    keep_in_array(boundary_node, places, kept);
-    keep_in_array(owned, places, kept);
     count = kept;
+    permute(places);
   }
 
  private:
@@ -143,12 +134,6 @@ struct Nodes {
     const View<T> old = view, ordered = spare;
     for_each("pnpbs::Nodes::permute", count, [=](std::int64_t i) { ordered(i) = old(from(i)); });
     std::swap(view, spare);
-  }
-
-  template <class T>
-  static void keep_in_array(const View<T>& view, const View<std::int32_t>& places,
-                            std::int64_t kept) {
-    for (std::int64_t i = 0; i < kept; ++i) view(i) = view(places(i));
   }
 
   struct Spare {

@@ -17,26 +17,35 @@ bool Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, doub
   return reordered;
 }
 
-// Most nodes are where they were when they were sorted last: each bucket asks for its own first.
+// Most nodes are where they were when they were sorted last: each asks for its bucket of then
+// first.
 template <int Dim>
 void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes) {
-  if (static_cast<std::int64_t>(bucket_of_.extent(0)) < nodes.capacity())
-    bucket_of_ = make_view<std::int32_t>("pnpbs::Buckets::bucket_of", nodes.capacity());
-  const bool was_sorted = start_.size() == static_cast<std::size_t>(tree.leaf_count()) + 1;
-  const auto known = was_sorted ? std::min<std::int64_t>(start_.back(), nodes.count) : 0;
+  constexpr std::int64_t kChunk = 256;
+  grow(bucket_of_, nodes.capacity(), known_);
   const View<std::int32_t> bucket = bucket_of_;
-  if (was_sorted)
-    for_each("pnpbs::Buckets::find_near", tree.leaf_count(), [&, bucket](std::int64_t b) {
-      const std::int32_t leaf = static_cast<std::int32_t>(b);
-      const Box<Dim> box = tree.fine_box(leaf);
-      for (std::int64_t i = begin(leaf); i < std::min<std::int64_t>(end(leaf), known); ++i) {
-        const Point<Dim> x = nodes.position(i);
-        bucket(i) = tree.fine_box_holds(box, x) ? leaf : tree.leaf_at(x);
+  const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
+  for_each("pnpbs::Buckets::find", chunks, [&, bucket](std::int64_t chunk) {
+    std::int32_t leaf = -1;  // of the box
+    Box<Dim> box{};
+    for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes.count); ++i) {
+      const Point<Dim> x = nodes.position(i);
+      if (knows(i) && bucket(i) != leaf) {
+        leaf = bucket(i);
+        box = tree.fine_box(leaf);
       }
-    });
-  for_each("pnpbs::Buckets::find", nodes.count - known, [&, bucket](std::int64_t k) {
-    bucket(known + k) = tree.leaf_at(nodes.position(known + k));
+      bucket(i) = leaf >= 0 && tree.fine_box_holds(box, x) ? leaf : tree.leaf_at(x);
+    }
   });
+  known_ = nodes.count;
+}
+
+template <int Dim>
+void Buckets<Dim>::keep(const View<std::int32_t>& places, std::int64_t kept) {
+  std::int64_t still_known = 0;
+  for (std::int64_t k = 0; k < kept && places(k) < known_; ++k, ++still_known)
+    bucket_of_(k) = bucket_of_(places(k));
+  known_ = still_known;
 }
 
 // Stable, so that nodes which stay keep their order.

@@ -25,7 +25,17 @@ class Buckets {
   const View<std::int32_t>& order() const { return from_; }
 
   // The tree has changed; its leaves are linked like that.
-  void reset(std::shared_ptr<const LeafLinks<Dim>> links) { links_ = std::move(links); }
+  void reset(std::shared_ptr<const LeafLinks<Dim>> links) {
+    links_ = std::move(links);
+    forget_nodes();
+  }
+
+  // Other nodes have come in place of those that were sorted.
+  void forget_nodes() { known_ = 0; }
+  // The first `kept` nodes named have been kept, as by Nodes::keep.
+  void keep(const View<std::int32_t>& places, std::int64_t kept);
+  // Has node i a bucket, from when the nodes were sorted? Those appended since then have none.
+  bool knows(std::int64_t i) const { return i < known_; }
 
   std::int32_t bucket_of(std::int64_t node) const { return bucket_of_(node); }
   std::int32_t begin(std::int32_t bucket) const { return start_[index(bucket)]; }
@@ -46,7 +56,8 @@ class Buckets {
   bool order_nodes(std::int32_t buckets, Nodes<Dim>& nodes);
   void gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes, double radius);
 
-  View<std::int32_t> bucket_of_;
+  View<std::int32_t> bucket_of_;     // where a node was when they were sorted last
+  std::int64_t known_ = 0;           // nodes of which that is known, the first ones
   std::vector<std::int32_t> start_;  // first node of each bucket
   std::vector<double> least_;        // least d of the nodes in it
   std::shared_ptr<const LeafLinks<Dim>> links_;
