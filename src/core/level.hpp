@@ -60,8 +60,10 @@ class Level {
 
   // --- making the level ---
   void lay_boundary();
-  void grow_tree();  // and deal it out to the ranks
-  void fill();       // inner nodes from nothing
+  // And deals it out to the ranks: over several of them, and where that balances the work, as
+  // another level is dealt out whose spacing is a multiple of this one's.
+  void grow_tree(const Level* like = nullptr);
+  void fill();  // inner nodes from nothing
   // Or these, wherever they are; ids from next_id on are free.
   TakenNodes take(GivenNodes given, std::int64_t next_id);
   // For the steps to come; the growth limit belongs to the spacing and is not among them.
@@ -165,7 +167,9 @@ class Level {
   void link_leaves();
   void grow_own_part();
   std::function<bool(std::int32_t)> owns_leaf() const;
+  void take_rough_cells();
   std::vector<std::int32_t> cut_on_first_rank(const PartitionCells& cells) const;
+  std::vector<std::int32_t> cut_like(const Distribution& other, const PartitionCells& cells) const;
   std::int64_t node_work(std::int64_t i) const;
   std::vector<std::int64_t> counted_work() const;
   std::vector<std::int32_t> keep_numbers(const PartitionCells& cells,

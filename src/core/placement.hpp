@@ -117,12 +117,13 @@ class Placement {
   Outcome make_level();
   std::shared_ptr<const Spacing<2>> limited_spacing(const Settings& settings);
   std::unique_ptr<Level> empty_level(std::shared_ptr<const Spacing<2>> spacing,
-                                     const Settings& settings);
+                                     const Settings& settings, const Level* like = nullptr);
   void adopt_level(std::unique_ptr<Level> next);
   int coarser_levels_that_pay(const Level& finest,
                               const std::shared_ptr<const Spacing<2>>& spacing) const;
   bool boundary_leaves_room(const Spacing<2>& coarser, double boundary_nodes, double nodes) const;
-  GivenNodes nodes_from_coarser_levels(const std::shared_ptr<const Spacing<2>>& spacing,
+  GivenNodes nodes_from_coarser_levels(const Level& finest,
+                                       const std::shared_ptr<const Spacing<2>>& spacing,
                                        const Settings& settings, Outcome& outcome);
   void require_same_options() const;
   void require_same_domain() const;

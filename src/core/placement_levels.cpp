@@ -92,13 +92,14 @@ bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_
 
 // From the coarsest level down to twice the spacing. If the monitor stops them, refined nodes are
 // returned nevertheless, as they are.
-GivenNodes Placement::nodes_from_coarser_levels(const std::shared_ptr<const Spacing<2>>& spacing,
+GivenNodes Placement::nodes_from_coarser_levels(const Level& finest,
+                                                const std::shared_ptr<const Spacing<2>>& spacing,
                                                 const Settings& settings, Outcome& outcome) {
   GivenNodes nodes;
   try {
     for (int l = coarser_levels_; l > 0; --l) {
-      std::unique_ptr<Level> level = empty_level(spacing_of_level(spacing, l),
-                                                 settings_of_level(settings, l == coarser_levels_));
+      std::unique_ptr<Level> level = empty_level(
+          spacing_of_level(spacing, l), settings_of_level(settings, l == coarser_levels_), &finest);
       if (l == coarser_levels_)
         level->fill();
       else
