@@ -173,6 +173,7 @@ GivenNodes Level::refined(const Spacing<2>& next) {
       begin[static_cast<std::size_t>(chunk) + 1] = count;
     });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    nodes.reserve(begin.back() + begin.back() / 64);  // for some from other ranks
     nodes.resize(begin.back());
     for_each("pnpbs::Level::write_refined", chunks, [&](std::int64_t chunk) {
       std::size_t place = begin[static_cast<std::size_t>(chunk)];
@@ -413,7 +414,8 @@ void Level::number_and_store(GivenNodes inner) {
   };
   const std::size_t count = own_boundary.size() + inner.size();
   nodes_.count = 0;
-  nodes_.reserve(static_cast<std::int64_t>(count + count / 64) + 64);
+  // For births and, over several ranks, for ghosts.
+  nodes_.reserve(static_cast<std::int64_t>(count + count / (distributed() ? 16 : 64)) + 64);
   nodes_.count = static_cast<std::int64_t>(count);
   buckets_.forget_nodes();
   blocks.for_each_node(

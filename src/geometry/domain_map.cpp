@@ -124,6 +124,8 @@ struct DomainMap::Growth {
   void sample(const BackgroundTree<2>& tree, std::int32_t first, std::int32_t last) {
     std::vector<Point<2>> points;
     std::vector<std::int32_t> owner;
+    points.reserve(kSamples.size() * static_cast<std::size_t>(last - first));
+    owner.reserve(points.capacity());
     for (std::int32_t c = first; c < last; ++c) {
       if (cells[index(c)].outside) continue;
       for (const Point<2>& fraction : kSamples) {
@@ -220,6 +222,7 @@ void DomainMap::grow(const Communicator& comm, const Box<2>& bounds, Growth grow
   const auto split_depth = [&](const BackgroundTree<2>& tree, std::int32_t first, std::int32_t last,
                                std::vector<char>& split) {
     if (first == 0) growth.start_root(tree);
+    growth.cells.reserve(static_cast<std::size_t>(tree.cell_count()));
     for (std::int32_t parent = parents; parent < first; ++parent) {
       const std::int32_t child = tree.cell(parent).first_child;
       if (child < 0) continue;

@@ -16,12 +16,18 @@ class Needs {
  public:
   Needs(const LeafGraph<2>& graph, const Distribution& distribution, std::int32_t leaves)
       : graph_(graph), distribution_(distribution), others_(static_cast<std::size_t>(leaves)) {
+    // Two leaves of different owners: one of them is another rank's.
+    std::vector<char> at_rim(others_.size(), 0);
     for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-      bool at_rim = false;
+      if (distribution.owns(leaf)) continue;
       graph.for_neighbours(leaf, [&](std::int32_t other) {
-        at_rim = at_rim || distribution.owner(other) != distribution.owner(leaf);
+        if (distribution.owner(other) == distribution.owner(leaf)) return;
+        for (const std::int32_t end : {leaf, other}) {
+          if (at_rim[static_cast<std::size_t>(end)]) continue;
+          at_rim[static_cast<std::size_t>(end)] = 1;
+          front_.emplace_back(end, distribution.owner(end));
+        }
       });
-      if (at_rim) front_.emplace_back(leaf, distribution.owner(leaf));
     }
   }
 
@@ -182,13 +188,13 @@ const Halo& Distribution::halo(int hops, double hop_share) {
         halo.ranks_.push_back(rank);
     halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
   }
+  // A leaf that is not ours alone disturbs itself and those around it.
+  halo.quiet_.assign(static_cast<std::size_t>(leaves), 1);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    bool quiet = true;
-    links_->graph.for_neighbours(leaf, [&](std::int32_t other) {
-      const auto at = static_cast<std::size_t>(other);
-      quiet = quiet && owns(other) && halo.offset_[at] == halo.offset_[at + 1];
-    });
-    halo.quiet_.push_back(quiet);
+    const auto at = static_cast<std::size_t>(leaf);
+    if (owns(leaf) && halo.offset_[at] == halo.offset_[at + 1]) continue;
+    links_->graph.for_neighbours(
+        leaf, [&](std::int32_t other) { halo.quiet_[static_cast<std::size_t>(other)] = 0; });
   }
   needs.spread();
   std::set<int> neighbours;
