@@ -417,16 +417,18 @@ void Level::number_and_store(GivenNodes inner) {
   // For births and, over several ranks, for ghosts.
   nodes_.reserve(static_cast<std::int64_t>(count + count / (distributed() ? 16 : 64)) + 64);
   nodes_.count = static_cast<std::int64_t>(count);
-  buckets_.forget_nodes();
+  const View<std::int32_t> bucket = buckets_.buckets_of_new(nodes_);
   blocks.for_each_node(
       [&](std::size_t place, const LeafNode& node) {
+        const auto i = static_cast<std::int64_t>(place);
         const BoundaryNode& laid = boundary_.nodes[static_cast<std::size_t>(node.node)];
-        nodes_.put(static_cast<std::int64_t>(place), laid.position, 1,
-                   number(boundary_id(node), node.leaf), laid.tag, node.node);
+        nodes_.put(i, laid.position, 1, number(boundary_id(node), node.leaf), laid.tag, node.node);
+        bucket(i) = node.leaf;
       },
       [&](std::size_t place, const GivenNode& node) {
-        nodes_.put(static_cast<std::int64_t>(place), node.position, 1, number(node.id, node.leaf),
-                   0, -1);
+        const auto i = static_cast<std::int64_t>(place);
+        nodes_.put(i, node.position, 1, number(node.id, node.leaf), 0, -1);
+        bucket(i) = node.leaf;
       });
   refresh_spacing();
   exchange(step_hops());

@@ -124,7 +124,8 @@ void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
       stay(kept++) = static_cast<std::int32_t>(i);
       continue;
     }
-    const std::int32_t leaf = map_.tree().leaf_at(nodes_.position(i));
+    const std::int32_t leaf =
+        map_.tree().leaf_at(nodes_.position(i), buckets_.knows(i) ? buckets_.bucket_of(i) : -1);
     const int owner = distribution_.owner(leaf);
     const bool ours = owner == comm_->rank();
     bool stays = ours;
@@ -147,8 +148,9 @@ void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
 // Ghosts, and nodes that have drifted to us: those, others may have as ghosts.
 void Level::append_arriving(const Halo& halo, const std::vector<Bytes>& incoming) {
   nodes_.reserve_with_room(nodes_.count + records_in<PackedNode>(incoming));
+  std::int32_t leaf = -1;  // nodes of the same one come together
   for_records<PackedNode>(incoming, [&](const PackedNode& node) {
-    const std::int32_t leaf = map_.tree().leaf_at({node.x[0], node.x[1]});
+    leaf = map_.tree().leaf_at({node.x[0], node.x[1]}, leaf);
     const auto i = static_cast<std::int32_t>(nodes_.count);
     append(nodes_, node, distribution_.owns(leaf));
     if (distribution_.owns(leaf))

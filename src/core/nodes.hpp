@@ -106,10 +106,25 @@ struct Nodes {
     permute_array(owned, spare_.flag, from);
   }
 
-  // Keeps the first `kept` nodes named, whose places increase, and drops the others.
+  // Keeps the first `kept` nodes named, whose places increase, and drops the others. In place, with
+  // a thread for each array.
   void keep(const View<std::int32_t>& places, std::int64_t kept) {
+    constexpr int kReal = 3 * Dim + 1;
+    std::array<View<double>, kReal> real;
+    for (int k = 0; k < Dim; ++k) {
+      real[k] = x[k];
+      real[Dim + k] = v[k];
+      real[2 * Dim + k] = anchor[k];
+    }
+    real[3 * Dim] = d;
+    for_each("pnpbs::Nodes::keep", kReal + 4, [&](std::int64_t array) {
+      if (array < kReal) keep_in_array(real[static_cast<std::size_t>(array)], places, kept);
+      if (array == kReal) keep_in_array(id, places, kept);
+      if (array == kReal + 1) keep_in_array(tag, places, kept);
+      if (array == kReal + 2) keep_in_array(boundary_node, places, kept);
+      if (array == kReal + 3) keep_in_array(owned, places, kept);
+    });
     count = kept;
-    permute(places);
   }
 
  private:
@@ -134,6 +149,12 @@ struct Nodes {
     const View<T> old = view, ordered = spare;
     for_each("pnpbs::Nodes::permute", count, [=](std::int64_t i) { ordered(i) = old(from(i)); });
     std::swap(view, spare);
+  }
+
+  template <class T>
+  static void keep_in_array(const View<T>& view, const View<std::int32_t>& places,
+                            std::int64_t kept) {
+    for (std::int64_t i = 0; i < kept; ++i) view(i) = view(places(i));
   }
 
   struct Spare {

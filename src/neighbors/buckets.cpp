@@ -22,7 +22,7 @@ bool Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, doub
 template <int Dim>
 void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes) {
   constexpr std::int64_t kChunk = 256;
-  grow(bucket_of_, nodes.capacity(), known_);
+  make_room(nodes.capacity());
   const View<std::int32_t> bucket = bucket_of_;
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
   for_each("pnpbs::Buckets::find", chunks, [&, bucket](std::int64_t chunk) {
@@ -38,6 +38,22 @@ void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim
     }
   });
   known_ = nodes.count;
+}
+
+template <int Dim>
+void Buckets<Dim>::make_room(std::int64_t n) {
+  if (bucket_of_.extent(0) == 0)
+    bucket_of_ = make_view<std::int32_t>("pnpbs::Buckets::bucket_of", n);
+  else
+    grow(bucket_of_, n, known_);
+}
+
+template <int Dim>
+const View<std::int32_t>& Buckets<Dim>::buckets_of_new(const Nodes<Dim>& nodes) {
+  known_ = 0;
+  make_room(nodes.capacity());
+  known_ = nodes.count;
+  return bucket_of_;
 }
 
 template <int Dim>

@@ -92,6 +92,11 @@ class BackgroundTree {
   // The leaf that holds x; points beyond the root belong to the leaf at its rim.
   std::int32_t leaf_at(const Point<Dim>& x) const { return cell(cell_at(x, kMaxDepth)).leaf; }
 
+  // The same, quickly if it is the leaf guessed (-1: none).
+  std::int32_t leaf_at(const Point<Dim>& x, std::int32_t guess) const {
+    return guess >= 0 && leaf_holds(guess, x) ? guess : leaf_at(x);
+  }
+
   // The cell that holds x, at this depth or, where the tree ends before, a leaf.
   std::int32_t cell_at(const Point<Dim>& x, int depth) const {
     const std::array<std::uint32_t, Dim> fine = fine_index(x);
