@@ -110,11 +110,11 @@ pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monito
 
 namespace {
 
-std::vector<GivenNode> checked_nodes(std::int64_t n, const double* xy, const std::int64_t* ids) {
+GivenNodes checked_nodes(std::int64_t n, const double* xy, const std::int64_t* ids) {
   require_count(n, "n");
   if (n > 0) require_pointer(xy, "xy");
   constexpr std::int64_t kLargestId = std::int64_t{1} << 62;  // leaves numbers for new nodes
-  std::vector<GivenNode> nodes;
+  GivenNodes nodes;
   for (std::int64_t i = 0; i < n; ++i) {
     if (!std::isfinite(xy[2 * i]) || !std::isfinite(xy[2 * i + 1]))
       throw Error(PNPBS_ERROR_ARGUMENT, "argument xy[" + std::to_string(i) + "] = (" +
@@ -141,7 +141,7 @@ std::vector<GivenNode> checked_nodes(std::int64_t n, const double* xy, const std
 pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n, const double* xy,
                                        const int64_t* ids) {
   return local_change(placement, [&](Placement& p) {
-    std::vector<GivenNode> nodes;
+    GivenNodes nodes;
     agreed(p.communicator(), [&] { nodes = checked_nodes(n, xy, ids); });
     p.set_nodes(std::move(nodes));  // on all ranks or none
     return PNPBS_OK;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/given_nodes.hpp"
 #include "core/initial_fill.hpp"
 #include "core/settings.hpp"
 #include "core/timers.hpp"
@@ -31,15 +32,6 @@
 #include "stars/delaunay_stars.hpp"
 
 namespace pnpbs {
-
-// A node as it comes from outside or from an earlier level.
-struct GivenNode {
-  Point<2> position;
-  std::int64_t id;         // -1: give it one
-  bool inner = true;       // a boundary node is laid afresh; one that was there keeps its id
-  std::int32_t leaf = -1;  // of the level it is given to, once found
-  double d = 0;            // spacing it was placed for; 0 if not known
-};
 
 // What became of given nodes, on all ranks.
 struct TakenNodes {
@@ -69,10 +61,12 @@ class Level {
 
   // --- making the level ---
   void lay_boundary();
-  void grow_tree();  // and deal it out to the ranks
-  void fill();       // inner nodes from nothing
+  // And deals it out to the ranks: over several of them, and where that balances the work, as
+  // another level is dealt out whose spacing is a multiple of this one's.
+  void grow_tree(const Level* like = nullptr);
+  void fill();  // inner nodes from nothing
   // Or these, wherever they are; ids from next_id on are free.
-  TakenNodes take(std::vector<GivenNode> given, std::int64_t next_id);
+  TakenNodes take(GivenNodes given, std::int64_t next_id);
   // For the steps to come; the growth limit belongs to the spacing and is not among them.
   void change_settings(const Settings& settings);
 
@@ -137,11 +131,11 @@ class Level {
   // Largest over mean of that; collective.
   double imbalance() const;
   std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }
-  std::vector<GivenNode> owned_nodes() const;
+  GivenNodes owned_nodes() const;
   // What a level of another spacing begins with: the nodes of this rank and, where that is finer,
   // new ones on the edges of their stars and in their triangles: where it is half of the present
   // one, in the middle of every edge. Collective.
-  std::vector<GivenNode> refined(const Spacing<2>& next);
+  GivenNodes refined(const Spacing<2>& next);
   // By the samples of d in the leaves. Collective.
   SpacingVariation spacing_variation() const;
   std::int64_t owned_count() const;
@@ -158,6 +152,8 @@ class Level {
   // For the stars of our nodes and their neighbours, and for lists of any radius, where d is even;
   // what they need farther away is asked for.
   static constexpr int kStarHops = 3;
+  // The same for the stars that sweeps and repairs look at, some neighbours farther away.
+  static constexpr int kRepairHops = 4;
   static constexpr int kRungeKuttaStages = 4;
   static constexpr double kWorkPerNode = 16;  // in estimates
 
@@ -174,7 +170,9 @@ class Level {
   void link_leaves();
   void grow_own_part();
   std::function<bool(std::int32_t)> owns_leaf() const;
+  void take_rough_cells();
   std::vector<std::int32_t> cut_on_first_rank(const PartitionCells& cells) const;
+  std::vector<std::int32_t> cut_like(const Distribution& other, const PartitionCells& cells) const;
   std::int64_t node_work(std::int64_t i) const;
   std::vector<std::int64_t> counted_work() const;
   std::vector<std::int32_t> keep_numbers(const PartitionCells& cells,
@@ -199,18 +197,21 @@ class Level {
   double widest_radius() const;
   double meeting_radius() const;
   double edge_radius() const;
-  std::vector<double> spacing_at_owned_nodes(const Spacing<2>& spacing) const;
+  View<double> spacing_at_owned_nodes(const Spacing<2>& spacing) const;
   bool on_one_edge(std::int64_t i, std::int64_t j) const;
-  void number_and_store(std::vector<GivenNode> inner);
-  void scatter_to_owners(std::vector<GivenNode>& given) const;
+  template <class Visit>
+  void for_new_nodes(std::int64_t i, double d, const Visit& visit) const;
+  void leave_out_coinciding(GivenNodes& inner) const;
+  void number_and_store(GivenNodes inner);
+  void scatter_to_owners(GivenNodes& given) const;
   std::vector<double> wanted_nodes() const;
   std::vector<LeafSummary> summaries_of_unrefined_leaves() const;
-  void find_leaves(std::vector<GivenNode>& given) const;
-  void keep_those_with_place(std::vector<GivenNode>& given) const;
+  void find_leaves(GivenNodes& given) const;
+  void leave_out_those_without_place(GivenNodes& given) const;
   bool has_place(const GivenNode& node) const;
-  void sort_by_place(std::vector<GivenNode>& given) const;
-  void thin(std::vector<GivenNode>& inner) const;
-  void keep_boundary_ids(const std::vector<GivenNode>& given);
+  std::vector<std::int32_t> sort_by_place(GivenNodes& given) const;
+  void thin(GivenNodes& inner, const std::vector<std::int32_t>& begin) const;
+  void keep_boundary_ids(const GivenNodes& given);
   void make_lists_and_stars(int hops, double radius, int rings);
   KnownRegion known_after_exchange(int hops);
   std::vector<Box<2>> unknown_around_stars(int rings) const;
@@ -224,6 +225,7 @@ class Level {
   void repair_bad_triangles();
   void repair_triangles_below(double shape);
   void delete_nodes(const std::vector<std::int32_t>& deleted);
+  void keep_nodes(const View<std::int32_t>& places, std::int64_t kept);
   bool fits(const Point<2>& x, double d) const;
   bool between_edges(std::int64_t i) const;
   template <class Visit>
@@ -255,8 +257,7 @@ class Level {
 
   std::shared_ptr<const LeafLinks<2>> links_;  // leaves of which one reaches the other
   Distribution distribution_;
-  int tree_hops_ = 0;        // the tree is refined so far around the leaves we own
-  bool in_buckets_ = false;  // the nodes are in the order of the buckets
+  int tree_hops_ = 0;  // the tree is refined so far around the leaves we own
   GhostPlan plan_;
   int ghost_hops_ = 0;         // ghosts reach so far; 0: they must be chosen anew
   bool ghosts_exact_ = false;  // nothing has moved since they came

@@ -10,25 +10,38 @@
 
 namespace pnpbs {
 
-// In the order of memory. The spacing is asked equally often on all ranks: it may live distributed
-// over them. Collective.
-std::vector<double> Level::spacing_at_owned_nodes(const Spacing<2>& spacing) const {
+// At the places of the nodes; what is at those of ghosts means nothing. The spacing is asked
+// equally often on all ranks: it may live distributed over them. Collective.
+View<double> Level::spacing_at_owned_nodes(const Spacing<2>& spacing) const {
   constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points handed out
   const std::int64_t last =
       static_cast<std::int64_t>(comm_->largest(static_cast<double>(nodes_.count)));
-  std::vector<double> all;
+  View<double> all;
   agreed(*comm_, [&] {
+    all = make_view<double>("pnpbs::Level::spacings", nodes_.count);
+    std::vector<std::int32_t> owned;
     std::vector<Point<2>> x;
-    all.reserve(static_cast<std::size_t>(nodes_.count));
-    x.reserve(static_cast<std::size_t>(std::min(kBatch, nodes_.count)));
+    std::vector<double> d;
+    const auto most = static_cast<std::size_t>(std::min(kBatch, nodes_.count));
+    owned.reserve(most);
+    x.reserve(most);
+    d.reserve(most);
     for (std::int64_t first = 0; first < last; first += kBatch) {
-      x.clear();
+      owned.clear();
       for (std::int64_t i = first; i < std::min(first + kBatch, nodes_.count); ++i)
-        if (nodes_.owned(i)) x.push_back(nodes_.position(i));
-      const std::size_t before = all.size();
-      all.resize(before + x.size());
-      evaluate_spacing<2>(spacing, domain_->area(), static_cast<std::int64_t>(x.size()), x.data(),
-                          all.data() + before);
+        if (nodes_.owned(i)) owned.push_back(static_cast<std::int32_t>(i));
+      x.resize(owned.size());
+      d.resize(owned.size());
+      const auto n = static_cast<std::int64_t>(owned.size());
+      for_each("pnpbs::Level::points_for_spacing", n, [&](std::int64_t k) {
+        const auto at = static_cast<std::size_t>(k);
+        x[at] = nodes_.position(owned[at]);
+      });
+      evaluate_spacing<2>(spacing, domain_->area(), n, x.data(), d.data());
+      for_each("pnpbs::Level::take_spacing", n, [&](std::int64_t k) {
+        const auto at = static_cast<std::size_t>(k);
+        all(owned[at]) = d[at];
+      });
     }
   });
   return all;
@@ -39,10 +52,10 @@ std::vector<double> Level::spacing_at_owned_nodes(const Spacing<2>& spacing) con
 void Level::refresh_spacing() {
   ++version_;
   const PhaseTimer timer(timers_, Phase::spacing);
-  const std::vector<double> d = spacing_at_owned_nodes(*spacing_);
-  std::size_t owned = 0;
-  for (std::int64_t i = 0; i < nodes_.count; ++i)
-    if (nodes_.owned(i)) nodes_.d(i) = d[owned++];
+  const View<double> d = spacing_at_owned_nodes(*spacing_);
+  for_each("pnpbs::Level::refresh_spacing", nodes_.count, [&](std::int64_t i) {
+    if (nodes_.owned(i)) nodes_.d(i) = d(i);
+  });
   drop_anchors();
   ghost_hops_ = 0;
 }
@@ -101,17 +114,24 @@ PopulationCounts Level::carry_out(PopulationChange<2> change) {
 }
 
 void Level::delete_nodes(const std::vector<std::int32_t>& deleted) {
+  constexpr std::int64_t kChunk = 4096;
   const View<std::int32_t> stay = nodes_.order_scratch();
-  std::int64_t kept = 0;
-  std::size_t next = 0;
-  for (std::int32_t i = 0; i < nodes_.count; ++i) {
-    if (next < deleted.size() && deleted[next] == i)
-      ++next;
-    else
-      stay(kept++) = i;
-  }
-  nodes_.keep(stay, kept);
-  in_buckets_ = false;
+  const std::int64_t chunks = (nodes_.count + kChunk - 1) / kChunk;
+  for_each("pnpbs::Level::delete_nodes", chunks, [&](std::int64_t chunk) {
+    auto next = std::lower_bound(deleted.begin(), deleted.end(), chunk * kChunk);
+    for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes_.count); ++i) {
+      if (next != deleted.end() && *next == i)
+        ++next;
+      else
+        stay(i - (next - deleted.begin())) = static_cast<std::int32_t>(i);
+    }
+  });
+  keep_nodes(stay, nodes_.count - static_cast<std::int64_t>(deleted.size()));
+}
+
+void Level::keep_nodes(const View<std::int32_t>& places, std::int64_t kept) {
+  nodes_.keep(places, kept);
+  buckets_.keep(places, kept);
 }
 
 // The owner of the leaf a node is born in numbers it: ids by bucket in Morton order, then by
@@ -128,7 +148,6 @@ void Level::number_births(std::vector<Birth<2>> born) {
   std::vector<std::int64_t> next = distribution_.prefix_sums(*comm_, std::move(new_ids), next_id_);
   std::sort(born.begin(), born.end(),
             [](const Birth<2>& a, const Birth<2>& b) { return a.parent < b.parent; });
-  in_buckets_ = false;
   for (const Birth<2>& birth : born)
     nodes_.append(birth.position, birth.d,
                   next[static_cast<std::size_t>(tree.leaf_at(birth.position))]++, 0, -1);

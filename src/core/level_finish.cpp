@@ -18,9 +18,9 @@ void Level::prepare_finish() {
   // with a surplus node in the third, and whether that goes hangs on the ring around it.
   const int rings = settings_.repair.rounds > 0 ? 4 : 1;
   drop_anchors();
-  exchange(kStarHops);
+  exchange(kRepairHops);
   if (settings_.sweeps > 0 || settings_.repair.rounds > 0)
-    make_lists_and_stars(kStarHops, settings_.list_radius, rings);
+    make_lists_and_stars(kRepairHops, settings_.list_radius, rings);
   else
     agreed(*comm_, [this] { rebuild_lists(); });
   prepared_ = version_;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/counting_sort.hpp"
 #include "core/initial_fill.hpp"
 #include "core/level.hpp"
 #include "geometry/keep_off.hpp"
@@ -44,10 +45,10 @@ double Level::expected_nodes() const {
 }
 
 // Boundary nodes keep their ids where they stay in place.
-void Level::keep_boundary_ids(const std::vector<GivenNode>& given) {
+void Level::keep_boundary_ids(const GivenNodes& given) {
   std::map<Point<2>, std::int64_t> id_at;
   for (const GivenNode& node : given)
-    if (!node.inner) id_at[node.position] = node.id;
+    if (!node.inner && node.id >= 0) id_at[node.position] = node.id;
   for (std::size_t b = 0; b < boundary_.nodes.size() && !id_at.empty(); ++b) {
     const auto found = id_at.find(boundary_.nodes[b].position);
     if (found != id_at.end()) boundary_ids_[b] = found->second;
@@ -56,7 +57,7 @@ void Level::keep_boundary_ids(const std::vector<GivenNode>& given) {
 
 void Level::fill() {
   const PhaseTimer timer(timers_, Phase::fill);
-  std::vector<GivenNode> inner;
+  GivenNodes inner;
   const std::vector<LeafSummary> unrefined = summaries_of_unrefined_leaves();
   agreed(*comm_, [&] {
     for (const Point<2>& x : hexagonal_fill(map_, domain_->bounds(), owns_leaf(), unrefined))
@@ -101,19 +102,20 @@ namespace {
 // Into how many pieces of length d a length is cut; one that is long by 1.4 is halved.
 int pieces_of(double length, double d) { return static_cast<int>(length / d + 0.6); }
 
-// New nodes on the edge from x to y, cut into equal pieces: so many where it is long enough.
-void cut_edge(const Point<2>& x, const Point<2>& y, double d, int most,
-              std::vector<GivenNode>& nodes) {
+// Calls visit(place) for the new nodes on the edge from x to y, cut into equal pieces: so many
+// where it is long enough.
+template <class Visit>
+void cut_edge(const Point<2>& x, const Point<2>& y, double d, int most, const Visit& visit) {
   const int pieces = std::min(most, pieces_of(distance<2>(x, y), d));
   for (int k = 1; k < pieces; ++k) {
     const double a = static_cast<double>(k) / pieces;
-    nodes.push_back({{x[0] + a * (y[0] - x[0]), x[1] + a * (y[1] - x[1])}, -1, true, -1, d});
+    visit(Point<2>{x[0] + a * (y[0] - x[0]), x[1] + a * (y[1] - x[1])});
   }
 }
 
-// New nodes within a triangle whose edges are cut into three pieces or more.
-void fill_triangle(const std::array<Point<2>, 3>& x, double d, int most,
-                   std::vector<GivenNode>& nodes) {
+// The same for those within a triangle whose edges are cut into three pieces or more.
+template <class Visit>
+void fill_triangle(const std::array<Point<2>, 3>& x, double d, int most, const Visit& visit) {
   const double around = distance<2>(x[0], x[1]) + distance<2>(x[1], x[2]) + distance<2>(x[2], x[0]);
   const int pieces = std::min(most, pieces_of(around / 3, d));
   for (int a = 1; a < pieces - 1; ++a)
@@ -121,37 +123,67 @@ void fill_triangle(const std::array<Point<2>, 3>& x, double d, int most,
       Point<2> y;
       for (int k = 0; k < 2; ++k)
         y[k] = x[0][k] + (a * (x[1][k] - x[0][k]) + b * (x[2][k] - x[0][k])) / pieces;
-      nodes.push_back({y, -1, true, -1, d});
+      visit(y);
     }
 }
 
 }  // namespace
 
-std::vector<GivenNode> Level::refined(const Spacing<2>& next) {
+// Calls visit(place) for the new nodes of an owned node, where the spacing will be d. Edges and
+// triangles are their node's with the least id.
+template <class Visit>
+void Level::for_new_nodes(std::int64_t i, double d, const Visit& visit) const {
+  // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
+  const int pieces = pieces_of(nodes_.d(i), d);
+  if (pieces < 2) return;
+  const Point<2> x = nodes_.position(i);
+  stars_.for_neighbours(i, [&](std::int64_t j, bool) {
+    if (nodes_.id(i) < nodes_.id(j) && !on_one_edge(i, j))
+      cut_edge(x, nodes_.position(j), d, pieces, visit);
+  });
+  if (pieces < 3) return;
+  stars_.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+    if (nodes_.id(i) < nodes_.id(j) && nodes_.id(i) < nodes_.id(k))
+      fill_triangle({x, nodes_.position(j), nodes_.position(k)}, d, pieces, visit);
+  });
+}
+
+// Counted first, then written, in chunks of nodes: so that all threads can do it, and nothing has
+// to grow.
+GivenNodes Level::refined(const Spacing<2>& next) {
+  constexpr std::int64_t kChunk = 512;
   drop_anchors();
   exchange(kStarHops);
   make_lists_and_stars(kStarHops, settings_.list_radius, 0);
-  std::vector<GivenNode> nodes = owned_nodes();
-  const std::vector<double> spacing = spacing_at_owned_nodes(next);
+  const View<double> spacing = spacing_at_owned_nodes(next);
+  GivenNodes nodes;
   agreed(*comm_, [&] {
-    std::size_t owned = 0;
-    for (std::int64_t i = 0; i < nodes_.count; ++i) {
-      if (!nodes_.owned(i)) continue;
-      const double d = spacing[owned++];
-      // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
-      const int pieces = pieces_of(nodes_.d(i), d);
-      if (pieces < 2) continue;
-      // Edges and triangles are their node's with the least id.
-      const Point<2> x = nodes_.position(i);
-      stars_.for_neighbours(i, [&](std::int64_t j, bool) {
-        if (nodes_.id(i) < nodes_.id(j) && !on_one_edge(i, j))
-          cut_edge(x, nodes_.position(j), d, pieces, nodes);
+    const std::int64_t chunks = (nodes_.count + kChunk - 1) / kChunk;
+    std::vector<std::size_t> begin(static_cast<std::size_t>(chunks) + 1, 0);
+    const auto for_owned_in = [&](std::int64_t chunk, const auto& visit) {
+      for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes_.count); ++i)
+        if (nodes_.owned(i)) visit(i);
+    };
+    for_each("pnpbs::Level::count_refined", chunks, [&](std::int64_t chunk) {
+      std::size_t count = 0;
+      for_owned_in(chunk, [&](std::int64_t i) {
+        ++count;
+        for_new_nodes(i, spacing(i), [&](const Point<2>&) { ++count; });
       });
-      stars_.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-        if (nodes_.id(i) < nodes_.id(j) && nodes_.id(i) < nodes_.id(k))
-          fill_triangle({x, nodes_.position(j), nodes_.position(k)}, d, pieces, nodes);
+      begin[static_cast<std::size_t>(chunk) + 1] = count;
+    });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    nodes.reserve(begin.back() + begin.back() / 64);  // for some from other ranks
+    nodes.resize(begin.back());
+    for_each("pnpbs::Level::write_refined", chunks, [&](std::int64_t chunk) {
+      std::size_t place = begin[static_cast<std::size_t>(chunk)];
+      for_owned_in(chunk, [&](std::int64_t i) {
+        nodes[place++] = {nodes_.position(i), nodes_.id(i), nodes_.moves(i), -1, nodes_.d(i)};
+        for_new_nodes(i, spacing(i), [&](const Point<2>& x) {
+          nodes[place++] = {x, -1, true, -1, spacing(i)};
+        });
       });
-    }
+    });
   });
   return nodes;
 }
@@ -178,45 +210,43 @@ SpacingVariation Level::spacing_variation() const {
   return {-comm_->largest(-own.least), comm_->largest(own.largest), comm_->largest(own.steepest)};
 }
 
-TakenNodes Level::take(std::vector<GivenNode> given, std::int64_t next_id) {
+TakenNodes Level::take(GivenNodes given, std::int64_t next_id) {
   const PhaseTimer timer(timers_, Phase::fill);
+  const auto count_if = [&](const auto& counts) {
+    return sum_of("pnpbs::Level::take", static_cast<std::int64_t>(given.size()),
+                  [&](std::int64_t k) { return counts(given[static_cast<std::size_t>(k)]); });
+  };
   next_id_ = next_id;
   scatter_to_owners(given);
   keep_boundary_ids(given);
-  std::erase_if(given, [](const GivenNode& node) { return !node.inner; });
+  const std::uint64_t all = count_if([](const GivenNode& node) { return node.inner; });
   find_leaves(given);
-  const std::size_t all = given.size();
-  keep_those_with_place(given);
-  const std::size_t fitting = given.size();
-  sort_by_place(given);
-  thin(given);
-  const std::size_t taken = given.size();
-  const auto numbered = static_cast<std::uint64_t>(
-      std::count_if(given.begin(), given.end(), [](const GivenNode& node) { return node.id < 0; }));
+  leave_out_those_without_place(given);
+  const std::vector<std::int32_t> begin = sort_by_place(given);
+  const std::uint64_t fitting = given.size();
+  thin(given, begin);
+  const std::uint64_t taken = given.size(),
+                      numbered = count_if([](const GivenNode&node) { return node.id < 0; });
   number_and_store(std::move(given));
   return {static_cast<std::int64_t>(comm_->sum(all - fitting)),
           static_cast<std::int64_t>(comm_->sum(fitting - taken)),
           static_cast<std::int64_t>(comm_->sum(numbered))};
 }
 
-void Level::find_leaves(std::vector<GivenNode>& given) const {
+// Of inner nodes; a boundary node has none, it is laid afresh.
+void Level::find_leaves(GivenNodes& given) const {
   for_each("pnpbs::Level::find_leaves", static_cast<std::int64_t>(given.size()),
            [&](std::int64_t k) {
              GivenNode& node = given[static_cast<std::size_t>(k)];
-             node.leaf = map_.tree().leaf_at(node.position);
+             node.leaf = node.inner ? map_.tree().leaf_at(node.position) : -1;
            });
 }
 
-void Level::keep_those_with_place(std::vector<GivenNode>& given) const {
-  std::vector<char> stays(given.size());
-  for_each("pnpbs::Level::has_place", static_cast<std::int64_t>(given.size()), [&](std::int64_t n) {
-    const auto k = static_cast<std::size_t>(n);
-    stays[k] = has_place(given[k]);
+void Level::leave_out_those_without_place(GivenNodes& given) const {
+  for_each("pnpbs::Level::has_place", static_cast<std::int64_t>(given.size()), [&](std::int64_t k) {
+    GivenNode& node = given[static_cast<std::size_t>(k)];
+    if (node.leaf >= 0 && !has_place(node)) node.leaf = -1;
   });
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < given.size(); ++k)
-    if (stays[k] != 0) given[kept++] = given[k];
-  given.resize(kept);
 }
 
 // In the domain, and not too close to its boundary.
@@ -226,104 +256,180 @@ bool Level::has_place(const GivenNode& node) const {
 }
 
 // By leaf, in Morton order, and by place within it, so that nothing depends on where nodes came
-// from.
-void Level::sort_by_place(std::vector<GivenNode>& given) const {
-  std::vector<std::size_t> begin(static_cast<std::size_t>(map_.tree().leaf_count()) + 1, 0);
-  for (const GivenNode& node : given) ++begin[static_cast<std::size_t>(node.leaf) + 1];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<GivenNode> sorted(given.size());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (const GivenNode& node : given) sorted[next[static_cast<std::size_t>(node.leaf)]++] = node;
-  given = std::move(sorted);
-  for_each("pnpbs::Level::sort_by_place", map_.tree().leaf_count(), [&](std::int64_t leaf) {
-    const auto first = given.begin() + static_cast<std::ptrdiff_t>(begin[leaf]);
-    const auto last = given.begin() + static_cast<std::ptrdiff_t>(begin[leaf + 1]);
-    std::sort(first, last, [](const GivenNode& a, const GivenNode& b) {
-      return std::tie(a.position[1], a.position[0], a.id) <
-             std::tie(b.position[1], b.position[0], b.id);
-    });
+// from; those that have no leaf are left out. Returns the first place of each leaf.
+std::vector<std::int32_t> Level::sort_by_place(GivenNodes& given) const {
+  const std::int32_t leaves = map_.tree().leaf_count();
+  const auto leaf_of = [&](std::int64_t k) { return given[static_cast<std::size_t>(k)].leaf; };
+  CountingSort by_leaf(static_cast<std::int64_t>(given.size()), leaves, leaf_of);
+  std::vector<std::int32_t> begin = by_leaf.start();
+  GivenNodes sorted(static_cast<std::size_t>(begin.back()));
+  by_leaf.for_places(leaf_of, [&](std::int64_t k, std::int32_t place) {
+    sorted[static_cast<std::size_t>(place)] = given[static_cast<std::size_t>(k)];
   });
+  given = std::move(sorted);
+  for_each("pnpbs::Level::sort_by_place", leaves, [&](std::int64_t leaf) {
+    const auto at = static_cast<std::size_t>(leaf);
+    std::sort(given.begin() + begin[at], given.begin() + begin[at + 1],
+              [](const GivenNode& a, const GivenNode& b) {
+                return std::tie(a.position[1], a.position[0], a.id, a.d) <
+                       std::tie(b.position[1], b.position[0], b.id, b.d);
+              });
+  });
+  return begin;
 }
 
 // Where nodes are many times too dense for d, because d has grown since they were placed or because
 // they were given so, contests would take long to delete them. Each then counts for the share that
 // should stay, and along the Morton order of the leaves a node stays whenever the sum of the shares
-// passes a whole number. The nodes are sorted by place.
-void Level::thin(std::vector<GivenNode>& inner) const {
+// passes a whole number. The nodes are sorted by place, and `begin` is each leaf's first.
+void Level::thin(GivenNodes& inner, const std::vector<std::int32_t>& begin) const {
   constexpr double kCrowded = 1.5;  // times the nodes that d asks for in a leaf, and a few
   constexpr std::int64_t kOne = std::int64_t{1} << 32;
-  const auto leaf_of = [](const GivenNode& node) { return static_cast<std::size_t>(node.leaf); };
   const std::vector<double> wanted = wanted_nodes();
-  std::vector<double> given_in(wanted.size(), 0);
-  for (const GivenNode& node : inner) given_in[leaf_of(node)] += 1;
+  const std::int32_t leaves = map_.tree().leaf_count();
   const auto share_of = [&](const GivenNode& node) {
-    const std::size_t leaf = leaf_of(node);
-    const double d = map_.leaf_spacing(node.leaf);
+    const auto leaf = static_cast<std::size_t>(node.leaf);
+    const double d = map_.leaf_spacing(node.leaf), given = begin[leaf + 1] - begin[leaf];
     double share = 1;
     if (node.d > 0 && d > 1.02 * node.d) share = (node.d / d) * (node.d / d);
-    if (given_in[leaf] > kCrowded * wanted[leaf] + 4)
-      share = std::min(share, wanted[leaf] / given_in[leaf]);
+    if (given > kCrowded * wanted[leaf] + 4) share = std::min(share, wanted[leaf] / given);
     return static_cast<std::int64_t>(share * static_cast<double>(kOne));
   };
-  std::vector<std::int64_t> sums(given_in.size(), 0);
-  for (const GivenNode& node : inner) sums[leaf_of(node)] += share_of(node);
-  std::int64_t end = 0;
-  std::vector<std::int64_t> sum_before = distribution_.prefix_sums(*comm_, std::move(sums), end);
-  std::erase_if(inner, [&](const GivenNode& node) {
-    std::int64_t& sum = sum_before[leaf_of(node)];
-    const std::int64_t whole = sum / kOne;
-    sum += share_of(node);
-    return sum / kOne == whole;
+  const auto for_nodes_in = [&](std::int64_t leaf, const auto& visit) {
+    const auto at = static_cast<std::size_t>(leaf);
+    for (std::int32_t k = begin[at]; k < begin[at + 1]; ++k)
+      visit(inner[static_cast<std::size_t>(k)]);
+  };
+  std::vector<std::int64_t> sums(static_cast<std::size_t>(leaves), 0);
+  for_each("pnpbs::Level::sum_shares", leaves, [&](std::int64_t leaf) {
+    for_nodes_in(leaf, [&](const GivenNode& node) {
+      sums[static_cast<std::size_t>(leaf)] += share_of(node);
+    });
   });
+  std::int64_t end = 0;
+  sums = distribution_.prefix_sums(*comm_, std::move(sums), end);
+  const std::uint64_t gone = sum_of("pnpbs::Level::thin", leaves, [&](std::int64_t leaf) {
+    std::int64_t sum = sums[static_cast<std::size_t>(leaf)], in_leaf = 0;
+    for_nodes_in(leaf, [&](GivenNode& node) {
+      const std::int64_t whole = sum / kOne;
+      sum += share_of(node);
+      if (sum / kOne != whole) return;
+      node.leaf = -1;
+      ++in_leaf;
+    });
+    return in_leaf;
+  });
+  if (gone > 0) std::erase_if(inner, [](const GivenNode& node) { return node.leaf < 0; });
+}
+
+namespace {
+
+struct LeafNode {
+  std::int32_t leaf, node;  // of the boundary
+};
+
+// Boundary and inner nodes, both sorted by leaf, as they follow each other: leaf by leaf, boundary
+// nodes first. All threads walk along them, each in its own blocks of leaves.
+class LeafBlocks {
+ public:
+  LeafBlocks(std::int32_t leaves, const std::vector<LeafNode>& boundary, const GivenNodes& inner)
+      : leaves_(leaves), boundary_(boundary), inner_(inner) {}
+
+  // Calls of_boundary(place, node) or of_inner(place, node) for every node.
+  template <class OfBoundary, class OfInner>
+  void for_each_node(const OfBoundary& of_boundary, const OfInner& of_inner) const {
+    constexpr std::int32_t kBlock = 256;
+    for_each("pnpbs::LeafBlocks", (leaves_ + kBlock - 1) / kBlock, [&](std::int64_t block) {
+      const auto first = static_cast<std::int32_t>(block) * kBlock;
+      const auto before = [](const auto& node, std::int32_t leaf) { return node.leaf < leaf; };
+      const auto place_of = [&](const auto& nodes) {
+        return static_cast<std::size_t>(
+            std::lower_bound(nodes.begin(), nodes.end(), first, before) - nodes.begin());
+      };
+      std::size_t b = place_of(boundary_), k = place_of(inner_);
+      for (std::int32_t leaf = first; leaf < std::min(first + kBlock, leaves_); ++leaf) {
+        for (; b < boundary_.size() && boundary_[b].leaf == leaf; ++b)
+          of_boundary(b + k, boundary_[b]);
+        for (; k < inner_.size() && inner_[k].leaf == leaf; ++k) of_inner(b + k, inner_[k]);
+      }
+    });
+  }
+
+ private:
+  std::int32_t leaves_;
+  const std::vector<LeafNode>& boundary_;
+  const GivenNodes& inner_;
+};
+
+}  // namespace
+
+// Nodes in one place would never part: the first of them counts. They are sorted by place.
+void Level::leave_out_coinciding(GivenNodes& inner) const {
+  const auto same_place = [](const GivenNode& a, const GivenNode& b) {
+    return a.position == b.position;
+  };
+  const std::int64_t pairs = std::max<std::int64_t>(1, static_cast<std::int64_t>(inner.size())) - 1;
+  const std::uint64_t coinciding = sum_of("pnpbs::Level::coinciding", pairs, [&](std::int64_t n) {
+    const auto k = static_cast<std::size_t>(n);
+    return same_place(inner[k], inner[k + 1]);
+  });
+  if (coinciding > 0) inner.erase(std::unique(inner.begin(), inner.end(), same_place), inner.end());
 }
 
 // New ids go by bucket in Morton order, boundary nodes first, then by place, so that the order of
 // ids is nearly the order in memory. The nodes are sorted by place.
-void Level::number_and_store(std::vector<GivenNode> inner) {
+void Level::number_and_store(GivenNodes inner) {
   ++version_;
-  // Nodes in one place would never part: the first of them counts.
-  inner.erase(
-      std::unique(inner.begin(), inner.end(),
-                  [](const GivenNode& a, const GivenNode& b) { return a.position == b.position; }),
-      inner.end());
-  double most_id = static_cast<double>(next_id_ - 1);
-  for (const GivenNode& node : inner) most_id = std::max(most_id, static_cast<double>(node.id));
+  leave_out_coinciding(inner);
+  const double most_id = largest_of(
+      "pnpbs::Level::most_id", static_cast<std::int64_t>(inner.size()),
+      static_cast<double>(next_id_ - 1),
+      [&](std::int64_t k) { return static_cast<double>(inner[static_cast<std::size_t>(k)].id); });
   next_id_ = static_cast<std::int64_t>(comm_->largest(most_id)) + 1;
 
-  std::vector<std::pair<std::int32_t, std::int32_t>> own_boundary;  // leaf and node
+  std::vector<LeafNode> own_boundary;
   for (std::size_t b = 0; b < boundary_.nodes.size(); ++b) {
     const std::int32_t leaf = map_.tree().leaf_at(boundary_.nodes[b].position);
-    if (distribution_.owns(leaf)) own_boundary.emplace_back(leaf, static_cast<std::int32_t>(b));
+    if (distribution_.owns(leaf)) own_boundary.push_back({leaf, static_cast<std::int32_t>(b)});
   }
-  std::sort(own_boundary.begin(), own_boundary.end());
+  std::sort(own_boundary.begin(), own_boundary.end(), [](const LeafNode& a, const LeafNode& b) {
+    return std::tie(a.leaf, a.node) < std::tie(b.leaf, b.node);
+  });
+  const LeafBlocks blocks(map_.tree().leaf_count(), own_boundary, inner);
 
-  std::vector<std::int64_t> new_ids(static_cast<std::size_t>(map_.tree().leaf_count()), 0);
-  for (const auto& [leaf, b] : own_boundary)
-    new_ids[static_cast<std::size_t>(leaf)] += boundary_ids_[static_cast<std::size_t>(b)] < 0;
-  for (const GivenNode& node : inner) new_ids[static_cast<std::size_t>(node.leaf)] += node.id < 0;
-  std::vector<std::int64_t> next = distribution_.prefix_sums(*comm_, std::move(new_ids), next_id_);
+  std::vector<std::int64_t> next(static_cast<std::size_t>(map_.tree().leaf_count()), 0);
+  const auto boundary_id = [&](const LeafNode& node) {
+    return boundary_ids_[static_cast<std::size_t>(node.node)];
+  };
+  blocks.for_each_node(
+      [&](std::size_t, const LeafNode& node) {
+        next[static_cast<std::size_t>(node.leaf)] += boundary_id(node) < 0;
+      },
+      [&](std::size_t, const GivenNode& node) {
+        next[static_cast<std::size_t>(node.leaf)] += node.id < 0;
+      });
+  next = distribution_.prefix_sums(*comm_, std::move(next), next_id_);
   const auto number = [&](std::int64_t id, std::int32_t leaf) {
     return id >= 0 ? id : next[static_cast<std::size_t>(leaf)]++;
   };
-
-  nodes_.count = 0;
-  in_buckets_ = false;
   const std::size_t count = own_boundary.size() + inner.size();
-  nodes_.reserve(static_cast<std::int64_t>(count + count / 64) + 64);
-  auto of_boundary = own_boundary.begin();
-  const auto store_boundary_until = [&](std::int32_t last_leaf) {
-    for (; of_boundary != own_boundary.end() && of_boundary->first <= last_leaf; ++of_boundary) {
-      const auto& [leaf, b] = *of_boundary;
-      const BoundaryNode& node = boundary_.nodes[static_cast<std::size_t>(b)];
-      nodes_.append(node.position, 1, number(boundary_ids_[static_cast<std::size_t>(b)], leaf),
-                    node.tag, b);
-    }
-  };
-  for (const GivenNode& node : inner) {
-    store_boundary_until(node.leaf);
-    nodes_.append(node.position, 1, number(node.id, node.leaf), 0, -1);
-  }
-  store_boundary_until(map_.tree().leaf_count());
+  nodes_.count = 0;
+  // For births and, over several ranks, for ghosts.
+  nodes_.reserve(static_cast<std::int64_t>(count + count / (distributed() ? 16 : 64)) + 64);
+  nodes_.count = static_cast<std::int64_t>(count);
+  const View<std::int32_t> bucket = buckets_.buckets_of_new(nodes_);
+  blocks.for_each_node(
+      [&](std::size_t place, const LeafNode& node) {
+        const auto i = static_cast<std::int64_t>(place);
+        const BoundaryNode& laid = boundary_.nodes[static_cast<std::size_t>(node.node)];
+        nodes_.put(i, laid.position, 1, number(boundary_id(node), node.leaf), laid.tag, node.node);
+        bucket(i) = node.leaf;
+      },
+      [&](std::size_t place, const GivenNode& node) {
+        const auto i = static_cast<std::int64_t>(place);
+        nodes_.put(i, node.position, 1, number(node.id, node.leaf), 0, -1);
+        bucket(i) = node.leaf;
+      });
   refresh_spacing();
   exchange(step_hops());
 }

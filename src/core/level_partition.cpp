@@ -35,7 +35,7 @@ std::vector<std::int32_t> integers_of(const Bytes& bytes) {
 
 }  // namespace
 
-void Level::grow_tree() {
+void Level::grow_tree(const Level* like) {
   if (!distributed()) {
     const PhaseTimer timer(timers_, Phase::tree);
     map_.build(domain_->bounds(), boundary_, evaluator(), settings_.max_nodes);
@@ -44,19 +44,40 @@ void Level::grow_tree() {
     return;
   }
   const PhaseTimer timer(timers_, Phase::partition);
-  // First by a few samples of d; then what lies in each part is known, and is cut again.
-  PartitionCells cells(domain_->bounds(), rough_cells());
-  require_same_ground(cells);
-  std::vector<std::int32_t> owner = cut_morton_order(cells.work(), comm_->size());
+  // First roughly; then what lies in each part is known, and is cut again.
+  if (like)
+    distribution_ = like->distribution_.without_leaves();
+  else
+    take_rough_cells();
+  require_same_ground(distribution_.cells());
   std::vector<char> own;
-  for (std::int32_t r : owner) own.push_back(r == comm_->rank());
-  distribution_ = Distribution(std::move(cells), std::move(owner), comm_->rank());
+  for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
+    own.push_back(distribution_.owner_of_cell(c) == comm_->rank());
   refine_tree(own);
-  cells = PartitionCells(domain_->bounds(),
-                         cells_of_equal_work(*comm_, map_, owns_leaf(), expected_work()));
-  owner = cut_on_first_rank(cells);
+  PartitionCells cells(domain_->bounds(),
+                       cells_of_equal_work(*comm_, map_, owns_leaf(), expected_work()));
+  std::vector<std::int32_t> owner =
+      like ? cut_like(like->distribution_, cells) : cut_on_first_rank(cells);
   distribution_ = Distribution(std::move(cells), std::move(owner), comm_->rank());
   grow_own_part();
+}
+
+// By a few samples of d.
+void Level::take_rough_cells() {
+  PartitionCells cells(domain_->bounds(), rough_cells());
+  std::vector<std::int32_t> owner = cut_morton_order(cells.work(), comm_->size());
+  distribution_ = Distribution(std::move(cells), std::move(owner), comm_->rank());
+}
+
+// What one level hands on to the next then stays where it is.
+std::vector<std::int32_t> Level::cut_like(const Distribution& other,
+                                          const PartitionCells& cells) const {
+  constexpr double kBalanced = 1.05;  // a coarse level has few nodes, and little of the work
+  std::vector<std::int32_t> owner;
+  for (std::int32_t c = 0; c < cells.count(); ++c)
+    owner.push_back(other.owner_at(cells.tree().cell_centre(cells.tree().leaf_cell(c))));
+  if (pnpbs::imbalance(owner, cells.work(), comm_->size()) <= kBalanced) return owner;
+  return cut_on_first_rank(cells);
 }
 
 namespace {
@@ -109,7 +130,6 @@ void Level::look_at_new_tree() {
 
 void Level::forget_what_goes_by_leaves() {
   buckets_.reset(links_);
-  in_buckets_ = false;
   plan_ = GhostPlan();
   ghost_hops_ = 0;
   lists_valid_ = false;

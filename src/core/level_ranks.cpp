@@ -46,7 +46,7 @@ int Level::step_hops() const {
 
 int Level::deepest_hops() const {
   // One more because nodes drift out of their leaves, and one to see who is beyond.
-  return std::max({step_hops(), hops_for(kRungeKuttaStages), kPopulationHops, kStarHops}) + 2;
+  return std::max({step_hops(), hops_for(kRungeKuttaStages), kPopulationHops, kRepairHops}) + 2;
 }
 
 std::int64_t Level::ghost_life() const { return std::max(kGhostLife, settings_.exchange_interval); }
@@ -107,7 +107,6 @@ void Level::exchange(int hops) {
     failure = std::current_exception();
   }
   attempt([&] { append_arriving(halo, incoming); });
-  in_buckets_ = false;
   lists_valid_ = false;
   agree_on_failure(*comm_, failure);
   ghost_hops_ = hops;
@@ -121,11 +120,12 @@ void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!nodes_.owned(i)) continue;
-    if (in_buckets_ && halo.quiet(buckets_.bucket_of(i))) {
+    if (buckets_.knows(i) && halo.quiet(buckets_.bucket_of(i))) {
       stay(kept++) = static_cast<std::int32_t>(i);
       continue;
     }
-    const std::int32_t leaf = map_.tree().leaf_at(nodes_.position(i));
+    const std::int32_t leaf =
+        map_.tree().leaf_at(nodes_.position(i), buckets_.knows(i) ? buckets_.bucket_of(i) : -1);
     const int owner = distribution_.owner(leaf);
     const bool ours = owner == comm_->rank();
     bool stays = ours;
@@ -142,14 +142,15 @@ void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
     nodes_.owned(i) = ours;
     stay(kept++) = static_cast<std::int32_t>(i);
   }
-  nodes_.keep(stay, kept);
+  keep_nodes(stay, kept);
 }
 
 // Ghosts, and nodes that have drifted to us: those, others may have as ghosts.
 void Level::append_arriving(const Halo& halo, const std::vector<Bytes>& incoming) {
   nodes_.reserve_with_room(nodes_.count + records_in<PackedNode>(incoming));
+  std::int32_t leaf = -1;  // nodes of the same one come together
   for_records<PackedNode>(incoming, [&](const PackedNode& node) {
-    const std::int32_t leaf = map_.tree().leaf_at({node.x[0], node.x[1]});
+    leaf = map_.tree().leaf_at({node.x[0], node.x[1]}, leaf);
     const auto i = static_cast<std::int32_t>(nodes_.count);
     append(nodes_, node, distribution_.owns(leaf));
     if (distribution_.owns(leaf))
@@ -180,24 +181,39 @@ void Level::migrate() {
   const std::vector<PackedNode> arriving = delivered(*comm_, leaving, owner_at);
   agreed(*comm_,
          [&] { nodes_.reserve_with_room(kept + static_cast<std::int64_t>(arriving.size())); });
-  nodes_.keep(stay, kept);
+  keep_nodes(stay, kept);
   for (const PackedNode& node : arriving) append(nodes_, node, true);
   ++version_;
-  in_buckets_ = false;
   ghost_hops_ = 0;
   lists_valid_ = false;
 }
 
-// Every node to the rank that owns its place, from wherever it is.
-void Level::scatter_to_owners(std::vector<GivenNode>& given) const {
+// Every node to the rank that owns its place, from wherever it is; most are there already.
+void Level::scatter_to_owners(GivenNodes& given) const {
   if (!distributed()) return;
-  given = delivered<GivenNode>(*comm_, given, [this](const GivenNode& node) {
+  const auto owner_of = [this](const GivenNode& node) {
     return distribution_.owner_at(node.position);
-  });
+  };
+  const View<std::int32_t> owner =
+      make_view<std::int32_t>("pnpbs::Level::owner", static_cast<std::int64_t>(given.size()));
+  for_each("pnpbs::Level::find_owners", static_cast<std::int64_t>(given.size()),
+           [&](std::int64_t k) { owner(k) = owner_of(given[static_cast<std::size_t>(k)]); });
+  std::vector<GivenNode> leaving;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    if (owner(k) == comm_->rank())
+      given[kept++] = given[k];
+    else
+      leaving.push_back(given[k]);
+  }
+  given.resize(kept);
+  const std::vector<GivenNode> arrived = delivered<GivenNode>(*comm_, leaving, owner_of);
+  given.insert(given.end(), arrived.begin(), arrived.end());
 }
 
-std::vector<GivenNode> Level::owned_nodes() const {
-  std::vector<GivenNode> owned;
+GivenNodes Level::owned_nodes() const {
+  GivenNodes owned;
+  owned.reserve(static_cast<std::size_t>(owned_count()));
   for (std::int64_t i = 0; i < nodes_.count; ++i)
     if (nodes_.owned(i))
       owned.push_back({nodes_.position(i), nodes_.id(i), nodes_.moves(i), -1, nodes_.d(i)});

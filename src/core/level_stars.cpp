@@ -64,7 +64,7 @@ KnownRegion Level::known_after_exchange(int hops) {
         if (r == comm_->rank()) held[static_cast<std::size_t>(leaf)] = 1;
       });
   }
-  return KnownRegion(std::move(held));
+  return KnownRegion(map_, held);
 }
 
 // Those not reached yet.
@@ -133,7 +133,6 @@ void Level::fetch_nodes_in(const std::vector<Box<2>>& boxes) {
     plan_.match(nodes_);
   });
   for (const Box<2>& box : boxes) known_.add(box);
-  in_buckets_ = false;
   lists_valid_ = false;
 }
 

@@ -67,17 +67,22 @@ struct Nodes {
   void append(const Point<Dim>& position, double spacing, std::int64_t node_id,
               std::int32_t node_tag, std::int32_t on_boundary) {
     if (count + 1 > capacity()) reserve(count + count / 8 + 64);
+    put(count++, position, spacing, node_id, node_tag, on_boundary);
+  }
+
+  // At a place that there is room for.
+  void put(std::int64_t i, const Point<Dim>& position, double spacing, std::int64_t node_id,
+           std::int32_t node_tag, std::int32_t on_boundary) const {
     for (int k = 0; k < Dim; ++k) {
-      x[k](count) = position[k];
-      v[k](count) = 0;
-      anchor[k](count) = position[k];
+      x[k](i) = position[k];
+      v[k](i) = 0;
+      anchor[k](i) = position[k];
     }
-    d(count) = spacing;
-    id(count) = node_id;
-    tag(count) = node_tag;
-    boundary_node(count) = on_boundary;
-    owned(count) = 1;
-    ++count;
+    d(i) = spacing;
+    id(i) = node_id;
+    tag(i) = node_tag;
+    boundary_node(i) = on_boundary;
+    owned(i) = 1;
   }
 
   Point<Dim> position(std::int64_t i) const { return point_at<Dim>(x, i); }
@@ -101,18 +106,24 @@ struct Nodes {
     permute_array(owned, spare_.flag, from);
   }
 
-  // Keeps the first `kept` nodes named, whose places increase, and drops the others.
+  // Keeps the first `kept` nodes named, whose places increase, and drops the others. In place, with
+  // a thread for each array.
   void keep(const View<std::int32_t>& places, std::int64_t kept) {
+    constexpr int kReal = 3 * Dim + 1;
+    std::array<View<double>, kReal> real;
     for (int k = 0; k < Dim; ++k) {
-      keep_in_array(x[k], places, kept);
-      keep_in_array(v[k], places, kept);
-      keep_in_array(anchor[k], places, kept);
+      real[k] = x[k];
+      real[Dim + k] = v[k];
+      real[2 * Dim + k] = anchor[k];
     }
-    keep_in_array(d, places, kept);
-    keep_in_array(id, places, kept);
-    keep_in_array(tag, places, kept);
-    keep_in_array(boundary_node, places, kept);
-    keep_in_array(owned, places, kept);
+    real[3 * Dim] = d;
+    for_each("pnpbs::Nodes::keep", kReal + 4, [&](std::int64_t array) {
+      if (array < kReal) keep_in_array(real[static_cast<std::size_t>(array)], places, kept);
+      if (array == kReal) keep_in_array(id, places, kept);
+      if (array == kReal + 1) keep_in_array(tag, places, kept);
+      if (array == kReal + 2) keep_in_array(boundary_node, places, kept);
+      if (array == kReal + 3) keep_in_array(owned, places, kept);
+    });
     count = kept;
   }
 

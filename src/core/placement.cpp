@@ -58,7 +58,7 @@ void Placement::set_spacing(std::shared_ptr<const Spacing<2>> spacing) {
   spacing_replaced_ = true;
 }
 
-void Placement::set_nodes(std::vector<GivenNode> nodes) {
+void Placement::set_nodes(GivenNodes nodes) {
   given_ = std::move(nodes);
   start_from_given_ = true;
   level_.reset();
@@ -127,9 +127,9 @@ std::shared_ptr<const Spacing<2>> Placement::limited_spacing(const Settings& set
   return spacing;
 }
 
-// A level without inner nodes yet.
+// A level without inner nodes yet, dealt out to the ranks like another one if that is given.
 std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> spacing,
-                                              const Settings& settings) {
+                                              const Settings& settings, const Level* like) {
   std::unique_ptr<Level> level;
   agreed(*comm_, [&] {
     // A copy: the caller may go on to change the domain.
@@ -137,7 +137,7 @@ std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> 
                                     std::move(spacing), settings, timers_);
     level->lay_boundary();
   });
-  level->grow_tree();
+  level->grow_tree(like);
   return level;
 }
 
@@ -165,7 +165,7 @@ Outcome Placement::make_level() {
   } else {
     coarser_levels_ = coarser_levels_that_pay(*next, spacing);
     if (coarser_levels_ > 0)
-      next->take(nodes_from_coarser_levels(spacing, settings, outcome), 0);
+      next->take(nodes_from_coarser_levels(*next, spacing, settings, outcome), 0);
     else
       next->fill();
   }

@@ -51,7 +51,7 @@ class Placement {
   Options& options() { return options_; }
   const Options& options() const { return options_; }
   void set_spacing(std::shared_ptr<const Spacing<2>> spacing);
-  void set_nodes(std::vector<GivenNode> nodes);
+  void set_nodes(GivenNodes nodes);
   void forget_nodes();  // lets go of everything that lives in Kokkos' memory
   void set_monitor(Monitor monitor) { monitor_ = std::move(monitor); }
   // Asks this rank's monitor. The nodes told are those of all ranks.
@@ -117,13 +117,14 @@ class Placement {
   Outcome make_level();
   std::shared_ptr<const Spacing<2>> limited_spacing(const Settings& settings);
   std::unique_ptr<Level> empty_level(std::shared_ptr<const Spacing<2>> spacing,
-                                     const Settings& settings);
+                                     const Settings& settings, const Level* like = nullptr);
   void adopt_level(std::unique_ptr<Level> next);
   int coarser_levels_that_pay(const Level& finest,
                               const std::shared_ptr<const Spacing<2>>& spacing) const;
   bool boundary_leaves_room(const Spacing<2>& coarser, double boundary_nodes, double nodes) const;
-  std::vector<GivenNode> nodes_from_coarser_levels(const std::shared_ptr<const Spacing<2>>& spacing,
-                                                   const Settings& settings, Outcome& outcome);
+  GivenNodes nodes_from_coarser_levels(const Level& finest,
+                                       const std::shared_ptr<const Spacing<2>>& spacing,
+                                       const Settings& settings, Outcome& outcome);
   void require_same_options() const;
   void require_same_domain() const;
   template <class Work>
@@ -148,7 +149,7 @@ class Placement {
   std::shared_ptr<const Spacing<2>> spacing_;
   Monitor monitor_;
   std::unique_ptr<Level> level_;
-  std::vector<GivenNode> given_;  // nodes to start from instead of a fill
+  GivenNodes given_;  // nodes to start from instead of a fill
   bool start_from_given_ = false;
   bool spacing_replaced_ = false;  // since the level was made
 

@@ -34,10 +34,10 @@ std::shared_ptr<const Spacing<2>> spacing_of_level(const std::shared_ptr<const S
   return std::make_shared<MultipliedSpacing>(spacing, coarser_by(level));
 }
 
-// All nodes of a level are numbered anew, and the boundary is laid anew.
-std::vector<GivenNode> new_nodes(std::vector<GivenNode> nodes) {
-  std::erase_if(nodes, [](const GivenNode& node) { return !node.inner; });
-  for (GivenNode& node : nodes) node.id = -1;
+// All nodes of a level are numbered anew.
+GivenNodes new_nodes(GivenNodes nodes) {
+  for_each("pnpbs::new_nodes", static_cast<std::int64_t>(nodes.size()),
+           [&](std::int64_t k) { nodes[static_cast<std::size_t>(k)].id = -1; });
   return nodes;
 }
 
@@ -93,13 +93,14 @@ bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_
 
 // From the coarsest level down to twice the spacing. If the monitor stops them, refined nodes are
 // returned nevertheless, as they are.
-std::vector<GivenNode> Placement::nodes_from_coarser_levels(
-    const std::shared_ptr<const Spacing<2>>& spacing, const Settings& settings, Outcome& outcome) {
-  std::vector<GivenNode> nodes;
+GivenNodes Placement::nodes_from_coarser_levels(const Level& finest,
+                                                const std::shared_ptr<const Spacing<2>>& spacing,
+                                                const Settings& settings, Outcome& outcome) {
+  GivenNodes nodes;
   try {
     for (int l = coarser_levels_; l > 0; --l) {
-      std::unique_ptr<Level> level = empty_level(spacing_of_level(spacing, l),
-                                                 settings_of_level(settings, l == coarser_levels_));
+      std::unique_ptr<Level> level = empty_level(
+          spacing_of_level(spacing, l), settings_of_level(settings, l == coarser_levels_), &finest);
       if (l == coarser_levels_)
         level->fill();
       else

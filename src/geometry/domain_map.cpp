@@ -124,6 +124,8 @@ struct DomainMap::Growth {
   void sample(const BackgroundTree<2>& tree, std::int32_t first, std::int32_t last) {
     std::vector<Point<2>> points;
     std::vector<std::int32_t> owner;
+    points.reserve(kSamples.size() * static_cast<std::size_t>(last - first));
+    owner.reserve(points.capacity());
     for (std::int32_t c = first; c < last; ++c) {
       if (cells[index(c)].outside) continue;
       for (const Point<2>& fraction : kSamples) {
@@ -136,8 +138,9 @@ struct DomainMap::Growth {
     std::vector<double> d(points.size());
     spacing(static_cast<std::int64_t>(points.size()), points.data(), d.data());
     std::size_t next = 0;
+    std::vector<double> values;
     for (std::int32_t c = first; c < last; ++c) {
-      std::vector<double> values;
+      values.clear();
       for (; next < owner.size() && owner[next] == c; ++next) values.push_back(d[next]);
       add_boundary_samples(tree.cell_box(c), cells[index(c)], values);
       take_samples(values, cells[index(c)]);
@@ -222,6 +225,7 @@ void DomainMap::grow(const Communicator& comm, const Box<2>& bounds, Growth grow
   const auto split_depth = [&](const BackgroundTree<2>& tree, std::int32_t first, std::int32_t last,
                                std::vector<char>& split) {
     if (first == 0) growth.start_root(tree);
+    growth.cells.reserve(static_cast<std::size_t>(tree.cell_count()));
     for (std::int32_t parent = parents; parent < first; ++parent) {
       const std::int32_t child = tree.cell(parent).first_child;
       if (child < 0) continue;
@@ -262,6 +266,9 @@ void DomainMap::keep_leaves(const Growth& growth) {
   leaf_largest_.clear();
   leaf_edges_.clear();
   edge_offset_.assign(1, 0);
+  cell_has_edges_.clear();
+  for (const Growth::CellState& cell : growth.cells)
+    cell_has_edges_.push_back(cell.first_edge < cell.last_edge);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const Growth::CellState& cell = growth.cells[index(tree_.leaf_cell(leaf))];
     side_.push_back(cell.outside                        ? Side::outside

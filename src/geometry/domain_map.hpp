@@ -62,7 +62,8 @@ class DomainMap {
   template <class Visit>
   void for_edges_near(const Point<2>& x, double reach, const Visit& visit) const {
     const Box<2> box{{x[0] - reach, x[1] - reach}, {x[0] + reach, x[1] + reach}};
-    tree_.for_leaves_in(box, [&](std::int32_t leaf) { for_edges_of_leaf(leaf, visit); });
+    const auto has_edges = [this](std::int32_t cell) { return cell_has_edges_[index(cell)] != 0; };
+    tree_.for_leaves_in(box, has_edges, [&](std::int32_t leaf) { for_edges_of_leaf(leaf, visit); });
   }
   template <class Visit>
   void for_edges_of_leaf(std::int32_t leaf, const Visit& visit) const {
@@ -99,6 +100,7 @@ class DomainMap {
   std::vector<Point<2>> reference_;     // a point in each leaf ...
   std::vector<char> reference_inside_;  // ... and whether it lies inside
   std::vector<double> leaf_spacing_, leaf_least_, leaf_largest_;
+  std::vector<char> cell_has_edges_;       // of all cells: can an edge be in it?
   std::vector<std::int32_t> edge_offset_;  // edges of each leaf
   std::vector<std::int32_t> leaf_edges_;
 };

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/counting_sort.hpp"
+
 namespace pnpbs {
 
 template <int Dim>
@@ -15,46 +17,71 @@ bool Buckets<Dim>::sort(const BackgroundTree<Dim>& tree, Nodes<Dim>& nodes, doub
   return reordered;
 }
 
-// Most nodes are where they were when they were sorted last: each bucket asks for its own first.
+// Most nodes are where they were when they were sorted last: each asks for its bucket of then
+// first.
 template <int Dim>
 void Buckets<Dim>::find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes) {
-  if (static_cast<std::int64_t>(bucket_of_.extent(0)) < nodes.capacity())
-    bucket_of_ = make_view<std::int32_t>("pnpbs::Buckets::bucket_of", nodes.capacity());
-  const bool was_sorted = start_.size() == static_cast<std::size_t>(tree.leaf_count()) + 1;
-  const auto known = was_sorted ? std::min<std::int64_t>(start_.back(), nodes.count) : 0;
+  constexpr std::int64_t kChunk = 256;
+  make_room(nodes.capacity());
   const View<std::int32_t> bucket = bucket_of_;
-  if (was_sorted)
-    for_each("pnpbs::Buckets::find_near", tree.leaf_count(), [&, bucket](std::int64_t b) {
-      const std::int32_t leaf = static_cast<std::int32_t>(b);
-      const Box<Dim> box = tree.fine_box(leaf);
-      for (std::int64_t i = begin(leaf); i < std::min<std::int64_t>(end(leaf), known); ++i) {
-        const Point<Dim> x = nodes.position(i);
-        bucket(i) = tree.fine_box_holds(box, x) ? leaf : tree.leaf_at(x);
+  const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
+  for_each("pnpbs::Buckets::find", chunks, [&, bucket](std::int64_t chunk) {
+    std::int32_t leaf = -1;  // of the box
+    Box<Dim> box{};
+    for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes.count); ++i) {
+      const Point<Dim> x = nodes.position(i);
+      if (knows(i) && bucket(i) != leaf) {
+        leaf = bucket(i);
+        box = tree.fine_box(leaf);
       }
-    });
-  for_each("pnpbs::Buckets::find", nodes.count - known, [&, bucket](std::int64_t k) {
-    bucket(known + k) = tree.leaf_at(nodes.position(known + k));
+      bucket(i) = leaf >= 0 && tree.fine_box_holds(box, x) ? leaf : tree.leaf_at(x);
+    }
   });
+  known_ = nodes.count;
 }
 
-// Counting sort; stable, so that nodes which stay keep their order.
+template <int Dim>
+void Buckets<Dim>::make_room(std::int64_t n) {
+  if (bucket_of_.extent(0) == 0)
+    bucket_of_ = make_view<std::int32_t>("pnpbs::Buckets::bucket_of", n);
+  else
+    grow(bucket_of_, n, known_);
+}
+
+template <int Dim>
+const View<std::int32_t>& Buckets<Dim>::buckets_of_new(const Nodes<Dim>& nodes) {
+  known_ = 0;
+  make_room(nodes.capacity());
+  known_ = nodes.count;
+  return bucket_of_;
+}
+
+template <int Dim>
+void Buckets<Dim>::keep(const View<std::int32_t>& places, std::int64_t kept) {
+  std::int64_t still_known = 0;
+  for (std::int64_t k = 0; k < kept && places(k) < known_; ++k, ++still_known)
+    bucket_of_(k) = bucket_of_(places(k));
+  known_ = still_known;
+}
+
+// Stable, so that nodes which stay keep their order.
 template <int Dim>
 bool Buckets<Dim>::order_nodes(std::int32_t buckets, Nodes<Dim>& nodes) {
-  start_.assign(static_cast<std::size_t>(buckets) + 1, 0);
-  bool ordered = true;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    ++start_[index(bucket_of_(i)) + 1];
-    ordered = ordered && (i == 0 || bucket_of_(i - 1) <= bucket_of_(i));
-  }
-  for (std::int32_t b = 0; b < buckets; ++b) start_[index(b) + 1] += start_[index(b)];
-  if (ordered) return false;
+  const View<std::int32_t> bucket = bucket_of_;
+  const auto bucket_of = [bucket](std::int64_t i) { return bucket(i); };
+  CountingSort sorted(nodes.count, buckets, bucket_of);
+  start_ = sorted.start();
+  if (sorted.in_order()) return false;
   from_ = nodes.order_scratch();
-  std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
-  for (std::int64_t i = 0; i < nodes.count; ++i)
-    from_(next[index(bucket_of_(i))]++) = static_cast<std::int32_t>(i);
+  const View<std::int32_t> from = from_;
+  sorted.for_places(bucket_of, [from](std::int64_t i, std::int32_t place) {
+    from(place) = static_cast<std::int32_t>(i);
+  });
   nodes.permute(from_);
-  for (std::int32_t b = 0; b < buckets; ++b)
-    for (std::int32_t i = start_[index(b)]; i < start_[index(b) + 1]; ++i) bucket_of_(i) = b;
+  for_each("pnpbs::Buckets::order_nodes", buckets, [&, bucket](std::int64_t b) {
+    const auto leaf = static_cast<std::int32_t>(b);
+    for (std::int32_t i = begin(leaf); i < end(leaf); ++i) bucket(i) = leaf;
+  });
   return true;
 }
 
@@ -66,19 +93,29 @@ void Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<
   if (!links_)
     links_ = std::make_shared<const LeafLinks<Dim>>(
         tree, std::vector<double>(static_cast<std::size_t>(buckets), 0));
-  least_.assign(static_cast<std::size_t>(buckets), std::numeric_limits<double>::infinity());
-  std::vector<double> grown;  // reaches, if one is larger than it was
-  for (std::int32_t b = 0; b < buckets; ++b) {
+  least_.resize(static_cast<std::size_t>(buckets));
+  const auto largest_in = [&](std::int32_t bucket) {
     double largest = 0;
-    for (std::int32_t i = begin(b); i < end(b); ++i) {
+    for (std::int32_t i = begin(bucket); i < end(bucket); ++i)
       largest = std::max(largest, nodes.d(i));
-      least_[index(b)] = std::min(least_[index(b)], nodes.d(i));
-    }
-    if (radius * largest <= links_->reach[index(b)]) continue;
-    if (grown.empty()) grown = links_->reach;
-    grown[index(b)] = radius * largest * kRoomForGrowth;
+    return largest;
+  };
+  const double grown =
+      largest_of("pnpbs::Buckets::gather_spacings", buckets, 0.0, [&](std::int64_t b) {
+        const auto bucket = static_cast<std::int32_t>(b);
+        double least = std::numeric_limits<double>::infinity();
+        for (std::int32_t i = begin(bucket); i < end(bucket); ++i)
+          least = std::min(least, nodes.d(i));
+        least_[index(bucket)] = least;
+        return radius * largest_in(bucket) > links_->reach[index(bucket)] ? 1.0 : 0.0;
+      });
+  if (grown == 0) return;
+  std::vector<double> reach = links_->reach;
+  for (std::int32_t b = 0; b < buckets; ++b) {
+    const double largest = radius * largest_in(b);
+    if (largest > reach[index(b)]) reach[index(b)] = largest * kRoomForGrowth;
   }
-  if (!grown.empty()) links_ = std::make_shared<const LeafLinks<Dim>>(tree, std::move(grown));
+  links_ = std::make_shared<const LeafLinks<Dim>>(tree, std::move(reach));
 }
 
 template class Buckets<2>;

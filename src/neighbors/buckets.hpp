@@ -25,7 +25,18 @@ class Buckets {
   const View<std::int32_t>& order() const { return from_; }
 
   // The tree has changed; its leaves are linked like that.
-  void reset(std::shared_ptr<const LeafLinks<Dim>> links) { links_ = std::move(links); }
+  void reset(std::shared_ptr<const LeafLinks<Dim>> links) {
+    links_ = std::move(links);
+    known_ = 0;
+  }
+
+  // These have come in place of those that were sorted: room for the bucket of each, to be written.
+  const View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes);
+  // The first `kept` nodes named have been kept, as by Nodes::keep.
+  void keep(const View<std::int32_t>& places, std::int64_t kept);
+  // Has node i a bucket, from when the nodes were stored or sorted? Those appended since then have
+  // none.
+  bool knows(std::int64_t i) const { return i < known_; }
 
   std::int32_t bucket_of(std::int64_t node) const { return bucket_of_(node); }
   std::int32_t begin(std::int32_t bucket) const { return start_[index(bucket)]; }
@@ -42,11 +53,13 @@ class Buckets {
 
  private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  void make_room(std::int64_t n);
   void find_buckets(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes);
   bool order_nodes(std::int32_t buckets, Nodes<Dim>& nodes);
   void gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<Dim>& nodes, double radius);
 
-  View<std::int32_t> bucket_of_;
+  View<std::int32_t> bucket_of_;     // where a node was when they were sorted last
+  std::int64_t known_ = 0;           // nodes of which that is known, the first ones
   std::vector<std::int32_t> start_;  // first node of each bucket
   std::vector<double> least_;        // least d of the nodes in it
   std::shared_ptr<const LeafLinks<Dim>> links_;

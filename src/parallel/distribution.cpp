@@ -16,12 +16,18 @@ class Needs {
  public:
   Needs(const LeafGraph<2>& graph, const Distribution& distribution, std::int32_t leaves)
       : graph_(graph), distribution_(distribution), others_(static_cast<std::size_t>(leaves)) {
+    // Two leaves of different owners: one of them is another rank's.
+    std::vector<char> at_rim(others_.size(), 0);
     for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-      bool at_rim = false;
+      if (distribution.owns(leaf)) continue;
       graph.for_neighbours(leaf, [&](std::int32_t other) {
-        at_rim = at_rim || distribution.owner(other) != distribution.owner(leaf);
+        if (distribution.owner(other) == distribution.owner(leaf)) return;
+        for (const std::int32_t end : {leaf, other}) {
+          if (at_rim[static_cast<std::size_t>(end)]) continue;
+          at_rim[static_cast<std::size_t>(end)] = 1;
+          front_.emplace_back(end, distribution.owner(end));
+        }
       });
-      if (at_rim) front_.emplace_back(leaf, distribution.owner(leaf));
     }
   }
 
@@ -57,6 +63,24 @@ Box<2> widened(Box<2> box, double way) {
     box.high[k] += way;
   }
   return box;
+}
+
+// The leaves within so many hops of these, and they themselves; marks them.
+std::vector<std::int32_t> reached_from(const LeafGraph<2>& graph, std::vector<std::int32_t> leaves,
+                                       int hops, std::vector<char>& reached) {
+  for (std::int32_t leaf : leaves) reached[static_cast<std::size_t>(leaf)] = 1;
+  std::size_t first = 0;  // of those that the last hop reached
+  for (int hop = 0; hop < hops; ++hop) {
+    const std::size_t last = leaves.size();
+    for (std::size_t k = first; k < last; ++k)
+      graph.for_neighbours(leaves[k], [&](std::int32_t other) {
+        if (reached[static_cast<std::size_t>(other)]) return;
+        reached[static_cast<std::size_t>(other)] = 1;
+        leaves.push_back(other);
+      });
+    first = last;
+  }
+  return leaves;
 }
 
 }  // namespace
@@ -100,14 +124,17 @@ void Distribution::take_leaves(const BackgroundTree<2>* tree, const std::vector<
     cell_of_leaf_.push_back(cells_.at(tree->cell_centre(tree->leaf_cell(leaf))));
 }
 
-// The largest reach of a bubble within so many hops of each leaf.
-std::vector<double> Distribution::reach_within(int hops) const {
+// The largest reach of a bubble within so many hops of each of these leaves, at their places.
+std::vector<double> Distribution::reach_within(int hops, std::vector<std::int32_t> leaves) const {
+  std::vector<char> reached(cell_of_leaf_.size(), 0);
+  leaves = reached_from(links_->graph, std::move(leaves), hops, reached);
   std::vector<double> most = links_->reach, before;
   for (int hop = 0; hop < hops; ++hop) {
     before = most;
-    for (std::size_t leaf = 0; leaf < most.size(); ++leaf)
-      links_->graph.for_neighbours(static_cast<std::int32_t>(leaf), [&](std::int32_t other) {
-        most[leaf] = std::max(most[leaf], before[static_cast<std::size_t>(other)]);
+    for (std::int32_t leaf : leaves)
+      links_->graph.for_neighbours(leaf, [&](std::int32_t other) {
+        double& largest = most[static_cast<std::size_t>(leaf)];
+        largest = std::max(largest, before[static_cast<std::size_t>(other)]);
       });
   }
   return most;
@@ -127,22 +154,10 @@ bool Distribution::near(const Box<2>& box, int rank, double way) const {
 std::vector<char> Distribution::leaves_within(int hops) const {
   const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
   std::vector<char> reached(static_cast<std::size_t>(leaves), 0);
-  std::vector<std::int32_t> front, next;
-  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    if (!owns(leaf)) continue;
-    reached[static_cast<std::size_t>(leaf)] = 1;
-    front.push_back(leaf);
-  }
-  for (int hop = 0; hop < hops; ++hop) {
-    next.clear();
-    for (std::int32_t leaf : front)
-      links_->graph.for_neighbours(leaf, [&](std::int32_t other) {
-        if (reached[static_cast<std::size_t>(other)]) return;
-        reached[static_cast<std::size_t>(other)] = 1;
-        next.push_back(other);
-      });
-    front.swap(next);
-  }
+  std::vector<std::int32_t> own;
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
+    if (owns(leaf)) own.push_back(leaf);
+  reached_from(links_->graph, std::move(own), hops, reached);
   return reached;
 }
 
@@ -160,7 +175,10 @@ const Halo& Distribution::halo(int hops, double hop_share) {
   const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
   Needs needs(links_->graph, *this, leaves);
   for (int hop = 0; hop < hops; ++hop) needs.spread();
-  const std::vector<double> reach = reach_within(hops);
+  std::vector<std::int32_t> needed;
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
+    if (!needs.of(static_cast<std::size_t>(leaf)).empty()) needed.push_back(leaf);
+  const std::vector<double> reach = reach_within(hops, std::move(needed));
   Halo halo;
   halo.offset_.push_back(0);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
@@ -170,13 +188,13 @@ const Halo& Distribution::halo(int hops, double hop_share) {
         halo.ranks_.push_back(rank);
     halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
   }
+  // A leaf that is not ours alone disturbs itself and those around it.
+  halo.quiet_.assign(static_cast<std::size_t>(leaves), 1);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    bool quiet = true;
-    links_->graph.for_neighbours(leaf, [&](std::int32_t other) {
-      const auto at = static_cast<std::size_t>(other);
-      quiet = quiet && owns(other) && halo.offset_[at] == halo.offset_[at + 1];
-    });
-    halo.quiet_.push_back(quiet);
+    const auto at = static_cast<std::size_t>(leaf);
+    if (owns(leaf) && halo.offset_[at] == halo.offset_[at + 1]) continue;
+    links_->graph.for_neighbours(
+        leaf, [&](std::int32_t other) { halo.quiet_[static_cast<std::size_t>(other)] = 0; });
   }
   needs.spread();
   std::set<int> neighbours;

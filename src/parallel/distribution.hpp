@@ -46,6 +46,9 @@ class Distribution {
   Distribution(PartitionCells cells, std::vector<std::int32_t> owner, int rank)
       : cells_(std::move(cells)), owner_(std::move(owner)), rank_(rank) {}
 
+  // The same cells and owners, for another tree.
+  Distribution without_leaves() const { return Distribution(cells_, owner_, rank_); }
+
   const PartitionCells& cells() const { return cells_; }
   int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
   int owner_at(const Point<2>& x) const { return owner_of_cell(cells_.at(x)); }
@@ -90,7 +93,7 @@ class Distribution {
   std::vector<char> refined_;  // cells
   std::map<int, Halo> halos_;
 
-  std::vector<double> reach_within(int hops) const;
+  std::vector<double> reach_within(int hops, std::vector<std::int32_t> leaves) const;
   bool near(const Box<2>& box, int rank, double way) const;
 };
 

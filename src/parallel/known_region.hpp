@@ -14,9 +14,9 @@ namespace pnpbs {
 class KnownRegion {
  public:
   KnownRegion() = default;  // everywhere
-  explicit KnownRegion(std::vector<char> held_leaves) : held_(std::move(held_leaves)) {}
+  KnownRegion(const DomainMap& map, const std::vector<char>& held_leaves);
 
-  bool is_everywhere() const { return held_.empty(); }
+  bool is_everywhere() const { return unknown_in_.empty(); }
   void add(const Box<2>& box) { boxes_.push_back(box); }
 
   // Is all of the box known that lies in the domain?
@@ -26,9 +26,10 @@ class KnownRegion {
                     [&](const Box<2>& known) { return contains(known, box); }))
       return true;
     bool all = true;
-    map.tree().for_leaves_in(box, [&](std::int32_t leaf) {
-      all = all && (held_[static_cast<std::size_t>(leaf)] || map.leaf_outside(leaf));
-    });
+    const auto look = [&](std::int32_t cell) {
+      return all && unknown_in_[static_cast<std::size_t>(cell)] != 0;
+    };
+    map.tree().for_leaves_in(box, look, [&](std::int32_t) { all = false; });
     return all;
   }
 
@@ -39,8 +40,21 @@ class KnownRegion {
     return true;
   }
 
-  std::vector<char> held_;  // by leaf; empty: everywhere
+  std::vector<char> unknown_in_;  // of each cell of the tree, is any leaf; empty: all are known
   std::vector<Box<2>> boxes_;
 };
+
+inline KnownRegion::KnownRegion(const DomainMap& map, const std::vector<char>& held_leaves)
+    : unknown_in_(static_cast<std::size_t>(map.tree().cell_count()), 0) {
+  // Children come behind their parents.
+  for (std::int32_t c = map.tree().cell_count() - 1; c >= 0; --c) {
+    const BackgroundTree<2>::Cell& cell = map.tree().cell(c);
+    char& unknown = unknown_in_[static_cast<std::size_t>(c)];
+    if (cell.first_child < 0)
+      unknown = !held_leaves[static_cast<std::size_t>(cell.leaf)] && !map.leaf_outside(cell.leaf);
+    for (int k = 0; cell.first_child >= 0 && k < BackgroundTree<2>::kChildren; ++k)
+      unknown = unknown || unknown_in_[static_cast<std::size_t>(cell.first_child + k)];
+  }
+}
 
 }  // namespace pnpbs

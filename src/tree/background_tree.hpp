@@ -92,6 +92,11 @@ class BackgroundTree {
   // The leaf that holds x; points beyond the root belong to the leaf at its rim.
   std::int32_t leaf_at(const Point<Dim>& x) const { return cell(cell_at(x, kMaxDepth)).leaf; }
 
+  // The same, quickly if it is the leaf guessed (-1: none).
+  std::int32_t leaf_at(const Point<Dim>& x, std::int32_t guess) const {
+    return guess >= 0 && leaf_holds(guess, x) ? guess : leaf_at(x);
+  }
+
   // The cell that holds x, at this depth or, where the tree ends before, a leaf.
   std::int32_t cell_at(const Point<Dim>& x, int depth) const {
     const std::array<std::uint32_t, Dim> fine = fine_index(x);
@@ -134,7 +139,13 @@ class BackgroundTree {
   // Calls visit(leaf) for all leaves whose closed box meets the closed box given, in Morton order.
   template <class Visit>
   void for_leaves_in(const Box<Dim>& box, const Visit& visit) const {
-    visit_cell(cell_around(box), box, visit);
+    for_leaves_in(
+        box, [](std::int32_t) { return true; }, visit);
+  }
+  // The same, but leaves out cells for which enter(cell) is false, with all that is in them.
+  template <class Enter, class Visit>
+  void for_leaves_in(const Box<Dim>& box, const Enter& enter, const Visit& visit) const {
+    visit_cell(cell_around(box), box, enter, visit);
   }
 
  private:
@@ -184,8 +195,10 @@ class BackgroundTree {
     }
   }
 
-  template <class Visit>
-  void visit_cell(std::int32_t c, const Box<Dim>& box, const Visit& visit) const {
+  template <class Enter, class Visit>
+  void visit_cell(std::int32_t c, const Box<Dim>& box, const Enter& enter,
+                  const Visit& visit) const {
+    if (!enter(c)) return;
     const Box<Dim> own = cell_box(c);
     for (int k = 0; k < Dim; ++k)
       if (own.high[k] < box.low[k] || own.low[k] > box.high[k]) return;
@@ -194,7 +207,7 @@ class BackgroundTree {
       return;
     }
     for (int child = 0; child < kChildren; ++child)
-      visit_cell(cell(c).first_child + child, box, visit);
+      visit_cell(cell(c).first_child + child, box, enter, visit);
   }
 
   Point<Dim> origin_{};

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/chunked_rows.hpp"
 #include "tree/background_tree.hpp"
 
 namespace pnpbs {
@@ -64,35 +65,49 @@ double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
 template <int Dim>
 void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach) {
   const std::int32_t leaves = tree.leaf_count();
-  std::vector<std::pair<std::int32_t, std::int32_t>> links;
-  links.reserve(10 * static_cast<std::size_t>(leaves));  // what a graded tree needs, or nearly
+  ChunkedRows<std::int32_t> seen;  // of each pair, only in the row of the one that reaches farther
+  seen.build("pnpbs::LeafGraph::look", leaves, [&] {
+    return [&](std::int64_t row, std::vector<std::int32_t>& out) {
+      const auto a = static_cast<std::int32_t>(row);
+      const double reach_a = reach[index(a)];
+      if (reach_a == 0) return;
+      const Box<Dim> own = tree.cell_box(tree.leaf_cell(a));
+      Box<Dim> around = own;
+      for (int k = 0; k < Dim; ++k) {
+        around.low[k] -= reach_a;
+        around.high[k] += reach_a;
+      }
+      tree.for_leaves_in(around, [&](std::int32_t b) {
+        const double reach_b = reach[index(b)];
+        if (a == b || reach_b > reach_a || (reach_b == reach_a && b < a)) return;
+        if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > reach_a * reach_a) return;
+        out.push_back(b);
+      });
+    };
+  });
+  offset_.assign(index(leaves) + 1, 0);
   for (std::int32_t a = 0; a < leaves; ++a) {
-    links.emplace_back(a, a);
-    const double reach_a = reach[index(a)];
-    if (reach_a == 0) continue;
-    const Box<Dim> own = tree.cell_box(tree.leaf_cell(a));
-    Box<Dim> around = own;
-    for (int k = 0; k < Dim; ++k) {
-      around.low[k] -= reach_a;
-      around.high[k] += reach_a;
-    }
-    tree.for_leaves_in(around, [&](std::int32_t b) {
-      const double reach_b = reach[index(b)];
-      if (a == b || reach_b > reach_a || (reach_b == reach_a && b < a)) return;
-      if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > reach_a * reach_a) return;
-      links.emplace_back(a, b);
-      links.emplace_back(b, a);
-    });
+    offset_[index(a) + 1] += 1 + static_cast<std::int32_t>(seen.row(a).size());
+    for (const std::int32_t b : seen.row(a)) ++offset_[index(b) + 1];
   }
-  offset_.assign(static_cast<std::size_t>(leaves) + 1, 0);
-  for (const auto& link : links) ++offset_[index(link.first) + 1];
   for (std::int32_t b = 0; b < leaves; ++b) offset_[index(b) + 1] += offset_[index(b)];
-  neighbours_.resize(links.size());
-  std::vector<std::int32_t> next(offset_.begin(), offset_.end() - 1);
+  neighbours_.resize(index(offset_.back()));
   neighbours_.shrink_to_fit();
-  for (const auto& link : links) neighbours_[index(next[index(link.first)]++)] = link.second;
-  for (std::int32_t b = 0; b < leaves; ++b)
-    std::sort(neighbours_.begin() + offset_[index(b)], neighbours_.begin() + offset_[index(b) + 1]);
+  std::vector<std::int32_t> next(offset_.begin(), offset_.end() - 1);
+  const auto link = [&](std::int32_t a, std::int32_t b) {
+    neighbours_[index(next[index(a)]++)] = b;
+  };
+  for (std::int32_t a = 0; a < leaves; ++a) {
+    link(a, a);
+    for (const std::int32_t b : seen.row(a)) {
+      link(a, b);
+      link(b, a);
+    }
+  }
+  for_each("pnpbs::LeafGraph::sort", leaves, [&](std::int64_t b) {
+    const auto leaf = static_cast<std::int32_t>(b);
+    std::sort(neighbours_.begin() + begin(leaf), neighbours_.begin() + end(leaf));
+  });
 }
 
 }  // namespace pnpbs

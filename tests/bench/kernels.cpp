@@ -116,10 +116,10 @@ void fill_square(pnpbs::PlaneDomain& domain) {
   shapes::add_loop(domain, shapes::rectangle(0, 0, 1, 1));
 }
 
-std::vector<pnpbs::GivenNode> moved_lattice(double d, double most) {
+pnpbs::GivenNodes moved_lattice(double d, double most) {
   LevelRun lattice(fill_square, constant(d));
   lattice.level->fill();
-  std::vector<pnpbs::GivenNode> nodes = inner_nodes_of(*lattice.level);
+  pnpbs::GivenNodes nodes = inner_nodes_of(*lattice.level);
   Random random(1);
   for (pnpbs::GivenNode& node : nodes)
     for (double& x : node.position) x += random.between(-most * d, most * d);
@@ -170,7 +170,7 @@ void measure_phase(const std::string& name, const pnpbs::Timers& timers, Phase p
 void run(const Arguments& arguments, const char* list_radius) {
   constexpr int kSweeps = 5;  // a block, within which the stars stay
   const double d = std::sqrt(2 / std::sqrt(3.0) / arguments.nodes);
-  const std::vector<pnpbs::GivenNode> lattice = moved_lattice(d, arguments.moved);
+  const pnpbs::GivenNodes lattice = moved_lattice(d, arguments.moved);
   LevelRun run(fill_square, constant(d), {{"list_radius", list_radius}, {"repairs", "0"}});
   Level& level = *run.level;
   Scratch scratch;

@@ -52,7 +52,7 @@ inline LevelRun distorted(const Build& build, const Plane& d, std::uint64_t seed
                           const std::function<void(pnpbs::Settings&)>& adapt) {
   LevelRun fill(build, d);
   fill.level->fill();
-  std::vector<pnpbs::GivenNode> nodes = inner_nodes_of(*fill.level);
+  pnpbs::GivenNodes nodes = inner_nodes_of(*fill.level);
   Random random(seed);
   for (pnpbs::GivenNode& node : nodes)
     for (double& x : node.position)

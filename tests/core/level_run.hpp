@@ -41,8 +41,8 @@ using Build = std::function<void(pnpbs::PlaneDomain&)>;
 using OptionList = std::vector<std::pair<const char*, const char*>>;
 
 // The inner nodes, as nodes to start from (placed for a spacing that take() does not know).
-inline std::vector<pnpbs::GivenNode> inner_nodes_of(const pnpbs::Level& level) {
-  std::vector<pnpbs::GivenNode> inner;
+inline pnpbs::GivenNodes inner_nodes_of(const pnpbs::Level& level) {
+  pnpbs::GivenNodes inner;
   for (const pnpbs::GivenNode& node : level.owned_nodes())
     if (node.inner) inner.push_back({node.position, node.id});
   return inner;

@@ -25,8 +25,8 @@ class Random {
     for (int k = 0; k < Dim; ++k) x[k] = between(box.low[k], box.high[k]);
     return x;
   }
-  template <class T>
-  void shuffle(std::vector<T>& items) {
+  template <class Items>
+  void shuffle(Items& items) {
     for (std::size_t n = items.size(); n > 1; --n)
       std::swap(items[n - 1], items[static_cast<std::size_t>(below(static_cast<std::int64_t>(n)))]);
   }

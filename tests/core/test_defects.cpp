@@ -9,6 +9,7 @@
 #include "stars/defects.hpp"
 
 using pnpbs::GivenNode;
+using pnpbs::GivenNodes;
 using pnpbs::Level;
 using pnpbs::PopulationCounts;
 using P = pnpbs::Point<2>;
@@ -20,13 +21,13 @@ const Build kSquare = [](pnpbs::PlaneDomain& p) {
 };
 constexpr double kD = 0.03;
 
-std::vector<GivenNode> lattice() {
+GivenNodes lattice() {
   LevelRun fill(kSquare, constant(kD));
   fill.level->fill();
   return inner_nodes_of(*fill.level);
 }
 
-std::size_t nearest(const std::vector<GivenNode>& nodes, const P& x) {
+std::size_t nearest(const GivenNodes& nodes, const P& x) {
   const auto nearer = [&](const GivenNode& a, const GivenNode& b) {
     return pnpbs::distance<2>(a.position, x) < pnpbs::distance<2>(b.position, x);
   };
@@ -35,7 +36,7 @@ std::size_t nearest(const std::vector<GivenNode>& nodes, const P& x) {
 }
 
 // Takes the node of the lattice next to a point away; returns its place.
-P take_away(std::vector<GivenNode>& nodes, const P& near) {
+P take_away(GivenNodes& nodes, const P& near) {
   const std::size_t k = nearest(nodes, near);
   const P place = nodes[k].position;
   nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(k));
@@ -43,7 +44,7 @@ P take_away(std::vector<GivenNode>& nodes, const P& near) {
 }
 
 // Puts two nodes in the place of the one next to a point, so far apart.
-P split(std::vector<GivenNode>& nodes, const P& near, double apart) {
+P split(GivenNodes& nodes, const P& near, double apart) {
   GivenNode& node = nodes[nearest(nodes, near)];
   const P place = node.position;
   node.position[0] -= 0.5 * apart;
@@ -52,7 +53,7 @@ P split(std::vector<GivenNode>& nodes, const P& near, double apart) {
 }
 
 // Next to the walls the lattice has bad triangles: they do not count here.
-LevelRun run_with(const std::vector<GivenNode>& nodes) {
+LevelRun run_with(const GivenNodes& nodes) {
   LevelRun run(kSquare, constant(kD), {}, [](pnpbs::Settings& settings) {
     settings.defects.bad_below = 0;
     settings.repair.rounds = 0;
@@ -95,7 +96,7 @@ END_TEST
 
 // The triangles that fill a hole in the lattice have a node with eight neighbours.
 START_TEST(missing_node_comes) {
-  std::vector<GivenNode> nodes = lattice();
+  GivenNodes nodes = lattice();
   const P hole = take_away(nodes, {0.4, 0.6});
   LevelRun run = run_with(nodes);
   const std::int64_t before = run.level->nodes().count;
@@ -114,7 +115,7 @@ END_TEST
 START_TEST(surplus_node_goes) {
   for (const double apart : {0.4 * kD, 0.7 * kD})
     for (const std::int64_t sweeps : {0, 10}) {
-      std::vector<GivenNode> nodes = lattice();
+      GivenNodes nodes = lattice();
       const P place = split(nodes, {0.6, 0.4}, apart);
       LevelRun run = run_with(nodes);
       run.level->sweep_and_repair(sweeps);
@@ -128,7 +129,7 @@ END_TEST
 
 // Of two defects within five rings one waits for the next round; others do not.
 START_TEST(near_defects_take_turns) {
-  std::vector<GivenNode> nodes = lattice();
+  GivenNodes nodes = lattice();
   take_away(nodes, {0.3, 0.5});
   take_away(nodes, {0.3 + 4 * kD, 0.5});
   take_away(nodes, {0.7, 0.5});

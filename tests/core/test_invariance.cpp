@@ -78,10 +78,10 @@ std::vector<Case> cases() {
 }
 
 // A fill, shaken so that there is something to do.
-std::vector<pnpbs::GivenNode> shaken(const Case& c, std::uint64_t seed) {
+pnpbs::GivenNodes shaken(const Case& c, std::uint64_t seed) {
   LevelRun fill(c.build, c.d);
   fill.level->fill();
-  std::vector<pnpbs::GivenNode> nodes = inner_nodes_of(*fill.level);
+  pnpbs::GivenNodes nodes = inner_nodes_of(*fill.level);
   Random random(seed);
   for (pnpbs::GivenNode& node : nodes)
     for (double& x : node.position)
@@ -95,7 +95,7 @@ void finish(Level& level) {
 }
 
 void expect_rebuilds_do_not_matter(const Case& c) {
-  const std::vector<pnpbs::GivenNode> start = shaken(c, 140);
+  const pnpbs::GivenNodes start = shaken(c, 140);
   LevelRun seldom(c.build, c.d, c.options), always(c.build, c.d, c.options);
   seldom.level->take(start, 0);
   always.level->take(start, 0);
@@ -130,7 +130,7 @@ END_TEST
 
 START_TEST(order_in_memory_does_not_matter) {
   for (const Case& c : cases()) {
-    std::vector<pnpbs::GivenNode> start = shaken(c, 150);
+    pnpbs::GivenNodes start = shaken(c, 150);
     LevelRun straight(c.build, c.d, c.options), mixed(c.build, c.d, c.options);
     straight.level->take(start, 0);
     Random(151).shuffle(start);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bubbles.hpp"
+#include "core/counting_sort.hpp"
 #include "run_kernel_suite.hpp"
 
 namespace {
@@ -355,6 +356,86 @@ START_TEST(nodes_are_sorted_by_bucket) {
 }
 END_TEST
 
+// Enough entries for a part for each thread. -1: left out.
+START_TEST(counting_sort_is_stable) {
+  Random random(60);
+  for (const std::int64_t n : {0, 1, 1000, 90001})
+    for (const std::int32_t least : {-1, 0}) {
+      std::vector<std::int32_t> keys, order;
+      for (std::int32_t i = 0; i < n; ++i) {
+        keys.push_back(static_cast<std::int32_t>(random.below(300 - least)) + least);
+        if (keys.back() >= 0) order.push_back(i);
+      }
+      std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+        return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
+      });
+      const auto key = [&](std::int64_t i) { return keys[static_cast<std::size_t>(i)]; };
+      pnpbs::CountingSort sorted(n, 300, key);
+      std::vector<std::int32_t> found(order.size(), -1);
+      sorted.for_places(key, [&](std::int64_t i, std::int32_t place) {
+        found[static_cast<std::size_t>(place)] = static_cast<std::int32_t>(i);
+      });
+      quick_assert(found == order);
+      for (std::int32_t k = 0; k <= 300; ++k)
+        quick_assert(
+            sorted.start()[static_cast<std::size_t>(k)] ==
+            std::count_if(order.begin(), order.end(), [&](std::int32_t i) { return key(i) < k; }));
+      ck_assert_int_eq(sorted.in_order(),
+                       std::is_sorted(keys.begin(), keys.end()) && (n == 0 || keys[0] >= 0));
+    }
+}
+END_TEST
+
+START_TEST(counting_sort_tells_order) {
+  std::vector<std::int32_t> keys;
+  for (std::int32_t i = 0; i < 90001; ++i) keys.push_back(i / 4);
+  const auto in_order = [&] {
+    return pnpbs::CountingSort(static_cast<std::int64_t>(keys.size()), 23000,
+                               [&](std::int64_t i) { return keys[static_cast<std::size_t>(i)]; })
+        .in_order();
+  };
+  ck_assert(in_order());
+  for (std::size_t i = 4; i < keys.size(); i += 500) {
+    std::swap(keys[i - 1], keys[i]);
+    quick_assert(!in_order());
+    std::swap(keys[i - 1], keys[i]);
+  }
+}
+END_TEST
+
+// What they remember of nodes that were dropped in between, appended or moved may be of no use, but
+// does no harm.
+START_TEST(buckets_of_kept_nodes) {
+  Random random(70);
+  const SpacingFunction<2> d = [](const Point<2>& x) { return 0.02 + 0.05 * x[0]; };
+  Bubbles<2> b;
+  b.grow_tree(d);
+  b.set(random_bubbles<2>(random, 800, d));
+  for (int round = 0; round < 5; ++round) {
+    b.list(1.7);
+    for (std::int64_t i = 0; i < b.nodes.count; ++i)
+      ck_assert_int_eq(b.tree.leaf_at(b.nodes.position(i)), b.buckets.bucket_of(i));
+    ck_assert(b.buckets.knows(b.nodes.count - 1));
+    const pnpbs::View<std::int32_t> places = b.nodes.order_scratch();
+    std::vector<std::int32_t> buckets;
+    for (std::int32_t i = 0; i < b.nodes.count; ++i) {
+      if (random.below(5) == 0) continue;
+      places(static_cast<std::int64_t>(buckets.size())) = i;
+      buckets.push_back(b.buckets.bucket_of(i));
+    }
+    const auto kept = static_cast<std::int64_t>(buckets.size());
+    b.nodes.keep(places, kept);
+    b.buckets.keep(places, kept);
+    for (std::int64_t i = 0; i < kept; ++i)
+      quick_assert(b.buckets.bucket_of(i) == buckets[static_cast<std::size_t>(i)]);
+    b.nodes.append(random.point<2>(b.box), 0.03, 1000 + round, 0, -1);
+    ck_assert(b.buckets.knows(kept - 1));
+    ck_assert(!b.buckets.knows(kept));
+    b.nodes.set_position(random.below(kept), random.point<2>(b.box));
+  }
+}
+END_TEST
+
 START_TEST(lists_of_random_sets) {
   expect_random_sets<2>();
   expect_random_sets<3>();
@@ -418,7 +499,8 @@ int main() {
   return run_kernel_suite(
       "neighbors",
       {leaves_fill_the_root, leaves_are_in_morton_order, points_are_found_in_their_leaves,
-       leaves_in_a_box, nodes_are_sorted_by_bucket, lists_of_random_sets, lists_of_graded_sets,
+       leaves_in_a_box, nodes_are_sorted_by_bucket, counting_sort_is_stable,
+       counting_sort_tells_order, buckets_of_kept_nodes, lists_of_random_sets, lists_of_graded_sets,
        lists_of_clusters, lists_of_any_number_of_nodes, lists_after_changes,
        lists_of_pairs_that_see_each_other, blocks_are_padded});
 }

@@ -11,6 +11,7 @@
 #include "run_kernel_suite.hpp"
 
 using pnpbs::GivenNode;
+using pnpbs::GivenNodes;
 using pnpbs::PlaneDomain;
 using shapes::add_loop;
 using shapes::rectangle;
@@ -33,15 +34,15 @@ struct Rested {
   }
 };
 
-std::vector<GivenNode> new_ones(const std::vector<GivenNode>& nodes) {
-  std::vector<GivenNode> found;
+GivenNodes new_ones(const GivenNodes& nodes) {
+  GivenNodes found;
   for (const GivenNode& node : nodes)
     if (node.id < 0) found.push_back(node);
   return found;
 }
 
 // Is x in the middle between two of the nodes? By all pairs.
-bool halves_a_pair(const std::vector<GivenNode>& nodes, const P& x, double longest) {
+bool halves_a_pair(const GivenNodes& nodes, const P& x, double longest) {
   for (const GivenNode& a : nodes) {
     if (a.id < 0 || pnpbs::distance<2>(a.position, x) > longest) continue;
     const P other{2 * x[0] - a.position[0], 2 * x[1] - a.position[1]};
@@ -53,8 +54,8 @@ bool halves_a_pair(const std::vector<GivenNode>& nodes, const P& x, double longe
 
 START_TEST(half_the_spacing_halves_every_edge) {
   Rested level(constant(0.05));
-  const std::vector<GivenNode> nodes = level.run.level->refined(*spacing_of(constant(0.025)));
-  const std::vector<GivenNode> born = new_ones(nodes);
+  const GivenNodes nodes = level.run.level->refined(*spacing_of(constant(0.025)));
+  const GivenNodes born = new_ones(nodes);
   ck_assert_int_eq(born.size(), 3 * level.n - 3 - 2 * level.b);
   ck_assert_int_eq(nodes.size() - born.size(), level.n);
   for (const GivenNode& node : born) {
@@ -66,8 +67,7 @@ END_TEST
 
 START_TEST(a_third_fills_triangles_too) {
   Rested level(constant(0.05));
-  const std::vector<GivenNode> born =
-      new_ones(level.run.level->refined(*spacing_of(constant(0.05 / 3))));
+  const GivenNodes born = new_ones(level.run.level->refined(*spacing_of(constant(0.05 / 3))));
   // An edge that is short by a sixth is only halved: few.
   const double edges = static_cast<double>(3 * level.n - 3 - 2 * level.b),
                triangles = static_cast<double>(2 * level.n - level.b - 2);
@@ -82,12 +82,12 @@ END_TEST
 START_TEST(only_where_it_is_finer) {
   Rested level(constant(0.05));
   for (const double d : {0.2, 0.05, 0.04}) {
-    const std::vector<GivenNode> nodes = level.run.level->refined(*spacing_of(constant(d)));
+    const GivenNodes nodes = level.run.level->refined(*spacing_of(constant(d)));
     ck_assert_int_eq(nodes.size(), level.n);
     ck_assert_uint_eq(new_ones(nodes).size(), 0);
   }
   // Edges are their end's with the lesser id: so much is not sure beside the line.
-  const std::vector<GivenNode> born = new_ones(level.run.level->refined(
+  const GivenNodes born = new_ones(level.run.level->refined(
       *spacing_of([](double x, double) { return x < 0.5 ? 0.025 : 0.05; })));
   ck_assert_double_ge(static_cast<double>(born.size()),
                       0.9 * static_cast<double>(3 * level.n - 3 - 2 * level.b) / 2);
@@ -99,7 +99,7 @@ END_TEST
 START_TEST(a_refined_level_is_nearly_right) {
   Rested coarse(constant(0.05));
   LevelRun fine(square, constant(0.025));
-  const std::vector<GivenNode> nodes = coarse.run.level->refined(*spacing_of(constant(0.025)));
+  const GivenNodes nodes = coarse.run.level->refined(*spacing_of(constant(0.025)));
   const pnpbs::TakenNodes taken = fine.level->take(nodes, coarse.run.level->next_id());
   ck_assert_int_eq(taken.thinned, 0);
   // The boundary is laid anew, at half of the spacing.

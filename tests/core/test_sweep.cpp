@@ -65,7 +65,7 @@ START_TEST(nodes_go_towards_the_mean) {
   const Build square = [](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
   LevelRun fill(square, d);
   fill.level->fill();
-  std::vector<pnpbs::GivenNode> nodes = inner_nodes_of(*fill.level);
+  pnpbs::GivenNodes nodes = inner_nodes_of(*fill.level);
   Random random(110);
   for (pnpbs::GivenNode& node : nodes)
     for (double& x : node.position) x += random.between(-0.04, 0.04) * 0.05;
