@@ -232,7 +232,7 @@ class Level {
   void for_coinciding(std::int64_t i, const Visit& visit) const;
   View<char> nodes_without_room() const;
   std::vector<std::int32_t> crowded_nodes() const;
-  void prepare_finish();
+  void prepare_finish(bool on_stars);
   void take_next_positions();
   void hold_off_boundary(std::int64_t i) const;
   double largest_way(std::int64_t first, std::int64_t last) const;

@@ -10,19 +10,20 @@
 
 namespace pnpbs {
 
-// Lists and, unless nothing of the finish asks for them, stars of the present positions, from which
-// visibility is judged from now on.
-void Level::prepare_finish() {
+// Lists of the present positions, from which visibility is judged from now on, and the stars if
+// something is to be done on them.
+void Level::prepare_finish(bool on_stars) {
   // The guard of a node asks where its neighbours want to go, which their stars tell. Without a
   // surplus node in between a node of the second ring may be a neighbour, too; its star changes
   // with a surplus node in the third, and whether that goes hangs on the ring around it.
   const int rings = settings_.repair.rounds > 0 ? 4 : 1;
   drop_anchors();
   exchange(kRepairHops);
-  if (settings_.sweeps > 0 || settings_.repair.rounds > 0)
-    make_lists_and_stars(kRepairHops, settings_.list_radius, rings);
-  else
+  if (!on_stars) {
     agreed(*comm_, [this] { rebuild_lists(); });
+    return;
+  }
+  make_lists_and_stars(kRepairHops, settings_.list_radius, rings);
   prepared_ = version_;
 }
 
@@ -34,7 +35,7 @@ PopulationCounts Level::sweep_and_repair(std::int64_t sweeps) {
   PopulationCounts counts;
   for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
        done += kBlock) {
-    if (prepared_ != version_) prepare_finish();
+    if (prepared_ != version_) prepare_finish(true);
     ++version_;
     const PhaseTimer timer(timers_, Phase::sweeps);
     std::vector<std::int32_t> surplus;

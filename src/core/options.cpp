@@ -49,7 +49,7 @@ const std::vector<OptionRow>& option_table() {
        "... and until two events in a row change no more than this share of the nodes"},
       {"delete_above", T::real, "7.5", "9", nullptr, 6, 100, nullptr,
        "bubbles with a larger overlap ratio are deleted"},
-      {"insert_below", T::real, "5", nullptr, "4.75", 0, 6, nullptr,
+      {"insert_below", T::real, "5", nullptr, "4.65", 0, 6, nullptr,
        "beside bubbles with a smaller overlap ratio new ones are inserted"},
       {"tolerance_mean", T::real, "0.006", "0.001", "0.003", 0, 1, nullptr,
        "the bubbles rest when their mean scaled speed is below this ..."},
