@@ -213,6 +213,7 @@ class Level {
   void thin(GivenNodes& inner, const std::vector<std::int32_t>& begin) const;
   void keep_boundary_ids(const GivenNodes& given);
   void make_lists_and_stars(int hops, double radius, int rings);
+  void make_stars(int hops, double radius, int rings);
   KnownRegion known_after_exchange(int hops);
   std::vector<Box<2>> unknown_around_stars(int rings) const;
   std::vector<std::int64_t> neighbours_of(const std::vector<std::int64_t>& front,
@@ -232,7 +233,7 @@ class Level {
   void for_coinciding(std::int64_t i, const Visit& visit) const;
   View<char> nodes_without_room() const;
   std::vector<std::int32_t> crowded_nodes() const;
-  void prepare_finish(bool on_stars);
+  void prepare_finish();
   void take_next_positions();
   void hold_off_boundary(std::int64_t i) const;
   double largest_way(std::int64_t first, std::int64_t last) const;
@@ -279,7 +280,7 @@ class Level {
   bool lists_valid_ = false;
   std::int64_t rebuilds_ = 0;
   std::int64_t version_ = 0;
-  std::int64_t prepared_ = -1;  // version when lists and stars were made for the finish
+  std::int64_t prepared_ = -1;  // version when lists were made for the finish
 };
 
 }  // namespace pnpbs

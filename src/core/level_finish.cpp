@@ -10,20 +10,11 @@
 
 namespace pnpbs {
 
-// Lists of the present positions, from which visibility is judged from now on, and the stars if
-// something is to be done on them.
-void Level::prepare_finish(bool on_stars) {
-  // The guard of a node asks where its neighbours want to go, which their stars tell. Without a
-  // surplus node in between a node of the second ring may be a neighbour, too; its star changes
-  // with a surplus node in the third, and whether that goes hangs on the ring around it.
-  const int rings = settings_.repair.rounds > 0 ? 4 : 1;
+// Lists of the present positions, from which visibility is judged from now on.
+void Level::prepare_finish() {
   drop_anchors();
   exchange(kRepairHops);
-  if (!on_stars) {
-    agreed(*comm_, [this] { rebuild_lists(); });
-    return;
-  }
-  make_lists_and_stars(kRepairHops, settings_.list_radius, rings);
+  agreed(*comm_, [this] { rebuild_lists(settings_.list_radius); });
   prepared_ = version_;
 }
 
@@ -32,10 +23,15 @@ void Level::prepare_finish(bool on_stars) {
 PopulationCounts Level::sweep_and_repair(std::int64_t sweeps) {
   constexpr std::int64_t kBlock = 5;
   const bool repairs = settings_.repair.rounds > 0;
+  // The guard of a node asks where its neighbours want to go, which their stars tell. Without a
+  // surplus node in between a node of the second ring may be a neighbour, too; its star changes
+  // with a surplus node in the third, and whether that goes hangs on the ring around it.
+  const int rings = repairs ? 4 : 1;
   PopulationCounts counts;
   for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
        done += kBlock) {
-    if (prepared_ != version_) prepare_finish(true);
+    if (prepared_ != version_) prepare_finish();
+    make_stars(kRepairHops, settings_.list_radius, rings);
     ++version_;
     const PhaseTimer timer(timers_, Phase::sweeps);
     std::vector<std::int32_t> surplus;

@@ -79,7 +79,7 @@ View<char> Level::nodes_without_room() const {
 PopulationCounts Level::remove_crowded() {
   PopulationCounts counts;
   while (true) {
-    prepare_finish(settings_.sweeps > 0 || settings_.repair.rounds > 0);
+    prepare_finish();
     std::vector<std::int32_t> crowded;
     agreed(*comm_, [&] { crowded = crowded_nodes(); });
     const auto own = std::count_if(crowded.begin(), crowded.end(),

@@ -39,16 +39,22 @@ void Level::prepare_lists() {
 // Lists and stars right after an exchange that deep: those of the owned nodes and of the ghosts
 // around them are right, up to so many neighbours away.
 void Level::make_lists_and_stars(int hops, double radius, int rings) {
+  agreed(*comm_, [&] { rebuild_lists(radius); });
+  make_stars(hops, radius, rings);
+}
+
+// The same where the lists are there.
+void Level::make_stars(int hops, double radius, int rings) {
   known_ = known_after_exchange(hops);
   while (true) {
     std::vector<Box<2>> unknown;
     agreed(*comm_, [&] {
-      rebuild_lists(radius);
       renew_stars();
       unknown = unknown_around_stars(rings);
     });
     if (comm_->sum(unknown.size()) == 0) break;
     fetch_nodes_in(unknown);
+    agreed(*comm_, [&] { rebuild_lists(radius); });
   }
   known_ = KnownRegion();
 }

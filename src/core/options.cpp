@@ -63,8 +63,8 @@ const std::vector<OptionRow>& option_table() {
        "most rounds at the end of every level in which nodes come or go where one is missing or "
        "too many: tried on a copy of the nodes around, and kept where the triangles are better"},
       {"repairs", T::integer, "10", "0", nullptr, 0, 10000, nullptr,
-       "most rounds in which bad triangles are repaired after the sweeps; before the sweeps, nodes "
-       "that are one too many go; 0: neither"},
+       "most rounds after the sweeps in which triangles below 0.82 are repaired, and then all bad "
+       "ones; before the sweeps, nodes that are one too many go; 0: neither"},
       {"repair_below", T::real, "0.82", nullptr, "0.87", 0, 1, nullptr,
        "triangles are bad whose quality, 2 r_in / R, or 1.365 times the sine of the smallest angle "
        "is below this"},

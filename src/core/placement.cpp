@@ -388,11 +388,18 @@ void Placement::finish() {
   monitor_stops(1.0);
 }
 
-// Where a node is one too many or one is missing that the overlap ratios do not tell.
+// Where a node is one too many or one is missing that the overlap ratios do not tell. Nodes that
+// coincide would have no star, so they go first. Rounds must do less and less: where d jumps, what
+// one brings another may take away, for ever.
 void Placement::repair_defects() {
-  for (std::int64_t round = 0; round < level_->settings().defects.rounds; ++round) {
+  std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  for (std::int64_t round = 0; round < level_->settings().defects.rounds && most > 1; ++round) {
+    count_population_change(level_->remove_crowded());
     const PopulationCounts change = count_population_change(level_->repair_defects());
-    if (change.inserted + change.deleted == 0) break;
+    const std::int64_t changes = change.inserted + change.deleted;
+    if (changes > 0) level_->refresh_spacing();  // a new node has another's so far
+    if (changes == 0 || changes >= most) break;
+    most = changes;
   }
 }
 

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <set>
 
-#include "stars/star_patch.hpp"
 #include "stars/triangle_quality.hpp"
 
 namespace pnpbs {
@@ -15,7 +14,6 @@ namespace pnpbs {
 namespace {
 
 constexpr int kClusterRings = 2;
-constexpr int kContestRings = kDefectRings - 2 - StarPatch::kRings;
 
 // What the defects are found from.
 struct DefectInput {
@@ -68,8 +66,8 @@ void for_bad_triangles(const DefectInput& in, std::int64_t i, const Visit& visit
     return in.nodes.id(j) > in.nodes.id(i) || !is_inner(in, j);
   };
   in.stars.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-    if (triangle_quality(x, in.nodes.position(j), in.nodes.position(k)) < in.bad_below &&
-        after_i(j) && after_i(k))
+    if (after_i(j) && after_i(k) &&
+        triangle_quality(x, in.nodes.position(j), in.nodes.position(k)) < in.bad_below)
       visit(j, k);
   });
 }
@@ -97,9 +95,12 @@ double severity_of(const DefectInput& in, std::int64_t i) {
 
 // In the order of memory.
 std::vector<Defect> find_defects(const DefectInput& in) {
+  const View<char> defect = make_view<char>("pnpbs::defects::found", in.nodes.count);
+  for_each("pnpbs::defects::find", in.nodes.count,
+           [&](std::int64_t i) { defect(i) = is_defect(in, i); });
   std::vector<Defect> defects;
   for (std::int32_t i = 0; i < in.nodes.count; ++i)
-    if (is_defect(in, i)) defects.push_back({i, in.nodes.id(i), severity_of(in, i)});
+    if (defect(i)) defects.push_back({i, in.nodes.id(i), severity_of(in, i)});
   return defects;
 }
 
@@ -191,11 +192,18 @@ class Trial {
     defect_.goes = static_cast<std::int32_t>(i);
   }
 
+  // Where the others are now; relaxed, they make room.
+  bool has_room(const Point<2>& place) const {
+    constexpr double kLeastGap = 0.4;  // spacings
+    const double d = in_.nodes.d(defect_.node);
+    return patch_.mesh().gap_at(place) >= kLeastGap * d && in_.fits(place, d);
+  }
+
   void try_with_one_more(std::int32_t triangle) {
     LocalMesh mesh = patch_.mesh();
     const std::int32_t place = mesh.insert(triangle);
     const double gain = gain_of(mesh);
-    if (gain <= defect_.gain || !in_.fits(mesh.position(place), in_.nodes.d(defect_.node))) return;
+    if (gain <= defect_.gain || !has_room(mesh.position(place))) return;
     defect_.gain = gain;
     defect_.goes = -1;
     defect_.place = mesh.position(place);
@@ -245,6 +253,8 @@ PopulationChange<2> choose_defect_repairs(
     }
   }
   std::sort(change.deleted.begin(), change.deleted.end());
+  change.deleted.erase(std::unique(change.deleted.begin(), change.deleted.end()),
+                       change.deleted.end());
   return change;
 }
 

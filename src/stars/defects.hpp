@@ -11,6 +11,7 @@
 #include "core/nodes.hpp"
 #include "forces/population.hpp"
 #include "stars/delaunay_stars.hpp"
+#include "stars/star_patch.hpp"
 
 namespace pnpbs {
 
@@ -21,7 +22,8 @@ struct DefectRule {
 
 // What becomes of a node hangs on the stars so many rings around it: it may go for a defect two
 // rings away, which others bar within the contest, and those are judged by their patches.
-inline constexpr int kDefectRings = 2 + 5 + 4;
+inline constexpr int kSurplusRings = 2, kContestRings = 5;
+inline constexpr int kDefectRings = kSurplusRings + kContestRings + StarPatch::kRings;
 
 // Which nodes go and which come; triangles are bad below that quality. Who acts is a contest as for
 // the population: of the defects within five rings the one whose repair gains most. fits(x, d): is

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/nodes.hpp"
 #include "geometry/predicates.hpp"
 #include "stars/triangle_quality.hpp"
 
@@ -29,6 +30,12 @@ double LocalMesh::twice_area(const Triangle& t) const {
 
 double LocalMesh::quality_of(const Corners& corner) const {
   return triangle_quality(x_[at(corner[0])], x_[at(corner[1])], x_[at(corner[2])]);
+}
+
+double LocalMesh::gap_at(const Point<2>& x) const {
+  double gap = kFarAway;
+  for (const Point<2>& y : x_) gap = std::min(gap, distance<2>(x, y));
+  return gap;
 }
 
 MeshQuality LocalMesh::quality() const {

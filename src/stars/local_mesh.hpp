@@ -31,6 +31,9 @@ class LocalMesh {
   const Point<2>& position(std::int32_t place) const { return x_[static_cast<std::size_t>(place)]; }
   std::vector<Corners> triangles() const;
 
+  // How far the nearest node is from a point.
+  double gap_at(const Point<2>& x) const;
+
   // The largest triangle with this corner.
   std::int32_t largest_triangle_at(std::int32_t place) const;
   // The larger of the two with this edge.

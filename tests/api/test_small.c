@@ -209,7 +209,8 @@ static int32_t coarse_beside_fine(int64_t n, int32_t dim, const double* xyz, dou
 /* the coarse side begins with far too many nodes, which are pressed into its corners. Of those that
  * have ended up in one place, the first stays. */
 START_TEST(a_crowded_corner) {
-  static const char* const options[][2] = {{"steps", "40"}, {"steps", "60"}, {"sweeps", "4"}};
+  static const char* const options[][2] = {
+      {"steps", "40"}, {"steps", "60"}, {"sweeps", "4"}, {"defect_repairs", "2"}};
   job it = square_job(1);
   result nodes;
   int64_t i, j;
@@ -228,6 +229,27 @@ START_TEST(a_crowded_corner) {
     }
   result_free(&nodes);
   job_end(&it);
+}
+END_TEST
+
+/* Far from rest, where one place may want a node that another one wants gone. */
+START_TEST(rounds_of_repairs_end) {
+  static const char* const rounds[] = {"30", "60"};
+  int64_t inserted[2], deleted[2];
+  int k;
+  for (k = 0; k < 2; ++k) {
+    job it = square_job(1);
+    MUST(pnpbs_placement_set_spacing_callback(it.placement, coarse_beside_fine, NULL));
+    MUST(pnpbs_placement_set(it.placement, "steps", "0"));
+    MUST(pnpbs_placement_set(it.placement, "defect_repairs", rounds[k]));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    inserted[k] = integer_of(it.placement, "inserted");
+    deleted[k] = integer_of(it.placement, "deleted");
+    job_end(&it);
+  }
+  ck_assert_int_gt(inserted[0] + deleted[0], 40);
+  ck_assert_int_eq(inserted[1], inserted[0]);
+  ck_assert_int_eq(deleted[1], deleted[0]);
 }
 END_TEST
 
@@ -343,7 +365,8 @@ int main(void) {
   tcase_add_loop_test(room, scales, 0, 6);
   tcase_add_test(room, more_nodes_than_allowed);
   tcase_add_test(room, a_spacing_larger_than_a_feature);
-  tcase_add_loop_test(room, a_crowded_corner, 0, 3);
+  tcase_add_loop_test(room, a_crowded_corner, 0, 4);
+  tcase_add_test(room, rounds_of_repairs_end);
   suite_add_tcase(suite, room);
   tcase_add_loop_test(method_cases, methods_run, 0, COUNT_OF(methods));
   tcase_add_test(method_cases, the_paper_is_a_preset);
