@@ -70,6 +70,13 @@ else()
   set(PNPBS_PC_LIBDIR "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
   set(PNPBS_PC_INCLUDEDIR "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
 endif()
+# Programs find the library where it lies. Not in the system's own folders, where the loader looks
+# by itself and packagers want no run path.
+set(PNPBS_PC_RPATH " -Wl,-rpath,\${libdir}")
+if("${CMAKE_INSTALL_FULL_LIBDIR}" IN_LIST CMAKE_PLATFORM_IMPLICIT_LINK_DIRECTORIES
+   OR "${CMAKE_INSTALL_FULL_LIBDIR}" STREQUAL "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}")
+  set(PNPBS_PC_RPATH "")
+endif()
 # What only `pkg-config --static` asks for, and only where there is a static library.
 set(PNPBS_PC_LIBS_PRIVATE "")
 if(PNPBS_INSTALL_STATIC)
@@ -83,7 +90,8 @@ if(PNPBS_INSTALL_STATIC)
   endforeach()
   if(PNPBS_HAVE_MPI)
     string(REPLACE ";" " " mpi_libraries "${MPI_C_LIBRARIES}")
-    string(APPEND PNPBS_PC_LIBS_PRIVATE " ${mpi_libraries} ${PNPBS_METIS_LIBRARY}")
+    string(REPLACE ";" " " metis_libraries "${PNPBS_METIS_STATIC_LIBRARIES}")
+    string(APPEND PNPBS_PC_LIBS_PRIVATE " ${mpi_libraries} ${metis_libraries}")
   endif()
   string(APPEND PNPBS_PC_LIBS_PRIVATE " -fopenmp -lstdc++ -ldl -lm")
 endif()
@@ -92,6 +100,15 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs.pc"
      INPUT "${PROJECT_BINARY_DIR}/pnpbs.pc.configured")
 install(FILES "${PROJECT_BINARY_DIR}/pkgconfig/pnpbs.pc"
         DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+
+# The same for CMake.
+if(PNPBS_INSTALL_STATIC)
+  configure_file(cmake/pnpbsStatic.cmake.in "${PROJECT_BINARY_DIR}/pnpbsStatic.cmake.configured"
+                 @ONLY)
+  file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/pnpbsStatic.cmake"
+       INPUT "${PROJECT_BINARY_DIR}/pnpbsStatic.cmake.configured")
+  install(FILES "${PROJECT_BINARY_DIR}/pnpbsStatic.cmake" DESTINATION "${package_dir}")
+endif()
 
 # A module in front of that one, of the same prefix.
 function(pnpbs_install_pc module)
@@ -119,10 +136,29 @@ endif()
 
 # ------------------------------------------------------------------ texts, examples -------------
 install(FILES LICENSE README.md DESTINATION "${doc_dir}")
-# In a folder as here, for the links of README.md.
+# In folders as here, for the links between them.
 install(DIRECTORY docs DESTINATION "${doc_dir}" PATTERN "pnpbs.1" EXCLUDE)
+install(DIRECTORY abi packaging DESTINATION "${doc_dir}" PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY examples DESTINATION "${data_dir}" PATTERN ".clang-format" EXCLUDE
         PATTERN "__pycache__" EXCLUDE)
+
+# Symbolic links for what the pages lead to and what lies elsewhere once installed: `link` in one
+# installed folder to `to` in another. Relative, so that an installed tree may be moved.
+function(pnpbs_install_link folder link to)
+  get_filename_component(destination "${folder}/${link}" DIRECTORY)
+  get_filename_component(from "${destination}" ABSOLUTE BASE_DIR "${CMAKE_INSTALL_PREFIX}")
+  get_filename_component(to "${to}" ABSOLUTE BASE_DIR "${CMAKE_INSTALL_PREFIX}")
+  file(RELATIVE_PATH target "${from}" "${to}")
+  set(made "${PROJECT_BINARY_DIR}/installed_links/${folder}/${link}")
+  get_filename_component(made_in "${made}" DIRECTORY)
+  file(MAKE_DIRECTORY "${made_in}")
+  file(CREATE_LINK "${target}" "${made}" SYMBOLIC)
+  install(FILES "${made}" DESTINATION "${destination}")
+endfunction()
+pnpbs_install_link("${doc_dir}" examples "${data_dir}/examples")
+pnpbs_install_link("${doc_dir}" include/pnpbs "${CMAKE_INSTALL_INCLUDEDIR}/pnpbs")
+pnpbs_install_link("${doc_dir}" bindings/fortran "${data_dir}/fortran")
+pnpbs_install_link("${data_dir}" docs "${doc_dir}/docs")
 
 # ------------------------------------------------------------------ Julia -----------------------
 # Beside the library: the package looks for it in the prefix it lies in.

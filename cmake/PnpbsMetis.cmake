@@ -2,6 +2,14 @@
 # Finds METIS, which has no CMake package of its own in most distributions: METIS::METIS. Only a
 # build with MPI partitions anything. 32- and 64-bit METIS export the same symbols; the width is the
 # one of the metis.h found beside the library, and idx_t stays out of our interface.
+#
+# A program that uses PNPBS may have a METIS of its own, and must not meet ours: a static one that
+# can be linked into a shared library is hidden inside libpnpbs.so; a shared one is not linked but
+# opened by its path at run time (src/parallel/metis_functions.cpp).
+# Sets PNPBS_METIS_STATIC_LIBRARIES, what a program with libpnpbs.a must link besides, and
+# PNPBS_METIS_DEFINITIONS, what metis_functions.cpp must know of a shared one.
+set(PNPBS_METIS_STATIC_LIBRARIES "")
+set(PNPBS_METIS_DEFINITIONS "")
 if(NOT PNPBS_HAVE_MPI)
   return()
 endif()
@@ -19,7 +27,63 @@ if(NOT width)
   message(FATAL_ERROR "${PNPBS_METIS_INCLUDE_DIR}/metis.h does not say how wide idx_t is "
                       "(IDXTYPEWIDTH 32 or 64): not a METIS 5 that we know.")
 endif()
-add_library(METIS::METIS UNKNOWN IMPORTED)
-set_target_properties(
-  METIS::METIS PROPERTIES IMPORTED_LOCATION "${PNPBS_METIS_LIBRARY}"
-                          INTERFACE_INCLUDE_DIRECTORIES "${PNPBS_METIS_INCLUDE_DIR}")
+
+# Whether the static library beside it can be used: it must be position-independent, and METIS from
+# 5.2 on has parts of it in a library of their own, GKlib.
+find_library(PNPBS_METIS_STATIC_LIBRARY libmetis.a HINTS ${METIS_ROOT} ENV METIS_ROOT
+             PATH_SUFFIXES lib)
+find_library(PNPBS_GKLIB_STATIC_LIBRARY libGKlib.a HINTS ${METIS_ROOT} ENV METIS_ROOT
+             PATH_SUFFIXES lib)
+mark_as_advanced(PNPBS_METIS_STATIC_LIBRARY PNPBS_GKLIB_STATIC_LIBRARY)
+get_filename_component(metis_dir "${PNPBS_METIS_LIBRARY}" DIRECTORY)
+get_filename_component(metis_static_dir "${PNPBS_METIS_STATIC_LIBRARY}" DIRECTORY)
+if(PNPBS_METIS_STATIC_LIBRARY AND metis_dir STREQUAL metis_static_dir)
+  set(metis_static_libraries "${PNPBS_METIS_STATIC_LIBRARY}")
+  if(PNPBS_GKLIB_STATIC_LIBRARY)
+    list(APPEND metis_static_libraries "${PNPBS_GKLIB_STATIC_LIBRARY}")
+  endif()
+  set(metis_check "${PROJECT_BINARY_DIR}/metis_check")
+  file(WRITE "${metis_check}/CMakeLists.txt"
+       "cmake_minimum_required(VERSION 3.22)
+project(metis_check LANGUAGES C)
+add_library(metis_check MODULE check.c)
+target_include_directories(metis_check PRIVATE [[${PNPBS_METIS_INCLUDE_DIR}]])
+target_link_libraries(metis_check PRIVATE [[${metis_static_libraries}]] m)
+target_link_options(metis_check PRIVATE LINKER:-z,defs)
+")
+  file(WRITE "${metis_check}/check.c"
+       "#include <metis.h>
+void *check(void) { return (void *)&METIS_PartGraphKway; }
+")
+  try_compile(PNPBS_METIS_STATIC_WORKS "${metis_check}/build" "${metis_check}" metis_check)
+endif()
+
+add_library(METIS::METIS INTERFACE IMPORTED)
+target_include_directories(METIS::METIS INTERFACE "${PNPBS_METIS_INCLUDE_DIR}")
+if(PNPBS_METIS_STATIC_WORKS)
+  set(PNPBS_METIS_STATIC_LIBRARIES ${metis_static_libraries})
+  target_link_libraries(METIS::METIS INTERFACE ${metis_static_libraries} m)
+  message(STATUS "METIS: static, hidden inside the library")
+elseif(PNPBS_METIS_LIBRARY MATCHES "\\.a$")
+  message(FATAL_ERROR "${PNPBS_METIS_LIBRARY} cannot be linked into a shared library: build METIS "
+                      "with -DCMAKE_POSITION_INDEPENDENT_CODE=ON, or as a shared library; METIS 5.2 "
+                      "and later need GKlib beside it, built likewise.")
+else()
+  # The name that outlives updates of the package is the one in the library itself.
+  get_filename_component(metis_file "${PNPBS_METIS_LIBRARY}" REALPATH)
+  get_filename_component(metis_name "${metis_file}" NAME)
+  if(CMAKE_READELF)
+    execute_process(COMMAND "${CMAKE_READELF}" -d "${metis_file}" OUTPUT_VARIABLE dynamic
+                    ERROR_QUIET)
+    if(dynamic MATCHES "\\(SONAME\\)[^[]*\\[([^]]+)\\]")
+      set(metis_name "${CMAKE_MATCH_1}")
+    endif()
+  endif()
+  if(EXISTS "${metis_dir}/${metis_name}")
+    set(metis_file "${metis_dir}/${metis_name}")
+  endif()
+  set(PNPBS_METIS_DEFINITIONS "PNPBS_METIS_PATH=\"${metis_file}\""
+                              "PNPBS_METIS_NAME=\"${metis_name}\"")
+  target_link_libraries(METIS::METIS INTERFACE ${CMAKE_DL_LIBS})
+  message(STATUS "METIS: ${metis_file}, opened at run time")
+endif()

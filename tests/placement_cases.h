@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * The cases that the programs over MPI_COMM_WORLD share: graded-square, uniform-square,
- * jump-square, or a .poly file (graded), with spacings that a scale multiplies. */
+ * jump-square, steep-square (by a fifth of the distance), or a .poly file (graded), with spacings
+ * that a scale multiplies; of the steep one, that at the point. */
 #ifndef PNPBS_PLACEMENT_CASES_H
 #define PNPBS_PLACEMENT_CASES_H
 
@@ -39,6 +40,7 @@ static pnpbs_placement case_placement(pnpbs_context context, const char* name, d
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
   const struct case_spacing graded = {0.00068, 9 * 0.00068 / 0.7071, 0.5, 0.5, HUGE_VAL, 0},
                             uniform = {0.0034, 0, 0, 0, HUGE_VAL, 0},
+                            steep = {0.0005, 0, 0.3, 0.4, HUGE_VAL, 0},
                             jump = {0.3, 0, 0, 0, 0.52, 0.012},
                             in_a_lake = {0.3, 0.006, 0, 0, HUGE_VAL, 0};
   pnpbs_domain domain;
@@ -48,7 +50,10 @@ static pnpbs_placement case_placement(pnpbs_context context, const char* name, d
   if (strstr(name, "square")) {
     case_check(context, pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0),
                "square");
-    *spacing = strstr(name, "uniform") ? uniform : strstr(name, "jump") ? jump : graded;
+    *spacing = strstr(name, "uniform") ? uniform
+               : strstr(name, "jump")  ? jump
+               : strstr(name, "steep") ? steep
+                                       : graded;
   } else {
     case_check(context, pnpbs_domain_read_poly(domain, name), "poly");
     *spacing = in_a_lake;
@@ -56,6 +61,7 @@ static pnpbs_placement case_placement(pnpbs_context context, const char* name, d
   spacing->constant *= scale;
   spacing->slope *= scale;
   spacing->beyond *= scale;
+  if (strstr(name, "steep")) spacing->slope = 0.2;
   case_check(context, pnpbs_placement_create(context, domain, &placement), "placement");
   pnpbs_domain_destroy(&domain);
   for (a = 0; a < count; ++a) {

@@ -31,7 +31,7 @@ module pnpbs
   implicit none
   private
 
-  public :: PNPBS_OK, PNPBS_NOT_CONVERGED, PNPBS_STOPPED
+  public :: PNPBS_OK, PNPBS_NOT_CONVERGED, PNPBS_STOPPED, PNPBS_SPACING_MISSED
   public :: PNPBS_ERROR_ARGUMENT, PNPBS_ERROR_HANDLE, PNPBS_ERROR_STATE, PNPBS_ERROR_DOMAIN
   public :: PNPBS_ERROR_SPACING, PNPBS_ERROR_KEY, PNPBS_ERROR_CAPACITY, PNPBS_ERROR_FILE
   public :: PNPBS_ERROR_CALLBACK, PNPBS_ERROR_MEMORY, PNPBS_ERROR_MPI, PNPBS_ERROR_KOKKOS
@@ -53,9 +53,7 @@ module pnpbs
     type(c_ptr) :: c = c_null_ptr
   contains
     procedure :: create_serial => context_create_serial
-    procedure, private :: context_create_mpi_int32
-    procedure, private :: context_create_mpi_int64
-    generic :: create_mpi => context_create_mpi_int32, context_create_mpi_int64
+    procedure :: create_mpi => context_create_mpi
     procedure :: destroy => context_destroy
     procedure, private :: context_set_text
     procedure, private :: context_set_int32
@@ -110,6 +108,7 @@ module pnpbs
     procedure :: set_spacing_at_nodes => placement_set_spacing_at_nodes
     procedure :: set_monitor => placement_set_monitor
     procedure :: set_nodes => placement_set_nodes
+    procedure :: estimate => placement_estimate
     procedure :: initialise => placement_initialise
     procedure, private :: placement_step_int32
     procedure, private :: placement_step_int64
@@ -127,15 +126,20 @@ module pnpbs
     procedure :: adjacency_size => placement_adjacency_size
     procedure :: get_adjacency => placement_get_adjacency
     procedure :: star_size => placement_star_size
-    procedure :: get_stars => placement_get_stars
+    procedure, private :: placement_get_stars
+    procedure, private :: placement_get_stars_logical
+    generic :: get_stars => placement_get_stars, placement_get_stars_logical
     procedure :: triangle_count => placement_triangle_count
     procedure :: get_triangles => placement_get_triangles
     procedure :: boundary_edge_count => placement_boundary_edge_count
     procedure :: get_boundary_edges => placement_get_boundary_edges
+    procedure :: check => placement_check
     procedure, private :: placement_get_int64
     procedure, private :: placement_get_real
     procedure, private :: placement_get_text
     generic :: get => placement_get_int64, placement_get_real, placement_get_text
+    procedure :: edge_band_count => placement_edge_band_count
+    procedure :: get_edge_bands => placement_get_edge_bands
     procedure :: warning_count => placement_warning_count
     procedure :: get_warning => placement_get_warning
     procedure :: write => placement_write
@@ -165,7 +169,7 @@ contains
   !> The version of the library at run time. Local.
   subroutine pnpbs_version(major, minor, patch)
     integer(c_int32_t), intent(out) :: major, minor, patch
-    call conclude(c_version(major, minor, patch))
+    call conclude('pnpbs_version', c_version(major, minor, patch))
   end subroutine
 
   !> What the library was built with, one "name: value" per line: version, compiler, Kokkos and its
@@ -186,12 +190,12 @@ contains
   subroutine pnpbs_finalize(stat, errmsg)
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_finalize(), stat, errmsg)
+    call conclude('pnpbs_finalize', c_finalize(), stat, errmsg)
   end subroutine
 
   !> Removes what unfinished calls of this process have written aside so far. Local.
   subroutine pnpbs_discard_unfinished_files()
-    call conclude(c_discard_unfinished_files())
+    call conclude('pnpbs_discard_unfinished_files', c_discard_unfinished_files())
   end subroutine
 
   ! ------------------------------------------------------------ tables ------------------------
@@ -201,7 +205,7 @@ contains
     integer(c_int32_t), intent(out) :: count
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_option_count(count), stat, errmsg)
+    call conclude('pnpbs_option_count', c_option_count(count), stat, errmsg)
   end subroutine
 
   !> One row of the options table. Local.
@@ -218,7 +222,7 @@ contains
     type(c_ptr) :: c_name, c_type, c_default, c_range, c_help
     integer(c_int) :: status
     status = c_option_info(index - 1_c_int32_t, c_name, c_type, c_default, c_range, c_help)
-    call conclude(status, stat, errmsg)
+    call conclude('pnpbs_option_info', status, stat, errmsg)
     if (status < 0) return
     if (present(name)) name = text_of(c_name)
     if (present(type)) type = text_of(c_type)
@@ -232,7 +236,7 @@ contains
     integer(c_int32_t), intent(out) :: count
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_statistic_count(count), stat, errmsg)
+    call conclude('pnpbs_statistic_count', c_statistic_count(count), stat, errmsg)
   end subroutine
 
   !> One row of the statistics table (the report's keys). Local.
@@ -247,7 +251,7 @@ contains
     type(c_ptr) :: c_name, c_type, c_help
     integer(c_int) :: status
     status = c_statistic_info(index - 1_c_int32_t, c_name, c_type, c_help)
-    call conclude(status, stat, errmsg)
+    call conclude('pnpbs_statistic_info', status, stat, errmsg)
     if (status < 0) return
     if (present(name)) name = text_of(c_name)
     if (present(type)) type = text_of(c_type)
@@ -259,7 +263,7 @@ contains
     integer(c_int32_t), intent(out) :: count
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_format_count(count), stat, errmsg)
+    call conclude('pnpbs_format_count', c_format_count(count), stat, errmsg)
   end subroutine
 
   !> One row of the table of file formats (see placement%write). Local.
@@ -278,7 +282,7 @@ contains
     integer(c_int32_t) :: is_binary, has_elements
     integer(c_int) :: status
     status = c_format_info(index - 1_c_int32_t, c_name, c_help, is_binary, has_elements)
-    call conclude(status, stat, errmsg)
+    call conclude('pnpbs_format_info', status, stat, errmsg)
     if (status < 0) return
     if (present(name)) name = text_of(c_name)
     if (present(help)) help = text_of(c_help)
@@ -293,7 +297,7 @@ contains
     class(pnpbs_context), intent(inout) :: self
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_context_create_serial(self%c), stat, errmsg)
+    call conclude('context%create_serial', c_context_create_serial(self%c), stat, errmsg)
   end subroutine
 
   !> A context on a duplicate of an MPI communicator: messages of yours never mix with ours.
@@ -302,27 +306,31 @@ contains
   !>   comm     as mpif.h and the module mpi have it; of mpi_f08, comm%MPI_VAL
   !>   library  optional: what MPI_Get_library_version tells you, to be compared with the MPI that
   !>            PNPBS calls; the communicator of one MPI library means nothing to another
-  subroutine context_create_mpi_int32(self, comm, library, stat, errmsg)
+  subroutine context_create_mpi(self, comm, library, stat, errmsg)
     class(pnpbs_context), intent(inout) :: self
-    integer(c_int32_t), intent(in) :: comm
+    class(*), intent(in) :: comm
     character(len=*), intent(in), optional :: library
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int32_t) :: handle
+    select type (comm)
+    type is (integer(c_int32_t))
+      handle = comm
+    type is (integer(c_int64_t))
+      handle = int(comm, c_int32_t)
+    class default
+      call given%refuse(PNPBS_ERROR_ARGUMENT, 'argument comm is no integer: with the module ' // &
+        'mpi_f08 give comm%MPI_VAL, as in create_mpi(MPI_COMM_WORLD%MPI_VAL)')
+      call conclude('context%create_mpi', given%found(), stat, errmsg, given)
+      return
+    end select
     if (present(library)) then
-      call conclude(c_context_create_checked_f(comm, c_text(library), self%c), stat, errmsg)
+      call conclude('context%create_mpi', &
+                    c_context_create_checked_f(handle, c_text(library), self%c), stat, errmsg)
     else
-      call conclude(c_context_create_f(comm, self%c), stat, errmsg)
+      call conclude('context%create_mpi', c_context_create_f(handle, self%c), stat, errmsg)
     end if
-  end subroutine
-
-  !> The same for callers whose default integers have eight bytes.
-  subroutine context_create_mpi_int64(self, comm, library, stat, errmsg)
-    class(pnpbs_context), intent(inout) :: self
-    integer(c_int64_t), intent(in) :: comm
-    character(len=*), intent(in), optional :: library
-    class(*), intent(out), optional :: stat
-    character(len=*), intent(inout), optional :: errmsg
-    call self%create_mpi(int(comm, c_int32_t), library, stat, errmsg)
   end subroutine
 
   !> Ends the context; does nothing where there is none. Its domains and placements live on until
@@ -331,7 +339,7 @@ contains
     class(pnpbs_context), intent(inout) :: self
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_context_destroy(self%c), stat, errmsg)
+    call conclude('context%destroy', c_context_destroy(self%c), stat, errmsg)
   end subroutine
 
   !> set(key, value): sets an option that placements created later on this context start with (see
@@ -344,7 +352,7 @@ contains
     character(len=*), intent(in) :: key, value
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_context_set(self%c, c_text(key), c_text(value)), stat, errmsg)
+    call conclude('context%set', c_context_set(self%c, c_text(key), c_text(value)), stat, errmsg)
   end subroutine
 
   subroutine context_set_int32(self, key, value, stat, errmsg)
@@ -362,7 +370,7 @@ contains
     integer(c_int64_t), intent(in) :: value
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_context_set_int64(self%c, c_text(key), value), stat, errmsg)
+    call conclude('context%set', c_context_set_int64(self%c, c_text(key), value), stat, errmsg)
   end subroutine
 
   subroutine context_set_real(self, key, value, stat, errmsg)
@@ -371,7 +379,7 @@ contains
     real(c_double), intent(in) :: value
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_context_set_double(self%c, c_text(key), value), stat, errmsg)
+    call conclude('context%set', c_context_set_double(self%c, c_text(key), value), stat, errmsg)
   end subroutine
 
   !> The message of the last error on the context or on its domains and placements; of a dead
@@ -410,7 +418,7 @@ contains
     integer(c_int32_t) :: dimensions
     dimensions = 2
     if (present(dim)) dimensions = dim
-    call conclude(c_domain_create(context%c, dimensions, self%c), stat, errmsg)
+    call conclude('domain%create', c_domain_create(context%c, dimensions, self%c), stat, errmsg)
   end subroutine
 
   !> Destroys it; does nothing where there is none. Local.
@@ -418,7 +426,7 @@ contains
     class(pnpbs_domain), intent(inout) :: self
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_domain_destroy(self%c), stat, errmsg)
+    call conclude('domain%destroy', c_domain_destroy(self%c), stat, errmsg)
   end subroutine
 
   !> Adds straight segments through n vertices. Local.
@@ -455,7 +463,7 @@ contains
     status = PNPBS_OK
     if (.not. given%is_wrong()) &
       status = c_domain_add_polyline(self%c, role, flag(closed), n, xy, a_tags, angle)
-    call conclude(status, stat, errmsg, given)
+    call conclude('domain%add_polyline', status, stat, errmsg, given)
   end subroutine
 
   !> Adds a circular arc; its ends join curves that end at the same point (within 1e-9 of the
@@ -477,7 +485,7 @@ contains
     status = PNPBS_OK
     if (.not. given%is_wrong()) &
       status = c_domain_add_arc(self%c, role, centre, radius, begin, end, tag_or_one(tag))
-    call conclude(status, stat, errmsg, given)
+    call conclude('domain%add_arc', status, stat, errmsg, given)
   end subroutine
 
   !> Adds a general curve given by a callback on begin <= t <= end. The callback is called during
@@ -495,7 +503,8 @@ contains
     type(c_ptr), intent(in), optional :: user
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_domain_add_curve(self%c, role, c_funloc(curve), pointer_or_null(user), begin, &
+    call conclude('domain%add_curve', &
+                  c_domain_add_curve(self%c, role, c_funloc(curve), pointer_or_null(user), begin, &
                                      end, tag_or_one(tag)), stat, errmsg)
   end subroutine
 
@@ -536,7 +545,7 @@ contains
     if (.not. given%is_wrong()) &
       status = c_domain_add_pslg(self%c, vertices, xy, a_vertex_tags, segments, segment_ends - 1, &
                                  a_segment_tags, holes, a_holes)
-    call conclude(status, stat, errmsg, given)
+    call conclude('domain%add_pslg', status, stat, errmsg, given)
   end subroutine
 
   !> Removes from the domain the region around a point (between curves of either role). Local.
@@ -550,7 +559,7 @@ contains
     call given%check_rows('point', size(point), 2)
     status = PNPBS_OK
     if (.not. given%is_wrong()) status = c_domain_add_hole(self%c, point)
-    call conclude(status, stat, errmsg, given)
+    call conclude('domain%add_hole', status, stat, errmsg, given)
   end subroutine
 
   !> Adds nodes that must appear exactly. Local.
@@ -572,7 +581,7 @@ contains
     call given%require('tags', room, n)
     status = PNPBS_OK
     if (.not. given%is_wrong()) status = c_domain_add_fixed_nodes(self%c, n, xy, a_tags)
-    call conclude(status, stat, errmsg, given)
+    call conclude('domain%add_fixed_nodes', status, stat, errmsg, given)
   end subroutine
 
   !> Reads a file of Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
@@ -584,7 +593,7 @@ contains
     character(len=*), intent(in) :: path
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_domain_read_poly(self%c, c_text(path)), stat, errmsg)
+    call conclude('domain%read_poly', c_domain_read_poly(self%c, c_text(path)), stat, errmsg)
   end subroutine
 
   !> The same from memory. Local.
@@ -595,7 +604,8 @@ contains
     character(len=*), intent(in) :: text, name
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_domain_parse_poly(self%c, text // c_null_char, len(text, kind=c_int64_t), &
+    call conclude('domain%parse_poly', &
+                  c_domain_parse_poly(self%c, text // c_null_char, len(text, kind=c_int64_t), &
                                       c_text(name)), stat, errmsg)
   end subroutine
 
@@ -607,7 +617,7 @@ contains
     class(pnpbs_domain), intent(in) :: self
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_domain_check(self%c), stat, errmsg)
+    call conclude('domain%check', c_domain_check(self%c), stat, errmsg)
   end subroutine
 
   !> Bounding box of the curves. Local.
@@ -623,7 +633,7 @@ contains
     call given%check_rows('high', size(high), 2)
     status = PNPBS_OK
     if (.not. given%is_wrong()) status = c_domain_bounds(self%c, low, high)
-    call conclude(status, stat, errmsg, given)
+    call conclude('domain%bounds', status, stat, errmsg, given)
   end subroutine
 
   !> Area of the inside. Local; checks the domain first.
@@ -632,7 +642,7 @@ contains
     real(c_double), intent(out) :: measure
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_domain_measure(self%c, measure), stat, errmsg)
+    call conclude('domain%measure', c_domain_measure(self%c, measure), stat, errmsg)
   end subroutine
 
   !> Number of segments that get_segments has. Local.
@@ -641,7 +651,8 @@ contains
     integer(c_int64_t), intent(out) :: count
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_domain_get_segments(self%c, 0_c_int64_t, count, c_null_ptr, c_null_ptr), stat, &
+    call conclude('domain%segment_count', &
+                  c_domain_get_segments(self%c, 0_c_int64_t, count, c_null_ptr, c_null_ptr), stat, &
                   errmsg)
   end subroutine
 
@@ -662,7 +673,7 @@ contains
     call given%place_int32('tags', tags, a_tags, room_for_tags)
     room = given%capacity(min(room, room_for_tags))
     status = c_domain_get_segments(self%c, room, count, a_segments, a_tags)
-    call conclude(status, stat, errmsg, given)
+    call conclude('domain%get_segments', status, stat, errmsg, given)
   end subroutine
 
   !> The handle as an integer; 0 where there is no domain. Local.
@@ -689,7 +700,7 @@ contains
     type(pnpbs_domain), intent(in) :: domain
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_create(context%c, domain%c, self%c), stat, errmsg)
+    call conclude('placement%create', c_placement_create(context%c, domain%c, self%c), stat, errmsg)
   end subroutine
 
   !> Destroys it; does nothing where there is none. Local.
@@ -697,7 +708,7 @@ contains
     class(pnpbs_placement), intent(inout) :: self
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_destroy(self%c), stat, errmsg)
+    call conclude('placement%destroy', c_placement_destroy(self%c), stat, errmsg)
   end subroutine
 
   !> set(key, value): sets an option of this placement; otherwise as that of contexts. Local.
@@ -706,7 +717,8 @@ contains
     character(len=*), intent(in) :: key, value
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_set(self%c, c_text(key), c_text(value)), stat, errmsg)
+    call conclude('placement%set', &
+                  c_placement_set(self%c, c_text(key), c_text(value)), stat, errmsg)
   end subroutine
 
   subroutine placement_set_int32(self, key, value, stat, errmsg)
@@ -724,7 +736,7 @@ contains
     integer(c_int64_t), intent(in) :: value
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_set_int64(self%c, c_text(key), value), stat, errmsg)
+    call conclude('placement%set', c_placement_set_int64(self%c, c_text(key), value), stat, errmsg)
   end subroutine
 
   subroutine placement_set_real(self, key, value, stat, errmsg)
@@ -733,7 +745,7 @@ contains
     real(c_double), intent(in) :: value
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_set_double(self%c, c_text(key), value), stat, errmsg)
+    call conclude('placement%set', c_placement_set_double(self%c, c_text(key), value), stat, errmsg)
   end subroutine
 
   !> The spacing everywhere the same. On a live placement the spacing is replaced: the nodes there
@@ -744,7 +756,8 @@ contains
     real(c_double), intent(in) :: d
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_set_spacing_constant(self%c, d), stat, errmsg)
+    call conclude('placement%set_spacing_constant', &
+                  c_placement_set_spacing_constant(self%c, d), stat, errmsg)
   end subroutine
 
   !> The spacing from a callback, which must stay valid as long as the placement uses it, and so
@@ -757,7 +770,8 @@ contains
     type(c_ptr), intent(in), optional :: user
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_set_spacing_callback(self%c, c_funloc(spacing), &
+    call conclude('placement%set_spacing_callback', &
+                  c_placement_set_spacing_callback(self%c, c_funloc(spacing), &
                                                    pointer_or_null(user)), stat, errmsg)
   end subroutine
 
@@ -779,7 +793,7 @@ contains
     points = shape(values, kind=c_int64_t)
     points(1) = given%capacity(points(1))
     status = c_placement_set_spacing_grid(self%c, points, origin, step, values)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%set_spacing_grid', status, stat, errmsg, given)
   end subroutine
 
   !> The spacing from values at the nodes there are: d is linear on each triangle of their Delaunay
@@ -794,7 +808,8 @@ contains
     real(c_double), intent(in) :: d(:)
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_set_spacing_at_nodes(self%c, size(d, kind=c_int64_t), d), stat, &
+    call conclude('placement%set_spacing_at_nodes', &
+                  c_placement_set_spacing_at_nodes(self%c, size(d, kind=c_int64_t), d), stat, &
                   errmsg)
   end subroutine
 
@@ -809,7 +824,8 @@ contains
     type(c_funptr) :: address
     address = c_null_funptr
     if (present(monitor)) address = c_funloc(monitor)
-    call conclude(c_placement_set_monitor(self%c, address, pointer_or_null(user)), stat, errmsg)
+    call conclude('placement%set_monitor', &
+                  c_placement_set_monitor(self%c, address, pointer_or_null(user)), stat, errmsg)
   end subroutine
 
   !> Inner nodes to start from instead of the initial fill, copied; the boundary is laid by the
@@ -833,10 +849,34 @@ contains
     call given%place_int64('ids', ids, a_ids, room)
     call given%require('ids', room, n)
     status = c_placement_set_nodes(self%c, given%capacity(n), xy, a_ids)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%set_nodes', status, stat, errmsg, given)
   end subroutine
 
   ! ------------------------------------------------------------ placement: computing ----------
+
+  !> What a run from nothing would come to, from domain, spacing and options alone: d is sampled in
+  !> some thousand places, no inner node is made, and the nodes there are stay as they are.
+  !> Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
+  !>   nodes    optional: on all ranks, mostly within a few percent
+  !>   bytes    optional: memory of each process, for the run alone
+  !>   seconds  optional: roughly
+  subroutine placement_estimate(self, nodes, bytes, seconds, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out), optional :: nodes, bytes
+    real(c_double), intent(out), optional :: seconds
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: all_nodes, memory
+    real(c_double) :: time
+    all_nodes = 0
+    memory = 0
+    time = 0
+    call conclude('placement%estimate', c_placement_estimate(self%c, all_nodes, memory, time), stat, &
+                  errmsg)
+    if (present(nodes)) nodes = all_nodes
+    if (present(bytes)) bytes = memory
+    if (present(seconds)) seconds = time
+  end subroutine
 
   !> Checks domain and spacing, builds the background tree, lays the boundary nodes and the initial
   !> inner nodes. Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK, _MEMORY.
@@ -844,7 +884,7 @@ contains
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_initialise(self%c), stat, errmsg)
+    call conclude('placement%initialise', c_placement_initialise(self%c), stat, errmsg)
   end subroutine
 
   !> step(n): advances the simulation by n steps, with the events (refresh of d, population, stop
@@ -863,7 +903,7 @@ contains
     integer(c_int64_t), intent(in) :: n
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_step(self%c, n), stat, errmsg)
+    call conclude('placement%step', c_placement_step(self%c, n), stat, errmsg)
   end subroutine
 
   !> One population adjustment, now: deletes where the overlap ratio is too large, inserts where it
@@ -877,7 +917,8 @@ contains
     integer(c_int64_t) :: in, out
     in = 0
     out = 0
-    call conclude(c_placement_adjust_population(self%c, in, out), stat, errmsg)
+    call conclude('placement%adjust_population', &
+                  c_placement_adjust_population(self%c, in, out), stat, errmsg)
     if (present(inserted)) inserted = in
     if (present(deleted)) deleted = out
   end subroutine
@@ -890,17 +931,19 @@ contains
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_rebalance(self%c), stat, errmsg)
+    call conclude('placement%rebalance', c_placement_rebalance(self%c), stat, errmsg)
   end subroutine
 
   !> The whole job: initialise if need be, steps until the stop test is met or the option 'steps' is
   !> used up, finish. Afterwards it starts a new schedule from the nodes there are. Collective.
-  !> stat: PNPBS_OK, PNPBS_NOT_CONVERGED (the best state is kept), PNPBS_STOPPED.
+  !> stat: PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether the
+  !> bubbles rest or not, if in one of the bands of get_edge_bands with 50 edges or more the mean is
+  !> off 1 by more than 0.1: then there is a warning that names the band; PNPBS_STOPPED.
   subroutine placement_run(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    call conclude(c_placement_run(self%c), stat, errmsg)
+    call conclude('placement%run', c_placement_run(self%c), stat, errmsg)
   end subroutine
 
   ! ------------------------------------------------------------ placement: results ------------
@@ -912,7 +955,7 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     nodes = 0
-    call conclude(c_placement_count(self%c, nodes), stat, errmsg)
+    call conclude('placement%count', c_placement_count(self%c, nodes), stat, errmsg)
   end subroutine
 
   !> Copies the nodes of this rank out, in their local order; all arrays are optional. Local.
@@ -937,7 +980,7 @@ contains
     call given%place_real('spacing', spacing, a_spacing, room(4))
     status = c_placement_get_nodes(self%c, given%capacity(minval(room)), a_xy, a_ids, a_tags, &
                                    a_spacing)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%get_nodes', status, stat, errmsg, given)
   end subroutine
 
   !> Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars and
@@ -948,7 +991,7 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     ghosts = 0
-    call conclude(c_placement_ghost_count(self%c, ghosts), stat, errmsg)
+    call conclude('placement%ghost_count', c_placement_ghost_count(self%c, ghosts), stat, errmsg)
   end subroutine
 
   !> Copies the ghosts out, by increasing id; all arrays are optional. Collective.
@@ -972,7 +1015,7 @@ contains
     call given%place_int32('owners', owners, a_owners, room(5))
     status = c_placement_get_ghosts(self%c, given%capacity(minval(room)), a_xy, a_ids, a_tags, &
                                     a_spacing, a_owners)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%get_ghosts', status, stat, errmsg, given)
   end subroutine
 
   !> Sizes of the exchange pattern: how values at nodes reach their ghosts on other ranks.
@@ -991,7 +1034,8 @@ contains
     ranks = 0
     out = 0
     in = 0
-    call conclude(c_placement_exchange_sizes(self%c, ranks, out, in), stat, errmsg)
+    call conclude('placement%exchange_sizes', &
+                  c_placement_exchange_sizes(self%c, ranks, out, in), stat, errmsg)
     if (present(neighbours)) neighbours = ranks
     if (present(sends)) sends = out
     if (present(receives)) receives = in
@@ -1037,7 +1081,7 @@ contains
     status = c_placement_get_exchange(self%c, neighbours, given%capacity(sends), receives, &
                                       a_ranks, a_send_offsets, a_send_nodes, a_receive_offsets, &
                                       a_receive_nodes)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%get_exchange', status, stat, errmsg, given)
     if (status < 0) return
     call count_from_one(send_offsets(:neighbours + 1))
     call count_from_one(receive_offsets(:neighbours + 1))
@@ -1065,7 +1109,7 @@ contains
     nodes = 0
     call given%place_int64('ghost_numbers', ghost_numbers, a_ghost_numbers, room)
     status = c_placement_get_numbering(self%c, given%capacity(room), begin, nodes, a_ghost_numbers)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%get_numbering', status, stat, errmsg, given)
     if (present(first)) first = begin
     if (present(count)) count = nodes
   end subroutine
@@ -1077,7 +1121,8 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     entries = 0
-    call conclude(c_placement_adjacency_size(self%c, entries), stat, errmsg)
+    call conclude('placement%adjacency_size', &
+                  c_placement_adjacency_size(self%c, entries), stat, errmsg)
   end subroutine
 
   !> Adjacency lists in compressed rows: the neighbours of local node i are
@@ -1100,7 +1145,7 @@ contains
     call given%require('offsets', rows, nodes + 1)
     call given%place_int64('neighbours', neighbours, a_neighbours, room)
     status = c_placement_get_adjacency(self%c, given%capacity(room), a_offsets, a_neighbours)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%get_adjacency', status, stat, errmsg, given)
     if (status < 0) return
     call count_from_one(offsets(:nodes + 1))
     call count_from_one(neighbours(:offsets(nodes + 1) - 1))
@@ -1113,16 +1158,16 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     entries = 0
-    call conclude(c_placement_star_size(self%c, entries), stat, errmsg)
+    call conclude('placement%star_size', c_placement_star_size(self%c, entries), stat, errmsg)
   end subroutine
 
   !> Each node's star in the constrained Delaunay triangulation of the domain, counter-clockwise.
   !> Collective.
   !>   offsets     (nodes + 1)
   !>   neighbours  (entries) local indices
-  !>   triangle    optional, (entries): 1 if the node, this neighbour and the next one around (the
-  !>               first one after the last) are a triangle of the domain, 0 if a gap outside the
-  !>               domain lies between them
+  !>   triangle    optional, (entries), logical or integer(c_int8_t): true or 1 if the node, this
+  !>               neighbour and the next one around (the first one after the last) are a triangle of
+  !>               the domain, false or 0 if a gap outside the domain lies between them
   subroutine placement_get_stars(self, offsets, neighbours, triangle, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(inout) :: offsets(:), neighbours(:)
@@ -1140,10 +1185,27 @@ contains
     call given%place_int8('triangle', triangle, a_triangle, room(2))
     status = c_placement_get_stars(self%c, given%capacity(minval(room)), a_offsets, a_neighbours, &
                                    a_triangle)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%get_stars', status, stat, errmsg, given)
     if (status < 0) return
     call count_from_one(offsets(:nodes + 1))
     call count_from_one(neighbours(:offsets(nodes + 1) - 1))
+  end subroutine
+
+  subroutine placement_get_stars_logical(self, offsets, neighbours, triangle, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout) :: offsets(:), neighbours(:)
+    logical, intent(inout) :: triangle(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int8_t), allocatable :: flags(:)
+    allocate (flags(size(triangle)))
+    where (triangle)
+      flags = 1
+    elsewhere
+      flags = 0
+    end where
+    call self%get_stars(offsets, neighbours, flags, stat, errmsg)
+    triangle = flags /= 0
   end subroutine
 
   !> Number of triangles that get_triangles has. Collective.
@@ -1153,7 +1215,8 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     count = 0
-    call conclude(c_placement_get_triangles(self%c, 0_c_int64_t, count, c_null_ptr), stat, errmsg)
+    call conclude('placement%triangle_count', &
+                  c_placement_get_triangles(self%c, 0_c_int64_t, count, c_null_ptr), stat, errmsg)
   end subroutine
 
   !> Triangles of the stars, each once, counter-clockwise. Over several ranks a triangle is the
@@ -1171,7 +1234,7 @@ contains
     integer(c_int) :: status
     call given%place_int64_columns('triangles', triangles, 3, a_triangles, room)
     status = c_placement_get_triangles(self%c, given%capacity(room), count, a_triangles)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%get_triangles', status, stat, errmsg, given)
     if (status < 0) return
     do t = 1, count
       call count_from_one(triangles(:, t))
@@ -1185,7 +1248,8 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     count = 0
-    call conclude(c_placement_get_boundary_edges(self%c, 0_c_int64_t, count, c_null_ptr, &
+    call conclude('placement%boundary_edge_count', &
+                  c_placement_get_boundary_edges(self%c, 0_c_int64_t, count, c_null_ptr, &
                                                  c_null_ptr), stat, errmsg)
   end subroutine
 
@@ -1207,15 +1271,30 @@ contains
     call given%place_int32('tags', tags, a_tags, room(2))
     status = c_placement_get_boundary_edges(self%c, given%capacity(minval(room)), count, a_edges, &
                                             a_tags)
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%get_boundary_edges', status, stat, errmsg, given)
     if (status < 0 .or. .not. present(edges)) return
     do e = 1, count
       call count_from_one(edges(:, e))
     end do
   end subroutine
 
+  !> Checks that the results keep what is promised of them: ids are unique, no two nodes lie in one
+  !> place, all lie inside or on the boundary, and all that the boundary has are there; adjacency
+  !> lists are symmetric; the triangles of the stars are one conforming triangulation of the domain,
+  !> each in the stars of its three corners, with every boundary edge, and their areas add up to what
+  !> the boundary encloses. It takes about as long as making lists and stars, and no rank holds more
+  !> than its share. Collective. Errors: PNPBS_ERROR_INTERNAL if something is wrong: the message says
+  !> what, with ids and coordinates; PNPBS_ERROR_STATE without nodes.
+  subroutine placement_check(self, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%check', c_placement_check(self%c), stat, errmsg)
+  end subroutine
+
   !> get(key, value): a statistic by key (see pnpbs_statistic_info). Collective (some are computed
-  !> when asked). Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type differs.
+  !> when asked). Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type differs;
+  !> PNPBS_ERROR_ARGUMENT if the key differs between ranks.
   !>   value  integer(c_int64_t), real(c_double), or character(len=:), allocatable
   subroutine placement_get_int64(self, key, value, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1224,7 +1303,7 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     value = 0
-    call conclude(c_placement_get_int64(self%c, c_text(key), value), stat, errmsg)
+    call conclude('placement%get', c_placement_get_int64(self%c, c_text(key), value), stat, errmsg)
   end subroutine
 
   subroutine placement_get_real(self, key, value, stat, errmsg)
@@ -1234,7 +1313,7 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     value = 0
-    call conclude(c_placement_get_double(self%c, c_text(key), value), stat, errmsg)
+    call conclude('placement%get', c_placement_get_double(self%c, c_text(key), value), stat, errmsg)
   end subroutine
 
   subroutine placement_get_text(self, key, value, stat, errmsg)
@@ -1247,19 +1326,61 @@ contains
     integer(c_int) :: status
     status = c_placement_get_string(self%c, c_text(key), text)
     value = ''
-    call conclude(status, stat, errmsg)
+    call conclude('placement%get', status, stat, errmsg)
     if (status >= 0) value = text_of(text)
   end subroutine
 
-  !> Number of warnings about domain and spacing, gathered at initialise (a feature smaller than
-  !> the spacing, an unused vertex, ...). Local.
+  !> Number of bands that get_edge_bands has: 8 at most. Collective.
+  subroutine placement_edge_band_count(self, count, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    count = 0
+    call conclude('placement%edge_band_count', &
+                  c_placement_get_edge_bands(self%c, 0_c_int64_t, count, c_null_ptr, c_null_ptr, &
+                                             c_null_ptr, c_null_ptr, c_null_ptr), stat, errmsg)
+  end subroutine
+
+  !> How well the edges of the triangles follow the spacing, by bands of it: eight, equal in log d
+  !> between the least and the largest d at the nodes, or one if that is less than 1.1 times the
+  !> least. Bands without edges are left out. An edge's d is the mean of d at its ends. Edges between
+  !> two boundary nodes, whose places the corners of the domain decide, do not count here. Over all
+  !> ranks, and the same on each. Collective.
+  !>   d_from, d_to  optional, (count): where each band begins and ends, increasing
+  !>   edges         optional, (count): how many edges there are
+  !>   mean          optional, (count): of their length over d
+  !>   deviation     optional, (count): standard deviation of that
+  subroutine placement_get_edge_bands(self, d_from, d_to, edges, mean, deviation, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout), optional :: d_from(:), d_to(:), mean(:), deviation(:)
+    integer(c_int64_t), intent(inout), optional :: edges(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_from, a_to, a_edges, a_mean, a_deviation
+    integer(c_int64_t) :: room(5), count
+    call given%place_real('d_from', d_from, a_from, room(1))
+    call given%place_real('d_to', d_to, a_to, room(2))
+    call given%place_int64('edges', edges, a_edges, room(3))
+    call given%place_real('mean', mean, a_mean, room(4))
+    call given%place_real('deviation', deviation, a_deviation, room(5))
+    call conclude('placement%get_edge_bands', &
+                  c_placement_get_edge_bands(self%c, given%capacity(minval(room)), count, a_from, &
+                                             a_to, a_edges, a_mean, a_deviation), stat, errmsg, &
+                  given)
+  end subroutine
+
+  !> Number of warnings about domain and spacing, gathered at initialise (a feature smaller than the
+  !> spacing, an unused vertex, ...), and about nodes that do not follow the spacing, of the last
+  !> run. Local.
   subroutine placement_warning_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int32_t), intent(out) :: count
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     count = 0
-    call conclude(c_placement_warning_count(self%c, count), stat, errmsg)
+    call conclude('placement%warning_count', c_placement_warning_count(self%c, count), stat, errmsg)
   end subroutine
 
   !> One of the warnings. Local.
@@ -1274,7 +1395,7 @@ contains
     integer(c_int) :: status
     status = c_placement_get_warning(self%c, index - 1_c_int32_t, c)
     text = ''
-    call conclude(status, stat, errmsg)
+    call conclude('placement%get_warning', status, stat, errmsg)
     if (status >= 0) text = text_of(c)
   end subroutine
 
@@ -1297,7 +1418,8 @@ contains
     integer(c_int32_t) :: with_elements
     with_elements = 0
     if (present(elements)) with_elements = flag(elements)
-    call conclude(c_placement_write(self%c, c_text(path), with_elements), stat, errmsg)
+    call conclude('placement%write', &
+                  c_placement_write(self%c, c_text(path), with_elements), stat, errmsg)
   end subroutine
 
   !> Writes several files, which appear together when all of them are complete. Otherwise as write.
@@ -1339,7 +1461,7 @@ contains
     all_formats = c_loc(a_formats(1))
     status = c_placement_write_files(self%c, int(given%capacity(n), c_int32_t), a_paths, &
                                      all_formats, c_loc(with_elements(1)))
-    call conclude(status, stat, errmsg, given)
+    call conclude('placement%write_files', status, stat, errmsg, given)
   end subroutine
 
   !> The handle as an integer; 0 where there is no placement. Local.

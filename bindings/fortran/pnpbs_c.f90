@@ -17,6 +17,7 @@ module pnpbs_c
   integer(c_int), parameter :: PNPBS_OK = 0                   !< done
   integer(c_int), parameter :: PNPBS_NOT_CONVERGED = 1        !< stopped at the step limit
   integer(c_int), parameter :: PNPBS_STOPPED = 2              !< stopped by the monitor
+  integer(c_int), parameter :: PNPBS_SPACING_MISSED = 3       !< somewhere nodes do not follow d
   integer(c_int), parameter :: PNPBS_ERROR_ARGUMENT = -1      !< invalid argument
   integer(c_int), parameter :: PNPBS_ERROR_HANDLE = -2        !< not a live handle
   integer(c_int), parameter :: PNPBS_ERROR_STATE = -3         !< call not allowed in this state
@@ -73,8 +74,9 @@ module pnpbs_c
       integer(c_int32_t) :: pnpbs_spacing_fn
     end function
 
-    !> Progress, told at fixed step numbers: the part of the work of the call that is done (0 to 1),
-    !> steps so far, nodes now, and the largest speed in spacings per unit time. Returns 0 to go on,
+    !> Progress, told at fixed step numbers and, about twice a second, while the first nodes are laid:
+    !> the part of the work of the call that is done (0 to 1), steps so far, nodes now (0 while the
+    !> first ones are laid), and the largest speed in spacings per unit time. Returns 0 to go on,
     !> anything else to stop: the call then ends with PNPBS_STOPPED and its nodes are valid.
     function pnpbs_monitor_fn(fraction, step, nodes, max_speed, user) bind(C)
       import
@@ -480,6 +482,17 @@ module pnpbs_c
       integer(c_int) :: c_placement_set_nodes
     end function
 
+    function c_placement_estimate(placement, nodes, bytes, seconds) bind(C, &
+      name="pnpbs_placement_estimate")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), intent(out) :: nodes
+      integer(c_int64_t), intent(out) :: bytes
+      real(c_double), intent(out) :: seconds
+      integer(c_int) :: c_placement_estimate
+    end function
+
     function c_placement_initialise(placement) bind(C, name="pnpbs_placement_initialise")
       import
       implicit none
@@ -662,6 +675,13 @@ module pnpbs_c
       integer(c_int) :: c_placement_get_boundary_edges
     end function
 
+    function c_placement_check(placement) bind(C, name="pnpbs_placement_check")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int) :: c_placement_check
+    end function
+
     function c_placement_get_int64(placement, key, value) bind(C, &
       name="pnpbs_placement_get_int64")
       import
@@ -690,6 +710,21 @@ module pnpbs_c
       character(kind=c_char), intent(in) :: key(*)
       type(c_ptr), intent(out) :: value
       integer(c_int) :: c_placement_get_string
+    end function
+
+    function c_placement_get_edge_bands(placement, capacity, count, d_from, d_to, edges, mean, &
+      deviation) bind(C, name="pnpbs_placement_get_edge_bands")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: d_from ! double *
+      type(c_ptr), value :: d_to ! double *
+      type(c_ptr), value :: edges ! int64_t *
+      type(c_ptr), value :: mean ! double *
+      type(c_ptr), value :: deviation ! double *
+      integer(c_int) :: c_placement_get_edge_bands
     end function
 
     function c_placement_warning_count(placement, count) bind(C, &

@@ -24,6 +24,7 @@ module pnpbs_calls
     procedure :: require
     procedure :: is_wrong
     procedure :: capacity
+    procedure :: found
     ! place_<type>(name, array, [rows,] address, room): the address of an array's first element,
     ! NULL if the array is not given, and the places or columns it has.
     procedure :: place_int8
@@ -53,9 +54,11 @@ contains
 
   ! ------------------------------------------------------------ status ------------------------
 
-  !> How every call ends. With stat nothing stops: it gets the status, and errmsg, if there is one,
-  !> the message of an error (otherwise it stays as it is). Without stat, an error stops.
-  subroutine conclude(status, stat, errmsg, given)
+  !> How every call of a procedure ends. With stat nothing stops: it gets the status, and errmsg, if
+  !> there is one, the message of an error (otherwise it stays as it is). Without stat, an error stops
+  !> the program, and the message begins with the procedure's name.
+  subroutine conclude(procedure_name, status, stat, errmsg, given)
+    character(len=*), intent(in) :: procedure_name
     integer(c_int), intent(in) :: status
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
@@ -65,7 +68,7 @@ contains
 
     found = status
     message = ''
-    if (status < 0) message = text_of(c_last_error(c_null_ptr))
+    if (status < 0) message = in_fortran(text_of(c_last_error(c_null_ptr)))
     if (present(given)) then
       if (given%is_wrong()) then
         found = given%status
@@ -74,14 +77,15 @@ contains
     end if
     if (present(errmsg) .and. found < 0) errmsg = message
     if (present(stat)) then
-      call tell(found, stat)
+      call tell(procedure_name, found, stat)
     else if (found < 0) then
-      call give_up(text_of(c_status_string(found)) // ': ' // message)
+      call give_up(procedure_name // ': ' // text_of(c_status_string(found)) // ': ' // message)
     end if
   end subroutine
 
   ! stat is of either kind, so that code compiled with eight-byte default integers need not care.
-  subroutine tell(status, stat)
+  subroutine tell(procedure_name, status, stat)
+    character(len=*), intent(in) :: procedure_name
     integer(c_int), intent(in) :: status
     class(*), intent(out) :: stat
     select type (stat)
@@ -90,7 +94,7 @@ contains
     type is (integer(c_int64_t))
       stat = int(status, c_int64_t)
     class default
-      call give_up('argument stat must be an integer of four or eight bytes')
+      call give_up(procedure_name // ': argument stat must be an integer of four or eight bytes')
     end select
   end subroutine
 
@@ -117,6 +121,22 @@ contains
     call c_f_pointer(c, characters, [length])
     do i = 1, length
       text(i:i) = characters(i)
+    end do
+  end function
+
+  !> A message with the functions that it names called as they are in Fortran.
+  recursive function in_fortran(message) result(text)
+    character(len=*), intent(in) :: message
+    character(len=:), allocatable :: text
+    character(len=*), parameter :: objects(3) = ['context  ', 'domain   ', 'placement']
+    character(len=:), allocatable :: prefix
+    integer :: i, at
+    text = message
+    do i = 1, size(objects)
+      prefix = 'pnpbs_' // trim(objects(i)) // '_'
+      at = index(text, prefix)
+      if (at == 0) cycle
+      text = text(:at - 1) // trim(objects(i)) // '%' // in_fortran(text(at + len(prefix):))
     end do
   end function
 
@@ -154,6 +174,13 @@ contains
     class(arguments), intent(in) :: self
     logical :: is_wrong
     is_wrong = self%status /= PNPBS_OK
+  end function
+
+  !> What is wrong, as a status.
+  function found(self)
+    class(arguments), intent(in) :: self
+    integer(c_int) :: found
+    found = self%status
   end function
 
   !> The room to tell the library of: none at all if something is wrong.

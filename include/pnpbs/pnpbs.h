@@ -22,6 +22,10 @@
  *   arrays      are the caller's, are read or filled during the call, and are never kept.
  *               Coordinates are interleaved, [n][dim] with dim = 2 in the plane.
  *               Counts, ids, indices and offsets are 64-bit; indices and offsets are 0-based.
+ *   range       coordinates reach up to 1e60; a domain is at least 1e-60 large, and at least 1e-10
+ *               of its distance from the origin, so that the digits of its coordinates tell
+ *               places apart. Others are PNPBS_ERROR_DOMAIN. A spacing may be larger than the
+ *               domain: then only corners are nodes, and there is a warning.
  *   strings     we return belong to the library and stay valid until the next call on the
  *               same context (tables: for ever); strings we take are copied.
  *   callbacks   come on the calling thread, never two at once. From inside one, only queries
@@ -57,10 +61,15 @@ extern "C" {
 /* ---------------------------------------------------------------- status and errors ----- */
 
 /** The one list of outcomes and errors: X(name, value, text). */
-#define PNPBS_STATUS_LIST(X)                                                        \
-  X(PNPBS_OK, 0, "done")                                                            \
+#define PNPBS_STATUS_LIST(X) PNPBS_STATUS_LIST_OK(X) PNPBS_STATUS_LIST_BUT_OK(X)
+
+/* In two parts, for the enum below: in C89 and C++98 no comma may end one. */
+#define PNPBS_STATUS_LIST_OK(X) X(PNPBS_OK, 0, "done")
+
+#define PNPBS_STATUS_LIST_BUT_OK(X)                                                 \
   X(PNPBS_NOT_CONVERGED, 1, "the step limit was reached before the bubbles rested") \
   X(PNPBS_STOPPED, 2, "stopped by the monitor")                                     \
+  X(PNPBS_SPACING_MISSED, 3, "somewhere the nodes do not follow the spacing")       \
   X(PNPBS_ERROR_ARGUMENT, -1, "invalid argument")                                   \
   X(PNPBS_ERROR_HANDLE, -2, "not a live handle")                                    \
   X(PNPBS_ERROR_STATE, -3, "call not allowed in this state")                        \
@@ -76,12 +85,14 @@ extern "C" {
   X(PNPBS_ERROR_UNSUPPORTED, -13, "not supported by this build")                    \
   X(PNPBS_ERROR_INTERNAL, -14, "internal error")
 
+#define PNPBS_STATUS_ENUM_OK(name, value, text) name = value
 typedef enum pnpbs_status {
-#define PNPBS_STATUS_ENUM(name, value, text) name = value,
-  PNPBS_STATUS_LIST(PNPBS_STATUS_ENUM)
+  PNPBS_STATUS_LIST_OK(PNPBS_STATUS_ENUM_OK)
+#define PNPBS_STATUS_ENUM(name, value, text) , name = value
+      PNPBS_STATUS_LIST_BUT_OK(PNPBS_STATUS_ENUM)
 #undef PNPBS_STATUS_ENUM
 } pnpbs_status;
-
+#undef PNPBS_STATUS_ENUM_OK
 /** Opaque handles. The value is a registry key, never an address: a stale or foreign one is
  *  answered with PNPBS_ERROR_HANDLE. NULL is never a live handle. Children keep their parents
  *  alive, so handles may be destroyed in any order. */
@@ -296,11 +307,12 @@ PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t ca
 typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *xyz, double *d,
                                     void *user);
 
-/** Progress, told at fixed step numbers. Return 0 to go on, nonzero to stop: the call in
- *  progress then ends with PNPBS_STOPPED and its nodes are valid.
+/** Progress, told at fixed step numbers and, about twice a second, while the first nodes are
+ *  laid. Return 0 to go on, nonzero to stop: the call in progress then ends with PNPBS_STOPPED
+ *  and its nodes are valid; stopped before the first nodes are laid, it has none.
  *  @param fraction   of the work of the call in progress, 0 .. 1
  *  @param step       steps done so far
- *  @param nodes      nodes there are now
+ *  @param nodes      nodes there are now, 0 while the first ones are laid
  *  @param max_speed  largest scaled speed (spacings per unit time) */
 typedef int32_t (*pnpbs_monitor_fn)(double fraction, int64_t step, int64_t nodes, double max_speed,
                                     void *user);
@@ -366,10 +378,21 @@ PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
 PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
                                                  const double *xy, const int64_t *ids);
 
-/** Checks domain and spacing, builds the background tree, lays the boundary nodes and the
- *  initial inner nodes. Where d varies these come from coarser levels (option `levels`), which are
- *  run. Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK, _MEMORY. Returns PNPBS_OK, or
- *  PNPBS_STOPPED if the monitor stopped a coarser level: there are nodes all the same. */
+/** What a run from nothing would come to, from domain, spacing and options alone: d is sampled in
+ *  some thousand places, no inner node is made, and the nodes there are stay as they are.
+ *  Collective; outputs may be NULL. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
+ *  @param[out] nodes    on all ranks, mostly within a few percent
+ *  @param[out] bytes    memory of each process, for the run alone
+ *  @param[out] seconds  roughly: by what a core of a present server does, times the threads of all
+ *                       ranks */
+PNPBS_API pnpbs_status pnpbs_placement_estimate(pnpbs_placement placement, int64_t *nodes,
+                                                int64_t *bytes, double *seconds);
+
+/** Checks domain and spacing, builds the background tree, lays the boundary nodes and the initial
+ *  inner nodes. Where d varies these come from coarser levels (option `levels`), which are run.
+ *  Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK; PNPBS_ERROR_MEMORY also where d
+ *  asks for nodes that need more than the memory available, times the option `max_memory`. Returns
+ *  PNPBS_OK, or PNPBS_STOPPED: of a coarser level there are nodes. */
 PNPBS_API pnpbs_status pnpbs_placement_initialise(pnpbs_placement placement);
 
 /** Advances the simulation by n steps, with the events (refresh of d, population, stop test)
@@ -392,7 +415,10 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
 
 /** The whole job: initialise if need be, steps until the stop test is met or `steps` are done,
  *  finish. Afterwards it starts a new schedule from the nodes there are. Collective.
- *  Returns PNPBS_OK, PNPBS_NOT_CONVERGED (the best state is kept), PNPBS_STOPPED. */
+ *  Returns PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether
+ *  the bubbles rest or not, if in one of the bands of pnpbs_placement_get_edge_bands with 50 edges
+ *  or more the mean is off 1 by more than 0.1: then there is a warning that names the band;
+ *  PNPBS_STOPPED. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
 /** Number of nodes of this rank. Local. */
@@ -403,7 +429,8 @@ PNPBS_API pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t 
  *  @param[out] xy        [nodes][dim]
  *  @param[out] ids       [nodes] global ids, the same for any number of ranks and threads
  *  @param[out] tags      [nodes] 0 inner, otherwise the tag of the boundary, curve or fixed node
- *  @param[out] spacing   [nodes] d at the node */
+ *  @param[out] spacing   [nodes] d at the node, no more than 1024 times the domain's size; on a
+ *                        boundary that is far finer than d, 32 of the node's longest edge there */
 PNPBS_API pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity,
                                                  double *xy, int64_t *ids, int32_t *tags,
                                                  double *spacing);
@@ -500,8 +527,18 @@ PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placem
                                                           int64_t capacity, int64_t *count,
                                                           int64_t *edges, int32_t *tags);
 
+/** Checks that the results keep what is promised of them: ids are unique, no two nodes lie in one
+ *  place, all lie inside or on the boundary, and all that the boundary has are there; adjacency
+ *  lists are symmetric; the triangles of the stars are one conforming triangulation of the domain,
+ *  each in the stars of its three corners, with every boundary edge, and their areas add up to what
+ *  the boundary encloses. It takes about as long as making lists and stars, and no rank holds more
+ *  than its share. Collective. Errors: PNPBS_ERROR_INTERNAL if something is wrong: the message says
+ *  what, with ids and coordinates; PNPBS_ERROR_STATE without nodes. */
+PNPBS_API pnpbs_status pnpbs_placement_check(pnpbs_placement placement);
+
 /** A statistic by key (see pnpbs_statistic_info). Collective (some are computed when asked).
- *  Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type differs. */
+ *  Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type differs;
+ *  PNPBS_ERROR_ARGUMENT if the key differs between ranks. */
 PNPBS_API pnpbs_status pnpbs_placement_get_int64(pnpbs_placement placement, const char *key,
                                                  int64_t *value);
 PNPBS_API pnpbs_status pnpbs_placement_get_double(pnpbs_placement placement, const char *key,
@@ -509,8 +546,25 @@ PNPBS_API pnpbs_status pnpbs_placement_get_double(pnpbs_placement placement, con
 PNPBS_API pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, const char *key,
                                                   const char **value);
 
-/** Warnings about domain and spacing, gathered at initialise (a feature smaller than the
- *  spacing, an unused vertex, ...). Local. */
+/** How well the edges of the triangles follow the spacing, by bands of it: eight, equal in log d
+ *  between the least and the largest d at the nodes, or one if that is less than 1.1 times the
+ *  least. Bands without edges are left out. An edge's d is the mean of d at its ends. Edges between
+ *  two boundary nodes, whose places the corners of the domain decide, do not count here. Over all
+ *  ranks, and the same on each. Collective. Ask with capacity 0 for the count; arrays may be NULL.
+ *  @param[in]  capacity   bands the arrays have room for; 8 is always enough
+ *  @param[out] count      number of bands
+ *  @param[out] d_from     [count] where each begins, in the unit of the coordinates; increasing
+ *  @param[out] d_to       [count] where it ends
+ *  @param[out] edges      [count] how many edges there are
+ *  @param[out] mean       [count] of their length over d
+ *  @param[out] deviation  [count] standard deviation of that */
+PNPBS_API pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t capacity,
+                                                      int64_t *count, double *d_from, double *d_to,
+                                                      int64_t *edges, double *mean,
+                                                      double *deviation);
+
+/** Warnings about domain and spacing, gathered at initialise (a feature smaller than d, an unused
+ *  vertex, ...), and about nodes that do not follow the spacing, of the last run. Local. */
 PNPBS_API pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t *count);
 PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
                                                    const char **text);
@@ -533,8 +587,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
  *  .pvtu have the same bytes for any number of ranks and threads. All ranks write at the same time
  *  (MPI-IO), and none holds more than its share. A file appears under its name only when it is
  *  complete; after an error, what was there before is still there. The folder must be the same one
- *  for all ranks, and so must `path`. The monitor, if there is one, is asked now and then; if it
- *  stops the call, PNPBS_STOPPED is returned and no file has changed. Collective.
+ *  for all ranks, and so must `path`. The monitor is asked now and then, and with fraction 1 before
+ *  names are given; if it stops the call, PNPBS_STOPPED is returned, nothing changes. Collective.
  *  Errors: PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_STATE if there are no nodes yet,
  *  PNPBS_ERROR_ARGUMENT.
  *  @param[in] path      - is standard output of rank 0 (pnpbs_placement_write_files tells in which
@@ -544,7 +598,7 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
 PNPBS_API pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path,
                                              int32_t elements);
 
-/** Writes several files, which appear together when all of them are complete. Otherwise as
+/** Writes several files, which appear together when all are complete, or none does. Otherwise as
  *  pnpbs_placement_write. Collective.
  *  @param[in] paths     [n]
  *  @param[in] formats   [n] names of formats (pnpbs_format_info), or NULL for those of the
@@ -555,8 +609,8 @@ PNPBS_API pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, in
                                                    const char *const *formats,
                                                    const int32_t *elements);
 
-/** Removes what unfinished calls of this process have written aside so far. For signal handlers
- *  of programs that end at once, and async-signal-safe. Local. */
+/** Removes what unfinished calls of this process have written aside so far, unless it is just
+ *  getting its name. For signal handlers that end the program; async-signal-safe. Local. */
 PNPBS_API pnpbs_status pnpbs_discard_unfinished_files(void);
 
 #ifdef __cplusplus

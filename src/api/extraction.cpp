@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nodes, ghosts, lists, stars and boundary edges, handed out through the C interface.
 #include "api/placement_calls.hpp"
+#include "core/result_check.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -180,6 +181,13 @@ pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64
       if (tags) tags[at] = tag;
       ++at;
     });
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_check(pnpbs_placement placement) {
+  return collective(placement, [](Placement& p) {
+    check_results(p);
     return PNPBS_OK;
   });
 }

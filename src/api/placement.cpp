@@ -5,6 +5,7 @@
 
 #include "api/placement_calls.hpp"
 #include "core/kokkos_runtime.hpp"
+#include "core/mixed_hash.hpp"
 #include "core/statistics.hpp"
 
 using namespace pnpbs;
@@ -18,6 +19,8 @@ pnpbs_status status_of(Outcome outcome) {
       return PNPBS_OK;
     case Outcome::stopped:
       return PNPBS_STOPPED;
+    case Outcome::spacing_missed:
+      return PNPBS_SPACING_MISSED;
     case Outcome::not_converged:
       break;
   }
@@ -182,23 +185,43 @@ pnpbs_status pnpbs_placement_run(pnpbs_placement placement) {
 
 namespace {
 
+// Ranks with different keys would wait for each other for ever.
+void require_same_key(const Communicator& comm, const std::string& key) {
+  std::uint64_t fingerprint = 0;
+  for (const char c : key) fingerprint = mixed(fingerprint ^ static_cast<unsigned char>(c));
+  if (!comm.same_on_all(fingerprint))
+    throw Error(PNPBS_ERROR_ARGUMENT, "argument key = \"" + key +
+                                          "\" differs between ranks: ask for the same statistic "
+                                          "on all of them");
+}
+
+// Agreed on by all ranks, but from inside a callback: they are busy then, and only what needs no
+// computing is answered.
 template <class Value, class Getter>
 pnpbs_status get_statistic(pnpbs_placement placement, const char* key, Value* value,
                            const char* type, Getter StatisticRow::*getter) {
   return guarded(placement, [&](PlacementObject& object) {
-    require_pointer(key, "key");
-    require_pointer(value, "value");
-    const StatisticRow& row = find_statistic(key);
-    if (row.computes) require_not_in_callback(*object.context);
-    if (!(row.*getter))
-      throw Error(PNPBS_ERROR_KEY, std::string("statistic \"") + key + "\" is of type " +
-                                       row.type() + ", not " + type +
-                                       ": use the get function of that type");
-    const auto get = [&] { *value = (row.*getter)(object.placement); };
-    if (row.computes)
-      agreed(object.placement.communicator(), get);
-    else
+    const StatisticRow* row = nullptr;
+    const auto find = [&] {
+      require_pointer(key, "key");
+      require_pointer(value, "value");
+      row = &find_statistic(key);
+      if (row->computes) require_not_in_callback(*object.context);
+      if (!(row->*getter))
+        throw Error(PNPBS_ERROR_KEY, std::string("statistic \"") + key + "\" is of type " +
+                                         row->type() + ", not " + type +
+                                         ": use the get function of that type");
+    };
+    const auto get = [&] { *value = (row->*getter)(object.placement); };
+    if (object.context->computing) {
+      find();
       get();
+      return PNPBS_OK;
+    }
+    const Communicator& comm = object.placement.communicator();
+    agreed(comm, find);
+    require_same_key(comm, key);
+    agreed(comm, get);
     return PNPBS_OK;
   });
 }

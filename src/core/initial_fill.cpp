@@ -5,12 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/graded_fill.hpp"
+
 namespace pnpbs {
 
 namespace {
-
-// New nodes stay this many d away from the boundary.
-constexpr double kFillClearance = 0.5;
 
 struct Lattice {
   double step;  // between nodes of a row
@@ -58,7 +57,8 @@ class Fill {
       patch = &lattice;
     }
     if (leaf) {
-      if (wanted_(tree.cell(c).leaf)) fill_leaf(tree.cell(c).leaf, *patch);
+      const std::int32_t here = tree.cell(c).leaf;
+      if (wanted_(here) && !leaf_is_steep(map_, here)) fill_leaf(here, *patch);
     } else {
       for (int k = 0; k < 4; ++k) descend(tree.cell(c).first_child + k, patch);
     }

@@ -16,6 +16,8 @@ namespace pnpbs {
 
 // d may vary by this factor within a patch.
 inline constexpr double kPatchVariation = 1.08;
+// New nodes stay this many d away from the boundary.
+inline constexpr double kFillClearance = 0.5;
 
 // d in a cell of the tree, put together from its leaves.
 struct SpacingSummary {
@@ -37,7 +39,7 @@ struct LeafSummary {
 std::vector<SpacingSummary> spacing_summaries(const DomainMap& map,
                                               const std::vector<LeafSummary>& unrefined);
 
-// Of the leaves for which wanted(leaf) holds, in their Morton order.
+// Of the leaves for which wanted(leaf) holds and that are not steep, in their Morton order.
 std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds,
                                      const std::function<bool(std::int32_t)>& wanted,
                                      const std::vector<LeafSummary>& unrefined = {});

@@ -38,6 +38,11 @@ void Level::lay_boundary() {
   fans_.build(boundary_);
   boundary_sight_.reset(boundary_.nodes.size());
   boundary_ids_.assign(boundary_.nodes.size(), -1);
+  boundary_bound_ = bubbles_on_boundary(boundary_);
+  std::vector<Point<2>> positions;
+  for (const BoundaryNode& node : boundary_.nodes) positions.push_back(node.position);
+  boundary_spacing_.resize(positions.size());
+  evaluator()(std::ssize(positions), positions.data(), boundary_spacing_.data());
 }
 
 void Level::change_settings(const Settings& settings) {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/element_quality.hpp"
 #include "core/given_nodes.hpp"
 #include "core/initial_fill.hpp"
 #include "core/settings.hpp"
@@ -64,7 +65,8 @@ class Level {
   // And deals it out to the ranks: over several of them, and where that balances the work, as
   // another level is dealt out whose spacing is a multiple of this one's.
   void grow_tree(const Level* like = nullptr);
-  void fill();  // inner nodes from nothing
+  // Inner nodes from nothing. Calls beat() again and again: if it throws on one rank, all throw.
+  void fill(const std::function<void()>& beat = [] {});
   // Or these, wherever they are; ids from next_id on are free.
   TakenNodes take(GivenNodes given, std::int64_t next_id);
   // For the steps to come; the growth limit belongs to the spacing and is not among them.
@@ -88,9 +90,9 @@ class Level {
 
   // --- events ---
   void refresh_spacing();
-  // Inserts beside bubbles with an overlap ratio below the option's, or below `refill` if that is
-  // more.
-  PopulationCounts adjust_population(double refill = 0);
+  // By the thresholds of the settings and, where the mean distance is off by more than the
+  // tolerance, by those that it asks for. Collective.
+  PopulationCounts adjust_population(double tolerance = kMeanTolerance);
   // Deletes and inserts where defects of the Delaunay stars are repaired by it. Collective.
   PopulationCounts repair_defects();
   Speeds speeds() const;
@@ -101,6 +103,8 @@ class Level {
   PopulationCounts remove_crowded();
   // On the Delaunay stars: finishing sweeps, and the repair of defects by the settings' rule.
   PopulationCounts sweep_and_repair(std::int64_t sweeps);
+  // Edge length over d, as the last of these found it: with its stars, and d from before it.
+  const std::vector<EdgeBand>& edge_bands() const { return edge_bands_; }
 
   // --- for extraction: lists with this radius, fresh at the present positions ---
   void rebuild_lists(double radius);
@@ -108,6 +112,7 @@ class Level {
   void prepare_lists();
 
   const Nodes<2>& nodes() const { return nodes_; }
+  const PlaneDomain& domain() const { return *domain_; }
   const Boundary& boundary() const { return boundary_; }
   const DomainMap& map() const { return map_; }
   const AdjacencyList<2>& lists() const { return lists_; }
@@ -198,9 +203,15 @@ class Level {
   double meeting_radius() const;
   double edge_radius() const;
   View<double> spacing_at_owned_nodes(const Spacing<2>& spacing) const;
+  // d at an owned node; its bubble on a fine boundary is smaller.
+  double spacing_asked_at(std::int64_t i) const {
+    return nodes_.moves(i) ? nodes_.d(i)
+                           : boundary_spacing_[static_cast<std::size_t>(nodes_.boundary_node(i))];
+  }
   bool on_one_edge(std::int64_t i, std::int64_t j) const;
   template <class Visit>
   void for_new_nodes(std::int64_t i, double d, const Visit& visit) const;
+  std::vector<Point<2>> graded_fill(const std::function<bool(std::int32_t)>& owned) const;
   void leave_out_coinciding(GivenNodes& inner) const;
   void number_and_store(GivenNodes inner);
   void scatter_to_owners(GivenNodes& given) const;
@@ -234,6 +245,7 @@ class Level {
   View<char> nodes_without_room() const;
   std::vector<std::int32_t> crowded_nodes() const;
   void prepare_finish();
+  void find_edge_bands();
   void take_next_positions();
   void hold_off_boundary(std::int64_t i) const;
   double largest_way(std::int64_t first, std::int64_t last) const;
@@ -253,6 +265,8 @@ class Level {
   BoundaryFans fans_;
   DomainMap map_;
   std::vector<std::int64_t> boundary_ids_;  // of the boundary nodes, -1 until numbered
+  std::vector<double> boundary_bound_;      // of their bubbles: see bubbles_on_boundary
+  std::vector<double> boundary_spacing_;    // d there, as it was asked
   Nodes<2> nodes_;
   std::int64_t next_id_ = 0;
 
@@ -271,6 +285,7 @@ class Level {
   BoundarySight boundary_sight_;
   AdjacencyList<2> lists_;
   DelaunayStars stars_;
+  std::vector<EdgeBand> edge_bands_;
   KnownRegion known_;  // while stars are made: where all nodes are known
 
   Field<2> next_;    // positions after the move in progress

@@ -54,7 +54,11 @@ void Level::refresh_spacing() {
   const PhaseTimer timer(timers_, Phase::spacing);
   const View<double> d = spacing_at_owned_nodes(*spacing_);
   for_each("pnpbs::Level::refresh_spacing", nodes_.count, [&](std::int64_t i) {
-    if (nodes_.owned(i)) nodes_.d(i) = d(i);
+    if (!nodes_.owned(i)) return;
+    nodes_.d(i) = d(i);
+    if (nodes_.moves(i)) return;
+    const auto b = static_cast<std::size_t>(nodes_.boundary_node(i));
+    nodes_.d(i) = std::min(d(i), boundary_bound_[b]);
   });
   drop_anchors();
   ghost_hops_ = 0;
@@ -62,19 +66,25 @@ void Level::refresh_spacing() {
 
 void Level::exchange_for_stars() { exchange(kStarHops); }
 
-PopulationCounts Level::adjust_population(double refill) {
+PopulationCounts Level::adjust_population(double tolerance) {
   ++version_;
   drop_anchors();
   exchange(kPopulationHops);
   PopulationChange<2> change;
+  const PopulationRule& rule = settings_.population;
+  View<double> ratios;
   agreed(*comm_, [&] {
     rebuild_lists();
     const PhaseTimer timer(timers_, Phase::population);
-    PopulationRule rule = settings_.population;
-    rule.insert_below = std::max(rule.insert_below, refill);
+    ratios = overlap_ratios<2>(nodes_, lists_);
+  });
+  const PopulationThresholds thresholds =
+      choose_thresholds<2>(*comm_, nodes_, lists_, ratios, rule, tolerance);
+  agreed(*comm_, [&] {
+    const PhaseTimer timer(timers_, Phase::population);
     const View<char> no_room = nodes_without_room();
     change = choose_population_change<2>(
-        nodes_, lists_, rule, [&](std::int64_t i) { return no_room(i) != 0; },
+        nodes_, lists_, ratios, rule, thresholds, [&](std::int64_t i) { return no_room(i) != 0; },
         [this](const Point<2>& x, double d) { return fits(x, d); });
   });
   return carry_out(std::move(change));

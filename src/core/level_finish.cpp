@@ -39,11 +39,25 @@ PopulationCounts Level::sweep_and_repair(std::int64_t sweeps) {
       if (done == 0 && repairs) surplus = take_out_surplus_nodes(nodes_, stars_);
     });
     sweep_over_stars(std::min(kBlock, sweeps - done));
-    if (done + kBlock >= sweeps && repairs) repair_bad_triangles();
+    const bool last = done + kBlock >= sweeps;
+    if (last && repairs) repair_bad_triangles();
+    if (last) find_edge_bands();  // while there are stars
     for (std::int32_t i : surplus) counts.deleted += nodes_.owned(i);
     if (!surplus.empty()) delete_nodes(surplus);
   }
+  if (sweeps == 0 && !repairs) {
+    if (prepared_ != version_) prepare_finish();
+    make_stars(kRepairHops, settings_.list_radius, 0);
+    find_edge_bands();
+  }
   return counts;
+}
+
+// Whether the nodes follow d is asked after every run, so it must cost next to nothing: the stars
+// of the last sweeps will do, though a few edges have other nodes by now.
+void Level::find_edge_bands() {
+  renew_ghosts();
+  agreed(*comm_, [this] { edge_bands_ = measure_edge_bands(*comm_, nodes_, stars_); });
 }
 
 void Level::sweep_over_stars(std::int64_t times) {

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "core/counting_sort.hpp"
+#include "core/graded_fill.hpp"
 #include "core/initial_fill.hpp"
 #include "core/level.hpp"
 #include "geometry/keep_off.hpp"
@@ -55,17 +57,43 @@ void Level::keep_boundary_ids(const GivenNodes& given) {
   }
 }
 
-void Level::fill() {
+void Level::fill(const std::function<void()>& beat) {
   const PhaseTimer timer(timers_, Phase::fill);
   GivenNodes inner;
   const std::vector<LeafSummary> unrefined = summaries_of_unrefined_leaves();
+  const auto owned = [&](std::int32_t leaf) {
+    beat();
+    return distribution_.owns(leaf);
+  };
   agreed(*comm_, [&] {
-    for (const Point<2>& x : hexagonal_fill(map_, domain_->bounds(), owns_leaf(), unrefined))
+    for (const Point<2>& x : hexagonal_fill(map_, domain_->bounds(), owned, unrefined))
       inner.push_back({x, -1});
+  });
+  for (const Point<2>& x : graded_fill(owned)) inner.push_back({x, -1});
+  agreed(*comm_, [&] {
+    beat();
     find_leaves(inner);
+    beat();
     sort_by_place(inner);
   });
   number_and_store(std::move(inner));
+}
+
+// Of our steep leaves. Collective.
+std::vector<Point<2>> Level::graded_fill(const std::function<bool(std::int32_t)>& owned) const {
+  std::optional<GradedFill> fill;
+  std::vector<double> d;
+  agreed(*comm_, [&] {
+    fill.emplace(map_, owned);
+    d.resize(fill->centres().size());
+    evaluator()(static_cast<std::int64_t>(d.size()), fill->centres().data(), d.data());
+  });
+  std::int64_t end = 0;
+  const std::vector<std::int64_t> before =
+      distribution_.prefix_sums(*comm_, fill->wanted_nodes(d), end);
+  std::vector<Point<2>> nodes;
+  agreed(*comm_, [&] { nodes = fill->place(d, before); });
+  return nodes;
 }
 
 // Where the tree is not refined here, the owners of the cells tell what is in them.
@@ -100,7 +128,10 @@ std::vector<LeafSummary> Level::summaries_of_unrefined_leaves() const {
 namespace {
 
 // Into how many pieces of length d a length is cut; one that is long by 1.4 is halved.
-int pieces_of(double length, double d) { return static_cast<int>(length / d + 0.6); }
+int pieces_of(double length, double d) {
+  constexpr double kMost = 1e9;
+  return static_cast<int>(std::min(length / d + 0.6, kMost));
+}
 
 // Calls visit(place) for the new nodes on the edge from x to y, cut into equal pieces: so many
 // where it is long enough.
@@ -134,7 +165,7 @@ void fill_triangle(const std::array<Point<2>, 3>& x, double d, int most, const V
 template <class Visit>
 void Level::for_new_nodes(std::int64_t i, double d, const Visit& visit) const {
   // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
-  const int pieces = pieces_of(nodes_.d(i), d);
+  const int pieces = pieces_of(spacing_asked_at(i), d);
   if (pieces < 2) return;
   const Point<2> x = nodes_.position(i);
   stars_.for_neighbours(i, [&](std::int64_t j, bool) {

@@ -38,7 +38,7 @@ std::vector<std::int32_t> integers_of(const Bytes& bytes) {
 void Level::grow_tree(const Level* like) {
   if (!distributed()) {
     const PhaseTimer timer(timers_, Phase::tree);
-    map_.build(domain_->bounds(), boundary_, evaluator(), settings_.max_nodes);
+    map_.build(domain_->bounds(), boundary_, evaluator(), settings_.node_limit());
     link_leaves();
     look_at_new_tree();
     return;
@@ -145,7 +145,7 @@ std::vector<PartitionCell> Level::rough_cells() {
   double most = std::numeric_limits<double>::infinity();
   std::vector<std::int64_t> work;
   for (int pass = 0; pass < kPasses; ++pass) {
-    map_.build_part(*comm_, domain_->bounds(), boundary_, evaluator(), settings_.max_nodes,
+    map_.build_part(*comm_, domain_->bounds(), boundary_, evaluator(), settings_.node_limit(),
                     [&](const BackgroundTree<2>& tree, std::int32_t c, double nodes) {
                       return tree.cell(c).depth < kUniformDepth || nodes > most;
                     });
@@ -181,7 +181,7 @@ std::vector<std::int64_t> Level::expected_work() const {
 // The tree in full in the cells marked.
 void Level::refine_tree(const std::vector<char>& refined) {
   const BackgroundTree<2>& cells = distribution_.cells().tree();
-  map_.build_part(*comm_, domain_->bounds(), boundary_, evaluator(), settings_.max_nodes,
+  map_.build_part(*comm_, domain_->bounds(), boundary_, evaluator(), settings_.node_limit(),
                   [&](const BackgroundTree<2>& tree, std::int32_t c, double) {
                     const BackgroundTree<2>::Cell& in =
                         cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));

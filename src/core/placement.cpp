@@ -2,6 +2,7 @@
 #include "core/placement.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/kokkos_runtime.hpp"
 #include "core/mixed_hash.hpp"
+#include "geometry/limits.hpp"
 #include "spacing/growth_limit.hpp"
 
 namespace pnpbs {
@@ -47,6 +49,9 @@ void append_by_id(const Nodes<2>& nodes, bool owned, std::vector<std::int32_t>& 
     std::sort(begin, order.end(),
               [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
 }
+
+// Of the domain, that d may be large.
+constexpr double kMostSizes = 1024;
 
 // The steps' part of a run's work, for its progress: the rest are the finishing sweeps.
 constexpr double kStepsShare = 0.9;
@@ -105,24 +110,31 @@ void Placement::require_same_domain() const {
   const auto add = [&](double value) { fingerprint = mixed_with(fingerprint, value); };
   for (const BoundaryCurve& curve : domain_->curves()) {
     add(curve.tag);
+    add(curve.left_inside);  // the role, and holes
+    add(curve.right_inside);
     for (const Point<2>& x : curve.points)
       for (double coordinate : x) add(coordinate);
   }
-  for (const FixedNode& node : domain_->fixed_nodes())
+  for (const Corner& corner : domain_->corners()) add(corner.tag);
+  for (const FixedNode& node : domain_->fixed_nodes()) {
+    add(node.tag);
     for (double coordinate : node.position) add(coordinate);
+  }
   if (!comm_->same_on_all(fingerprint))
     throw Error(PNPBS_ERROR_DOMAIN,
                 "the domains differ between ranks: every rank describes the whole domain");
 }
 
-// The spacing as it counts: as given, or with its growth limited.
+// The spacing as it counts: as given, no larger than makes sense, or with its growth limited.
 std::shared_ptr<const Spacing<2>> Placement::limited_spacing(const Settings& settings) {
-  std::shared_ptr<const Spacing<2>> spacing = spacing_;
+  std::shared_ptr<const Spacing<2>> spacing;
   agreed(*comm_, [&] {
+    const double bound = kMostSizes * size_of(domain_->bounds());
+    spacing = std::make_shared<BoundedSpacing<2>>(spacing_, bound);
     if (settings.growth_limit == 0) return;
     const PhaseTimer timer(timers_, Phase::spacing);
-    spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, spacing_, settings.growth_limit,
-                                                     settings.max_nodes);
+    spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, spacing, settings.growth_limit,
+                                                     settings.node_limit());
   });
   return spacing;
 }
@@ -147,11 +159,13 @@ Outcome Placement::make_level() {
   if (!spacing_)
     throw Error(PNPBS_ERROR_STATE,
                 "the placement has no spacing yet: call one of the set_spacing functions first");
-  const Settings settings(options_);
+  Settings settings(options_);
+  settings.max_bytes = bytes_allowed();
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain();
   const std::shared_ptr<const Spacing<2>> spacing = limited_spacing(settings);
   std::unique_ptr<Level> next = empty_level(spacing, settings);
+  settings.node_limit().require_memory_for(next->expected_nodes());
   TakenNodes taken;
   std::int64_t inserted = 0;
   Outcome outcome = Outcome::converged;
@@ -167,7 +181,7 @@ Outcome Placement::make_level() {
     if (coarser_levels_ > 0)
       next->take(nodes_from_coarser_levels(*next, spacing, settings, outcome), 0);
     else
-      next->fill();
+      fill(*next);
   }
   // Nothing has failed: from here on the new level counts.
   adopt_level(std::move(next));
@@ -177,9 +191,30 @@ Outcome Placement::make_level() {
   warnings_ = domain_->warnings();
   warnings_.insert(warnings_.end(), level_->boundary().warnings.begin(),
                    level_->boundary().warnings.end());
+  warnings_of_level_ = warnings_.size();
   spacing_replaced_ = false;
   begin_schedule(coarser_levels_ > 0);
   return outcome;
+}
+
+// Takes long where nodes are many, so this rank's monitor is asked by the clock; where it stops,
+// all ranks do, with the nodes there were before.
+void Placement::fill(Level& level) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kBetweenCalls = std::chrono::milliseconds(500);
+  Clock::time_point last = Clock::now();
+  const auto beat = [&] {
+    if (Clock::now() - last < kBetweenCalls) return;
+    if (asks_to_stop(0, 0))
+      throw Error(PNPBS_STOPPED, "stopped by the monitor while the first nodes were laid");
+    last = Clock::now();
+  };
+  try {
+    level.fill(beat);
+  } catch (const Error& error) {
+    if (error.status() == PNPBS_STOPPED) stop_reason_ = StopReason::monitor;
+    throw;
+  }
 }
 
 void Placement::adopt_level(std::unique_ptr<Level> next) {
@@ -188,7 +223,7 @@ void Placement::adopt_level(std::unique_ptr<Level> next) {
     rebalances_before_ += level_->rebalances();
   }
   level_ = std::move(next);
-  order_version_ = lists_version_ = stars_version_ = -1;
+  order_version_ = lists_version_ = stars_version_ = quality_version_ = -1;
 }
 
 void Placement::begin_schedule(bool refined) {
@@ -222,11 +257,13 @@ Outcome Placement::run() {
   if (prepare_level() == Outcome::stopped) return Outcome::stopped;
   return while_moving([this] {
     if (schedule_.ended) begin_schedule(false);
+    warnings_.resize(warnings_of_level_);
     const Outcome outcome =
         advance(level_->settings().steps, {schedule_.refined ? kCoarseShare : 0, kStepsShare});
     schedule_.ended = true;
-    if (outcome != Outcome::stopped) finish();
-    return outcome;
+    if (outcome == Outcome::stopped) return outcome;
+    finish();
+    return spacing_missed() ? Outcome::spacing_missed : outcome;
   });
 }
 
@@ -327,20 +364,21 @@ bool Placement::far_too_few() const {
   return static_cast<double>(global_count()) < 0.85 * level_->expected_nodes();
 }
 
-// Adjusts the population while it pays. A new spacing may ask for many times the nodes there are,
-// and one contest lets at most one act within three hops: so there are more rounds at once while
-// they change much.
+// Adjusts the population while it pays, the first time aimed at the mean distance. A new spacing
+// may ask for many times the nodes there are, and one contest lets at most one act within three
+// hops: so there are more rounds at once while they change much.
 void Placement::control_population() {
   constexpr int kMostRounds = 20;
-  constexpr double kRefillBelow = 5.8;  // overlap ratio
-  constexpr double kMuch = 0.002;       // share of the nodes
-  constexpr double kRefinedPays = 5;    // times the option's share
+  constexpr double kMuch = 0.002;     // share of the nodes
+  constexpr double kRefinedPays = 5;  // times the option's share
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  // What is off on a coarser level is off on all finer ones; on the finest each change costs steps.
+  const double tolerance = (schedule_.coarser ? 1 : 3) * kMeanTolerance;
   const double nodes = static_cast<double>(global_count());
   double changed = 0;
   for (int round = 0; round < kMostRounds; ++round) {
-    // What fills up by itself in a run need not be dense at once; after a jump of d it must.
     const PopulationCounts change =
-        count_population_change(level_->adjust_population(round > 0 ? kRefillBelow : 0));
+        count_population_change(level_->adjust_population(round == 0 ? tolerance : kInfinity));
     const double acted = static_cast<double>(change.inserted + change.deleted);
     changed += acted;
     if (acted < kMuch * nodes) break;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/level.hpp"
+#include "core/node_estimate.hpp"
 #include "core/options.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/exchange_pattern.hpp"
@@ -19,6 +20,7 @@ namespace pnpbs {
 struct Schedule {
   std::int64_t step = 0;
   bool refined = false;  // it began with the nodes of a coarser level
+  bool coarser = false;  // it is one
   bool ended = false;
   bool population_settled = false;
   int quiet_events = 0;          // that changed too little to pay, in a row
@@ -30,7 +32,8 @@ struct ProgressPart {
   double begin = 0, end = 1;
 };
 
-enum class Outcome { converged, not_converged, stopped };
+// spacing_missed: somewhere the nodes do not follow d, whether the bubbles rest or not.
+enum class Outcome { converged, not_converged, stopped, spacing_missed };
 
 // Why a run ended, for the report.
 enum class StopReason { none, rest, step_limit, monitor };
@@ -65,6 +68,8 @@ class Placement {
   Outcome run();
   PopulationCounts adjust_population();
   void rebalance();
+  // Of a run from nothing; the nodes there are stay. Collective.
+  Estimate estimate();
 
   // --- results; nodes are handed out in the order of their ids ---
   bool has_nodes() const { return level_ != nullptr; }
@@ -82,7 +87,12 @@ class Placement {
   // Calls visit(place of i, place of j, place of k) for every triangle once, over all ranks: at the
   // owner of its node with the least id, which comes first. After prepare_stars.
   template <class Visit>
-  void for_triangles(const Visit& visit) const;
+  void for_triangles(const Visit& visit) const {
+    for_triangles(0, count(), visit);
+  }
+  // Only those whose first node has a place from begin up to end, by that place.
+  template <class Visit>
+  void for_triangles(std::int64_t begin, std::int64_t end, const Visit& visit) const;
   // Calls visit(place of begin, place of end, tag) for every boundary edge once, over all ranks: at
   // the owner of the node it begins with; the other may be a ghost. After prepare_order.
   template <class Visit>
@@ -110,12 +120,15 @@ class Placement {
   StopReason stop_reason() const { return stop_reason_; }
   Speeds speeds() const { return level_ ? level_->speeds() : Speeds{}; }
   NearestNeighbourError spacing_error();
+  // Of the triangles of the stars, and their edges. Collective.
+  const ElementQuality& element_quality();
   std::uint64_t hash() const;
 
  private:
   Outcome prepare_level();
   Outcome make_level();
   std::shared_ptr<const Spacing<2>> limited_spacing(const Settings& settings);
+  double bytes_allowed() const;
   std::unique_ptr<Level> empty_level(std::shared_ptr<const Spacing<2>> spacing,
                                      const Settings& settings, const Level* like = nullptr);
   void adopt_level(std::unique_ptr<Level> next);
@@ -139,8 +152,10 @@ class Placement {
   void rebalance_now();
   bool far_too_few() const;
   bool monitor_stops(double fraction);
+  void fill(Level& level);
   void repair_defects();
   void finish();
+  bool spacing_missed();
   PopulationCounts count_population_change(PopulationCounts change);
 
   std::shared_ptr<const Communicator> comm_;
@@ -160,18 +175,19 @@ class Placement {
                rebalances_before_ = 0;
   StopReason stop_reason_ = StopReason::none;
   std::vector<std::string> warnings_;
+  std::size_t warnings_of_level_ = 0;  // the first of them; the others are of the last run
   Timers timers_;
 
   // Versions of the level for which these were prepared last.
-  std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1;
+  std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1, quality_version_ = -1;
   std::vector<std::int32_t> by_id_, place_;
+  ElementQuality quality_;
 };
 
 template <class Visit>
-void Placement::for_triangles(const Visit& visit) const {
+void Placement::for_triangles(std::int64_t begin, std::int64_t end, const Visit& visit) const {
   const View<std::int64_t> id = level_->nodes().id;
-  const std::int64_t owned = count();
-  for (std::int64_t p = 0; p < owned; ++p) {
+  for (std::int64_t p = begin; p < end; ++p) {
     const std::int64_t i = node_at(p);
     level_->stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
       if (id(i) < id(j) && id(i) < id(k)) visit(p, place_of(j), place_of(k));

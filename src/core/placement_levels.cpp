@@ -41,14 +41,17 @@ GivenNodes new_nodes(GivenNodes nodes) {
   return nodes;
 }
 
-// A coarser level runs like a placement of its own; the coarsest has the most to settle. Room for a
-// node that is missing there is missing on every finer one, too.
+// A coarser level runs like a placement of its own; the coarsest has the most to settle. What
+// is wrong there is wrong on every finer one, too.
 Settings settings_of_level(Settings settings, bool coarsest) {
-  constexpr double kPopulationShare = 0.75, kMoreRoom = 0.3;  // overlap ratio
+  constexpr double kPopulationShare = 0.75;
+  constexpr double kMoreRest = 0.3;  // of the finest level's tolerance: steps are cheap here
+  constexpr double kDenser = 0.998;  // in distance: refining leaves it a little too large
   settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
   settings.population_share = kPopulationShare;
-  settings.population.insert_below += kMoreRoom;
   settings.defects.bad_below = 0;  // no triangle is handed on
+  settings.tolerance_mean *= kMoreRest;
+  settings.population.mean_distance *= kDenser;
   return settings;
 }
 
@@ -60,7 +63,7 @@ Settings settings_of_level(Settings settings, bool coarsest) {
 int Placement::coarser_levels_that_pay(const Level& finest,
                                        const std::shared_ptr<const Spacing<2>>& spacing) const {
   constexpr double kLeastNodes = 500;  // of the coarsest
-  constexpr double kSteepest = 0.5;    // growth of d per unit of length
+  constexpr double kSteepest = 0.27;   // growth of d per unit of length
   const SpacingVariation d = finest.spacing_variation();
   const double nodes = finest.expected_nodes();
   int levels = 0;
@@ -102,11 +105,12 @@ GivenNodes Placement::nodes_from_coarser_levels(const Level& finest,
       std::unique_ptr<Level> level = empty_level(
           spacing_of_level(spacing, l), settings_of_level(settings, l == coarser_levels_), &finest);
       if (l == coarser_levels_)
-        level->fill();
+        fill(*level);
       else
         level->take(std::move(nodes), 0);
       adopt_level(std::move(level));
       begin_schedule(false);
+      schedule_.coarser = true;
       const ProgressPart part{kCoarseShare * (coarser_levels_ - l) / coarser_levels_,
                               kCoarseShare * (coarser_levels_ - l + 1) / coarser_levels_};
       if (outcome != Outcome::stopped) outcome = advance(level_->settings().steps, part);

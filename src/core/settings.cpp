@@ -22,6 +22,7 @@ Settings::Settings(const Options& o)
       adjacency_radius(o.real("adjacency_radius")),
       growth_limit(o.real("growth_limit")),
       max_nodes(o.integer("max_nodes")),
+      max_memory(o.real("max_memory")),
       exchange_interval(o.integer("exchange_interval")),
       metis_seed(o.integer("metis_seed")),
       rebalance_above(o.real("rebalance_above")),
@@ -31,6 +32,7 @@ Settings::Settings(const Options& o)
   motion.most = o.real("max_move");
   population.delete_above = o.real("delete_above");
   population.insert_below = o.real("insert_below");
+  population.mean_distance = o.real("mean_distance");
   sweep.weight = o.real("sweep_weight");
   repair.rounds = o.integer("repairs");
   defects.rounds = o.integer("defect_repairs");

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "core/options.hpp"
 #include "forces/pair_laws.hpp"
 #include "forces/population.hpp"
 #include "forces/schemes.hpp"
+#include "geometry/node_limit.hpp"
 #include "stars/bad_triangles.hpp"
 #include "stars/defects.hpp"
 #include "stars/sweep.hpp"
@@ -38,11 +40,14 @@ struct Settings {
   double list_radius, adjacency_radius;
   double growth_limit;
   std::int64_t max_nodes;
-  std::int64_t exchange_interval;  // steps
+  double max_memory;                                           // share of what there is; 0: any
+  double max_bytes = std::numeric_limits<double>::infinity();  // the placement's business
+  std::int64_t exchange_interval;                              // steps
   std::int64_t metis_seed;
   double rebalance_above;     // largest over mean owned work
   std::int64_t halo_deficit;  // hops, for tests
 
+  NodeLimit node_limit() const { return {max_nodes, max_bytes}; }
   int evaluations_per_step() const { return predictor_corrector ? 2 : 1; }
   double force_range() const { return cubic_law ? CubicLaw{}.range : rest_length; }
 };

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/statistics.hpp"
 
-#include <sys/resource.h>
-
 #include <cstdio>
 
+#include "core/available_memory.hpp"
 #include "core/error.hpp"
 #include "core/kokkos_runtime.hpp"
 
@@ -32,13 +31,6 @@ StatisticRow computed(StatisticRow row) {
 template <Phase phase>
 double seconds(P p) {
   return p.timers().seconds(phase);
-}
-
-// Of the process; ru_maxrss is in KiB on Linux (getrusage(2)).
-std::int64_t peak_memory(P) {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
 std::string stop_reason(P p) {
@@ -128,7 +120,16 @@ const std::vector<StatisticRow>& statistic_table() {
       real("seconds.sweeps", seconds<Phase::sweeps>, "finishing sweeps"),
       real("seconds.total", seconds<Phase::total>,
            "from domain and spacing given to nodes in hand, no files"),
-      integer("memory.peak_bytes", peak_memory, "largest memory of the process so far"),
+      integer(
+          "memory.peak_bytes", [](P) { return peak_memory(); },
+          "largest memory of this process so far"),
+      computed(integer(
+          "memory.max_peak_bytes",
+          [](P p) {
+            const auto mine = static_cast<double>(peak_memory());
+            return static_cast<std::int64_t>(p.communicator().largest(mine));
+          },
+          "the largest of that, over the ranks")),
       computed(real(
           "d_error.mean", [](P p) { return p.spacing_error().mean; },
           "nearest-neighbour distance over d: mean")),
@@ -138,6 +139,27 @@ const std::vector<StatisticRow>& statistic_table() {
       computed(real(
           "d_error.least", [](P p) { return p.spacing_error().least; },
           "nearest-neighbour distance over d: least")),
+      computed(real(
+          "quality.mean", [](P p) { return p.element_quality().triangle.mean; },
+          "quality of the triangles, 2 r_in / R: mean")),
+      computed(real(
+          "quality.one_percent", [](P p) { return p.element_quality().triangle.one_percent; },
+          "quality of the triangles: 99 % lie above this, a multiple of 2^-16")),
+      computed(real(
+          "quality.min", [](P p) { return p.element_quality().triangle.least; },
+          "quality of the triangles: the worst")),
+      computed(real(
+          "quality.min_angle", [](P p) { return p.element_quality().triangle.least_angle; },
+          "smallest angle of the triangles, degrees")),
+      computed(real(
+          "quality.irregular", [](P p) { return p.element_quality().irregular; },
+          "share of the inner nodes that have not six neighbours in their stars")),
+      computed(real(
+          "edge.mean", [](P p) { return p.element_quality().edge.mean; },
+          "length of the triangles' edges over d, the mean of d at their ends: mean")),
+      computed(real(
+          "edge.deviation", [](P p) { return p.element_quality().edge.deviation; },
+          "length of the triangles' edges over d: standard deviation")),
       real(
           "speed.largest", [](P p) { return p.speeds().largest; },
           "largest scaled speed, spacings per unit of time"),

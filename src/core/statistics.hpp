@@ -17,7 +17,7 @@ struct StatisticRow {
   std::int64_t (*integer)(Placement&);
   double (*real)(Placement&);
   std::string (*text)(Placement&);
-  bool computes = false;  // makes lists first, so it cannot be asked from a callback
+  bool computes = false;  // over all ranks or from lists, so it cannot be asked from a callback
 
   const char* type() const { return integer ? "integer" : real ? "real" : "string"; }
 };

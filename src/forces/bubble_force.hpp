@@ -49,7 +49,7 @@ inline void block_force(const ListBlock& list, const Law& law, const Positions<D
       }
       const double distance = std::sqrt(square);
       const double desired = 0.5 * (own_d[lane] + d[j]);
-      const double push = law.per_length(distance, desired);
+      const double push = law.template per_length<Dim>(distance, desired);
       for (int k = 0; k < Dim; ++k) sum[k][lane] += push * gap[k];
     }
   }

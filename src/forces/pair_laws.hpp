@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The force between two bubbles as a function of w = distance / desired distance, where the
-// desired distance is (d_i + d_j) / 2. Positive pushes. `range` is the w from which on it is 0.
-// per_length(distance, desired) is the force over the distance, what a kernel multiplies with the
-// vector between the two.
+// The force between two bubbles. f(w) is its law, w = distance / desired distance, where the
+// desired distance d_ij is (d_i + d_j) / 2; positive pushes. `range` is the w from which on it is
+// 0.
+//
+// Along a chain of bubbles that are squeezed alike, a coarse one is pushed by one fine neighbour
+// per fine spacing: with F = f(w) for every pair, the force per length (per area in a volume) is
+// f(w) / d, and fine regions crush coarse ones. With F_ij = d_ij^(Dim-1) f(w) the stress is a
+// function of w alone, so a graded set is at rest where all of it is squeezed alike.
+//
+// per_length(distance, desired) is the pair's force over its distance, what a kernel multiplies
+// with the vector between the two; acceleration_scale(d) makes the sum of these an acceleration in
+// units in which fine and coarse bubbles are equally stiff.
 #pragma once
 
 namespace pnpbs {
 
-// Equation (2) of the paper (after Shimada and Gossard): pushes below w = 1, pulls up to 1.5.
+// Equation (2) of the paper (after Shimada and Gossard): pushes below w = 1, pulls up to 1.5. To
+// the letter, the same force for pairs of all sizes.
 struct CubicLaw {
   double k0 = 1;
   double range = 1.5;
@@ -16,14 +25,19 @@ struct CubicLaw {
     const double f = k0 * (w * w * (1.25 * w - 2.375) + 1.125);
     return w <= range ? f : 0.0;
   }
+  template <int Dim>
   double per_length(double distance, double desired) const {
     return (*this)(distance / desired) / distance;
+  }
+  template <int Dim>
+  static double acceleration_scale(double d) {
+    return d;
   }
 };
 
 // A linear push up to a rest length a little above the desired distance, no pull. Around five- and
 // seven-neighbour nodes the pull of the cubic law distorts triangles; a push does not. The density
-// is then held by the population control.
+// is then held by the population control. Leaves no stress.
 struct LinearPush {
   double k0 = 1;
   double range = 1.06;  // the rest length in desired distances
@@ -32,11 +46,17 @@ struct LinearPush {
     const double f = k0 * (1.0 - w / range);
     return f > 0.0 ? f : 0.0;
   }
-  // With one division: they are what the kernel's time goes into.
+  // d_ij^(Dim-1) f(w) / distance with one division: they are what the kernel's time goes into.
+  template <int Dim>
   double per_length(double distance, double desired) const {
-    const double rest = range * desired;
-    const double gap = rest - distance;
-    return k0 * (gap > 0.0 ? gap : 0.0) / (rest * distance);
+    const double gap = range * desired - distance;
+    double push = (k0 / range) * (gap > 0.0 ? gap : 0.0) / distance;
+    for (int k = 2; k < Dim; ++k) push *= desired;
+    return push;
+  }
+  template <int Dim>
+  static double acceleration_scale(double d) {
+    return Dim == 2 ? 1.0 : 1.0 / d;  // d^(2 - Dim)
   }
 };
 

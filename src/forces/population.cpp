@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 #include "forces/overlap_ratio.hpp"
 
@@ -44,10 +46,10 @@ Point<Dim> square_to(const Point<Dim>& a) {
   return b;
 }
 
-// The free place beside a sparse bubble: one spacing away, on the side away from its neighbours.
-// Where they balance, as in a row of nodes, that is beside the row.
+// One spacing away on the side away from its neighbours; where they balance, as in a row of nodes,
+// that is beside the row.
 template <int Dim>
-Point<Dim> free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i) {
+Point<Dim> place_away(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i) {
   constexpr double kBalanced = 0.1;  // of what they would be on one side
   const Point<Dim> x = nodes.position(i);
   Point<Dim> crowd{}, to_nearest{};
@@ -76,14 +78,62 @@ Point<Dim> free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, 
   return place;
 }
 
-// Is there room at `place` among the neighbours of i and theirs?
+// The centre of the circle through three nodes; none if they lie on a line.
+std::optional<Point<2>> circumcentre(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+  const double area = 2 * (bx * cy - by * cx);
+  if (area == 0) return std::nullopt;
+  const double bb = bx * bx + by * by, cc = cx * cx + cy * cy;
+  return Point<2>{a[0] + (cy * bb - by * cc) / area, a[1] + (bx * cc - cx * bb) / area};
+}
+
+// The middle of the largest hole beside node i: of the circles through it and two neighbours that
+// hold none, the one with the largest radius up to d. None if there is a larger one, or the node
+// has too few neighbours.
+std::optional<Point<2>> hole_beside(const Nodes<2>& nodes, const AdjacencyList<2>& lists,
+                                    std::int64_t i) {
+  constexpr double kRounding = 1 - 1e-9;
+  std::vector<Point<2>> around;
+  lists.for_neighbours(i, [&](std::int64_t j) { around.push_back(nodes.position(j)); });
+  const Point<2> x = nodes.position(i);
+  const auto is_empty = [&](const Point<2>& centre, double radius) {
+    return std::none_of(around.begin(), around.end(), [&](const Point<2>& y) {
+      return distance<2>(y, centre) < kRounding * radius;
+    });
+  };
+  std::optional<Point<2>> hole;
+  double largest = 0;
+  for (std::size_t j = 0; j < around.size(); ++j)
+    for (std::size_t k = 0; k < j; ++k) {
+      const std::optional<Point<2>> centre = circumcentre(x, around[j], around[k]);
+      if (!centre) continue;
+      const double radius = distance<2>(x, *centre);
+      if (radius <= largest || !is_empty(*centre, radius)) continue;
+      largest = radius;
+      hole = centre;
+    }
+  if (largest > nodes.d(i)) hole.reset();
+  return hole;
+}
+
+// The free place beside a sparse bubble.
+template <int Dim>
+Point<Dim> free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i) {
+  if constexpr (Dim == 2)
+    if (const std::optional<Point<2>> hole = hole_beside(nodes, lists, i)) return *hole;
+  return place_away<Dim>(nodes, lists, i);
+}
+
+// Is there room at `place` among the neighbours of i and theirs? Boundary nodes give no way, so
+// they always need the full gap.
 template <int Dim>
 bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
-              const Point<Dim>& place, double least_gap) {
+              const Point<Dim>& place, double gap, const PopulationRule& rule) {
   bool room = true;
   const auto test = [&](std::int64_t j) {
     const double desired = 0.5 * (nodes.d(i) + nodes.d(j));
-    if (distance<Dim>(nodes.position(j), place) < least_gap * desired) room = false;
+    const double needed = nodes.moves(j) ? gap : rule.least_gap;
+    if (distance<Dim>(nodes.position(j), place) < needed * desired) room = false;
   };
   lists.for_neighbours(i, [&](std::int64_t j) {
     test(j);
@@ -149,7 +199,8 @@ bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<d
 
 template <int Dim>
 PopulationChange<Dim> choose_population_change(
-    const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const PopulationRule& rule,
+    const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<double>& ratios,
+    const PopulationRule& rule, const PopulationThresholds& thresholds,
     const std::function<bool(std::int64_t)>& must_go,
     const std::function<bool(const Point<Dim>&, double)>& fits) {
   const View<double> defects = make_view<double>("pnpbs::population::defects", nodes.count);
@@ -158,18 +209,20 @@ PopulationChange<Dim> choose_population_change(
     defects(i) = 0;
     action(i) = Action::none;
     if (!nodes.moves(i)) return;
-    const double ratio = overlap_ratio<Dim>(nodes, lists, i);
+    const double ratio = ratios(i);
+    const PopulationThresholds::Pair& threshold = thresholds.at(nodes.d(i));
     if (must_go(i)) {
       defects(i) = std::numeric_limits<double>::max();
       action(i) = Action::remove;
-    } else if (ratio > rule.delete_above) {
+    } else if (ratio > threshold.delete_above) {
       defects(i) = ratio - rule.ideal;
       action(i) = Action::remove;
-    } else if (ratio < rule.insert_below) {
+    } else if (ratio < std::max(rule.insert_below, threshold.insert_below)) {
+      const double gap = ratio < threshold.insert_below ? rule.least_gap_to_aim : rule.least_gap;
       const Point<Dim> place = free_place<Dim>(nodes, lists, i);
       // Between boundary nodes that are dense for d a new bubble may be one too many: it would
       // go at once, and come again.
-      if (has_room<Dim>(nodes, lists, i, place, rule.least_gap) && fits(place, nodes.d(i)) &&
+      if (has_room<Dim>(nodes, lists, i, place, gap, rule) && fits(place, nodes.d(i)) &&
           overlap_ratio_at<Dim>(nodes, lists, i, place) <= rule.delete_above) {
         defects(i) = rule.ideal - ratio;
         action(i) = Action::insert;
@@ -200,10 +253,12 @@ PopulationChange<Dim> choose_population_change(
 }
 
 template PopulationChange<2> choose_population_change<2>(
-    const Nodes<2>&, const AdjacencyList<2>&, const PopulationRule&,
-    const std::function<bool(std::int64_t)>&, const std::function<bool(const Point<2>&, double)>&);
+    const Nodes<2>&, const AdjacencyList<2>&, const View<double>&, const PopulationRule&,
+    const PopulationThresholds&, const std::function<bool(std::int64_t)>&,
+    const std::function<bool(const Point<2>&, double)>&);
 template PopulationChange<3> choose_population_change<3>(
-    const Nodes<3>&, const AdjacencyList<3>&, const PopulationRule&,
-    const std::function<bool(std::int64_t)>&, const std::function<bool(const Point<3>&, double)>&);
+    const Nodes<3>&, const AdjacencyList<3>&, const View<double>&, const PopulationRule&,
+    const PopulationThresholds&, const std::function<bool(std::int64_t)>&,
+    const std::function<bool(const Point<3>&, double)>&);
 
 }  // namespace pnpbs

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adjusting the bubble population (section 2.4 of the paper): bubbles whose overlap ratio is too
-// large go, beside those whose ratio is too small new ones appear. Who acts is a contest: a
-// candidate does so if its (defect, id) is the strict maximum within three hops of the adjacency
-// lists. All read the state before the event, so the outcome has no order.
+// large go, and in the largest holes beside those whose ratio is too small new ones appear. Who
+// acts is a contest: a candidate does so if its (defect, id) is the strict maximum within three
+// hops of the adjacency lists. All read the state before the event, so the outcome has no order.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,10 @@
 #include <vector>
 
 #include "core/nodes.hpp"
+#include "forces/population_thresholds.hpp"
 #include "neighbors/adjacency_list.hpp"
 
 namespace pnpbs {
-
-struct PopulationRule {
-  double delete_above = 9;  // overlap ratios
-  double insert_below = 5;
-  double ideal = 6;
-  double least_gap = 0.65;  // a new bubble comes no nearer to others than this many spacings
-};
 
 template <int Dim>
 struct Birth {
@@ -39,7 +33,8 @@ struct PopulationChange {
 // at x by the domain? Lists must be fresh, with a radius of at least 1.5.
 template <int Dim>
 PopulationChange<Dim> choose_population_change(
-    const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const PopulationRule& rule,
+    const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<double>& ratios,
+    const PopulationRule& rule, const PopulationThresholds& thresholds,
     const std::function<bool(std::int64_t)>& must_go,
     const std::function<bool(const Point<Dim>&, double)>& fits);
 

@@ -36,9 +36,9 @@ inline void clamp_move(std::array<double, Dim>& move, double most) {
   for (int k = 0; k < Dim; ++k) move[k] *= factor;
 }
 
-// The move of n consecutive nodes from `first` on, under these forces: velocities into v, positions
-// into `next`. A lane computes the same bits whatever n is.
-template <int Dim>
+// The move of n consecutive nodes from `first` on, under these forces of the law: velocities into
+// v, positions into `next`. A lane computes the same bits whatever n is.
+template <int Dim, class Law>
 inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std::int64_t first,
                         int n, const Positions<Dim>& x, const double* d,
                         const std::int32_t* boundary_node, const std::array<double*, Dim>& v,
@@ -50,9 +50,10 @@ inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std
   for (int lane = 0; lane < n; ++lane) {
     const std::int64_t i = first + lane;
     const double mobile = boundary_node[i] < 0 ? slow : 0.0;
+    const double scale = Law::template acceleration_scale<Dim>(d[i]);
     double sum = 0;
     for (int k = 0; k < Dim; ++k) {
-      move[k][lane] = motion.dt * (mobile * (v[k][i] + motion.dt * d[i] * force[k][lane]));
+      move[k][lane] = motion.dt * (mobile * (v[k][i] + motion.dt * scale * force[k][lane]));
       sum += move[k][lane] * move[k][lane];
     }
     const double most = motion.most * d[i];
@@ -93,11 +94,11 @@ void damped_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const
     block_force<Dim>(lists.block(b), law, x, d, self, force);
     const std::int64_t first = b * kLanes;
     const int n = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
-    damped_move<Dim>(force, motion, first, n, x, d, nodes.boundary_node.data(), v, to);
+    damped_move<Dim, Law>(force, motion, first, n, x, d, nodes.boundary_node.data(), v, to);
   });
 }
 
-// Accelerations d f - c v of all nodes at positions x and velocities v.
+// Accelerations of all nodes, scaled force less c v, at positions x and velocities v.
 template <int Dim, class Law>
 void accelerations(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
                    const Motion& motion, const Field<Dim>& at_x, const Field<Dim>& at_v,
@@ -111,8 +112,9 @@ void accelerations(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, con
     block_force<Dim>(lists.block(b), law, x, d, self, force);
     for (int lane = 0; lane < kLanes && self[lane] < nodes.count; ++lane) {
       const std::int64_t i = self[lane];
+      const double scale = Law::template acceleration_scale<Dim>(d[i]);
       for (int k = 0; k < Dim; ++k)
-        a[k](i) = nodes.moves(i) ? d[i] * force[k][lane] - motion.damping * at_v[k](i) : 0.0;
+        a[k](i) = nodes.moves(i) ? scale * force[k][lane] - motion.damping * at_v[k](i) : 0.0;
     }
   });
 }

@@ -7,6 +7,7 @@
 
 #include "geometry/curve_track.hpp"
 #include "geometry/faces.hpp"
+#include "geometry/limits.hpp"
 #include "geometry/plane_sweep.hpp"
 #include "geometry/point_text.hpp"
 #include "geometry/point_tree.hpp"
@@ -44,6 +45,7 @@ class Layer {
     }
     warn_of_halved_edges();
     ask_spacing();
+    refuse_far_too_fine();
     warn_of_short_edges();
     warn_of_close_fixed_nodes();
     return std::move(boundary_);
@@ -227,6 +229,31 @@ class Layer {
     }
   }
 
+  // What nodes inside see of edges far shorter than d grows with this sum: beyond it a run would
+  // take more than about a minute, or more memory than there may be.
+  void refuse_far_too_fine() const {
+    constexpr double kFine = 32, kMost = 3e7;
+    // Without inner nodes each boundary node is tested against all, often exactly.
+    constexpr double kNothingWithin = 20;
+    const double size = size_of(domain_.bounds());  // farther nobody sees, however large d is
+    double sum = 0, work = 0;
+    std::int64_t fine = 0;
+    for (const auto& [a, b] : ends_) {
+      const double d = std::min(0.5 * (d_[a] + d_[b]), size);
+      const double ratio = d / distance<2>(positions_[a], positions_[b]);
+      if (ratio <= kFine) continue;
+      sum += ratio;
+      work += d > 0.4 * size ? kNothingWithin * ratio : ratio;
+      ++fine;
+    }
+    if (work <= kMost) return;
+    throw Error(PNPBS_ERROR_SPACING,
+                "the boundary is far finer than the spacing: " + std::to_string(fine) +
+                    " of its edges are " + rounded_text(sum / static_cast<double>(fine)) +
+                    " times shorter than d; use a smaller d, fewer vertices, or a polyline with a "
+                    "corner_angle, on which nodes are laid as d says");
+  }
+
   struct Worst {
     double ratio;
     std::int32_t which;
@@ -307,6 +334,18 @@ class Layer {
 };
 
 }  // namespace
+
+std::vector<double> bubbles_on_boundary(const Boundary& boundary) {
+  constexpr double kEdges = 32;  // ordinary boundaries have no edges that short
+  std::vector<double> longest(boundary.nodes.size(), 0);
+  for (const BoundaryEdge& e : boundary.edges) {
+    const auto a = static_cast<std::size_t>(e.begin), b = static_cast<std::size_t>(e.end);
+    const double length = distance<2>(boundary.nodes[a].position, boundary.nodes[b].position);
+    for (const std::size_t node : {a, b}) longest[node] = std::max(longest[node], length);
+  }
+  for (double& bound : longest) bound = bound > 0 ? kEdges * bound : HUGE_VAL;  // fixed nodes
+  return longest;
+}
 
 Boundary lay_boundary(const PlaneDomain& domain, const SpacingEvaluator& spacing,
                       std::int64_t most_nodes) {

@@ -46,4 +46,9 @@ struct Boundary {
 Boundary lay_boundary(const PlaneDomain& domain, const SpacingEvaluator& spacing,
                       std::int64_t most_nodes = (std::int64_t{1} << 31) - 2);
 
+// How large the bubble of each boundary node may be. Where a boundary is far finer than d, as a
+// circle of thousands of segments, bubbles of diameter d would hold thousands of each other: there
+// they are no larger than some edges of their own.
+std::vector<double> bubbles_on_boundary(const Boundary& boundary);
+
 }  // namespace pnpbs

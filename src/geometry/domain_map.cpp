@@ -54,7 +54,7 @@ struct DomainMap::Growth {
   const DomainMap& map;
   const Boundary& boundary;
   const SpacingEvaluator& spacing;
-  std::int64_t max_nodes;
+  NodeLimit limit;
   double steepest;
   std::vector<double> boundary_spacing;
   std::vector<CellState> cells;
@@ -95,13 +95,13 @@ struct DomainMap::Growth {
   // follows from the parent's by the edges between the two.
   void start_child(const BackgroundTree<2>& tree, std::int32_t c, std::int32_t parent) {
     const CellState from = cells[index(parent)];
-    const Box<2> box = tree.cell_box(c);
+    const Box<2> box = tree.cell_box(c), room = tree.cell_box_with_room(c);
     CellState cell;
     cell.first_edge = static_cast<std::int32_t>(edges.size());
     for (std::int32_t k = from.first_edge; k < from.last_edge; ++k) {
       const std::int32_t e = edges[index(k)];
       const BoundaryEdge& edge = boundary.edges[index(e)];
-      if (segment_may_meet_box(end_of(edge.begin), end_of(edge.end), box)) edges.push_back(e);
+      if (segment_may_meet_box(end_of(edge.begin), end_of(edge.end), room)) edges.push_back(e);
     }
     cell.last_edge = static_cast<std::int32_t>(edges.size());
     Point<2> fraction{0.41421356, 0.57721566};
@@ -189,30 +189,30 @@ struct DomainMap::Growth {
       nodes += kHexagonalDensity * std::pow(tree.cell_side(c) / cell.largest, 2);
       if (cells[index(finest)].outside || cell.least < cells[index(finest)].least) finest = c;
     }
-    if (nodes <= static_cast<double>(max_nodes)) return;
+    if (nodes <= static_cast<double>(limit.max_nodes)) return limit.require_memory_for(nodes);
     const Point<2> x = tree.cell_centre(finest);
     throw Error(PNPBS_ERROR_SPACING, "spacing d = " + number_text(cells[index(finest)].least) +
                                          " near (" + number_text(x[0]) + ", " + number_text(x[1]) +
                                          ") would mean about " + number_text(std::round(nodes)) +
                                          " nodes or more; the option max_nodes allows " +
-                                         std::to_string(max_nodes) +
+                                         std::to_string(limit.max_nodes) +
                                          ": use a larger spacing or a larger max_nodes");
   }
 };
 
 void DomainMap::build(const Box<2>& bounds, const Boundary& boundary,
-                      const SpacingEvaluator& spacing, std::int64_t max_nodes, double steepest) {
+                      const SpacingEvaluator& spacing, const NodeLimit& limit, double steepest) {
   boundary_ = &boundary;
   grow(*serial_communicator(), bounds,
-       Growth{*this, boundary, spacing, max_nodes, steepest, {}, {}, {}, 0},
+       Growth{*this, boundary, spacing, limit, steepest, {}, {}, {}, 0},
        [](const BackgroundTree<2>&, std::int32_t, double) { return true; });
 }
 
 void DomainMap::build_part(const Communicator& comm, const Box<2>& bounds, const Boundary& boundary,
-                           const SpacingEvaluator& spacing, std::int64_t max_nodes,
+                           const SpacingEvaluator& spacing, const NodeLimit& limit,
                            const MaySplit& may_split) {
   boundary_ = &boundary;
-  grow(comm, bounds, Growth{*this, boundary, spacing, max_nodes, 0, {}, {}, {}, 0}, may_split);
+  grow(comm, bounds, Growth{*this, boundary, spacing, limit, 0, {}, {}, {}, 0}, may_split);
 }
 
 void DomainMap::grow(const Communicator& comm, const Box<2>& bounds, Growth growth,
@@ -254,6 +254,9 @@ void DomainMap::gather_edge_ends() {
   for (const BoundaryEdge& e : boundary_->edges)
     edge_ends_.push_back(
         {boundary_->nodes[index(e.begin)].position, boundary_->nodes[index(e.end)].position});
+  edge_blocks_.build(edge_ends_.size(), [this](std::size_t e, int side) {
+    return side == 0 ? edge_ends_[e].begin : edge_ends_[e].end;
+  });
 }
 
 void DomainMap::keep_leaves(const Growth& growth) {

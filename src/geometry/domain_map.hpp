@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "geometry/boundary.hpp"
+#include "geometry/edge_blocks.hpp"
+#include "geometry/node_limit.hpp"
 #include "parallel/communicator.hpp"
 #include "tree/background_tree.hpp"
 
@@ -20,9 +22,10 @@ class DomainMap {
   // of each cell, and at the boundary nodes: dips of d between them are not seen.
   // With steepest > 0, cells over which d grows faster than that are refined further, down to a
   // third of their least d, so that the tips of steep funnels are found.
-  // Throws Error(PNPBS_ERROR_SPACING) when d would mean more than max_nodes nodes.
+  // Throws Error(PNPBS_ERROR_SPACING or _MEMORY) when d would mean more nodes than the limit
+  // allows.
   void build(const Box<2>& bounds, const Boundary& boundary, const SpacingEvaluator& spacing,
-             std::int64_t max_nodes, double steepest = 0);
+             const NodeLimit& limit, double steepest = 0);
 
   // May a cell that d or the boundary wants split be split? `nodes`: those its samples of d ask
   // for.
@@ -31,7 +34,7 @@ class DomainMap {
   // The same tree, refined only where may_split allows it. Where that differs between ranks the
   // call is collective, and a failure on one rank is thrown on all.
   void build_part(const Communicator& comm, const Box<2>& bounds, const Boundary& boundary,
-                  const SpacingEvaluator& spacing, std::int64_t max_nodes,
+                  const SpacingEvaluator& spacing, const NodeLimit& limit,
                   const MaySplit& may_split);
 
   static constexpr double kLeafSpacings = 4;
@@ -74,6 +77,7 @@ class DomainMap {
   const Point<2>& edge_begin(std::int32_t e) const { return edge_ends_[index(e)].begin; }
   const Point<2>& edge_end(std::int32_t e) const { return edge_ends_[index(e)].end; }
   const BoundaryEdge& edge(std::int32_t e) const { return boundary_->edges[index(e)]; }
+  const EdgeBlocks& edge_blocks() const { return edge_blocks_; }
 
   // Distance from x to the nearest boundary edge, or `reach` if none is nearer.
   double clearance(const Point<2>& x, double reach) const;
@@ -96,7 +100,8 @@ class DomainMap {
   BackgroundTree<2> tree_;
   const Boundary* boundary_ = nullptr;
   std::vector<Ends> edge_ends_;  // of the edges: asked far more often than anything else of them
-  std::vector<Side> side_;       // of the leaves
+  EdgeBlocks edge_blocks_;
+  std::vector<Side> side_;              // of the leaves
   std::vector<Point<2>> reference_;     // a point in each leaf ...
   std::vector<char> reference_inside_;  // ... and whether it lies inside
   std::vector<double> leaf_spacing_, leaf_least_, leaf_largest_;

@@ -73,8 +73,10 @@ class Resolver {
     if (segments == 0) reject("the domain has no curves");
     const double size = domain_size(sources_);
     if (size < kSmallestDomain) {
-      reject("the domain's size is " + number_text(size) + ", less than 1e-150");
+      reject("the domain's size is " + number_text(size) + ", less than " +
+             number_text(kSmallestDomain));
     }
+    reject_far_away(size);
     attach_to_smooth_curves(sources_, fixed_nodes_, size);
     for (int round = 0;; ++round) {
       graph_ = join_sources(sources_, fixed_nodes_, size);
@@ -85,6 +87,17 @@ class Resolver {
       if (round == kRefinements) break;
       if (!refine_conflicting_chords(sources_, graph_, sweep_.conflicts)) break;
     }
+  }
+
+  // Of a small domain far from the origin the coordinates have too few digits left.
+  void reject_far_away(double size) const {
+    for (const CurveSource& source : sources_)
+      for (const Point<2>& point : source.points)
+        for (const double coordinate : point)
+          if (size < kSmallestRelativeSize * std::fabs(coordinate))
+            reject("the domain's size is " + number_text(size) + ", less than " +
+                   number_text(kSmallestRelativeSize) + " of its distance from the origin, as at " +
+                   point_text(point) + ": move it nearer");
   }
 
   std::string edge_name(std::int32_t edge) const {

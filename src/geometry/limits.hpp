@@ -9,9 +9,14 @@
 
 namespace pnpbs {
 
-// Products of two differences of coordinates then stay finite.
+// Products of four differences of coordinates, as the in-circle test has them, then neither
+// overflow nor lose digits below the normal range.
 inline constexpr double kLargestCoordinate = 1e60;
-inline constexpr double kSmallestDomain = 1e-150;
+inline constexpr double kSmallestDomain = 1e-60;
+
+// And this many digits of the coordinates must be left to tell places in it apart: of a domain far
+// from the origin, in units of its largest coordinate.
+inline constexpr double kSmallestRelativeSize = 1e-10;
 
 // In units of the domain's size, which is the longer side of its bounding box.
 inline constexpr double kSamePlace = 1e-12;    // vertices; a vertex and a segment

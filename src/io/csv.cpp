@@ -4,21 +4,23 @@
 
 namespace pnpbs::io {
 
-void write_csv(const NodeBlock& nodes, SharedFile& file) {
+void write_csv(const NodeSource& nodes, SharedFile& file) {
   file.append_text("id,x,y,tag,spacing\n");
-  file.append([&](Sink& sink) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      sink.number(nodes.ids[i]);
-      sink.text(",");
-      sink.number(nodes.xy[2 * i]);
-      sink.text(",");
-      sink.number(nodes.xy[2 * i + 1]);
-      sink.text(",");
-      sink.number(nodes.tags[i]);
-      sink.text(",");
-      sink.number(nodes.spacing[i]);
-      sink.text("\n");
-    }
+  nodes.for_nodes([&](const NodeRows& rows) {
+    file.append([&](Sink& sink) {
+      for (std::size_t i = 0; i < rows.ids.size(); ++i) {
+        sink.number(rows.ids[i]);
+        sink.text(",");
+        sink.number(rows.xy[2 * i]);
+        sink.text(",");
+        sink.number(rows.xy[2 * i + 1]);
+        sink.text(",");
+        sink.number(rows.tags[i]);
+        sink.text(",");
+        sink.number(rows.spacing[i]);
+        sink.text("\n");
+      }
+    });
   });
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/node_block.hpp"
+#include "io/node_source.hpp"
 #include "io/shared_file.hpp"
 
 namespace pnpbs::io {
@@ -19,7 +19,7 @@ struct Format {
   bool binary;  // not for terminals
   Elements elements;
   // Collective. nullptr: in pieces, which is not one file's business.
-  void (*write)(const NodeBlock& nodes, SharedFile& file);
+  void (*write)(const NodeSource& nodes, SharedFile& file);
 };
 
 std::span<const Format> formats();
@@ -29,11 +29,11 @@ std::string list_of_formats();
 const Format* format_by_name(std::string_view name);
 const Format* format_by_extension(std::string_view path);
 
-void write_vtu(const NodeBlock& nodes, SharedFile& file);
-void write_node(const NodeBlock& nodes, SharedFile& file);
-void write_ele(const NodeBlock& nodes, SharedFile& file);
-void write_msh(const NodeBlock& nodes, SharedFile& file);
-void write_csv(const NodeBlock& nodes, SharedFile& file);
+void write_vtu(const NodeSource& nodes, SharedFile& file);
+void write_node(const NodeSource& nodes, SharedFile& file);
+void write_ele(const NodeSource& nodes, SharedFile& file);
+void write_msh(const NodeSource& nodes, SharedFile& file);
+void write_csv(const NodeSource& nodes, SharedFile& file);
 
 // The file that names the pieces. Collective. elements: as the pieces have them.
 void write_pvtu(const std::vector<std::string>& pieces, bool elements, SharedFile& file);

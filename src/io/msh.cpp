@@ -21,73 +21,81 @@ void write_corners(const std::int64_t* corners, std::size_t count, Sink& sink) {
   sink.text("\n");
 }
 
-void write_points(const NodeBlock& nodes, SharedFile& file) {
-  file.append_text("$Nodes\n" + std::to_string(nodes.nodes.total) + "\n");
-  file.append([&](Sink& sink) {
-    std::int64_t number = nodes.nodes.first;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      sink.number(++number);
-      sink.text(" ");
-      sink.number(nodes.xy[2 * i]);
-      sink.text(" ");
-      sink.number(nodes.xy[2 * i + 1]);
-      sink.text(" 0\n");
-    }
+void write_points(const NodeSource& nodes, SharedFile& file) {
+  file.append_text("$Nodes\n" + std::to_string(nodes.contents().nodes) + "\n");
+  nodes.for_nodes([&](const NodeRows& rows) {
+    file.append([&](Sink& sink) {
+      std::int64_t number = rows.first;
+      for (std::size_t i = 0; i < rows.ids.size(); ++i) {
+        sink.number(++number);
+        sink.text(" ");
+        sink.number(rows.xy[2 * i]);
+        sink.text(" ");
+        sink.number(rows.xy[2 * i + 1]);
+        sink.text(" 0\n");
+      }
+    });
   });
   file.append_text("$EndNodes\n");
 }
 
-void write_nodes_as_elements(const NodeBlock& nodes, SharedFile& file) {
-  file.append([&](Sink& sink) {
-    std::int64_t number = nodes.nodes.first;
-    for (const std::int64_t tag : nodes.tags) {
-      sink.number(number + 1);
-      sink.text(point);
-      sink.number(tag);  // physical group
-      sink.text(" ");
-      sink.number(std::abs(tag) + 1);  // geometric entity
-      write_corners(&number, 1, sink);
-      ++number;
-    }
+void write_nodes_as_elements(const NodeSource& nodes, SharedFile& file) {
+  nodes.for_nodes([&](const NodeRows& rows) {
+    file.append([&](Sink& sink) {
+      std::int64_t number = rows.first;
+      for (const std::int64_t tag : rows.tags) {
+        sink.number(number + 1);
+        sink.text(point);
+        sink.number(tag);  // physical group
+        sink.text(" ");
+        sink.number(std::abs(tag) + 1);  // geometric entity
+        write_corners(&number, 1, sink);
+        ++number;
+      }
+    });
   });
 }
 
-void write_edges(const NodeBlock& nodes, SharedFile& file) {
-  file.append([&](Sink& sink) {
-    std::int64_t number = nodes.edges.first;
-    for (std::size_t e = 0; e < nodes.edge_tags.size(); ++e) {
-      const std::int64_t tag = nodes.edge_tags[e];
-      sink.number(++number);
-      sink.text(line);
-      sink.number(tag);  // physical group
-      sink.text(" ");
-      sink.number(std::abs(tag));  // geometric entity
-      write_corners(&nodes.edge_ends[2 * e], 2, sink);
-    }
+void write_edges(const NodeSource& nodes, SharedFile& file) {
+  nodes.for_edges([&](const EdgeRows& rows) {
+    file.append([&](Sink& sink) {
+      std::int64_t number = rows.first;
+      for (std::size_t e = 0; e < rows.tags.size(); ++e) {
+        const std::int64_t tag = rows.tags[e];
+        sink.number(++number);
+        sink.text(line);
+        sink.number(tag);  // physical group
+        sink.text(" ");
+        sink.number(std::abs(tag));  // geometric entity
+        write_corners(&rows.ends[2 * e], 2, sink);
+      }
+    });
   });
 }
 
-void write_triangles(const NodeBlock& nodes, SharedFile& file) {
-  file.append([&](Sink& sink) {
-    std::int64_t number = nodes.edges.total + nodes.triangles.first;
-    for (std::size_t t = 0; t < nodes.quality.size(); ++t) {
-      sink.number(++number);
-      sink.text(triangle);
-      sink.text("1 1");
-      write_corners(&nodes.corners[3 * t], 3, sink);
-    }
+void write_triangles(const NodeSource& nodes, SharedFile& file) {
+  nodes.for_triangles([&](const TriangleRows& rows) {
+    file.append([&](Sink& sink) {
+      std::int64_t number = nodes.contents().edges + rows.first;
+      for (std::size_t t = 0; t < rows.quality.size(); ++t) {
+        sink.number(++number);
+        sink.text(triangle);
+        sink.text("1 1");
+        write_corners(&rows.corners[3 * t], 3, sink);
+      }
+    });
   });
 }
 
 }  // namespace
 
-void write_msh(const NodeBlock& nodes, SharedFile& file) {
+void write_msh(const NodeSource& nodes, SharedFile& file) {
   file.append_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
   write_points(nodes, file);
-  const std::int64_t elements =
-      nodes.elements ? nodes.edges.total + nodes.triangles.total : nodes.nodes.total;
+  const Contents& all = nodes.contents();
+  const std::int64_t elements = all.elements ? all.edges + all.triangles : all.nodes;
   file.append_text("$Elements\n" + std::to_string(elements) + "\n");
-  if (nodes.elements) {
+  if (all.elements) {
     write_edges(nodes, file);
     write_triangles(nodes, file);
   } else {

@@ -5,36 +5,40 @@
 
 namespace pnpbs::io {
 
-void write_node(const NodeBlock& nodes, SharedFile& file) {
-  file.append_text(std::to_string(nodes.nodes.total) + " 2 0 1\n");
-  file.append([&](Sink& sink) {
-    std::int64_t number = nodes.nodes.first;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      sink.number(++number);
-      sink.text(" ");
-      sink.number(nodes.xy[2 * i]);
-      sink.text(" ");
-      sink.number(nodes.xy[2 * i + 1]);
-      sink.text(" ");
-      sink.number(nodes.tags[i]);
-      sink.text("\n");
-    }
+void write_node(const NodeSource& nodes, SharedFile& file) {
+  file.append_text(std::to_string(nodes.contents().nodes) + " 2 0 1\n");
+  nodes.for_nodes([&](const NodeRows& rows) {
+    file.append([&](Sink& sink) {
+      std::int64_t number = rows.first;
+      for (std::size_t i = 0; i < rows.ids.size(); ++i) {
+        sink.number(++number);
+        sink.text(" ");
+        sink.number(rows.xy[2 * i]);
+        sink.text(" ");
+        sink.number(rows.xy[2 * i + 1]);
+        sink.text(" ");
+        sink.number(rows.tags[i]);
+        sink.text("\n");
+      }
+    });
   });
   file.append_text("# nodes placed by pnpbs\n");
 }
 
-void write_ele(const NodeBlock& nodes, SharedFile& file) {
-  file.append_text(std::to_string(nodes.triangles.total) + " 3 0\n");
-  file.append([&](Sink& sink) {
-    std::int64_t number = nodes.triangles.first;
-    for (std::size_t t = 0; t < nodes.quality.size(); ++t) {
-      sink.number(++number);
-      for (std::size_t k = 0; k < 3; ++k) {
-        sink.text(" ");
-        sink.number(nodes.corners[3 * t + k] + 1);
+void write_ele(const NodeSource& nodes, SharedFile& file) {
+  file.append_text(std::to_string(nodes.contents().triangles) + " 3 0\n");
+  nodes.for_triangles([&](const TriangleRows& rows) {
+    file.append([&](Sink& sink) {
+      std::int64_t number = rows.first;
+      for (std::size_t t = 0; t < rows.quality.size(); ++t) {
+        sink.number(++number);
+        for (std::size_t k = 0; k < 3; ++k) {
+          sink.text(" ");
+          sink.number(rows.corners[3 * t + k] + 1);
+        }
+        sink.text("\n");
       }
-      sink.text("\n");
-    }
+    });
   });
   file.append_text("# triangles of nodes placed by pnpbs\n");
 }

@@ -22,11 +22,16 @@ namespace {
   throw Error(PNPBS_ERROR_FILE, "cannot write " + what + ": " + std::strerror(error));
 }
 
-// Renaming onto a symbolic link would replace the link: find the file it means.
+// Renaming onto a symbolic link would replace the link: find the file it means, there or not yet.
 std::string behind_links(const std::string& path) {
+  constexpr int kMostLinks = 40;
   std::error_code error;
-  const std::filesystem::path target = std::filesystem::canonical(path, error);
-  return error ? path : target.string();
+  const std::filesystem::path there = std::filesystem::canonical(path, error);
+  if (!error) return there.string();
+  std::filesystem::path target = path;
+  for (int link = 0; link < kMostLinks && std::filesystem::is_symlink(target, error); ++link)
+    target = target.parent_path() / std::filesystem::read_symlink(target, error);
+  return std::filesystem::is_symlink(target, error) ? path : target.string();
 }
 
 std::string unused_name_beside(const std::string& target) {
@@ -117,11 +122,64 @@ void OutputFile::write(const std::function<void(Sink&)>& writer,
   close(descriptor);
 }
 
+// ------------------------------------------------------------------ giving names ---------------
+
+void OutputFile::seal() {
+  if (temporary_ && !temporary_->seal()) fail(quoted(), EINTR);
+}
+
+// By a second link, so that its name never stands for nothing; where the file system has no links,
+// by another name.
+void OutputFile::set_old_aside() {
+  const std::string aside = unused_name_beside(target_);
+  old_is_linked_ = ::link(target_.c_str(), aside.c_str()) == 0;
+  if (!old_is_linked_ && std::rename(target_.c_str(), aside.c_str()) != 0) {
+    if (errno != ENOENT) fail(quoted(), errno);
+    return;  // there was none
+  }
+  old_ = aside;
+}
+
 void OutputFile::publish() {
   if (!temporary_) return;
+  set_old_aside();
   if (std::rename(temporary_->path(), target_.c_str()) != 0) fail(quoted(), errno);
+  published_ = true;
   temporary_->keep();
+}
+
+void OutputFile::withdraw() noexcept {
+  if (!old_.empty() && old_is_linked_ && !published_)
+    ::unlink(old_.c_str());
+  else if (!old_.empty())
+    std::rename(old_.c_str(), target_.c_str());
+  else if (published_)
+    ::unlink(target_.c_str());
+  old_.clear();
+  published_ = false;
   temporary_.reset();
+}
+
+void OutputFile::settle() noexcept {
+  if (!old_.empty()) ::unlink(old_.c_str());
+  old_.clear();
+  published_ = false;
+  temporary_.reset();
+}
+
+void publish_together(const std::vector<OutputFile*>& files, const Together& together) {
+  try {
+    together([&] {
+      for (OutputFile* file : files) file->seal();
+    });
+    together([&] {
+      for (OutputFile* file : files) file->publish();
+    });
+  } catch (...) {
+    for (OutputFile* file : files) file->withdraw();
+    throw;
+  }
+  for (OutputFile* file : files) file->settle();
 }
 
 }  // namespace pnpbs::io

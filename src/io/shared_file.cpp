@@ -7,12 +7,6 @@
 
 namespace pnpbs::io {
 
-namespace {
-
-constexpr std::size_t kPartSize = std::size_t{1} << 20;  // bytes written or sent at a time
-
-}  // namespace
-
 SharedFile::SharedFile(std::shared_ptr<const Communicator> comm, const std::string& path,
                        std::function<void()> before_write)
     : comm_(std::move(comm)), before_write_(std::move(before_write)), output_(path) {
@@ -57,30 +51,28 @@ void SharedFile::append_text(std::string_view text) {
   });
 }
 
+// One rank alone knows its place, and drains its sink when that is full.
 void SharedFile::append_at_places(const std::function<void(Sink&)>& write) {
-  std::int64_t place = end_, size = 0;
-  if (comm_->size() > 1) {
-    agreed(*comm_, [&] {
-      Sink counter([&](std::span<const char> bytes) { size += std::ssize(bytes); });
-      write(counter);
-      counter.flush();
-    });
-    const RankSpan span = span_of(*comm_, static_cast<std::size_t>(size));
-    place += span.first;
-    end_ += span.total;
-  }
+  if (comm_->size() == 1) return write(places_);
+  std::int64_t size = 0;
   agreed(*comm_, [&] {
-    Sink sink(
-        [&](std::span<const char> bytes) {
-          if (before_write_) before_write_();
-          file_->write_at(place, bytes);
-          place += std::ssize(bytes);
-        },
-        kPartSize);
-    write(sink);
-    sink.flush();
+    Sink counter([&](std::span<const char> bytes) { size += std::ssize(bytes); });
+    write(counter);
+    counter.flush();
   });
-  if (comm_->size() == 1) end_ = place;
+  const RankSpan span = span_of(*comm_, static_cast<std::size_t>(size));
+  place_ = end_ + span.first;
+  end_ += span.total;
+  agreed(*comm_, [&] {
+    write(places_);
+    places_.flush();
+  });
+}
+
+void SharedFile::write_at_place(std::span<const char> bytes) {
+  if (before_write_) before_write_();
+  file_->write_at(place_, bytes);
+  place_ += std::ssize(bytes);
 }
 
 // A rank's bytes go to rank 0 part by part; an empty one is the last. A rank that has failed still
@@ -127,24 +119,14 @@ void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
 
 void SharedFile::close() {
   agreed(*comm_, [&] {
+    if (file_) {
+      places_.flush();
+      file_->close();
+    }
     if (stream_ < 0) return;
     const int descriptor = stream_;
     stream_ = -1;
     output_.close(descriptor);
-  });
-  if (!file_) return;
-  std::exception_ptr failure;
-  try {
-    file_->close();
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  agree_on_failure(*comm_, failure);
-}
-
-void SharedFile::publish() {
-  agreed(*comm_, [&] {
-    if (is_first()) output_.publish();
   });
 }
 

@@ -30,13 +30,20 @@ class SharedFile {
   // This text once.
   void append_text(std::string_view text);
   void close();
-  void publish();
 
+  // The file itself, on the rank that has made it and gives it its name; nullptr on the others.
+  // Local.
+  OutputFile* own() { return is_first() ? &output_ : nullptr; }
+
+  const Communicator& ranks() const { return *comm_; }
   bool is_first() const { return comm_->rank() == 0; }
 
  private:
+  static constexpr std::size_t kPartSize = std::size_t{1} << 20;  // bytes written or sent at a time
+
   void open();
   void append_at_places(const std::function<void(Sink&)>& write);
+  void write_at_place(std::span<const char> bytes);
   void append_in_turn(const std::function<void(Sink&)>& write);
 
   std::shared_ptr<const Communicator> comm_;
@@ -45,8 +52,10 @@ class SharedFile {
   // A regular file is written by all ranks at once, each at its place; what is none, such as a
   // pipe, by rank 0, to which the others send their bytes in turn.
   std::unique_ptr<RankFile> file_;
-  int stream_ = -1;  // rank 0's
-  std::int64_t end_ = 0;
+  int stream_ = -1;         // rank 0's
+  std::int64_t end_ = 0;    // of what all ranks have appended
+  std::int64_t place_ = 0;  // of this rank's next byte
+  Sink places_{[this](std::span<const char> bytes) { write_at_place(bytes); }, kPartSize};
 };
 
 }  // namespace pnpbs::io

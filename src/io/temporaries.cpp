@@ -7,10 +7,12 @@
 
 namespace pnpbs::io {
 
-// Entries are never freed: a signal may come while the list is being walked or changed.
+// Entries are never freed: a signal may come while the list is being walked or changed. Those that
+// no object has any more are taken again, but not if the walk has touched them.
 struct Temporary::Entry {
   std::string path;
-  std::atomic<bool> live{true};
+  std::atomic<bool> taken{true};
+  std::atomic<bool> live{false};  // only then is the path read
   Entry* next = nullptr;
   static std::atomic<Entry*> first;
 };
@@ -18,21 +20,40 @@ struct Temporary::Entry {
 std::atomic<Temporary::Entry*> Temporary::Entry::first{nullptr};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-Temporary::Temporary(const std::string& path) : entry_(new Entry) {
+Temporary::Entry* Temporary::free_entry() {
+  for (Entry* entry = Entry::first; entry; entry = entry->next)
+    if (!entry->taken.exchange(true)) return entry;
+  auto* entry = new Entry;
+  entry->next = Entry::first;
+  while (!Entry::first.compare_exchange_weak(entry->next, entry)) {
+  }
+  return entry;
+}
+
+Temporary::Temporary(const std::string& path) : entry_(free_entry()) {
   entry_->path = path;
-  entry_->next = Entry::first.load();
-  Entry::first.store(entry_);
+  entry_->live = true;
 }
 
 Temporary::~Temporary() {
-  if (entry_->live.exchange(false)) ::unlink(path());
+  seal();
+  if (state_ == State::open) return;  // removed by the walk
+  if (state_ == State::sealed) ::unlink(path());
+  entry_->taken = false;
 }
 
 const char* Temporary::path() const { return entry_->path.c_str(); }
 
-void Temporary::keep() { entry_->live = false; }
+bool Temporary::seal() {
+  if (state_ == State::open && entry_->live.exchange(false)) state_ = State::sealed;
+  return state_ != State::open;
+}
 
-bool Temporary::removed() const { return !entry_->live; }
+void Temporary::keep() {
+  if (seal()) state_ = State::kept;
+}
+
+bool Temporary::removed() const { return state_ == State::open && !entry_->live; }
 
 void remove_temporaries() {
   for (Temporary::Entry* entry = Temporary::Entry::first; entry; entry = entry->next) {

@@ -2,6 +2,7 @@
 // VTK's XML unstructured grid. The arrays follow the XML part as raw binary, each after its
 // length in bytes, so a million nodes cost no text conversion and no copy. The .pvtu file names
 // pieces of that kind.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -21,35 +22,69 @@ constexpr std::uint8_t vtk_triangle = 5;
 struct Array {
   std::string type, name;
   int components;
-  std::uint64_t bytes;               // of all ranks
-  std::function<void(Sink&)> write;  // this rank's
+  std::uint64_t bytes;  // of all ranks
+  std::function<void(const NodeSource&, SharedFile&)> write;
 };
 
-// An array whose values are computed one by one while they are written.
-template <typename Value, typename At>
-Array computed(const std::string& type, const std::string& name, const RankSpan& span, At at,
-               int components = 1) {
-  return {type, name, components,
-          static_cast<std::uint64_t>(span.total * components) * sizeof(Value),
-          [count = span.count * components, at](Sink& sink) {
-            for (std::int64_t i = 0; i < count; ++i) {
-              const Value value = at(static_cast<std::size_t>(i));
-              sink.bytes(&value, sizeof value);
-            }
+template <typename Value>
+std::uint64_t bytes_of(std::int64_t count, int components) {
+  return static_cast<std::uint64_t>(count * components) * sizeof(Value);
+}
+
+// An array of the nodes, as `member` of their rows has it.
+template <typename Value>
+Array of_nodes(const std::string& type, const std::string& name, const Contents& all,
+               std::vector<Value> NodeRows::*member) {
+  return {type, name, 1, bytes_of<Value>(all.nodes, 1),
+          [member](const NodeSource& nodes, SharedFile& file) {
+            nodes.for_nodes([&](const NodeRows& rows) {
+              file.append([&](Sink& sink) { sink.array(std::span<const Value>(rows.*member)); });
+            });
           }};
 }
 
+// The same of the triangles.
 template <typename Value>
-Array stored(const std::string& type, const std::string& name, const RankSpan& span,
-             const std::vector<Value>& values, int components = 1) {
-  return {type, name, 1, static_cast<std::uint64_t>(span.total * components) * sizeof(Value),
-          [&values](Sink& sink) { sink.array(std::span<const Value>(values)); }};
+Array of_triangles(const std::string& type, const std::string& name, const Contents& all,
+                   std::vector<Value> TriangleRows::*member, int components) {
+  return {type, name, 1, bytes_of<Value>(all.triangles, components),
+          [member](const NodeSource& nodes, SharedFile& file) {
+            nodes.for_triangles([&](const TriangleRows& rows) {
+              file.append([&](Sink& sink) { sink.array(std::span<const Value>(rows.*member)); });
+            });
+          }};
 }
 
-Array points(const NodeBlock& nodes) {
-  return computed<double>(
-      "Float64", "Points", nodes.nodes,
-      [&nodes](std::size_t k) { return k % 3 == 2 ? 0.0 : nodes.xy[k / 3 * 2 + k % 3]; }, 3);
+Array points(const Contents& all) {
+  return {"Float64", "Points", 3, bytes_of<double>(all.nodes, 3),
+          [](const NodeSource& nodes, SharedFile& file) {
+            nodes.for_nodes([&](const NodeRows& rows) {
+              file.append([&](Sink& sink) {
+                for (std::size_t i = 0; i < rows.ids.size(); ++i) {
+                  const std::array<double, 3> point{rows.xy[2 * i], rows.xy[2 * i + 1], 0};
+                  sink.bytes(point.data(), sizeof point);
+                }
+              });
+            });
+          }};
+}
+
+// Values that follow from their number alone; the ranks take turns.
+template <typename Value, typename At>
+Array computed(const std::string& type, const std::string& name, std::int64_t count, At at) {
+  return {type, name, 1, bytes_of<Value>(count, 1),
+          [count, at](const NodeSource&, SharedFile& file) {
+            constexpr std::int64_t part = 1 << 16;
+            for (std::int64_t begin = 0; begin < count; begin += part * file.ranks().size()) {
+              const std::int64_t first = begin + part * file.ranks().rank();
+              file.append([&](Sink& sink) {
+                for (std::int64_t i = first; i < std::min(first + part, count); ++i) {
+                  const Value value = at(i);
+                  sink.bytes(&value, sizeof value);
+                }
+              });
+            }
+          }};
 }
 
 struct Part {
@@ -60,40 +95,37 @@ struct Part {
 // What every kind of cells has: the numbers of their corners, where each cell ends in them, and
 // its type.
 template <std::uint8_t type>
-Part cells(Array connectivity, const RankSpan& span, std::int64_t corners) {
+Part cells(Array connectivity, std::int64_t count, std::int64_t corners) {
   return {"Cells",
           {std::move(connectivity),
-           computed<std::int64_t>("Int64", "offsets", span,
-                                  [first = span.first, corners](std::size_t i) {
-                                    return corners * (first + static_cast<std::int64_t>(i) + 1);
-                                  }),
-           computed<std::uint8_t>("UInt8", "types", span, [](std::size_t) { return type; })}};
+           computed<std::int64_t>("Int64", "offsets", count,
+                                  [corners](std::int64_t i) { return corners * (i + 1); }),
+           computed<std::uint8_t>("UInt8", "types", count, [](std::int64_t) { return type; })}};
 }
 
-Part triangle_cells(const NodeBlock& nodes) {
-  return cells<vtk_triangle>(stored("Int64", "connectivity", nodes.triangles, nodes.corners, 3),
-                             nodes.triangles, 3);
+Part triangle_cells(const Contents& all) {
+  return cells<vtk_triangle>(of_triangles("Int64", "connectivity", all, &TriangleRows::corners, 3),
+                             all.triangles, 3);
 }
 
-Part vertex_cells(const NodeBlock& nodes) {
-  return cells<vtk_vertex>(computed<std::int64_t>("Int64", "connectivity", nodes.nodes,
-                                                  [first = nodes.nodes.first](std::size_t i) {
-                                                    return first + static_cast<std::int64_t>(i);
-                                                  }),
-                           nodes.nodes, 1);
+Part vertex_cells(const Contents& all) {
+  return cells<vtk_vertex>(
+      computed<std::int64_t>("Int64", "connectivity", all.nodes, [](std::int64_t i) { return i; }),
+      all.nodes, 1);
 }
 
-std::vector<Part> parts_of(const NodeBlock& nodes) {
+std::vector<Part> parts_of(const Contents& all) {
   std::vector<Part> parts{{"PointData",
-                           {stored("Int64", "id", nodes.nodes, nodes.ids),
-                            stored("Int32", "tag", nodes.nodes, nodes.tags),
-                            stored("Float64", "spacing", nodes.nodes, nodes.spacing)}}};
-  if (nodes.is_piece)
-    parts[0].arrays.push_back(stored("UInt8", "vtkGhostType", nodes.nodes, nodes.ghosts));
-  if (nodes.elements)
-    parts.push_back({"CellData", {stored("Float32", "quality", nodes.triangles, nodes.quality)}});
-  parts.push_back({"Points", {points(nodes)}});
-  parts.push_back(nodes.elements ? triangle_cells(nodes) : vertex_cells(nodes));
+                           {of_nodes("Int64", "id", all, &NodeRows::ids),
+                            of_nodes("Int32", "tag", all, &NodeRows::tags),
+                            of_nodes("Float64", "spacing", all, &NodeRows::spacing)}}};
+  if (all.is_piece)
+    parts[0].arrays.push_back(of_nodes("UInt8", "vtkGhostType", all, &NodeRows::ghosts));
+  if (all.elements)
+    parts.push_back(
+        {"CellData", {of_triangles("Float32", "quality", all, &TriangleRows::quality, 1)}});
+  parts.push_back({"Points", {points(all)}});
+  parts.push_back(all.elements ? triangle_cells(all) : vertex_cells(all));
   return parts;
 }
 
@@ -145,20 +177,21 @@ std::string in_xml(const std::string& text) {
 
 }  // namespace
 
-void write_vtu(const NodeBlock& nodes, SharedFile& file) {
-  const std::vector<Part> parts = parts_of(nodes);
-  const std::int64_t cells = nodes.elements ? nodes.triangles.total : nodes.nodes.total;
+void write_vtu(const NodeSource& nodes, SharedFile& file) {
+  const std::vector<Part> parts = parts_of(nodes.contents());
+  const std::int64_t cells =
+      nodes.contents().elements ? nodes.contents().triangles : nodes.contents().nodes;
   file.append_text(opening("UnstructuredGrid") +
                    "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
-                   std::to_string(nodes.nodes.total) + "\" NumberOfCells=\"" +
+                   std::to_string(nodes.contents().nodes) + "\" NumberOfCells=\"" +
                    std::to_string(cells) + "\">\n" + declaration(parts) +
                    "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
   for (const Part& part : parts) {
     for (const Array& array : part.arrays) {
       file.append([&](Sink& sink) {
         if (file.is_first()) sink.bytes(&array.bytes, sizeof array.bytes);
-        array.write(sink);
       });
+      array.write(nodes, file);
     }
   }
   file.append_text("\n  </AppendedData>\n</VTKFile>\n");
@@ -166,7 +199,7 @@ void write_vtu(const NodeBlock& nodes, SharedFile& file) {
 
 void write_pvtu(const std::vector<std::string>& pieces, bool elements, SharedFile& file) {
   std::string text = opening("PUnstructuredGrid") + "  <PUnstructuredGrid GhostLevel=\"0\">\n";
-  NodeBlock declared;  // empty, but with all the arrays that pieces have
+  Contents declared;  // nothing, but with all the arrays that pieces have
   declared.elements = elements;
   declared.is_piece = true;
   for (const Part& part : parts_of(declared)) {

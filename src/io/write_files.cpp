@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "io/node_blocks.hpp"
+#include "io/nodes_by_id.hpp"
+#include "io/own_piece.hpp"
+#include "io/rows.hpp"
 
 namespace pnpbs::io {
 
@@ -27,7 +29,7 @@ std::string with_extension(const std::string& path, const char* extension) {
   return std::filesystem::path(path).replace_extension(extension).string();
 }
 
-// The files of one call. Their contents are collected once.
+// The files of one call.
 class Writing {
  public:
   Writing(Placement& placement, std::size_t files) : placement_(placement), expected_(files) {}
@@ -42,9 +44,13 @@ class Writing {
     ++done_;
   }
 
-  // Pieces before the file that names them.
+  // All ranks' files or none.
   void publish() {
-    for (const auto& file : files_) file->publish();
+    agreed(*comm(), [&] { give_up_if_asked(); });
+    std::vector<OutputFile*> own;
+    for (const auto& file : files_)
+      if (file->own()) own.push_back(file->own());
+    publish_together(own, [this](const std::function<void()>& step) { agreed(*comm(), step); });
   }
 
  private:
@@ -56,19 +62,20 @@ class Writing {
   }
 
   void add_file(const FileWish& wish) {
-    std::optional<NodeBlock>& block = wish.elements ? with_elements_ : nodes_only_;
-    if (!block) block = block_by_id(placement_, wish.elements);
+    std::optional<NodesById>& nodes = wish.elements ? with_elements_ : nodes_only_;
+    if (!nodes) nodes.emplace(placement_, wish.elements);
     SharedFile& file = open(comm(), wish.path);
-    wish.format->write(*block, file);
+    wish.format->write(*nodes, file);
     file.close();
   }
 
   // Each rank alone; what fails on one is told to all.
   void add_piece(const FileWish& wish) {
-    const NodeBlock block = own_piece(placement_, wish.elements);
+    prepare(placement_, wish.elements);
     agreed(*comm(), [&] {
+      const OwnPiece piece(placement_, wish.elements);
       SharedFile& file = open(serial_communicator(), piece_path(wish.path, comm()->rank()));
-      write_vtu(block, file);
+      write_vtu(piece, file);
       file.close();
     });
   }
@@ -82,7 +89,8 @@ class Writing {
   }
 
   void give_up_if_asked() const {
-    const double fraction = static_cast<double>(done_) / static_cast<double>(expected_);
+    const double fraction =
+        done_ == expected_ ? 1 : static_cast<double>(done_) / static_cast<double>(expected_);
     if (placement_.asks_to_stop(fraction, nodes_))
       throw Error(PNPBS_STOPPED, "stopped by the monitor; no file was written");
   }
@@ -90,7 +98,7 @@ class Writing {
   Placement& placement_;
   const std::int64_t nodes_ = placement_.global_count();
   std::size_t expected_, done_ = 0;
-  std::optional<NodeBlock> with_elements_, nodes_only_;
+  std::optional<NodesById> with_elements_, nodes_only_;
   std::vector<std::unique_ptr<SharedFile>> files_;
 };
 
@@ -120,9 +128,12 @@ std::string piece_path(const std::string& path, int rank) {
 }
 
 void write_files(Placement& placement, const std::vector<FileWish>& wishes) {
-  Writing writing(placement, wishes.size());
-  for (const FileWish& wish : wishes) writing.add(wish);
-  writing.publish();
+  // What one rank cannot do at any step of it, all give up.
+  agreed(placement.communicator(), [&] {
+    Writing writing(placement, wishes.size());
+    for (const FileWish& wish : wishes) writing.add(wish);
+    writing.publish();
+  });
 }
 
 }  // namespace pnpbs::io

@@ -19,6 +19,14 @@ std::vector<std::int32_t> boundary_nodes_near(const DomainMap& map, const Point<
   return near;
 }
 
+// Is it in the sorted row? Where a boundary is fine these are mostly consecutive numbers.
+bool holds(const std::vector<std::int32_t>& row, std::int32_t number) {
+  const std::int64_t place = std::int64_t{number} - row.front();
+  if (0 <= place && place < std::ssize(row) && row[static_cast<std::size_t>(place)] == number)
+    return true;
+  return std::binary_search(row.begin(), row.end(), number);
+}
+
 }  // namespace
 
 void BoundarySight::reset(std::size_t boundary_nodes) {
@@ -48,7 +56,8 @@ void BoundarySight::look_from(const Nodes<2>& nodes, std::int64_t i, const NearE
   std::vector<std::int32_t> seen = boundary_nodes_near(map, x, kRounding * reach);
   std::erase_if(seen, [&](std::int32_t c) {
     const Point<2>& y = map.boundary().nodes[static_cast<std::size_t>(c)].position;
-    return c == b || distance<2>(x, y) > kRounding * reach ||
+    if (c == b) return false;  // nobody asks, and the numbers stay consecutive
+    return distance<2>(x, y) > kRounding * reach ||
            !way_is_free(map, fans, x, b, y, c, near_edges.edges_of(i));
   });
   seen_[index] = std::move(seen);
@@ -56,9 +65,12 @@ void BoundarySight::look_from(const Nodes<2>& nodes, std::int64_t i, const NearE
 }
 
 bool BoundarySight::sees(std::int32_t b, std::int32_t c) const {
+  constexpr std::size_t kFew = 32;
+  const std::vector<std::int32_t>& row = seen_[static_cast<std::size_t>(b)];
+  if (row.size() > kFew) return holds(row, c);
   // Some ten, compared side by side.
   bool seen = false;
-  for (const std::int32_t other : seen_[static_cast<std::size_t>(b)]) seen = seen | (other == c);
+  for (const std::int32_t other : row) seen = seen | (other == c);
   return seen;
 }
 

@@ -144,7 +144,13 @@ bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>&
     if (!(std::min(x[k], y[k]) < node[k] && node[k] < std::max(x[k], y[k]))) return false;
     return !fans.lets_pass(map.boundary(), boundary_node, x, y);
   };
-  for (std::int32_t e : edges) {
+  const std::span<const std::int32_t> row(edges);
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (const std::size_t off = map.edge_blocks().edges_off_the_way(row, k, x, y)) {
+      k += off - 1;
+      continue;
+    }
+    const std::int32_t e = row[k];
     const Point<2>&a = map.edge_begin(e), &b = map.edge_end(e);
     if (boxes_are_apart(x, y, a, b)) continue;  // most are
     const std::int32_t begin = map.edge(e).begin, end = map.edge(e).end;

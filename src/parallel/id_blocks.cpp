@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 #include <string>
 
 #include "core/error.hpp"
@@ -13,11 +14,25 @@ namespace pnpbs {
 
 namespace {
 
+constexpr std::int64_t kSentAtOnce = 1 << 15;
+
+// This rank's, increasing.
+struct OwnedIds {
+  std::int64_t count;
+  const std::function<std::int64_t(std::int64_t)>& id;
+
+  std::int64_t count_below(std::int64_t bound) const {
+    const auto all = std::views::iota(std::int64_t{0}, count);
+    return *std::ranges::lower_bound(all, bound, {}, std::cref(id));
+  }
+};
+
 // For every wanted number, the least id that has at least so many smaller ones: by bisection, all
 // at once, so that no rank ever sees the others' ids.
-std::vector<std::int64_t> ids_at(const Communicator& comm, const std::vector<std::int64_t>& owned,
-                                 const std::vector<std::int64_t>& numbers) {
-  const double most = comm.largest(owned.empty() ? 0 : static_cast<double>(owned.back()));
+std::vector<std::int64_t> ids_that_begin(const Communicator& comm, const OwnedIds& owned,
+                                         const std::vector<std::int64_t>& numbers) {
+  const double most =
+      comm.largest(owned.count == 0 ? 0 : static_cast<double>(owned.id(owned.count - 1)));
   // A double may have lost the last bits of a large id.
   const std::int64_t bound = most < 0x1p62 ? static_cast<std::int64_t>(most * (1 + 0x1p-40)) + 2
                                            : std::numeric_limits<std::int64_t>::max();
@@ -26,7 +41,7 @@ std::vector<std::int64_t> ids_at(const Communicator& comm, const std::vector<std
     std::vector<std::int64_t> middle(numbers.size()), below(numbers.size());
     for (std::size_t k = 0; k < numbers.size(); ++k) {
       middle[k] = low[k] + (high[k] - low[k]) / 2;
-      below[k] = std::lower_bound(owned.begin(), owned.end(), middle[k]) - owned.begin();
+      below[k] = owned.count_below(middle[k]);
     }
     comm.sum(below);
     for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -42,16 +57,41 @@ std::vector<std::int64_t> ids_at(const Communicator& comm, const std::vector<std
 
 }  // namespace
 
-IdBlocks::IdBlocks(const Communicator& comm, const std::vector<std::int64_t>& owned) : comm_(comm) {
-  const std::int64_t total = span_of(comm, owned.size()).total;
-  std::vector<std::int64_t> numbers;
+IdBlocks::IdBlocks(const Communicator& comm, std::int64_t owned,
+                   const std::function<std::int64_t(std::int64_t)>& owned_id)
+    : comm_(comm) {
+  const std::int64_t total = span_of(comm, static_cast<std::size_t>(owned)).total;
+  std::vector<std::int64_t> numbers{0};  // that blocks begin with
   // total * r / size, without a product that could overflow.
-  for (int r = 1; r < comm.size(); ++r)
+  for (int r = 1; r <= comm.size(); ++r)
     numbers.push_back(total / comm.size() * r + total % comm.size() * r / comm.size());
-  if (comm.size() > 1) begin_ = ids_at(comm, owned, numbers);
-  ids_ = delivered(comm, owned, [this](std::int64_t id) { return rank_of(id); });
-  std::sort(ids_.begin(), ids_.end());
-  span_ = span_of(comm, ids_.size());
+  const auto rank = static_cast<std::size_t>(comm.rank());
+  span_ = {numbers[rank], numbers[rank + 1] - numbers[rank], total};
+  ids_.reserve(static_cast<std::size_t>(span_.count));
+  numbers.erase(numbers.begin());
+  numbers.pop_back();
+  if (comm.size() > 1) begin_ = ids_that_begin(comm, {owned, owned_id}, numbers);
+  // Not all at once: the messages would need several times the memory of the ids.
+  const auto most = static_cast<std::int64_t>(comm.largest(static_cast<double>(owned)));
+  for (std::int64_t begin = 0; begin < most; begin += kSentAtOnce) {
+    std::vector<std::int64_t> part;
+    for (std::int64_t k = begin; k < std::min(owned, begin + kSentAtOnce); ++k)
+      part.push_back(owned_id(k));
+    for (const std::int64_t id :
+         delivered(comm, part, [this](std::int64_t i) { return rank_of(i); }))
+      ids_.push_back(id);
+  }
+  std::ranges::sort(ids_);
+}
+
+std::vector<std::int64_t> IdBlocks::ids_at(const std::vector<std::int64_t>& numbers) const {
+  std::vector<std::int64_t> ids(numbers.size(), 0);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const std::int64_t place = numbers[k] - span_.first;
+    if (place >= 0 && place < span_.count) ids[k] = ids_[static_cast<std::size_t>(place)];
+  }
+  comm_.sum(ids);
+  return ids;
 }
 
 int IdBlocks::rank_of(std::int64_t id) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "parallel/rank_span.hpp"
@@ -12,11 +13,16 @@ namespace pnpbs {
 
 class IdBlocks {
  public:
-  // owned: ids of this rank's nodes, increasing; no id is on two ranks. Collective.
-  IdBlocks(const Communicator& comm, const std::vector<std::int64_t>& owned);
+  // owned_id(k): id of the k-th of this rank's nodes, increasing; no id is on two ranks.
+  // Collective.
+  IdBlocks(const Communicator& comm, std::int64_t owned,
+           const std::function<std::int64_t(std::int64_t)>& owned_id);
 
   int rank_of(std::int64_t id) const;                // whose block it is in
   const RankSpan& numbers() const { return span_; }  // of this rank's block
+
+  // The ids of the nodes with these numbers, the same ones on all ranks. Collective.
+  std::vector<std::int64_t> ids_at(const std::vector<std::int64_t>& numbers) const;
 
   // The numbers of any nodes, by id. Collective.
   std::vector<std::int64_t> numbers_of(const std::vector<std::int64_t>& ids) const;

@@ -25,6 +25,15 @@ void check(int code, const char* call) {
     throw Error(PNPBS_ERROR_MPI, std::string(call) + " failed with code " + std::to_string(code));
 }
 
+// After it has ended MPI would abort the process. Asked where calls begin to talk.
+void require_mpi_runs() {
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (finalized)
+    throw Error(PNPBS_ERROR_MPI,
+                "MPI is already finalised: what is computed over its ranks must come before");
+}
+
 // The length of a message, as MPI takes it.
 int count(std::size_t n) {
   if (n > 0x7fffffff)
@@ -68,6 +77,7 @@ class MpiCommunicator : public Communicator {
   // room here are received one by one and dropped, because its sender must not wait for ever.
   std::vector<Bytes> exchange(const std::vector<int>& neighbours,
                               const std::vector<Bytes>& outgoing) const override {
+    require_mpi_runs();
     const std::size_t n = neighbours.size();
     std::vector<std::uint64_t> sizes_out(n), sizes_in(n);
     std::vector<MPI_Request> requests(2 * n);
@@ -125,24 +135,13 @@ class MpiCommunicator : public Communicator {
   std::unique_ptr<RankFile> open_file(const std::string& path,
                                       const std::string& name) const override {
     std::unique_ptr<RankFile> file;
-    std::exception_ptr failure;
-    try {
-      file = size_ == 1 ? open_alone(path, name) : open_by_mpi(comm_, path, name);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    try {
-      agree_on_failure(*this, failure);
-    } catch (...) {
-      // Closing is collective and would wait for the ranks that could not open it.
-      if (!failure) (void)file.release();
-      throw;
-    }
+    agreed(*this, [&] { file = size_ == 1 ? open_alone(path, name) : open_by_mpi(path, name); });
     return file;
   }
 
  protected:
   Reduction reduce(const Reduction& mine) const override {
+    require_mpi_runs();
     Reduction all;
     check(MPI_Allreduce(&mine, &all, 1, reduction_, combining_, comm_), "MPI_Allreduce");
     return all;

@@ -3,6 +3,8 @@
 
 #if PNPBS_HAVE_MPI
 
+#include <mpi.h>
+
 #include "core/error.hpp"
 #include "parallel/mpi_file.hpp"
 
@@ -14,8 +16,8 @@ class MpiFile : public RankFile {
  public:
   // Errors of files are returned unless the host has asked for something else, so say it for this
   // one; for the opening itself the handler of MPI_FILE_NULL counts.
-  MpiFile(MPI_Comm comm, const std::string& path, std::string name) : name_(std::move(name)) {
-    check(MPI_File_open(comm, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_));
+  MpiFile(const std::string& path, std::string name) : name_(std::move(name)) {
+    check(MPI_File_open(MPI_COMM_SELF, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_));
     MPI_File_set_errhandler(file_, MPI_ERRORS_RETURN);
   }
   MpiFile(const MpiFile&) = delete;
@@ -36,7 +38,11 @@ class MpiFile : public RankFile {
                                         " bytes were written; is the disk full?");
   }
 
-  void close() override { check(MPI_File_close(&file_)); }
+  void close() override {
+    const int code = MPI_File_close(&file_);
+    file_ = MPI_FILE_NULL;
+    check(code);
+  }
 
  private:
   void check(int code) const {
@@ -53,9 +59,8 @@ class MpiFile : public RankFile {
 
 }  // namespace
 
-std::unique_ptr<RankFile> open_by_mpi(MPI_Comm comm, const std::string& path,
-                                      const std::string& name) {
-  return std::make_unique<MpiFile>(comm, path, name);
+std::unique_ptr<RankFile> open_by_mpi(const std::string& path, const std::string& name) {
+  return std::make_unique<MpiFile>(path, name);
 }
 
 }  // namespace pnpbs

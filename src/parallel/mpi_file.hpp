@@ -2,14 +2,12 @@
 // A RankFile by MPI-IO, which knows how to share a file over the network; only in builds with MPI.
 #pragma once
 
-#include <mpi.h>
-
 #include "parallel/rank_file.hpp"
 
 namespace pnpbs {
 
-// The file must exist. Collective. Throws Error(PNPBS_ERROR_FILE), not always on all ranks.
-std::unique_ptr<RankFile> open_by_mpi(MPI_Comm comm, const std::string& path,
-                                      const std::string& name);
+// The file must exist. Each rank opens it by itself: where one cannot, a collective opening waits
+// for ever in some implementations. Throws Error(PNPBS_ERROR_FILE).
+std::unique_ptr<RankFile> open_by_mpi(const std::string& path, const std::string& name);
 
 }  // namespace pnpbs

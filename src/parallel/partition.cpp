@@ -7,11 +7,8 @@
 #include <tuple>
 
 #include "core/build_config.hpp"
+#include "parallel/metis_functions.hpp"
 #include "tree/leaf_graph.hpp"
-
-#if PNPBS_HAVE_MPI
-#include <metis.h>
-#endif
 
 namespace pnpbs {
 
@@ -90,7 +87,7 @@ bool cut_graph(const WorkGraph& graph, int ranks, std::int64_t seed, std::vector
   idx_t vertices = static_cast<idx_t>(graph.cell.size()), constraints = 1, parts = ranks, cut = 0;
   if (vertices < 4 * parts) return false;
   idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
+  metis().set_default_options(options);
   options[METIS_OPTION_SEED] = static_cast<idx_t>(seed);
   options[METIS_OPTION_UFACTOR] = 15;  // allows an imbalance of 1.015
   // Bisection cuts a fifth less than k-way partitioning at few parts, and the best of several
@@ -102,7 +99,7 @@ bool cut_graph(const WorkGraph& graph, int ranks, std::int64_t seed, std::vector
   auto* neighbour = const_cast<idx_t*>(graph.neighbour.data());
   auto* weight = const_cast<idx_t*>(graph.weight.data());
   auto* cut_weight = const_cast<idx_t*>(graph.cut_weight.data());
-  return (bisect ? METIS_PartGraphRecursive : METIS_PartGraphKway)(
+  return (bisect ? metis().part_graph_recursive : metis().part_graph_kway)(
              &vertices, &constraints, offset, neighbour, weight, nullptr, cut_weight, &parts,
              nullptr, nullptr, options, &cut, part.data()) == METIS_OK;
 }

@@ -12,9 +12,8 @@ namespace pnpbs {
 class RankFile {
  public:
   virtual ~RankFile() = default;  // closes if nobody has; not told if that fails
-  // Local. Throws Error(PNPBS_ERROR_FILE).
+  // Local, both. Throw Error(PNPBS_ERROR_FILE).
   virtual void write_at(std::int64_t place, std::span<const char> bytes) = 0;
-  // Collective over the ranks that opened it. Throws Error(PNPBS_ERROR_FILE).
   virtual void close() = 0;
 };
 

@@ -7,11 +7,13 @@
 
 #include "io/sink.hpp"
 #include "picture/node_set.hpp"
+#include "picture/triangle_values.hpp"
 
 namespace pnpbs::picture {
 
 struct PictureStyle {
-  bool bubbles = false;  // draw every node's bubble, a circle of diameter d
+  bool bubbles = false;                          // draw every node's bubble, a circle of diameter d
+  TriangleColour colour = TriangleColour::none;  // otherwise triangles instead of nodes
 };
 
 struct Format {

@@ -4,27 +4,27 @@
 #include "picture/picture.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "picture/colour_bar.hpp"
+#include "picture/lettering.hpp"
 #include "picture/palette.hpp"
+#include "picture/triangle_fill.hpp"
 
 namespace pnpbs::picture {
 namespace {
 
-constexpr int spacing_classes = 48;        // discs of one class share colour and size
+constexpr int spacing_classes = 48;  // discs of one class share colour and size
+// Cairo takes some 2 kB of memory for each disc of a path.
+constexpr std::size_t discs_at_once = 4096;
 constexpr double disc_over_spacing = 0.6;  // diameter over d
 constexpr double dense_disc = 0.85;        // the same where pixels are few
 constexpr double boundary_disc = 0.45;
 constexpr double disc_in_bubble = 0.22;
-constexpr double least_disc = 1.1;          // pixels
-constexpr double edges_from_spacing = 7.0;  // pixels; below, triangle edges would be a grey mist
-
-void set_colour(cairo_t* cairo, const Colour& c, double opacity = 1) {
-  cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
-}
+constexpr double least_disc = 1.1;      // pixels
+constexpr double edge_on_colour = 0.3;  // opacity
 
 // ------------------------------------------------------------------------ spacing -----------
 
@@ -58,10 +58,10 @@ class SpacingScale {
 // The length of the shortest triangle edge at each node, at most d: room for its disc.
 std::vector<double> room_at(const NodeSet& nodes) {
   std::vector<double> room = nodes.spacing;
-  for (std::size_t t = 0; t < nodes.triangle_count(); ++t) {
+  for (const auto& corners : nodes.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::size_t>(nodes.triangles[3 * t + k]);
-      const auto b = static_cast<std::size_t>(nodes.triangles[3 * t + (k + 1) % 3]);
+      const auto a = static_cast<std::size_t>(corners[k]);
+      const auto b = static_cast<std::size_t>(corners[(k + 1) % 3]);
       const double length =
           std::hypot(nodes.xy[2 * b] - nodes.xy[2 * a], nodes.xy[2 * b + 1] - nodes.xy[2 * a + 1]);
       room[a] = std::min(room[a], length);
@@ -105,11 +105,12 @@ class Painter {
     cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
   }
 
-  void triangles();
+  void triangles(const Colour& colour, double opacity);
   void bubbles();
   void outline();
   void discs(double inner_over_spacing, double boundary_over_spacing);
   void legend();
+  void legend(const TriangleValues& values);
 
  private:
   double x(std::size_t node) const { return frame_.x(nodes_.xy[2 * node]); }
@@ -117,10 +118,11 @@ class Painter {
   Colour colour_of(double spacing) const { return spacing_colour(scale_.fraction(spacing)); }
   void bubble(std::size_t node);
   void discs_of(const std::vector<std::size_t>& members, const Colour& colour, double diameter);
+  double begin_legend(double font_size);
+  void node_count(double base);
   void scale_bar(double left, double base);
   void colour_bar(double left, double base, double width);
   double key(double left, double base, const std::string& meaning, const Colour& colour);
-  double text(double x, double y, const std::string& text, double align);
   void dot(double x, double y);
 
   cairo_t* cairo_;
@@ -136,19 +138,19 @@ void Painter::dot(double x, double y) {
   cairo_close_path(cairo_);
 }
 
-void Painter::triangles() {
+void Painter::triangles(const Colour& colour, double opacity) {
   if (nodes_.triangles.empty()) return;
   if (frame_.pixels(frame_.typical_spacing) < edges_from_spacing) return;
-  for (std::size_t t = 0; t < nodes_.triangle_count(); ++t) {
+  for (const auto& corners : nodes_.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::size_t>(nodes_.triangles[3 * t + k]);
-      const auto b = static_cast<std::size_t>(nodes_.triangles[3 * t + (k + 1) % 3]);
+      const auto a = static_cast<std::size_t>(corners[k]);
+      const auto b = static_cast<std::size_t>(corners[(k + 1) % 3]);
       if (a > b) continue;  // inner edges come in both directions; the outline has the others
       cairo_move_to(cairo_, x(a), y(a));
       cairo_line_to(cairo_, x(b), y(b));
     }
   }
-  set_colour(cairo_, triangle_edge);
+  set_colour(cairo_, colour, opacity);
   cairo_set_line_width(cairo_, frame_.line_width * 0.6);
   cairo_stroke(cairo_);
 }
@@ -200,20 +202,16 @@ void Painter::discs(double inner_over_spacing, double boundary_over_spacing) {
 void Painter::discs_of(const std::vector<std::size_t>& members, const Colour& colour,
                        double diameter) {
   if (members.empty()) return;
-  for (const std::size_t node : members) dot(x(node), y(node));
   set_colour(cairo_, colour);
   cairo_set_line_width(cairo_, std::max(least_disc, diameter));
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    dot(x(members[k]), y(members[k]));
+    if ((k + 1) % discs_at_once == 0) cairo_stroke(cairo_);
+  }
   cairo_stroke(cairo_);
 }
 
 // ------------------------------------------------------------------------ legend ------------
-
-// Three digits are enough for a legend.
-std::string short_number(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
-  return {text, end.ptr};
-}
 
 // 103 214 instead of 103214.
 std::string grouped(std::size_t count) {
@@ -231,17 +229,6 @@ double round_below(double value) {
   return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
 }
 
-// Returns where the text ends.
-double Painter::text(double x, double y, const std::string& text, double align) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(cairo_, text.c_str(), &extents);
-  const double left = x - align * extents.x_advance;
-  cairo_move_to(cairo_, left, y);
-  set_colour(cairo_, ink);
-  cairo_show_text(cairo_, text.c_str());
-  return left + extents.x_advance;
-}
-
 void Painter::scale_bar(double left, double base) {
   const double length = round_below(frame_.from_pixels(0.22 * frame_.width));
   const double right = left + frame_.pixels(length);
@@ -253,7 +240,7 @@ void Painter::scale_bar(double left, double base) {
   set_colour(cairo_, ink);
   cairo_set_line_width(cairo_, 1.2 * frame_.line_width);
   cairo_stroke(cairo_);
-  text(0.5 * (left + right), base - 0.6 * frame_.font_size, short_number(length), 0.5);
+  draw_text(cairo_, 0.5 * (left + right), base - 0.6 * frame_.font_size, short_number(length), 0.5);
 }
 
 void Painter::colour_bar(double left, double base, double width) {
@@ -268,9 +255,9 @@ void Painter::colour_bar(double left, double base, double width) {
   cairo_fill(cairo_);
   cairo_pattern_destroy(gradient);
   const double above = base - height - 0.45 * frame_.font_size;
-  text(left, above, "d = " + short_number(scale_.least()), 0);
-  text(left + 0.5 * width, above, short_number(scale_.at(0.5)), 0.5);
-  text(left + width, above, short_number(scale_.largest()), 1);
+  draw_text(cairo_, left, above, "d = " + short_number(scale_.least()), 0);
+  draw_text(cairo_, left + 0.5 * width, above, short_number(scale_.at(0.5)), 0.5);
+  draw_text(cairo_, left + width, above, short_number(scale_.largest()), 1);
 }
 
 // A disc and what it means; returns where that ends.
@@ -280,24 +267,44 @@ double Painter::key(double left, double base, const std::string& meaning, const 
   set_colour(cairo_, colour);
   cairo_set_line_width(cairo_, size);
   cairo_stroke(cairo_);
-  return text(left + 1.5 * size, base, meaning, 0);
+  return draw_text(cairo_, left + 1.5 * size, base, meaning, 0);
+}
+
+// Returns the line the legend stands on.
+double Painter::begin_legend(double font_size) {
+  cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo_, font_size);
+  const double base = frame_.height - frame_.margin;
+  scale_bar(frame_.margin, base);
+  return base;
+}
+
+void Painter::node_count(double base) {
+  draw_text(cairo_, frame_.width - frame_.margin, base, grouped(nodes_.size()) + " nodes", 1);
+}
+
+void Painter::legend(const TriangleValues& values) {
+  // High and narrow pictures have not room for three things beside each other in large letters.
+  const double font_size = std::min(frame_.font_size, frame_.width / 45);
+  const double base = begin_legend(font_size);
+  draw_colour_bar(cairo_, values.scale(), values.title(),
+                  {0.32 * frame_.width, base, 0.36 * frame_.width, font_size});
+  node_count(base);
 }
 
 void Painter::legend() {
-  cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cairo_, frame_.font_size);
-  const double base = frame_.height - frame_.margin;
+  const double base = begin_legend(frame_.font_size);
   const double middle = 0.3 * frame_.width;
-  scale_bar(frame_.margin, base);
   double end = middle + 0.28 * frame_.width;
   if (scale_.uniform()) {
-    end = text(middle, base, "d = " + short_number(scale_.least()), 0) + frame_.font_size;
+    end = draw_text(cairo_, middle, base, "d = " + short_number(scale_.least()), 0) +
+          frame_.font_size;
     end = key(end, base, "inner", colour_of(scale_.least()));
   } else {
     colour_bar(middle, base, end - middle);
   }
   key(end + frame_.font_size, base, "boundary", boundary_node);
-  text(frame_.width - frame_.margin, base, grouped(nodes_.size()) + " nodes", 1);
+  node_count(base);
 }
 
 }  // namespace
@@ -319,12 +326,20 @@ void draw_picture(cairo_t* cairo, const NodeSet& nodes, const PictureFrame& fram
   set_colour(cairo, paper);
   cairo_paint(cairo);
   Painter painter(cairo, nodes, frame);
+  if (style.colour != TriangleColour::none) {
+    const TriangleValues values(nodes, style.colour);
+    fill_triangles(cairo, frame, values);
+    painter.triangles(ink, edge_on_colour);
+    painter.outline();
+    painter.legend(values);
+    return;
+  }
   if (style.bubbles) {
     painter.bubbles();
     painter.outline();
     painter.discs(disc_in_bubble, disc_in_bubble);
   } else {
-    painter.triangles();
+    painter.triangles(triangle_edge, 1);
     painter.outline();
     painter.discs(disc_size(frame), boundary_disc);
   }

@@ -9,6 +9,8 @@
 
 namespace pnpbs::picture {
 
+constexpr double edges_from_spacing = 7.0;  // pixels; below, triangle edges would be a grey mist
+
 // Where the domain lies in the picture, and how large things are. Lengths in pixels, except
 // where they belong to the domain.
 struct PictureFrame {

@@ -1,12 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cairo-svg.h>
 
+#include <optional>
+#include <string>
+
 #include "picture/cairo_surface.hpp"
+#include "picture/colour_bar.hpp"
 #include "picture/picture.hpp"
 
 namespace pnpbs::picture {
+namespace {
 
-void write_svg(const NodeSet& nodes, const PictureStyle& style, io::Sink& sink) {
+// Puts a description in words into the file: cairo draws letters as shapes, which neither a search
+// nor a screen reader finds.
+class Describer {
+ public:
+  Describer(io::Sink& sink, const std::string& words)
+      : sink_(sink), element_("\n<desc>" + words + "</desc>") {}
+
+  void operator()(std::span<const char> part) {
+    if (described_) return sink_.bytes(part.data(), part.size());
+    head_.append(part.data(), part.size());
+    const std::size_t root = head_.find("<svg");
+    const std::size_t end = root == std::string::npos ? root : head_.find('>', root);
+    if (end == std::string::npos) return;
+    head_.insert(end + 1, element_);
+    sink_.text(head_);
+    described_ = true;
+  }
+
+ private:
+  io::Sink& sink_;
+  std::string element_, head_;
+  bool described_ = false;
+};
+
+void write_plain(const NodeSet& nodes, const PictureStyle& style, io::Sink& sink) {
   const PictureFrame frame = frame_for(nodes);
   CairoStream stream(sink);
   const Surface surface(
@@ -20,6 +49,17 @@ void write_svg(const NodeSet& nodes, const PictureStyle& style, io::Sink& sink) 
   }
   cairo_surface_finish(surface.get());
   stream.check(cairo_surface_status(surface.get()));
+}
+
+}  // namespace
+
+void write_svg(const NodeSet& nodes, const PictureStyle& style, io::Sink& sink) {
+  if (style.colour == TriangleColour::none) return write_plain(nodes, style, sink);
+  const TriangleValues values(nodes, style.colour);
+  Describer describer(sink, "Triangles by " + words_of(values.scale(), values.title()));
+  io::Sink described([&describer](std::span<const char> part) { describer(part); });
+  write_plain(nodes, style, described);
+  described.flush();
 }
 
 }  // namespace pnpbs::picture

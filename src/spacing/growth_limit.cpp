@@ -10,13 +10,13 @@ namespace pnpbs {
 
 GrowthLimitedSpacing::GrowthLimitedSpacing(const PlaneDomain& domain,
                                            std::shared_ptr<const Spacing<2>> raw, double growth,
-                                           std::int64_t max_nodes)
+                                           const NodeLimit& limit)
     : raw_(std::move(raw)), growth_(growth) {
   const SpacingEvaluator checked = [&](std::int64_t n, const Point<2>* x, double* d) {
     evaluate_spacing<2>(*raw_, domain.area(), n, x, d);
   };
-  boundary_ = lay_boundary(domain, checked, max_nodes);
-  map_.build(domain.bounds(), boundary_, checked, max_nodes, growth);
+  boundary_ = lay_boundary(domain, checked, limit.max_nodes);
+  map_.build(domain.bounds(), boundary_, checked, limit, growth);
   link_leaves();
   sample_leaves(domain.area());
   relax();

@@ -18,7 +18,7 @@ namespace pnpbs {
 class GrowthLimitedSpacing : public Spacing<2> {
  public:
   GrowthLimitedSpacing(const PlaneDomain& domain, std::shared_ptr<const Spacing<2>> raw,
-                       double growth, std::int64_t max_nodes);
+                       double growth, const NodeLimit& limit);
   void evaluate(std::int64_t n, const Point<2>* x, double* d) const override;
 
  private:

@@ -52,6 +52,13 @@ void GridSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) 
   for_each("pnpbs::GridSpacing::evaluate", n, [=, this](std::int64_t i) { d[i] = at(x[i]); });
 }
 
+template <int Dim>
+void BoundedSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
+  spacing_->evaluate(n, x, d);
+  for (std::int64_t i = 0; i < n; ++i)
+    if (d[i] > bound_ && std::isfinite(d[i])) d[i] = bound_;
+}
+
 namespace {
 
 template <int Dim>
@@ -82,9 +89,11 @@ void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t 
       message += " is not finite; any number of nodes could be meant";
     else if (d[i] <= 0)
       message += " would mean infinitely many nodes; d must be greater than 0";
-    else
+    else if (std::isfinite(meant_nodes<Dim>(d[i], measure)))
       message += " would mean about " + number_text(std::round(meant_nodes<Dim>(d[i], measure))) +
-                 " nodes in the domain; use a larger d";
+                 " nodes if it held in the whole domain; use a larger d";
+    else
+      message += " would mean more nodes than there are numbers for; use a larger d";
     throw Error(PNPBS_ERROR_SPACING, message);
   }
 }
@@ -99,5 +108,7 @@ template class CallbackSpacing<2>;
 template class CallbackSpacing<3>;
 template class GridSpacing<2>;
 template class GridSpacing<3>;
+template class BoundedSpacing<2>;
+template class BoundedSpacing<3>;
 
 }  // namespace pnpbs

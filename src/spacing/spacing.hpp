@@ -60,6 +60,20 @@ class GridSpacing : public Spacing<Dim> {
   std::vector<double> values_;
 };
 
+// What another spacing says, held down to a bound: far above the size of the domain, where all d
+// mean the same, arithmetic with d would overflow. Values that are bad stay, to be reported.
+template <int Dim>
+class BoundedSpacing : public Spacing<Dim> {
+ public:
+  BoundedSpacing(std::shared_ptr<const Spacing<Dim>> spacing, double bound)
+      : spacing_(std::move(spacing)), bound_(bound) {}
+  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+
+ private:
+  std::shared_ptr<const Spacing<Dim>> spacing_;
+  double bound_;
+};
+
 // Evaluates d and checks it: an Error(PNPBS_ERROR_SPACING) names the point, the value and the
 // number of nodes that it would mean in a domain of this area (volume).
 template <int Dim>
@@ -72,5 +86,7 @@ extern template class CallbackSpacing<2>;
 extern template class CallbackSpacing<3>;
 extern template class GridSpacing<2>;
 extern template class GridSpacing<3>;
+extern template class BoundedSpacing<2>;
+extern template class BoundedSpacing<3>;
 
 }  // namespace pnpbs

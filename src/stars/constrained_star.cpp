@@ -29,8 +29,23 @@ class GiftWrap {
     gather_all();
   }
 
+  // Many boundary nodes, no inner one, and none that makes a circle within reach with an edge of
+  // this node: those that matter are most likely farther away, and it would take long to find out.
+  bool looks_too_near() const {
+    constexpr std::size_t kMany = 64;
+    if (inner_ > 0 || around_.size() <= kMany || everything_ || boundary_ < 0) return false;
+    const std::int32_t edge = in_.fans.begin(boundary_);
+    if (edge == in_.fans.end(boundary_)) return false;
+    const auto other = static_cast<std::size_t>(in_.fans.edge(edge).other);
+    const Point<2>& a = in_.map.boundary().nodes[other].position;
+    return std::none_of(around_.begin(), around_.end(), [&](const StarPoint& p) {
+      return circle_diameter(centre_.position, a, p.position) <= reach_;
+    });
+  }
+
   // False if nodes beyond the reach may matter. Where all are within reach, none can.
   bool wrap(std::vector<Entry>& star) {
+    if (!listed_) find_edges();
     if (boundary_ >= 0 && in_.fans.begin(boundary_) != in_.fans.end(boundary_))
       return wrap_sectors(star);
     const int first = nearest_visible();
@@ -60,6 +75,8 @@ class GiftWrap {
       const double gap = squared_distance<2>(centre_.position, in_.nodes.position(j));
       if (gap > 0 && gap <= reach_ * reach_) around_.push_back(node(j));
     });
+    put_inner_first();
+    listed_ = true;
     edges_ = in_.near_edges.edges_of(centre_.node);
     sees_centre_.assign(around_.size(), 1);
   }
@@ -72,11 +89,26 @@ class GiftWrap {
         if (j != centre_.node && gap > 0 && gap <= reach_ * reach_) around_.push_back(node(j));
       }
     });
-    in_.map.for_edges_near(x, reach_, [&](std::int32_t e) { found_edges_.push_back(e); });
+    put_inner_first();
+    sees_centre_.assign(around_.size(), -1);
+  }
+
+  void find_edges() {
+    in_.map.for_edges_near(centre_.position, reach_,
+                           [&](std::int32_t e) { found_edges_.push_back(e); });
     std::sort(found_edges_.begin(), found_edges_.end());
     found_edges_.erase(std::unique(found_edges_.begin(), found_edges_.end()), found_edges_.end());
     edges_ = found_edges_;
-    sees_centre_.assign(around_.size(), -1);
+  }
+
+  // What is found does not depend on the order. Where the boundary is far finer than d, the circle
+  // through an inner node and an edge rules out hundreds of boundary nodes at once; among
+  // themselves they often lie on one circle, which takes exact arithmetic to tell.
+  void put_inner_first() {
+    const auto first_of_boundary =
+        std::partition(around_.begin(), around_.end(),
+                       [&](const StarPoint& p) { return in_.nodes.boundary_node(p.node) < 0; });
+    inner_ = static_cast<std::size_t>(first_of_boundary - around_.begin());
   }
 
   bool way_is_free_between(const StarPoint& a, const StarPoint& b) const {
@@ -109,9 +141,21 @@ class GiftWrap {
     return nearest;
   }
 
+  // A neighbour counter-clockwise of a that a boundary edge joins with a or the centre, or -1.
+  // Where there is one, it mostly is the one that follows, and rules out the others at once.
+  int joined_after(const StarPoint& a) {
+    for (std::size_t k = inner_; k < around_.size(); ++k) {
+      const StarPoint& p = around_[k];
+      if (!is_edge(a, p) && !is_edge(centre_, p)) continue;
+      if (orientation(centre_.position, a.position, p.position) <= 0) continue;
+      if (sees_centre(static_cast<int>(k)) && way_is_free_between(a, p)) return static_cast<int>(k);
+    }
+    return -1;
+  }
+
   // The neighbour that follows a counter-clockwise, or -1.
   int next_after(const StarPoint& a) {
-    int best = -1;
+    int best = joined_after(a);
     for (int k = 0; k < static_cast<int>(around_.size()); ++k) {
       const StarPoint& p = around_[index(k)];
       if (p.node == a.node) continue;
@@ -188,8 +232,10 @@ class GiftWrap {
   StarPoint centre_;
   std::int32_t boundary_;
   double reach_;
-  bool everything_;  // is every node within reach?
+  bool everything_;      // is every node within reach?
+  bool listed_ = false;  // are the nodes around from the list?
   std::vector<StarPoint> around_;
+  std::size_t inner_ = 0;                // of them, the first ones
   std::span<const std::int32_t> edges_;  // all that can lie between any of the nodes
   std::vector<std::int32_t> found_edges_;
   std::vector<signed char> sees_centre_;  // -1 not asked yet
@@ -200,12 +246,16 @@ class GiftWrap {
 double constrained_star(const StarInput& input, std::int64_t i, double listed_reach,
                         double first_reach, std::vector<Entry>& star) {
   const std::size_t before = star.size();
-  if (listed_reach > 0 && GiftWrap(input, i, listed_reach).wrap(star)) return 0;
+  constexpr double kFar = 16;  // in a channel of boundary nodes alone there is nothing to wait for
+  const auto found = [&](GiftWrap&& wrap, double reach) {
+    return (reach > kFar * first_reach || !wrap.looks_too_near()) && wrap.wrap(star);
+  };
+  if (listed_reach > 0 && found(GiftWrap(input, i, listed_reach), listed_reach)) return 0;
   for (double reach = first_reach;; reach *= 1.5) {
     star.resize(before);
     if (!input.known.covers(input.map, box_around<2>(input.nodes.position(i), reach))) return reach;
     const bool everything = reach > 2 * input.map.tree().side();
-    if (GiftWrap(input, i, reach, everything).wrap(star)) return 0;
+    if (found(GiftWrap(input, i, reach, everything), reach)) return 0;
     if (everything) break;
   }
   // Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).

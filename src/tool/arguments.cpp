@@ -43,6 +43,18 @@ void add_input(CLI::App& app, Arguments& arguments) {
       ->group(group);
 }
 
+void take_colour(const std::string& name, Arguments& arguments) {
+  const std::vector<std::string> names = picture::triangle_colour_names();
+  const auto colour = picture::triangle_colour_called(name);
+  if (!colour) {
+    std::string known;
+    for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
+    refuse("--color: unknown value '" + name + "'" + did_you_mean(name, names) +
+           " (known: " + known + ")");
+  }
+  arguments.colour = *colour;
+}
+
 void add_output(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to write";
   add_repeatable(app, "-o,--output", arguments.outputs,
@@ -59,14 +71,30 @@ void add_output(CLI::App& app, Arguments& arguments) {
                "no triangles in files that may be without (.vtu, .pvtu,\n.msh)")
       ->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
+  app.add_option_function<std::string>(
+         "--color", [&arguments](const std::string& name) { take_colour(name, arguments); },
+         "colour the triangles in pictures by quality, edge (mean\nlength over d) or spacing (d); "
+         "default: none")
+      ->type_name("BY")
+      ->group(group);
 }
 
 void add_general(CLI::App& app, Arguments& arguments, Questions& questions) {
   const std::string group = "Others";
   app.set_help_flag();
+  app.add_flag(
+         "--dry-run", arguments.dry_run,
+         "tell about how many nodes, how much memory and time it would\ntake; place and write "
+         "nothing")
+      ->group(group);
   app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors")->group(group);
   app.add_flag("--progress", arguments.progress,
                "a progress bar even where standard error is no terminal,\nas under mpirun")
+      ->group(group);
+  app.add_flag(
+         "--check", arguments.check,
+         "check the results before they are written: lists, triangles,\narea; an error if any "
+         "of it is wrong")
       ->group(group);
   app.add_flag("-h,--help", questions.help, "this text")->group(group);
   app.add_flag("--version", questions.version, "version, and what it was built with")->group(group);
@@ -124,6 +152,9 @@ void check_input(const Arguments& arguments) {
   }
   if (!arguments.spacing.empty() && !arguments.spacing_grid.empty()) {
     refuse("--spacing and --spacing-grid exclude each other");
+  }
+  if (arguments.bubbles && arguments.colour != picture::TriangleColour::none) {
+    refuse("--bubbles and --color exclude each other");
   }
 }
 

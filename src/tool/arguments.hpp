@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "picture/triangle_values.hpp"
+
 namespace pnpbs::tool {
 
 struct Arguments {
@@ -15,9 +17,12 @@ struct Arguments {
   std::vector<std::string> outputs;
   std::string format;  // of standard output and of unknown extensions
   std::string report;  // a file, "-", or empty
-  std::vector<std::pair<std::string, std::string>> options;  // key and value for the library
+  std::vector<std::pair<std::string, std::string>> options;        // key and value for the library
+  picture::TriangleColour colour = picture::TriangleColour::none;  // of triangles in pictures
   bool bubbles = false;
+  bool check = false;  // the results
   bool nodes_only = false;
+  bool dry_run = false;
   bool quiet = false;
   bool progress = false;
 };

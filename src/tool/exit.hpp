@@ -7,7 +7,14 @@
 
 namespace pnpbs::tool {
 
-enum class ExitCode { done = 0, failed = 1, bad_input = 2, not_converged = 3, interrupted = 130 };
+enum class ExitCode {
+  done = 0,
+  failed = 1,
+  bad_input = 2,
+  not_converged = 3,
+  spacing_missed = 4,
+  interrupted = 130
+};
 
 // Thrown to end the command with a message for standard error.
 class Failure : public std::runtime_error {

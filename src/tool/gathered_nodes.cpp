@@ -47,36 +47,53 @@ std::vector<Corners> own_triangles(pnpbs_placement placement, pnpbs_context cont
   const std::vector<std::int64_t> ghosts = ghost_ids(placement, context);
   std::int64_t count = 0;
   check(pnpbs_placement_get_triangles(placement, 0, &count, nullptr), context);
-  std::vector<std::int64_t> corners(3 * static_cast<std::size_t>(count));
-  check(pnpbs_placement_get_triangles(placement, count, &count, corners.data()), context);
   std::vector<Corners> triangles(static_cast<std::size_t>(count));
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const auto i = static_cast<std::size_t>(corners[k]);
-    triangles[k / 3][k % 3] = i < nodes.size() ? nodes[i].id : ghosts[i - nodes.size()];
+  check(pnpbs_placement_get_triangles(placement, count, &count,
+                                      triangles.empty() ? nullptr : triangles[0].data()),
+        context);
+  for (Corners& corners : triangles) {
+    for (std::int64_t& corner : corners) {
+      const auto i = static_cast<std::size_t>(corner);
+      corner = i < nodes.size() ? nodes[i].id : ghosts[i - nodes.size()];
+    }
   }
   return triangles;
 }
 
-}  // namespace
-
-picture::NodeSet gathered_nodes(pnpbs_placement placement, pnpbs_context context,
-                                const Ranks& ranks) {
-  const std::vector<Node> own = own_nodes(placement, context);
-  std::vector<Corners> triangles = ranks.gather(own_triangles(placement, context, own));
-  std::vector<Node> nodes = ranks.gather(own);
+// In the order of their ids, whoever had them.
+void take_nodes(std::vector<Node> nodes, picture::NodeSet& set) {
   std::ranges::sort(nodes, {}, &Node::id);
-  std::ranges::sort(triangles);  // so that the picture does not depend on the ranks
-  picture::NodeSet set;
+  set.xy.reserve(2 * nodes.size());
+  set.ids.reserve(nodes.size());
+  set.tags.reserve(nodes.size());
+  set.spacing.reserve(nodes.size());
   for (const Node& node : nodes) {
     set.xy.insert(set.xy.end(), {node.x, node.y});
     set.ids.push_back(node.id);
     set.tags.push_back(static_cast<std::int32_t>(node.tag));
     set.spacing.push_back(node.spacing);
   }
-  for (const Corners& corners : triangles) {
-    for (const std::int64_t id : corners)
-      set.triangles.push_back(std::ranges::lower_bound(set.ids, id) - set.ids.begin());
+}
+
+void take_triangles(std::vector<Corners> triangles, picture::NodeSet& set) {
+  std::ranges::sort(triangles);
+  for (Corners& corners : triangles) {
+    for (std::int64_t& corner : corners)
+      corner = std::ranges::lower_bound(set.ids, corner) - set.ids.begin();
   }
+  set.triangles = std::move(triangles);
+}
+
+}  // namespace
+
+picture::NodeSet gathered_nodes(pnpbs_placement placement, pnpbs_context context,
+                                const Ranks& ranks) {
+  std::vector<Node> own;
+  ranks.agreed([&] { own = own_nodes(placement, context); });
+  std::vector<Corners> triangles = own_triangles(placement, context, own);
+  picture::NodeSet set;
+  take_nodes(ranks.gather(std::move(own)), set);
+  take_triangles(ranks.gather(std::move(triangles)), set);
   return set;
 }
 

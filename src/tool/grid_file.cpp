@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -26,6 +27,9 @@ class Words {
  public:
   explicit Words(const std::string& path) : path_(path), file_(path, std::ios::binary) {
     if (!file_) throw BadInput("cannot read '" + path + "': " + std::strerror(errno));
+    std::error_code error;  // a folder opens as a file does
+    if (std::filesystem::is_directory(path, error))
+      throw BadInput("cannot read '" + path + "': it is a folder");
   }
 
   bool next(std::string& word) {
@@ -79,15 +83,16 @@ using Header = std::map<std::string, double>;
 
 // Reads name and value pairs; leaves the first word of the values in `word`.
 Header read_header(Words& words, std::string& word) {
-  constexpr std::array<std::string_view, 8> known{"ncols",     "nrows",       "xllcorner",
-                                                  "yllcorner", "xllcenter",   "yllcenter",
-                                                  "cellsize",  "nodata_value"};
+  constexpr std::array<std::string_view, 10> known{
+      "ncols",     "nrows",    "xllcorner", "yllcorner", "xllcenter",
+      "yllcenter", "cellsize", "dx",        "dy",        "nodata_value"};
   Header header;
   while (words.next(word) && begins_with_letter(word)) {
     const std::string name = in_small_letters(word);
     if (name == "nan" || name == "inf") break;
     if (std::ranges::find(known, name) == known.end()) {
-      words.fail("ncols, nrows, xllcorner or xllcenter, cellsize, nodata_value", "'" + word + "'");
+      words.fail("ncols, nrows, xllcorner or xllcenter, cellsize or dx and dy, nodata_value",
+                 "'" + word + "'");
     }
     std::string value;
     if (!words.next(value)) words.fail("a value of " + word, "the end of the file");
@@ -114,6 +119,21 @@ double origin_of(const Header& header, const Words& words, const std::string& le
   const auto centre = header.find(letter + "llcenter");
   if (centre != header.end()) return centre->second;
   return value_of(header, words, letter + "llcorner") + 0.5 * step;
+}
+
+// One size for both directions, or, as GDAL writes cells that are no squares, one for each.
+void read_steps(const Header& header, const Words& words, double step[2]) {
+  const bool squares = header.contains("cellsize");
+  if (squares && (header.contains("dx") || header.contains("dy")))
+    words.fail("cellsize, or dx and dy", "both in the header");
+  if (!squares && !header.contains("dx") && !header.contains("dy"))
+    words.fail("cellsize, or dx and dy, in the header", "none");
+  for (int k = 0; k < 2; ++k) {
+    const std::string name = squares ? "cellsize" : k == 0 ? "dx" : "dy";
+    step[k] = value_of(header, words, name);
+    if (!(step[k] > 0 && std::isfinite(step[k])))
+      words.fail(name + " to be positive", std::to_string(step[k]));
+  }
 }
 
 // Grows with what the file really holds: a header may promise anything.
@@ -175,12 +195,9 @@ Grid read_grid(const std::string& path) {
   if (static_cast<double>(grid.size[0]) * static_cast<double>(grid.size[1]) > most_points) {
     words.fail("at most 1e9 grid points", "more");
   }
-  grid.step = value_of(header, words, "cellsize");
-  if (!(grid.step > 0 && std::isfinite(grid.step))) {
-    words.fail("cellsize to be positive", std::to_string(grid.step));
-  }
-  grid.origin[0] = origin_of(header, words, "x", grid.step);
-  grid.origin[1] = origin_of(header, words, "y", grid.step);
+  read_steps(header, words, grid.step);
+  grid.origin[0] = origin_of(header, words, "x", grid.step[0]);
+  grid.origin[1] = origin_of(header, words, "y", grid.step[1]);
   grid.values = read_values(words, word, grid.size[0] * grid.size[1]);
   turn_upside_down(grid.values, grid.size[0]);
   const auto no_data = header.find("nodata_value");

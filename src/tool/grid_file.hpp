@@ -3,6 +3,8 @@
 //
 //   ncols 4          xllcenter 0      cellsize 0.5          1 1 2 2   (northern row first)
 //   nrows 3          yllcenter 0      nodata_value -9999    1 1 1 2 ...
+//
+// Cells that are no squares have dx and dy instead of cellsize.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +14,9 @@
 namespace pnpbs::tool {
 
 struct Grid {
-  std::int64_t size[2];  // grid points in x and y
-  double origin[2];      // the south-western one
-  double step;
+  std::int64_t size[2];        // grid points in x and y
+  double origin[2];            // the south-western one
+  double step[2];              // of columns and rows
   std::vector<double> values;  // x fastest, from the south
 };
 

@@ -65,8 +65,9 @@ std::string option_table() {
 std::string help_tables() {
   return format_table() + "\nFormulas may have:\n  " + wrapped(expression_help(), 2) +
          option_table() +
-         "\nExit codes: 0 done, 1 failed, 2 bad usage or input, 3 not converged (files are "
-         "written),\n130 interrupted (no file is written).\n";
+         "\nExit codes: 0 done, 1 failed, 2 bad usage or input; 3 not converged, 4 somewhere the "
+         "nodes do\nnot follow the spacing (files are written); 130 interrupted (no file is "
+         "written).\n";
 }
 
 std::string statistics_text() {

@@ -16,6 +16,7 @@ namespace {
 std::atomic<bool> deferred{false};
 std::atomic<bool> asked{false};
 std::atomic<bool> killed_soon{false};
+std::atomic<bool> committing{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void remove_unfinished_files() {
@@ -23,8 +24,12 @@ void remove_unfinished_files() {
   pnpbs_discard_unfinished_files();  // the library's
 }
 
+// asked is set before committing is read, and begin_commit does it the other way round: a signal
+// either keeps the files from their names or leaves them alone.
 extern "C" void on_signal(int /*number*/) {
-  if (deferred && !asked.exchange(true)) {
+  const bool first = !asked.exchange(true);
+  if (committing) return;
+  if (deferred && first) {
     if (killed_soon) remove_unfinished_files();
     return;
   }
@@ -56,6 +61,13 @@ void handle_interrupts(bool launched) {
 void defer_interrupts() { deferred = true; }
 
 bool interrupted() { return asked; }
+
+bool begin_commit() {
+  committing = true;
+  return !asked;
+}
+
+void end_commit() { committing = false; }
 
 void give_up_if_interrupted() {
   if (interrupted()) throw Interrupted();

@@ -19,4 +19,9 @@ bool interrupted();
 // Throws Interrupted if so.
 void give_up_if_interrupted();
 
+// While files get their names, signals wait. False if one has come before: then no file may get its
+// name. The ranks must agree on it before the first file does.
+bool begin_commit();
+void end_commit();
+
 }  // namespace pnpbs::tool

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <iostream>
 #include <optional>
 
@@ -33,8 +34,21 @@ void reserve_standard_streams() {
   }
 }
 
-void warn(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) std::cerr << "pnpbs: warning: " << warning << "\n";
+// Of the warnings there are, those that have not been told yet.
+void warn(const std::vector<std::string>& warnings, std::size_t told = 0) {
+  for (std::size_t k = told; k < warnings.size(); ++k)
+    std::cerr << "pnpbs: warning: " << warnings[k] << "\n";
+}
+
+ExitCode exit_code_of_run(pnpbs_status status) {
+  switch (status) {
+    case PNPBS_NOT_CONVERGED:
+      return ExitCode::not_converged;
+    case PNPBS_SPACING_MISSED:
+      return ExitCode::spacing_missed;
+    default:
+      return ExitCode::done;
+  }
 }
 
 void give_up_if_any_is_interrupted(const Ranks& ranks) {
@@ -50,18 +64,30 @@ pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Argum
   progress.say("laying the first nodes ...");
   check(pnpbs_placement_initialise(placement), context);
   progress.clear();
-  if (talk) warn(warnings_of(context, placement));
+  const std::vector<std::string> warnings = warnings_of(context, placement);
+  if (talk) warn(warnings);
   const pnpbs_status status = check(pnpbs_placement_run(placement), context);
   pnpbs_placement_set_monitor(placement, nullptr, nullptr);
+  progress.clear();
+  if (talk) warn(warnings_of(context, placement), warnings.size());
   give_up_if_any_is_interrupted(ranks);
   return status;
+}
+
+// What a run would come to.
+void tell_estimate(pnpbs_context context, pnpbs_placement placement, const Ranks& ranks) {
+  std::int64_t nodes = 0, bytes = 0;
+  double seconds = 0;
+  check(pnpbs_placement_estimate(placement, &nodes, &bytes, &seconds), context);
+  give_up_if_any_is_interrupted(ranks);
+  if (ranks.is_first()) std::cout << estimate_text(nodes, bytes, seconds, ranks.size());
 }
 
 ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   std::optional<Outputs> outputs;
   std::optional<Spacing> spacing;
   ranks.agreed([&] {
-    outputs.emplace(arguments, ranks);
+    if (!arguments.dry_run) outputs.emplace(arguments, ranks);
     spacing.emplace(arguments);
   });
   Context context;
@@ -79,17 +105,32 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   Placement placement;
   check(pnpbs_placement_create(context, domain, placement.out()), context);
   spacing->give_to(placement, context);
+  if (arguments.dry_run) {
+    tell_estimate(context, placement, ranks);
+    return ExitCode::done;
+  }
   const pnpbs_status status = place(context, placement, arguments, ranks);
 
-  const Statistics statistics(placement);
+  if (arguments.check) check(pnpbs_placement_check(placement), context);
+  Statistics statistics(placement);
   outputs->write_pictures(placement, domain, context);
-  outputs->write_report(report_text(arguments, statistics, warnings_of(context, placement)));
+  const std::vector<std::string> warnings = warnings_of(context, placement);
+  outputs->write_report(report_text(arguments, statistics, warnings));
   give_up_if_any_is_interrupted(ranks);
   outputs->write_nodes(placement, context);
+  statistics.renew_memory(placement);  // files take some, too
+  outputs->replace_report(report_text(arguments, statistics, warnings));
   if (ranks.is_first() && !arguments.quiet && !outputs->use_standard_output()) {
     std::cout << summary_text(statistics, outputs->files());
   }
-  return status == PNPBS_NOT_CONVERGED ? ExitCode::not_converged : ExitCode::done;
+  return exit_code_of_run(status);
+}
+
+// Whoever reads may stop before the end, as head does.
+void print(const std::string& text) {
+  errno = 0;
+  if (!(std::cout << text).flush() && errno != EPIPE)
+    throw Failure(ExitCode::failed, "cannot write standard output");
 }
 
 ExitCode command(int argc, char** argv, const Ranks& ranks) {
@@ -98,8 +139,7 @@ ExitCode command(int argc, char** argv, const Ranks& ranks) {
   ranks.agreed([&] { answer = parse_arguments(argc, argv, arguments); });
   const ExitCode code = answer.empty() ? run(arguments, ranks) : ExitCode::done;
   ranks.agreed([&] {
-    if (ranks.is_first() && !(std::cout << answer).flush())
-      throw Failure(ExitCode::failed, "cannot write standard output");
+    if (ranks.is_first()) print(answer);
   });
   return code;
 }

@@ -21,6 +21,13 @@ std::string short_number(double value, int digits) {
   return {text, end.ptr};
 }
 
+std::string size_in_bytes(double bytes) {
+  const char* const units[] = {" bytes", " KiB", " MiB", " GiB", " TiB"};
+  int unit = 0;
+  for (; bytes >= 1000 && unit < 4; ++unit) bytes /= 1024;
+  return short_number(bytes, 3) + units[unit];
+}
+
 std::string duration(double seconds) {
   if (!(seconds >= 0 && seconds < 1e9)) return "?";
   if (seconds < 9.95) return short_number(seconds, 2) + " s";

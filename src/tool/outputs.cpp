@@ -38,7 +38,12 @@ bool same_file(const std::string& a, const std::string& b) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
   };
   const bool special = std::filesystem::exists(a, error) && std::filesystem::is_other(a, error);
-  return !special && full(a) == full(b);
+  return !special && (full(a) == full(b) || std::filesystem::equivalent(a, b, error));
+}
+
+void refuse_to_replace(const std::string& input, const std::string& path) {
+  if (!input.empty() && input != "-" && same_file(input, path))
+    throw BadInput("'" + path + "' would replace what is read: write to another file");
 }
 
 std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
@@ -49,17 +54,17 @@ std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
   return outline;
 }
 
-std::int32_t stop_if_interrupted(double, std::int64_t, std::int64_t, double, void*) {
-  return interrupted();
-}
-
 }  // namespace
 
 Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
-    : ranks_(ranks), style_{arguments.bubbles}, elements_(!arguments.nodes_only) {
+    : ranks_(ranks), style_{arguments.bubbles, arguments.colour}, elements_(!arguments.nodes_only) {
   const FileFormat* otherwise = format_called(arguments.format);
   for (const std::string& path : arguments.outputs) add(path, format_of(path, otherwise));
   if (!arguments.report.empty()) add(arguments.report, nullptr);
+  for (const Output& output : outputs_)
+    for (const std::string& input : {arguments.domain, arguments.spacing_grid})
+      refuse_to_replace(input, output.file.path());
+  check_pictures();
   if (ranks_.is_first()) check_writable();
 }
 
@@ -71,6 +76,12 @@ void Outputs::add(const std::string& path, const FileFormat* format) {
   if (path == "-" && format && format->name == "pvtu")
     throw BadInput("--output: a .pvtu file and its pieces cannot go to standard output");
   outputs_.push_back({io::OutputFile(path), format});
+}
+
+void Outputs::check_pictures() const {
+  if (style_.colour == picture::TriangleColour::none) return;
+  if (std::ranges::any_of(outputs_, &Output::is_picture)) return;
+  throw BadInput("--color: there is no picture to colour; add --output FILE.png or FILE.svg");
 }
 
 void Outputs::check_writable() const {
@@ -126,22 +137,66 @@ void Outputs::write_nodes(pnpbs_placement placement, pnpbs_context context) {
     formats.push_back(output.format->name.c_str());
     elements.push_back(elements_ && output.format->elements);
   }
-  pnpbs_placement_set_monitor(placement, stop_if_interrupted, nullptr);
+  pnpbs_placement_set_monitor(placement, monitor, this);
   const pnpbs_status status =
       pnpbs_placement_write_files(placement, static_cast<std::int32_t>(paths.size()), paths.data(),
                                   formats.data(), elements.data());
   pnpbs_placement_set_monitor(placement, nullptr, nullptr);
+  settle_own(status >= 0 && status != PNPBS_STOPPED);
+  ranks_.agreed([&] {
+    if (failure_) std::rethrow_exception(failure_);
+  });
   if (status == PNPBS_STOPPED) throw Interrupted();
   // By now it is no bad input.
   if (status == PNPBS_ERROR_FILE) throw Failure(ExitCode::failed, pnpbs_last_error(context));
   check(status, context);
-  publish();
 }
 
-void Outputs::publish() {
-  ranks_.agreed([&] {
+void Outputs::replace_report(const std::string& text) {
+  if (!ranks_.is_first()) return;
+  for (const Output& output : outputs_) {
+    if (output.format || !output.file.written_aside()) continue;
+    try {
+      io::OutputFile replacement(output.file.path());
+      replacement.write([&](io::Sink& sink) { sink.text(text); }, [] {});
+      if (begin_commit())
+        io::publish_together({&replacement}, [](const std::function<void()>& step) { step(); });
+    } catch (const std::exception&) {
+      // see the header
+    }
+    end_commit();
+  }
+}
+
+// ------------------------------------------------------------------ all of them together -------
+
+// The library asks a last time, with fraction 1, when its files are complete on all ranks and
+// before the first of them gets its name. Then it is time for ours, too.
+std::int32_t Outputs::monitor(double fraction, std::int64_t, std::int64_t, double, void* user) {
+  if (fraction < 1) return interrupted();
+  return begin_commit() && static_cast<Outputs*>(user)->publish_own() ? 0 : 1;
+}
+
+bool Outputs::publish_own() {
+  try {
+    for (Output& output : outputs_) output.file.seal();
     for (Output& output : outputs_) output.file.publish();
-  });
+    return true;
+  } catch (...) {
+    failure_ = std::current_exception();
+    return false;
+  }
+}
+
+// The library's files have got their names, or they have not: so shall ours.
+void Outputs::settle_own(bool published) {
+  for (Output& output : outputs_) {
+    if (published)
+      output.file.settle();
+    else
+      output.file.withdraw();
+  }
+  end_commit();
 }
 
 bool Outputs::use_standard_output() const {

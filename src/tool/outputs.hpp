@@ -2,6 +2,7 @@
 // All files of a run. They are checked before it, and appear together after it.
 #pragma once
 
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,10 +22,13 @@ class Outputs {
   Outputs(const Arguments& arguments, const Ranks& ranks);
 
   // Collective, all of these; first pictures and the report, then the nodes. What was written
-  // appears when all of it is complete.
+  // appears with write_nodes, when all of it is complete.
   void write_pictures(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context);
   void write_report(const std::string& text);
   void write_nodes(pnpbs_placement placement, pnpbs_context context);
+  // Afterwards: puts another text into the report, unless that has gone where nothing can be taken
+  // back. If it cannot be written the text there is stays, as all files are there already.
+  void replace_report(const std::string& text);
 
   bool use_standard_output() const;
   std::vector<std::string> files() const;  // without standard output
@@ -37,13 +41,17 @@ class Outputs {
     bool is_nodes() const { return format && !format->picture; }
   };
   void add(const std::string& path, const FileFormat* format);
+  void check_pictures() const;
   void check_writable() const;
-  void publish();
+  static std::int32_t monitor(double fraction, std::int64_t, std::int64_t, double, void* user);
+  bool publish_own();
+  void settle_own(bool published);
 
   const Ranks& ranks_;
   picture::PictureStyle style_;
   bool elements_;
   std::vector<Output> outputs_;
+  std::exception_ptr failure_;  // of publish_own
 };
 
 }  // namespace pnpbs::tool

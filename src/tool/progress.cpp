@@ -68,6 +68,10 @@ void Progress::update(double fraction, std::int64_t step, std::int64_t nodes, do
   const auto now = Clock::now();
   if (!shown_ || now - last_ < between_redraws) return;
   last_ = now;
+  if (nodes == 0) {
+    say("laying the first nodes");
+    return;
+  }
   fraction = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0;
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
   std::string right = " step " + std::to_string(step) + ", " + grouped(nodes) + " nodes, speed " +

@@ -35,7 +35,7 @@ class Ranks {
   std::string from_first(const std::function<std::string()>& work) const;
   // All ranks' values on the first one, in the order of ranks; nothing on the others.
   template <class Value>
-  std::vector<Value> gather(const std::vector<Value>& mine) const {
+  std::vector<Value> gather(std::vector<Value> mine) const {
     static_assert(std::is_trivially_copyable_v<Value>);
     if (size_ == 1) return mine;
     const std::vector<int> counts = gathered_counts(mine.size());

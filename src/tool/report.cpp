@@ -37,6 +37,18 @@ Json options_of(const Arguments& arguments) {
   return options;
 }
 
+Json bands_of(const Statistics& statistics) {
+  Json bands = Json::array();
+  for (const EdgeBand& band : statistics.edge_bands()) {
+    bands.push_back({{"from", band.from},
+                     {"to", band.to},
+                     {"edges", band.edges},
+                     {"mean", band.mean},
+                     {"deviation", band.deviation}});
+  }
+  return bands;
+}
+
 }  // namespace
 
 std::string report_text(const Arguments& arguments, const Statistics& statistics,
@@ -51,6 +63,7 @@ std::string report_text(const Arguments& arguments, const Statistics& statistics
   report["options"] = options_of(arguments);
   for (const auto& [name, value] : statistics.all())
     insert(report, name, std::visit(AsJson(), value));
+  report["edge"]["bands"] = bands_of(statistics);
   report["warnings"] = warnings;
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

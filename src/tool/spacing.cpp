@@ -29,8 +29,7 @@ Spacing::Spacing(const Arguments& arguments) {
 
 void Spacing::give_to(pnpbs_placement placement, pnpbs_context context) const {
   if (grid_) {
-    const double step[2] = {grid_->step, grid_->step};
-    check(pnpbs_placement_set_spacing_grid(placement, grid_->size, grid_->origin, step,
+    check(pnpbs_placement_set_spacing_grid(placement, grid_->size, grid_->origin, grid_->step,
                                            grid_->values.data()),
           context);
   } else if (expression_->is_constant()) {

@@ -21,11 +21,34 @@ StatisticValue read(pnpbs_placement placement, const LibraryStatistic& statistic
   return {};
 }
 
+// None if the library has no value.
+std::vector<EdgeBand> read_edge_bands(pnpbs_placement placement) {
+  constexpr std::size_t most = 8;
+  std::int64_t count = 0, edges[most];
+  double from[most], to[most], mean[most], deviation[most];
+  if (pnpbs_placement_get_edge_bands(placement, most, &count, from, to, edges, mean, deviation) < 0)
+    return {};
+  std::vector<EdgeBand> bands;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+    bands.push_back({from[k], to[k], edges[k], mean[k], deviation[k]});
+  return bands;
+}
+
 }  // namespace
 
 Statistics::Statistics(pnpbs_placement placement) {
   for (const LibraryStatistic& statistic : library_statistics()) {
     values_.emplace_back(statistic.name, read(placement, statistic));
+  }
+  edge_bands_ = read_edge_bands(placement);
+}
+
+void Statistics::renew_memory(pnpbs_placement placement) {
+  for (const LibraryStatistic& statistic : library_statistics()) {
+    if (!statistic.name.starts_with("memory.")) continue;
+    for (auto& [name, value] : values_) {
+      if (name == statistic.name) value = read(placement, statistic);
+    }
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All statistics of a placement, read once.
+// All statistics of a placement, read once by all ranks.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,23 @@ namespace pnpbs::tool {
 // monostate: the library has no value.
 using StatisticValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 
+// Edge length over d where d is in a band.
+struct EdgeBand {
+  double from, to;  // of d
+  std::int64_t edges;
+  double mean, deviation;
+};
+
 class Statistics {
  public:
   explicit Statistics(pnpbs_placement placement);
 
   const std::vector<std::pair<std::string, StatisticValue>>& all() const { return values_; }
+
+  // Reads what the system counts of memory again: it may have become more.
+  void renew_memory(pnpbs_placement placement);
+
+  const std::vector<EdgeBand>& edge_bands() const { return edge_bands_; }
 
   // nullptr if there is none of this name and type.
   template <typename Value>
@@ -32,6 +44,7 @@ class Statistics {
 
  private:
   std::vector<std::pair<std::string, StatisticValue>> values_;
+  std::vector<EdgeBand> edge_bands_;
 };
 
 }  // namespace pnpbs::tool

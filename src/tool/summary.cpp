@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/summary.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "tool/numbers.hpp"
 
 namespace pnpbs::tool {
@@ -28,6 +31,31 @@ std::string spacing_line(const Statistics& statistics) {
   return line + "\n";
 }
 
+std::string quality_line(const Statistics& statistics) {
+  const auto* mean = statistics.find<double>("quality.mean");
+  const auto* one_percent = statistics.find<double>("quality.one_percent");
+  const auto* least = statistics.find<double>("quality.min");
+  const auto* angle = statistics.find<double>("quality.min_angle");
+  if (!mean || !one_percent || !least || !angle) return "";
+  return "quality  " + short_number(*mean, 4) + " in the mean, 99 % above " +
+         short_number(*one_percent, 3) + ", least " + short_number(*least, 3) +
+         "; smallest angle " + short_number(*angle, 3) + " degrees\n";
+}
+
+std::string edge_line(const Statistics& statistics) {
+  const auto* mean = statistics.find<double>("edge.mean");
+  const auto* deviation = statistics.find<double>("edge.deviation");
+  if (!mean || !deviation) return "";
+  std::string line = "edges    " + short_number(*mean, 4) + " d +- " + short_number(*deviation, 2);
+  const std::vector<EdgeBand>& bands = statistics.edge_bands();
+  if (bands.size() > 1) {
+    const auto [shortest, longest] = std::ranges::minmax_element(bands, {}, &EdgeBand::mean);
+    line += "; by bands of d " + short_number(shortest->mean, 3) + " to " +
+            short_number(longest->mean, 3) + " d";
+  }
+  return line + "\n";
+}
+
 // The library says what ended the run in a word or two.
 std::string in_words(const std::string& reason) {
   if (reason == "rest") return "the bubbles rest";
@@ -44,6 +72,15 @@ std::string stop_line(const Statistics& statistics) {
   return line + in_words(*reason) + "\n";
 }
 
+std::string memory_line(const Statistics& statistics) {
+  const auto* bytes = statistics.find<std::int64_t>("memory.max_peak_bytes");
+  const auto* ranks = statistics.find<std::int64_t>("ranks");
+  if (!bytes) return "";
+  std::string line = "memory   " + size_in_bytes(static_cast<double>(*bytes)) + " at most";
+  if (ranks && *ranks > 1) line += " in each of " + grouped(*ranks) + " processes";
+  return line + "\n";
+}
+
 std::string files_line(const std::vector<std::string>& files) {
   if (files.empty()) return "wrote    nothing: name files with --output\n";
   std::string line;
@@ -53,8 +90,22 @@ std::string files_line(const std::vector<std::string>& files) {
 
 }  // namespace
 
+std::string estimate_text(std::int64_t nodes, std::int64_t bytes, double seconds, int processes) {
+  std::string text = "nodes    about " + grouped(nodes) + "\nmemory   about " +
+                     size_in_bytes(static_cast<double>(bytes));
+  if (processes > 1) text += " in each of " + grouped(processes) + " processes";
+  text += "\ntime     roughly " + duration(seconds);
+  if (nodes > 0 && seconds > 0) {
+    const double rate = static_cast<double>(nodes) / seconds;
+    text += ", if " + grouped(1000 * static_cast<std::int64_t>(std::round(rate / 1000))) +
+            " nodes are placed per second";
+  }
+  return text + "\n";
+}
+
 std::string summary_text(const Statistics& statistics, const std::vector<std::string>& files) {
-  return nodes_line(statistics) + spacing_line(statistics) + stop_line(statistics) +
+  return nodes_line(statistics) + spacing_line(statistics) + edge_line(statistics) +
+         quality_line(statistics) + stop_line(statistics) + memory_line(statistics) +
          files_line(files);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -45,6 +46,8 @@ class BackgroundTree {
     for (int k = 0; k < Dim; ++k) side_ = std::max(side_, box.high[k] - box.low[k]);
     for (int k = 0; k < Dim; ++k) origin_[k] = box.low[k] - side_ / 2048;
     side_ += side_ / 1024;
+    constexpr double kOperations = 8 * 0x1p-52;
+    for (int k = 0; k < Dim; ++k) rounding_[k] = kOperations * (std::fabs(origin_[k]) + side_);
     scale_ = kCells / side_;
     for (int depth = 0; depth <= kMaxDepth; ++depth)
       sides_[static_cast<std::size_t>(depth)] = std::ldexp(side_, -depth);
@@ -78,6 +81,17 @@ class BackgroundTree {
     for (int k = 0; k < Dim; ++k) {
       box.low[k] = origin_[k] + s * cell(c).index[k];
       box.high[k] = origin_[k] + s * (cell(c).index[k] + 1.0);
+    }
+    return box;
+  }
+
+  // The same, with room for rounding: the arithmetic of leaf_at may put points into a cell that lie
+  // that far beyond its box. Of a small domain far from the origin this is no longer small.
+  Box<Dim> cell_box_with_room(std::int32_t c) const {
+    Box<Dim> box = cell_box(c);
+    for (int k = 0; k < Dim; ++k) {
+      box.low[k] -= rounding_[k];
+      box.high[k] += rounding_[k];
     }
     return box;
   }
@@ -199,7 +213,7 @@ class BackgroundTree {
   void visit_cell(std::int32_t c, const Box<Dim>& box, const Enter& enter,
                   const Visit& visit) const {
     if (!enter(c)) return;
-    const Box<Dim> own = cell_box(c);
+    const Box<Dim> own = cell_box_with_room(c);
     for (int k = 0; k < Dim; ++k)
       if (own.high[k] < box.low[k] || own.low[k] > box.high[k]) return;
     if (cell(c).first_child < 0) {
@@ -211,6 +225,7 @@ class BackgroundTree {
   }
 
   Point<Dim> origin_{};
+  Point<Dim> rounding_{};                            // of coordinates in cells
   static constexpr double kCells = 1u << kMaxDepth;  // of the largest depth, in a row
   static constexpr std::uint32_t kLastIndex = (1u << kMaxDepth) - 1u;
 

@@ -357,6 +357,7 @@ void check_result(const result* it, int euler) {
 
 void check_placement(pnpbs_placement placement, int euler) {
   result it = result_of(placement);
+  MUST(pnpbs_placement_check(placement));
   check_result(&it, euler);
   ck_assert_int_eq(integer_of(placement, "nodes"), it.n);
   result_free(&it);

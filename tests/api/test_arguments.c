@@ -490,6 +490,7 @@ START_TEST(nothing_yet) {
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_star_size(p, &size), "no nodes", "");
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_get_triangles(p, 0, &size, NULL), "no nodes", "");
   ck_assert_int_eq(size, 7);
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_check(p), "no nodes", "");
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_get_double(p, "d_error.mean", &(double){0}),
             "no nodes", "");
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_initialise(p), "set_spacing", "");

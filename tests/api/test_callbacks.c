@@ -347,6 +347,38 @@ START_TEST(it_is_told_to_the_end) {
 }
 END_TEST
 
+static int32_t monitor_of_the_fill(double fraction, int64_t step, int64_t nodes, double max_speed,
+                                   void* user) {
+  int* calls = user;
+  (void)max_speed;
+  if (nodes > 0) return 1;
+  ck_assert(fraction == 0 && step == 0);
+  return ++*calls == 2 ? 1 : 0;
+}
+
+/* Long before the first step, where millions of nodes are laid. */
+START_TEST(it_stops_the_first_nodes) {
+  job it = square_job(1);
+  int64_t nodes = -1;
+  const char* text = NULL;
+  int calls = 0;
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.0004));
+  MUST(pnpbs_placement_set_monitor(it.placement, monitor_of_the_fill, &calls));
+  MUST_BE(PNPBS_STOPPED, pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(calls, 2);
+  MUST(pnpbs_placement_count(it.placement, &nodes));
+  ck_assert_int_eq(nodes, 0);
+  MUST(pnpbs_placement_get_string(it.placement, "stop_reason", &text));
+  ck_assert_str_eq(text, "monitor");
+  /* It goes on to be usable. */
+  MUST(pnpbs_placement_set_monitor(it.placement, NULL, NULL));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
+  check_good(it.placement);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(it_stops) {
   monitor watch;
   job it = watched_square(&watch);
@@ -443,6 +475,7 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_placement_star_size(p, &entries));
   REFUSED(pnpbs_placement_get_stars(p, 500, offsets, offsets, NULL));
   REFUSED(pnpbs_placement_get_triangles(p, 0, &entries, NULL));
+  REFUSED(pnpbs_placement_check(p));
   REFUSED(pnpbs_placement_ghost_count(p, &entries));
   REFUSED(pnpbs_placement_get_ghosts(p, 0, NULL, NULL, NULL, NULL, NULL));
   REFUSED(pnpbs_placement_exchange_sizes(p, NULL, NULL, &entries));
@@ -749,6 +782,7 @@ int main(void) {
   tcase_add_test(spacing, asked_inside_a_ring);
   suite_add_tcase(suite, spacing);
   tcase_add_test(stopping, it_is_told_to_the_end);
+  tcase_add_test(stopping, it_stops_the_first_nodes);
   tcase_add_loop_test(stopping, it_stops, 0, 5);
   suite_add_tcase(suite, stopping);
   tcase_add_test(within, only_questions_from_inside);

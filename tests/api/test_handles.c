@@ -82,6 +82,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_set_spacing_at_nodes, (handle, 1, grid))                                            \
   X(placement_set_monitor, (handle, no_stop, NULL))                                               \
   X(placement_set_nodes, (handle, 1, grid, NULL))                                                 \
+  X(placement_estimate, (handle, out.integers + 1, out.integers + 2, out.reals + 3))              \
   X(placement_initialise, (handle))                                                               \
   X(placement_step, (handle, 1))                                                                  \
   X(placement_adjust_population, (handle, out.integers + 1, out.integers + 2))                    \
@@ -102,9 +103,12 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_get_exchange, (handle, 1, 1, 1, out.small + 2, out.integers + 2, out.integers + 4,  \
                              out.integers + 5, out.integers + 7))                                 \
   X(placement_get_numbering, (handle, 1, out.integers + 1, out.integers + 2, out.integers + 3))   \
+  X(placement_check, (handle))                                                                    \
   X(placement_get_int64, (handle, "nodes", out.integers + 1))                                     \
   X(placement_get_double, (handle, "d_error.mean", out.reals + 1))                                \
   X(placement_get_string, (handle, "hash", out.texts + 1))                                        \
+  X(placement_get_edge_bands, (handle, 1, out.integers + 1, out.reals + 2, out.reals + 3,         \
+                               out.integers + 4, out.reals + 5, out.reals + 6))                   \
   X(placement_warning_count, (handle, out.small + 2))                                             \
   X(placement_get_warning, (handle, 0, out.texts + 1))                                            \
   X(placement_write, (handle, "unwritten.csv", 0))                                                \

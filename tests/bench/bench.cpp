@@ -2,9 +2,12 @@
 // pnpbs-bench: places nodes in our cases and judges them. Usage:
 //   pnpbs-bench [--data DIR] [--scale S] [--set key=value]... [--repeat N] [CASE...]
 // S multiplies every spacing (0.3162 makes ten times the nodes). Prints one line per case:
-// quality of the triangles where the domain is wider than 3 d, then of all; speed is the median. So
-// is the time that the process itself was given ("user"), which other work on the machine disturbs
-// less.
+// quality of the triangles where the domain is wider than 3 d, then of all; edge over d by bands of
+// d
+// ("?": fewer than 100 edges), at the boundary, and where its mean over two rings of neighbours is
+// least and largest; speed is the median. So is the time that the process itself was given
+// ("user"), which other work on the machine disturbs less.
+// A CASE that ends with "-" stands for all that begin so: bands- for the study of the bands of d.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -15,32 +18,17 @@
 #include <string>
 #include <vector>
 
+#include "cases.hpp"
 #include "evaluate.hpp"
 #include "pnpbs/pnpbs.h"
 
 namespace {
 
+using pnpbs_bench::Case;
+using pnpbs_bench::EdgeBand;
 using pnpbs_bench::Measures;
 using pnpbs_bench::NodeSet;
 using pnpbs_bench::Verdict;
-
-struct Case {
-  const char* name;
-  const char* poly;  // NULL: the unit square
-  double constant;   // d = scale * (constant + slope * distance from (x0, y0))
-  double slope;
-  double x0, y0;
-};
-
-// d = h0 (1 + 9 r / 0.7071) in the square, h0 = 0.00068; the lakes as in the examples.
-const Case kCases[] = {
-    {"graded-square", nullptr, 0.00068, 9 * 0.00068 / 0.7071, 0.5, 0.5},
-    {"graded-victoria", "lake_victoria.poly", 0.35, 0.006, 0, 0},
-    {"graded-lakes", "great_lakes_islands.poly", 0.3, 0.006, 0, 0},
-    {"uniform-square", nullptr, 0.0034, 0, 0, 0},
-    {"uniform-victoria", "lake_victoria.poly", 0.8947, 0, 0, 0},
-    {"uniform-lakes", "great_lakes_islands.poly", 1.5, 0, 0, 0},
-};
 
 struct SpacingOf {
   const Case* of;
@@ -49,9 +37,7 @@ struct SpacingOf {
 
 std::int32_t spacing(std::int64_t n, std::int32_t, const double* x, double* d, void* user) {
   const SpacingOf& s = *static_cast<const SpacingOf*>(user);
-  for (std::int64_t i = 0; i < n; ++i)
-    d[i] = s.scale * (s.of->constant +
-                      s.of->slope * std::hypot(x[2 * i] - s.of->x0, x[2 * i + 1] - s.of->y0));
+  for (std::int64_t i = 0; i < n; ++i) d[i] = s.scale * s.of->d(x[2 * i], x[2 * i + 1]);
   return 0;
 }
 
@@ -107,19 +93,20 @@ void run_once(const Case& c, const std::string& data, double scale,
   pnpbs_domain domain;
   pnpbs_placement p;
   require_ok(pnpbs_domain_create(context, 2, &domain), "domain");
-  if (c.poly) {
+  if (!c.poly.empty())
     require_ok(pnpbs_domain_read_poly(domain, (data + "/" + c.poly).c_str()), "poly");
-  } else {
-    const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
-    require_ok(pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, nullptr, 0),
-               "square");
-  }
+  else
+    for (const pnpbs_bench::Loop& loop : c.loops)
+      require_ok(pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1,
+                                           static_cast<std::int64_t>(loop.size()), loop[0].data(),
+                                           nullptr, 0),
+                 c.name.c_str());
   require_ok(pnpbs_placement_create(context, domain, &p), "placement");
   for (const auto& [key, value] : options)
     require_ok(pnpbs_placement_set(p, key.c_str(), value.c_str()), key.c_str());
   SpacingOf user{&c, scale};
-  if (c.slope == 0)
-    require_ok(pnpbs_placement_set_spacing_constant(p, scale * c.constant), "spacing");
+  if (c.constant)
+    require_ok(pnpbs_placement_set_spacing_constant(p, scale * c.d(0, 0)), "spacing");
   else
     require_ok(pnpbs_placement_set_spacing_callback(p, spacing, &user), "spacing");
   std::int64_t bytes = 0, steps = 0, rebuilds = 0, inserted = 0, deleted = 0;
@@ -163,6 +150,25 @@ void print(const char* label, const Measures& m) {
       100 * m.share_above_80, 100 * m.share_above_90, m.angle_least, m.edge_mean, m.edge_deviation);
 }
 
+void print(const Verdict& verdict, double nodes) {
+  std::printf("  nodes / wanted %.4f  edge/d by bands of d:", nodes / verdict.nodes_wanted);
+  for (const EdgeBand& band : verdict.edges.bands)
+    std::printf(" %.4f%s", band.mean, band.edges < 100 ? "?" : "");
+  const EdgeBand& at_boundary = verdict.edges.at_boundary;
+  std::printf("\n  at the boundary %.4f +- %.4f  worst places %.4f (%.4g %.4g), %.4f (%.4g %.4g)\n",
+              at_boundary.mean, at_boundary.deviation, verdict.edges.least_place,
+              verdict.edges.least_at[0], verdict.edges.least_at[1], verdict.edges.largest_place,
+              verdict.edges.largest_at[0], verdict.edges.largest_at[1]);
+}
+
+// A name stands for all cases that begin with it, if it ends with "-".
+bool is_wanted(const Case& c, const std::vector<std::string>& names) {
+  if (names.empty()) return !c.in_study;
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return c.name == name || (name.back() == '-' && c.name.rfind(name, 0) == 0);
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -191,8 +197,8 @@ int main(int argc, char** argv) {
     }
   }
   require_ok(pnpbs_context_create_serial(&context), "context");
-  for (const Case& c : kCases) {
-    if (!names.empty() && std::find(names.begin(), names.end(), c.name) == names.end()) continue;
+  for (const Case& c : pnpbs_bench::all_cases()) {
+    if (!is_wanted(c, names)) continue;
     Result result;
     for (int r = 0; r < repeat; ++r) run_once(c, data, scale, options, result);
     const double seconds = median(result.seconds);
@@ -201,13 +207,14 @@ int main(int argc, char** argv) {
         "%s: %.0f nodes, %.3f s, %.0f nodes/s, user %.3f s, %.0f steps, %s, %.0f bytes/node, hash "
         "%s\n"
         "  %s\n",
-        c.name, n, seconds, n / seconds, median(result.user_seconds), result.steps,
+        c.name.c_str(), n, seconds, n / seconds, median(result.user_seconds), result.steps,
         result.stop_reason.c_str(), (result.bytes - result.bytes_before) / n, result.hash.c_str(),
         result.phases.c_str());
     if (!judge) continue;
     const Verdict verdict = pnpbs_bench::evaluate(result.nodes);
     print("wide", verdict.wide);
     print("all ", verdict.all);
+    print(verdict, n);
     if (verdict.missing_edges > 0)
       std::printf("  %ld boundary edges are missing\n", static_cast<long>(verdict.missing_edges));
     std::fflush(stdout);

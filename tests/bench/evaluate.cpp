@@ -205,6 +205,126 @@ class Collector {
   std::int64_t edges_ = 0;
 };
 
+// Edges that have their length from the nodes' motion: all but those of the boundary.
+struct FreeEdge {
+  std::size_t a, b;
+  double ratio, d;
+  bool at_boundary;
+};
+
+std::vector<FreeEdge> free_edges(const Triangulation& t, const NodeSet& set) {
+  std::vector<char> on_boundary(set.x.size(), 0);
+  for (const auto* edges : {&set.edges, &set.inner_edges})
+    for (const auto& e : *edges)
+      for (std::int64_t end : e) on_boundary[static_cast<std::size_t>(end)] = 1;
+  std::vector<FreeEdge> found;
+  for (auto e = t.finite_edges_begin(); e != t.finite_edges_end(); ++e) {
+    const Face f = e->first, other = f->neighbor(e->second);
+    if (t.is_constrained(*e) || !f->info().inside() || !other->info().inside()) continue;
+    const auto a = static_cast<std::size_t>(f->vertex(t.cw(e->second))->info());
+    const auto b = static_cast<std::size_t>(f->vertex(t.ccw(e->second))->info());
+    if (on_boundary[a] && on_boundary[b]) continue;  // corners and narrow places leave no choice
+    const double d = 0.5 * (set.d[a] + set.d[b]);
+    const double length = std::hypot(set.x[a][0] - set.x[b][0], set.x[a][1] - set.x[b][1]);
+    found.push_back({a, b, length / d, d, on_boundary[a] != on_boundary[b]});
+  }
+  return found;
+}
+
+void add_to(EdgeBand& band, double ratio) {  // sums, until finished
+  ++band.edges;
+  band.mean += ratio;
+  band.deviation += ratio * ratio;
+}
+
+void finish(EdgeBand& band) {
+  if (band.edges == 0) return;
+  const double n = static_cast<double>(band.edges);
+  band.mean /= n;
+  band.deviation = std::sqrt(std::max(0.0, band.deviation / n - band.mean * band.mean));
+}
+
+std::vector<EdgeBand> bands_of(const std::vector<FreeEdge>& edges) {
+  constexpr int kBands = 8;
+  double least = std::numeric_limits<double>::infinity(), largest = 0;
+  for (const FreeEdge& e : edges) {
+    least = std::min(least, e.d);
+    largest = std::max(largest, e.d);
+  }
+  const bool graded = largest > 1.1 * least;
+  const int count = graded ? kBands : 1;
+  const double width = graded ? std::log(largest / least) / kBands : 1;
+  std::vector<EdgeBand> bands(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    bands[static_cast<std::size_t>(k)].d_from = least * std::exp(k * width);
+    bands[static_cast<std::size_t>(k)].d_to = graded ? least * std::exp((k + 1) * width) : largest;
+  }
+  for (const FreeEdge& e : edges) {
+    const int k = graded ? static_cast<int>(std::log(e.d / least) / width) : 0;
+    add_to(bands[static_cast<std::size_t>(std::clamp(k, 0, count - 1))], e.ratio);
+  }
+  for (EdgeBand& band : bands) finish(band);
+  std::erase_if(bands, [](const EdgeBand& band) { return band.edges == 0; });
+  return bands;
+}
+
+// Means over the edges around a node, then over those of its neighbours, too: some sixty edges.
+void find_worst_places(const NodeSet& set, const std::vector<FreeEdge>& edges,
+                       EdgesByPlace& by_place) {
+  constexpr double kFewest = 40;  // edges to a mean
+  std::vector<double> sum(set.x.size(), 0), count(set.x.size(), 0);
+  for (const FreeEdge& e : edges)
+    for (std::size_t i : {e.a, e.b}) {
+      sum[i] += e.ratio;
+      count[i] += 1;
+    }
+  std::vector<double> wide_sum = sum, wide_count = count;
+  for (const FreeEdge& e : edges) {
+    wide_sum[e.a] += sum[e.b];
+    wide_count[e.a] += count[e.b];
+    wide_sum[e.b] += sum[e.a];
+    wide_count[e.b] += count[e.a];
+  }
+  by_place.least_place = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < set.x.size(); ++i) {
+    if (wide_count[i] < kFewest) continue;
+    const double mean = wide_sum[i] / wide_count[i];
+    if (mean < by_place.least_place) {
+      by_place.least_place = mean;
+      by_place.least_at = set.x[i];
+    }
+    if (mean > by_place.largest_place) {
+      by_place.largest_place = mean;
+      by_place.largest_at = set.x[i];
+    }
+  }
+}
+
+EdgesByPlace edges_by_place(const Triangulation& t, const NodeSet& set) {
+  const std::vector<FreeEdge> edges = free_edges(t, set);
+  EdgesByPlace by_place;
+  by_place.bands = bands_of(edges);
+  for (const FreeEdge& e : edges)
+    if (e.at_boundary) add_to(by_place.at_boundary, e.ratio);
+  finish(by_place.at_boundary);
+  find_worst_places(set, edges, by_place);
+  return by_place;
+}
+
+// Each triangle's area over that of the equilateral one of side d, and two triangles to a node.
+double nodes_wanted(const Triangulation& t, const NodeSet& set) {
+  double nodes = 0;
+  for (auto f = t.finite_faces_begin(); f != t.finite_faces_end(); ++f) {
+    if (!f->info().inside()) continue;
+    double d = 0;
+    for (int k = 0; k < 3; ++k) d += set.d[static_cast<std::size_t>(f->vertex(k)->info())] / 3;
+    const double area =
+        std::fabs(CGAL::area(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()));
+    nodes += area / (d * d) * (2 / std::sqrt(3.0));
+  }
+  return nodes;
+}
+
 }  // namespace
 
 Verdict evaluate(const NodeSet& set) {
@@ -256,7 +376,8 @@ Verdict evaluate(const NodeSet& set) {
       if (mendable) wide.add_edge(ratio);
     }
   }
-  return {all.measures(), wide.measures(), reference.missing_edges};
+  return {all.measures(), edges_by_place(t, set), nodes_wanted(t, set), wide.measures(),
+          reference.missing_edges};
 }
 
 std::vector<std::array<std::int64_t, 3>> reference_triangles(const NodeSet& set) {

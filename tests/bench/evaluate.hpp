@@ -27,8 +27,27 @@ struct Measures {
   double edge_deviation = 0;
 };
 
+// Edge length over d of the edges whose d lies in a range; edges of the boundary do not count, as
+// their length is the domain's business.
+struct EdgeBand {
+  double d_from = 0, d_to = 0;
+  std::int64_t edges = 0;
+  double mean = 0, deviation = 0;
+};
+
+// Does d count everywhere? A mean over all edges hides a region that is crushed.
+struct EdgesByPlace {
+  std::vector<EdgeBand> bands;  // equal in log d, from the finest on; those without edges left out
+  EdgeBand at_boundary;         // edges with one end on the boundary
+  // The means over the edges around a node and its neighbours, where they are least and largest.
+  double least_place = 0, largest_place = 0;
+  std::array<double, 2> least_at{}, largest_at{};
+};
+
 struct Verdict {
   Measures all;
+  EdgesByPlace edges;
+  double nodes_wanted = 0;  // what the triangles' areas and d ask for
   // Without what no node set can mend: triangles where the domain is narrower than 3 d (some chord
   // through their middle is shorter) and those that touch a boundary edge shorter than 0.7 d.
   Measures wide;

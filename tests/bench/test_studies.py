@@ -56,10 +56,10 @@ class Schedule(InFolder):
         page = output.read_text()
         rows = self.rows(page)["sweeps"]
         self.assertEqual([row[0] for row in rows], ["0", "2", "4", "6", "10"])
-        self.assertIn("| **4** |", page)
+        self.assertIn("| **6** |", page)
         quality = [float(row[4]) for row in rows]
         self.assertLess(quality[0], quality[2])  # what the sweeps are for
-        self.assertEqual(rows[2][2], "1.00")
+        self.assertEqual(rows[3][2], "1.00")
         for row in rows:
             self.assertGreater(float(row[1].replace(" ", "")), 1000)
         self.assertNotIn(str(self.folder), page)
@@ -77,7 +77,7 @@ class Schedule(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         default, best = done.stdout.split("## effort=best")
         self.assertIn("| **0.2** |", default)
-        self.assertIn("| **0.05** |", best)
+        self.assertIn("| **0.1** |", best)
 
     def test_a_run_that_fails(self):
         failing = self.program("echo 'no more paper' >&2\nexit 3\n")

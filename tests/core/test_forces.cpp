@@ -58,14 +58,25 @@ struct DirectForce {
   double magnitudes = 0;
 };
 
+// The factor of a pair's force besides f(w).
 template <int Dim>
-DirectForce<Dim> direct_force(const std::vector<Bubble<Dim>>& all, std::size_t i,
+double factor(const CubicLaw&, double) {
+  return 1;
+}
+template <int Dim>
+double factor(const LinearPush&, double desired) {
+  return Dim == 2 ? desired : desired * desired;
+}
+
+template <int Dim, class Law>
+DirectForce<Dim> direct_force(const std::vector<Bubble<Dim>>& all, std::size_t i, const Law& of,
                               double (*law)(double)) {
   DirectForce<Dim> force;
   for (std::size_t j = 0; j < all.size(); ++j) {
     if (j == i) continue;
     const double gap = pnpbs::distance<Dim>(all[i].x, all[j].x);
-    const double f = law(gap / (0.5 * (all[i].d + all[j].d)));
+    const double desired = 0.5 * (all[i].d + all[j].d);
+    const double f = factor<Dim>(of, desired) * law(gap / desired);
     for (std::size_t k = 0; k < Dim; ++k) force.sum[k] += f * (all[i].x[k] - all[j].x[k]) / gap;
     force.magnitudes += std::fabs(f);
   }
@@ -94,12 +105,12 @@ void expect_direct_sum(const Law& law, double (*formula)(double), std::int64_t n
   const std::vector<Bubble<Dim>> all = b.bubbles();
   double strongest = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const DirectForce<Dim> direct = direct_force<Dim>(all, i, formula);
+    const DirectForce<Dim> direct = direct_force<Dim>(all, i, law, formula);
     for (std::size_t k = 0; k < Dim; ++k)
       ck_assert_double_eq_tol(forces[i][k], direct.sum[k], 1e-13 * (1 + direct.magnitudes));
     strongest = std::max(strongest, direct.magnitudes);
   }
-  ck_assert_double_gt(strongest, 1);  // there was something to add up
+  ck_assert_double_gt(strongest, factor<Dim>(law, 0.14));  // there was something to add up
 }
 
 // Minus the gradient of the energy of all pairs, by central differences.
@@ -114,7 +125,9 @@ void expect_gradient(const Law& law, double (*energy)(double)) {
       double sum = 0;
       for (std::size_t j = 0; j < all.size(); ++j) {
         const double desired = 0.5 * (all[i].d + all[j].d);
-        if (j != i) sum += desired * energy(pnpbs::distance<Dim>(x, all[j].x) / desired);
+        if (j != i)
+          sum += factor<Dim>(law, desired) * desired *
+                 energy(pnpbs::distance<Dim>(x, all[j].x) / desired);
       }
       return sum;
     };
@@ -271,12 +284,42 @@ START_TEST(accelerations_are_scaled_and_damped) {
   motion.damping = 0.37;
   pnpbs::accelerations<3>(b.nodes, b.lists, CubicLaw{}, motion, b.nodes.x, v, a);
   for (std::size_t i = 0; i < bubbles.size(); ++i) {
-    const DirectForce<3> direct = direct_force<3>(bubbles, i, cubic);
+    const DirectForce<3> direct = direct_force<3>(bubbles, i, CubicLaw{}, cubic);
     for (std::size_t k = 0; k < 3; ++k) {
       const double expected = bubbles[i].moves ? bubbles[i].d * direct.sum[k] - 0.37 * v[k](i) : 0;
       ck_assert_double_eq_tol(a[k](i), expected, 1e-13 * (1 + direct.magnitudes));
     }
   }
+}
+END_TEST
+
+// Two regions that are squeezed alike, one of bubbles twice as large: what each presses with on a
+// length of the border between them is the same, by the law that leaves no stress. (By the paper's
+// law the fine one presses twice as hard.)
+START_TEST(bubbles_squeezed_alike_press_alike) {
+  constexpr double kSqueezed = 0.9;
+  const LinearPush law;
+  const CubicLaw letter;
+  // Per column of a square arrangement: one pair's force, over the length that the column takes.
+  const auto stress = [&](const auto& of, double d) {
+    const double distance = kSqueezed * d;
+    return of.template per_length<2>(distance, d) * distance / distance;
+  };
+  ck_assert_double_eq_tol(stress(law, 0.1), stress(law, 0.2), 1e-14);
+  ck_assert_double_eq_tol(stress(letter, 0.1), 2 * stress(letter, 0.2), 1e-13);
+  const auto stress_in_volume = [&](double d) {
+    return law.per_length<3>(kSqueezed * d, d) * kSqueezed * d / (kSqueezed * d * kSqueezed * d);
+  };
+  ck_assert_double_eq_tol(stress_in_volume(0.1), stress_in_volume(0.2), 1e-14);
+  // And all are equally stiff: the acceleration over d is the same.
+  const auto stiffness = [&](auto dim, double d) {
+    constexpr int kDim = dim();
+    return LinearPush::acceleration_scale<kDim>(d) * law.per_length<kDim>(kSqueezed * d, d);
+  };
+  const std::integral_constant<int, 2> plane;
+  const std::integral_constant<int, 3> volume;
+  ck_assert_double_eq_tol(stiffness(plane, 0.1), stiffness(plane, 0.2), 1e-14);
+  ck_assert_double_eq_tol(stiffness(volume, 0.1), stiffness(volume, 0.2), 1e-14);
 }
 END_TEST
 
@@ -348,8 +391,9 @@ END_TEST
 
 int main() {
   return run_kernel_suite(
-      "forces", {cubic_law, linear_push, forces_are_the_direct_sum,
-                 forces_are_the_gradient_of_an_energy, forces_do_not_depend_on_the_order_in_memory,
-                 accelerations_are_scaled_and_damped, hexagonal_lattice_is_free_of_forces,
-                 coincident_nodes, overlap_ratio_of_lattices, overlap_ratio_is_the_direct_sum});
+      "forces",
+      {cubic_law, linear_push, forces_are_the_direct_sum, forces_are_the_gradient_of_an_energy,
+       forces_do_not_depend_on_the_order_in_memory, accelerations_are_scaled_and_damped,
+       bubbles_squeezed_alike_press_alike, hexagonal_lattice_is_free_of_forces, coincident_nodes,
+       overlap_ratio_of_lattices, overlap_ratio_is_the_direct_sum});
 }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
+#include "core/graded_fill.hpp"
 #include "core/initial_fill.hpp"
 #include "level_run.hpp"
 #include "random.hpp"
@@ -30,7 +32,17 @@ struct Filled {
     domain.check();
     boundary = pnpbs::lay_boundary(domain, evaluator_of(d));
     map.build(domain.bounds(), boundary, evaluator_of(d), 1'000'000'000);
-    nodes = pnpbs::hexagonal_fill(map, domain.bounds(), [](std::int32_t) { return true; });
+    const auto all = [](std::int32_t) { return true; };
+    nodes = pnpbs::hexagonal_fill(map, domain.bounds(), all);
+    fill_steep_leaves(pnpbs::GradedFill(map, all), d);
+  }
+
+  void fill_steep_leaves(const pnpbs::GradedFill& fill, const Plane& d) {
+    std::vector<double> values;
+    for (const P& x : fill.centres()) values.push_back(d(x[0], x[1]));
+    std::vector<std::int64_t> before = fill.wanted_nodes(values);
+    std::exclusive_scan(before.begin(), before.end(), before.begin(), std::int64_t{0});
+    for (const P& x : fill.place(values, before)) nodes.push_back(x);
   }
   Filled(const Filled&) = delete;
 
@@ -139,6 +151,28 @@ START_TEST(as_many_as_d_means) {
 }
 END_TEST
 
+// Where d grows by a fifth of the distance: in every band of a factor of two, what d asks for.
+START_TEST(steep_spacings_are_met_from_band_to_band) {
+  const auto d = [](double y) { return 0.001 + 0.2 * std::fabs(y - 0.4371); };
+  LevelRun run([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); },
+               [&](double, double y) { return d(y); });
+  run.level->fill();
+  const pnpbs::Nodes<2>& nodes = run.level->nodes();
+  for (double from = 0.001; from < 0.06; from *= 2) {
+    double wanted = 0, placed = 0;
+    constexpr int kFine = 100000;
+    for (int k = 0; k < kFine; ++k) {
+      const double there = d((k + 0.5) / kFine);
+      if (there >= from && there < 2 * from) wanted += 2 / std::sqrt(3.0) / (there * there) / kFine;
+    }
+    for (std::int64_t i = 0; i < nodes.count; ++i)
+      placed += nodes.d(i) >= from && nodes.d(i) < 2 * from;
+    // Bands are a few nodes wide, and nodes on the sides of the square count whole.
+    ck_assert_double_eq_tol(placed, wanted, 0.06 * wanted + 4);
+  }
+}
+END_TEST
+
 // Lattices of which nodes lie, but for the last digits, on borders of leaves: each node is made by
 // the leaf that leaf_at says, by which nodes are numbered and dealt to ranks, and by no other.
 START_TEST(each_leaf_makes_its_own) {
@@ -221,6 +255,6 @@ END_TEST
 int main() {
   return run_kernel_suite("initial_fill",
                           {hexagonal_where_d_is_constant, exactly_hexagonal, as_many_as_d_means,
-                           each_leaf_makes_its_own, no_room_for_any, levels_number_their_nodes,
-                           levels_take_given_nodes});
+                           steep_spacings_are_met_from_band_to_band, each_leaf_makes_its_own,
+                           no_room_for_any, levels_number_their_nodes, levels_take_given_nodes});
 }

@@ -41,7 +41,8 @@ Change<Dim> choose(const Set<Dim>& set, const PopulationRule& rule, const Freedo
   b.set(set);
   b.list(radius);
   const PopulationChange<Dim> change = pnpbs::choose_population_change<Dim>(
-      b.nodes, b.lists, rule,
+      b.nodes, b.lists, pnpbs::overlap_ratios<Dim>(b.nodes, b.lists), rule,
+      pnpbs::PopulationThresholds(rule),
       [&](std::int64_t i) { return freedom.must_go.count(b.nodes.id(i)) > 0; },
       [&](const Point<Dim>& x, double) { return freedom.fits(x[0], x[1]); });
   Change<Dim> by_id;
@@ -83,6 +84,32 @@ std::vector<std::size_t> within_hops(const Set<Dim>& set, std::size_t i, int hop
   return {seen.begin(), seen.end()};
 }
 
+// The middle of the largest empty circle through node i and two of its neighbours, by all pairs:
+// where the perpendicular bisectors meet. False if there is none, or the largest is wider than d.
+bool hole_by_search(const Set<2>& set, std::size_t i, double radius, Point<2>& middle) {
+  const Point<2>& x = set[i].x;
+  std::vector<Point<2>> around;
+  for (std::size_t j = 0; j < set.size(); ++j)
+    if (j != i && adjacent<2>(set[i], set[j], radius)) around.push_back(set[j].x);
+  double largest = 0;
+  for (const Point<2>& a : around)
+    for (const Point<2>& b : around) {
+      const double ux = a[0] - x[0], uy = a[1] - x[1], wx = b[0] - x[0], wy = b[1] - x[1];
+      const double det = ux * wy - uy * wx;
+      if (det == 0) continue;
+      const double u = 0.5 * (ux * ux + uy * uy), w = 0.5 * (wx * wx + wy * wy);
+      const Point<2> y{x[0] + (u * wy - w * uy) / det, x[1] + (ux * w - wx * u) / det};
+      const double r = pnpbs::distance<2>(x, y);
+      const bool empty = std::all_of(around.begin(), around.end(), [&](const Point<2>& other) {
+        return pnpbs::distance<2>(other, y) > r * (1 - 1e-8);
+      });
+      if (!empty || r <= largest) continue;
+      largest = r;
+      middle = y;
+    }
+  return largest > 0 && largest <= set[i].d;
+}
+
 template <int Dim>
 Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRule& rule,
                          const Freedom& freedom, double radius) {
@@ -107,6 +134,10 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
     const double length = pnpbs::distance<Dim>(crowd, {});
     for (int k = 0; k < Dim; ++k)
       result.place[k] = own.x[k] - own.d * (length > 0 ? crowd[k] / length : (k == 0 ? -1.0 : 0.0));
+    if constexpr (Dim == 2) {
+      Point<2> hole;
+      if (hole_by_search(set, i, radius, hole)) result.place = hole;
+    }
     if (!freedom.fits(result.place[0], result.place[1])) return result;
     double there = 0;  // the new bubble's ratio
     for (std::size_t j : within_hops<Dim>(set, i, 2, radius)) {
@@ -147,7 +178,7 @@ void expect_as_by_search(const Set<Dim>& set, const PopulationRule& rule, const 
   ck_assert_uint_eq(change.born.size(), expected.born.size());
   for (const auto& [parent, place] : expected.born) {
     quick_assert(change.born.count(parent) == 1);
-    ck_assert_double_lt(pnpbs::distance<Dim>(change.born.at(parent), place), 1e-12);
+    ck_assert_double_lt(pnpbs::distance<Dim>(change.born.at(parent), place), 1e-11);
   }
   ck_assert_uint_ge(expected.deleted.size() + expected.born.size(), least_actors);
 
@@ -298,9 +329,68 @@ START_TEST(nothing_is_born_that_would_have_to_go) {
     const double angle = (-75 + k * 150 / 7.0) * degree;
     set.push_back({{d + 0.7 * d * std::cos(angle), 0.7 * d * std::sin(angle)}, d, 3 + k, false});
   }
-  quick_assert(choose<2>(set, {}).born.empty());
+  PopulationRule rule;
+  rule.least_gap = 0.65;
+  quick_assert(choose<2>(set, rule).born.empty());
   set.erase(set.begin() + 4, set.begin() + 10);
-  ck_assert_uint_eq(choose<2>(set, {}).born.size(), 1);
+  ck_assert_uint_eq(choose<2>(set, rule).born.size(), 1);
+}
+END_TEST
+
+// Two octaves of d, one too loose by four per cent in its distances, the other as much too dense:
+// in each, so many are below or above its threshold as are missing or too many.
+START_TEST(thresholds_follow_the_mean_distance) {
+  Random random(64);
+  PopulationRule rule;
+  rule.mean_distance = 1;
+  const double stretch[] = {1.04, 0.96};
+  Set<2> set;
+  for (int half = 0; half < 2; ++half) {
+    const double d = half == 0 ? 0.02 : 0.04;
+    Set<2> part = hexagonal_lattice(unit_box<2>(), d * stretch[half], d, 2.5 * d);
+    for (Bubble<2>& b : part) {
+      for (double& x : b.x) x += random.between(-0.02, 0.02) * d;
+      b.x[0] += 1.5 * half;  // side by side
+      b.id = static_cast<std::int64_t>(set.size());
+      set.push_back(b);
+    }
+  }
+  Bubbles<2> b;
+  b.box = {{-1, -1}, {4, 3}};
+  b.grow_tree([](const Point<2>&) { return 0.02; });
+  b.set(set);
+  b.list(1.6);
+  const pnpbs::View<double> ratios = pnpbs::overlap_ratios<2>(b.nodes, b.lists);
+  const auto thresholds = pnpbs::choose_thresholds<2>(*pnpbs::serial_communicator(), b.nodes,
+                                                      b.lists, ratios, rule, 0.001);
+  for (int half = 0; half < 2; ++half) {
+    const double d = half == 0 ? 0.02 : 0.04;
+    const auto pair = thresholds.at(d);
+    double bubbles = 0, act = 0;
+    for (std::int64_t i = 0; i < b.nodes.count; ++i) {
+      if (!b.nodes.moves(i) || b.nodes.d(i) != d) continue;
+      ++bubbles;
+      act += half == 0 ? ratios(i) < pair.insert_below : ratios(i) > pair.delete_above;
+    }
+    const double wanted = bubbles * std::fabs(stretch[half] * stretch[half] - 1);
+    ck_assert_double_gt(wanted, 10);
+    ck_assert_double_le(act, wanted);
+    ck_assert_double_ge(act, 0.6 * wanted);  // thresholds are multiples of 1/32
+    if (half == 0)
+      ck_assert_double_eq(pair.delete_above, rule.delete_above);
+    else
+      ck_assert_double_eq(pair.insert_below, 0);
+  }
+  // Near enough to the aim, or without one, nobody acts but for its own ratio.
+  for (const auto& [aim, tolerance] : {std::pair{1.0, 0.05}, std::pair{0.0, 0.001}}) {
+    rule.mean_distance = aim;
+    const auto left = pnpbs::choose_thresholds<2>(*pnpbs::serial_communicator(), b.nodes, b.lists,
+                                                  ratios, rule, tolerance);
+    for (const double d : {0.02, 0.04}) {
+      ck_assert_double_eq(left.at(d).insert_below, 0);
+      ck_assert_double_eq(left.at(d).delete_above, rule.delete_above);
+    }
+  }
 }
 END_TEST
 
@@ -346,6 +436,6 @@ int main() {
       {perfect_lattices_stay, a_hole_is_filled_once, one_too_many_is_deleted,
        boundary_nodes_neither_go_nor_give_birth, nodes_without_room_go_first,
        nothing_is_born_where_it_does_not_fit, nothing_is_born_on_neighbours_of_neighbours,
-       nothing_is_born_that_would_have_to_go, contests_are_won_as_by_search,
-       winners_are_far_apart});
+       nothing_is_born_that_would_have_to_go, contests_are_won_as_by_search, winners_are_far_apart,
+       thresholds_follow_the_mean_distance});
 }

@@ -31,8 +31,7 @@ TOOLS = {
     "mpicc": STRICT_C,
     "gfortran": "-std=f2003 " + STRICT_FORTRAN,
     "mpifort": STRICT_FORTRAN,  # MPI's own module and mpif.h are not Fortran 2003
-    # Compiling takes longer than computing, and nothing is to be written outside of the folder.
-    "julia": "--startup-file=no --compiled-modules=no --color=no -O0",
+    "julia": "",  # as its users start it: with other options, d may differ in the last bit
 }
 PROGRAMS = {
     "c": r"\bint main\(",
@@ -65,10 +64,13 @@ def put_tools(folder):
 
 def environment(prefix, work):
     packages = only(prefix.rglob("pnpbs.pc")).parent
+    # Programs must find the library by what the page tells their reader to do.
+    inherited = {name: value for name, value in os.environ.items()
+                 if name not in ("LD_LIBRARY_PATH", "LD_RUN_PATH", "PNPBS_LIBRARY")}
     return dict(
-        os.environ,
+        inherited,
         PATH=f"{work / 'tools'}:{prefix / 'bin'}:{os.environ['PATH']}",
-        PKG_CONFIG_PATH=str(packages), LD_LIBRARY_PATH=str(packages.parent),
+        PKG_CONFIG_PATH=str(packages),
         JULIA_LOAD_PATH=f"@stdlib:{prefix}/share/pnpbs/julia:"
                         f"{ROOT}/bindings/julia/PNPBS.jl/test/stand_in",
         JULIA_DEPOT_PATH=str(work / "depot"), OMP_NUM_THREADS="1",

@@ -71,6 +71,15 @@ class Pages(unittest.TestCase):
     def test_nothing_to_run(self):
         self.assertIn("nothing on this page is run", self.wrong("```text", "as follows\n\n```text"))
 
+    def test_library_that_the_loader_does_not_find(self):
+        self.assertIn("libpnpbs.so", self.wrong("--libs pnpbs)", "--libs-only-L --libs-only-l pnpbs)"))
+
+    @unittest.skipUnless(run_page.compiler("julia"), "there is no Julia")
+    def test_julia_as_its_users_start_it(self):
+        page = ("```julia a.jl\nprintln(Base.JLOptions().opt_level, Base.JLOptions().use_compiled_modules)"
+                "\n```\n\n```sh\njulia a.jl\n```\n\n```text\n21\n```\n")
+        self.assertEqual("\n".join(run_page.run_page(PREFIX, page)), "")
+
     def test_block_without_end(self):
         with self.assertRaisesRegex(ValueError, "has no end"):
             self.wrong("is behind it\n```", "is behind it\n")

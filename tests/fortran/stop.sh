@@ -20,8 +20,8 @@ ends() { # argument, exit status, text on standard error
   esac
 }
 
-ends library 1 "pnpbs: unknown option or statistic: "
+ends library 1 "pnpbs: context%set: unknown option or statistic: "
 ends library 1 "steps"
-ends module 1 "pnpbs: invalid argument: argument point has an extent of 1 where 2 is right"
-ends stat 1 "argument stat must be an integer of four or eight bytes"
+ends module 1 "pnpbs: domain%add_hole: invalid argument: argument point has an extent of 1 where 2 is right"
+ends stat 1 "pnpbs: domain%create: argument stat must be an integer of four or eight bytes"
 ends outcome 3 ""

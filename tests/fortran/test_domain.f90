@@ -17,6 +17,8 @@ program test_domain
   call context%create_serial
   call about_polylines
   call about_arcs_and_curves
+  call about_open_curves
+  call about_graphs_with_tags
   call about_graphs
   call about_files
   call about_wrong_arguments
@@ -81,6 +83,41 @@ contains
     call domain%destroy
   end subroutine
 
+  !> The first segment with a tag.
+  function first_with(tag, tags)
+    integer, intent(in) :: tag
+    integer(c_int32_t), intent(in) :: tags(:)
+    integer :: first_with
+    do first_with = 1, size(tags)
+      if (tags(first_with) == tag) exit
+    end do
+  end function
+
+  !> Where a curve begins, which its shape alone does not tell.
+  subroutine about_open_curves
+    type(pnpbs_domain) :: domain
+    real(c_double), target :: axes(2)
+    real(c_double), allocatable :: segments(:,:,:)
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int64_t) :: count
+    integer :: i
+    call domain%create(context)
+    call domain%add_polyline(PNPBS_BOUNDARY, .true., corners, [1, 1, 1, 1])
+    call domain%add_arc(PNPBS_INNER, [1d0, 0.25d0], 0.5d0, 0.25d0 * pi, 0.75d0 * pi, 2)
+    axes = [1.5d0, 0.75d0]
+    call domain%add_curve(PNPBS_INNER, ellipse, 0.1d0, 0.7d0, 3, user=c_loc(axes(1)))
+    call domain%segment_count(count)
+    allocate (segments(2, 2, count), tags(count))
+    call domain%get_segments(segments, tags)
+    i = first_with(2, tags)
+    call expect(maxval(abs(segments(:, 1, i) - [1 + sqrt(0.125d0), 0.25d0 + sqrt(0.125d0)])) &
+                < 1d-12, 'where the arc begins')
+    i = first_with(3, tags)
+    call expect(maxval(abs(segments(:, 1, i) - axes * [cos(0.1d0), sin(0.1d0)])) < 1d-12, &
+                'where the curve begins')
+    call domain%destroy
+  end subroutine
+
   subroutine about_graphs
     type(pnpbs_domain) :: domain
     real(c_double) :: xy(2, 8)
@@ -119,6 +156,36 @@ contains
     call expect(area(domain) == 2, 'an inner loop')
     call domain%add_hole([0.4d0, 0.4d0])
     call expect(abs(area(domain) - 1.875d0) < 1d-14, 'a hole in the inner loop')
+    call domain%destroy
+  end subroutine
+
+  !> More vertices than segments, and tags of each that the other has not.
+  subroutine about_graphs_with_tags
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    real(c_double), allocatable :: segments(:,:,:)
+    integer(c_int32_t), allocatable :: tags(:), node_tags(:)
+    integer(c_int64_t) :: count, nodes
+    integer :: i
+    call domain%create(context)
+    call domain%add_pslg(reshape([corners, [1d0, 0.5d0]], [2, 5]), &
+                         reshape([1_c_int64_t, 2_c_int64_t, 2_c_int64_t, 3_c_int64_t, &
+                                  3_c_int64_t, 4_c_int64_t, 4_c_int64_t, 1_c_int64_t], [2, 4]), &
+                         [11, 12, 13, 14, 15], [21, 22, 23, 24])
+    call domain%segment_count(count)
+    allocate (segments(2, 2, count), tags(count))
+    call domain%get_segments(segments, tags)
+    call expect(all(tags >= 21 .and. tags <= 24), 'tags of segments')
+    call placement%create(context, domain)
+    call placement%set_spacing_constant(0.1d0)
+    call placement%initialise
+    call placement%count(nodes)
+    allocate (node_tags(nodes))
+    call placement%get_nodes(tags=node_tags)
+    do i = 11, 15
+      call expect(any(node_tags == i), 'tags of vertices')
+    end do
+    call placement%destroy
     call domain%destroy
   end subroutine
 

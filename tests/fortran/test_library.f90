@@ -47,6 +47,12 @@ contains
       call expect(len(name) > 0 .and. len(range) > 0 .and. len(help) > 0, 'option ' // name)
       call expect(type == 'integer' .or. type == 'real' .or. type == 'choice', 'type of ' // name)
       if (name == 'steps') found = type == 'integer'
+      ! Each column is what it should be, and no other one.
+      if (name == 'method') then
+        call expect(type == 'choice' .and. default_value == 'default', 'type and default of method')
+        call expect(range == 'default | paper' .and. index(help, 'scheme') > 0, &
+                    'range and help of method')
+      end if
     end do
     call expect(found, 'the option steps')
     call pnpbs_option_info(1, help=help)
@@ -73,7 +79,8 @@ contains
     binaries = 0
     do i = 1, count
       call pnpbs_format_info(i, name, help, binary, elements)
-      if (name == 'vtu') found = elements .and. len(help) > 0
+      if (name == 'vtu') found = binary .and. elements .and. len(help) > 0
+      if (name == 'msh') call expect(elements .and. .not. binary, 'msh has elements, in text')
       if (binary) binaries = binaries + 1
     end do
     call expect(found, 'the format vtu')
@@ -112,6 +119,9 @@ contains
     ! Without MPI_Init.
     call context%create_mpi(0, stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_MPI .or. stat == PNPBS_ERROR_UNSUPPORTED, 'no MPI')
+    call expect(index(errmsg, 'use context%create_serial') > 0, 'a name as it is in Fortran')
+    call context%create_mpi(0.0, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'comm is no integer')
     call context%create_mpi(0_c_int64_t, 'Another MPI 3.0', stat, errmsg)
     call expect(stat == PNPBS_ERROR_MPI .or. stat == PNPBS_ERROR_UNSUPPORTED, 'another MPI')
   end subroutine

@@ -10,7 +10,11 @@ program test_mpi_f08
   type(pnpbs_domain) :: domain
   type(pnpbs_placement) :: placement
   integer(c_int64_t) :: mine, all_nodes, total
+  integer(c_int) :: stat
+  character(len=300) :: errmsg
   call MPI_Init()
+  call context%create_mpi(MPI_COMM_WORLD, stat=stat, errmsg=errmsg)
+  call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'give comm%MPI_VAL')
   call context%create_mpi(MPI_COMM_WORLD%MPI_VAL)
   call square(context, domain, placement, 0.1d0)
   call placement%initialise

@@ -58,11 +58,14 @@ contains
     call placement%get('nodes', text, stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_KEY, errmsg, 'nodes')
 
+    call about_elements(placement)
     call placement%warning_count(warnings)
     call expect(warnings == 0, 'no warnings')
     call placement%get_warning(1, text, stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'index')
     call placement%rebalance
+    call placement%check(stat)
+    call expect(stat == PNPBS_OK, 'the results are right')
     call same%from_handle(placement%handle())
     call same%get('hash', hash_again)
     call expect(hash == hash_again, 'rebalancing moves no node')
@@ -75,10 +78,35 @@ contains
     call domain%destroy
   end subroutine
 
+  ! Quality, edge length over d, and what a run was expected to come to.
+  subroutine about_elements(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int64_t) :: bands, edges(8), too_few(0), nodes, all_nodes, bytes
+    real(c_double) :: quality, mean, d_from(8), d_to(8), means(8), deviation(8), seconds
+    call placement%get('quality.mean', quality)
+    call expect(quality > 0.97 .and. quality < 1, 'mean quality')
+    call placement%get('edge.mean', mean)
+    call expect(abs(mean - 1) < 0.05, 'edges over d')
+    call placement%edge_band_count(bands)
+    call expect(bands == 1, 'one band where d is constant')
+    call placement%get_edge_bands(d_from, d_to, edges, means, deviation)
+    call expect(d_from(1) == 0.05d0 .and. d_to(1) == 0.05d0, 'the band')
+    call expect(edges(1) > 1000 .and. abs(means(1) - 1) < 0.05, 'edges of the band')
+    call expect(deviation(1) > 0 .and. deviation(1) < 0.1, 'their deviation')
+    call placement%get_edge_bands(edges=too_few, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'capacity')
+    call placement%get('nodes', nodes)
+    call placement%estimate(all_nodes, bytes, seconds)
+    call expect(abs(all_nodes - nodes) < 0.05d0 * nodes, 'expected nodes')
+    call expect(bytes > 260 * all_nodes .and. seconds > 0, 'expected memory and time')
+    call placement%estimate(stat=stat)
+    call expect(stat == PNPBS_OK, 'nothing asked')
+  end subroutine
+
   subroutine about_steps
     type(pnpbs_domain) :: domain
     type(pnpbs_placement) :: placement
-    integer(c_int64_t) :: nodes, offsets(3), neighbours(1)
+    integer(c_int64_t) :: nodes, more, inserted, deleted, offsets(3), neighbours(1)
     call square(context, domain, placement, 0.1d0)
     call placement%count(nodes)
     call expect(nodes == 0, 'no nodes yet')
@@ -93,6 +121,13 @@ contains
     call placement%step(-1, stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '-1')
     call compare_with_c(placement)
+    ! One node inside is far too few.
+    call placement%set_nodes(reshape([0.5d0, 0.5d0], [2, 1]))
+    call placement%initialise
+    call placement%count(nodes)
+    call placement%adjust_population(inserted, deleted)
+    call placement%count(more)
+    call expect(inserted > deleted .and. more == nodes + inserted - deleted, 'a sparse population')
     call placement%destroy
     call domain%destroy
   end subroutine

@@ -58,6 +58,7 @@ contains
     call compare_with_c(placement)
     call placement%rebalance
     call compare_with_c(placement)
+    call placement%check
     call placement_alone%destroy
     call placement%destroy
     call domain%destroy

@@ -131,6 +131,7 @@ contains
     type(pnpbs_placement), intent(in) :: placement
     integer(c_int64_t), allocatable :: offsets(:), neighbours(:), star_neighbours(:)
     integer(c_int8_t), allocatable :: triangle(:)
+    logical, allocatable :: closed(:)
     integer(c_int64_t) :: nodes, entries
     call placement%count(nodes)
     allocate (offsets(nodes + 1))
@@ -146,6 +147,9 @@ contains
     call placement%get_stars(offsets, star_neighbours, triangle)
     call expect(twin_lists(placement%handle(), 1, nodes, offsets, star_neighbours, triangle) == 0, &
                 'stars as in C')
+    allocate (closed(entries))
+    call placement%get_stars(offsets, star_neighbours, closed)
+    call expect(all(closed .eqv. triangle /= 0), 'triangles of stars as logicals')
   end subroutine
 
   subroutine compare_elements(placement)

@@ -879,7 +879,7 @@ START_TEST(bad_graphs) {
 END_TEST
 
 START_TEST(large_and_far_domains) {
-  for (const double scale : {1e-140, 1e-9, 1e9, 1e50}) {
+  for (const double scale : {1e-50, 1e-9, 1e9, 1e50}) {
     PlaneDomain domain;
     add_loop(domain, rectangle(0, 0, scale, scale));
     add_loop(domain, rectangle(0.25 * scale, 0.25 * scale, 0.5 * scale, 0.5 * scale));

@@ -57,7 +57,7 @@ is_refused C "find_package(pnpbs $next REQUIRED)" "version: $version"
 is_refused C "find_package(pnpbs $next REQUIRED)" "compatible with requested version \"$next\""
 is_refused C "find_package(pnpbs $((major + 1)) REQUIRED)" "version: $version"
 is_refused C "find_package(pnpbs REQUIRED COMPONENTS Pascal)" \
-  "pnpbs has no component Pascal; there are Fortran and MPI"
+  "pnpbs has no component Pascal; there are Fortran, MPI and Static"
 works C "find_package(pnpbs REQUIRED OPTIONAL_COMPONENTS Pascal)
 $(require "NOT pnpbs_Pascal_FOUND AND pnpbs_FOUND" "an optional component is not optional")"
 
@@ -80,6 +80,22 @@ find_package(pnpbs REQUIRED COMPONENTS MPI)"
 find_package(pnpbs REQUIRED COMPONENTS MPI)" "The component MPI found no MPI"
 else
   is_refused C "find_package(pnpbs REQUIRED COMPONENTS MPI)" "was built without MPI"
+fi
+
+# ------------------------------------------------------------------ the static library ----------
+if [ "$with_static" = ON ]; then
+  works C "find_package(pnpbs REQUIRED COMPONENTS Static)
+find_package(pnpbs REQUIRED COMPONENTS Static)
+add_executable(a \"$prefix/$datadir/pnpbs/examples/c/smallest/smallest.c\")
+target_link_libraries(a PRIVATE pnpbs::static m)"
+  quietly "$cmake" --build "$folder/build"
+  if readelf -d "$folder/build/a" | grep libpnpbs; then
+    fail "the shared library was taken"
+  fi
+  OMP_NUM_THREADS=2 run_and_compare "$folder/build/a"
+else
+  is_refused C "find_package(pnpbs REQUIRED COMPONENTS Static)" \
+    "This PNPBS was installed without its static library"
 fi
 
 # ------------------------------------------------------------------ Fortran ---------------------

@@ -32,6 +32,7 @@ expected_files() {
   fi
   if [ "$with_static" = ON ]; then
     echo "$libdir/libpnpbs.a"
+    echo "$libdir/cmake/pnpbs/pnpbsStatic.cmake"
   fi
   if [ "$with_command" = ON ]; then
     echo "$bindir/pnpbs"
@@ -52,6 +53,12 @@ expected_files() {
   echo "$datadir/doc/pnpbs/LICENSE"
   echo "$datadir/doc/pnpbs/README.md"
   same_files docs "$datadir/doc/pnpbs/docs" | grep -v '/pnpbs\.1$'
+  same_files abi "$datadir/doc/pnpbs/abi"
+  same_files packaging "$datadir/doc/pnpbs/packaging"
+  for link in examples include/pnpbs bindings/fortran; do
+    echo "$datadir/doc/pnpbs/$link"
+  done
+  echo "$datadir/pnpbs/docs"
   same_files examples "$datadir/pnpbs/examples"
   same_files bindings/julia "$datadir/pnpbs/julia"
 }
@@ -70,6 +77,8 @@ for pair in include/pnpbs:$includedir/pnpbs bindings/julia:$datadir/pnpbs/julia 
     cmp "$source/${pair%%:*}/${file#"${pair#*:}"/}" "$file"
   done < "$work/copied"
 done
+
+cmp "$datadir/doc/pnpbs/LICENSE" "$datadir/pnpbs/julia/PNPBS.jl/LICENSE" || fail "two licences"
 
 # ------------------------------------------------------------------ the library -----------------
 say "the library's names"
@@ -94,11 +103,11 @@ named_folders() {
 }
 
 # A Kokkos in the source tree's own .deps is linked where it lies: the rpath to a shared one, and
-# what pkg-config --static tells. gfortran keeps the names of the sources of what it compiles, for
+# what pkg-config --static and pnpbs::static tell. gfortran keeps the names of the sources of what it compiles, for
 # its messages, and has no option against it.
 allowed() {
   case $1 in
-    *.so.* | *.pc) grep -vF "$kokkos_folder" ;;
+    *.so.* | *.pc | */pnpbsStatic.cmake) grep -vF "$kokkos_folder" ;;
     *libpnpbs_fortran.a) grep -vF "$source/bindings/fortran/" ;;
     *) cat ;;
   esac
@@ -119,18 +128,14 @@ if [ "$build_type" = Release ]; then
 fi
 
 # ------------------------------------------------------------------ links in the documents ------
+# Those that lead out of the folder of the documents included: nothing but what is installed counts.
 say "links between installed documents"
-cd "$datadir/doc/pnpbs"
-find . -name '*.md' | sed 's,^\./,,' > "$work/pages"
-while read -r page; do
-  grep -oE '\]\([^)# ]+' "$page" | sed 's/^](//' | grep -v '^https*:' > "$work/links" || true
-  while read -r link; do
-    # Where it leads in the source tree, of which only these lie here, in the same places.
-    target=$(realpath -m --relative-to="$source" "$source/$(dirname "$page")/$link")
-    case $target in
-      README.md | LICENSE | docs/*) ;;
-      *) target=$source/$target ;;
-    esac
-    [ -e "$target" ] || fail "$page: $link is not there"
-  done < "$work/links"
-done < "$work/pages"
+for link in "$datadir/doc/pnpbs/examples" "$datadir/pnpbs/docs"; do
+  case $(readlink "$link") in
+    ../*) ;;
+    *) fail "$link is no relative link" ;;
+  esac
+done
+for folder in "$datadir/doc/pnpbs" "$datadir/pnpbs"; do
+  python3 -B "$scripts/../docs/check_links.py" "$folder" || fail "links that lead nowhere"
+done

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Each installed header is complete by itself, in C99 and in C++11.
+# Each installed header is complete by itself, in C99 and in C++11; pnpbs.h, which needs no MPI,
+# in C89 and C++98, too.
 # usage: headers.sh <settings>
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
@@ -25,4 +26,9 @@ for header in "$prefix/$includedir"/pnpbs/*.h; do
   # shellcheck disable=SC2086
   "$cxx" -std=c++11 -Wall -Wextra -pedantic-errors -Werror $flags $no_mpi_classes -fsyntax-only \
     -x c++ "$work/header.c"
+  [ $module = pnpbs ] || continue
+  # shellcheck disable=SC2086
+  "$cc" -std=c89 -Wall -Wextra -pedantic -Werror $flags -fsyntax-only "$work/header.c"
+  # shellcheck disable=SC2086
+  "$cxx" -std=c++98 -Wall -Wextra -pedantic -Werror $flags -fsyntax-only -x c++ "$work/header.c"
 done

@@ -26,8 +26,11 @@ for module in $modules; do
   done
 done
 
-say "pnpbs alone brings one folder, one library"
-[ "$(pkg-config --libs pnpbs | wc -w)" = 2 ] || fail "$(pkg-config --libs pnpbs)"
+say "pnpbs alone brings one folder, where the loader shall look as well, and one library"
+[ "$(pkg-config --libs-only-L pnpbs | wc -w)" = 1 ] || fail "$(pkg-config --libs-only-L pnpbs)"
+[ "$(pkg-config --libs-only-l pnpbs | xargs)" = -lpnpbs ] || fail "$(pkg-config --libs-only-l pnpbs)"
+[ "$(pkg-config --libs-only-other pnpbs | xargs)" = \
+  "-Wl,-rpath,$(pkg-config --variable=libdir pnpbs)" ] || fail "$(pkg-config --libs-only-other pnpbs)"
 [ "$(pkg-config --cflags pnpbs | wc -w)" = 1 ] || fail "$(pkg-config --cflags pnpbs)"
 if pkg-config --exists 'pnpbs >= 99'; then
   fail "takes itself for version 99"
@@ -51,7 +54,6 @@ int main(int argc, char **argv) {
 }
 PROGRAM
   # shellcheck disable=SC2046  # words on purpose
-  "$cc" "$work/ranks.c" $(pkg-config --cflags --libs pnpbs-mpi) -o "$work/ranks" \
-    -Wl,-rpath,"$(pkg-config --variable=libdir pnpbs)"
+  "$cc" "$work/ranks.c" $(pkg-config --cflags --libs pnpbs-mpi) -o "$work/ranks"
   run_and_compare on_ranks 2 "$work/ranks"
 fi

@@ -24,3 +24,22 @@ for turn in first second; do
     end
     println(ARGS[1], ": ", n, " nodes"); n > 90 || exit(1)' "$turn"
 done
+
+# Pkg adds the package to an environment and runs its tests there. It wants a registry; this one
+# offers nothing, for nothing is needed.
+registry=$work/depot/registries/Empty
+mkdir -p "$registry"
+cat > "$registry/Registry.toml" << 'REGISTRY'
+name = "Empty"
+uuid = "23338594-aafe-5451-b93e-139f81909106"
+repo = "none"
+
+[packages]
+REGISTRY
+unset JULIA_LOAD_PATH
+"$3" --startup-file=no -e '
+  using Pkg
+  Pkg.activate(ARGS[1])
+  Pkg.develop(PackageSpec(path = ARGS[2]))
+  Pkg.test("PNPBS"; test_args = ["package"])' \
+  "$work/environment" "$work/moved/share/pnpbs/julia/PNPBS.jl"

@@ -225,6 +225,61 @@ static void different_input(void) {
   pnpbs_placement_destroy(&placement);
 }
 
+/* A square with a triangle in it and a fixed node. */
+static pnpbs_placement marked_placement(int32_t role, int32_t vertex_tag, int32_t fixed_tag) {
+  const double corners[] = {0, 0, 1, 0, 1, 1, 0, 1}, fixed[] = {0.75, 0.75};
+  const double inner[] = {0.2, 0.2, 0.5, 0.2, 0.2, 0.5};
+  const int64_t ends[] = {0, 1, 1, 2, 2, 3, 3, 0};
+  const int32_t tags[] = {0, vertex_tag, 0, 0};
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+  expect(pnpbs_domain_create(context, 2, &domain) == PNPBS_OK, "domain");
+  if (vertex_tag != 0)
+    pnpbs_domain_add_pslg(domain, 4, corners, tags, 4, ends, NULL, 0, NULL);
+  else {
+    pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, corners, NULL, 0);
+    pnpbs_domain_add_polyline(domain, role, 1, 3, inner, NULL, 0);
+    pnpbs_domain_add_fixed_nodes(domain, 1, fixed, &fixed_tag);
+  }
+  placement = placement_on(domain);
+  pnpbs_placement_set_spacing_constant(placement, 0.05);
+  return placement;
+}
+
+/* What differs between ranks is an error, and nobody waits for ever. */
+static void different_marks_and_keys(void) {
+  const int is_bad = rank == bad_rank;
+  int64_t value;
+  double real;
+  const char* text;
+  pnpbs_placement placement;
+  if (size > 1) {
+    placement = marked_placement(is_bad ? PNPBS_BOUNDARY : PNPBS_INNER, 0, 5);
+    expect_error(pnpbs_placement_run(placement), PNPBS_ERROR_DOMAIN, "domains differ");
+    pnpbs_placement_destroy(&placement);
+    placement = marked_placement(PNPBS_INNER, 0, is_bad ? 6 : 5);
+    expect_error(pnpbs_placement_run(placement), PNPBS_ERROR_DOMAIN, "domains differ");
+    pnpbs_placement_destroy(&placement);
+    placement = marked_placement(PNPBS_INNER, is_bad ? 6 : 5, 0);
+    expect_error(pnpbs_placement_run(placement), PNPBS_ERROR_DOMAIN, "domains differ");
+    pnpbs_placement_destroy(&placement);
+  }
+  placement = marked_placement(PNPBS_INNER, 0, 5);
+  expect(pnpbs_placement_run(placement) >= 0, "run with the same marks");
+  expect(pnpbs_placement_check(placement) == PNPBS_OK, "the results are right");
+  expect_bad_rank(pnpbs_placement_get_int64(placement, is_bad ? "nodos" : "nodes", &value),
+                  PNPBS_ERROR_KEY, "nodos");
+  expect_bad_rank(pnpbs_placement_get_double(placement, is_bad ? "hash" : "d_error.mean", &real),
+                  PNPBS_ERROR_KEY, "hash");
+  expect_bad_rank(pnpbs_placement_get_string(placement, is_bad ? NULL : "hash", &text),
+                  PNPBS_ERROR_ARGUMENT, "key");
+  if (size > 1)
+    expect_error(pnpbs_placement_get_int64(placement, is_bad ? "steps" : "nodes", &value),
+                 PNPBS_ERROR_ARGUMENT, "differs between ranks");
+  expect(pnpbs_placement_get_int64(placement, "nodes", &value) == PNPBS_OK, "nodes");
+  pnpbs_placement_destroy(&placement);
+}
+
 static void bad_domain(void) {
   const double bow_tie[] = {0, 0, 1, 1, 1, 0, 0, 1}, square[] = {0, 0, 1, 0, 1, 1, 0, 1};
   pnpbs_domain domain;
@@ -351,6 +406,7 @@ int main(int argc, char** argv) {
     failing_curve();
     stops();
     different_input();
+    different_marks_and_keys();
     bad_domain();
     bad_extraction();
   }
@@ -363,12 +419,15 @@ int main(int argc, char** argv) {
   expect_right_nodes(placement, "nodes after all faults");
   expect_bad_rank(pnpbs_placement_step(placement, rank == bad_rank ? -1 : 1), PNPBS_ERROR_ARGUMENT,
                   "n = -1");
-  pnpbs_context_destroy(&context);
-  pnpbs_placement_destroy(&placement);
   MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
   MPI_Finalize();
 
   failures = 0;
+  expect(pnpbs_placement_run(placement) == PNPBS_ERROR_MPI, "run after MPI_Finalize");
+  expect(pnpbs_placement_rebalance(placement) == PNPBS_ERROR_MPI, "rebalance after MPI_Finalize");
+  expect(strstr(pnpbs_last_error(context), "already finalised") != NULL, "the reason");
+  pnpbs_context_destroy(&context);
+  pnpbs_placement_destroy(&placement);
   no_communicator(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context), "already finalised");
   no_communicator(pnpbs_context_create_f(0, &context), "already finalised");
   if (rank == 0) printf("%d failed\n", all + failures);

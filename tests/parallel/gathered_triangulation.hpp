@@ -147,6 +147,7 @@ inline std::vector<Edge> local_boundary_edges(pnpbs_placement p, const std::vect
 inline Triangulation gather(pnpbs_placement p) {
   std::int64_t owned;
   const std::vector<Node> nodes = local_nodes(p, owned);
+  require(pnpbs_placement_check(p), "check of the results");
   const std::vector<Ids3> triangles = local_triangles(p, nodes);
   Triangulation all;
   all.nodes = on_rank_0(std::vector<Node>(nodes.begin(), nodes.begin() + owned));

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The promise: one hash for any number of ranks and threads, any exchange interval, any partition.
+# The promise: one hash, and the same told of the elements, for any number of ranks and threads, any
+# exchange interval, any partition.
 # Small sizes, and every pair of values of two parameters at least once; invariance_grid.py beside
 # the benchmarks runs the whole grid at any size. usage: invariance.sh PROGRAM MPIEXEC DATA
 set -euo pipefail
@@ -23,7 +24,8 @@ begin() { # case, scale of d, other options
 compare() { # ranks, threads, exchange interval, seed
   local line
   line=$(place "$1" "$2" "${subject[@]}" "exchange_interval=$3" "metis_seed=$4")
-  if [ "$(field "$line" hash)" != "$(field "$expected" hash)" ]; then
+  if [ "$(field "$line" hash)" != "$(field "$expected" hash)" ] ||
+    [ "$(field "$line" elements)" != "$(field "$expected" elements)" ]; then
     echo "DIFFERS at $1 ranks, $2 threads, exchange every $3, seed $4: $line"
     failed=1
   fi
@@ -76,6 +78,12 @@ compare 2 1 4 1
 compare 3 2 1 2
 compare 8 1 5 1
 require_at_least 20 deleted "no crowd had to go at the end"
+# A fill by cells where d grows by a fifth of the distance, and the population aimed by octaves.
+begin steep-square 1
+compare 2 1 4 1
+compare 3 2 1 2
+compare 8 1 5 1
+compare 16 1 2 1
 # Hardly moved nodes, many of which have four neighbours or fewer: those go, and many triangles are bad.
 begin graded-square 8 steps=0 levels=0
 compare 2 1 4 1

@@ -12,7 +12,7 @@ COMMAND = os.environ["PNPBS_COMMAND"]
 DATA = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"]) / "examples" / "data"
 LAKE = DATA / "lake_victoria.poly"
 
-DONE, FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 0, 1, 2, 3, 130
+DONE, FAILED, BAD_INPUT, NOT_CONVERGED, SPACING_MISSED, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
 # A unit square with a square hole; markers 1 outside, 2 inside.
 SQUARE = """\
@@ -75,7 +75,7 @@ class CommandTest(unittest.TestCase):
     def place(self, *arguments, domain=None, spacing="0.06", **more):
         """A run on the square unless told otherwise."""
         return self.run_command(
-            "--domain", domain or self.square, "--spacing", spacing, *arguments, **more
+            "--domain", domain or self.square, "--spacing", spacing, "--check", *arguments, **more
         )
 
     def refuse(self, *arguments, code=BAD_INPUT, **more):

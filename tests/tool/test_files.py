@@ -16,7 +16,7 @@ import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-from command import COMMAND, DATA, LAKE, SQUARE_AREA, CommandTest
+from command import COMMAND, DATA, FAILED, LAKE, SPACING_MISSED, SQUARE_AREA, CommandTest
 from readers import point_array, read_csv, read_ele, read_node, read_with_vtk
 
 
@@ -195,6 +195,61 @@ class Report(CommandTest):
         self.assertGreater(len(told), 0)
         self.assertEqual(told, ["pnpbs: warning: " + w for w in report["warnings"]])
 
+    def test_tells_how_well_d_is_followed(self):
+        self.place("--report", "r.json", spacing="0.02+0.03*y")
+        report = json.loads((self.folder / "r.json").read_text())
+        bands = report["edge"]["bands"]
+        self.assertEqual(len(bands), 8)
+        for band in bands:
+            self.assertEqual(sorted(band), ["deviation", "edges", "from", "mean", "to"])
+        self.assertAlmostEqual(bands[0]["from"], 0.02)
+        self.assertAlmostEqual(bands[-1]["to"], 0.05)
+        # All edges but the few between two boundary nodes.
+        edges = sum(band["edges"] for band in bands)
+        self.assertLess(abs(sum(band["edges"] * band["mean"] for band in bands) / edges
+                            - report["edge"]["mean"]), 0.02)
+        self.assertTrue(0.5 < report["quality"]["min"] < report["quality"]["one_percent"]
+                        < report["quality"]["mean"] < 1)
+
+    def test_missed_spacing(self):
+        """The paper's law crushes what is coarse beside a fine line; files are written all the same."""
+        self.square.write_text("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n"
+                               "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+        out, err = self.place("--report", "r.json", "-o", "a.csv", "--set", "method=paper",
+                              spacing="min(0.001+0.2*abs(y-0.5), 0.1)", code=SPACING_MISSED)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertIn("do not follow the spacing", report["warnings"][-1])
+        self.assertEqual(err.decode().count("do not follow the spacing"), 1)
+        self.assertIn("by bands of d", out.decode())
+        self.assertTrue((self.folder / "a.csv").exists())
+
+    def test_memory_is_that_of_the_end(self):
+        """Of the command alone: what its parent holds when it starts it does not count."""
+        held = bytearray(300 << 20)
+        out, _ = self.place("--report", "r.json", "-o", "a.msh", "-o", "a.vtu", spacing="0.01")
+        del held
+        memory = json.loads((self.folder / "r.json").read_text())["memory"]["peak_bytes"]
+        self.assertTrue(1 << 20 < memory < 200 << 20, memory)
+        self.assertIn(f"memory   {memory / (1 << 20):.3g} MiB at most", out.decode())
+
+    def test_dry_run(self):
+        out, err = self.place("--dry-run", "-o", "a.csv", "--report", "r.json", spacing="0.02")
+        self.assertEqual(self.files(), ["square.poly"])
+        self.assertEqual(err, b"")
+        words = out.decode().split()
+        expected = int("".join(words[2:words.index("memory")]))
+        self.place("--report", "r.json", spacing="0.02")
+        nodes = json.loads((self.folder / "r.json").read_text())["nodes"]
+        self.assertLess(abs(expected / nodes - 1), 0.05)
+        self.assertIn("MiB", out.decode())
+        self.assertIn("500 000 nodes", self.place("--dry-run", "--threads", "1")[0].decode())
+
+    def test_too_little_memory(self):
+        _, err = self.place("-o", "a.csv", "--set", "max_memory=1e-9", code=FAILED)
+        self.assertIn("would need", err.decode())
+        self.assertIn("max_memory", err.decode())
+        self.assertEqual(self.files(), ["square.poly"])
+
     def test_same_nodes_for_any_number_of_threads(self):
         hashes = set()
         for threads in (1, 2):
@@ -229,7 +284,7 @@ class StandardStreams(CommandTest):
         nodes = len(read_csv(self.folder / "a.csv")["id"])
         self.assertIn(f"{nodes:,}".replace(",", " "), out.decode())
         self.assertIn("a.csv", out.decode())
-        self.assertTrue(3 <= len(out.splitlines()) <= 6)
+        self.assertTrue(3 <= len(out.splitlines()) <= 7)
         self.assertEqual(err, b"")
 
     def test_quiet(self):
@@ -279,6 +334,28 @@ class Replacing(CommandTest):
         self.assertTrue((self.folder / "link.csv").is_symlink())
         self.assertEqual(stat.S_IMODE(target.stat().st_mode), 0o640)
         self.assertGreater(len(read_csv(target)["id"]), 100)
+
+    def test_link_to_a_file_that_is_not_there_yet(self):
+        (self.folder / "sub").mkdir()
+        (self.folder / "sub" / "second.csv").symlink_to("new.csv")
+        (self.folder / "first.csv").symlink_to("sub/second.csv")
+        self.place("--output", "first.csv", "--report", "first.json")
+        self.assertTrue((self.folder / "first.csv").is_symlink())
+        self.assertTrue((self.folder / "sub" / "second.csv").is_symlink())
+        self.assertGreater(len(read_csv(self.folder / "sub" / "new.csv")["id"]), 100)
+
+    def test_inputs_are_not_replaced(self):
+        (self.folder / "link").symlink_to("square.poly")
+        os.link(self.square, self.folder / "same.csv")
+        before = self.square.read_text()
+        for output in ("square.poly", "./square.poly", "link", "same.csv"):
+            with self.subTest(output):
+                message = self.refuse("--domain", self.square, "--spacing", "0.1",
+                                      "--output", output, "--format", "csv")
+                self.assertIn("would replace what is read", message)
+        self.assertIn("replace", self.refuse("--domain", self.square, "--spacing", "0.1",
+                                             "--report", "square.poly"))
+        self.assertEqual(self.square.read_text(), before)
 
     def test_new_files_follow_the_mask(self):
         mask = os.umask(0o027)

@@ -6,7 +6,7 @@ import os
 import random
 import unittest
 
-from command import LAKE, NOT_CONVERGED, SQUARE, CommandTest
+from command import DONE, LAKE, NOT_CONVERGED, SQUARE, CommandTest
 
 GRID = """\
 ncols 3
@@ -26,6 +26,14 @@ class Usage(CommandTest):
         for word in ("--domain", "--spacing", "--set", ".vtu", "hypot", "growth_limit", "130"):
             self.assertIn(word, text)
         self.assertLessEqual(max(map(len, text.splitlines())), 100)
+
+    def test_help_to_a_reader_that_goes_away(self):
+        for ask in ("--help", "--list-statistics"):
+            process = self.start(ask)
+            process.stdout.close()
+            self.assertEqual(process.stderr.read(), b"")
+            process.stderr.close()
+            self.assertEqual(process.wait(), DONE)
 
     def test_version(self):
         self.assertRegex(self.run_command("--version")[0].decode(), r"^pnpbs \d+\.\d+\.\d+\n")
@@ -133,6 +141,11 @@ class Expressions(CommandTest):
             with self.subTest(text):
                 self.assertNotIn("internal", self.refuse_spacing(text))
 
+    def test_a_jump_to_nearly_nothing(self):
+        message = self.refuse_spacing("x > 0.5 ? 1 : 1e-160")
+        self.assertIn("more nodes than", message)
+        self.assertNotIn("inf", message)
+
     def test_long_ones(self):
         self.refuse_spacing("(" * 5000)
         self.refuse_spacing("1+" * 50000 + "1")
@@ -180,6 +193,23 @@ class Grids(CommandTest):
         self.assertEqual((self.folder / "a.node").read_bytes(),
                          (self.folder / "b.node").read_bytes())
 
+    # Cells twice as wide as they are high: the same values, at other places.
+    def test_cells_that_are_no_squares(self):
+        self.place_on(GRID.replace("cellsize 0.5", "dx 0.5\nDY 0.25"), "-o", "a.csv")
+        rows = [line.split(",") for line in (self.folder / "a.csv").read_text().splitlines()[1:]]
+        for _, _, y, _, spacing in rows:
+            self.assertAlmostEqual(float(spacing), 0.05 + 0.2 * min(float(y), 0.25), delta=0.002)
+        columns = GRID.replace("0.1 0.1 0.1", "0.05 0.1 0.1").replace("0.05 0.05 0.05", "0.05 0.1 0.1")
+        self.place_on(columns.replace("cellsize 0.5", "dx 0.25\ndy 0.5"), "-o", "b.csv")
+        rows = [line.split(",") for line in (self.folder / "b.csv").read_text().splitlines()[1:]]
+        for _, x, _, _, spacing in rows:
+            self.assertAlmostEqual(float(spacing), 0.05 + 0.2 * min(float(x), 0.25), delta=0.002)
+        # Cells of that size have their first corner half of it before their first centre.
+        corner = GRID.replace("xllcenter 0", "xllcorner -0.25").replace("yllcenter 0",
+                                                                        "yllcorner -0.125")
+        self.place_on(corner.replace("cellsize 0.5", "dx 0.5\ndy 0.25"), "-o", "c.csv")
+        self.assertEqual((self.folder / "a.csv").read_bytes(), (self.folder / "c.csv").read_bytes())
+
     # One value per row, so that it does not matter which of a row's values a gap takes.
     def test_gaps_take_the_nearest_value(self):
         self.place_on(GRID, "-o", "a.node")
@@ -196,9 +226,15 @@ class Grids(CommandTest):
         self.assertIn("no more", self.refuse_grid(GRID + "0.1\n"))
         self.assertIn("ncols", self.refuse_grid(GRID.replace("ncols 3\n", "")))
         self.assertIn("cellsize", self.refuse_grid(GRID.replace("cellsize 0.5", "cellsize 0")))
+        self.assertIn("dy", self.refuse_grid(GRID.replace("cellsize", "dx")))
+        self.assertIn("dx", self.refuse_grid(GRID.replace("cellsize 0.5", "dx -1\ndy 1")))
+        self.assertIn("both", self.refuse_grid(GRID.replace("cellsize", "dx 1\ncellsize")))
+        self.assertIn("cellsize, or dx", self.refuse_grid(GRID.replace("cellsize 0.5\n", "")))
         self.assertIn("nrows", self.refuse_grid(GRID.replace("nrows 2", "nrows 1e300")))
         self.refuse_grid(GRID.replace("ncols 3", "ncols 900000000"))
         self.refuse_grid("")
+        self.assertIn("folder", self.refuse("--domain", self.square, "--spacing-grid", ".",
+                                            "-o", "a.csv"))
         self.refuse_grid("\0" * 1000)
         self.refuse_grid(GRID.replace("0.05", "-9999").replace("0.1", "-9999"))
         self.refuse_grid(GRID.replace("0.05", "0"))

@@ -48,7 +48,7 @@ class SameFiles(RanksTest):
                 if name.startswith("a"):
                     (self.folder / name).unlink()
             out, err = self.run_ranks(ranks, *ask)
-            self.assertEqual((len(out.splitlines()), err), (4, warnings.decode()))
+            self.assertEqual((len(out.splitlines()), err), (7, warnings.decode()))
             for name, content in expected.items():
                 self.assertEqual((self.folder / name).read_bytes(), content, f"{name}, {ranks}")
             again = json.loads((self.folder / "a.json").read_text())
@@ -80,6 +80,16 @@ class SameFiles(RanksTest):
         alone = read_with_vtk(self.folder / "a.vtu")
         self.assertEqual(sorted(point_array(whole, "id")), list(point_array(alone, "id")))
         self.assertEqual(whole.GetNumberOfCells(), alone.GetNumberOfPoints())
+
+    def test_colors(self):
+        ask = ("--domain", self.square, "--spacing", "0.02 + 0.05*x", "-o", "a.svg", "--color")
+        for by in ("quality", "edge", "spacing"):
+            self.run_command(*ask, by)
+            expected = (self.folder / "a.svg").read_bytes()
+            (self.folder / "a.svg").unlink()
+            self.run_ranks(3, *ask, by)
+            self.assertEqual((self.folder / "a.svg").read_bytes(), expected)
+        self.assertIn("--color", self.refuse_ranks(3, *ask, "red"))
 
     def test_standard_streams(self):
         out, _ = self.run_command("--domain", LAKE, "--spacing", "6", "-o", "-", "--format", "vtu")

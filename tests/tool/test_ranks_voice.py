@@ -31,10 +31,17 @@ class OneVoice(RanksTest):
         ask = ("--domain", self.square, "--spacing", "0.1", "-o", "a.csv", "--set", "steps=x")
         self.assertIn("steps", self.refuse_ranks(2, *ask))
 
+    def test_dry_run(self):
+        out, _ = self.run_ranks(2, "--domain", self.square, "--spacing", "0.02", "--dry-run",
+                                "-o", "a.csv")
+        self.assertEqual(len(out.splitlines()), 3)
+        self.assertIn(b"processes", out)
+        self.assertEqual(self.files(), ["square.poly"])
+
     def test_not_converged(self):
         out, _ = self.run_ranks(2, "--domain", self.square, "--spacing", "0.1", "--steps", "1",
                                 "-o", "a.csv", code=NOT_CONVERGED)
-        self.assertEqual(len(out.splitlines()), 4)
+        self.assertEqual(len(out.splitlines()), 7)
         self.assertIn("a.csv", self.files())
 
     def test_warnings(self):

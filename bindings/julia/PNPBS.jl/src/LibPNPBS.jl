@@ -21,6 +21,7 @@ const pnpbs_monitor_fn = Ptr{Cvoid}
 const PNPBS_OK = 0
 const PNPBS_NOT_CONVERGED = 1
 const PNPBS_STOPPED = 2
+const PNPBS_SPACING_MISSED = 3
 const PNPBS_ERROR_ARGUMENT = -1
 const PNPBS_ERROR_HANDLE = -2
 const PNPBS_ERROR_STATE = -3
@@ -224,6 +225,11 @@ pnpbs_placement_set_nodes(placement, n, xy, ids) =
         placement::pnpbs_placement, n::Int64, xy::Ptr{Cdouble},
         ids::Ptr{Int64})::pnpbs_status
 
+pnpbs_placement_estimate(placement, nodes, bytes, seconds) =
+    @ccall $(symbol(:pnpbs_placement_estimate))(
+        placement::pnpbs_placement, nodes::Ptr{Int64}, bytes::Ptr{Int64},
+        seconds::Ptr{Cdouble})::pnpbs_status
+
 pnpbs_placement_initialise(placement) =
     @ccall $(symbol(:pnpbs_placement_initialise))(placement::pnpbs_placement)::pnpbs_status
 
@@ -304,6 +310,9 @@ pnpbs_placement_get_boundary_edges(placement, capacity, count, edges, tags) =
         placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, edges::Ptr{Int64},
         tags::Ptr{Int32})::pnpbs_status
 
+pnpbs_placement_check(placement) =
+    @ccall $(symbol(:pnpbs_placement_check))(placement::pnpbs_placement)::pnpbs_status
+
 pnpbs_placement_get_int64(placement, key, value) =
     @ccall $(symbol(:pnpbs_placement_get_int64))(
         placement::pnpbs_placement, key::Cstring, value::Ptr{Int64})::pnpbs_status
@@ -315,6 +324,13 @@ pnpbs_placement_get_double(placement, key, value) =
 pnpbs_placement_get_string(placement, key, value) =
     @ccall $(symbol(:pnpbs_placement_get_string))(
         placement::pnpbs_placement, key::Cstring, value::Ptr{Cstring})::pnpbs_status
+
+pnpbs_placement_get_edge_bands(placement, capacity, count, d_from, d_to, edges, mean,
+                               deviation) =
+    @ccall $(symbol(:pnpbs_placement_get_edge_bands))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, d_from::Ptr{Cdouble},
+        d_to::Ptr{Cdouble}, edges::Ptr{Int64}, mean::Ptr{Cdouble},
+        deviation::Ptr{Cdouble})::pnpbs_status
 
 pnpbs_placement_warning_count(placement, count) =
     @ccall $(symbol(:pnpbs_placement_warning_count))(

@@ -21,15 +21,16 @@ and throw on all of them or on none; "local" ones need not. One task at a time m
 module PNPBS
 
 using Libdl
+using Base: disable_sigint, reenable_sigint
 
 export Context, Domain, Placement, CompressedRows, PNPBSError
 export set!, set_spacing!, set_monitor!, set_nodes!
 export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_fixed_nodes!
 export read_poly!, parse_poly!, check_domain, bounds, measure, outline
-export initialise!, run!, step!, adjust_population!, rebalance!
+export estimate, initialise!, run!, step!, adjust_population!, rebalance!
 export node_count, nodes, ghost_count, ghosts, exchange_pattern, update_ghosts!, numbering
-export adjacency, stars, triangles, boundary_edges
-export statistic, statistics, warnings, write_file, write_files
+export adjacency, stars, triangles, boundary_edges, check_results
+export statistic, statistics, edge_bands, warnings, write_file, write_files
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library
 
 include("LibPNPBS.jl")

@@ -13,14 +13,29 @@ end
 user_pointer(callback::Callback) = pointer_from_objref(callback)
 
 # Calls `f(callback)`, whose result is the library's, unless an exception is on its way already.
+# Here Ctrl-C acts: in Julia's code, not in the library's.
 function guarded(f, user::Ptr{Cvoid})
     callback = unsafe_pointer_to_objref(user)::Callback
-    callback.context.exception === nothing || return Int32(1)
+    context = callback.context
+    context.thrown === nothing || return Int32(1)
     try
-        return Int32(f(callback))
+        return Int32(context.sigint_disabled ? reenable_sigint(() -> f(callback)) : f(callback))
     catch e
-        callback.context.exception = Some(e)
+        context.thrown = CapturedException(e, catch_backtrace())
         return Int32(1)
+    end
+end
+
+# The call `f()` of the library, which may take long. Ctrl-C does not end it in the middle, which
+# nothing of the library's would survive, but in the next callback: the monitor, which every
+# placement has, is called about once in a second.
+function interruptible(f, context)
+    context.thrown = nothing
+    context.sigint_disabled = true
+    try
+        return disable_sigint(f)
+    finally
+        context.sigint_disabled = false
     end
 end
 

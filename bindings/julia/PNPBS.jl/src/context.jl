@@ -31,10 +31,12 @@ mutable struct Context
     # Open domains and placements. They are kept here because the library holds pointers to their
     # callbacks until they are closed.
     children::Vector{Any}
-    # What a callback has thrown during the call in progress, in a Some.
-    exception::Any
+    # What a callback has thrown during the call in progress, and where.
+    thrown::Union{CapturedException,Nothing}
+    sigint_disabled::Bool  # during a call that may take long
 
-    Context(handle::LibPNPBS.pnpbs_context, on_ranks::Bool) = new(handle, on_ranks, [], nothing)
+    Context(handle::LibPNPBS.pnpbs_context, on_ranks::Bool) =
+        new(handle, on_ranks, [], nothing, false)
 end
 
 function Context(; options...)
@@ -104,10 +106,20 @@ end
 # Every status of a call on a context passes here. What a callback threw comes first: the library's
 # own message could only say that a callback failed.
 function check(context::Context, code)
-    thrown, context.exception = context.exception, nothing
-    thrown === nothing || throw(something(thrown))
+    thrown, context.thrown = context.thrown, nothing
+    thrown === nothing || throw_again(thrown)
     code < 0 && throw(PNPBSError(status_name(code), last_error(context.handle)))
     return status_name(code)
+end
+
+# The exception as it was. Julia shows as its cause where the callback threw it: a backtrace cannot
+# be given to `throw`.
+function throw_again(thrown::CapturedException)
+    try
+        throw(thrown)
+    catch
+        throw(thrown.ex)
+    end
 end
 
 function forget!(context::Context, child)

@@ -3,7 +3,8 @@
 
 const STATUS_NAMES = Dict{Int,Symbol}(
     getfield(LibPNPBS, name) => Symbol(lowercase(string(name)[7:end]))
-    for name in names(LibPNPBS, all = true) if startswith(string(name), r"PNPBS_(OK|NOT|STOP|ERR)"))
+    for name in names(LibPNPBS, all = true)
+    if startswith(string(name), r"PNPBS_(OK|NOT|STOP|SPACING|ERR)"))
 
 status_name(code) = get(STATUS_NAMES, Int(code), Symbol("status_", Int(code)))
 

@@ -15,17 +15,18 @@ mutable struct Placement
     # they were placed with, so a spacing that is replaced is needed until the next run.
     spacing::Union{Callback,Nothing}
     spacings_before::Vector{Callback}
-    monitor::Union{Callback,Nothing}
+    monitor::Callback
 end
 
 function Placement(domain::Domain; options...)
     context = domain.context
     handle = Ref{LibPNPBS.pnpbs_placement}(C_NULL)
     check(context, LibPNPBS.pnpbs_placement_create(live(context), live(domain), handle))
-    placement = Placement(handle[], context, domain, nothing, Callback[], nothing)
+    monitor = Callback(keep_going, context)
+    placement = Placement(handle[], context, domain, nothing, Callback[], monitor)
     push!(context.children, placement)
     try
-        return set!(placement; options...)
+        return set!(set_monitor!(placement, nothing); options...)
     catch
         close(placement)
         rethrow()
@@ -131,7 +132,8 @@ end
     set_monitor!(f, placement)
     set_monitor!(placement, nothing)
 
-Calls `f(fraction, step, nodes, max_speed)` now and then during a run; when it returns `true`, the
+Calls `f(fraction, step, nodes, max_speed)` now and then during a run, with `nodes` 0 about twice a
+second while the first nodes are laid; when it returns `true`, the
 run ends early with valid nodes and the outcome `:stopped`. Anything else goes on. The second form
 removes the monitor. Local.
 """
@@ -146,11 +148,10 @@ function set_monitor!(f, placement::Placement)
     return placement
 end
 
-function set_monitor!(placement::Placement, ::Nothing)
-    check(placement, LibPNPBS.pnpbs_placement_set_monitor(live(placement), C_NULL, C_NULL))
-    placement.monitor = nothing
-    return placement
-end
+# The library's monitor stays: it is where Ctrl-C acts.
+set_monitor!(placement::Placement, ::Nothing) = set_monitor!(keep_going, placement)
+
+keep_going(fraction, step, nodes, max_speed) = false
 
 """
     set_nodes!(placement, xy; ids = nothing)
@@ -174,6 +175,25 @@ function set_nodes!(placement::Placement, xy::AbstractMatrix{<:Real};
 end
 
 # ---------------------------------------------------------------- running -----------------------
+# What takes long, and Ctrl-C ends with an InterruptException; the placement goes on to be usable.
+function compute(placement::Placement, call, arguments...)
+    handle = live(placement)
+    return check(placement, interruptible(() -> call(handle, arguments...), placement.context))
+end
+
+"""
+    estimate(placement) -> (nodes, bytes, seconds)
+
+What a run from nothing would come to, from domain, spacing and options alone: how many nodes on all
+ranks, mostly within a few percent, the memory of each process for the run alone, and roughly the
+time. No inner node is made, and the nodes there are stay as they are. Collective.
+"""
+function estimate(placement::Placement)
+    nodes, bytes, seconds = Ref{Int64}(0), Ref{Int64}(0), Ref(0.0)
+    compute(placement, LibPNPBS.pnpbs_placement_estimate, nodes, bytes, seconds)
+    return (nodes = nodes[], bytes = bytes[], seconds = seconds[])
+end
+
 """
     initialise!(placement)
 
@@ -181,7 +201,7 @@ Checks domain and spacing and lays the nodes that the simulation starts from. [`
 [`step!`](@ref) do it where it is needed. Collective.
 """
 function initialise!(placement::Placement)
-    check(placement, LibPNPBS.pnpbs_placement_initialise(live(placement)))
+    compute(placement, LibPNPBS.pnpbs_placement_initialise)
     return placement
 end
 
@@ -190,11 +210,15 @@ end
 
 Places the nodes: the whole job. Run again, after another spacing perhaps, it starts from the nodes
 there are. The outcome is `:ok`; `:not_converged` if the step limit came before the bubbles rested,
-which is no failure; or `:stopped` by the monitor. In all three cases the nodes are valid.
-Collective.
+which is no failure; `:spacing_missed` if in one of the bands of [`edge_bands`](@ref) with 50 edges
+or more the mean is off 1 by more than 0.1, whether the bubbles rest or not, with a warning that
+names the band; or `:stopped` by the monitor. In all cases the nodes are valid. Collective.
+
+Ctrl-C ends it, as every call that computes, within a second or two with an `InterruptException`;
+the nodes are then as if a monitor had stopped the run, which is what it returns on the other ranks.
 """
 function run!(placement::Placement)
-    outcome = check(placement, LibPNPBS.pnpbs_placement_run(live(placement)))
+    outcome = compute(placement, LibPNPBS.pnpbs_placement_run)
     empty!(placement.spacings_before)
     return outcome
 end
@@ -206,7 +230,7 @@ Advances the simulation by n steps. The outcome is as in [`run!`](@ref), `:ok` w
 rest. Collective.
 """
 step!(placement::Placement, n::Integer = 1) =
-    check(placement, LibPNPBS.pnpbs_placement_step(live(placement), n))
+    compute(placement, LibPNPBS.pnpbs_placement_step, n)
 
 """
     adjust_population!(placement) -> (inserted, deleted)
@@ -215,8 +239,7 @@ Deletes nodes where they are too dense and inserts where they are too sparse, on
 """
 function adjust_population!(placement::Placement)
     inserted, deleted = Ref{Int64}(0), Ref{Int64}(0)
-    check(placement,
-          LibPNPBS.pnpbs_placement_adjust_population(live(placement), inserted, deleted))
+    compute(placement, LibPNPBS.pnpbs_placement_adjust_population, inserted, deleted)
     return (inserted = inserted[], deleted = deleted[])
 end
 
@@ -227,6 +250,6 @@ Deals the work out to the ranks anew. The nodes stay as they are; who owns them 
 so by itself where it pays. Collective.
 """
 function rebalance!(placement::Placement)
-    check(placement, LibPNPBS.pnpbs_placement_rebalance(live(placement)))
+    compute(placement, LibPNPBS.pnpbs_placement_rebalance)
     return placement
 end

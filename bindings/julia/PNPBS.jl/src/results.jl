@@ -162,6 +162,19 @@ function boundary_edges(placement::Placement)
     return (edges = edges .+= 1, tags = tags)
 end
 
+"""
+    check_results(placement)
+
+Checks that the results keep what is promised of them: unique ids, no two nodes in one place, all
+inside or on the boundary; symmetric adjacency lists; stars that are one conforming triangulation of
+the domain, with every boundary edge and the right area. A [`PNPBSError`](@ref) with status
+`:error_internal` says what is wrong, with ids and coordinates. Collective.
+"""
+function check_results(placement::Placement)
+    check(placement, LibPNPBS.pnpbs_placement_check(live(placement)))
+    return nothing
+end
+
 # ---------------------------------------------------------------- statistics --------------------
 """
     statistic(placement, key)
@@ -201,9 +214,32 @@ statistics(placement::Placement) =
                      for row in statistic_table())
 
 """
+    edge_bands(placement) -> (d_from, d_to, edges, mean, deviation)
+
+How well the edges of the triangles follow the spacing, by bands of it: eight, equal in log d
+between the least and the largest d at the nodes, or one if that is less than 1.1 times the least.
+Bands without edges are left out. For each band where it begins and ends, how many edges there are,
+and the mean and standard deviation of their length over d, the mean of d at their ends. Edges
+between two boundary nodes, whose places the corners of the domain decide, do not count here. Over
+all ranks, and the same on each. Collective.
+"""
+function edge_bands(placement::Placement)
+    count = Ref{Int64}(0)
+    ask(capacity, arrays...) =
+        check(placement, LibPNPBS.pnpbs_placement_get_edge_bands(live(placement), capacity, count,
+                                                                 arrays...))
+    ask(0, C_NULL, C_NULL, C_NULL, C_NULL, C_NULL)
+    d_from, d_to, mean, deviation = (zeros(count[]) for _ in 1:4)
+    edges = zeros(Int64, count[])
+    ask(count[], d_from, d_to, edges, mean, deviation)
+    return (d_from = d_from, d_to = d_to, edges = edges, mean = mean, deviation = deviation)
+end
+
+"""
     warnings(placement) -> Vector{String}
 
-Warnings about domain and spacing: a feature smaller than the spacing, an unused vertex. Local.
+Warnings about domain and spacing (a feature smaller than the spacing, an unused vertex), and about
+nodes that do not follow the spacing, of the last run. Local.
 """
 function warnings(placement::Placement)
     count = Ref{Int32}(0)

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The package in one process. What needs several ranks is in ranks.jl, which mpirun starts.
+# The package in one process; arguments name some of the files, as in `runtests.jl package domains`.
+# What needs several ranks is in ranks.jl, which mpirun starts.
 using PNPBS
 using Test
 
 include("support.jl")
 
+const FILES = ["package", "domains", "placements", "callbacks", "interrupts", "handles", "adapting"]
+
 @testset "PNPBS" begin
-    include("test_package.jl")
-    include("test_domains.jl")
-    include("test_placements.jl")
-    include("test_callbacks.jl")
-    include("test_handles.jl")
-    include("test_adapting.jl")
+    for name in (isempty(ARGS) ? FILES : ARGS)
+        include("test_$name.jl")
+    end
 end

@@ -31,6 +31,34 @@
     end
 end
 
+# Where a curve begins, which its shape alone does not tell; arguments that no other one equals.
+@testset "open curves" begin
+    Context() do context
+        domain = add_polyline!(Domain(context), [0 2 2 0; 0 0 1 1])
+        add_arc!(domain, (1, 0.25), 0.5; from = pi / 4, to = 3pi / 4, role = :inner, tag = 2)
+        add_curve!(t -> [1.5cos.(t) 0.75sin.(t)]', domain, 0.1, 0.7; role = :inner, tag = 3)
+        # An angle of the user's decides what is a corner, and so a node of its own.
+        add_polyline!(domain, [0.1 0.15 0.2; 0.5 0.51 0.5]; role = :inner, closed = false,
+                      tags = [4, 5], corner_angle = 20.0)
+        segments, tags = outline(domain)
+        first_of(tag) = segments[:, 1, findfirst(==(tag), tags)]
+        @test first_of(2) ≈ [1 + sqrt(0.125), 0.25 + sqrt(0.125)]
+        @test first_of(3) ≈ [1.5cos(0.1), 0.75sin(0.1)]
+        @test Set(tags) == Set(1:5)
+    end
+end
+
+# More vertices than segments, and tags of each that the other has not.
+@testset "tags of graphs" begin
+    Context() do context
+        graph = add_pslg!(Domain(context), [0 2 2 0 1; 0 0 1 1 0.5], [1 2 3 4; 2 3 4 1];
+                          vertex_tags = 11:15, segment_tags = 21:24)
+        @test Set(outline(graph).tags) == Set(21:24)
+        placement = initialise!(set_spacing!(Placement(graph), 0.1))
+        @test issubset(11:24, [nodes(placement).tags; 16:20])
+    end
+end
+
 @testset "graphs and .poly" begin
     Context() do context
         # A square with a square hole; the graph's indices count from 1.

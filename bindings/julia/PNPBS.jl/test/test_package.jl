@@ -34,9 +34,15 @@ end
     @test mpi_library() isa String
     steps = only(filter(row -> row.name == "steps", option_table()))
     @test steps.type == "integer" && parse(Int, steps.default) > 0 && !isempty(steps.help)
+    method = only(filter(row -> row.name == "method", option_table()))
+    @test (method.type, method.default, method.range) == ("choice", "default", "default | paper")
+    @test occursin("scheme", method.help)
+    hash = only(filter(row -> row.name == "hash", statistic_table()))
+    @test hash.type == "string" && occursin(" ", hash.help)
     @test Set(row.type for row in statistic_table()) == Set(["integer", "real", "string"])
     formats = Dict(row.name => row for row in format_table())
     @test formats["vtu"].binary && formats["vtu"].elements
+    @test !formats["msh"].binary && formats["msh"].elements && occursin("gmsh", formats["msh"].help)
     @test !formats["csv"].binary && !formats["csv"].elements
 end
 
@@ -47,6 +53,7 @@ end
         @test run!(placement) === :not_converged
         @test statistic(placement, "steps") <= 7
         @test set!(placement; steps = 9, method = :paper, rest_length = 1.05) === placement
+        @test set!(context; method = :paper) === context
         @test fails(() -> set!(placement; stepz = 9), :error_key, "steps")
         @test fails(() -> set!(placement; steps = -1), :error_argument, "steps", "-1")
         @test fails(() -> set!(placement; method = "papers"), :error_argument, "paper")

@@ -70,6 +70,15 @@ end
         @test statistic(placed_square(context; spacing = x -> 0.9 .* graded(x)), "hash") !=
               all_of_them["hash"]
 
+        bands = edge_bands(placement)
+        @test length(bands.mean) == length(bands.deviation) == length(bands.edges) > 1
+        @test all(bands.d_from .< bands.d_to) && all(bands.edges .> 0)
+        @test all(0.7 .< bands.mean .< 1.4)
+        @test 0.9 < all_of_them["quality.mean"] < 1
+        expected = estimate(placement)
+        @test abs(expected.nodes / node_count(placement) - 1) < 0.1
+        @test expected.bytes > 260 * expected.nodes && expected.seconds > 0
+
         @test isempty(warnings(placement))
         text = "5 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n5 .5 .5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n"
         unused = Placement(parse_poly!(Domain(context), text))
@@ -83,6 +92,7 @@ end
     Context() do context
         placement = Placement(square_domain(context); steps = 20)
         @test fails(() -> run!(placement), :error_state, "set_spacing")
+        @test fails(() -> check_results(placement), :error_state, "no nodes")
         @test fails(() -> set_spacing!(placement, -0.1), :error_spacing, "-0.1")
         set_spacing!(placement, 0.1)
         @test initialise!(placement) === placement && node_count(placement) > 80
@@ -92,9 +102,16 @@ end
         before = node_count(placement)
         change = adjust_population!(placement)
         @test node_count(placement) == before + change.inserted - change.deleted
+        # One node inside is far too few.
+        initialise!(set_nodes!(placement, reshape([0.5, 0.5], 2, 1)))
+        before = node_count(placement)
+        change = adjust_population!(placement)
+        @test change.inserted > change.deleted
+        @test node_count(placement) == before + change.inserted - change.deleted
         hash = statistic(placement, "hash")
         rebalance!(placement)
         @test statistic(placement, "hash") == hash
+        @test check_results(placement) === nothing
     end
 end
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is told of a placement: edge length over d by bands of d, and before a run what it would
+// come to.
+#include "api/placement_calls.hpp"
+
+using namespace pnpbs;
+using namespace pnpbs::api;
+
+pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t capacity,
+                                            int64_t* count, double* d_from, double* d_to,
+                                            int64_t* edges, double* mean, double* deviation) {
+  return collective(placement, [&](Placement& p) {
+    require_pointer(count, "count");
+    const std::vector<EdgeBand>& bands = p.element_quality().bands;
+    *count = static_cast<std::int64_t>(bands.size());
+    if (capacity == 0 && !d_from && !d_to && !edges && !mean && !deviation) return PNPBS_OK;
+    require_capacity(capacity, *count);
+    for (std::size_t k = 0; k < bands.size(); ++k) {
+      if (d_from) d_from[k] = bands[k].from;
+      if (d_to) d_to[k] = bands[k].to;
+      if (edges) edges[k] = bands[k].ratio.edges;
+      if (mean) mean[k] = bands[k].ratio.mean;
+      if (deviation) deviation[k] = bands[k].ratio.deviation;
+    }
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_estimate(pnpbs_placement placement, int64_t* nodes, int64_t* bytes,
+                                      double* seconds) {
+  return collective(placement, [&](Placement& p) {
+    const Estimate estimate = p.estimate();
+    if (nodes) *nodes = estimate.nodes;
+    if (bytes) *bytes = estimate.bytes;
+    if (seconds) *seconds = estimate.seconds;
+    return PNPBS_OK;
+  });
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run would come to, and how much memory there is for it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/available_memory.hpp"
+#include "core/kokkos_runtime.hpp"
+#include "core/placement.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kBytesOfProcess = 30e6;  // before it has any nodes
+
+// What a core of a present server does, over cases with d graded and even (docs/benchmarks.md).
+constexpr double kNodesPerSecond = 500e3, kNodesPerSecondBest = 150e3, kNodesPerSecondPaper = 20e3;
+
+double nodes_per_second(const Options& options) {
+  if (options.choice("method") == "paper") return kNodesPerSecondPaper;
+  return options.choice("effort") == "best" ? kNodesPerSecondBest : kNodesPerSecond;
+}
+
+}  // namespace
+
+Estimate Placement::estimate() {
+  require_kokkos();
+  require_same_options();
+  if (!spacing_)
+    throw Error(PNPBS_ERROR_STATE,
+                "the placement has no spacing yet: call one of the set_spacing functions first");
+  const Settings settings(options_);
+  agreed(*comm_, [this] { domain_->check(); });
+  require_same_domain();
+  const double ranks = comm_->size();
+  const double nodes =
+      estimate_nodes(*comm_, *domain_, *limited_spacing(settings), settings.max_nodes);
+  const double threads = from_fixed_point(
+      comm_->sum(static_cast<std::uint64_t>(fixed_point(static_cast<double>(thread_count())))));
+  return {static_cast<std::int64_t>(std::round(nodes)),
+          static_cast<std::int64_t>(kBytesOfProcess + kBytesPerNode * nodes / ranks),
+          nodes / (nodes_per_second(options_) * std::max(1.0, threads))};
+}
+
+// Of memory, for the nodes of all ranks: these share what their machines have, and hold equal
+// parts.
+double Placement::bytes_allowed() const {
+  const double share = Settings(options_).max_memory;
+  if (share == 0) return std::numeric_limits<double>::infinity();
+  const double mine = available_memory() / comm_->ranks_on_node();
+  return share * -comm_->largest(-mine) * comm_->size();
+}
+
+}  // namespace pnpbs

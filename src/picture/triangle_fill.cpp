@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "picture/triangle_fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "picture/cairo_surface.hpp"
+#include "picture/lettering.hpp"
+
+namespace pnpbs::picture {
+namespace {
+
+constexpr std::size_t triangles_at_once = 4096;  // cairo keeps a path in memory until it is filled
+
+constexpr double overlap = 0.5;  // line widths
+
+// Whether a pixel's middle may lie between: cairo rounds coordinates to 1/256 of a pixel.
+bool meets_pixels(double low, double high) {
+  constexpr double rounding = 1.0 / 128;
+  return std::ceil(low - rounding - 0.5) <= std::floor(high + rounding - 0.5);
+}
+
+class TriangleFill {
+ public:
+  TriangleFill(const PictureFrame& frame, const TriangleValues& values)
+      : frame_(frame), values_(values), nodes_(values.nodes()), classes_(values.count()) {
+    for (std::size_t t = 0; t < classes_.size(); ++t)
+      classes_[t] = static_cast<std::uint8_t>(values.scale().class_of(values.at(t)));
+  }
+
+  // pixels: what no pixel's middle lies in may be left out.
+  void draw(cairo_t* cairo, bool pixels) const {
+    // Softened edges would let the paper shine through between two triangles: in pixels there are
+    // none, a pixel belongs to the triangle its middle is in; elsewhere triangles overlap a little.
+    cairo_set_antialias(cairo, CAIRO_ANTIALIAS_NONE);
+    cairo_set_line_width(cairo, overlap * frame_.line_width);
+    for (int c = 0; c < colour_classes; ++c) draw_class(cairo, c, pixels);
+    cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
+  }
+
+ private:
+  void draw_class(cairo_t* cairo, int index, bool pixels) const {
+    set_colour(cairo, values_.scale().colour(index));
+    std::size_t waiting = 0;
+    for (std::size_t t = 0; t < classes_.size(); ++t) {
+      if (classes_[t] != index || !add(cairo, t, pixels)) continue;
+      if (++waiting < triangles_at_once) continue;
+      fill(cairo, pixels);
+      waiting = 0;
+    }
+    if (waiting > 0) fill(cairo, pixels);
+  }
+
+  static void fill(cairo_t* cairo, bool pixels) {
+    if (!pixels) {
+      cairo_fill_preserve(cairo);
+      cairo_stroke(cairo);
+    } else {
+      cairo_fill(cairo);
+    }
+  }
+
+  bool add(cairo_t* cairo, std::size_t triangle, bool pixels) const {
+    const auto corners = values_.corners(triangle);
+    double x[3], y[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t node = corners[k];
+      x[k] = frame_.x(nodes_.xy[2 * node]);
+      y[k] = frame_.y(nodes_.xy[2 * node + 1]);
+    }
+    const auto [left, right] = std::ranges::minmax(x);
+    const auto [top, bottom] = std::ranges::minmax(y);
+    if (pixels && !(meets_pixels(left, right) && meets_pixels(top, bottom))) return false;
+    cairo_move_to(cairo, x[0], y[0]);
+    cairo_line_to(cairo, x[1], y[1]);
+    cairo_line_to(cairo, x[2], y[2]);
+    cairo_close_path(cairo);
+    return true;
+  }
+
+  const PictureFrame& frame_;
+  const TriangleValues& values_;
+  const NodeSet& nodes_;
+  std::vector<std::uint8_t> classes_;
+};
+
+void draw_as_pixels(cairo_t* cairo, const PictureFrame& frame, const TriangleFill& fill) {
+  const Surface image(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(frame.width),
+                                                 static_cast<int>(frame.height)),
+                      cairo_surface_destroy);
+  {
+    const Context pixels(cairo_create(image.get()), cairo_destroy);
+    fill.draw(pixels.get(), true);
+  }
+  cairo_set_source_surface(cairo, image.get(), 0, 0);
+  cairo_paint(cairo);
+}
+
+}  // namespace
+
+void fill_triangles(cairo_t* cairo, const PictureFrame& frame, const TriangleValues& values) {
+  const TriangleFill fill(frame, values);
+  const auto type = cairo_surface_get_type(cairo_get_target(cairo));
+  if (type == CAIRO_SURFACE_TYPE_IMAGE)
+    fill.draw(cairo, true);
+  else if (frame.pixels(frame.typical_spacing) >= edges_from_spacing)
+    fill.draw(cairo, false);
+  else
+    draw_as_pixels(cairo, frame, fill);
+}
+
+}  // namespace pnpbs::picture

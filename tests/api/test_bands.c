@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * d is followed wherever it comes from: the mean edge is d in every band of d, not only over all.
+ * A force that leaves stress crushes what is coarse beside a fine line to half of its d, which a
+ * mean over all edges, or a spacing that grows from a point, does not show.
+ */
+#include "api_support.h"
+
+typedef struct {
+  double fine, growth, coarse;
+  double (*distance)(double x, double y);
+} graded;
+
+static double from_line(double x, double y) {
+  (void)x;
+  return fabs(y - 0.5);
+}
+static double from_side(double x, double y) {
+  (void)x;
+  return y;
+}
+static double from_point(double x, double y) { return hypot(x - 0.4, y - 0.45); }
+static double from_points(double x, double y) {
+  return fmin(hypot(x - 0.3, y - 0.4), hypot(x - 0.75, y - 0.7));
+}
+
+static int32_t graded_spacing(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
+  const graded* g = user;
+  int64_t i;
+  for (i = 0; i < n; ++i)
+    d[i] = fmin(g->fine + g->growth * g->distance(xyz[dim * i], xyz[dim * i + 1]), g->coarse);
+  return 0;
+}
+
+enum { BANDS = 8, FEWEST = 200 };
+
+/* Over the edges of all triangles with an end inside; those within the domain come twice. */
+static void expect_bands_at_d(const result* r, const graded* g, double tolerance) {
+  double sum[BANDS] = {0}, count[BANDS] = {0};
+  const double width = log(g->coarse / g->fine) / BANDS;
+  int64_t t;
+  int k, bands = 0;
+  for (t = 0; t < r->triangles; ++t)
+    for (k = 0; k < 3; ++k) {
+      const int64_t a = r->corners[3 * t + k], b = r->corners[3 * t + (k + 1) % 3];
+      const double d = 0.5 * (r->d[a] + r->d[b]);
+      const int band = (int)fmax(0, fmin(BANDS - 1, log(d / g->fine) / width));
+      if (r->on_boundary[a] && r->on_boundary[b]) continue;
+      sum[band] += hypot(r->xy[2 * a] - r->xy[2 * b], r->xy[2 * a + 1] - r->xy[2 * b + 1]) / d;
+      count[band] += 1;
+    }
+  for (k = 0; k < BANDS; ++k) {
+    if (count[k] < 2 * FEWEST) continue;
+    ++bands;
+    ck_assert_msg(fabs(sum[k] / count[k] - 1) < tolerance, "band %d of %d: %.4f d over %d edges", k,
+                  BANDS, sum[k] / count[k], (int)count[k] / 2);
+  }
+  ck_assert_int_ge(bands, 5);
+}
+
+START_TEST(the_mean_edge_is_d_in_every_band) {
+  static graded cases[] = {
+      {0.002, 0.2, 0.08, from_line},    {0.0008, 0.1, 0.04, from_side},
+      {0.0005, 0.05, 0.02, from_point}, {0.001, 0.05, 0.02, from_points},
+      {0.001, 0.1, 0.05, from_line},
+  };
+  int k;
+  for (k = 0; k < COUNT_OF(cases); ++k) {
+    job it = square_job(1);
+    result r;
+    MUST(pnpbs_placement_set_spacing_callback(it.placement, graded_spacing, &cases[k]));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    r = result_of(it.placement);
+    check_result(&r, 1);
+    expect_bands_at_d(&r, &cases[k], 0.015); /* 0.01, and what some hundred edges scatter */
+    result_free(&r);
+    job_end(&it);
+  }
+}
+END_TEST
+
+/* However far from it the first nodes are, the number of nodes is that of a run of its own. */
+START_TEST(the_population_forgets) {
+  static cone d = {0.012, 0.03, 0.5, 0.5};
+  int64_t fresh, after;
+  int k;
+  job it = square_job(1);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  fresh = integer_of(it.placement, "nodes");
+  for (k = 0; k < 2; ++k) { /* twice as many nodes before, then half as many */
+    static cone other = {0.008, 0.02, 0.2, 0.7};
+    other.a = k == 0 ? 0.008 : 0.018;
+    MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &other));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &d));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    after = integer_of(it.placement, "nodes");
+    ck_assert_msg(llabs((long long)(after - fresh)) <= 0.015 * (double)fresh,
+                  "%d nodes, %d in a run of its own", (int)after, (int)fresh);
+  }
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("bands");
+  TCase* tests = tcase_create("bands");
+  tcase_add_test(tests, the_mean_edge_is_d_in_every_band);
+  tcase_add_test(tests, the_population_forgets);
+  suite_add_tcase(suite, tests);
+  return run_suite(suite);
+}

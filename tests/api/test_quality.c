@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * What is told of the elements: quality, angles, edge length over d, by bands of d; against the
+ * same found from the triangles copied out.
+ */
+#include "api_support.h"
+
+#define BANDS 8
+
+/* ---------------------------------------------------------------- by brute force -------- */
+
+static int ascending(const void* a, const void* b) {
+  const double x = *(const double*)a, y = *(const double*)b;
+  return (x > y) - (x < y);
+}
+
+static double least_angle(const double* a, const double* b, const double* c) {
+  const double* p[3];
+  double least = 180;
+  int k;
+  p[0] = a, p[1] = b, p[2] = c;
+  for (k = 0; k < 3; ++k) {
+    const double *x = p[k], *y = p[(k + 1) % 3], *z = p[(k + 2) % 3];
+    const double first = atan2(y[1] - x[1], y[0] - x[0]), second = atan2(z[1] - x[1], z[0] - x[0]);
+    least = fmin(least, fabs(remainder(second - first, 2 * PI)) * 180 / PI);
+  }
+  return least;
+}
+
+static void check_triangles(pnpbs_placement placement, const result* it) {
+  double* qualities = malloc((size_t)it->triangles * sizeof *qualities);
+  double sum = 0, angle = 180, told;
+  int64_t t;
+  for (t = 0; t < it->triangles; ++t) {
+    const int64_t* v = it->corners + 3 * t;
+    const double *a = it->xy + 2 * v[0], *b = it->xy + 2 * v[1], *c = it->xy + 2 * v[2];
+    qualities[t] = quality(a, b, c);
+    sum += qualities[t];
+    angle = fmin(angle, least_angle(a, b, c));
+  }
+  qsort(qualities, (size_t)it->triangles, sizeof *qualities, ascending);
+  ck_assert_double_eq_tol(real_of(placement, "quality.mean"), sum / (double)it->triangles, 1e-9);
+  ck_assert_double_eq_tol(real_of(placement, "quality.min"), qualities[0], 1e-12);
+  ck_assert_double_eq_tol(real_of(placement, "quality.min_angle"), angle, 1e-9);
+  told = real_of(placement, "quality.one_percent");
+  ck_assert_double_le(told, qualities[it->triangles / 100]);
+  ck_assert_double_gt(told, qualities[it->triangles / 100] - 1.0 / 65536);
+  free(qualities);
+}
+
+static void check_irregular(pnpbs_placement placement, const result* it) {
+  int64_t i, inner = 0, irregular = 0;
+  for (i = 0; i < it->n; ++i) {
+    if (it->tags[i] != 0) continue;
+    ++inner;
+    irregular += it->offsets[i + 1] - it->offsets[i] != 6;
+  }
+  ck_assert_double_eq_tol(real_of(placement, "quality.irregular"),
+                          (double)irregular / (double)inner, 1e-15);
+}
+
+typedef struct {
+  int64_t count, edges[BANDS];
+  double from[BANDS], to[BANDS], mean[BANDS], deviation[BANDS];
+} bands;
+
+static bands bands_of(pnpbs_placement placement) {
+  bands it;
+  MUST(pnpbs_placement_get_edge_bands(placement, BANDS, &it.count, it.from, it.to, it.edges,
+                                      it.mean, it.deviation));
+  return it;
+}
+
+typedef struct {
+  double n, sum, squares;
+} sums;
+
+static void add(sums* to, double value) {
+  to->n += 1;
+  to->sum += value;
+  to->squares += value * value;
+}
+static double mean_of(const sums* it) { return it->sum / it->n; }
+static double deviation_of(const sums* it) {
+  return sqrt(fmax(0, it->squares / it->n - mean_of(it) * mean_of(it)));
+}
+
+/* Edges of the triangles, each once: inner ones come in both directions. */
+static void check_edges(pnpbs_placement placement, const result* it) {
+  const bands told = bands_of(placement);
+  sums all = {0, 0, 0}, in_band[BANDS];
+  int64_t t, b;
+  int k;
+  memset(in_band, 0, sizeof in_band);
+  for (t = 0; t < 3 * it->triangles; ++t) {
+    const int64_t i = it->corners[t], j = it->corners[t % 3 == 2 ? t - 2 : t + 1];
+    const double d = 0.5 * (it->d[i] + it->d[j]);
+    const double ratio =
+        hypot(it->xy[2 * i] - it->xy[2 * j], it->xy[2 * i + 1] - it->xy[2 * j + 1]) / d;
+    if (i > j && !edge_between(it, i, j)) continue;
+    add(&all, ratio);
+    if (it->tags[i] != 0 && it->tags[j] != 0) continue;
+    for (b = 0; b < told.count; ++b)
+      if (d >= told.from[b] && (d < told.to[b] || b + 1 == told.count)) add(&in_band[b], ratio);
+  }
+  ck_assert_double_eq_tol(real_of(placement, "edge.mean"), mean_of(&all), 1e-9);
+  ck_assert_double_eq_tol(real_of(placement, "edge.deviation"), deviation_of(&all), 1e-7);
+  for (k = 0; k < told.count; ++k) {
+    ck_assert_int_eq(told.edges[k], (int64_t)in_band[k].n);
+    ck_assert_double_eq_tol(told.mean[k], mean_of(&in_band[k]), 1e-9);
+    ck_assert_double_eq_tol(told.deviation[k], deviation_of(&in_band[k]), 1e-6);
+  }
+}
+
+/* ---------------------------------------------------------------- cases ----------------- */
+
+static job graded_job(cone* d) {
+  job it = job_begin();
+  add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 1, 1, 1);
+  add_circle(it.domain, PNPBS_BOUNDARY, 0.6, 0.5, 0.2, 2);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, d));
+  return it;
+}
+
+START_TEST(as_by_brute_force) {
+  cone d = {0.012, 0.03, 0, 0};
+  job it = graded_job(&d);
+  result found;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  found = result_of(it.placement);
+  check_triangles(it.placement, &found);
+  check_irregular(it.placement, &found);
+  check_edges(it.placement, &found);
+  result_free(&found);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(bands_share_out_d) {
+  cone d = {0.012, 0.03, 0, 0};
+  job graded = graded_job(&d), uniform = square_job(1);
+  bands it;
+  int64_t k;
+  MUST_COMPUTE(pnpbs_placement_run(graded.placement));
+  it = bands_of(graded.placement);
+  ck_assert_int_eq(it.count, 8);
+  ck_assert_double_eq_tol(it.from[0], d.a, 1e-12); /* a corner is a node */
+  for (k = 0; k < 8; ++k) {
+    ck_assert_double_eq_tol(it.to[k] / it.from[k], it.to[0] / it.from[0], 1e-9);
+    if (k > 0) ck_assert_double_eq(it.from[k], it.to[k - 1]);
+  }
+  MUST(pnpbs_placement_set_spacing_constant(uniform.placement, 0.05));
+  MUST_COMPUTE(pnpbs_placement_run(uniform.placement));
+  it = bands_of(uniform.placement);
+  ck_assert_int_eq(it.count, 1);
+  ck_assert_double_eq(it.from[0], 0.05);
+  ck_assert_double_eq(it.to[0], 0.05);
+  job_end(&graded);
+  job_end(&uniform);
+}
+END_TEST
+
+/* Nodes are asked about as they are, after steps and before a run. */
+START_TEST(before_a_run) {
+  cone d = {0.012, 0.03, 0, 0};
+  job it = graded_job(&d);
+  result found;
+  double value;
+  int64_t count;
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_get_double(it.placement, "quality.mean", &value),
+            "no nodes", "run");
+  MUST_FAIL(PNPBS_ERROR_STATE,
+            pnpbs_placement_get_edge_bands(it.placement, 0, &count, NULL, NULL, NULL, NULL, NULL),
+            "no nodes", "run");
+  MUST_COMPUTE(pnpbs_placement_step(it.placement, 7));
+  found = result_of(it.placement);
+  check_triangles(it.placement, &found);
+  check_edges(it.placement, &found);
+  result_free(&found);
+  MUST_COMPUTE(pnpbs_placement_step(it.placement, 1)); /* what was found is found anew */
+  found = result_of(it.placement);
+  check_triangles(it.placement, &found);
+  result_free(&found);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(arrays_too_small) {
+  cone d = {0.012, 0.03, 0, 0};
+  job it = graded_job(&d);
+  double mean[BANDS];
+  int64_t count = -1;
+  MUST(pnpbs_placement_initialise(it.placement));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_get_edge_bands(it.placement, 0, NULL, NULL, NULL, NULL, NULL, NULL),
+            "count", "NULL");
+  MUST_FAIL(PNPBS_ERROR_CAPACITY,
+            pnpbs_placement_get_edge_bands(it.placement, 7, &count, NULL, NULL, NULL, mean, NULL),
+            "capacity = 7", "8 are needed");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_get_edge_bands(it.placement, -1, &count, NULL, NULL, NULL, mean, NULL),
+            "capacity", "negative");
+  MUST(pnpbs_placement_get_edge_bands(it.placement, 0, &count, NULL, NULL, NULL, NULL, NULL));
+  ck_assert_int_eq(count, 8);
+  MUST(pnpbs_placement_get_edge_bands(it.placement, 8, &count, NULL, NULL, NULL, mean, NULL));
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- d is missed ----------- */
+
+static const char* last_warning(pnpbs_placement placement) {
+  const char* text = "";
+  int32_t count;
+  MUST(pnpbs_placement_warning_count(placement, &count));
+  if (count > 0) MUST(pnpbs_placement_get_warning(placement, count - 1, &text));
+  return text;
+}
+
+/* One step of nodes that are far too few for d: nothing makes up for them. */
+START_TEST(missed_spacing_is_told) {
+  job it = square_job(1);
+  double xy[2 * 400];
+  int32_t count;
+  int k;
+  for (k = 0; k < 400; ++k) {
+    xy[2 * k] = 0.02 + 0.05 * (k % 20);
+    xy[2 * k + 1] = 0.02 + 0.05 * (k / 20);
+  }
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.04));
+  MUST(pnpbs_placement_set_nodes(it.placement, 400, xy, NULL));
+  MUST(pnpbs_placement_set_int64(it.placement, "steps", 0));
+  MUST_BE(PNPBS_SPACING_MISSED, pnpbs_placement_run(it.placement));
+  ck_assert_msg(
+      strstr(last_warning(it.placement), "0.04") && strstr(last_warning(it.placement), "too few"),
+      "%s", last_warning(it.placement));
+  ck_assert_str_eq(pnpbs_status_string(PNPBS_SPACING_MISSED),
+                   "somewhere the nodes do not follow the spacing");
+  MUST(pnpbs_placement_warning_count(it.placement, &count));
+  ck_assert_int_eq(count, 1);
+  MUST_BE(PNPBS_SPACING_MISSED, pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_warning_count(it.placement, &count));
+  ck_assert_int_eq(count, 1); /* of the last run */
+  MUST(pnpbs_placement_set_int64(it.placement, "steps", 300));
+  MUST(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_warning_count(it.placement, &count));
+  ck_assert_int_eq(count, 0);
+  job_end(&it);
+}
+END_TEST
+
+/* The same without sweeps and repairs, whose stars would be there anyway. */
+START_TEST(missed_without_sweeps) {
+  job it = square_job(1);
+  const double xy[] = {0.5, 0.5};
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.02));
+  MUST(pnpbs_placement_set_nodes(it.placement, 1, xy, NULL));
+  MUST(pnpbs_placement_set(it.placement, "sweeps", "0"));
+  MUST(pnpbs_placement_set(it.placement, "repairs", "0"));
+  MUST(pnpbs_placement_set(it.placement, "steps", "0"));
+  MUST_BE(PNPBS_SPACING_MISSED, pnpbs_placement_run(it.placement));
+  job_end(&it);
+}
+END_TEST
+
+/* A domain of short edges has no place for nodes at d: what the user's corners decide, and what
+ * few edges seem to tell, is no miss. */
+START_TEST(corners_are_no_miss) {
+  job it = job_begin();
+  add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 10, 0.1, 1);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  job_end(&it);
+  it = square_job(0.1);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.09));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("quality");
+  TCase* tests = tcase_create("quality");
+  tcase_add_test(tests, as_by_brute_force);
+  tcase_add_test(tests, bands_share_out_d);
+  tcase_add_test(tests, before_a_run);
+  tcase_add_test(tests, arrays_too_small);
+  tcase_add_test(tests, missed_spacing_is_told);
+  tcase_add_test(tests, missed_without_sweeps);
+  tcase_add_test(tests, corners_are_no_miss);
+  tcase_set_timeout(tests, 60);
+  suite_add_tcase(suite, tests);
+  return run_suite(suite);
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the system would give, from files such as it has them.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/available_memory.hpp"
+#include "geometry/run_suite.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMebibyte = 1024 * 1024;
+
+// A folder that stands for the root of a system.
+class System {
+ public:
+  System() : root_(fs::temp_directory_path() / ("pnpbs-memory-" + std::to_string(::getpid()))) {
+    file("/proc/meminfo",
+         "MemTotal:        8388608 kB\nMemFree:          102400 kB\nMemAvailable:    4096000 kB\n");
+  }
+  ~System() { fs::remove_all(root_); }
+
+  void file(const std::string& path, const std::string& text) const {
+    const fs::path whole = root_.string() + path;
+    fs::create_directories(whole.parent_path());
+    std::ofstream(whole) << text;
+  }
+  void group(const std::string& folder, const std::string& limit, double used, double cache) const {
+    file(folder + "/memory.max", limit + "\n");
+    file(folder + "/memory.current", std::to_string(static_cast<std::int64_t>(used)) + "\n");
+    file(folder + "/memory.stat",
+         "anon 1\ninactive_file " + std::to_string(static_cast<std::int64_t>(cache)) + "\n");
+  }
+  double available() const { return pnpbs::available_memory(root_.string()); }
+
+ private:
+  fs::path root_;
+};
+
+void expect(double found, double mebibytes) { ck_assert_double_eq(found, mebibytes * kMebibyte); }
+
+}  // namespace
+
+START_TEST(machine_alone) {
+  const System system;
+  expect(system.available(), 4000);
+}
+END_TEST
+
+START_TEST(group_of_version_2) {
+  const System system;
+  system.file("/proc/self/cgroup", "0::/batch/job\n");
+  system.group("/sys/fs/cgroup/batch/job", "max", 100 * kMebibyte, 0);
+  expect(system.available(), 4000);
+  // A limit of the group that it is in counts, too; what is used for cached files does not.
+  system.group("/sys/fs/cgroup/batch", "1073741824", 524 * kMebibyte, 100 * kMebibyte);
+  expect(system.available(), 600);
+  system.group("/sys/fs/cgroup/batch/job", "209715200", 100 * kMebibyte, 0);
+  expect(system.available(), 100);
+  system.group("/sys/fs/cgroup/batch/job", "104857600", 200 * kMebibyte, 0);
+  expect(system.available(), 0);
+}
+END_TEST
+
+// The path is the host's, the mount the container's.
+START_TEST(container_of_version_2) {
+  const System system;
+  system.file("/proc/self/cgroup", "0::/../../elsewhere\n");
+  system.group("/sys/fs/cgroup", "1073741824", 24 * kMebibyte, 0);
+  expect(system.available(), 1000);
+}
+END_TEST
+
+START_TEST(group_of_version_1) {
+  const System system;
+  system.file("/proc/self/cgroup", "12:cpu,cpuacct:/a\n5:memory:/a\n1:name=systemd:/a\n");
+  system.file("/sys/fs/cgroup/memory/a/memory.limit_in_bytes", "524288000\n");
+  system.file("/sys/fs/cgroup/memory/a/memory.usage_in_bytes", "104857600\n");
+  expect(system.available(), 400);
+}
+END_TEST
+
+START_TEST(nothing_is_told) {
+  ck_assert(pnpbs::available_memory("/nowhere-at-all") > 1e300);
+  ck_assert(pnpbs::available_memory() > kMebibyte);  // of this machine
+}
+END_TEST
+
+int main() {
+  return run_suite("available_memory", {machine_alone, group_of_version_2, container_of_version_2,
+                                        group_of_version_1, nothing_is_told});
+}

@@ -1,0 +1,31 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# A host program with a METIS of its own gets the same nodes as one without, in one process and on
+# ranks. usage: host_metis.sh <mpiexec> <nm> <host with METIS> <host without>
+set -eu
+mpiexec=$1 nm=$2 with=$3 without=$4
+export OMP_NUM_THREADS=1
+
+# The host's names can be seen by all that is loaded, or nothing is tested.
+"$nm" -D --defined-only "$with" | grep -q ' T METIS_PartGraphKway$'
+"$nm" -D --defined-only "$with" | grep -q ' T METIS_PartGraphRecursive$'
+
+on_ranks() {
+  ranks=$1
+  shift
+  "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" "$@" < /dev/null
+}
+
+expected=$("$without" serial < /dev/null)
+echo "without a METIS of the host's: $expected"
+wrong=0
+compare() { # what, output
+  echo "$1: $2"
+  [ "$2" = "$expected" ] || wrong=1
+}
+compare "with one, serial" "$("$with" serial < /dev/null)"
+# More than 32 ranks would be cut by the other function: the same library, opened once.
+for ranks in 2 3; do
+  compare "with one, $ranks ranks" "$(on_ranks $ranks "$with")"
+done
+exit $wrong

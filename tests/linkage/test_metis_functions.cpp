@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Asks for METIS where there is none that fits, and expects an error that contains a text.
+// usage: test_metis_functions <text>
+#include <cstdio>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "parallel/metis_functions.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  for (int turn = 0; turn < 2; ++turn) {  // again, as the next run on this rank would
+    try {
+      pnpbs::metis();
+      std::puts("no error");
+      return 1;
+    } catch (const pnpbs::Error& error) {
+      std::puts(error.what());
+      if (error.status() != PNPBS_ERROR_UNSUPPORTED || !std::strstr(error.what(), argv[1]))
+        return 1;
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Every call on a file fails once, on one rank, while several files are written: all ranks get the
+ * same status, and there are all files or what was there before, nothing else. With an argument n,
+ * only every n-th call does. */
+#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+#include <dirent.h>
+#include <mpi.h>
+#include <pnpbs/pnpbs_mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "fault_calls.h"
+
+static pnpbs_context context;
+static int rank, size, failures;
+
+static const char* const asked[] = {"a.vtu", "b.pvtu", "c.csv", "d.node"};
+static const int32_t elements[] = {1, 1, 0, 1};
+static char files[16][20]; /* all that these are */
+static int file_count;
+
+static void expect(int condition, const char* what) {
+  if (condition) return;
+  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
+  ++failures;
+}
+
+static void list_files(void) {
+  static const char* const fixed[] = {"a.vtu", "b.pvtu", "c.csv", "d.node", "d.ele"};
+  for (file_count = 0; file_count < 5; ++file_count) strcpy(files[file_count], fixed[file_count]);
+  for (int r = 0; r < size; ++r) snprintf(files[file_count++], sizeof *files, "b_%d.vtu", r);
+}
+
+/* --- what is in the folder; rank 0 looks -------------------------------------------------------
+ */
+
+static void lay_old_files(int there) {
+  for (int k = 0; k < file_count; ++k) {
+    FILE* file;
+    unlink(files[k]);
+    if (!there || !(file = fopen(files[k], "w"))) continue;
+    fputs("old", file);
+    fclose(file);
+  }
+}
+
+static int is_old(const char* path, int was_there) {
+  char text[4] = "";
+  FILE* file = fopen(path, "r");
+  if (!file) return !was_there;
+  if (fread(text, 1, 3, file) != 3) text[0] = '?';
+  fclose(file);
+  return was_there && strcmp(text, "old") == 0;
+}
+
+static int left_aside(void) {
+  DIR* folder = opendir(".");
+  struct dirent* entry;
+  int count = 0;
+  while ((entry = readdir(folder))) {
+    if (strncmp(entry->d_name, ".pnpbs-", 7) != 0) continue;
+    ++count;
+    unlink(entry->d_name);
+  }
+  closedir(folder);
+  return count;
+}
+
+static void check_folder(const char* what, int written, int old_there, int unlink_failed) {
+  int left;
+  for (int k = 0; k < file_count; ++k) {
+    char text[512];
+    snprintf(text, sizeof text, "%s: %s is not %s", what, files[k], written ? "new" : "old");
+    expect(written ? !is_old(files[k], old_there) && access(files[k], F_OK) == 0
+                   : is_old(files[k], old_there),
+           text);
+  }
+  left = left_aside();
+  expect(left <= unlink_failed, what); /* something was left behind */
+}
+
+/* --- faults --------------------------------------------------------------------------------- */
+
+static pnpbs_placement square_placement(void) {
+  const double corners[] = {0, 0, 1, 0, 1, 1, 0, 1};
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+  expect(pnpbs_domain_create(context, 2, &domain) == PNPBS_OK, "domain");
+  pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, corners, NULL, 0);
+  expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
+  pnpbs_placement_set_spacing_constant(placement, 0.1);
+  pnpbs_domain_destroy(&domain);
+  expect(pnpbs_placement_run(placement) >= 0, "run");
+  return placement;
+}
+
+/* The n-th call on one rank fails. Tells whether there was one; counts those that ended in an
+ * error. */
+static int one_fault(pnpbs_placement placement, int bad, long n, int old_there, long* errors) {
+  char call[20] = "", what[100];
+  pnpbs_status status;
+  int mine, least, most;
+  if (rank == 0) lay_old_files(old_there);
+  MPI_Barrier(MPI_COMM_WORLD);
+  fault_arm(rank == bad ? n : -1);
+  status = pnpbs_placement_write_files(placement, 4, asked, NULL, elements);
+  if (fault_happened()) snprintf(call, sizeof call, "%s", fault_happened());
+  fault_arm(-1);
+  MPI_Bcast(call, sizeof call, MPI_CHAR, bad, MPI_COMM_WORLD);
+  snprintf(what, sizeof what, "call %ld on rank %d, %s", n, bad, call);
+  mine = (int)status;
+  MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  expect(least == most, "ranks disagree on the status");
+  expect(status == PNPBS_OK || (call[0] && status == PNPBS_ERROR_FILE), what);
+  if (rank == 0) check_folder(what, status == PNPBS_OK, old_there, strcmp(call, "unlink") == 0);
+  *errors += status != PNPBS_OK;
+  return call[0] != 0;
+}
+
+static void all_faults(pnpbs_placement placement, int bad, int old_there, long stride) {
+  long n = (bad + old_there) % stride, errors = 0;
+  while (one_fault(placement, bad, n, old_there, &errors)) n += stride;
+  if (rank == 0)
+    printf("rank %d, %s: %ld calls, %ld errors\n", bad, old_there ? "files there" : "none there", n,
+           errors);
+  expect(errors * stride > 5, "faults that are errors"); /* open, write, close, rename of a piece */
+}
+
+int main(int argc, char** argv) {
+  char folder[] = "/tmp/pnpbs-faults-XXXXXX";
+  const long stride = argc > 1 ? atol(argv[1]) : 1;
+  pnpbs_placement placement;
+  int all;
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
+  MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
+  expect(chdir(folder) == 0, "folder");
+  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  list_files();
+  placement = square_placement();
+  for (int bad = 0; bad < size; ++bad)
+    for (int old_there = 0; old_there < 2; ++old_there)
+      all_faults(placement, bad, old_there, stride);
+  pnpbs_placement_destroy(&placement);
+  pnpbs_context_destroy(&context);
+  if (rank == 0) {
+    lay_old_files(0);
+    expect(rmdir(folder) == 0, "something was left behind");
+  }
+  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  if (rank == 0) printf("%d failed\n", all);
+  MPI_Finalize();
+  return all != 0;
+}

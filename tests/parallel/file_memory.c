@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Writing files takes hardly any memory beside what the run took: the peak of each rank while it
+ * writes, format by format, against its peak before. */
+#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+#include <inttypes.h>
+#include <mpi.h>
+#include <pnpbs/pnpbs_mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Of the run's peak, and what windows and MPI-IO take whatever the number of nodes. */
+static double most_after(long before) { return 1.15 * (double)before + 12 * 1024; }
+
+static pnpbs_context context;
+static int rank, failures;
+
+static void expect(int condition, const char* what) {
+  if (condition) return;
+  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
+  ++failures;
+}
+
+/* The largest resident size since the last forget_peak, in KiB. */
+static long peak(void) {
+  FILE* status = fopen("/proc/self/status", "r");
+  char line[200];
+  long kib = 0;
+  while (status && fgets(line, sizeof line, status)) sscanf(line, "VmHWM: %ld kB", &kib);
+  if (status) fclose(status);
+  return kib;
+}
+
+/* Is there a way to forget it? */
+static int forget_peak(void) {
+  FILE* file = fopen("/proc/self/clear_refs", "w");
+  int ok = file && fputs("5", file) >= 0;
+  if (file && fclose(file) != 0) ok = 0;
+  return ok;
+}
+
+static pnpbs_placement square_placement(double d) {
+  const double corners[] = {0, 0, 1, 0, 1, 1, 0, 1};
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+  expect(pnpbs_domain_create(context, 2, &domain) == PNPBS_OK, "domain");
+  pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, corners, NULL, 0);
+  expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
+  pnpbs_placement_set_spacing_constant(placement, d);
+  pnpbs_placement_set_int64(placement, "steps", 8);
+  pnpbs_placement_set_int64(placement, "sweeps", 0);
+  pnpbs_domain_destroy(&domain);
+  return placement;
+}
+
+static void write_one(pnpbs_placement placement, long before, const char* path, int32_t elements) {
+  char what[200];
+  long after;
+  if (!forget_peak()) return;
+  expect(pnpbs_placement_write(placement, path, elements) == PNPBS_OK, path);
+  after = peak();
+  snprintf(what, sizeof what, "%s: the peak is %ld KiB, before %ld", path, after, before);
+  if (rank == 0) printf("%s\n", what);
+  expect((double)after < most_after(before), what);
+}
+
+int main(int argc, char** argv) {
+  char folder[] = "/tmp/pnpbs-memory-XXXXXX", command[100];
+  const char* paths[] = {"a.vtu", "a.pvtu", "a.msh", "a.node", "a.csv"};
+  pnpbs_placement placement;
+  int64_t nodes = 0;
+  size_t k;
+  long before;
+  int all;
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
+  MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
+  expect(chdir(folder) == 0, "folder");
+  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  placement = square_placement(argc > 1 ? atof(argv[1]) : 0.0024);
+  expect(pnpbs_placement_run(placement) >= 0, "run");
+  pnpbs_placement_get_int64(placement, "nodes", &nodes);
+  before = peak();
+  if (rank == 0) printf("%" PRId64 " nodes, peak of the run %ld KiB\n", nodes, before);
+  for (k = 0; k < sizeof paths / sizeof *paths; ++k)
+    write_one(placement, before, paths[k], strcmp(paths[k], "a.csv") != 0);
+  pnpbs_placement_destroy(&placement);
+  pnpbs_context_destroy(&context);
+  MPI_Barrier(MPI_COMM_WORLD);
+  snprintf(command, sizeof command, "rm -r %s", folder);
+  if (rank == 0) expect(system(command) == 0, "remove the files");
+  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  if (rank == 0) printf("%d failed\n", all);
+  MPI_Finalize();
+  return all != 0;
+}

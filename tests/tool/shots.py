@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs of the command that are to end early, over files that were there before: all of them are new
+afterwards, or none, and nothing else is left."""
+
+import os
+import pathlib
+import time
+
+from command import DONE, INTERRUPTED, NOT_CONVERGED
+from ranks import RanksTest
+
+
+WRITTEN = (DONE, NOT_CONVERGED)  # after a few steps
+
+
+class ShotTest(RanksTest):
+    # A short run, and much to write.
+    SPACING = "0.007"
+    NAMES = ("a.vtu", "b.msh", "c.csv", "d.pvtu", "e.png")
+    RANKS = 2
+
+    def arguments(self):
+        outputs = [word for name in self.NAMES for word in ("-o", name)]
+        return ("--domain", self.square, "--spacing", self.SPACING, "--set", "steps=4",
+                "--set", "sweeps=0", *outputs, "--report", "f.json", "--quiet")
+
+    def targets(self):
+        return [*self.NAMES, *(f"d_{rank}.vtu" for rank in range(self.RANKS)), "f.json"]
+
+    def lay_old_files(self):
+        for name in self.targets():
+            (self.folder / name).write_text("old")
+
+    def are_new(self):
+        """Whether the files are new; fails if that differs between them."""
+        new = {name: (self.folder / name).read_bytes() != b"old" for name in self.targets()}
+        self.assertEqual(len(set(new.values())), 1, f"a mixture: {new}")
+        return all(new.values())
+
+    def left_aside(self):
+        return [name for name in self.files() if name.startswith(".pnpbs-")]
+
+    def check_files(self, code, hint):
+        """After a run that may have been shot."""
+        new = self.are_new()
+        self.assertEqual(self.left_aside(), [], hint)
+        if code in WRITTEN:
+            self.assertTrue(new, hint)
+        if code == INTERRUPTED:
+            self.assertFalse(new, hint)
+        return new
+
+    def ranks_of(self, process, count):
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        for _ in range(200):
+            found = [int(child) for child in children.read_text().split()]
+            if len(found) >= count:
+                return found
+            time.sleep(0.02)
+        self.fail("mpirun starts no ranks")
+
+    def wait_aside(self, process, patience=30):
+        """Until a file is written aside in earnest: with something in it."""
+        end = time.monotonic() + patience
+        while time.monotonic() < end and process.poll() is None:
+            for name in self.left_aside():
+                try:
+                    if os.stat(self.folder / name).st_size > 0:
+                        return
+                except FileNotFoundError:
+                    pass
+            time.sleep(0.002)
+        self.fail("nothing is written")
