@@ -1198,14 +1198,10 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     integer(c_int8_t), allocatable :: flags(:)
-    allocate (flags(size(triangle)))
-    where (triangle)
-      flags = 1
-    elsewhere
-      flags = 0
-    end where
+    integer(c_int8_t), parameter :: not_set = -1
+    allocate (flags(size(triangle)), source=not_set)
     call self%get_stars(offsets, neighbours, flags, stat, errmsg)
-    triangle = flags /= 0
+    where (flags /= not_set) triangle = flags /= 0
   end subroutine
 
   !> Number of triangles that get_triangles has. Collective.

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cmath>
-#include <mutex>
 
+#include "parallel/spacing_range.hpp"
 #include "spacing/spacing_bands.hpp"
 #include "stars/triangle_quality.hpp"
 
@@ -13,21 +13,6 @@ namespace pnpbs {
 namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
-
-// Integers that body(i, sums) adds to for 0 <= i < n; in any order they come out the same.
-template <class Sums, class Body>
-Sums sums_over(const char* label, std::int64_t n, Sums sums, const Body& body) {
-  constexpr std::int64_t kChunk = 4096;
-  std::mutex adding;
-  for_each(label, (n + kChunk - 1) / kChunk, [&](std::int64_t chunk) {
-    Sums part{};
-    const std::int64_t end = std::min(n, (chunk + 1) * kChunk);
-    for (std::int64_t i = chunk * kChunk; i < end; ++i) body(i, part);
-    const std::lock_guard<std::mutex> lock(adding);
-    sums.add(part);
-  });
-  return sums;
-}
 
 // ------------------------------------------------------------------ edges ----------------------
 
@@ -84,13 +69,8 @@ EdgeRatio ratio_of(const RatioSums& sums) {
 }
 
 SpacingBands bands_of_nodes(const Communicator& comm, const Nodes<2>& nodes) {
-  const auto largest = [&](double sign) {
-    return comm.largest(
-        largest_of("pnpbs::bands_of_nodes", nodes.count, -kFarAway,
-                   [&](std::int64_t i) { return nodes.owned(i) ? sign * nodes.d(i) : -kFarAway; }));
-  };
-  const double least = -largest(-1);
-  return {least, largest(1)};
+  const SpacingRange d = spacing_range(comm, nodes);
+  return {d.least, d.largest};
 }
 
 EdgeSums local_edge_sums(const Nodes<2>& nodes, const DelaunayStars& stars,

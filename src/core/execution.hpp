@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Kokkos_Core.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <mutex>
@@ -66,6 +67,23 @@ std::uint64_t sum_of(const char* label, std::int64_t n, const Body& body) {
       [&](std::int64_t i, std::uint64_t& sum) { sum += static_cast<std::uint64_t>(body(i)); },
       result);
   return result;
+}
+
+// Integers that body(i, sums) adds to for 0 <= i < n; in any order they come out the same. `none`
+// are the sums of nothing; add(sums) joins two.
+template <class Sums, class Body>
+Sums sums_over(const char* label, std::int64_t n, const Sums& none, const Body& body) {
+  constexpr std::int64_t kChunk = 4096;
+  Sums all = none;
+  std::mutex adding;
+  for_each_guarded(label, (n + kChunk - 1) / kChunk, [&](std::int64_t chunk) {
+    Sums part = none;
+    const std::int64_t end = std::min(n, (chunk + 1) * kChunk);
+    for (std::int64_t i = chunk * kChunk; i < end; ++i) body(i, part);
+    const std::lock_guard<std::mutex> lock(adding);
+    all.add(part);
+  });
+  return all;
 }
 
 template <class T>

@@ -13,12 +13,10 @@
 
 namespace pnpbs {
 
-// Does d vary so much within the leaf?
-bool leaf_is_steep(const DomainMap& map, std::int32_t leaf);
-
 class GradedFill {
  public:
-  // Of the steep leaves for which wanted(leaf) holds.
+  // Of the leaves that hexagonal_fill leaves out, as d varies too much in them, and for which
+  // wanted(leaf) holds.
   GradedFill(const DomainMap& map, const std::function<bool(std::int32_t)>& wanted);
 
   // The centres of the cells in the domain, and d there, which is asked by the caller.
@@ -32,11 +30,9 @@ class GradedFill {
  private:
   struct Leaf {
     std::int32_t leaf;
-    std::size_t first;  // of its cells
+    double cell_side;
+    std::size_t first, end;  // its cells
   };
-
-  std::int64_t wanted_in_cell(const Leaf& leaf, double d) const;
-  Point<2> on_diagonal(const Leaf& leaf, const Point<2>& centre, int n, int count) const;
 
   const DomainMap& map_;
   std::vector<Leaf> leaves_;

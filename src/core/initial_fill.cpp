@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/graded_fill.hpp"
-
 namespace pnpbs {
 
 namespace {
@@ -52,13 +50,13 @@ class Fill {
     if (own.area == 0) return;
     const bool leaf = tree.cell(c).first_child < 0;
     Lattice lattice;
-    if (!patch && (leaf || nearly_constant(own))) {
+    if (!patch && nearly_constant(own)) {
       lattice = lattice_of(own.spacing(), c == 0);
       patch = &lattice;
     }
     if (leaf) {
       const std::int32_t here = tree.cell(c).leaf;
-      if (wanted_(here) && !leaf_is_steep(map_, here)) fill_leaf(here, *patch);
+      if (patch && wanted_(here)) fill_leaf(here, *patch);  // others are graded_fill's
     } else {
       for (int k = 0; k < 4; ++k) descend(tree.cell(c).first_child + k, patch);
     }

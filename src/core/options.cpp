@@ -39,7 +39,7 @@ const std::vector<OptionRow>& option_table() {
        "many"},
       {"coarsest_steps", T::integer, "300", nullptr, "1000", 0, 1e9, nullptr,
        "most steps on the coarsest of several levels"},
-      {"refined_steps", T::integer, "60", nullptr, "500", 0, 1e9, nullptr,
+      {"refined_steps", T::integer, "80", nullptr, "500", 0, 1e9, nullptr,
        "most steps on the levels between the coarsest and the finest"},
       {"event_interval", T::integer, "20", "8", nullptr, 1, 1e6, nullptr,
        "steps between events: refresh of d, population, stop test, monitor"},

@@ -201,7 +201,7 @@ Outcome Placement::make_level() {
 // all ranks do, with the nodes there were before.
 void Placement::fill(Level& level) {
   using Clock = std::chrono::steady_clock;
-  constexpr auto kBetweenCalls = std::chrono::milliseconds(500);
+  constexpr auto kBetweenCalls = std::chrono::milliseconds(200);
   Clock::time_point last = Clock::now();
   const auto beat = [&] {
     if (Clock::now() - last < kBetweenCalls) return;

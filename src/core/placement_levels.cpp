@@ -46,7 +46,7 @@ GivenNodes new_nodes(GivenNodes nodes) {
 Settings settings_of_level(Settings settings, bool coarsest) {
   constexpr double kPopulationShare = 0.75;
   constexpr double kMoreRest = 0.3;  // of the finest level's tolerance: steps are cheap here
-  constexpr double kDenser = 0.998;  // in distance: refining leaves it a little too large
+  constexpr double kDenser = 0.997;  // in distance: refining leaves it a little too large
   settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
   settings.population_share = kPopulationShare;
   settings.defects.bad_below = 0;  // no triangle is handed on

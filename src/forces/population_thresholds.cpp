@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "forces/overlap_ratio.hpp"
+#include "parallel/spacing_range.hpp"
 
 namespace pnpbs {
 
@@ -20,6 +21,14 @@ constexpr int kCounts = kBins + 2;
 // Bubbles nearer than this many desired distances touch: nearly all that are joined by an edge of
 // the Delaunay triangulation are, and hardly any others, whose next shell is at 1.73.
 constexpr double kTouch = 1.3;
+
+struct OctaveCounts {
+  std::vector<std::int64_t> values;  // kCounts per octave
+
+  void add(const OctaveCounts& other) {
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += other.values[k];
+  }
+};
 
 int octave_of(double d) { return std::ilogb(d); }
 
@@ -82,19 +91,6 @@ PopulationThresholds::Pair thresholds_of_octave(const std::int64_t* counts,
   return pair;
 }
 
-// The least and the largest octave of d, over all ranks; the least is larger if there is no node.
-template <int Dim>
-std::pair<int, int> octaves_of(const Communicator& comm, const Nodes<Dim>& nodes) {
-  constexpr double kNone = -1e9;
-  const auto largest = [&](double sign) {
-    return static_cast<int>(
-        comm.largest(largest_of("pnpbs::octaves_of", nodes.count, kNone, [&](std::int64_t i) {
-          return nodes.owned(i) ? sign * octave_of(nodes.d(i)) : kNone;
-        })));
-  };
-  return {-largest(-1), largest(1)};
-}
-
 }  // namespace
 
 const PopulationThresholds::Pair& PopulationThresholds::at(double d) const {
@@ -117,24 +113,26 @@ PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim
                                        const PopulationRule& rule, double tolerance) {
   PopulationThresholds thresholds(rule);
   if (rule.mean_distance == 0 || std::isinf(tolerance)) return thresholds;
-  const auto [first, last] = octaves_of<Dim>(comm, nodes);
-  if (first > last) return thresholds;
-  std::vector<std::int64_t> counts;
-  agreed(comm, [&, first = first, last = last] {
-    counts.assign(static_cast<std::size_t>(last - first + 1) * kCounts, 0);
-    for (std::int64_t i = 0; i < nodes.count; ++i) {
-      if (!nodes.moves(i) || !nodes.owned(i)) continue;
-      if (is_squeezed<Dim>(nodes, lists, ratios(i), rule, i)) continue;
-      count_node<Dim>(nodes, lists, ratios(i), i,
-                      counts.data() + (octave_of(nodes.d(i)) - first) * kCounts);
-    }
+  const SpacingRange d = spacing_range<Dim>(comm, nodes);
+  if (d.empty()) return thresholds;
+  const int first = octave_of(d.least), last = octave_of(d.largest);
+  OctaveCounts counts;
+  agreed(comm, [&] {
+    counts.values.assign(static_cast<std::size_t>(last - first + 1) * kCounts, 0);
+    counts = sums_over(
+        "pnpbs::choose_thresholds", nodes.count, counts, [&](std::int64_t i, OctaveCounts& sums) {
+          if (!nodes.moves(i) || !nodes.owned(i)) return;
+          if (is_squeezed<Dim>(nodes, lists, ratios(i), rule, i)) return;
+          count_node<Dim>(nodes, lists, ratios(i), i,
+                          sums.values.data() + (octave_of(nodes.d(i)) - first) * kCounts);
+        });
   });
-  comm.sum(counts);
+  comm.sum(counts.values);
   thresholds.first_octave = first;
   thresholds.octaves.clear();
   for (int octave = 0; octave <= last - first; ++octave)
     thresholds.octaves.push_back(
-        thresholds_of_octave(counts.data() + octave * kCounts, rule, tolerance));
+        thresholds_of_octave(counts.values.data() + octave * kCounts, rule, tolerance));
   return thresholds;
 }
 

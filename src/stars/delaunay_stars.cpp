@@ -2,6 +2,7 @@
 #include "stars/delaunay_stars.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "forces/bubble_force.hpp"
@@ -95,7 +96,36 @@ class StarWriter {
   // Of the list of node i, whatever is around it.
   double least_reach(std::int64_t i) {
     if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
-    return 0.5 * in_.lists.radius() * (in_.nodes.d(i) + least_);
+    constexpr double kSteep = 0.9;
+    const double d = in_.nodes.d(i);
+    return least_ < kSteep * d ? reach_to_unlisted(i)
+                               : 0.5 * in_.lists.radius() * (in_.nodes.d(i) + least_);
+  }
+
+  // Up to the nearest node that the list does not hold, or as far as stars mostly need. The
+  // neighbour buckets hold all nodes within radius * d.
+  double reach_to_unlisted(std::int64_t i) const {
+    constexpr double kNeeded = 1.5, kRounding = 1 - 1e-9;
+    const Nodes<2>& nodes = in_.nodes;
+    const Point<2> at = nodes.position(i);
+    const double own = nodes.d(i), radius = in_.lists.radius();
+    const double needed = std::min(kNeeded, radius) * own, half = 0.5 * kRounding * radius;
+    const Box<2> box = box_around<2>(at, needed);
+    const double *x = nodes.x[0].data(), *y = nodes.x[1].data(), *d = nodes.d.data();
+    double nearest = needed * needed;
+    in_.buckets.for_neighbours(bucket_, [&](std::int32_t b) {
+      const Box<2> cell = in_.map.tree().cell_box(in_.map.tree().leaf_cell(b));
+      for (int k = 0; k < 2; ++k)
+        if (cell.high[k] < box.low[k] || cell.low[k] > box.high[k]) return;
+#pragma omp simd reduction(min : nearest)
+      for (std::int32_t j = in_.buckets.begin(b); j < in_.buckets.end(b); ++j) {
+        const double dx = x[j] - at[0], dy = y[j] - at[1], listed = half * (own + d[j]);
+        const double square = dx * dx + dy * dy;
+        const double unlisted = square < listed * listed ? nearest : square;
+        nearest = unlisted < nearest ? unlisted : nearest;
+      }
+    });
+    return std::sqrt(nearest);
   }
 
   bool add_hull_star(std::int64_t i, double reach) {
