@@ -30,6 +30,7 @@
 #include "parallel/known_region.hpp"
 #include "parallel/packed_node.hpp"
 #include "spacing/spacing.hpp"
+#include "spacing/steepest_growth.hpp"
 #include "stars/delaunay_stars.hpp"
 
 namespace pnpbs {
@@ -143,6 +144,7 @@ class Level {
   GivenNodes refined(const Spacing<2>& next);
   // By the samples of d in the leaves. Collective.
   SpacingVariation spacing_variation() const;
+  SteepestGrowth steepest_growth() const;  // collective
   std::int64_t owned_count() const;
   // Rank that owns a node (this one's own and ghosts).
   int owner_of(std::int64_t i) const {

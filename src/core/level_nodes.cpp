@@ -241,6 +241,11 @@ SpacingVariation Level::spacing_variation() const {
   return {-comm_->largest(-own.least), comm_->largest(own.largest), comm_->largest(own.steepest)};
 }
 
+SteepestGrowth Level::steepest_growth() const {
+  const PhaseTimer timer(timers_, Phase::spacing);
+  return pnpbs::steepest_growth(*comm_, map_, owns_leaf(), evaluator());
+}
+
 TakenNodes Level::take(GivenNodes given, std::int64_t next_id) {
   const PhaseTimer timer(timers_, Phase::fill);
   const auto count_if = [&](const auto& counts) {

@@ -30,8 +30,8 @@ double nodes_inside(const DomainMap& map, double area) {
 
 }  // namespace
 
-double estimate_nodes(const Communicator& comm, const PlaneDomain& domain,
-                      const Spacing<2>& spacing, std::int64_t max_boundary_nodes) {
+NodeEstimate estimate_nodes(const Communicator& comm, const PlaneDomain& domain,
+                            const Spacing<2>& spacing, std::int64_t max_boundary_nodes) {
   constexpr int kUniformDepth = 4, kPasses = 4, kCells = 4096;
   const SpacingEvaluator evaluator = [&](std::int64_t n, const Point<2>* x, double* d) {
     evaluate_spacing<2>(spacing, domain.area(), n, x, d);
@@ -50,7 +50,9 @@ double estimate_nodes(const Communicator& comm, const PlaneDomain& domain,
     most = nodes / kCells;
   }
   // A boundary node has half of its neighbours outside, and half of its own room.
-  return nodes + 0.5 * static_cast<double>(boundary.nodes.size());
+  nodes += 0.5 * static_cast<double>(boundary.nodes.size());
+  return {nodes, steepest_growth(
+                     comm, map, [](std::int32_t) { return true; }, evaluator)};
 }
 
 }  // namespace pnpbs

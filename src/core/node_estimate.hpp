@@ -8,6 +8,7 @@
 #include "geometry/plane_domain.hpp"
 #include "parallel/communicator.hpp"
 #include "spacing/spacing.hpp"
+#include "spacing/steepest_growth.hpp"
 
 namespace pnpbs {
 
@@ -17,8 +18,13 @@ struct Estimate {
   double seconds = 0;      // roughly
 };
 
+struct NodeEstimate {
+  double nodes = 0;
+  SteepestGrowth steepest;
+};
+
 // By samples of d in some thousand cells, more of them where there would be more nodes. Collective.
-double estimate_nodes(const Communicator& comm, const PlaneDomain& domain,
-                      const Spacing<2>& spacing, std::int64_t max_boundary_nodes);
+NodeEstimate estimate_nodes(const Communicator& comm, const PlaneDomain& domain,
+                            const Spacing<2>& spacing, std::int64_t max_boundary_nodes);
 
 }  // namespace pnpbs

@@ -76,8 +76,9 @@ const std::vector<OptionRow>& option_table() {
        "radius of the lists during the run, in desired distances"},
       {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 3, nullptr,
        "radius of the adjacency lists handed out, in desired distances"},
-      {"growth_limit", T::real, "0", nullptr, nullptr, 0, 1e6, nullptr,
-       "d may grow by at most this much per unit of length; 0 is no limit"},
+      {"growth_limit", T::real, "0.3", "0", nullptr, 0, 1e6, nullptr,
+       "d may grow by at most this much per unit of length; 0 is no limit. As long as it is not "
+       "set, it counts only where d as given grows faster, and there is a warning then"},
       {"exchange_interval", T::integer, "5", nullptr, nullptr, 1, 64, nullptr,
        "steps between exchanges of ghosts between ranks"},
       {"rebalance_above", T::real, "1.1", nullptr, nullptr, 1, 1e6, nullptr,

@@ -12,7 +12,6 @@
 #include "core/kokkos_runtime.hpp"
 #include "core/mixed_hash.hpp"
 #include "geometry/limits.hpp"
-#include "spacing/growth_limit.hpp"
 
 namespace pnpbs {
 
@@ -49,9 +48,6 @@ void append_by_id(const Nodes<2>& nodes, bool owned, std::vector<std::int32_t>& 
     std::sort(begin, order.end(),
               [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
 }
-
-// Of the domain, that d may be large.
-constexpr double kMostSizes = 1024;
 
 // The steps' part of a run's work, for its progress: the rest are the finishing sweeps.
 constexpr double kStepsShare = 0.9;
@@ -91,8 +87,9 @@ Outcome Placement::initialise() {
 Outcome Placement::prepare_level() {
   const Settings settings(options_);
   require_same_options();
-  const bool make =
-      !level_ || spacing_replaced_ || settings.growth_limit != level_->settings().growth_limit;
+  const bool make = !level_ || spacing_replaced_ ||
+                    settings.growth_limit != level_->settings().growth_limit ||
+                    settings.growth_limit_set != level_->settings().growth_limit_set;
   if (comm_->largest(make) > 0) return make_level();
   level_->change_settings(settings);
   return Outcome::converged;
@@ -125,20 +122,6 @@ void Placement::require_same_domain() const {
                 "the domains differ between ranks: every rank describes the whole domain");
 }
 
-// The spacing as it counts: as given, no larger than makes sense, or with its growth limited.
-std::shared_ptr<const Spacing<2>> Placement::limited_spacing(const Settings& settings) {
-  std::shared_ptr<const Spacing<2>> spacing;
-  agreed(*comm_, [&] {
-    const double bound = kMostSizes * size_of(domain_->bounds());
-    spacing = std::make_shared<BoundedSpacing<2>>(spacing_, bound);
-    if (settings.growth_limit == 0) return;
-    const PhaseTimer timer(timers_, Phase::spacing);
-    spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, spacing, settings.growth_limit,
-                                                     settings.node_limit());
-  });
-  return spacing;
-}
-
 // A level without inner nodes yet, dealt out to the ranks like another one if that is given.
 std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> spacing,
                                               const Settings& settings, const Level* like) {
@@ -163,8 +146,14 @@ Outcome Placement::make_level() {
   settings.max_bytes = bytes_allowed();
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain();
-  const std::shared_ptr<const Spacing<2>> spacing = limited_spacing(settings);
+  std::shared_ptr<const Spacing<2>> spacing = spacing_that_counts(settings);
   std::unique_ptr<Level> next = empty_level(spacing, settings);
+  SteepestGrowth steepest;  // none where the user limits it
+  if (!settings.user_limits_growth()) steepest = next->steepest_growth();
+  if (too_steep(steepest) && settings.growth_limit > 0) {
+    spacing = growth_limited(std::move(spacing), settings);
+    next = empty_level(spacing, settings);
+  }
   settings.node_limit().require_memory_for(next->expected_nodes());
   TakenNodes taken;
   std::int64_t inserted = 0;
@@ -191,6 +180,7 @@ Outcome Placement::make_level() {
   warnings_ = domain_->warnings();
   warnings_.insert(warnings_.end(), level_->boundary().warnings.begin(),
                    level_->boundary().warnings.end());
+  if (too_steep(steepest)) warnings_.push_back(warning_of_growth(steepest, settings.growth_limit));
   warnings_of_level_ = warnings_.size();
   spacing_replaced_ = false;
   begin_schedule(coarser_levels_ > 0);

@@ -127,7 +127,12 @@ class Placement {
  private:
   Outcome prepare_level();
   Outcome make_level();
-  std::shared_ptr<const Spacing<2>> limited_spacing(const Settings& settings);
+  std::shared_ptr<const Spacing<2>> spacing_that_counts(const Settings& settings);
+  std::shared_ptr<const Spacing<2>> growth_limited(std::shared_ptr<const Spacing<2>> spacing,
+                                                   const Settings& settings);
+  static bool too_steep(const SteepestGrowth& steepest);
+  static std::string warning_of_growth(const SteepestGrowth& steepest, double growth_limit);
+  double estimated_nodes(const Settings& settings);
   double bytes_allowed() const;
   std::unique_ptr<Level> empty_level(std::shared_ptr<const Spacing<2>> spacing,
                                      const Settings& settings, const Level* like = nullptr);

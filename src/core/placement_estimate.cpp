@@ -15,7 +15,7 @@ namespace {
 constexpr double kBytesOfProcess = 30e6;  // before it has any nodes
 
 // What a core of a present server does, over cases with d graded and even (docs/benchmarks.md).
-constexpr double kNodesPerSecond = 500e3, kNodesPerSecondBest = 150e3, kNodesPerSecondPaper = 20e3;
+constexpr double kNodesPerSecond = 400e3, kNodesPerSecondBest = 140e3, kNodesPerSecondPaper = 20e3;
 
 double nodes_per_second(const Options& options) {
   if (options.choice("method") == "paper") return kNodesPerSecondPaper;
@@ -34,13 +34,23 @@ Estimate Placement::estimate() {
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain();
   const double ranks = comm_->size();
-  const double nodes =
-      estimate_nodes(*comm_, *domain_, *limited_spacing(settings), settings.max_nodes);
+  const double nodes = estimated_nodes(settings);
   const double threads = from_fixed_point(
       comm_->sum(static_cast<std::uint64_t>(fixed_point(static_cast<double>(thread_count())))));
   return {static_cast<std::int64_t>(std::round(nodes)),
           static_cast<std::int64_t>(kBytesOfProcess + kBytesPerNode * nodes / ranks),
           nodes / (nodes_per_second(options_) * std::max(1.0, threads))};
+}
+
+double Placement::estimated_nodes(const Settings& settings) {
+  const std::shared_ptr<const Spacing<2>> spacing = spacing_that_counts(settings);
+  const auto estimate_with = [&](const Spacing<2>& d) {
+    return estimate_nodes(*comm_, *domain_, d, settings.max_nodes);
+  };
+  const NodeEstimate estimate = estimate_with(*spacing);
+  if (settings.user_limits_growth() || settings.growth_limit == 0 || !too_steep(estimate.steepest))
+    return estimate.nodes;
+  return estimate_with(*growth_limited(spacing, settings)).nodes;
 }
 
 // Of memory, for the nodes of all ranks: these share what their machines have, and hold equal

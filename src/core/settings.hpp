@@ -39,6 +39,7 @@ struct Settings {
   DefectRule defects;
   double list_radius, adjacency_radius;
   double growth_limit;
+  bool growth_limit_set;  // by the user: otherwise it counts where nodes could not follow d
   std::int64_t max_nodes;
   double max_memory;                                           // share of what there is; 0: any
   double max_bytes = std::numeric_limits<double>::infinity();  // the placement's business
@@ -47,6 +48,7 @@ struct Settings {
   double rebalance_above;     // largest over mean owned work
   std::int64_t halo_deficit;  // hops, for tests
 
+  bool user_limits_growth() const { return growth_limit_set && growth_limit > 0; }
   NodeLimit node_limit() const { return {max_nodes, max_bytes}; }
   int evaluations_per_step() const { return predictor_corrector ? 2 : 1; }
   double force_range() const { return cubic_law ? CubicLaw{}.range : rest_length; }

@@ -39,6 +39,10 @@ bool in_box(const Box<2>& box, const Point<2>& x) {
   return x[0] >= box.low[0] && x[0] <= box.high[0] && x[1] >= box.low[1] && x[1] <= box.high[1];
 }
 
+int depth_at(const BackgroundTree<2>& tree, const Point<2>& x) {
+  return tree.cell(tree.leaf_cell(tree.leaf_at(x))).depth;
+}
+
 }  // namespace
 
 struct DomainMap::Growth {
@@ -56,6 +60,7 @@ struct DomainMap::Growth {
   const SpacingEvaluator& spacing;
   NodeLimit limit;
   double steepest;
+  const BackgroundTree<2>* coarsest;
   std::vector<double> boundary_spacing;
   std::vector<CellState> cells;
   std::vector<std::int32_t> edges;  // of cell after cell
@@ -172,6 +177,7 @@ struct DomainMap::Growth {
   bool wants_split(const BackgroundTree<2>& tree, std::int32_t c) const {
     const CellState& cell = cells[index(c)];
     if (cell.outside) return false;
+    if (coarsest && depth_at(*coarsest, tree.cell_centre(c)) > tree.cell(c).depth) return true;
     const double side = tree.cell_side(c);
     if (side > kLeafSpacings * cell.least) return true;
     if (steepest > 0 && cell.largest - cell.least > steepest * side && side > 0.35 * cell.least)
@@ -201,10 +207,11 @@ struct DomainMap::Growth {
 };
 
 void DomainMap::build(const Box<2>& bounds, const Boundary& boundary,
-                      const SpacingEvaluator& spacing, const NodeLimit& limit, double steepest) {
+                      const SpacingEvaluator& spacing, const NodeLimit& limit, double steepest,
+                      const BackgroundTree<2>* coarsest) {
   boundary_ = &boundary;
   grow(*serial_communicator(), bounds,
-       Growth{*this, boundary, spacing, limit, steepest, {}, {}, {}, 0},
+       Growth{*this, boundary, spacing, limit, steepest, coarsest, {}, {}, {}, 0},
        [](const BackgroundTree<2>&, std::int32_t, double) { return true; });
 }
 
@@ -212,7 +219,7 @@ void DomainMap::build_part(const Communicator& comm, const Box<2>& bounds, const
                            const SpacingEvaluator& spacing, const NodeLimit& limit,
                            const MaySplit& may_split) {
   boundary_ = &boundary;
-  grow(comm, bounds, Growth{*this, boundary, spacing, limit, 0, {}, {}, {}, 0}, may_split);
+  grow(comm, bounds, Growth{*this, boundary, spacing, limit, 0, nullptr, {}, {}, {}, 0}, may_split);
 }
 
 void DomainMap::grow(const Communicator& comm, const Box<2>& bounds, Growth growth,
@@ -298,6 +305,14 @@ bool DomainMap::inside_in_leaf(std::int32_t leaf, const Point<2>& x) const {
     if (crosses(reference_[index(leaf)], x, edge_begin(e), edge_end(e))) inside = !inside;
   }
   return inside;
+}
+
+bool DomainMap::edge_between(std::int32_t leaf, const Point<2>& a, const Point<2>& b) const {
+  bool between = false;
+  for_edges_of_leaf(leaf, [&](std::int32_t e) {
+    between = between || crosses(a, b, edge_begin(e), edge_end(e));
+  });
+  return between;
 }
 
 double DomainMap::clearance(const Point<2>& x, double reach) const {

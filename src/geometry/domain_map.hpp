@@ -21,11 +21,13 @@ class DomainMap {
   // where d allows) and hold few boundary nodes. d is asked inside the domain only, at five points
   // of each cell, and at the boundary nodes: dips of d between them are not seen.
   // With steepest > 0, cells over which d grows faster than that are refined further, down to a
-  // third of their least d, so that the tips of steep funnels are found.
+  // third of their least d, so that the tips of steep funnels are found. Given another tree of the
+  // same bounds, it is at least as fine as that.
   // Throws Error(PNPBS_ERROR_SPACING or _MEMORY) when d would mean more nodes than the limit
   // allows.
   void build(const Box<2>& bounds, const Boundary& boundary, const SpacingEvaluator& spacing,
-             const NodeLimit& limit, double steepest = 0);
+             const NodeLimit& limit, double steepest = 0,
+             const BackgroundTree<2>* coarsest = nullptr);
 
   // May a cell that d or the boundary wants split be split? `nodes`: those its samples of d ask
   // for.
@@ -73,6 +75,9 @@ class DomainMap {
     for (std::int32_t e = edge_offset_[index(leaf)]; e < edge_offset_[index(leaf) + 1]; ++e)
       visit(leaf_edges_[static_cast<std::size_t>(e)]);
   }
+
+  // Does the straight way from a to b cross a boundary edge of the leaf? Not where it ends on one.
+  bool edge_between(std::int32_t leaf, const Point<2>& a, const Point<2>& b) const;
 
   const Point<2>& edge_begin(std::int32_t e) const { return edge_ends_[index(e)].begin; }
   const Point<2>& edge_end(std::int32_t e) const { return edge_ends_[index(e)].end; }

@@ -2,6 +2,7 @@
 #include "spacing/growth_limit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -17,13 +18,44 @@ GrowthLimitedSpacing::GrowthLimitedSpacing(const PlaneDomain& domain,
   };
   boundary_ = lay_boundary(domain, checked, limit.max_nodes);
   map_.build(domain.bounds(), boundary_, checked, limit, growth);
+  look_at_new_tree(samples_of_leaves(domain.area()));
+  fit_tree(domain, limit);
+}
+
+void GrowthLimitedSpacing::look_at_new_tree(const std::vector<Source>& sources) {
   link_leaves();
-  sample_leaves(domain.area());
+  at_centre_.assign(static_cast<std::size_t>(map_.tree().leaf_count()),
+                    std::numeric_limits<double>::infinity());
+  source_.assign(at_centre_.size(), {{}, std::numeric_limits<double>::infinity()});
+  for (const Source& source : sources) offer(map_.tree().leaf_at(source.x), source);
   relax();
+}
+
+// The tree so far has leaves as large as the unlimited d allows, and one source stands for all of a
+// leaf: next to a jump that is too coarse, and what is fine in a corner of a leaf was not sampled.
+// With leaves by the limited d it is not.
+void GrowthLimitedSpacing::fit_tree(const PlaneDomain& domain, const NodeLimit& limit) {
+  constexpr int kMostPasses = 6;
+  const SpacingEvaluator limited = [&](std::int64_t n, const Point<2>* x, double* d) {
+    evaluate_spacing<2>(*this, domain.area(), n, x, d);
+  };
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const std::int32_t leaves = map_.tree().leaf_count();
+    DomainMap fitted;
+    fitted.build(domain.bounds(), boundary_, limited, limit, 0, &map_.tree());
+    std::vector<Source> sources = std::move(source_);
+    std::erase_if(sources, [](const Source& source) { return std::isinf(source.d); });
+    map_ = std::move(fitted);
+    const std::vector<Source> seen_now = samples_of_leaves(domain.area());
+    sources.insert(sources.end(), seen_now.begin(), seen_now.end());
+    look_at_new_tree(sources);
+    if (map_.tree().leaf_count() == leaves) break;
+  }
 }
 
 void GrowthLimitedSpacing::link_leaves() {
   const BackgroundTree<2>& tree = map_.tree();
+  next_to_.clear();
   offset_.assign(1, 0);
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     if (!map_.leaf_outside(leaf)) {
@@ -41,14 +73,11 @@ void GrowthLimitedSpacing::link_leaves() {
   }
 }
 
-// What the samples in a leaf allow in its middle.
-void GrowthLimitedSpacing::sample_leaves(double measure) {
+// d as given, in the leaves and at the boundary nodes.
+std::vector<GrowthLimitedSpacing::Source> GrowthLimitedSpacing::samples_of_leaves(
+    double measure) const {
   const BackgroundTree<2>& tree = map_.tree();
-  at_centre_.assign(static_cast<std::size_t>(tree.leaf_count()),
-                    std::numeric_limits<double>::infinity());
-  source_.assign(at_centre_.size(), {{}, std::numeric_limits<double>::infinity()});
   std::vector<Point<2>> points;
-  std::vector<std::int32_t> leaves;
   const double quarters[5][2] = {
       {0.5, 0.5}, {0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}};
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
@@ -57,27 +86,29 @@ void GrowthLimitedSpacing::sample_leaves(double measure) {
     const double side = tree.cell_side(tree.leaf_cell(leaf));
     for (const auto& quarter : quarters) {
       const Point<2> x{box.low[0] + quarter[0] * side, box.low[1] + quarter[1] * side};
-      if (!map_.inside_in_leaf(leaf, x)) continue;
-      points.push_back(x);
-      leaves.push_back(leaf);
+      if (map_.inside_in_leaf(leaf, x)) points.push_back(x);
     }
   }
-  for (const BoundaryNode& node : boundary_.nodes) {
-    points.push_back(node.position);
-    leaves.push_back(tree.leaf_at(node.position));
-  }
+  for (const BoundaryNode& node : boundary_.nodes) points.push_back(node.position);
   std::vector<double> d(points.size());
-  evaluate_spacing<2>(*raw_, measure, static_cast<std::int64_t>(points.size()), points.data(),
-                      d.data());
-  for (std::size_t s = 0; s < points.size(); ++s) offer(leaves[s], {points[s], d[s]});
+  evaluate_spacing<2>(*raw_, measure, std::ssize(points), points.data(), d.data());
+  std::vector<Source> samples;
+  for (std::size_t s = 0; s < points.size(); ++s) samples.push_back({points[s], d[s]});
+  return samples;
+}
+
+double GrowthLimitedSpacing::limit_by(const Source& source, const Point<2>& x) const {
+  return source.d + growth_ * distance<2>(source.x, x);
+}
+
+bool GrowthLimitedSpacing::allows_less(const Source& source, std::int32_t leaf) const {
+  return limit_by(source, centre(leaf)) < at_centre_[static_cast<std::size_t>(leaf)];
 }
 
 // Takes a source for a leaf if it allows less in its middle than the one there; returns whether.
 bool GrowthLimitedSpacing::offer(std::int32_t leaf, const Source& source) {
-  const double value = source.d + growth_ * distance<2>(source.x, centre(leaf));
-  double& least = at_centre_[static_cast<std::size_t>(leaf)];
-  if (value >= least) return false;
-  least = value;
+  if (!allows_less(source, leaf)) return false;
+  at_centre_[static_cast<std::size_t>(leaf)] = limit_by(source, centre(leaf));
   source_[static_cast<std::size_t>(leaf)] = source;
   return true;
 }
@@ -115,24 +146,25 @@ void GrowthLimitedSpacing::relax() {
     for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
          k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k) {
       const std::int32_t other = next_to_[static_cast<std::size_t>(k)];
+      if (!allows_less(source, other)) continue;  // its middle does not either, by a longer way
       if (offer(other, open_way(source.x, centre(other)) ? source : middle))
         queue.emplace(at_centre_[static_cast<std::size_t>(other)], other);
     }
   }
 }
 
+// By the source of its leaf, and by those of touching ones where no boundary is between.
 double GrowthLimitedSpacing::limit_at(const Point<2>& x) const {
-  const auto by_source_of = [&](std::int32_t leaf) {
-    const Source& source = source_[static_cast<std::size_t>(leaf)];
-    return source.d + growth_ * distance<2>(x, source.x);
-  };
   const std::int32_t leaf = map_.tree().leaf_at(x);
-  double limit = by_source_of(leaf);
+  double limit = limit_by(source_[static_cast<std::size_t>(leaf)], x);
   for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
        k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k) {
     const std::int32_t other = next_to_[static_cast<std::size_t>(k)];
-    if (!map_.leaf_has_edges(leaf) && !map_.leaf_has_edges(other))
-      limit = std::min(limit, by_source_of(other));
+    const Source& source = source_[static_cast<std::size_t>(other)];
+    const double by_other = limit_by(source, x);
+    if (by_other < limit && !map_.edge_between(leaf, x, source.x) &&
+        !map_.edge_between(other, x, source.x))
+      limit = by_other;
   }
   return limit;
 }

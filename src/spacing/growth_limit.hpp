@@ -2,7 +2,8 @@
 // A spacing whose growth is limited: d grows by at most g per unit of length on the way through
 // the domain. d_limited(x) = min over y of (d(y) + g |x - y|), found once on the background tree.
 // In the open the way is straight; around corners it is measured from leaf to leaf, up to 8 % too
-// long.
+// long. One y counts for a leaf, and those of the leaves it touches: beside a line of sources d is
+// up to a third too large for it.
 #pragma once
 
 #include <memory>
@@ -28,10 +29,14 @@ class GrowthLimitedSpacing : public Spacing<2> {
     double d;
   };
 
+  void look_at_new_tree(const std::vector<Source>& sources);
+  void fit_tree(const PlaneDomain& domain, const NodeLimit& limit);
   void link_leaves();
+  double limit_by(const Source& source, const Point<2>& x) const;
+  bool allows_less(const Source& source, std::int32_t leaf) const;  // in its middle
   bool offer(std::int32_t leaf, const Source& source);
   bool open_way(const Point<2>& a, const Point<2>& b) const;
-  void sample_leaves(double measure);
+  std::vector<Source> samples_of_leaves(double measure) const;
   void relax();
   double limit_at(const Point<2>& x) const;
   Point<2> centre(std::int32_t leaf) const {

@@ -79,6 +79,114 @@ START_TEST(the_mean_edge_is_d_in_every_band) {
 }
 END_TEST
 
+/* ---------------------------------------------------------------- steep spacings -------- */
+
+static int32_t jump(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
+  const double fine = *(const double*)user;
+  int64_t i;
+  for (i = 0; i < n; ++i) d[i] = xyz[dim * i] > 0.503 ? 1 : fine;
+  return 0;
+}
+
+/* Nodes that d asks for in the unit square, 2 / sqrt(3) per d^2, where it jumps at x = 0.503 and
+ * grows by g beside it. */
+static double nodes_beside_jump(double fine, double g) {
+  const double far = fine + g * (1 - 0.503);
+  return 2 / sqrt(3.) * (0.503 / (fine * fine) + (1 / fine - 1 / far) / g);
+}
+
+static int warnings_with(pnpbs_placement placement, const char* words) {
+  int32_t warnings = 0, k;
+  int found = 0;
+  MUST(pnpbs_placement_warning_count(placement, &warnings));
+  for (k = 0; k < warnings; ++k) {
+    const char* text = NULL;
+    MUST(pnpbs_placement_get_warning(placement, k, &text));
+    found += strstr(text, words) != NULL;
+  }
+  return found;
+}
+
+/* The x of the place that the warning tells. */
+static double steep_at(pnpbs_placement placement) {
+  int32_t warnings = 0, k;
+  double x = NAN;
+  MUST(pnpbs_placement_warning_count(placement, &warnings));
+  for (k = 0; k < warnings; ++k) {
+    const char* text = NULL;
+    MUST(pnpbs_placement_get_warning(placement, k, &text));
+    text = strstr(text, "per unit of length near (");
+    if (text) x = atof(strchr(text, '(') + 1);
+  }
+  return x;
+}
+
+/* Nodes cannot follow a jump, so by default d grows beside it as they can follow, and a warning
+ * tells the place. */
+START_TEST(a_jump_is_limited) {
+  static double fine[] = {0.01, 0.004};
+  job it = square_job(1);
+  result r;
+  int64_t i, estimate = 0;
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, jump, &fine[_i]));
+  MUST(pnpbs_placement_estimate(it.placement, &estimate, NULL, NULL));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement)); /* not PNPBS_SPACING_MISSED */
+  ck_assert_double_eq_tol(steep_at(it.placement), 0.503, 4 * fine[_i]);
+  ck_assert_int_eq(warnings_with(it.placement, "limited to 0.3; set the option growth_limit"), 1);
+  r = result_of(it.placement);
+  check_result(&r, 1);
+  ck_assert_double_eq_tol((double)r.n / nodes_beside_jump(fine[_i], 0.3), 1, 0.03);
+  ck_assert_double_eq_tol((double)estimate / nodes_beside_jump(fine[_i], 0.3), 1, 0.1);
+  ck_assert_double_ge(quality_of(&r).least, 0.6);
+  for (i = 0; i < r.n; ++i) {
+    const double exact = fine[_i] + 0.3 * fmax(0, r.xy[2 * i] - 0.503);
+    const double most = (r.xy[2 * i] > 0.503 + 4 * fine[_i] ? 1.4 : 2) * exact;
+    ck_assert_msg(r.d[i] >= exact * (1 - 1e-9) && r.d[i] <= most, "at x = %g d is %g", r.xy[2 * i],
+                  r.d[i]);
+  }
+  result_free(&r);
+  job_end(&it);
+}
+END_TEST
+
+/* Another limit is the user's wish, and none, too: the warning says what that means. */
+START_TEST(a_jump_as_the_user_wants_it) {
+  static double fine = 0.01;
+  job it = square_job(1);
+  int64_t limited;
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, jump, &fine));
+  MUST(pnpbs_placement_set(it.placement, "growth_limit", "0.1"));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(warnings_with(it.placement, "growth"), 0);
+  limited = integer_of(it.placement, "nodes");
+  ck_assert_double_eq_tol((double)limited / nodes_beside_jump(fine, 0.1), 1, 0.03);
+  MUST(pnpbs_placement_set(it.placement, "growth_limit", "0"));
+  ck_assert_int_ge(pnpbs_placement_run(it.placement), PNPBS_OK);
+  ck_assert_double_eq_tol(steep_at(it.placement), 0.503, 4 * fine);
+  ck_assert_int_eq(warnings_with(it.placement, "limit its growth (option growth_limit"), 1);
+  ck_assert_int_lt(integer_of(it.placement, "nodes"), limited);
+  job_end(&it);
+}
+END_TEST
+
+/* What grows slowly stays as it is given, to the last bit. */
+START_TEST(slow_growth_is_not_limited) {
+  static graded d = {0.004, 0.29, 0.08, from_line};
+  hash_text hashes[2];
+  int k;
+  for (k = 0; k < 2; ++k) {
+    job it = square_job(1);
+    MUST(pnpbs_placement_set_spacing_callback(it.placement, graded_spacing, &d));
+    if (k == 1) MUST(pnpbs_placement_set(it.placement, "growth_limit", "0"));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    ck_assert_int_eq(warnings_with(it.placement, "growth"), 0);
+    hashes[k] = hash_of(it.placement);
+    job_end(&it);
+  }
+  ck_assert_str_eq(hashes[0].text, hashes[1].text);
+}
+END_TEST
+
 /* However far from it the first nodes are, the number of nodes is that of a run of its own. */
 START_TEST(the_population_forgets) {
   static cone d = {0.012, 0.03, 0.5, 0.5};
@@ -107,6 +215,9 @@ int main(void) {
   Suite* suite = suite_create("bands");
   TCase* tests = tcase_create("bands");
   tcase_add_test(tests, the_mean_edge_is_d_in_every_band);
+  tcase_add_loop_test(tests, a_jump_is_limited, 0, 2);
+  tcase_add_test(tests, a_jump_as_the_user_wants_it);
+  tcase_add_test(tests, slow_growth_is_not_limited);
   tcase_add_test(tests, the_population_forgets);
   suite_add_tcase(suite, tests);
   return run_suite(suite);

@@ -215,6 +215,7 @@ START_TEST(a_crowded_corner) {
   result nodes;
   int64_t i, j;
   MUST(pnpbs_placement_set_spacing_callback(it.placement, coarse_beside_fine, NULL));
+  MUST(pnpbs_placement_set(it.placement, "growth_limit", "0"));
   MUST(pnpbs_placement_set(it.placement, "sweeps", "0"));
   MUST(pnpbs_placement_set(it.placement, options[_i][0], options[_i][1]));
   ck_assert_int_ge(pnpbs_placement_run(it.placement), PNPBS_OK); /* nothing can follow that d */

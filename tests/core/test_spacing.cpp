@@ -10,6 +10,7 @@
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 #include "spacing/growth_limit.hpp"
+#include "spacing/steepest_growth.hpp"
 
 using pnpbs::GridSpacing;
 using pnpbs::GrowthLimitedSpacing;
@@ -209,6 +210,87 @@ START_TEST(growth_limit_of_pits) {
 }
 END_TEST
 
+// Beside a jump the exact answer is that of a line, wherever the leaves of the tree end.
+START_TEST(growth_limit_of_jumps) {
+  constexpr double kFine = 0.004;
+  for (const double jump : {0.5, 0.503, 0.561, 0.7499}) {
+    const Limited limited(add_square, [=](double x, double) { return x > jump ? 1.0 : kFine; });
+    Random random(95);
+    double worst = 1, worst_beside = 1;
+    for (int trial = 0; trial < 20000; ++trial) {
+      const P x = random.point<2>(limited.domain.bounds());
+      const double exact = kFine + kGrowth * std::max(0.0, x[0] - jump), d = limited.at(x);
+      ck_assert_double_ge(d, exact * (1 - 1e-12));
+      double& worst_here = x[0] > jump + 4 * kFine ? worst : worst_beside;
+      worst_here = std::max(worst_here, d / exact);
+    }
+    ck_assert_double_le(worst, 1.34);
+    ck_assert_double_le(worst_beside, 1.8);  // in the leaf of the jump, 4 d wide: by its samples
+  }
+}
+END_TEST
+
+// ------------------------------------------------------------------ steepest growth ------------
+
+namespace {
+
+pnpbs::SteepestGrowth steepest_of(const Build& build, const Plane& d) {
+  PlaneDomain domain;
+  build(domain);
+  domain.check();
+  const pnpbs::SpacingEvaluator spacing = [&](std::int64_t n, const P* x, double* values) {
+    for (std::int64_t i = 0; i < n; ++i) values[i] = d(x[i][0], x[i][1]);
+  };
+  const pnpbs::Boundary boundary = pnpbs::lay_boundary(domain, spacing);
+  pnpbs::DomainMap map;
+  map.build(domain.bounds(), boundary, spacing, {1'000'000'000});
+  return pnpbs::steepest_growth(
+      *pnpbs::serial_communicator(), map, [](std::int32_t) { return true; }, spacing);
+}
+
+}  // namespace
+
+START_TEST(steepest_growth_of_slopes) {
+  for (const double g : {0.05, 0.3, 1.0}) {
+    const pnpbs::SteepestGrowth even =
+        steepest_of(add_square, [=](double x, double y) { return 0.02 + g * (0.6 * x + 0.8 * y); });
+    // Between samples to the east and to the north, where the slope is 1.4 / sqrt(2) of the whole.
+    ck_assert_double_le(even.growth, g * (1 + 1e-9));
+    ck_assert_double_ge(even.growth, 0.98 * g);
+    const pnpbs::SteepestGrowth cone = steepest_of(
+        add_square, [=](double x, double y) { return 0.01 + g * std::hypot(x - 0.3, y - 0.6); });
+    ck_assert_double_le(cone.growth, g * (1 + 1e-9));
+    ck_assert_double_ge(cone.growth, 0.98 * g);
+    ck_assert_double_le(pnpbs::distance<2>(cone.at, {0.3, 0.6}), 0.04);  // at its tip
+  }
+  ck_assert_double_eq(steepest_of(add_square, constant(0.1)).growth, 0);
+}
+END_TEST
+
+// Wherever the leaves of the tree end; the place is told.
+START_TEST(steepest_growth_of_jumps) {
+  for (const double jump : {0.5, 0.503, 0.561, 0.7499}) {
+    const pnpbs::SteepestGrowth steepest =
+        steepest_of(add_square, [=](double x, double) { return x > jump ? 1.0 : 0.004; });
+    ck_assert_double_ge(steepest.growth, 1);
+    ck_assert_double_eq_tol(steepest.at[0], jump, 4 * 0.004);
+  }
+}
+END_TEST
+
+// Two sides of a wall have nothing to do with each other.
+START_TEST(steepest_growth_of_two_sides) {
+  const Build walled = [](PlaneDomain& p) {
+    add_square(p);
+    const std::vector<double> xy{0.5, 0, 0.5, 1};
+    p.add_polyline(PNPBS_INNER, false, 2, xy.data(), nullptr, 0);
+  };
+  const Plane jump = [](double x, double) { return x > 0.5 ? 0.2 : 0.02; };
+  ck_assert_double_eq(steepest_of(walled, jump).growth, 0);
+  ck_assert_double_ge(steepest_of(add_square, jump).growth, 0.5);
+}
+END_TEST
+
 START_TEST(growth_limit_leaves_alone_what_grows_slowly) {
   const Plane slow = [](double x, double y) { return 0.01 + 0.14 * std::hypot(x - 0.2, y - 0.7); };
   const Limited limited(add_square, slow);
@@ -263,9 +345,10 @@ END_TEST
 
 int main() {
   return run_kernel_suite(
-      "spacing",
-      {grids_are_linear_in_each_direction, grids_are_linear_only_between_neighbours,
-       grids_in_space_and_thin_ones, values_beside_a_hole_in_the_grid, bad_values_are_named,
-       callbacks_that_fail, growth_limit_of_pits, growth_limit_leaves_alone_what_grows_slowly,
-       growth_limit_goes_through_the_domain, growth_limit_reports_bad_values});
+      "spacing", {grids_are_linear_in_each_direction, grids_are_linear_only_between_neighbours,
+                  grids_in_space_and_thin_ones, values_beside_a_hole_in_the_grid,
+                  bad_values_are_named, callbacks_that_fail, growth_limit_of_pits,
+                  growth_limit_of_jumps, steepest_growth_of_slopes, steepest_growth_of_jumps,
+                  steepest_growth_of_two_sides, growth_limit_leaves_alone_what_grows_slowly,
+                  growth_limit_goes_through_the_domain, growth_limit_reports_bad_values});
 }

@@ -73,11 +73,16 @@ compare 7 1 8 2
 require_at_least 50 inserted "population control had little to do"
 require_at_least 50 deleted "population control had little to do"
 # Where d jumps, nodes are pressed together after the last population event; they go at the end.
-begin jump-square 1 steps=40 sweeps=0
+begin jump-square 1 steps=40 sweeps=0 growth_limit=0
 compare 2 1 4 1
 compare 3 2 1 2
 compare 8 1 5 1
 require_at_least 20 deleted "no crowd had to go at the end"
+# The same with the growth of d limited, as it is by default.
+begin jump-square 1
+compare 2 1 4 1
+compare 3 2 1 2
+compare 8 1 5 1
 # A fill by cells where d grows by a fifth of the distance, and the population aimed by octaves.
 begin steep-square 1
 compare 2 1 4 1

@@ -242,7 +242,7 @@ class Report(CommandTest):
         nodes = json.loads((self.folder / "r.json").read_text())["nodes"]
         self.assertLess(abs(expected / nodes - 1), 0.05)
         self.assertIn("MiB", out.decode())
-        self.assertIn("500 000 nodes", self.place("--dry-run", "--threads", "1")[0].decode())
+        self.assertIn("400 000 nodes", self.place("--dry-run", "--threads", "1")[0].decode())
 
     def test_too_little_memory(self):
         _, err = self.place("-o", "a.csv", "--set", "max_memory=1e-9", code=FAILED)

@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
 ! Poisson's equation on a plate with holes, by linear finite elements whose equations come from the
-! stars of the nodes, on the ranks of an MPI communicator, at three spacings: h, h/2, h/4. The
-! solution is known, so the orders of convergence can be told; README.md tells what to expect.
+! stars of the nodes, on the ranks of an MPI communicator, at four spacings, each half of the one
+! before. The solution is known, so the orders of convergence can be told; README.md tells what to
+! expect.
 ! usage: poisson_plate [FOLDER]   with a folder, the pieces of a picture are written into it
 program poisson_plate
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_loc
@@ -16,7 +17,7 @@ program poisson_plate
   use plate, only: create_plate, holes, plate_spacing, spacing_parameters, solution
   use star_rows, only: assemble, equations
   implicit none
-  integer, parameter :: levels = 3, total_nodes = 1, total_boundary = 2, total_triangles = 3
+  integer, parameter :: levels = 4, total_nodes = 1, total_boundary = 2, total_triangles = 3
   real(c_double), parameter :: coarsest = 0.06d0
   type(pnpbs_context) :: context
   type(pnpbs_domain) :: domain
@@ -114,12 +115,12 @@ contains
     print '(a, f5.3, a)', 'order of the H1 error: ', order(gradient, 1, levels), &
       ', expected about 1'
     print '(a, f5.3, a)', 'order of the H1 error at the nodes: ', order(nodal, 1, levels), &
-      ', expected at least 1.15'
+      ', expected at least 1.2'
     print '(a, f5.3, a)', 'order of the recovered gradient: ', order(recovered, 1, levels), &
       ', expected at least 1.4'
     print '(a, f4.1, a)', 'H1 error over that at the nodes: ', &
-      error_at(gradient, levels) / error_at(nodal, levels), ', expected at least 20'
+      error_at(gradient, levels) / error_at(nodal, levels), ', expected at least 25'
     print '(a, f4.1, a)', 'H1 error over that of the recovered gradient: ', &
-      error_at(gradient, levels) / error_at(recovered, levels), ', expected at least 15'
+      error_at(gradient, levels) / error_at(recovered, levels), ', expected at least 25'
   end subroutine
 end program poisson_plate

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The spacing as it counts: as given, no larger than makes sense, or with its growth limited,
+// because the user wants it so or because nodes could not follow d as given.
+#include "core/placement.hpp"
+#include "geometry/limits.hpp"
+#include "geometry/point_text.hpp"
+#include "spacing/growth_limit.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Of the domain, that d may be large.
+constexpr double kMostSizes = 1024;
+// Growth of d that nodes follow, with some more for what samples miss of it. On a spacing graded
+// from a line (docs/method.md) the worst triangle has a quality of 0.82 up to 0.3, 0.69 at 0.5 and
+// 0.14 at 1.
+constexpr double kMostFollowed = 0.3, kSampled = 1.05;
+
+}  // namespace
+
+std::shared_ptr<const Spacing<2>> Placement::spacing_that_counts(const Settings& settings) {
+  std::shared_ptr<const Spacing<2>> spacing;
+  agreed(*comm_, [&] {
+    spacing =
+        std::make_shared<BoundedSpacing<2>>(spacing_, kMostSizes * size_of(domain_->bounds()));
+  });
+  return settings.user_limits_growth() ? growth_limited(std::move(spacing), settings) : spacing;
+}
+
+std::shared_ptr<const Spacing<2>> Placement::growth_limited(
+    std::shared_ptr<const Spacing<2>> spacing, const Settings& settings) {
+  const PhaseTimer timer(timers_, Phase::spacing);
+  agreed(*comm_, [&] {
+    spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, std::move(spacing),
+                                                     settings.growth_limit, settings.node_limit());
+  });
+  return spacing;
+}
+
+bool Placement::too_steep(const SteepestGrowth& steepest) {
+  return steepest.growth > kSampled * kMostFollowed;
+}
+
+std::string Placement::warning_of_growth(const SteepestGrowth& steepest, double growth_limit) {
+  const std::string found = "the spacing grows by " + rounded_text(steepest.growth) +
+                            " per unit of length near (" + rounded_text(steepest.at[0]) + ", " +
+                            rounded_text(steepest.at[1]) + "), faster than nodes can follow: ";
+  if (growth_limit == 0)
+    return found + "limit its growth (option growth_limit, " + number_text(kMostFollowed) +
+           " or less)";
+  return found + "its growth is limited to " + number_text(growth_limit) +
+         "; set the option growth_limit to choose another limit, or 0 to have it as given";
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the spacing grows fastest. Nodes cannot follow d that grows by more than some 0.3 per unit
+// of length: bubbles that touch then differ too much in size (docs/method.md).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "geometry/domain_map.hpp"
+#include "parallel/communicator.hpp"
+
+namespace pnpbs {
+
+struct SteepestGrowth {
+  double growth = 0;  // of d, per unit of length
+  Point<2> at{};      // the finest of the places where it is at least half of that
+};
+
+// By samples in the middle and on the rim of the leaves that this rank owns, of each pair of them
+// with no boundary between. The same on any number of ranks. Collective.
+SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap& map,
+                               const std::function<bool(std::int32_t)>& owns_leaf,
+                               const SpacingEvaluator& spacing);
+
+}  // namespace pnpbs
