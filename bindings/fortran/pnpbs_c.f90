@@ -74,10 +74,11 @@ module pnpbs_c
       integer(c_int32_t) :: pnpbs_spacing_fn
     end function
 
-    !> Progress, told at fixed step numbers and, about twice a second, while the first nodes are laid:
-    !> the part of the work of the call that is done (0 to 1), steps so far, nodes now (0 while the
-    !> first ones are laid), and the largest speed in spacings per unit time. Returns 0 to go on,
-    !> anything else to stop: the call then ends with PNPBS_STOPPED and its nodes are valid.
+    !> Progress, told at fixed step numbers and, some times a second, while the first nodes are laid,
+    !> between steps that take long (on one rank), and between the parts of the finish: the part of
+    !> the work of the call that is done (0 to 1), steps so far, nodes now (0 while the first ones are
+    !> laid), and the largest speed in spacings per unit time. Returns 0 to go on, anything else to
+    !> stop: the call then ends with PNPBS_STOPPED and its nodes are valid.
     function pnpbs_monitor_fn(fraction, step, nodes, max_speed, user) bind(C)
       import
       implicit none

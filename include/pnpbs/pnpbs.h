@@ -307,9 +307,10 @@ PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t ca
 typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *xyz, double *d,
                                     void *user);
 
-/** Progress, told at fixed step numbers and, about twice a second, while the first nodes are
- *  laid. Return 0 to go on, nonzero to stop: the call in progress then ends with PNPBS_STOPPED
- *  and its nodes are valid; stopped before the first nodes are laid, it has none.
+/** Progress, told at fixed step numbers and, some times a second, while the first nodes are laid,
+ *  between steps that take long (on one rank), and between the parts of the finish. Return 0 to go
+ *  on, nonzero to stop: the call in progress then ends with PNPBS_STOPPED and its nodes are valid;
+ *  stopped before the first nodes are laid, it has none.
  *  @param fraction   of the work of the call in progress, 0 .. 1
  *  @param step       steps done so far
  *  @param nodes      nodes there are now, 0 while the first ones are laid

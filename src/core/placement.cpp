@@ -2,7 +2,6 @@
 #include "core/placement.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -187,20 +186,22 @@ Outcome Placement::make_level() {
   return outcome;
 }
 
-// Takes long where nodes are many, so this rank's monitor is asked by the clock; where it stops,
-// all ranks do, with the nodes there were before.
 void Placement::fill(Level& level) {
-  using Clock = std::chrono::steady_clock;
-  constexpr auto kBetweenCalls = std::chrono::milliseconds(200);
-  Clock::time_point last = Clock::now();
-  const auto beat = [&] {
-    if (Clock::now() - last < kBetweenCalls) return;
-    if (asks_to_stop(0, 0))
-      throw Error(PNPBS_STOPPED, "stopped by the monitor while the first nodes were laid");
-    last = Clock::now();
-  };
+  while_monitored("the first nodes were laid",
+                  [&](const std::function<void()>& beat) { level.fill(beat); });
+}
+
+// Work that takes long where nodes are many, before there are any, calls beat() again and again, so
+// that this rank's monitor is asked by the clock; where it stops, all ranks do, with the nodes
+// there were before.
+void Placement::while_monitored(const std::string& what,
+                                const std::function<void(const std::function<void()>&)>& work) {
+  last_asked_ = Clock::now();
   try {
-    level.fill(beat);
+    work([&] {
+      if (asks_to_stop_by_clock(0, 0))
+        throw Error(PNPBS_STOPPED, "stopped by the monitor while " + what);
+    });
   } catch (const Error& error) {
     if (error.status() == PNPBS_STOPPED) stop_reason_ = StopReason::monitor;
     throw;
@@ -252,7 +253,7 @@ Outcome Placement::run() {
         advance(level_->settings().steps, {schedule_.refined ? kCoarseShare : 0, kStepsShare});
     schedule_.ended = true;
     if (outcome == Outcome::stopped) return outcome;
-    finish();
+    if (finish() == Outcome::stopped) return Outcome::stopped;
     return spacing_missed() ? Outcome::spacing_missed : outcome;
   });
 }
@@ -294,16 +295,16 @@ Outcome Placement::advance(std::int64_t until, ProgressPart part) {
     ++steps_done_;
     const bool is_event = schedule_.step % settings.event_interval == 0;
     if (is_event || schedule_.step == until) agree_on_failure(*comm_, failure);
-    if (!is_event) continue;
-    event();
     const double done = (static_cast<double>(schedule_.step) - first) /
                         std::max(1.0, static_cast<double>(until) - first);
-    if (monitor_stops(part.begin + done * (part.end - part.begin))) {
+    const double fraction = part.begin + done * (part.end - part.begin);
+    if (is_event) event();
+    if (is_event ? monitor_stops(fraction) : stops_between_events(fraction)) {
       outcome = Outcome::stopped;
       stop_reason_ = StopReason::monitor;
       break;
     }
-    if (bubbles_rest()) {
+    if (is_event && bubbles_rest()) {
       outcome = Outcome::converged;
       stop_reason_ = StopReason::rest;
       break;
@@ -395,11 +396,40 @@ bool Placement::monitor_stops(double fraction) {
   bool stop = false;
   const std::int64_t nodes = global_count();
   agreed(*comm_, [&] { stop = asks_to_stop(fraction, nodes); });
+  last_asked_ = Clock::now();
   return comm_->largest(stop) > 0;
 }
 
-void Placement::finish() {
+// The same of work that takes long only where nodes are many.
+bool Placement::monitor_stops_by_clock(double fraction) {
+  bool stop = false;
+  const std::int64_t nodes = global_count();
+  agreed(*comm_, [&] { stop = asks_to_stop_by_clock(fraction, nodes); });
+  return comm_->largest(stop) > 0;
+}
+
+// The steps between two events of ten million nodes take some seconds. Several ranks have fewer
+// nodes each, and would have to agree every time: they are asked at events.
+bool Placement::stops_between_events(double fraction) {
+  return !level_->distributed() && asks_to_stop_by_clock(fraction, count());
+}
+
+bool Placement::asks_to_stop_by_clock(double fraction, std::int64_t nodes) {
+  constexpr auto kBetweenCalls = std::chrono::milliseconds(200);
+  if (!monitor_ || Clock::now() - last_asked_ < kBetweenCalls) return false;
+  const bool stop = asks_to_stop(fraction, nodes);
+  last_asked_ = Clock::now();
+  return stop;
+}
+
+// Each part of it leaves valid nodes.
+Outcome Placement::finish() {
   const Settings& settings = level_->settings();
+  const auto stops = [this] {
+    if (!monitor_stops_by_clock(kStepsShare)) return false;
+    stop_reason_ = StopReason::monitor;
+    return true;
+  };
   if (settings.runge_kutta_finish) {
     level_->exchange_for_runge_kutta();
     agreed(*comm_, [this] {
@@ -410,10 +440,13 @@ void Placement::finish() {
     ++steps_done_;
   }
   repair_defects();
+  if (stops()) return Outcome::stopped;
   count_population_change(level_->remove_crowded());
+  if (stops()) return Outcome::stopped;
   count_population_change(level_->sweep_and_repair(settings.sweeps));
   level_->refresh_spacing();
   monitor_stops(1.0);
+  return Outcome::converged;
 }
 
 // Where a node is one too many or one is missing that the overlap ratios do not tell. Nodes that

@@ -2,6 +2,7 @@
 // A placement: nodes in a domain, and the time loop that brings them to rest.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -157,9 +158,14 @@ class Placement {
   void rebalance_now();
   bool far_too_few() const;
   bool monitor_stops(double fraction);
+  bool monitor_stops_by_clock(double fraction);
+  bool stops_between_events(double fraction);
+  bool asks_to_stop_by_clock(double fraction, std::int64_t nodes);
   void fill(Level& level);
+  void while_monitored(const std::string& what,
+                       const std::function<void(const std::function<void()>& beat)>& work);
   void repair_defects();
-  void finish();
+  Outcome finish();
   bool spacing_missed();
   PopulationCounts count_population_change(PopulationCounts change);
 
@@ -168,6 +174,8 @@ class Placement {
   Options options_;
   std::shared_ptr<const Spacing<2>> spacing_;
   Monitor monitor_;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_asked_ = Clock::now();  // of the monitor
   std::unique_ptr<Level> level_;
   GivenNodes given_;  // nodes to start from instead of a fill
   bool start_from_given_ = false;

@@ -31,9 +31,11 @@ std::shared_ptr<const Spacing<2>> Placement::spacing_that_counts(const Settings&
 std::shared_ptr<const Spacing<2>> Placement::growth_limited(
     std::shared_ptr<const Spacing<2>> spacing, const Settings& settings) {
   const PhaseTimer timer(timers_, Phase::spacing);
-  agreed(*comm_, [&] {
-    spacing = std::make_shared<GrowthLimitedSpacing>(*domain_, std::move(spacing),
-                                                     settings.growth_limit, settings.node_limit());
+  while_monitored("the growth of the spacing was limited", [&](const std::function<void()>& beat) {
+    agreed(*comm_, [&] {
+      spacing = std::make_shared<GrowthLimitedSpacing>(
+          *domain_, std::move(spacing), settings.growth_limit, settings.node_limit(), beat);
+    });
   });
   return spacing;
 }

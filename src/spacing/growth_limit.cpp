@@ -11,30 +11,31 @@ namespace pnpbs {
 
 GrowthLimitedSpacing::GrowthLimitedSpacing(const PlaneDomain& domain,
                                            std::shared_ptr<const Spacing<2>> raw, double growth,
-                                           const NodeLimit& limit)
+                                           const NodeLimit& limit, const Beat& beat)
     : raw_(std::move(raw)), growth_(growth) {
   const SpacingEvaluator checked = [&](std::int64_t n, const Point<2>* x, double* d) {
     evaluate_spacing<2>(*raw_, domain.area(), n, x, d);
   };
   boundary_ = lay_boundary(domain, checked, limit.max_nodes);
   map_.build(domain.bounds(), boundary_, checked, limit, growth);
-  look_at_new_tree(samples_of_leaves(domain.area()));
-  fit_tree(domain, limit);
+  look_at_new_tree(samples_of_leaves(domain.area()), beat);
+  fit_tree(domain, limit, beat);
 }
 
-void GrowthLimitedSpacing::look_at_new_tree(const std::vector<Source>& sources) {
+void GrowthLimitedSpacing::look_at_new_tree(const std::vector<Source>& sources, const Beat& beat) {
   link_leaves();
   at_centre_.assign(static_cast<std::size_t>(map_.tree().leaf_count()),
                     std::numeric_limits<double>::infinity());
   source_.assign(at_centre_.size(), {{}, std::numeric_limits<double>::infinity()});
   for (const Source& source : sources) offer(map_.tree().leaf_at(source.x), source);
-  relax();
+  relax(beat);
 }
 
 // The tree so far has leaves as large as the unlimited d allows, and one source stands for all of a
 // leaf: next to a jump that is too coarse, and what is fine in a corner of a leaf was not sampled.
 // With leaves by the limited d it is not.
-void GrowthLimitedSpacing::fit_tree(const PlaneDomain& domain, const NodeLimit& limit) {
+void GrowthLimitedSpacing::fit_tree(const PlaneDomain& domain, const NodeLimit& limit,
+                                    const Beat& beat) {
   constexpr int kMostPasses = 6;
   const SpacingEvaluator limited = [&](std::int64_t n, const Point<2>* x, double* d) {
     evaluate_spacing<2>(*this, domain.area(), n, x, d);
@@ -48,7 +49,7 @@ void GrowthLimitedSpacing::fit_tree(const PlaneDomain& domain, const NodeLimit& 
     map_ = std::move(fitted);
     const std::vector<Source> seen_now = samples_of_leaves(domain.area());
     sources.insert(sources.end(), seen_now.begin(), seen_now.end());
-    look_at_new_tree(sources);
+    look_at_new_tree(sources, beat);
     if (map_.tree().leaf_count() == leaves) break;
   }
 }
@@ -131,13 +132,15 @@ bool GrowthLimitedSpacing::open_way(const Point<2>& a, const Point<2>& b) const 
 // From leaf to touching leaf, least values first (Dijkstra). In the open a leaf hands on the sample
 // that limits it, so that the limit grows with the straight distance from there; around corners it
 // hands on its own middle.
-void GrowthLimitedSpacing::relax() {
+void GrowthLimitedSpacing::relax(const Beat& beat) {
+  constexpr std::int64_t kBetweenBeats = 4096;
   using Entry = std::pair<double, std::int32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf)
     if (at_centre_[static_cast<std::size_t>(leaf)] < std::numeric_limits<double>::infinity())
       queue.emplace(at_centre_[static_cast<std::size_t>(leaf)], leaf);
-  while (!queue.empty()) {
+  for (std::int64_t n = 0; !queue.empty(); ++n) {
+    if (n % kBetweenBeats == 0) beat();
     const auto [value, leaf] = queue.top();
     queue.pop();
     if (value > at_centre_[static_cast<std::size_t>(leaf)]) continue;

@@ -6,6 +6,7 @@
 // up to a third too large for it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -18,8 +19,11 @@ namespace pnpbs {
 
 class GrowthLimitedSpacing : public Spacing<2> {
  public:
-  GrowthLimitedSpacing(const PlaneDomain& domain, std::shared_ptr<const Spacing<2>> raw,
-                       double growth, const NodeLimit& limit);
+  using Beat = std::function<void()>;
+  // Calls beat() again and again while it is made; what that throws ends it.
+  GrowthLimitedSpacing(
+      const PlaneDomain& domain, std::shared_ptr<const Spacing<2>> raw, double growth,
+      const NodeLimit& limit, const Beat& beat = [] {});
   void evaluate(std::int64_t n, const Point<2>* x, double* d) const override;
 
  private:
@@ -29,15 +33,15 @@ class GrowthLimitedSpacing : public Spacing<2> {
     double d;
   };
 
-  void look_at_new_tree(const std::vector<Source>& sources);
-  void fit_tree(const PlaneDomain& domain, const NodeLimit& limit);
+  void look_at_new_tree(const std::vector<Source>& sources, const Beat& beat);
+  void fit_tree(const PlaneDomain& domain, const NodeLimit& limit, const Beat& beat);
   void link_leaves();
   double limit_by(const Source& source, const Point<2>& x) const;
   bool allows_less(const Source& source, std::int32_t leaf) const;  // in its middle
   bool offer(std::int32_t leaf, const Source& source);
   bool open_way(const Point<2>& a, const Point<2>& b) const;
   std::vector<Source> samples_of_leaves(double measure) const;
-  void relax();
+  void relax(const Beat& beat);
   double limit_at(const Point<2>& x) const;
   Point<2> centre(std::int32_t leaf) const {
     return map_.tree().cell_centre(map_.tree().leaf_cell(leaf));

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <iostream>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "tool/arguments.hpp"
 #include "tool/domain.hpp"
 #include "tool/exit.hpp"
+#include "tool/file_format.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/library.hpp"
 #include "tool/outputs.hpp"
@@ -74,13 +76,24 @@ pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Argum
   return status;
 }
 
+bool wants_picture(const Arguments& arguments) {
+  return std::any_of(arguments.outputs.begin(), arguments.outputs.end(),
+                     [&](const std::string& path) {
+                       const FileFormat* format = format_by_extension(path);
+                       if (!format) format = format_by_name(arguments.format);
+                       return format && format->picture;
+                     });
+}
+
 // What a run would come to.
-void tell_estimate(pnpbs_context context, pnpbs_placement placement, const Ranks& ranks) {
+void tell_estimate(pnpbs_context context, pnpbs_placement placement, const Arguments& arguments,
+                   const Ranks& ranks) {
   std::int64_t nodes = 0, bytes = 0;
   double seconds = 0;
   check(pnpbs_placement_estimate(placement, &nodes, &bytes, &seconds), context);
   give_up_if_any_is_interrupted(ranks);
-  if (ranks.is_first()) std::cout << estimate_text(nodes, bytes, seconds, ranks.size());
+  if (ranks.is_first())
+    std::cout << estimate_text({nodes, bytes, seconds, ranks.size(), wants_picture(arguments)});
 }
 
 ExitCode run(const Arguments& arguments, const Ranks& ranks) {
@@ -106,7 +119,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   check(pnpbs_placement_create(context, domain, placement.out()), context);
   spacing->give_to(placement, context);
   if (arguments.dry_run) {
-    tell_estimate(context, placement, ranks);
+    tell_estimate(context, placement, arguments, ranks);
     return ExitCode::done;
   }
   const pnpbs_status status = place(context, placement, arguments, ranks);

@@ -90,16 +90,20 @@ std::string files_line(const std::vector<std::string>& files) {
 
 }  // namespace
 
-std::string estimate_text(std::int64_t nodes, std::int64_t bytes, double seconds, int processes) {
-  std::string text = "nodes    about " + grouped(nodes) + "\nmemory   about " +
-                     size_in_bytes(static_cast<double>(bytes));
-  if (processes > 1) text += " in each of " + grouped(processes) + " processes";
-  text += "\ntime     roughly " + duration(seconds);
-  if (nodes > 0 && seconds > 0) {
-    const double rate = static_cast<double>(nodes) / seconds;
-    text += ", if " + grouped(1000 * static_cast<std::int64_t>(std::round(rate / 1000))) +
+std::string estimate_text(const RunEstimate& run) {
+  constexpr double kPictureBytesPerNode = 115;  // measured, with a million nodes
+  const double nodes = static_cast<double>(run.nodes);
+  std::string text = "nodes    about " + grouped(run.nodes) + "\nmemory   about " +
+                     size_in_bytes(static_cast<double>(run.bytes));
+  if (run.processes > 1) text += " in each of " + grouped(run.processes) + " processes";
+  if (run.picture)
+    text += ", and " + size_in_bytes(kPictureBytesPerNode * nodes) + " for the picture" +
+            (run.processes > 1 ? " in the first one" : "");
+  text += "\ntime     roughly " + duration(run.seconds);
+  if (nodes > 0 && run.seconds > 0)
+    text += ", if " +
+            grouped(1000 * static_cast<std::int64_t>(std::round(nodes / run.seconds / 1000))) +
             " nodes are placed per second";
-  }
   return text + "\n";
 }
 

@@ -10,8 +10,15 @@
 
 namespace pnpbs::tool {
 
+struct RunEstimate {
+  std::int64_t nodes, bytes;  // memory of each process
+  double seconds;
+  int processes;
+  bool picture;  // of all nodes, drawn by the first process
+};
+
 // Before a run: about how many nodes, how much memory of each process, how long.
-std::string estimate_text(std::int64_t nodes, std::int64_t bytes, double seconds, int processes);
+std::string estimate_text(const RunEstimate& run);
 
 std::string summary_text(const Statistics& statistics, const std::vector<std::string>& files);
 

@@ -381,6 +381,21 @@ START_TEST(it_stops_the_first_nodes) {
 }
 END_TEST
 
+/* Between the events, where these are far apart. */
+START_TEST(it_stops_between_events) {
+  monitor watch;
+  job it = watched_square(&watch);
+  MUST(pnpbs_placement_set(it.placement, "steps", "1000000000"));
+  MUST(pnpbs_placement_set(it.placement, "event_interval", "1000000"));
+  watch.stop_at = 1;
+  MUST_BE(PNPBS_STOPPED, pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(watch.calls, 2);
+  ck_assert_int_gt(watch.last_step, 0);
+  check_good(it.placement);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(it_stops) {
   monitor watch;
   job it = watched_square(&watch);
@@ -785,6 +800,7 @@ int main(void) {
   suite_add_tcase(suite, spacing);
   tcase_add_test(stopping, it_is_told_to_the_end);
   tcase_add_test(stopping, it_stops_the_first_nodes);
+  tcase_add_test(stopping, it_stops_between_events);
   tcase_add_loop_test(stopping, it_stops, 0, 5);
   suite_add_tcase(suite, stopping);
   tcase_add_test(within, only_questions_from_inside);

@@ -243,6 +243,9 @@ class Report(CommandTest):
         self.assertLess(abs(expected / nodes - 1), 0.05)
         self.assertIn("MiB", out.decode())
         self.assertIn("400 000 nodes", self.place("--dry-run", "--threads", "1")[0].decode())
+        self.assertNotIn("picture", out.decode())
+        picture, _ = self.place("--dry-run", "-o", "a.csv", "-o", "a.png", spacing="0.02")
+        self.assertRegex(picture.decode(), r"memory .* KiB for the picture\n")
 
     def test_too_little_memory(self):
         _, err = self.place("-o", "a.csv", "--set", "max_memory=1e-9", code=FAILED)
