@@ -74,8 +74,9 @@ module pnpbs_c
       integer(c_int32_t) :: pnpbs_spacing_fn
     end function
 
-    !> Progress, told at fixed step numbers and, some times a second, while the first nodes are laid,
-    !> between steps that take long (on one rank), and between the parts of the finish: the part of
+    !> Progress, told at fixed step numbers and, some times a second, while the first nodes are laid
+    !> or the growth of the spacing is limited (on each rank by its own clock: do nothing collective
+    !> while the fraction is 0), between long steps, and between the parts of the finish: the part of
     !> the work of the call that is done (0 to 1), steps so far, nodes now (0 while the first ones are
     !> laid), and the largest speed in spacings per unit time. Returns 0 to go on, anything else to
     !> stop: the call then ends with PNPBS_STOPPED and its nodes are valid.

@@ -307,10 +307,12 @@ PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t ca
 typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *xyz, double *d,
                                     void *user);
 
-/** Progress, told at fixed step numbers and, some times a second, while the first nodes are laid,
- *  between steps that take long (on one rank), and between the parts of the finish. Return 0 to go
- *  on, nonzero to stop: the call in progress then ends with PNPBS_STOPPED and its nodes are valid;
- *  stopped before the first nodes are laid, it has none.
+/** Progress, told at fixed step numbers and, some times a second, while the first nodes are laid or
+ *  the growth of the spacing is limited, between steps that take long (on one rank), and between
+ *  the parts of the finish. While nodes are laid or growth is limited, ranks are asked each by its
+ *  own clock: do nothing collective when fraction is 0. Return 0 to go on, nonzero to stop: the
+ *  call in progress then ends with PNPBS_STOPPED and its nodes are valid; stopped before the first
+ *  nodes are laid, it has none.
  *  @param fraction   of the work of the call in progress, 0 .. 1
  *  @param step       steps done so far
  *  @param nodes      nodes there are now, 0 while the first ones are laid
@@ -380,7 +382,8 @@ PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int6
                                                  const double *xy, const int64_t *ids);
 
 /** What a run from nothing would come to, from domain, spacing and options alone: d is sampled in
- *  some thousand places, no inner node is made, and the nodes there are stay as they are.
+ *  some thousand places (where its growth is limited, in as many as by the run), no inner node is
+ *  made, and the nodes there are stay as they are.
  *  Collective; outputs may be NULL. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
  *  @param[out] nodes    on all ranks, mostly within a few percent
  *  @param[out] bytes    memory of each process, for the run alone

@@ -145,11 +145,13 @@ Outcome Placement::make_level() {
   settings.max_bytes = bytes_allowed();
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain();
-  std::shared_ptr<const Spacing<2>> spacing = spacing_that_counts(settings);
+  std::shared_ptr<const Spacing<2>> spacing = bounded_spacing();
+  if (settings.user_limits_growth()) spacing = growth_limited(std::move(spacing), settings);
   std::unique_ptr<Level> next = empty_level(spacing, settings);
   SteepestGrowth steepest;  // none where the user limits it
   if (!settings.user_limits_growth()) steepest = next->steepest_growth();
   if (too_steep(steepest) && settings.growth_limit > 0) {
+    next.reset();
     spacing = growth_limited(std::move(spacing), settings);
     next = empty_level(spacing, settings);
   }
@@ -191,15 +193,18 @@ void Placement::fill(Level& level) {
                   [&](const std::function<void()>& beat) { level.fill(beat); });
 }
 
-// Work that takes long where nodes are many, before there are any, calls beat() again and again, so
-// that this rank's monitor is asked by the clock; where it stops, all ranks do, with the nodes
-// there were before.
+// Work that leads to first nodes, or to those of a new spacing, and takes long where they are many:
+// it calls beat() again and again, so that this rank's monitor is asked by the clock. Where it
+// stops, all ranks do, with the nodes there were before. Collective.
 void Placement::while_monitored(const std::string& what,
                                 const std::function<void(const std::function<void()>&)>& work) {
+  const std::int64_t nodes = global_count();
   last_asked_ = Clock::now();
   try {
     work([&] {
-      if (asks_to_stop_by_clock(0, 0))
+      if (!monitor_is_due()) return;
+      last_asked_ = Clock::now();
+      if (asks_to_stop(0, nodes))
         throw Error(PNPBS_STOPPED, "stopped by the monitor while " + what);
     });
   } catch (const Error& error) {
@@ -294,12 +299,14 @@ Outcome Placement::advance(std::int64_t until, ProgressPart part) {
     ++schedule_.step;
     ++steps_done_;
     const bool is_event = schedule_.step % settings.event_interval == 0;
-    if (is_event || schedule_.step == until) agree_on_failure(*comm_, failure);
+    if (is_event || schedule_.step == until || !level_->distributed())
+      agree_on_failure(*comm_, failure);
     const double done = (static_cast<double>(schedule_.step) - first) /
                         std::max(1.0, static_cast<double>(until) - first);
     const double fraction = part.begin + done * (part.end - part.begin);
     if (is_event) event();
     if (is_event ? monitor_stops(fraction) : stops_between_events(fraction)) {
+      if (!is_event) level_->refresh_spacing();  // as d is at the nodes now
       outcome = Outcome::stopped;
       stop_reason_ = StopReason::monitor;
       break;
@@ -400,26 +407,22 @@ bool Placement::monitor_stops(double fraction) {
   return comm_->largest(stop) > 0;
 }
 
-// The same of work that takes long only where nodes are many.
+// Has this rank's monitor not been asked for a while?
+bool Placement::monitor_is_due() const {
+  constexpr auto kBetweenCalls = std::chrono::milliseconds(200);
+  return monitor_ && Clock::now() - last_asked_ >= kBetweenCalls;
+}
+
+// The same of work that takes long only where nodes are many. All ranks ask, or none: a monitor may
+// ask for what is collective.
 bool Placement::monitor_stops_by_clock(double fraction) {
-  bool stop = false;
-  const std::int64_t nodes = global_count();
-  agreed(*comm_, [&] { stop = asks_to_stop_by_clock(fraction, nodes); });
-  return comm_->largest(stop) > 0;
+  return comm_->largest(monitor_is_due()) > 0 && monitor_stops(fraction);
 }
 
 // The steps between two events of ten million nodes take some seconds. Several ranks have fewer
 // nodes each, and would have to agree every time: they are asked at events.
 bool Placement::stops_between_events(double fraction) {
-  return !level_->distributed() && asks_to_stop_by_clock(fraction, count());
-}
-
-bool Placement::asks_to_stop_by_clock(double fraction, std::int64_t nodes) {
-  constexpr auto kBetweenCalls = std::chrono::milliseconds(200);
-  if (!monitor_ || Clock::now() - last_asked_ < kBetweenCalls) return false;
-  const bool stop = asks_to_stop(fraction, nodes);
-  last_asked_ = Clock::now();
-  return stop;
+  return !level_->distributed() && monitor_is_due() && monitor_stops(fraction);
 }
 
 // Each part of it leaves valid nodes.
@@ -427,6 +430,7 @@ Outcome Placement::finish() {
   const Settings& settings = level_->settings();
   const auto stops = [this] {
     if (!monitor_stops_by_clock(kStepsShare)) return false;
+    level_->refresh_spacing();
     stop_reason_ = StopReason::monitor;
     return true;
   };

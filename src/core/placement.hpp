@@ -128,12 +128,15 @@ class Placement {
  private:
   Outcome prepare_level();
   Outcome make_level();
-  std::shared_ptr<const Spacing<2>> spacing_that_counts(const Settings& settings);
+  std::shared_ptr<const Spacing<2>> bounded_spacing() const;
   std::shared_ptr<const Spacing<2>> growth_limited(std::shared_ptr<const Spacing<2>> spacing,
                                                    const Settings& settings);
+  std::shared_ptr<const Spacing<2>> growth_limited(std::shared_ptr<const Spacing<2>> spacing,
+                                                   const Settings& settings,
+                                                   const std::function<void()>& beat) const;
   static bool too_steep(const SteepestGrowth& steepest);
   static std::string warning_of_growth(const SteepestGrowth& steepest, double growth_limit);
-  double estimated_nodes(const Settings& settings);
+  double estimated_nodes(const Settings& settings) const;
   double bytes_allowed() const;
   std::unique_ptr<Level> empty_level(std::shared_ptr<const Spacing<2>> spacing,
                                      const Settings& settings, const Level* like = nullptr);
@@ -160,7 +163,7 @@ class Placement {
   bool monitor_stops(double fraction);
   bool monitor_stops_by_clock(double fraction);
   bool stops_between_events(double fraction);
-  bool asks_to_stop_by_clock(double fraction, std::int64_t nodes);
+  bool monitor_is_due() const;
   void fill(Level& level);
   void while_monitored(const std::string& what,
                        const std::function<void(const std::function<void()>& beat)>& work);

@@ -30,7 +30,8 @@ Estimate Placement::estimate() {
   if (!spacing_)
     throw Error(PNPBS_ERROR_STATE,
                 "the placement has no spacing yet: call one of the set_spacing functions first");
-  const Settings settings(options_);
+  Settings settings(options_);
+  settings.max_bytes = bytes_allowed();
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain();
   const double ranks = comm_->size();
@@ -42,15 +43,18 @@ Estimate Placement::estimate() {
           nodes / (nodes_per_second(options_) * std::max(1.0, threads))};
 }
 
-double Placement::estimated_nodes(const Settings& settings) {
-  const std::shared_ptr<const Spacing<2>> spacing = spacing_that_counts(settings);
+// With the growth of d limited as the run limits it, which takes a tree as the run does; so it is
+// refused where that would be.
+double Placement::estimated_nodes(const Settings& settings) const {
   const auto estimate_with = [&](const Spacing<2>& d) {
     return estimate_nodes(*comm_, *domain_, d, settings.max_nodes);
   };
-  const NodeEstimate estimate = estimate_with(*spacing);
-  if (settings.user_limits_growth() || settings.growth_limit == 0 || !too_steep(estimate.steepest))
-    return estimate.nodes;
-  return estimate_with(*growth_limited(spacing, settings)).nodes;
+  const std::shared_ptr<const Spacing<2>> spacing = bounded_spacing();
+  if (!settings.user_limits_growth()) {
+    const NodeEstimate estimate = estimate_with(*spacing);
+    if (settings.growth_limit == 0 || !too_steep(estimate.steepest)) return estimate.nodes;
+  }
+  return estimate_with(*growth_limited(spacing, settings, [] {})).nodes;
 }
 
 // Of memory, for the nodes of all ranks: these share what their machines have, and hold equal

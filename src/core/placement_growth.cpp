@@ -12,37 +12,49 @@ namespace {
 
 // Of the domain, that d may be large.
 constexpr double kMostSizes = 1024;
-// Growth of d that nodes follow, with some more for what samples miss of it. On a spacing graded
-// from a line (docs/method.md) the worst triangle has a quality of 0.82 up to 0.3, 0.69 at 0.5 and
-// 0.14 at 1.
-constexpr double kMostFollowed = 0.3, kSampled = 1.05;
+// Growth of d that nodes follow. On a spacing graded from a line (docs/method.md) the worst
+// triangle has a quality of 0.82 up to 0.3, 0.69 at 0.5 and 0.14 at 1. A little more is let pass,
+// so that d which grows by 0.3 stays as it is given, whatever samples make of it.
+constexpr double kMostFollowed = 0.3, kTooSteep = 1.05 * kMostFollowed;
 
 }  // namespace
 
-std::shared_ptr<const Spacing<2>> Placement::spacing_that_counts(const Settings& settings) {
+std::shared_ptr<const Spacing<2>> Placement::bounded_spacing() const {
   std::shared_ptr<const Spacing<2>> spacing;
   agreed(*comm_, [&] {
     spacing =
         std::make_shared<BoundedSpacing<2>>(spacing_, kMostSizes * size_of(domain_->bounds()));
   });
-  return settings.user_limits_growth() ? growth_limited(std::move(spacing), settings) : spacing;
+  return spacing;
 }
 
 std::shared_ptr<const Spacing<2>> Placement::growth_limited(
     std::shared_ptr<const Spacing<2>> spacing, const Settings& settings) {
-  const PhaseTimer timer(timers_, Phase::spacing);
   while_monitored("the growth of the spacing was limited", [&](const std::function<void()>& beat) {
-    agreed(*comm_, [&] {
-      spacing = std::make_shared<GrowthLimitedSpacing>(
-          *domain_, std::move(spacing), settings.growth_limit, settings.node_limit(), beat);
-    });
+    const PhaseTimer timer(timers_, Phase::spacing);
+    spacing = growth_limited(std::move(spacing), settings, beat);
   });
   return spacing;
 }
 
-bool Placement::too_steep(const SteepestGrowth& steepest) {
-  return steepest.growth > kSampled * kMostFollowed;
+std::shared_ptr<const Spacing<2>> Placement::growth_limited(
+    std::shared_ptr<const Spacing<2>> spacing, const Settings& settings,
+    const std::function<void()>& beat) const {
+  agreed(*comm_, [&] {
+    try {
+      spacing = std::make_shared<GrowthLimitedSpacing>(
+          *domain_, std::move(spacing), settings.growth_limit, settings.node_limit(), beat);
+    } catch (const Error& error) {
+      if (error.status() != PNPBS_ERROR_SPACING && error.status() != PNPBS_ERROR_MEMORY) throw;
+      throw Error(error.status(), std::string(error.what()) + " (where d grows by at most " +
+                                      number_text(settings.growth_limit) +
+                                      ": option growth_limit, 0 is no limit)");
+    }
+  });
+  return spacing;
 }
+
+bool Placement::too_steep(const SteepestGrowth& steepest) { return steepest.growth > kTooSteep; }
 
 std::string Placement::warning_of_growth(const SteepestGrowth& steepest, double growth_limit) {
   const std::string found = "the spacing grows by " + rounded_text(steepest.growth) +

@@ -7,6 +7,8 @@
 #include <queue>
 #include <utility>
 
+#include "core/execution.hpp"
+
 namespace pnpbs {
 
 GrowthLimitedSpacing::GrowthLimitedSpacing(const PlaneDomain& domain,
@@ -14,6 +16,7 @@ GrowthLimitedSpacing::GrowthLimitedSpacing(const PlaneDomain& domain,
                                            const NodeLimit& limit, const Beat& beat)
     : raw_(std::move(raw)), growth_(growth) {
   const SpacingEvaluator checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+    beat();
     evaluate_spacing<2>(*raw_, domain.area(), n, x, d);
   };
   boundary_ = lay_boundary(domain, checked, limit.max_nodes);
@@ -38,6 +41,7 @@ void GrowthLimitedSpacing::fit_tree(const PlaneDomain& domain, const NodeLimit& 
                                     const Beat& beat) {
   constexpr int kMostPasses = 6;
   const SpacingEvaluator limited = [&](std::int64_t n, const Point<2>* x, double* d) {
+    beat();
     evaluate_spacing<2>(*this, domain.area(), n, x, d);
   };
   for (int pass = 0; pass < kMostPasses; ++pass) {
@@ -174,11 +178,11 @@ double GrowthLimitedSpacing::limit_at(const Point<2>& x) const {
 
 void GrowthLimitedSpacing::evaluate(std::int64_t n, const Point<2>* x, double* d) const {
   raw_->evaluate(n, x, d);
-  for (std::int64_t i = 0; i < n; ++i) {
+  for_each("pnpbs::GrowthLimitedSpacing::evaluate", n, [=, this](std::int64_t i) {
     // Written so that bad values (not a number) stay and are reported.
     const double limit = limit_at(x[i]);
     if (d[i] > limit) d[i] = limit;
-  }
+  });
 }
 
 }  // namespace pnpbs

@@ -18,6 +18,7 @@ constexpr std::array<Point<2>, 5> kSamples{
 struct Sample {
   std::int32_t leaf;
   Point<2> x;
+  bool on_boundary;
 };
 
 std::vector<Sample> samples_of_own(const DomainMap& map,
@@ -30,8 +31,12 @@ std::vector<Sample> samples_of_own(const DomainMap& map,
     const double side = tree.cell_side(tree.leaf_cell(leaf));
     for (const Point<2>& sample : kSamples) {
       const Point<2> x{middle[0] + sample[0] * side, middle[1] + sample[1] * side};
-      if (map.inside_in_leaf(leaf, x)) samples.push_back({leaf, x});
+      if (map.inside_in_leaf(leaf, x)) samples.push_back({leaf, x, false});
     }
+    map.for_edges_of_leaf(leaf, [&](std::int32_t e) {
+      if (tree.leaf_at(map.edge_begin(e)) == leaf)
+        samples.push_back({leaf, map.edge_begin(e), true});
+    });
   }
   return samples;
 }
@@ -54,6 +59,7 @@ std::vector<Slope> slopes_of_own(const DomainMap& map,
     const std::int32_t leaf = samples[a].leaf;
     if (a == 0 || samples[a - 1].leaf != leaf) slopes.push_back({0, d[a], points[a]});
     for (std::size_t b = a + 1; b < samples.size() && samples[b].leaf == leaf; ++b) {
+      if (samples[a].on_boundary && samples[b].on_boundary) continue;
       const double growth = std::abs(d[b] - d[a]) / distance<2>(points[a], points[b]);
       const std::size_t low = d[a] < d[b] ? a : b;
       if (growth > slopes.back().growth && !map.edge_between(leaf, points[a], points[b]))

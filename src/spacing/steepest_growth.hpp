@@ -16,8 +16,9 @@ struct SteepestGrowth {
   Point<2> at{};      // the finest of the places where it is at least half of that
 };
 
-// By samples in the middle and on the rim of the leaves that this rank owns, of each pair of them
-// with no boundary between. The same on any number of ranks. Collective.
+// By samples in the middle and on the rim of the leaves that this rank owns, and at the boundary
+// nodes in them: of each pair with one inside the domain and no boundary between. The same on any
+// number of ranks. Collective.
 SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap& map,
                                const std::function<bool(std::int32_t)>& owns_leaf,
                                const SpacingEvaluator& spacing);

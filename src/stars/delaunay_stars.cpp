@@ -114,7 +114,7 @@ class StarWriter {
     const double *x = nodes.x[0].data(), *y = nodes.x[1].data(), *d = nodes.d.data();
     double nearest = needed * needed;
     in_.buckets.for_neighbours(bucket_, [&](std::int32_t b) {
-      const Box<2> cell = in_.map.tree().cell_box(in_.map.tree().leaf_cell(b));
+      const Box<2> cell = in_.map.tree().cell_box_with_room(in_.map.tree().leaf_cell(b));
       for (int k = 0; k < 2; ++k)
         if (cell.high[k] < box.low[k] || cell.low[k] > box.high[k]) return;
 #pragma omp simd reduction(min : nearest)
@@ -125,7 +125,7 @@ class StarWriter {
         nearest = unlisted < nearest ? unlisted : nearest;
       }
     });
-    return std::sqrt(nearest);
+    return kRounding * std::sqrt(nearest);
   }
 
   bool add_hull_star(std::int64_t i, double reach) {

@@ -245,6 +245,7 @@ START_TEST(rounds_of_repairs_end) {
   for (k = 0; k < 2; ++k) {
     job it = square_job(1);
     MUST(pnpbs_placement_set_spacing_callback(it.placement, coarse_beside_fine, NULL));
+    MUST(pnpbs_placement_set(it.placement, "growth_limit", "0"));
     MUST(pnpbs_placement_set(it.placement, "steps", "0"));
     MUST(pnpbs_placement_set(it.placement, "defect_repairs", rounds[k]));
     ck_assert_int_ge(pnpbs_placement_run(it.placement), PNPBS_OK); /* nothing can follow that d */

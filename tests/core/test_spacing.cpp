@@ -278,16 +278,24 @@ START_TEST(steepest_growth_of_jumps) {
 }
 END_TEST
 
-// Two sides of a wall have nothing to do with each other.
+// Two sides of a gap have nothing to do with each other, those of an inner curve share its nodes.
 START_TEST(steepest_growth_of_two_sides) {
-  const Build walled = [](PlaneDomain& p) {
+  const Build apart = [](PlaneDomain& p) {
+    add_loop(p, rectangle(0, 0, 0.5, 1));
+    add_loop(p, rectangle(0.503, 0, 1, 1));
+  };
+  const Build joined = [](PlaneDomain& p) {
     add_square(p);
     const std::vector<double> xy{0.5, 0, 0.5, 1};
     p.add_polyline(PNPBS_INNER, false, 2, xy.data(), nullptr, 0);
   };
-  const Plane jump = [](double x, double) { return x > 0.5 ? 0.2 : 0.02; };
-  ck_assert_double_eq(steepest_of(walled, jump).growth, 0);
-  ck_assert_double_ge(steepest_of(add_square, jump).growth, 0.5);
+  const Plane jump = [](double x, double) { return x > 0.502 ? 0.2 : 0.02; };
+  ck_assert_double_eq(steepest_of(apart, jump).growth, 0);
+  for (const Build& build : {joined, Build(add_square)}) {
+    const pnpbs::SteepestGrowth steepest = steepest_of(build, jump);
+    ck_assert_double_ge(steepest.growth, 0.5);
+    ck_assert_double_eq_tol(steepest.at[0], 0.502, 0.08);
+  }
 }
 END_TEST
 

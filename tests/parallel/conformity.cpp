@@ -219,6 +219,7 @@ class Job {
     require(pnpbs_placement_create(context, domain, &p_), "placement");
     pnpbs_domain_destroy(&domain);
     set_spacing(std::move(d));
+    set("growth_limit", "0");  // jumps are the hard cases
   }
   Job(const Job&) = delete;
   ~Job() { pnpbs_placement_destroy(&p_); }

@@ -132,10 +132,10 @@ end
     set_monitor!(f, placement)
     set_monitor!(placement, nothing)
 
-Calls `f(fraction, step, nodes, max_speed)` now and then during a run, with `nodes` 0 about twice a
-second while the first nodes are laid; when it returns `true`, the
-run ends early with valid nodes and the outcome `:stopped`. Anything else goes on. The second form
-removes the monitor. Local.
+Calls `f(fraction, step, nodes, max_speed)` now and then during a run; while the first nodes are laid,
+or the growth of the spacing is limited, with `fraction` 0 and on each rank by its own clock: do
+nothing collective then. When it returns `true`, the run ends early with valid nodes and the outcome
+`:stopped`. Anything else goes on. The second form removes the monitor. Local.
 """
 function set_monitor!(f, placement::Placement)
     callback = Callback(f, placement.context)
