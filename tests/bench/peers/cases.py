@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The cases: a domain, the region inside straight segments by the even-odd rule, and a spacing
-d = constant + slope * distance from a point."""
+d = constant + slope * distance from a point or from a horizontal line."""
 import dataclasses
 import math
 from pathlib import Path
@@ -125,17 +125,18 @@ class Case:
     slope: float
     x0: float = 0
     y0: float = 0
+    x_counts: int = 1  # in the distance; 0: it is that from the line y = y0
 
     def spacing(self, points):
-        return self.constant + self.slope * np.hypot(points[:, 0] - self.x0,
+        return self.constant + self.slope * np.hypot(self.x_counts * (points[:, 0] - self.x0),
                                                      points[:, 1] - self.y0)
 
     def formula(self, root="sqrt", power="^2"):
         """The spacing as text, for tools that read formulas."""
         if self.slope == 0:
             return repr(self.constant)
-        return (f"{self.constant!r} + {self.slope!r}*{root}((x-({self.x0!r})){power} + "
-                f"(y-({self.y0!r})){power})")
+        across = f"(x-({self.x0!r})){power} + " if self.x_counts else ""
+        return f"{self.constant!r} + {self.slope!r}*{root}({across}(y-({self.y0!r})){power})"
 
     def scaled(self, factor):
         return dataclasses.replace(self, constant=float(factor * self.constant),
@@ -148,14 +149,16 @@ class Case:
         return inner + boundary
 
     def integrals(self):
-        domain, per_side = self.domain, 1000
+        domain = self.domain
+        # Where d varies with y alone, and steeply, nearly all samples are spent on that.
+        per_side, parts = ((1000, 1000), 100) if self.x_counts else ((10, 100000), 20000)
         low, high = domain.vertices.min(0), domain.vertices.max(0)
-        x, y = [a + (b - a) * (np.arange(per_side) + 0.5) / per_side for a, b in zip(low, high)]
+        x, y = [a + (b - a) * (np.arange(n) + 0.5) / n for a, b, n in zip(low, high, per_side)]
         grid = np.column_stack([axis.ravel() for axis in np.meshgrid(x, y)])
         grid = grid[domain.contains(grid)]
         inner = domain.area() * np.mean(2 / math.sqrt(3) / self.spacing(grid) ** 2)
         a, b = domain.ends()
-        lengths, boundary, parts = np.hypot(*(b - a).T), 0, 100
+        lengths, boundary = np.hypot(*(b - a).T), 0
         for part in range(parts):
             there = a + (b - a) * (part + 0.5) / parts
             boundary += 0.5 * (lengths / parts / self.spacing(there)).sum()
@@ -178,6 +181,16 @@ def make_graded_square(nodes):
     return case.with_nodes(nodes)
 
 
+def make_graded_line(nodes):
+    """Grows by a fifth of the distance whatever the number of nodes, which goes with 1 / least d:
+    only that is scaled."""
+    case = Case("graded-line", "unit square, d growing by 0.2 from a line", square(), 12 / nodes,
+                0.2, 0.5, 0.5, 0)
+    for _ in range(12):
+        case.constant *= float(case.expected_nodes() / nodes)
+    return case
+
+
 def make_annulus(nodes):
     case = Case("uniform-annulus", "annulus, uniform", annulus(0.01), 1, 0).with_nodes(nodes)
     return dataclasses.replace(case, domain=annulus(case.constant))
@@ -190,4 +203,5 @@ def make_lakes(nodes):
 
 
 CASES = {"uniform-square": make_uniform_square, "graded-square": make_graded_square,
+         "graded-line": make_graded_line,
          "uniform-annulus": make_annulus, "graded-lakes": make_lakes}

@@ -39,8 +39,9 @@ using Point = Kernel::Point_2;
 struct Spacing {
   double constant, slope;
   Point middle;
+  double x_counts;  // in the distance: 1, or 0 for that from a horizontal line
   double at(const Point& p) const {
-    return constant + slope * std::sqrt(CGAL::squared_distance(p, middle));
+    return constant + slope * std::hypot(x_counts * (p.x() - middle.x()), p.y() - middle.y());
   }
 };
 
@@ -169,19 +170,20 @@ int main(int argc, char** argv) {
     std::puts(CGAL_VERSION_STR);
     return 0;
   }
-  if (argc != 9) {
-    std::fputs("usage: pnpbs-cgal-mesh IN.poly OUT.node CONSTANT SLOPE X0 Y0 EDGE_BOUND LLOYD\n",
-               stderr);
+  if (argc != 10) {
+    std::fputs(
+        "usage: pnpbs-cgal-mesh IN.poly OUT.node CONSTANT SLOPE X0 Y0 X_COUNTS EDGE_BOUND LLOYD\n",
+        stderr);
     return 2;
   }
   try {
     const Spacing spacing{std::atof(argv[3]), std::atof(argv[4]),
-                          Point(std::atof(argv[5]), std::atof(argv[6]))};
-    if (!(spacing.constant > 0) || !(spacing.slope >= 0) || !(std::atof(argv[7]) > 0))
+                          Point(std::atof(argv[5]), std::atof(argv[6])), std::atof(argv[7])};
+    if (!(spacing.constant > 0) || !(spacing.slope >= 0) || !(std::atof(argv[8]) > 0))
       throw std::runtime_error("CONSTANT and EDGE_BOUND must be positive, SLOPE not negative");
     Triangulation t;
-    const double seconds = place(read_poly(argv[1]), spacing, std::atof(argv[7]),
-                                 static_cast<std::size_t>(std::atoi(argv[8])), t);
+    const double seconds = place(read_poly(argv[1]), spacing, std::atof(argv[8]),
+                                 static_cast<std::size_t>(std::atoi(argv[9])), t);
     write_nodes(t, argv[2]);
     std::printf("seconds %.6f\n", seconds);
   } catch (const std::exception& error) {

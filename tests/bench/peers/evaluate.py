@@ -12,6 +12,8 @@ from scipy.spatial import Delaunay, cKDTree
 CHORDS = 12        # directions in which the width of the domain is looked at
 NARROW = 3         # spacings
 SHORT_EDGE = 0.7   # spacings
+BANDS = 8          # of d, equal in log d
+FEWEST = 100       # edges that a band must have
 RINGS = 3          # of triangles from the boundary, in which the domain can be narrow
 HISTOGRAM = np.linspace(0.5, 1, 51)
 
@@ -48,11 +50,24 @@ def evaluate(points, domain, spacing):
         "wide_angle_least": float(angle[wide].min()) if wide.any() else None,
         "edge_mean": float(ratio.mean()),
         "edge_deviation": float(ratio.std()),
+        "edge_bands": band_means(0.5 * (d[edges[:, 0]] + d[edges[:, 1]]), ratio),
         "nearest_mean": float((nearest / d).mean()),
         "nearest_deviation": float((nearest / d).std()),
         "cell_99_percent": float(np.quantile(cell, 0.99)) if len(cell) else None,
         "histogram": np.histogram(np.clip(quality, HISTOGRAM[0], 1), HISTOGRAM)[0].tolist(),
     }
+
+
+def band_means(d, ratio):
+    """The mean of edge over d in each band of d, from the finest on; bands of few edges left
+    out."""
+    low, high = np.log(d.min()), np.log(d.max())
+    if high - low < 0.1:
+        return [float(ratio.mean())]
+    band = np.minimum((BANDS * (np.log(d) - low) / (high - low)).astype(int), BANDS - 1)
+    counts = np.bincount(band, minlength=BANDS)
+    sums = np.bincount(band, ratio, minlength=BANDS)
+    return [float(s / n) for s, n in zip(sums, counts) if n >= FEWEST]
 
 
 def lower_quantile(values, share):

@@ -4,7 +4,7 @@ from tables import grouped, table_head, table_row
 
 TITLES = ["tool", "nodes", "s", "s without start and files", "nodes/s", "MB",
           "quality: mean / 99 % above / least", "least where wide", "least angle where wide",
-          "edge over d", "nearest over d, deviation", "cell radius over nearest, 99 % below",
+          "edge over d", "by bands of d", "nearest over d, deviation", "cell radius over nearest, 99 % below",
           "crossing", "covered"]
 
 
@@ -28,7 +28,9 @@ def row(result):
     return [name, grouped(m["nodes"]), f"{result['seconds']:.2f}",
             told(result["inner_seconds"], 2), speed_told, f"{result['peak_bytes'] / 1e6:.0f}",
             quality, told(m["wide_quality_least"], 4), angle if angle == "-" else angle + "°",
-            f"{m['edge_mean']:.4f} ± {m['edge_deviation']:.4f}", f"{m['nearest_deviation']:.4f}",
+            f"{m['edge_mean']:.4f} ± {m['edge_deviation']:.4f}",
+            f"{min(m['edge_bands']):.3f} to {max(m['edge_bands']):.3f}",
+            f"{m['nearest_deviation']:.4f}",
             told(m["cell_99_percent"], 3), grouped(m["crossing"]), f"{m['covered']:.5f}"]
 
 
@@ -48,7 +50,7 @@ def text_tables(results):
     lines = []
     for group in groups(results).values():
         rows = [["tool", "nodes", "s", "s inner", "nodes/s", "MB", "mean / 99 % / least", "wide",
-                 "angle", "edge/d", "nn/d", "cell", "cross", "covered"]]
+                 "angle", "edge/d", "bands", "nn/d", "cell", "cross", "covered"]]
         rows += [row(result) for result in group]
         widths = [max(len(r[i]) for r in rows if not r[1].startswith("failed"))
                   for i in range(len(TITLES))]
@@ -96,6 +98,8 @@ HOW = """What the columns say:
 - Edge over d: mean and deviation of the edges over the mean of d at their ends. Tools that mean
   something else by size, such as an upper bound, were given a factor, told above, so that about the
   same number of nodes comes out.
+- By bands of d: the least and the largest mean of edge over d in eight bands, equal in log d, of
+  100 edges or more.
 - Nearest over d: deviation of the distance to the nearest node. Cell radius over nearest: how far
   the farthest point of a node's Voronoi cell is, over the distance to its nearest node, for the
   nodes that are not on the boundary; 0.577 in a hexagonal lattice.

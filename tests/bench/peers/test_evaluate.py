@@ -77,6 +77,17 @@ class Exact(unittest.TestCase):
         self.assertAlmostEqual(two["nearest_mean"], 0.5, 12)
         self.assertEqual(two["quality_mean"], one["quality_mean"])
 
+    def test_bands(self):
+        """A lattice with d of one half of it: the bands tell what the mean does not."""
+        nodes, domain = unit_lattice(40, 40), cases.from_loops([rectangle(0, 0, 40, 40)])
+        m = evaluate(nodes, domain, lambda points: np.where(points[:, 0] < 19.5, 0.5, 2.0))
+        even = evaluate(nodes, domain, one_everywhere)
+        self.assertEqual(even["edge_bands"], [even["edge_mean"]])
+        # The diagonal edges that join the halves are in a band of their own.
+        first, *_, last = m["edge_bands"]
+        self.assertAlmostEqual(first / (2 * even["edge_mean"]), 1, 2)
+        self.assertAlmostEqual(last / (0.5 * even["edge_mean"]), 1, 2)
+
     def test_one_triangle(self):
         corners = np.array([[0, 0], [4, 0], [0, 3]], float)
         m = evaluate(corners, cases.from_loops([corners]), one_everywhere)
@@ -230,11 +241,22 @@ class Cases(unittest.TestCase):
         there = graded.spacing(np.array([[0.5, 0.5], [1, 1]]))
         self.assertAlmostEqual(there[1] / there[0], 10, 3)
 
+    def test_line(self):
+        """Both integrals of 1 / d and 1 / d^2 are known."""
+        case = cases.make_graded_line(7000)
+        least, far = case.constant, case.constant + 0.1
+        along_y = np.log(far / least) / 0.2 * 2
+        self.assertAlmostEqual((4 / math.sqrt(3) / 0.2 * (1 / least - 1 / far)
+                                + along_y + 1 / far) / 7000, 1, 3)
+        there = case.spacing(np.array([[0.1, 0.5], [0.9, 0.5], [0.3, 1.0]]))
+        self.assertEqual(there[0], there[1])
+        self.assertAlmostEqual(there[2] - there[0], 0.1, 14)
+
     def test_formula(self):
-        case = cases.make_graded_square(500)
-        for x, y in ((0.1, 0.9), (0.5, 0.5)):
-            value = eval(case.formula(power="**2"), {"sqrt": math.sqrt, "x": x, "y": y})
-            self.assertAlmostEqual(value, case.spacing(np.array([[x, y]]))[0], 14)
+        for case in (cases.make_graded_square(500), cases.make_graded_line(500)):
+            for x, y in ((0.1, 0.9), (0.5, 0.5)):
+                value = eval(case.formula(power="**2"), {"sqrt": math.sqrt, "x": x, "y": y})
+                self.assertAlmostEqual(value, case.spacing(np.array([[x, y]]))[0], 14)
 
 
 class Measuring(unittest.TestCase):

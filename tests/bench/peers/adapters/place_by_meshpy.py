@@ -16,7 +16,7 @@ def place(job):
 
     def too_large(vertices, area):
         (ax, ay), (bx, by), (cx, cy) = vertices
-        d = job.constant + job.slope * math.hypot((ax + bx + cx) / 3 - job.x0,
+        d = job.constant + job.slope * math.hypot(job.x_counts * ((ax + bx + cx) / 3 - job.x0),
                                                   (ay + by + cy) / 3 - job.y0)
         return area > job.area_factor * d * d
 

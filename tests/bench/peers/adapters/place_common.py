@@ -11,16 +11,17 @@ from cases import read_poly  # noqa: E402
 
 
 class Job:
-    """IN.poly OUT.node CONSTANT SLOPE X0 Y0 AREA_BOUND LEAST_ANGLE"""
+    """IN.poly OUT.node CONSTANT SLOPE X0 Y0 X_COUNTS AREA_BOUND LEAST_ANGLE"""
 
     def __init__(self):
         poly, self.output, *numbers = sys.argv[1:]
         self.domain = read_poly(poly)
-        self.constant, self.slope, self.x0, self.y0, bound, self.angle = map(float, numbers)
+        (self.constant, self.slope, self.x0, self.y0, self.x_counts, bound,
+         self.angle) = map(float, numbers)
         self.area_factor = bound * math.sqrt(3) / 4
 
     def largest_area(self, x, y):
-        d = self.constant + self.slope * np.hypot(x - self.x0, y - self.y0)
+        d = self.constant + self.slope * np.hypot(self.x_counts * (x - self.x0), y - self.y0)
         return self.area_factor * d * d
 
     def finish(self, points, seconds):

@@ -101,7 +101,8 @@ def python(script, *arguments):
 
 
 def numbers_of_case(case):
-    return [repr(value) for value in (case.constant, case.slope, case.x0, case.y0)]
+    return [repr(value)
+            for value in (case.constant, case.slope, case.x0, case.y0, case.x_counts)]
 
 
 def told_seconds(text):

@@ -8,7 +8,9 @@ import numpy as np
 from adapters import tool
 from measure import measure
 
-GRID = 400  # points a side, between which JIGSAW takes the spacing to be linear
+# Points a side, between which JIGSAW takes the spacing to be linear: one row lies in the middle,
+# where spacings of squares have their tip.
+GRID = 401
 
 
 def geometry(domain):
