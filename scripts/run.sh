@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # On a fresh machine, everything up to nodes in a real lake: installs what is missing, builds, and
-# places 103 000 nodes in Lake Victoria, fine in its middle. Leaves lake.png (the picture),
+# places 104 000 nodes in Lake Victoria, fine in its middle. Leaves lake.png (the picture),
 # lake.vtu (for ParaView) and report.json in the folder out.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
