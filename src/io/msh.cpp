@@ -4,7 +4,7 @@
 // of its tag's group, since gmsh forgets nodes that belong to nothing.
 #include <cstdlib>
 
-#include "io/formats.hpp"
+#include "io/numbered_points.hpp"
 
 namespace pnpbs::io {
 namespace {
@@ -23,19 +23,8 @@ void write_corners(const std::int64_t* corners, std::size_t count, Sink& sink) {
 
 void write_points(const NodeSource& nodes, SharedFile& file) {
   file.append_text("$Nodes\n" + std::to_string(nodes.contents().nodes) + "\n");
-  nodes.for_nodes([&](const NodeRows& rows) {
-    file.append([&](Sink& sink) {
-      std::int64_t number = rows.first;
-      for (std::size_t i = 0; i < rows.ids.size(); ++i) {
-        sink.number(++number);
-        sink.text(" ");
-        sink.number(rows.xy[2 * i]);
-        sink.text(" ");
-        sink.number(rows.xy[2 * i + 1]);
-        sink.text(" 0\n");
-      }
-    });
-  });
+  append_numbered_points(nodes, file,
+                         [](const NodeRows&, std::size_t, Sink& sink) { sink.text(" 0\n"); });
   file.append_text("$EndNodes\n");
 }
 

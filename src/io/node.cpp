@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangle's .node format, "nodes dimension attributes markers", then "number x y marker"; and its
 // .ele format, "triangles corners attributes", then "number corner corner corner". From 1.
-#include "io/formats.hpp"
+#include "io/numbered_points.hpp"
 
 namespace pnpbs::io {
 
 void write_node(const NodeSource& nodes, SharedFile& file) {
   file.append_text(std::to_string(nodes.contents().nodes) + " 2 0 1\n");
-  nodes.for_nodes([&](const NodeRows& rows) {
-    file.append([&](Sink& sink) {
-      std::int64_t number = rows.first;
-      for (std::size_t i = 0; i < rows.ids.size(); ++i) {
-        sink.number(++number);
-        sink.text(" ");
-        sink.number(rows.xy[2 * i]);
-        sink.text(" ");
-        sink.number(rows.xy[2 * i + 1]);
-        sink.text(" ");
-        sink.number(rows.tags[i]);
-        sink.text("\n");
-      }
-    });
+  append_numbered_points(nodes, file, [](const NodeRows& rows, std::size_t i, Sink& sink) {
+    sink.text(" ");
+    sink.number(rows.tags[i]);
+    sink.text("\n");
   });
   file.append_text("# nodes placed by pnpbs\n");
 }
