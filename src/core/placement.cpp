@@ -121,6 +121,18 @@ void Placement::require_same_domain() const {
                 "the domains differ between ranks: every rank describes the whole domain");
 }
 
+// Once spacing and domain are there, right, and the same on all ranks. Collective.
+Settings Placement::settings_for_new_level() const {
+  if (!spacing_)
+    throw Error(PNPBS_ERROR_STATE,
+                "the placement has no spacing yet: call one of the set_spacing functions first");
+  Settings settings(options_);
+  settings.max_bytes = bytes_allowed();
+  agreed(*comm_, [this] { domain_->check(); });
+  require_same_domain();
+  return settings;
+}
+
 // A level without inner nodes yet, dealt out to the ranks like another one if that is given.
 std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> spacing,
                                               const Settings& settings, const Level* like) {
@@ -138,13 +150,7 @@ std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> 
 // Lays the boundary at the present spacing and puts in the inner nodes: those of the level before,
 // refined where it was coarser, those given, those that coarser levels lead to, or a fill.
 Outcome Placement::make_level() {
-  if (!spacing_)
-    throw Error(PNPBS_ERROR_STATE,
-                "the placement has no spacing yet: call one of the set_spacing functions first");
-  Settings settings(options_);
-  settings.max_bytes = bytes_allowed();
-  agreed(*comm_, [this] { domain_->check(); });
-  require_same_domain();
+  const Settings settings = settings_for_new_level();
   std::shared_ptr<const Spacing<2>> spacing = bounded_spacing();
   if (settings.user_limits_growth()) spacing = growth_limited(std::move(spacing), settings);
   std::unique_ptr<Level> next = empty_level(spacing, settings);

@@ -128,6 +128,7 @@ class Placement {
  private:
   Outcome prepare_level();
   Outcome make_level();
+  Settings settings_for_new_level() const;
   std::shared_ptr<const Spacing<2>> bounded_spacing() const;
   std::shared_ptr<const Spacing<2>> growth_limited(std::shared_ptr<const Spacing<2>> spacing,
                                                    const Settings& settings);

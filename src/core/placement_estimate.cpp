@@ -27,13 +27,7 @@ double nodes_per_second(const Options& options) {
 Estimate Placement::estimate() {
   require_kokkos();
   require_same_options();
-  if (!spacing_)
-    throw Error(PNPBS_ERROR_STATE,
-                "the placement has no spacing yet: call one of the set_spacing functions first");
-  Settings settings(options_);
-  settings.max_bytes = bytes_allowed();
-  agreed(*comm_, [this] { domain_->check(); });
-  require_same_domain();
+  const Settings settings = settings_for_new_level();
   const double ranks = comm_->size();
   const double nodes = estimated_nodes(settings);
   const double threads = from_fixed_point(
