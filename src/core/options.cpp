@@ -37,7 +37,7 @@ const std::vector<OptionRow>& option_table() {
        "coarser levels that the first nodes come from, each with twice the spacing of the next; "
        "fewer where d varies too fast for them or asks for few nodes, or the boundary for too "
        "many"},
-      {"coarsest_steps", T::integer, "300", nullptr, "1000", 0, 1e9, nullptr,
+      {"coarsest_steps", T::integer, "100", nullptr, "1000", 0, 1e9, nullptr,
        "most steps on the coarsest of several levels"},
       {"refined_steps", T::integer, "80", nullptr, "500", 0, 1e9, nullptr,
        "most steps on the levels between the coarsest and the finest"},
