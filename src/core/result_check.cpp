@@ -9,8 +9,8 @@
 #include "core/mixed_hash.hpp"
 #include "geometry/limits.hpp"
 #include "geometry/point_text.hpp"
-#include "geometry/predicates.hpp"
 #include "parallel/records.hpp"
+#include "predicates/plane.hpp"
 
 namespace pnpbs {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 
 namespace pnpbs {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "geometry/predicates.hpp"
 #include "geometry/segments.hpp"
+#include "predicates/plane.hpp"
 
 namespace pnpbs {
 

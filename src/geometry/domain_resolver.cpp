@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "geometry/domain_graph.hpp"
-#include "geometry/expansion.hpp"
 #include "geometry/faces.hpp"
 #include "geometry/limits.hpp"
 #include "geometry/plane_sweep.hpp"
 #include "geometry/point_text.hpp"
-#include "geometry/predicates.hpp"
 #include "geometry/sampling.hpp"
 #include "geometry/smooth_contacts.hpp"
+#include "predicates/expansion.hpp"
+#include "predicates/plane.hpp"
 
 namespace pnpbs {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/predicates.hpp"
 #include "geometry/segments.hpp"
+#include "predicates/plane.hpp"
 
 namespace pnpbs {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 
 namespace pnpbs {
 

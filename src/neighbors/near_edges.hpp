@@ -127,7 +127,7 @@ bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>&
 
 }  // namespace pnpbs
 
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 
 namespace pnpbs {
 

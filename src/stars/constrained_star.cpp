@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 #include "stars/hull_star.hpp"
 
 namespace pnpbs {

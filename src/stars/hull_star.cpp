@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 
 namespace pnpbs {
 

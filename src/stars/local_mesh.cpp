@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/nodes.hpp"
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 #include "stars/triangle_quality.hpp"
 
 namespace pnpbs {

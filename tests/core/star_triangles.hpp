@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
-#include "geometry/predicates.hpp"
 #include "level_run.hpp"
+#include "predicates/plane.hpp"
 #include "quick_assert.hpp"
 
 // Three nodes in increasing order of their place in memory.

@@ -10,8 +10,8 @@
 #include "geometry/domain_map.hpp"
 #include "geometry/expect_error.hpp"
 #include "geometry/keep_off.hpp"
-#include "geometry/predicates.hpp"
 #include "level_run.hpp"
+#include "predicates/plane.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 

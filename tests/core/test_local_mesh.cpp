@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 #include "stars/local_mesh.hpp"

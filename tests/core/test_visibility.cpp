@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/predicates.hpp"
 #include "hard_shapes.hpp"
+#include "predicates/plane.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 

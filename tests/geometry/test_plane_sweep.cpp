@@ -6,7 +6,7 @@
 
 #include "geometry/faces.hpp"
 #include "geometry/plane_sweep.hpp"
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 #include "run_suite.hpp"
 
 using pnpbs::orientation;

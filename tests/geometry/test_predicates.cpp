@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 #include "run_suite.hpp"
 
 using pnpbs::in_circle;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/wide_integer.hpp"
+#include "predicates/wide_integer.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/predicates.hpp"
+#include "predicates/plane.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <utility>
 
-#include "geometry/expansion.hpp"
-#include "geometry/wide_integer.hpp"
+#include "predicates/expansion.hpp"
+#include "predicates/wide_integer.hpp"
 
 namespace pnpbs::predicates {
 
