@@ -5,7 +5,7 @@
 #
 # A program that uses PNPBS may have a METIS of its own, and must not meet ours: a static one that
 # can be linked into a shared library is hidden inside libpnpbs.so; a shared one is not linked but
-# opened by its path at run time (src/parallel/metis_functions.cpp).
+# opened by its path at run time (src/partition/metis_functions.cpp).
 # Sets PNPBS_METIS_STATIC_LIBRARIES, what a program with libpnpbs.a must link besides, and
 # PNPBS_METIS_DEFINITIONS, what metis_functions.cpp must know of a shared one.
 set(PNPBS_METIS_STATIC_LIBRARIES "")

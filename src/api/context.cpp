@@ -5,9 +5,9 @@
 #include <exception>
 
 #include "api/guard.hpp"
-#include "core/build_config.hpp"
-#include "core/execution.hpp"
-#include "core/kokkos_runtime.hpp"
+#include "base/build_config.hpp"
+#include "base/execution.hpp"
+#include "base/kokkos_runtime.hpp"
 
 namespace pnpbs::api {
 
@@ -33,10 +33,10 @@ void set_context_option(Context& context, const char* key, const auto& assign) {
   assign(changed);
   const std::int64_t threads = changed.integer("threads");
   if (std::strcmp(key, "threads") == 0 && kokkos_was_started() && threads != thread_count())
-    throw Error(PNPBS_ERROR_STATE, "option threads = " + std::to_string(threads) +
-                                       ": Kokkos already runs in this process with " +
-                                       std::to_string(thread_count()) +
-                                       " threads; set it before the first placement is created");
+    throw Error(ErrorKind::state, "option threads = " + std::to_string(threads) +
+                                      ": Kokkos already runs in this process with " +
+                                      std::to_string(thread_count()) +
+                                      " threads; set it before the first placement is created");
   context.options = std::move(changed);
 }
 
@@ -53,12 +53,48 @@ pnpbs_status create_context(pnpbs_context* handle, const auto& make_communicator
 
 }  // namespace
 
+pnpbs_status status_of(ErrorKind kind) noexcept {
+  switch (kind) {
+    case ErrorKind::stopped:
+      return PNPBS_STOPPED;
+    case ErrorKind::argument:
+      return PNPBS_ERROR_ARGUMENT;
+    case ErrorKind::handle:
+      return PNPBS_ERROR_HANDLE;
+    case ErrorKind::state:
+      return PNPBS_ERROR_STATE;
+    case ErrorKind::domain:
+      return PNPBS_ERROR_DOMAIN;
+    case ErrorKind::spacing:
+      return PNPBS_ERROR_SPACING;
+    case ErrorKind::key:
+      return PNPBS_ERROR_KEY;
+    case ErrorKind::capacity:
+      return PNPBS_ERROR_CAPACITY;
+    case ErrorKind::file:
+      return PNPBS_ERROR_FILE;
+    case ErrorKind::callback:
+      return PNPBS_ERROR_CALLBACK;
+    case ErrorKind::memory:
+      return PNPBS_ERROR_MEMORY;
+    case ErrorKind::mpi:
+      return PNPBS_ERROR_MPI;
+    case ErrorKind::kokkos:
+      return PNPBS_ERROR_KOKKOS;
+    case ErrorKind::unsupported:
+      return PNPBS_ERROR_UNSUPPORTED;
+    case ErrorKind::internal:
+      return PNPBS_ERROR_INTERNAL;
+  }
+  return PNPBS_ERROR_INTERNAL;
+}
+
 pnpbs_status report_failure(Context* context) noexcept {
   try {
     throw;
   } catch (const Error& error) {
     keep_message(context, error.what());
-    return error.status();
+    return status_of(error.kind());
   } catch (const std::bad_alloc&) {
     keep_message(context, kOutOfMemory);
     return PNPBS_ERROR_MEMORY;
@@ -150,7 +186,7 @@ pnpbs_status pnpbs_context_destroy(pnpbs_context* context) {
 pnpbs_status pnpbs_finalize(void) {
   return guarded([] {
     if (computations > 0)
-      throw Error(PNPBS_ERROR_STATE,
+      throw Error(ErrorKind::state,
                   "a computation is in progress, here or in another thread: Kokkos cannot be ended "
                   "now, nor from inside a callback");
     end_kokkos();

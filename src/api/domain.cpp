@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "api/guard.hpp"
-#include "geometry/poly_reader.hpp"
+#include "domain/plane/poly_reader.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -33,6 +33,13 @@ pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
   });
 }
 
+CurveRole role_from(int32_t role) {
+  if (role == PNPBS_BOUNDARY) return CurveRole::boundary;
+  if (role == PNPBS_INNER) return CurveRole::inner;
+  throw Error(ErrorKind::argument, "role is " + std::to_string(role) +
+                                       ", expected PNPBS_BOUNDARY (0) or PNPBS_INNER (1)");
+}
+
 Point<2> point_from(const double* x) { return {x[0], x[1]}; }
 
 }  // namespace
@@ -43,11 +50,11 @@ pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim, pnpbs_domai
     *domain = nullptr;
     require_not_in_callback(owner);
     if (dim == 3)
-      throw Error(PNPBS_ERROR_UNSUPPORTED,
+      throw Error(ErrorKind::unsupported,
                   "argument dim = 3: this version places nodes in the "
                   "plane only; use 2");
     if (dim != 2)
-      throw Error(PNPBS_ERROR_ARGUMENT, "argument dim = " + std::to_string(dim) + " must be 2");
+      throw Error(ErrorKind::argument, "argument dim = " + std::to_string(dim) + " must be 2");
     auto object = std::make_shared<Domain>();
     object->context = require(context);
     *domain = domains().add(std::move(object));
@@ -70,7 +77,7 @@ pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_
   return change_domain(domain, [&](PlaneDomain& plane) {
     require_count(n, "n");
     require_pointer(xy, "xy");
-    plane.add_polyline(role, closed != 0, n, xy, tags, corner_angle);
+    plane.add_polyline(role_from(role), closed != 0, n, xy, tags, corner_angle);
   });
 }
 
@@ -78,24 +85,24 @@ pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const doubl
                                   double radius, double begin, double end, int32_t tag) {
   return change_domain(domain, [&](PlaneDomain& plane) {
     require_pointer(centre, "centre");
-    plane.add_arc(role, point_from(centre), radius, begin, end, tag);
+    plane.add_arc(role_from(role), point_from(centre), radius, begin, end, tag);
   });
 }
 
 pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role, pnpbs_curve_fn curve,
                                     void* user, double begin, double end, int32_t tag) {
   return change_domain(domain, [&](PlaneDomain& plane) {
-    if (!curve) throw Error(PNPBS_ERROR_ARGUMENT, "argument curve is NULL");
+    if (!curve) throw Error(ErrorKind::argument, "argument curve is NULL");
     const CurveFunction function = [curve, user](std::int64_t n, const double* t, Point<2>* xy) {
       const int32_t answer = [&] {
         const HostArithmetic arithmetic;
         return curve(n, t, n > 0 ? xy->data() : nullptr, user);
       }();
       if (answer != 0)
-        throw Error(PNPBS_ERROR_CALLBACK,
+        throw Error(ErrorKind::callback,
                     "the curve callback returned " + std::to_string(answer) + "; it must return 0");
     };
-    plane.add_curve(role, function, begin, end, tag);
+    plane.add_curve(role_from(role), function, begin, end, tag);
   });
 }
 
@@ -183,8 +190,8 @@ pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity, in
     *count = needed;
     if (capacity == 0 && !segments && !tags) return PNPBS_OK;
     if (capacity < needed)
-      throw Error(PNPBS_ERROR_CAPACITY, "argument capacity = " + std::to_string(capacity) + "; " +
-                                            std::to_string(needed) + " are needed");
+      throw Error(ErrorKind::capacity, "argument capacity = " + std::to_string(capacity) + "; " +
+                                           std::to_string(needed) + " are needed");
     std::size_t s = 0;
     for (const BoundaryCurve& curve : plane.curves())
       for (std::size_t p = 0; p + 1 < curve.points.size(); ++p, ++s) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nodes, ghosts, lists, stars and boundary edges, handed out through the C interface.
 #include "api/placement_calls.hpp"
-#include "core/result_check.hpp"
+#include "placement/result_check.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;

@@ -32,7 +32,7 @@ void require_same_wishes(const Communicator& comm, const std::vector<io::FileWis
   comm.broadcast(theirs, 0);
   agreed(comm, [&] {
     if (std::string(theirs.begin(), theirs.end()) == mine) return;
-    throw Error(PNPBS_ERROR_ARGUMENT,
+    throw Error(ErrorKind::argument,
                 "the files to write are not those of rank 0: name the same ones on all ranks");
   });
 }

@@ -14,22 +14,24 @@ namespace pnpbs::api {
 // The calling thread's last message, for calls that have no live context.
 std::string& thread_error();
 
+pnpbs_status status_of(ErrorKind kind) noexcept;
+
 // Turns the exception in flight into a status; puts the message where last_error finds it.
 pnpbs_status report_failure(Context* context) noexcept;
 
 inline void require_pointer(const void* pointer, const char* argument) {
-  if (!pointer) throw Error(PNPBS_ERROR_ARGUMENT, std::string("argument ") + argument + " is NULL");
+  if (!pointer) throw Error(ErrorKind::argument, std::string("argument ") + argument + " is NULL");
 }
 
 inline void require_count(std::int64_t count, const char* argument) {
   if (count < 0)
-    throw Error(PNPBS_ERROR_ARGUMENT, std::string("argument ") + argument + " = " +
-                                          std::to_string(count) + " is negative");
+    throw Error(ErrorKind::argument, std::string("argument ") + argument + " = " +
+                                         std::to_string(count) + " is negative");
 }
 
 inline void require_not_in_callback(const Context& context) {
   if (context.computing)
-    throw Error(PNPBS_ERROR_STATE,
+    throw Error(ErrorKind::state,
                 "a computation on this context is in progress: from inside a callback only "
                 "queries are allowed");
 }

@@ -31,9 +31,9 @@ namespace {
 template <class Object>
 std::shared_ptr<Object> require_live(std::shared_ptr<Object> object, const char* kind) {
   if (!object)
-    throw Error(PNPBS_ERROR_HANDLE, std::string("the ") + kind +
-                                        " handle is not live: it was never created, or it was "
-                                        "destroyed");
+    throw Error(ErrorKind::handle, std::string("the ") + kind +
+                                       " handle is not live: it was never created, or it was "
+                                       "destroyed");
   return object;
 }
 

@@ -9,11 +9,12 @@
 #include <mutex>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/options.hpp"
-#include "core/placement.hpp"
-#include "geometry/plane_domain.hpp"
-#include "parallel/communicator.hpp"
+#include "base/error.hpp"
+#include "comm/communicator.hpp"
+#include "domain/plane/plane_domain.hpp"
+#include "placement/placement.hpp"
+#include "pnpbs/pnpbs.h"
+#include "settings/options.hpp"
 
 namespace pnpbs::api {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "api/placement_calls.hpp"
-#include "core/kokkos_runtime.hpp"
-#include "core/mixed_hash.hpp"
-#include "core/statistics.hpp"
+#include "base/kokkos_runtime.hpp"
+#include "base/mixed_hash.hpp"
+#include "placement/statistics.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -34,7 +34,7 @@ void forget_all_nodes() {
 void set_placement_option(Placement& placement, const char* key, const auto& assign) {
   require_pointer(key, "key");
   if (std::string(key) == "threads")
-    throw Error(PNPBS_ERROR_STATE,
+    throw Error(ErrorKind::state,
                 "option threads belongs to the process: set it on the context, before the first "
                 "placement is created");
   assign(placement.options());
@@ -52,7 +52,7 @@ pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
     agreed(*object.communicator, [&] {
       const auto of = require(domain);
       if (of->context.get() != &object)
-        throw Error(PNPBS_ERROR_ARGUMENT,
+        throw Error(ErrorKind::argument,
                     "argument domain belongs to another context: create it on this one");
       start_kokkos(object.options.integer("threads"), object.communicator->ranks_on_node(),
                    forget_all_nodes);
@@ -120,12 +120,12 @@ GivenNodes checked_nodes(std::int64_t n, const double* xy, const std::int64_t* i
   GivenNodes nodes;
   for (std::int64_t i = 0; i < n; ++i) {
     if (!std::isfinite(xy[2 * i]) || !std::isfinite(xy[2 * i + 1]))
-      throw Error(PNPBS_ERROR_ARGUMENT, "argument xy[" + std::to_string(i) + "] = (" +
-                                            number_text(xy[2 * i]) + ", " +
-                                            number_text(xy[2 * i + 1]) + ") must be finite");
+      throw Error(ErrorKind::argument, "argument xy[" + std::to_string(i) + "] = (" +
+                                           number_text(xy[2 * i]) + ", " +
+                                           number_text(xy[2 * i + 1]) + ") must be finite");
     if (ids && (ids[i] < 0 || ids[i] > kLargestId))
-      throw Error(PNPBS_ERROR_ARGUMENT, "argument ids[" + std::to_string(i) + "] = " +
-                                            std::to_string(ids[i]) + " must be in 0 .. 2^62");
+      throw Error(ErrorKind::argument, "argument ids[" + std::to_string(i) + "] = " +
+                                           std::to_string(ids[i]) + " must be in 0 .. 2^62");
     nodes.push_back({{xy[2 * i], xy[2 * i + 1]}, ids ? ids[i] : -1});
   }
   if (ids) {
@@ -133,7 +133,7 @@ GivenNodes checked_nodes(std::int64_t n, const double* xy, const std::int64_t* i
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end())
-      throw Error(PNPBS_ERROR_ARGUMENT,
+      throw Error(ErrorKind::argument,
                   "argument ids: id " + std::to_string(*twice) + " comes twice");
   }
   return nodes;
@@ -190,9 +190,9 @@ void require_same_key(const Communicator& comm, const std::string& key) {
   std::uint64_t fingerprint = 0;
   for (const char c : key) fingerprint = mixed(fingerprint ^ static_cast<unsigned char>(c));
   if (!comm.same_on_all(fingerprint))
-    throw Error(PNPBS_ERROR_ARGUMENT, "argument key = \"" + key +
-                                          "\" differs between ranks: ask for the same statistic "
-                                          "on all of them");
+    throw Error(ErrorKind::argument, "argument key = \"" + key +
+                                         "\" differs between ranks: ask for the same statistic "
+                                         "on all of them");
 }
 
 // Agreed on by all ranks, but from inside a callback: they are busy then, and only what needs no
@@ -208,9 +208,9 @@ pnpbs_status get_statistic(pnpbs_placement placement, const char* key, Value* va
       row = &find_statistic(key);
       if (row->computes) require_not_in_callback(*object.context);
       if (!(row->*getter))
-        throw Error(PNPBS_ERROR_KEY, std::string("statistic \"") + key + "\" is of type " +
-                                         row->type() + ", not " + type +
-                                         ": use the get function of that type");
+        throw Error(ErrorKind::key, std::string("statistic \"") + key + "\" is of type " +
+                                        row->type() + ", not " + type +
+                                        ": use the get function of that type");
     };
     const auto get = [&] { *value = (row->*getter)(object.placement); };
     if (object.context->computing) {
@@ -263,9 +263,9 @@ pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t inde
     require_pointer(text, "text");
     const std::vector<std::string>& warnings = object.placement.warnings();
     if (index < 0 || static_cast<std::size_t>(index) >= warnings.size())
-      throw Error(PNPBS_ERROR_ARGUMENT, "argument index = " + std::to_string(index) +
-                                            "; there are " + std::to_string(warnings.size()) +
-                                            " warnings");
+      throw Error(ErrorKind::argument, "argument index = " + std::to_string(index) +
+                                           "; there are " + std::to_string(warnings.size()) +
+                                           " warnings");
     object.context->returned_text = warnings[static_cast<std::size_t>(index)];
     *text = object.context->returned_text.c_str();
     return PNPBS_OK;

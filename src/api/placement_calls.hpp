@@ -30,8 +30,8 @@ inline void require_capacity(std::int64_t capacity, std::int64_t needed,
                              const std::string& argument = "capacity") {
   require_count(capacity, argument.c_str());
   if (capacity < needed)
-    throw Error(PNPBS_ERROR_CAPACITY, "argument " + argument + " = " + std::to_string(capacity) +
-                                          "; " + std::to_string(needed) + " are needed");
+    throw Error(ErrorKind::capacity, "argument " + argument + " = " + std::to_string(capacity) +
+                                         "; " + std::to_string(needed) + " are needed");
 }
 
 }  // namespace pnpbs::api

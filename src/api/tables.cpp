@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tables of options and statistics, as the C interface shows them.
 #include "api/guard.hpp"
-#include "core/options.hpp"
-#include "core/statistics.hpp"
 #include "io/formats.hpp"
+#include "placement/statistics.hpp"
+#include "settings/options.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -13,8 +13,8 @@ namespace {
 template <class Table>
 const auto& row_at(const Table& table, int32_t index) {
   if (index < 0 || static_cast<std::size_t>(index) >= table.size())
-    throw Error(PNPBS_ERROR_ARGUMENT, "argument index = " + std::to_string(index) +
-                                          " is not in 0 .. " + std::to_string(table.size() - 1));
+    throw Error(ErrorKind::argument, "argument index = " + std::to_string(index) +
+                                         " is not in 0 .. " + std::to_string(table.size() - 1));
   return table[static_cast<std::size_t>(index)];
 }
 

@@ -5,8 +5,8 @@
 #include <ranges>
 #include <tuple>
 
+#include "comm/records.hpp"
 #include "io/rows.hpp"
-#include "parallel/records.hpp"
 
 namespace pnpbs::io {
 

@@ -5,9 +5,9 @@
 
 #include <optional>
 
-#include "core/placement.hpp"
+#include "comm/id_blocks.hpp"
 #include "io/node_source.hpp"
-#include "parallel/id_blocks.hpp"
+#include "placement/placement.hpp"
 
 namespace pnpbs::io {
 

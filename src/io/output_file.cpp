@@ -13,13 +13,13 @@
 #include <random>
 #include <system_error>
 
-#include "core/error.hpp"
+#include "base/error.hpp"
 
 namespace pnpbs::io {
 namespace {
 
 [[noreturn]] void fail(const std::string& what, int error) {
-  throw Error(PNPBS_ERROR_FILE, "cannot write " + what + ": " + std::strerror(error));
+  throw Error(ErrorKind::file, "cannot write " + what + ": " + std::strerror(error));
 }
 
 // Renaming onto a symbolic link would replace the link: find the file it means, there or not yet.

@@ -19,7 +19,7 @@ class OutputFile {
   // pipe) is written directly, since it cannot be replaced.
   explicit OutputFile(const std::string& path);
 
-  // Throws Error(PNPBS_ERROR_FILE) if it could not be written: asked before the long run.
+  // Throws Error(ErrorKind::file) if it could not be written: asked before the long run.
   void check() const;
 
   // Calls writer with the sink to fill. before_write: see to_descriptor.

@@ -2,8 +2,8 @@
 // One rank's own nodes and triangles, with the ghosts that these need; numbered by itself.
 #pragma once
 
-#include "core/placement.hpp"
 #include "io/node_source.hpp"
+#include "placement/placement.hpp"
 
 namespace pnpbs::io {
 

@@ -2,8 +2,8 @@
 // Steps that all sources of nodes have in common.
 #pragma once
 
-#include "core/placement.hpp"
 #include "io/node_source.hpp"
+#include "placement/placement.hpp"
 
 namespace pnpbs::io {
 

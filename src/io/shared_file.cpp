@@ -3,7 +3,7 @@
 
 #include <unistd.h>
 
-#include "parallel/rank_span.hpp"
+#include "comm/rank_span.hpp"
 
 namespace pnpbs::io {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "comm/communicator.hpp"
 #include "io/output_file.hpp"
-#include "parallel/communicator.hpp"
 
 namespace pnpbs::io {
 

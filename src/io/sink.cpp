@@ -8,7 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "core/error.hpp"
+#include "base/error.hpp"
 
 namespace pnpbs::io {
 
@@ -37,7 +37,7 @@ Sink::Drain to_descriptor(int descriptor, std::string name, std::function<void()
       if (wrote >= 0) {
         bytes = bytes.subspan(static_cast<std::size_t>(wrote));
       } else if (errno != EINTR) {
-        throw Error(PNPBS_ERROR_FILE, "cannot write " + name + ": " + std::strerror(errno));
+        throw Error(ErrorKind::file, "cannot write " + name + ": " + std::strerror(errno));
       }
     }
   };

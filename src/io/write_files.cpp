@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/error.hpp"
+#include "base/error.hpp"
 #include "io/nodes_by_id.hpp"
 #include "io/own_piece.hpp"
 #include "io/rows.hpp"
@@ -14,7 +14,7 @@ namespace pnpbs::io {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(PNPBS_ERROR_ARGUMENT, what); }
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::argument, what); }
 
 const Format& format_of(const std::string& path, const std::string& name) {
   const Format* format = name.empty() ? format_by_extension(path) : format_by_name(name);
@@ -92,7 +92,7 @@ class Writing {
     const double fraction =
         done_ == expected_ ? 1 : static_cast<double>(done_) / static_cast<double>(expected_);
     if (placement_.asks_to_stop(fraction, nodes_))
-      throw Error(PNPBS_STOPPED, "stopped by the monitor; no file was written");
+      throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
   }
 
   Placement& placement_;

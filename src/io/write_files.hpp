@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/placement.hpp"
 #include "io/formats.hpp"
+#include "placement/placement.hpp"
 
 namespace pnpbs::io {
 
@@ -17,7 +17,7 @@ struct FileWish {
 };
 
 // What is wanted of one file: in its format by name, or by extension if that is empty. Where the
-// elements are in a second file, that is another wish. Throws Error(PNPBS_ERROR_ARGUMENT).
+// elements are in a second file, that is another wish. Throws Error(ErrorKind::argument).
 void add_wish(const std::string& path, const std::string& format, bool elements,
               std::vector<FileWish>& wishes);
 

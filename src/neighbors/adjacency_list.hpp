@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/chunked_rows.hpp"
-#include "core/nodes.hpp"
+#include "base/chunked_rows.hpp"
+#include "base/nodes.hpp"
 #include "neighbors/buckets.hpp"
 #include "neighbors/candidates.hpp"
 

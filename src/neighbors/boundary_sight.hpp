@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/nodes.hpp"
-#include "geometry/boundary_fans.hpp"
-#include "geometry/domain_map.hpp"
+#include "base/nodes.hpp"
+#include "domain/domain_map.hpp"
+#include "domain/plane/boundary_fans.hpp"
 #include "neighbors/near_edges.hpp"
 
 namespace pnpbs {

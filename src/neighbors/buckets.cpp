@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/counting_sort.hpp"
+#include "base/counting_sort.hpp"
 
 namespace pnpbs {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/nodes.hpp"
+#include "base/nodes.hpp"
 #include "tree/background_tree.hpp"
 #include "tree/leaf_graph.hpp"
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/nodes.hpp"
+#include "base/nodes.hpp"
 #include "neighbors/buckets.hpp"
 
 namespace pnpbs {

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "geometry/segments.hpp"
+#include "domain/segments.hpp"
 
 namespace pnpbs {
 

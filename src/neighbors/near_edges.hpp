@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "core/chunked_rows.hpp"
-#include "core/nodes.hpp"
-#include "geometry/boundary_fans.hpp"
-#include "geometry/domain_map.hpp"
+#include "base/chunked_rows.hpp"
+#include "base/nodes.hpp"
+#include "domain/domain_map.hpp"
+#include "domain/plane/boundary_fans.hpp"
 #include "neighbors/buckets.hpp"
 
 namespace pnpbs {

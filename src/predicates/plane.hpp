@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/types.hpp"
+#include "base/types.hpp"
 
 namespace pnpbs {
 

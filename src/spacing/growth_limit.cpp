@@ -7,7 +7,7 @@
 #include <queue>
 #include <utility>
 
-#include "core/execution.hpp"
+#include "base/execution.hpp"
 
 namespace pnpbs {
 

@@ -10,9 +10,9 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/boundary.hpp"
-#include "geometry/domain_map.hpp"
-#include "geometry/plane_domain.hpp"
+#include "domain/domain_map.hpp"
+#include "domain/plane/boundary.hpp"
+#include "domain/plane/plane_domain.hpp"
 #include "spacing/spacing.hpp"
 
 namespace pnpbs {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/box_tree.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 

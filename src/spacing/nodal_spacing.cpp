@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/error.hpp"
-#include "core/execution.hpp"
-#include "core/mixed_hash.hpp"
-#include "geometry/point_text.hpp"
-#include "parallel/records.hpp"
+#include "base/error.hpp"
+#include "base/execution.hpp"
+#include "base/mixed_hash.hpp"
+#include "base/point_text.hpp"
+#include "comm/records.hpp"
 
 namespace pnpbs {
 
@@ -169,7 +169,7 @@ void NodalSpacing::evaluate(std::int64_t n, const Point<2>* x, double* d) const 
   for (std::int64_t i = 0; i < n; ++i) {
     const PatchAnswer& answer = answers[static_cast<std::size_t>(i)];
     if (!answer.found())
-      throw Error(PNPBS_ERROR_INTERNAL,
+      throw Error(ErrorKind::internal,
                   "the values at nodes say nothing about the spacing at " + point_text(x[i]));
     d[i] = answer.value;
   }

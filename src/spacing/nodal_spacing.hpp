@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "parallel/communicator.hpp"
+#include "comm/communicator.hpp"
 #include "spacing/nodal_patch.hpp"
 #include "spacing/spacing.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/execution.hpp"
+#include "base/error.hpp"
+#include "base/execution.hpp"
 
 namespace pnpbs {
 
@@ -18,9 +18,9 @@ template <int Dim>
 void CallbackSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
   const std::int32_t answer = function_(n, n > 0 ? x->data() : nullptr, d);
   if (answer != 0)
-    throw Error(PNPBS_ERROR_CALLBACK, "the spacing callback returned " + std::to_string(answer) +
-                                          " for a batch of " + std::to_string(n) +
-                                          " points; it must return 0");
+    throw Error(ErrorKind::callback, "the spacing callback returned " + std::to_string(answer) +
+                                         " for a batch of " + std::to_string(n) +
+                                         " points; it must return 0");
 }
 
 template <int Dim>
@@ -94,7 +94,7 @@ void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t 
                  " nodes if it held in the whole domain; use a larger d";
     else
       message += " would mean more nodes than there are numbers for; use a larger d";
-    throw Error(PNPBS_ERROR_SPACING, message);
+    throw Error(ErrorKind::spacing, message);
   }
 }
 

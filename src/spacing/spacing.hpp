@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/types.hpp"
+#include "base/types.hpp"
 
 namespace pnpbs {
 
@@ -74,7 +74,7 @@ class BoundedSpacing : public Spacing<Dim> {
   double bound_;
 };
 
-// Evaluates d and checks it: an Error(PNPBS_ERROR_SPACING) names the point, the value and the
+// Evaluates d and checks it: an Error(ErrorKind::spacing) names the point, the value and the
 // number of nodes that it would mean in a domain of this area (volume).
 template <int Dim>
 void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t n,

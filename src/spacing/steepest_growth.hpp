@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "geometry/domain_map.hpp"
-#include "parallel/communicator.hpp"
+#include "comm/communicator.hpp"
+#include "domain/domain_map.hpp"
 
 namespace pnpbs {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "core/build_config.hpp"
+#include "base/build_config.hpp"
 #include "tool/exit.hpp"
 #include "tool/launcher.hpp"
 #include "tool/library.hpp"

@@ -11,7 +11,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/types.hpp"
+#include "base/types.hpp"
 
 namespace pnpbs {
 

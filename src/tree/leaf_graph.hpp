@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/chunked_rows.hpp"
+#include "base/chunked_rows.hpp"
 #include "tree/background_tree.hpp"
 
 namespace pnpbs {

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "core/kokkos_runtime.hpp"
+#include "base/kokkos_runtime.hpp"
 #include "core/level_run.hpp"
 #include "core/random.hpp"
-#include "forces/schemes.hpp"
+#include "dynamics/schemes.hpp"
 
 namespace {
 

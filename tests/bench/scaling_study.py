@@ -31,7 +31,7 @@ AREA_PER_NODE = math.sqrt(3) / 2
 BYTES_PER_GHOST = 32  # position and velocity
 NEIGHBOURS_OF_A_SQUARE = 8
 
-# Options of the default method, and of src/core/level_ranks.cpp.
+# Options of the default method, and of src/level/ghosts.cpp.
 REST_LENGTH, MAX_MOVE, LIST_RADIUS, GHOST_LIFE = 1.06, 0.03, 1.6, 20
 MEAN_LEAF_SIDE = 3  # spacings; leaves are 2 to 4 wide
 

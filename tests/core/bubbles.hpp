@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "core/nodes.hpp"
-#include "forces/schemes.hpp"
+#include "base/nodes.hpp"
+#include "dynamics/schemes.hpp"
 #include "neighbors/adjacency_list.hpp"
 #include "neighbors/buckets.hpp"
 #include "random.hpp"

@@ -49,8 +49,8 @@ inline void add_comb(PlaneDomain& domain) {
          {std::pair{0.0, 0.5}, std::pair{0.0, 0.1}, std::pair{-0.02, 0.1}, std::pair{-0.02, 0.5}})
       xy.insert(xy.end(), {x + dx, y});
   xy.insert(xy.end(), {0, 0.5});
-  domain.add_polyline(PNPBS_BOUNDARY, true, static_cast<std::int64_t>(xy.size() / 2), xy.data(),
-                      nullptr, 0);
+  domain.add_polyline(pnpbs::CurveRole::boundary, true, static_cast<std::int64_t>(xy.size() / 2),
+                      xy.data(), nullptr, 0);
 }
 
 // Corners of 1 degree (at the origin) and 5 degrees (at (0, 0.7)).
@@ -59,8 +59,8 @@ inline void add_thorns(PlaneDomain& domain) {
   const double tilt = std::atan2(0.1, 0.9) * 180 / shapes::pi;
   const std::vector<double> xy{0, 0,   1,   0,   1.5, 0.3,           1, 0.7 - slope(tilt - 5),
                                0, 0.7, 0.9, 0.6, 0.9, 0.9 * slope(1)};
-  domain.add_polyline(PNPBS_BOUNDARY, true, static_cast<std::int64_t>(xy.size() / 2), xy.data(),
-                      nullptr, 0);
+  domain.add_polyline(pnpbs::CurveRole::boundary, true, static_cast<std::int64_t>(xy.size() / 2),
+                      xy.data(), nullptr, 0);
 }
 
 struct Shape {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/level.hpp"
-#include "geometry/poly_reader.hpp"
+#include "domain/plane/poly_reader.hpp"
 #include "geometry/shapes.hpp"
+#include "level/level.hpp"
 
 using Plane = std::function<double(double x, double y)>;
 

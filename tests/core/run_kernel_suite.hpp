@@ -2,7 +2,7 @@
 // A runner of tests that use kernels: Kokkos runs, with two threads, while they do.
 #pragma once
 
-#include "core/kokkos_runtime.hpp"
+#include "base/kokkos_runtime.hpp"
 #include "geometry/run_suite.hpp"
 #include "quick_assert.hpp"
 

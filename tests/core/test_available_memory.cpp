@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/available_memory.hpp"
+#include "base/available_memory.hpp"
 #include "geometry/run_suite.hpp"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "distorted_nodes.hpp"
+#include "quality/plane/defects.hpp"
 #include "run_kernel_suite.hpp"
-#include "stars/defects.hpp"
 
 using pnpbs::GivenNode;
 using pnpbs::GivenNodes;

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <vector>
 
-#include "geometry/domain_map.hpp"
+#include "domain/domain_map.hpp"
+#include "domain/keep_off.hpp"
 #include "geometry/expect_error.hpp"
-#include "geometry/keep_off.hpp"
 #include "level_run.hpp"
 #include "predicates/plane.hpp"
 #include "random.hpp"
@@ -89,9 +89,9 @@ void add_nested(PlaneDomain& domain) {
   for (int k = 1; k <= 6; ++k)
     add_loop(domain, rectangle(-1 + k / 8.0, -1 + k / 8.0, 1 - k / 8.0, 1 - k / 16.0));
   const std::vector<double> diamond{2, -0.5, 2.5, 0, 2, 0.5, 1.5, 0};
-  domain.add_polyline(PNPBS_BOUNDARY, true, 4, diamond.data(), nullptr, 0);
+  domain.add_polyline(pnpbs::CurveRole::boundary, true, 4, diamond.data(), nullptr, 0);
   const std::vector<double> inner{2, -0.25, 2.25, 0, 2, 0.25, 1.75, 0};
-  domain.add_polyline(PNPBS_BOUNDARY, true, 4, inner.data(), nullptr, 0);
+  domain.add_polyline(pnpbs::CurveRole::boundary, true, 4, inner.data(), nullptr, 0);
   add_circle(domain, 2, 1.25, 0.375);
   add_chain(domain, {1.25, -0.5, 1.25, 1.5, 0, 1.5});
 }
@@ -246,14 +246,15 @@ END_TEST
 
 START_TEST(too_many_nodes) {
   const Build square = [](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
-  expect_error(PNPBS_ERROR_SPACING,
+  expect_error(pnpbs::ErrorKind::spacing,
                {"spacing d = 0.001 near (", "would mean about ", " nodes or more",
                 "max_nodes allows 100000"},
                [&] { Mapped(square, constant(0.001), 100'000); });
   Mapped(square, constant(0.001), 1'160'000);
   // Only a small part of the domain is to blame, and the message says where.
   expect_error(
-      PNPBS_ERROR_SPACING, {"spacing d = ", " near (0.2", ", 0.7", "max_nodes allows 50000"}, [&] {
+      pnpbs::ErrorKind::spacing, {"spacing d = ", " near (0.2", ", 0.7", "max_nodes allows 50000"},
+      [&] {
         Mapped(
             square,
             [](double x, double y) { return std::hypot(x - 0.25, y - 0.75) < 0.05 ? 1e-4 : 0.01; },
@@ -343,7 +344,7 @@ START_TEST(tips_are_kept_off) {
   const Mapped m(
       [](PlaneDomain& p) {
         const std::vector<double> xy{0, 0, 1, 0, 1, 1, 0.5, 0.5, 0, 1};
-        p.add_polyline(PNPBS_BOUNDARY, true, 5, xy.data(), nullptr, 0);
+        p.add_polyline(pnpbs::CurveRole::boundary, true, 5, xy.data(), nullptr, 0);
         add_chain(p, {0.5, 0.1, 0.5, 0.2});
       },
       constant(d));
@@ -367,7 +368,7 @@ START_TEST(no_room_in_wedges_and_gaps) {
   const Mapped wedge(
       [](PlaneDomain& p) {
         const std::vector<double> xy{0, 0, 1, 0, 1, 0.05};
-        p.add_polyline(PNPBS_BOUNDARY, true, 3, xy.data(), nullptr, 0);
+        p.add_polyline(pnpbs::CurveRole::boundary, true, 3, xy.data(), nullptr, 0);
       },
       constant(d));
   const std::vector<std::int32_t> edges = all_edges(wedge);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bubbles.hpp"
-#include "forces/bubble_force.hpp"
-#include "forces/overlap_ratio.hpp"
-#include "forces/pair_laws.hpp"
+#include "dynamics/bubble_force.hpp"
+#include "dynamics/pair_laws.hpp"
+#include "population/overlap_ratio.hpp"
 #include "run_kernel_suite.hpp"
 
 using pnpbs::BlockVector;

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "core/graded_fill.hpp"
-#include "core/initial_fill.hpp"
+#include "initial/graded_fill.hpp"
+#include "initial/initial_fill.hpp"
 #include "level_run.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "predicates/plane.hpp"
+#include "quality/plane/local_mesh.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
-#include "stars/local_mesh.hpp"
 
 using pnpbs::LocalMesh;
 using P = pnpbs::Point<2>;

@@ -5,8 +5,8 @@
 #include <set>
 #include <vector>
 
+#include "base/counting_sort.hpp"
 #include "bubbles.hpp"
-#include "core/counting_sort.hpp"
 #include "run_kernel_suite.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bubbles.hpp"
-#include "forces/population.hpp"
+#include "population/population.hpp"
 #include "run_kernel_suite.hpp"
 
 using pnpbs::PopulationChange;

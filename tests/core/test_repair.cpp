@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "distorted_nodes.hpp"
+#include "quality/plane/bad_triangles.hpp"
+#include "quality/plane/surplus_nodes.hpp"
 #include "run_kernel_suite.hpp"
-#include "stars/bad_triangles.hpp"
-#include "stars/surplus_nodes.hpp"
 
 using pnpbs::DelaunayStars;
 using pnpbs::GivenNode;

@@ -4,9 +4,9 @@
 #include <functional>
 #include <string>
 
-#include "core/result_check.hpp"
-#include "geometry/point_text.hpp"
+#include "base/point_text.hpp"
 #include "level_run.hpp"
+#include "placement/result_check.hpp"
 #include "run_kernel_suite.hpp"
 
 using pnpbs::DelaunayStars;
@@ -19,7 +19,7 @@ Placement small_placement() {
   auto domain = std::make_shared<pnpbs::PlaneDomain>();
   shapes::add_loop(*domain, shapes::rectangle(0, 0, 1, 1));
   const double slit[] = {0.3, 0.5, 0.7, 0.5};
-  domain->add_polyline(PNPBS_INNER, false, 2, slit, nullptr, 0);
+  domain->add_polyline(pnpbs::CurveRole::inner, false, 2, slit, nullptr, 0);
   Placement placement(pnpbs::serial_communicator(), domain, pnpbs::Options());
   placement.set_spacing(spacing_of(constant(0.1)));
   placement.run();
@@ -51,7 +51,7 @@ std::string complaint_of(Placement& placement) {
   try {
     pnpbs::check_results(placement);
   } catch (const pnpbs::Error& error) {
-    ck_assert_int_eq(error.status(), PNPBS_ERROR_INTERNAL);
+    ck_assert(error.kind() == pnpbs::ErrorKind::internal);
     return error.what();
   }
   return "";

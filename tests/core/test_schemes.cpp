@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bubbles.hpp"
-#include "forces/pair_laws.hpp"
-#include "forces/schemes.hpp"
+#include "dynamics/pair_laws.hpp"
+#include "dynamics/schemes.hpp"
 #include "run_kernel_suite.hpp"
 
 using pnpbs::Field;

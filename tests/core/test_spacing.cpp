@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/error.hpp"
+#include "base/error.hpp"
 #include "geometry/expect_error.hpp"
 #include "level_run.hpp"
 #include "random.hpp"
@@ -146,24 +146,24 @@ START_TEST(bad_values_are_named) {
     double d[3];
     pnpbs::evaluate_spacing<2>(*spacing, 2.5, 3, x, d);
   };
-  expect_error(PNPBS_ERROR_SPACING, {"d = 0 at (0.75, -3)", "infinitely many nodes"},
+  expect_error(pnpbs::ErrorKind::spacing, {"d = 0 at (0.75, -3)", "infinitely many nodes"},
                [&] { evaluate(0); });
-  expect_error(PNPBS_ERROR_SPACING, {"d = -2.5 at (0.75, -3)", "greater than 0"},
+  expect_error(pnpbs::ErrorKind::spacing, {"d = -2.5 at (0.75, -3)", "greater than 0"},
                [&] { evaluate(-2.5); });
-  expect_error(PNPBS_ERROR_SPACING, {"d = nan at (0.75, -3)", "not finite"},
+  expect_error(pnpbs::ErrorKind::spacing, {"d = nan at (0.75, -3)", "not finite"},
                [&] { evaluate(std::numeric_limits<double>::quiet_NaN()); });
-  expect_error(PNPBS_ERROR_SPACING, {"d = inf at (0.75, -3)", "not finite"},
+  expect_error(pnpbs::ErrorKind::spacing, {"d = inf at (0.75, -3)", "not finite"},
                [&] { evaluate(std::numeric_limits<double>::infinity()); });
   // 2 / sqrt(3) nodes per d^2 on an area of 2.5.
-  expect_error(PNPBS_ERROR_SPACING, {"d = 1e-09 at (0.75, -3)", "2886751345948", "larger d"},
+  expect_error(pnpbs::ErrorKind::spacing, {"d = 1e-09 at (0.75, -3)", "2886751345948", "larger d"},
                [&] { evaluate(1e-9); });
-  expect_error(PNPBS_ERROR_SPACING,
+  expect_error(pnpbs::ErrorKind::spacing,
                {"d = 5e-324 at (0.75, -3)", "more nodes than there are numbers for"},
                [&] { evaluate(5e-324); });
   evaluate(1e-7);
   const P3 x{1, 2, 3};
   double d;
-  expect_error(PNPBS_ERROR_SPACING, {"at (1, 2, 3)", "about 1575"},
+  expect_error(pnpbs::ErrorKind::spacing, {"at (1, 2, 3)", "about 1575"},
                [&] { pnpbs::evaluate_spacing<3>(pnpbs::ConstantSpacing<3>(1e-6), 1, 1, &x, &d); });
 }
 END_TEST
@@ -173,7 +173,7 @@ START_TEST(callbacks_that_fail) {
       [](std::int64_t, const double*, double*) { return std::int32_t{17}; });
   const P x[] = {{0, 0}, {1, 1}};
   double d[2];
-  expect_error(PNPBS_ERROR_CALLBACK, {"returned 17", "2 points"},
+  expect_error(pnpbs::ErrorKind::callback, {"returned 17", "2 points"},
                [&] { pnpbs::evaluate_spacing<2>(spacing, 1, 2, x, d); });
   const pnpbs::CallbackSpacing<2> counted([](std::int64_t n, const double* points, double*) {
     return static_cast<std::int32_t>(n == 0 && points == nullptr ? 0 : 1);
@@ -287,7 +287,7 @@ START_TEST(steepest_growth_of_two_sides) {
   const Build joined = [](PlaneDomain& p) {
     add_square(p);
     const std::vector<double> xy{0.5, 0, 0.5, 1};
-    p.add_polyline(PNPBS_INNER, false, 2, xy.data(), nullptr, 0);
+    p.add_polyline(pnpbs::CurveRole::inner, false, 2, xy.data(), nullptr, 0);
   };
   const Plane jump = [](double x, double) { return x > 0.502 ? 0.2 : 0.02; };
   ck_assert_double_eq(steepest_of(apart, jump).growth, 0);
@@ -316,7 +316,7 @@ END_TEST
 START_TEST(growth_limit_goes_through_the_domain) {
   const Build horseshoe = [](PlaneDomain& p) {
     const std::vector<double> xy{0, 0, 1, 0, 1, 1, 0, 1, 0, 0.6, 0.8, 0.6, 0.8, 0.4, 0, 0.4};
-    p.add_polyline(PNPBS_BOUNDARY, true, 8, xy.data(), nullptr, 0);
+    p.add_polyline(pnpbs::CurveRole::boundary, true, 8, xy.data(), nullptr, 0);
   };
   const double growth = 0.01, least = 0.004;
   const Limited limited(
@@ -335,7 +335,7 @@ START_TEST(growth_limit_reports_bad_values) {
   PlaneDomain domain;
   add_square(domain);
   domain.check();
-  expect_error(PNPBS_ERROR_SPACING, {"d = -1 at ("}, [&] {
+  expect_error(pnpbs::ErrorKind::spacing, {"d = -1 at ("}, [&] {
     GrowthLimitedSpacing(domain, spacing_of([](double x, double y) {
                            return std::hypot(x - 0.5, y - 0.5) < 0.3 ? -1 : 0.1;
                          }),

@@ -190,7 +190,7 @@ START_TEST(ways_through_boundary_nodes) {
       [](PlaneDomain& domain) {
         hard_shapes::add_square(domain);
         const double xy[] = {0.484375, 0.5, 0.5, 0.484375, 0.515625, 0.5, 0.5, 0.515625};
-        domain.add_polyline(PNPBS_BOUNDARY, true, 4, xy, nullptr, 0);
+        domain.add_polyline(pnpbs::CurveRole::boundary, true, 4, xy, nullptr, 0);
       },
       left, right));
 }

@@ -6,17 +6,18 @@
 #include <initializer_list>
 #include <string>
 
+#include "base/error.hpp"
 #include "check_runner.h"
-#include "core/error.hpp"
 
-// `action` must throw an Error with this status whose message holds all these parts.
-inline void expect_error(pnpbs_status status, std::initializer_list<const char*> parts,
+// `action` must throw an Error of this kind whose message holds all these parts.
+inline void expect_error(pnpbs::ErrorKind kind, std::initializer_list<const char*> parts,
                          const std::function<void()>& action) {
   try {
     action();
   } catch (const pnpbs::Error& error) {
     const std::string message = error.what();
-    ck_assert_msg(error.status() == status, "status %d for: %s", error.status(), message.c_str());
+    ck_assert_msg(error.kind() == kind, "kind %d for: %s", static_cast<int>(error.kind()),
+                  message.c_str());
     for (const char* part : parts) {
       ck_assert_msg(message.find(part) != std::string::npos, "no '%s' in: %s", part,
                     message.c_str());

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "geometry/plane_domain.hpp"
+#include "domain/plane/plane_domain.hpp"
 
 namespace shapes {
 
@@ -34,18 +34,18 @@ inline Loop circle(double x, double y, double radius, int count) {
 }
 
 inline void add_loop(pnpbs::PlaneDomain& domain, const Loop& loop, double corner_angle = 0,
-                     std::int32_t role = PNPBS_BOUNDARY) {
+                     pnpbs::CurveRole role = pnpbs::CurveRole::boundary) {
   domain.add_polyline(role, true, loop.count(), loop.xy.data(), nullptr, corner_angle);
 }
 
 inline void add_chain(pnpbs::PlaneDomain& domain, const std::vector<double>& xy,
-                      std::int32_t role = PNPBS_INNER, double corner_angle = 0) {
+                      pnpbs::CurveRole role = pnpbs::CurveRole::inner, double corner_angle = 0) {
   domain.add_polyline(role, false, static_cast<std::int64_t>(xy.size() / 2), xy.data(), nullptr,
                       corner_angle);
 }
 
 inline void add_circle(pnpbs::PlaneDomain& domain, double x, double y, double radius,
-                       std::int32_t tag = 1, std::int32_t role = PNPBS_BOUNDARY) {
+                       std::int32_t tag = 1, pnpbs::CurveRole role = pnpbs::CurveRole::boundary) {
   domain.add_arc(role, {x, y}, radius, 0, 2 * pi, tag);
 }
 

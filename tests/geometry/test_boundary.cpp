@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "domain/plane/boundary.hpp"
+#include "domain/plane/faces.hpp"
+#include "domain/plane/poly_reader.hpp"
 #include "expect_error.hpp"
-#include "geometry/boundary.hpp"
-#include "geometry/faces.hpp"
-#include "geometry/poly_reader.hpp"
 #include "run_suite.hpp"
 #include "shapes.hpp"
 
@@ -123,7 +123,7 @@ START_TEST(uniform_square) {
   PlaneDomain domain;
   const double xy[] = {0, 0, 1, 0, 1, 1, 0, 1};
   const std::int32_t tags[] = {5, 6, 7, 8};
-  domain.add_polyline(PNPBS_BOUNDARY, true, 4, xy, tags, 0);
+  domain.add_polyline(pnpbs::CurveRole::boundary, true, 4, xy, tags, 0);
   const Boundary boundary = lay(domain, constant(0.1));
   expect_valid(boundary);
   ck_assert(boundary.warnings.empty());
@@ -188,7 +188,7 @@ END_TEST
 START_TEST(steps_on_an_unevenly_parametrised_curve) {
   PlaneDomain domain;
   domain.add_curve(
-      PNPBS_BOUNDARY,
+      pnpbs::CurveRole::boundary,
       [](std::int64_t n, const double* t, P* xy) {
         for (std::int64_t i = 0; i < n; ++i) {
           const double angle = pi * t[i] * t[i] * t[i];
@@ -239,8 +239,8 @@ END_TEST
 
 START_TEST(two_arcs_do_not_collapse) {
   PlaneDomain domain;
-  domain.add_arc(PNPBS_BOUNDARY, {0, 0}, 1, 0, pi, 1);
-  domain.add_arc(PNPBS_BOUNDARY, {0, 0}, 1, pi, 2 * pi, 2);
+  domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 1, 0, pi, 1);
+  domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 1, pi, 2 * pi, 2);
   const Boundary boundary = lay(domain, constant(100));
   expect_valid(boundary);
   ck_assert_uint_ge(boundary.edges.size(), 3);
@@ -251,7 +251,7 @@ END_TEST
 START_TEST(chords_that_would_cut_are_halved) {
   PlaneDomain domain;
   add_circle(domain, 0, 0, 1);
-  domain.add_arc(PNPBS_BOUNDARY, {0, 0}, 0.99, 1, 1 + 2 * pi, 2);
+  domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 0.99, 1, 1 + 2 * pi, 2);
   const Boundary boundary = lay(domain, constant(1));
   expect_valid(boundary);
   ck_assert_uint_ge(boundary.edges.size(), 30);
@@ -263,14 +263,14 @@ END_TEST
 // A square whose upper side is a dense polyline with a bump, in which something small may lie.
 static PlaneDomain bumpy_square() {
   PlaneDomain domain;
-  add_chain(domain, {0, 1, 0, 0, 1, 0, 1, 1}, PNPBS_BOUNDARY);
+  add_chain(domain, {0, 1, 0, 0, 1, 0, 1, 1}, pnpbs::CurveRole::boundary);
   std::vector<double> top;
   for (int i = 200; i >= 0; --i) {
     const double x = i / 200.0;
     top.insert(top.end(), {x, 1 + 0.3 * std::exp(-std::pow((x - 0.4) / 0.1, 2)) * x * (1 - x) * 4});
   }
   top[1] = top[top.size() - 1] = 1;
-  add_chain(domain, top, PNPBS_BOUNDARY, 90);
+  add_chain(domain, top, pnpbs::CurveRole::boundary, 90);
   return domain;
 }
 
@@ -299,13 +299,13 @@ START_TEST(curves_keep_their_order_about_a_corner) {
   // same, but a third, straight curve between them is passed by one.
   PlaneDomain domain;
   add_loop(domain, rectangle(-3, -3, 3, 3));
-  domain.add_arc(PNPBS_INNER, {0, 1}, 1, -pi / 2, pi / 2, 2);
+  domain.add_arc(pnpbs::CurveRole::inner, {0, 1}, 1, -pi / 2, pi / 2, 2);
   add_chain(domain, {0, 0, 0.05, 0.5});
   const Boundary boundary = lay(domain, constant(20));
   expect_valid(boundary);
   PlaneDomain passed;
   add_loop(passed, rectangle(-3, -3, 3, 3));
-  passed.add_arc(PNPBS_INNER, {0, 1}, 1, -pi / 2, pi / 2, 2);
+  passed.add_arc(pnpbs::CurveRole::inner, {0, 1}, 1, -pi / 2, pi / 2, 2);
   add_chain(passed, {0, 2, 0, 2.5});
   add_chain(passed, {0, 0, 0.6, 0.6});
   expect_valid(lay(passed, constant(20)));
@@ -375,14 +375,15 @@ START_TEST(bad_spacing) {
   domain.check();
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity()}) {
-    expect_error(PNPBS_ERROR_SPACING, {"the spacing is ", " at (0, 0)"},
+    expect_error(pnpbs::ErrorKind::spacing, {"the spacing is ", " at (0, 0)"},
                  [&] { pnpbs::lay_boundary(domain, constant(bad)); });
   }
-  expect_error(PNPBS_ERROR_SPACING, {"would need about 4e+12 nodes", "the spacing is 1e-12 at"},
+  expect_error(pnpbs::ErrorKind::spacing,
+               {"would need about 4e+12 nodes", "the spacing is 1e-12 at"},
                [&] { pnpbs::lay_boundary(domain, constant(1e-12)); });
-  expect_error(PNPBS_ERROR_SPACING, {"would need about 400 nodes, more than 300"},
+  expect_error(pnpbs::ErrorKind::spacing, {"would need about 400 nodes, more than 300"},
                [&] { pnpbs::lay_boundary(domain, constant(1e-2), 300); });
-  expect_error(PNPBS_ERROR_SPACING, {"would need about"}, [&] {
+  expect_error(pnpbs::ErrorKind::spacing, {"would need about"}, [&] {
     pnpbs::lay_boundary(domain, constant(std::numeric_limits<double>::denorm_min()));
   });
 }
@@ -393,7 +394,7 @@ START_TEST(callbacks_that_change_their_mind) {
   PlaneDomain domain;
   bool broken = false;
   domain.add_curve(
-      PNPBS_BOUNDARY,
+      pnpbs::CurveRole::boundary,
       [&broken](std::int64_t n, const double* t, P* xy) {
         for (std::int64_t i = 0; i < n; ++i) {
           xy[i] = {std::cos(t[i]), broken ? std::nan("") : std::sin(t[i])};
@@ -402,7 +403,7 @@ START_TEST(callbacks_that_change_their_mind) {
       0, 2 * pi, 1);
   domain.check();
   broken = true;
-  expect_error(PNPBS_ERROR_ARGUMENT, {"curve 0: the callback gave (", "nan"},
+  expect_error(pnpbs::ErrorKind::argument, {"curve 0: the callback gave (", "nan"},
                [&] { pnpbs::lay_boundary(domain, constant(0.1)); });
 }
 END_TEST

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "domain/plane/plane_domain.hpp"
+#include "domain/plane/poly_reader.hpp"
 #include "expect_error.hpp"
-#include "geometry/plane_domain.hpp"
-#include "geometry/poly_reader.hpp"
 #include "run_suite.hpp"
 #include "shapes.hpp"
 
@@ -25,12 +25,12 @@ using shapes::rectangle;
 namespace {
 
 void expect_domain_error(PlaneDomain& domain, std::initializer_list<const char*> parts) {
-  expect_error(PNPBS_ERROR_DOMAIN, parts, [&domain] { domain.check(); });
+  expect_error(pnpbs::ErrorKind::domain, parts, [&domain] { domain.check(); });
 }
 
 void expect_argument_error(std::initializer_list<const char*> parts,
                            const std::function<void()>& action) {
-  expect_error(PNPBS_ERROR_ARGUMENT, parts, action);
+  expect_error(pnpbs::ErrorKind::argument, parts, action);
 }
 
 void expect_area(PlaneDomain& domain, double area) {
@@ -101,7 +101,7 @@ END_TEST
 START_TEST(clockwise_square) {
   PlaneDomain domain;
   const double xy[] = {0, 0, 0, 1, 1, 1, 1, 0};
-  domain.add_polyline(PNPBS_BOUNDARY, true, 4, xy, nullptr, 0);
+  domain.add_polyline(pnpbs::CurveRole::boundary, true, 4, xy, nullptr, 0);
   expect_area(domain, 1);
   for (const BoundaryCurve& curve : domain.curves()) {
     ck_assert(!curve.left_inside && curve.right_inside);
@@ -156,7 +156,7 @@ START_TEST(pinched_loop) {
   // A figure of eight that passes one vertex twice.
   PlaneDomain domain;
   const double xy[] = {0, 0, 1, 1, 2, 2, 2, 0, 1, 1, 0, 2};
-  domain.add_polyline(PNPBS_BOUNDARY, true, 6, xy, nullptr, 0);
+  domain.add_polyline(pnpbs::CurveRole::boundary, true, 6, xy, nullptr, 0);
   expect_area(domain, 2);
   ck_assert_int_eq(corners(domain), 5);
 }
@@ -165,7 +165,7 @@ END_TEST
 START_TEST(hole_point_takes_out_a_region) {
   PlaneDomain domain;
   add_loop(domain, rectangle(0, 0, 4, 4));
-  add_loop(domain, rectangle(1, 1, 2, 2), 0, PNPBS_INNER);
+  add_loop(domain, rectangle(1, 1, 2, 2), 0, pnpbs::CurveRole::inner);
   expect_area(domain, 16);
   ck_assert_int_eq(inner_curves(domain), 4);
   domain.add_hole({1.5, 1.5});
@@ -326,7 +326,7 @@ START_TEST(corner_where_tags_change) {
   const shapes::Loop loop = circle(0, 0, 1, 60);
   std::vector<std::int32_t> tags(60, 4);
   std::fill(tags.begin() + 20, tags.begin() + 30, 5);
-  domain.add_polyline(PNPBS_BOUNDARY, true, 60, loop.xy.data(), tags.data(), 30);
+  domain.add_polyline(pnpbs::CurveRole::boundary, true, 60, loop.xy.data(), tags.data(), 30);
   domain.check();
   ck_assert_int_eq(corners(domain), 2);
   ck_assert_int_eq(curves(domain), 2);
@@ -380,8 +380,8 @@ END_TEST
 
 START_TEST(curve_ends_join_within_tolerance) {
   PlaneDomain domain;
-  add_chain(domain, {0, 0, 1, 0, 1, 1}, PNPBS_BOUNDARY);
-  add_chain(domain, {1 + 5e-10, 1, 0, 1, 0, 4e-10}, PNPBS_BOUNDARY);
+  add_chain(domain, {0, 0, 1, 0, 1, 1}, pnpbs::CurveRole::boundary);
+  add_chain(domain, {1 + 5e-10, 1, 0, 1, 0, 4e-10}, pnpbs::CurveRole::boundary);
   domain.check();
   ck_assert_double_eq_tol(domain.area(), 1, 1e-8);
   ck_assert_int_eq(corners(domain), 4);
@@ -411,7 +411,7 @@ END_TEST
 START_TEST(ring_of_clockwise_and_counter_clockwise_arcs) {
   PlaneDomain domain;
   add_circle(domain, 0, 0, 2);
-  domain.add_arc(PNPBS_BOUNDARY, {0, 0}, 1, 2 * pi, 0, 2);
+  domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 1, 2 * pi, 0, 2);
   domain.check();
   ck_assert_double_eq_tol(domain.area(), 3 * pi, 1e-6);
   ck_assert(domain.curves()[1].left_inside && !domain.curves()[1].right_inside);
@@ -422,7 +422,7 @@ START_TEST(narrow_ring_is_refined) {
   // The ring is narrower than the first samples' chords are off the circle.
   PlaneDomain domain;
   add_circle(domain, 0, 0, 1);
-  domain.add_arc(PNPBS_BOUNDARY, {0, 0}, 1 - 1e-5, 0.01, 0.01 + 2 * pi, 2);
+  domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 1 - 1e-5, 0.01, 0.01 + 2 * pi, 2);
   domain.check();
   ck_assert_double_eq_tol(domain.area(), pi * (2e-5 - 1e-10), 1e-7);
 }
@@ -430,10 +430,10 @@ END_TEST
 
 START_TEST(slot_of_arcs_and_segments) {
   PlaneDomain domain;
-  domain.add_arc(PNPBS_BOUNDARY, {0, 0}, 1, pi / 2, 3 * pi / 2, 1);
-  add_chain(domain, {0, -1, 5, -1}, PNPBS_BOUNDARY);
-  domain.add_arc(PNPBS_BOUNDARY, {5, 0}, 1, -pi / 2, pi / 2, 1);
-  add_chain(domain, {5, 1, 0, 1}, PNPBS_BOUNDARY);
+  domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 1, pi / 2, 3 * pi / 2, 1);
+  add_chain(domain, {0, -1, 5, -1}, pnpbs::CurveRole::boundary);
+  domain.add_arc(pnpbs::CurveRole::boundary, {5, 0}, 1, -pi / 2, pi / 2, 1);
+  add_chain(domain, {5, 1, 0, 1}, pnpbs::CurveRole::boundary);
   domain.check();
   ck_assert_double_eq_tol(domain.area(), 10 + pi, 1e-7);
   ck_assert_int_eq(corners(domain), 4);
@@ -443,7 +443,7 @@ END_TEST
 
 START_TEST(closed_callback) {
   PlaneDomain domain;
-  domain.add_curve(PNPBS_BOUNDARY, ellipse(3, 1), 0, 2 * pi, 2);
+  domain.add_curve(pnpbs::CurveRole::boundary, ellipse(3, 1), 0, 2 * pi, 2);
   domain.check();
   ck_assert_double_eq_tol(domain.area(), 3 * pi, 1e-6);
   ck_assert_int_eq(corners(domain), 1);
@@ -453,7 +453,7 @@ END_TEST
 
 START_TEST(callback_is_sampled_where_it_turns) {
   PlaneDomain domain;
-  domain.add_curve(PNPBS_BOUNDARY, ellipse(100, 1), 0, 2 * pi, 2);
+  domain.add_curve(pnpbs::CurveRole::boundary, ellipse(100, 1), 0, 2 * pi, 2);
   domain.check();
   ck_assert_double_eq_tol(domain.area(), 100 * pi, 1e-4);
   const auto& points = domain.curves()[0].points;
@@ -469,7 +469,7 @@ START_TEST(uneven_parameter) {
   // x = t^3 moves slowly about 0: samples follow the curve, not the parameter.
   PlaneDomain domain;
   domain.add_curve(
-      PNPBS_BOUNDARY,
+      pnpbs::CurveRole::boundary,
       [](std::int64_t n, const double* t, pnpbs::Point<2>* xy) {
         for (std::int64_t i = 0; i < n; ++i) {
           const double x = t[i] * t[i] * t[i];
@@ -477,7 +477,7 @@ START_TEST(uneven_parameter) {
         }
       },
       -1, 1, 2);
-  add_chain(domain, {1, 1, -1, 1}, PNPBS_BOUNDARY);
+  add_chain(domain, {1, 1, -1, 1}, pnpbs::CurveRole::boundary);
   domain.check();
   ck_assert_double_eq_tol(domain.area(), 4 / 3.0, 1e-6);
 }
@@ -578,7 +578,7 @@ END_TEST
 START_TEST(self_intersection) {
   PlaneDomain domain;
   const double xy[] = {0, 0, 2, 2, 2, 0, 0, 2};
-  domain.add_polyline(PNPBS_BOUNDARY, true, 4, xy, nullptr, 0);
+  domain.add_polyline(pnpbs::CurveRole::boundary, true, 4, xy, nullptr, 0);
   expect_domain_error(domain, {"curve 0, segment 0", "curve 0, segment 2", "cross at (1, 1)"});
 }
 END_TEST
@@ -598,10 +598,10 @@ START_TEST(crossing_curves) {
       for (std::int64_t i = 0; i < n; ++i) xy[i] = {t[i], sign * t[i]};
     };
   };
-  by_chance.add_curve(PNPBS_BOUNDARY, zigzag(1), -1, 1, 1);
-  by_chance.add_curve(PNPBS_BOUNDARY, zigzag(-1), -1, 1, 1);
-  add_chain(by_chance, {-1, -1, -1, 1}, PNPBS_BOUNDARY);
-  add_chain(by_chance, {1, -1, 1, 1}, PNPBS_BOUNDARY);
+  by_chance.add_curve(pnpbs::CurveRole::boundary, zigzag(1), -1, 1, 1);
+  by_chance.add_curve(pnpbs::CurveRole::boundary, zigzag(-1), -1, 1, 1);
+  add_chain(by_chance, {-1, -1, -1, 1}, pnpbs::CurveRole::boundary);
+  add_chain(by_chance, {1, -1, 1, 1}, pnpbs::CurveRole::boundary);
   expect_domain_error(by_chance, {"curve 0", "curve 1", "(0, 0)"});
 }
 END_TEST
@@ -634,7 +634,7 @@ START_TEST(overlapping_segments) {
   // A spike: there and back.
   PlaneDomain spike;
   const double xy[] = {0, 0, 4, 0, 4, 4, 2, 4, 2, 6, 2, 5, 0, 4};
-  spike.add_polyline(PNPBS_BOUNDARY, true, 7, xy, nullptr, 0);
+  spike.add_polyline(pnpbs::CurveRole::boundary, true, 7, xy, nullptr, 0);
   expect_domain_error(spike, {"curve 0, segment 3 and curve 0, segment 4 overlap"});
 }
 END_TEST
@@ -658,17 +658,18 @@ END_TEST
 
 START_TEST(unclosed_boundary) {
   PlaneDomain domain;
-  add_chain(domain, {0, 0, 1, 0, 1, 1, 0, 1}, PNPBS_BOUNDARY);
+  add_chain(domain, {0, 0, 1, 0, 1, 1, 0, 1}, pnpbs::CurveRole::boundary);
   expect_domain_error(domain, {"the boundary is not closed: it ends at curve 0, vertex 0 (0, 0)"});
-  add_chain(domain, {0, 1, 0, 0.01}, PNPBS_BOUNDARY);
+  add_chain(domain, {0, 1, 0, 0.01}, pnpbs::CurveRole::boundary);
   expect_domain_error(domain, {"not closed"});
-  add_chain(domain, {0, 0.01, 0, 0}, PNPBS_BOUNDARY);  // after a failed check it can be mended
+  add_chain(domain, {0, 0.01, 0, 0},
+            pnpbs::CurveRole::boundary);  // after a failed check it can be mended
   expect_area(domain, 1);
   PlaneDomain inner;
-  add_loop(inner, rectangle(0, 0, 1, 1), 0, PNPBS_INNER);
+  add_loop(inner, rectangle(0, 0, 1, 1), 0, pnpbs::CurveRole::inner);
   expect_domain_error(inner, {"no boundary curve"});
   PlaneDomain arc;
-  arc.add_arc(PNPBS_BOUNDARY, {0, 0}, 1, 0, 3, 1);
+  arc.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 1, 0, 3, 1);
   expect_domain_error(arc, {"not closed", "curve 0, begin (1, 0)"});
 }
 END_TEST
@@ -786,7 +787,8 @@ START_TEST(bad_polylines) {
   const double closing[] = {0, 0, 1, 0, 1, 1, 0, 0};
   const std::int32_t tags[] = {1, 2, 0, 4};
   const auto add = [&](std::int64_t n, const double* points, double angle = 0,
-                       std::int32_t role = PNPBS_BOUNDARY, const std::int32_t* t = nullptr) {
+                       pnpbs::CurveRole role = pnpbs::CurveRole::boundary,
+                       const std::int32_t* t = nullptr) {
     return [=, &domain] { domain.add_polyline(role, true, n, points, t, angle); };
   };
   expect_argument_error({"xy[1][1] is nan"}, add(3, bad));
@@ -794,13 +796,12 @@ START_TEST(bad_polylines) {
   expect_argument_error({"xy[2][1] is -inf"}, add(3, endless));
   expect_argument_error({"vertices 1 and 2 are both (1, 0)"}, add(4, twice));
   expect_argument_error({"repeated as the last, vertex 3"}, add(4, closing));
-  expect_argument_error({"tags[2] is 0"}, add(4, xy, 0, PNPBS_BOUNDARY, tags));
+  expect_argument_error({"tags[2] is 0"}, add(4, xy, 0, pnpbs::CurveRole::boundary, tags));
   expect_argument_error({"n is 2"}, add(2, xy));
   expect_argument_error({"n is -1"}, add(-1, xy));
   expect_argument_error({"xy is NULL"}, add(4, nullptr));
   expect_argument_error({"corner_angle is 181"}, add(4, xy, 181));
   expect_argument_error({"corner_angle is nan"}, add(4, xy, nan_value));
-  expect_argument_error({"role is 7"}, add(4, xy, 0, 7));
   add(4, xy)();
   expect_area(domain, 1);  // none of the others left a trace
   ck_assert_str_eq(domain.curves()[0].name.c_str(), "curve 0, segment 0");
@@ -810,7 +811,9 @@ END_TEST
 START_TEST(bad_arcs) {
   PlaneDomain domain;
   const auto add = [&](double x, double radius, double begin, double end, std::int32_t tag = 1) {
-    return [=, &domain] { domain.add_arc(PNPBS_BOUNDARY, {x, 0}, radius, begin, end, tag); };
+    return [=, &domain] {
+      domain.add_arc(pnpbs::CurveRole::boundary, {x, 0}, radius, begin, end, tag);
+    };
   };
   expect_argument_error({"centre[0] is nan"}, add(nan_value, 1, 0, 1));
   expect_argument_error({"radius is 0"}, add(0, 0, 0, 1));
@@ -827,7 +830,7 @@ END_TEST
 START_TEST(bad_callbacks) {
   PlaneDomain domain;
   const auto add = [&](pnpbs::CurveFunction curve) {
-    return [&domain, curve] { domain.add_curve(PNPBS_BOUNDARY, curve, 0, 1, 1); };
+    return [&domain, curve] { domain.add_curve(pnpbs::CurveRole::boundary, curve, 0, 1, 1); };
   };
   const auto fill = [](auto f) {
     return [f](std::int64_t n, const double* t, pnpbs::Point<2>* xy) {
@@ -845,8 +848,8 @@ START_TEST(bad_callbacks) {
   expect_argument_error({"curve 0 turns too often"}, add(fill([](double t) {
                           return P{t, 0.1 * std::sin(1e7 * t)};
                         })));
-  expect_error(PNPBS_ERROR_CALLBACK, {"told so"}, add([](std::int64_t, const double*, P*) {
-                 throw pnpbs::Error(PNPBS_ERROR_CALLBACK, "told so");
+  expect_error(pnpbs::ErrorKind::callback, {"told so"}, add([](std::int64_t, const double*, P*) {
+                 throw pnpbs::Error(pnpbs::ErrorKind::callback, "told so");
                }));
 }
 END_TEST

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "geometry/faces.hpp"
-#include "geometry/plane_sweep.hpp"
+#include "domain/plane/faces.hpp"
+#include "domain/plane/plane_sweep.hpp"
 #include "predicates/plane.hpp"
 #include "run_suite.hpp"
 

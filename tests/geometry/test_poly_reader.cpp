@@ -6,8 +6,8 @@
 #include <random>
 #include <string>
 
+#include "domain/plane/poly_reader.hpp"
 #include "expect_error.hpp"
-#include "geometry/poly_reader.hpp"
 #include "run_suite.hpp"
 
 using pnpbs::parse_poly;
@@ -26,7 +26,7 @@ PlaneDomain read(const std::string& text) {
 }
 
 void expect_file_error(std::initializer_list<const char*> parts, const std::string& text) {
-  expect_error(PNPBS_ERROR_FILE, parts, [&text] {
+  expect_error(pnpbs::ErrorKind::file, parts, [&text] {
     PlaneDomain domain;
     parse_poly(domain, text, "x.poly");
   });
@@ -101,10 +101,10 @@ START_TEST(vertices_in_a_node_file) {
   ck_assert_double_eq(domain.area(), 4);
   write(work_path("split.node"), "4 2 0 0\n1 0 0\n2 2 zero\n3 2 2\n4 0 2\n");
   PlaneDomain bad;
-  expect_error(PNPBS_ERROR_FILE, {"split.node:3: found 'zero', expected y"},
+  expect_error(pnpbs::ErrorKind::file, {"split.node:3: found 'zero', expected y"},
                [&] { pnpbs::read_poly_file(bad, path); });
   std::remove(work_path("split.node").c_str());
-  expect_error(PNPBS_ERROR_FILE, {"split.node: cannot be read"},
+  expect_error(pnpbs::ErrorKind::file, {"split.node: cannot be read"},
                [&] { pnpbs::read_poly_file(bad, path); });
   std::remove(path.c_str());
   expect_file_error({"x.poly:1: 0 vertices mean a separate .node file"}, "0 2 0 0\n4 0\n");
@@ -113,11 +113,11 @@ END_TEST
 
 START_TEST(unreadable_files) {
   PlaneDomain domain;
-  expect_error(PNPBS_ERROR_FILE, {"none.poly: cannot be read: No such file"},
+  expect_error(pnpbs::ErrorKind::file, {"none.poly: cannot be read: No such file"},
                [&] { pnpbs::read_poly_file(domain, work_path("none.poly")); });
-  expect_error(PNPBS_ERROR_FILE, {": cannot be read: Is a directory"},
+  expect_error(pnpbs::ErrorKind::file, {": cannot be read: Is a directory"},
                [&] { pnpbs::read_poly_file(domain, work_path("")); });
-  expect_error(PNPBS_ERROR_FILE, {"/dev/zero: holds zero bytes"},
+  expect_error(pnpbs::ErrorKind::file, {"/dev/zero: holds zero bytes"},
                [&] { pnpbs::read_poly_file(domain, "/dev/zero"); });
 }
 END_TEST
@@ -140,7 +140,7 @@ START_TEST(truncated_files) {
       parse_poly(domain, whole.substr(0, length), "x.poly");
       ck_assert_uint_ge(length, whole.size() - 1);
     } catch (const pnpbs::Error& error) {
-      ck_assert_int_eq(error.status(), PNPBS_ERROR_FILE);
+      ck_assert(error.kind() == pnpbs::ErrorKind::file);
     }
   }
 }
@@ -193,7 +193,7 @@ END_TEST
 START_TEST(a_bad_file_leaves_the_domain_as_it_was) {
   PlaneDomain domain;
   parse_poly(domain, square, "x.poly");
-  expect_error(PNPBS_ERROR_FILE, {"y.poly:1"}, [&] { parse_poly(domain, "4 4", "y.poly"); });
+  expect_error(pnpbs::ErrorKind::file, {"y.poly:1"}, [&] { parse_poly(domain, "4 4", "y.poly"); });
   domain.check();
   ck_assert_double_eq(domain.area(), 4);
 }
@@ -223,8 +223,8 @@ START_TEST(mutated_files_do_no_harm) {
       ++accepted;
     } catch (const pnpbs::Error& error) {
       const bool expected =
-          error.status() == PNPBS_ERROR_FILE || error.status() == PNPBS_ERROR_DOMAIN;
-      ck_assert_msg(expected, "status %d: %s", error.status(), error.what());
+          error.kind() == pnpbs::ErrorKind::file || error.kind() == pnpbs::ErrorKind::domain;
+      ck_assert_msg(expected, "kind %d: %s", static_cast<int>(error.kind()), error.what());
     }
   }
   ck_assert_int_gt(accepted, 50);

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "core/error.hpp"
-#include "parallel/metis_functions.hpp"
+#include "base/error.hpp"
+#include "partition/metis_functions.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
       return 1;
     } catch (const pnpbs::Error& error) {
       std::puts(error.what());
-      if (error.status() != PNPBS_ERROR_UNSUPPORTED || !std::strstr(error.what(), argv[1]))
+      if (error.kind() != pnpbs::ErrorKind::unsupported || !std::strstr(error.what(), argv[1]))
         return 1;
     }
   }

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rows of varying length, written by several threads: each fills whole chunks of consecutive rows,
+// and memory is kept for the next time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/execution.hpp"
+
+namespace pnpbs {
+
+template <class T, int ChunkRows = 512>
+class ChunkedRows {
+ public:
+  // make_writer() is called once per chunk and gives a writer; writer(row, out) appends the
+  // entries of a row to out. Writers may throw.
+  template <class MakeWriter>
+  void build(const char* label, std::int64_t rows, const MakeWriter& make_writer) {
+    chunks_.resize(static_cast<std::size_t>((rows + ChunkRows - 1) / ChunkRows));
+    for_each_guarded(label, static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t c) {
+      Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+      chunk.entries.clear();
+      auto writer = make_writer();
+      for (std::int64_t k = 0; k < ChunkRows; ++k) {
+        chunk.offset[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk.entries.size());
+        if (c * ChunkRows + k < rows) writer(c * ChunkRows + k, chunk.entries);
+      }
+      chunk.offset[ChunkRows] = static_cast<std::int32_t>(chunk.entries.size());
+      give_back(chunk.entries);
+    });
+  }
+
+  std::span<T> row(std::int64_t i) {
+    const std::span<const T> row = std::as_const(*this).row(i);
+    return {const_cast<T*>(row.data()), row.size()};
+  }
+  std::span<const T> row(std::int64_t i) const {
+    const Chunk& chunk = chunks_[static_cast<std::size_t>(i / ChunkRows)];
+    const std::size_t k = static_cast<std::size_t>(i % ChunkRows);
+    return {chunk.entries.data() + chunk.offset[k],
+            static_cast<std::size_t>(chunk.offset[k + 1] - chunk.offset[k])};
+  }
+
+ private:
+  // A vector grows by doubling: gives back what is far too much, but keeps some room for the next
+  // time, when the rows may be a little longer.
+  static void give_back(std::vector<T>& entries) {
+    if (entries.capacity() <= entries.size() + entries.size() / 4) return;
+    std::vector<T> fitting;
+    fitting.reserve(entries.size() + entries.size() / 16);
+    fitting.assign(entries.begin(), entries.end());
+    entries.swap(fitting);
+  }
+
+  struct Chunk {
+    std::vector<T> entries;
+    std::array<std::int32_t, ChunkRows + 1> offset{};
+  };
+  std::vector<Chunk> chunks_;
+};
+
+}  // namespace pnpbs

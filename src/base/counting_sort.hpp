@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counting sort on several threads. Stable, so that the order is the same for any number of them:
+// each thread has its own count of each key in its part of the entries.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/execution.hpp"
+
+namespace pnpbs {
+
+class CountingSort {
+ public:
+  // Entries 0 .. n-1 by key(i), 0 .. keys-1; those with a negative key are left out.
+  template <class Key>
+  CountingSort(std::int64_t n, std::int32_t keys, const Key& key);
+
+  // First place of each key, and behind the last one the number of places.
+  const std::vector<std::int32_t>& start() const { return start_; }
+  // Were the entries in order, and is none left out?
+  bool in_order() const { return in_order_; }
+
+  // Calls visit(i, place) for every entry that has a place, on all threads. Once: it uses up the
+  // counts.
+  template <class Key, class Visit>
+  void for_places(const Key& key, const Visit& visit);
+
+ private:
+  static constexpr std::int64_t kMostParts = 16;        // bounds the memory for the counts
+  static constexpr std::int64_t kLeastEntries = 20000;  // of a part
+
+  std::int64_t begin(std::int64_t part) const { return part * n_ / parts_; }
+  std::int32_t* counts_of(std::int64_t part) const { return counts_.data() + part * keys_; }
+
+  std::int64_t n_, parts_, keys_;
+  View<std::int32_t> counts_;  // of each part; then its next place for each key
+  std::vector<std::int32_t> start_;
+  bool in_order_ = true;
+};
+
+template <class Key>
+CountingSort::CountingSort(std::int64_t n, std::int32_t keys, const Key& key)
+    : n_(n),
+      parts_(std::clamp<std::int64_t>(n / kLeastEntries, 1,
+                                      std::min<std::int64_t>(Exec().concurrency(), kMostParts))),
+      keys_(keys),
+      counts_(make_view<std::int32_t>("pnpbs::CountingSort::counts", parts_ * keys)) {
+  const double disorder =
+      largest_of("pnpbs::CountingSort::count", parts_, 0.0, [&](std::int64_t part) {
+        std::int32_t* const counts = counts_of(part);
+        std::fill_n(counts, keys_, 0);
+        bool ordered = true;
+        std::int32_t before = begin(part) > 0 ? key(begin(part) - 1) : 0;
+        for (std::int64_t i = begin(part); i < begin(part + 1); ++i) {
+          const std::int32_t k = key(i);
+          ordered = ordered && k >= 0 && before <= k;
+          before = k;
+          if (k >= 0) ++counts[k];
+        }
+        return ordered ? 0.0 : 1.0;
+      });
+  in_order_ = disorder == 0;
+  start_.resize(static_cast<std::size_t>(keys) + 1);
+  std::int32_t next = 0;
+  for (std::int32_t k = 0; k < keys; ++k) {
+    start_[static_cast<std::size_t>(k)] = next;
+    for (std::int64_t part = 0; part < parts_; ++part) {
+      std::int32_t& count = counts_of(part)[k];
+      next += std::exchange(count, next);
+    }
+  }
+  start_.back() = next;
+}
+
+template <class Key, class Visit>
+void CountingSort::for_places(const Key& key, const Visit& visit) {
+  for_each("pnpbs::CountingSort::for_places", parts_, [&](std::int64_t part) {
+    std::int32_t* const next = counts_of(part);
+    for (std::int64_t i = begin(part); i < begin(part + 1); ++i) {
+      const std::int32_t k = key(i);
+      if (k >= 0) visit(i, next[k]++);
+    }
+  });
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The nodes of a level: one array per attribute. Order in memory follows the buckets and has no
+// influence on any result; what decides is the id.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/execution.hpp"
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+// Where a node that takes no part in a pair is put: so far away that every force is exactly 0.
+inline constexpr double kFarAway = 1e100;
+
+template <int Dim>
+Point<Dim> point_at(const std::array<View<double>, Dim>& x, std::int64_t i) {
+  Point<Dim> p;
+  for (int k = 0; k < Dim; ++k) p[k] = x[k](i);
+  return p;
+}
+
+template <int Dim>
+struct Nodes {
+  std::int64_t count = 0;
+  std::array<View<double>, Dim> x;       // position
+  std::array<View<double>, Dim> v;       // velocity, length per unit of time
+  std::array<View<double>, Dim> anchor;  // position at the last event: what the boundary hides
+                                         // is judged from there until the next one
+  View<double> d;                        // spacing at the node, as last refreshed
+  View<std::int64_t> id;                 // global id
+  View<std::int32_t> tag;                // 0 inside
+  View<std::int32_t> boundary_node;      // index into Boundary::nodes, -1 for an inner node
+  View<char> owned;                      // 0: a ghost, another rank's node
+
+  std::int64_t capacity() const { return static_cast<std::int64_t>(d.extent(0)) - 1; }
+
+  // Room for n nodes and, behind them, the one far-away node that pads blocks of lists.
+  void reserve(std::int64_t n) {
+    if (n <= capacity()) return;
+    for (int k = 0; k < Dim; ++k) {
+      grow_labelled(x[k], "pnpbs::Nodes::x", n);
+      grow_labelled(v[k], "pnpbs::Nodes::v", n);
+      grow_labelled(anchor[k], "pnpbs::Nodes::anchor", n);
+    }
+    grow_labelled(d, "pnpbs::Nodes::d", n);
+    grow_labelled(id, "pnpbs::Nodes::id", n);
+    grow_labelled(tag, "pnpbs::Nodes::tag", n);
+    grow_labelled(boundary_node, "pnpbs::Nodes::boundary_node", n);
+    grow_labelled(owned, "pnpbs::Nodes::owned", n);
+    spare_ = Spare();
+  }
+
+  // Room for one number per node, for an order to put them in.
+  const View<std::int32_t>& order_scratch() {
+    make_room(order_, "pnpbs::Nodes::order");
+    return order_;
+  }
+
+  // The same, and some for the next time.
+  void reserve_with_room(std::int64_t n) {
+    if (n > capacity()) reserve(n + n / 16);
+  }
+
+  void append(const Point<Dim>& position, double spacing, std::int64_t node_id,
+              std::int32_t node_tag, std::int32_t on_boundary) {
+    if (count + 1 > capacity()) reserve(count + count / 8 + 64);
+    put(count++, position, spacing, node_id, node_tag, on_boundary);
+  }
+
+  // At a place that there is room for.
+  void put(std::int64_t i, const Point<Dim>& position, double spacing, std::int64_t node_id,
+           std::int32_t node_tag, std::int32_t on_boundary) const {
+    for (int k = 0; k < Dim; ++k) {
+      x[k](i) = position[k];
+      v[k](i) = 0;
+      anchor[k](i) = position[k];
+    }
+    d(i) = spacing;
+    id(i) = node_id;
+    tag(i) = node_tag;
+    boundary_node(i) = on_boundary;
+    owned(i) = 1;
+  }
+
+  Point<Dim> position(std::int64_t i) const { return point_at<Dim>(x, i); }
+  void set_position(std::int64_t i, const Point<Dim>& p) const {
+    for (int k = 0; k < Dim; ++k) x[k](i) = p[k];
+  }
+  bool moves(std::int64_t i) const { return boundary_node(i) < 0; }
+
+  // Puts the nodes into the order given: new place i holds what was at from(i). Array by array,
+  // into spare ones that are kept: nothing is allocated from one rebuild of the lists to the next.
+  void permute(const View<std::int32_t>& from) {
+    for (int k = 0; k < Dim; ++k) {
+      permute_array(x[k], spare_.real, from);
+      permute_array(v[k], spare_.real, from);
+      permute_array(anchor[k], spare_.real, from);
+    }
+    permute_array(d, spare_.real, from);
+    permute_array(id, spare_.id, from);
+    permute_array(tag, spare_.integer, from);
+    permute_array(boundary_node, spare_.integer, from);
+    permute_array(owned, spare_.flag, from);
+  }
+
+  // Keeps the first `kept` nodes named, whose places increase, and drops the others. In place, with
+  // a thread for each array.
+  void keep(const View<std::int32_t>& places, std::int64_t kept) {
+    constexpr int kReal = 3 * Dim + 1;
+    std::array<View<double>, kReal> real;
+    for (int k = 0; k < Dim; ++k) {
+      real[k] = x[k];
+      real[Dim + k] = v[k];
+      real[2 * Dim + k] = anchor[k];
+    }
+    real[3 * Dim] = d;
+    for_each("pnpbs::Nodes::keep", kReal + 4, [&](std::int64_t array) {
+      if (array < kReal) keep_in_array(real[static_cast<std::size_t>(array)], places, kept);
+      if (array == kReal) keep_in_array(id, places, kept);
+      if (array == kReal + 1) keep_in_array(tag, places, kept);
+      if (array == kReal + 2) keep_in_array(boundary_node, places, kept);
+      if (array == kReal + 3) keep_in_array(owned, places, kept);
+    });
+    count = kept;
+  }
+
+ private:
+  template <class T>
+  void grow_labelled(View<T>& view, const char* label, std::int64_t n) {
+    if (view.extent(0) == 0) {
+      view = make_view<T>(label, n + 1);
+    } else {
+      grow(view, n + 1, count);
+    }
+  }
+
+  template <class T>
+  void make_room(View<T>& view, const char* label) const {
+    if (view.extent(0) != d.extent(0))
+      view = make_view<T>(label, static_cast<std::int64_t>(d.extent(0)));
+  }
+
+  template <class T>
+  void permute_array(View<T>& view, View<T>& spare, const View<std::int32_t>& from) {
+    make_room(spare, "pnpbs::Nodes::spare");
+    const View<T> old = view, ordered = spare;
+    for_each("pnpbs::Nodes::permute", count, [=](std::int64_t i) { ordered(i) = old(from(i)); });
+    std::swap(view, spare);
+  }
+
+  template <class T>
+  static void keep_in_array(const View<T>& view, const View<std::int32_t>& places,
+                            std::int64_t kept) {
+    for (std::int64_t i = 0; i < kept; ++i) view(i) = view(places(i));
+  }
+
+  struct Spare {
+    View<double> real;
+    View<std::int64_t> id;
+    View<std::int32_t> integer;
+    View<char> flag;
+  };
+  Spare spare_;
+  View<std::int32_t> order_;
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What all communicators have in common: agreement on failures.
+#include "comm/communicator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <new>
+#include <numeric>
+
+namespace pnpbs {
+
+namespace {
+
+class SerialCommunicator : public Communicator {
+ public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  int ranks_on_node() const override { return 1; }
+  std::vector<Bytes> exchange(const std::vector<int>&, const std::vector<Bytes>&) const override {
+    return {};
+  }
+  void exchange_known(const std::vector<int>&, const std::vector<Bytes>&,
+                      std::vector<Bytes>&) const override {}
+  std::unique_ptr<RankFile> open_file(const std::string& path,
+                                      const std::string& name) const override {
+    return open_alone(path, name);
+  }
+
+ protected:
+  Reduction reduce(const Reduction& mine) const override { return mine; }
+  void sum_entries(std::vector<std::int64_t>&) const override {}
+  void broadcast_bytes(char*, std::size_t, int) const override {}
+  std::vector<std::uint64_t> gather_sizes(std::uint64_t mine) const override { return {mine}; }
+  void gather_bytes(const Bytes& mine, const std::vector<std::uint64_t>&,
+                    Bytes& all) const override {
+    all = mine;
+  }
+  std::vector<std::uint64_t> swap_sizes(const std::vector<std::uint64_t>& sizes) const override {
+    return sizes;
+  }
+  void transfer(const std::vector<Parcel>&, std::vector<Parcel>&) const override {}
+};
+
+// Kind and text of a failure, in a message of one size: telling of it needs no memory.
+struct FailureNote {
+  ErrorKind kind = ErrorKind::internal;
+  std::array<char, 1020> text{};
+
+  void set(ErrorKind of, const char* what) {
+    kind = of;
+    std::strncpy(text.data(), what, text.size() - 1);
+  }
+};
+
+FailureNote describe(std::exception_ptr failure) {
+  FailureNote note;
+  try {
+    std::rethrow_exception(failure);
+  } catch (const Error& error) {
+    note.set(error.kind(), error.what());
+  } catch (const std::bad_alloc&) {
+    note.set(ErrorKind::memory, kOutOfMemory);
+  } catch (const std::length_error&) {
+    note.set(ErrorKind::memory, kArrayTooLong);
+  } catch (const std::exception& error) {
+    note.set(ErrorKind::internal, error.what());
+  } catch (...) {
+    note.set(ErrorKind::callback, kForeignException);
+  }
+  return note;
+}
+
+}  // namespace
+
+// The lowest failed rank is the largest of size - rank.
+Communicator::Reduction Communicator::reduce_or_fail(Reduction mine,
+                                                     std::exception_ptr failure) const {
+  if (failure) mine.failed = size() - rank();
+  const Reduction all = reduce(mine);
+  if (all.failed == 0) return all;
+  const int failed = size() - static_cast<int>(all.failed);
+  FailureNote note;
+  if (rank() == failed) note = describe(failure);
+  broadcast_bytes(reinterpret_cast<char*>(&note), sizeof note, failed);
+  throw AgreedError(note.kind, "rank " + std::to_string(failed) + ": " + note.text.data());
+}
+
+void agree_on_failure(const Communicator& comm, std::exception_ptr failure) {
+  if (comm.size() > 1)
+    comm.reduce_or_fail({}, failure);
+  else if (failure)
+    std::rethrow_exception(failure);
+}
+
+std::uint64_t Communicator::sum(std::uint64_t value) const {
+  Reduction mine;
+  mine.sum = value;
+  return reduce_or_fail(mine).sum;
+}
+
+double Communicator::largest(double value) const {
+  Reduction mine;
+  mine.largest = value;
+  return reduce_or_fail(mine).largest;
+}
+
+void Communicator::sum(std::vector<std::int64_t>& values) const {
+  reduce_or_fail({});
+  sum_entries(values);
+}
+
+// With the integers below 2^32 that both halves are, doubles are exact.
+bool Communicator::same_on_all(std::uint64_t value) const {
+  for (const int shift : {0, 32}) {
+    const double half = static_cast<double>((value >> shift) & 0xffffffffu);
+    if (largest(half) != -largest(-half)) return false;
+  }
+  return true;
+}
+
+void Communicator::broadcast(Bytes& bytes, int root) const {
+  reduce_or_fail({});
+  std::uint64_t size = bytes.size();
+  broadcast_bytes(reinterpret_cast<char*>(&size), sizeof size, root);
+  agreed(*this, [&] { bytes.resize(size); });
+  broadcast_bytes(bytes.data(), bytes.size(), root);
+}
+
+Bytes Communicator::gather(const Bytes& mine) const {
+  reduce_or_fail({});
+  const std::vector<std::uint64_t> sizes = gather_sizes(mine.size());
+  Bytes all;
+  agreed(*this, [&] { all.resize(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})); });
+  gather_bytes(mine, sizes, all);
+  return all;
+}
+
+std::vector<Parcel> Communicator::deliver(const std::vector<Parcel>& outgoing) const {
+  reduce_or_fail({});
+  std::vector<std::uint64_t> sizes;
+  std::vector<Parcel> incoming;
+  agreed(*this, [&] {
+    sizes.assign(static_cast<std::size_t>(size()), 0);
+    for (const Parcel& parcel : outgoing)
+      if (parcel.rank == rank())
+        incoming.push_back(parcel);
+      else
+        sizes[static_cast<std::size_t>(parcel.rank)] = parcel.bytes.size();
+  });
+  sizes = swap_sizes(sizes);
+  agreed(*this, [&] {
+    for (int r = 0; r < size(); ++r)
+      if (r != rank() && sizes[static_cast<std::size_t>(r)] > 0)
+        incoming.push_back({r, Bytes(sizes[static_cast<std::size_t>(r)])});
+  });
+  transfer(outgoing, incoming);
+  std::sort(incoming.begin(), incoming.end(),
+            [](const Parcel& a, const Parcel& b) { return a.rank < b.rank; });
+  return incoming;
+}
+
+std::shared_ptr<Communicator> serial_communicator() {
+  return std::make_shared<SerialCommunicator>();
+}
+
+}  // namespace pnpbs

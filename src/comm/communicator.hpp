@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The processes that place nodes together. Serial: one process, no MPI call ever.
+//
+// Nobody waits for a rank that has failed. Every operation here but exchange() begins with a
+// reduction of one and the same form, in which each rank tells whether it has failed. A rank that
+// throws between two of them leaves for the end of the work it is in, where agree_on_failure has it
+// take part in that reduction; the others, wherever they are, then throw its failure, too. What all
+// ranks throw is an AgreedError, and is not told again. Only exchange() has no such beginning: who
+// calls it must be sure that its neighbours do.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "comm/rank_file.hpp"
+
+namespace pnpbs {
+
+using Bytes = std::vector<char>;
+
+// A failure that all ranks throw.
+class AgreedError : public Error {
+ public:
+  using Error::Error;
+};
+
+// A message and the rank it goes to, or comes from.
+struct Parcel {
+  int rank;
+  Bytes bytes;
+};
+
+class Communicator {
+ public:
+  virtual ~Communicator() = default;
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+  // Ranks of this communicator on this node: they share its cores.
+  virtual int ranks_on_node() const = 0;
+
+  // Collective; integers and maxima only, so that no result depends on the order of ranks.
+  std::uint64_t sum(std::uint64_t value) const;  // modulo 2^64
+  double largest(double value) const;
+  void sum(std::vector<std::int64_t>& values) const;  // entry by entry
+  bool same_on_all(std::uint64_t value) const;
+  void broadcast(Bytes& bytes, int root) const;
+  // What every rank gives, one after the other by rank.
+  Bytes gather(const Bytes& mine) const;
+  // Brings each message to its rank, this one included; returns what has come, by rank.
+  std::vector<Parcel> deliver(const std::vector<Parcel>& outgoing) const;
+
+  // Sends outgoing[k] to rank neighbours[k] and returns what they sent. Every rank named must name
+  // us in its own call at the same time. Messages may be empty. Throws only when all messages have
+  // arrived.
+  virtual std::vector<Bytes> exchange(const std::vector<int>& neighbours,
+                                      const std::vector<Bytes>& outgoing) const = 0;
+  // The same for messages whose sizes both sides know: incoming[k] has the size of what comes.
+  virtual void exchange_known(const std::vector<int>& neighbours,
+                              const std::vector<Bytes>& outgoing,
+                              std::vector<Bytes>& incoming) const = 0;
+
+  // Opens an existing file for all ranks to write parts of. Collective; agreed. `name` stands for
+  // the file in messages.
+  virtual std::unique_ptr<RankFile> open_file(const std::string& path,
+                                              const std::string& name) const = 0;
+
+ protected:
+  // What all reductions of single values are made of.
+  struct Reduction {
+    std::int64_t failed = 0;  // size - rank of a rank that has failed; the largest counts
+    std::uint64_t sum = 0;
+    double largest = -std::numeric_limits<double>::infinity();
+  };
+  virtual Reduction reduce(const Reduction& mine) const = 0;
+  virtual void sum_entries(std::vector<std::int64_t>& values) const = 0;
+  virtual void broadcast_bytes(char* bytes, std::size_t n, int root) const = 0;
+  virtual std::vector<std::uint64_t> gather_sizes(std::uint64_t mine) const = 0;
+  virtual void gather_bytes(const Bytes& mine, const std::vector<std::uint64_t>& sizes,
+                            Bytes& all) const = 0;
+  // sizes[r] bytes for rank r -> bytes from rank r.
+  virtual std::vector<std::uint64_t> swap_sizes(const std::vector<std::uint64_t>& sizes) const = 0;
+  // The messages; incoming ones have their sizes.
+  virtual void transfer(const std::vector<Parcel>& outgoing,
+                        std::vector<Parcel>& incoming) const = 0;
+
+ private:
+  friend void agree_on_failure(const Communicator& comm, std::exception_ptr failure);
+  Reduction reduce_or_fail(Reduction mine, std::exception_ptr failure = nullptr) const;
+};
+
+std::shared_ptr<Communicator> serial_communicator();
+
+// A duplicate of the communicator with this Fortran handle. Collective. Throws
+// Error(ErrorKind::mpi or _UNSUPPORTED).
+std::shared_ptr<Communicator> mpi_communicator(std::int32_t fortran_handle);
+
+// Throws Error(ErrorKind::mpi) unless this is what MPI_Get_library_version tells of the MPI that
+// we call: handles of one library mean nothing to another.
+void require_our_mpi(const std::string& library);
+
+// Collective: if any rank failed, all ranks throw the failure of the lowest one, named.
+void agree_on_failure(const Communicator& comm, std::exception_ptr failure);
+
+// Runs a piece of work on every rank; if it throws on one, it throws on all.
+template <class Work>
+void agreed(const Communicator& comm, const Work& work) {
+  if (comm.size() == 1) return work();
+  std::exception_ptr failure;
+  try {
+    work();
+  } catch (const AgreedError&) {
+    throw;
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  agree_on_failure(comm, failure);
+}
+
+}  // namespace pnpbs

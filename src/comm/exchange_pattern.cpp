@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "comm/exchange_pattern.hpp"
+
+#include <algorithm>
+
+namespace pnpbs {
+
+namespace {
+
+struct Wish {
+  std::int64_t id;
+  std::int32_t from, by;  // the owner, and who has the node as a ghost
+};
+
+// Rows of places, one per rank of the pattern. entries: (rank, place), each rank's by id.
+using Entries = std::vector<std::pair<std::int32_t, std::int64_t>>;
+
+void make_rows(const std::vector<std::int32_t>& ranks, Entries entries,
+               std::vector<std::int64_t>& offsets, std::vector<std::int64_t>& places) {
+  std::sort(entries.begin(), entries.end());  // places are in the order of ids
+  offsets.assign(1, 0);
+  for (const std::int32_t rank : ranks) {
+    for (std::size_t k = places.size(); k < entries.size() && entries[k].first == rank; ++k)
+      places.push_back(entries[k].second);
+    offsets.push_back(static_cast<std::int64_t>(places.size()));
+  }
+}
+
+}  // namespace
+
+ExchangePattern make_exchange_pattern(const Communicator& comm, std::int64_t owned,
+                                      const std::vector<std::int64_t>& ids,
+                                      const std::vector<std::int32_t>& owners) {
+  Entries sends, receives;
+  std::vector<Wish> wishes;
+  for (std::size_t g = 0; g < owners.size(); ++g) {
+    const std::int64_t place = owned + static_cast<std::int64_t>(g);
+    receives.emplace_back(owners[g], place);
+    wishes.push_back({ids[static_cast<std::size_t>(place)], owners[g], comm.rank()});
+  }
+  const auto end = ids.begin() + owned;
+  for (const Wish& wish :
+       delivered<Wish>(comm, wishes, [](const Wish& w) { return static_cast<int>(w.from); })) {
+    const auto found = std::lower_bound(ids.begin(), end, wish.id);
+    if (found == end || *found != wish.id)
+      throw Error(ErrorKind::internal, "node " + std::to_string(wish.id) +
+                                           " is a ghost of this rank on rank " +
+                                           std::to_string(wish.by) + ", but is not owned here");
+    sends.emplace_back(wish.by, found - ids.begin());
+  }
+  ExchangePattern pattern;
+  for (const auto& entry : sends) pattern.ranks.push_back(entry.first);
+  for (const auto& entry : receives) pattern.ranks.push_back(entry.first);
+  std::sort(pattern.ranks.begin(), pattern.ranks.end());
+  pattern.ranks.erase(std::unique(pattern.ranks.begin(), pattern.ranks.end()), pattern.ranks.end());
+  make_rows(pattern.ranks, std::move(sends), pattern.send_offsets, pattern.send_nodes);
+  make_rows(pattern.ranks, std::move(receives), pattern.receive_offsets, pattern.receive_nodes);
+  return pattern;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "comm/id_blocks.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <ranges>
+#include <string>
+
+#include "base/error.hpp"
+#include "comm/all_to_all.hpp"
+#include "comm/records.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::int64_t kSentAtOnce = 1 << 15;
+
+// This rank's, increasing.
+struct OwnedIds {
+  std::int64_t count;
+  const std::function<std::int64_t(std::int64_t)>& id;
+
+  std::int64_t count_below(std::int64_t bound) const {
+    const auto all = std::views::iota(std::int64_t{0}, count);
+    return *std::ranges::lower_bound(all, bound, {}, std::cref(id));
+  }
+};
+
+// For every wanted number, the least id that has at least so many smaller ones: by bisection, all
+// at once, so that no rank ever sees the others' ids.
+std::vector<std::int64_t> ids_that_begin(const Communicator& comm, const OwnedIds& owned,
+                                         const std::vector<std::int64_t>& numbers) {
+  const double most =
+      comm.largest(owned.count == 0 ? 0 : static_cast<double>(owned.id(owned.count - 1)));
+  // A double may have lost the last bits of a large id.
+  const std::int64_t bound = most < 0x1p62 ? static_cast<std::int64_t>(most * (1 + 0x1p-40)) + 2
+                                           : std::numeric_limits<std::int64_t>::max();
+  std::vector<std::int64_t> low(numbers.size(), 0), high(numbers.size(), bound);
+  while (low != high) {
+    std::vector<std::int64_t> middle(numbers.size()), below(numbers.size());
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      middle[k] = low[k] + (high[k] - low[k]) / 2;
+      below[k] = owned.count_below(middle[k]);
+    }
+    comm.sum(below);
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      if (low[k] == high[k]) continue;
+      if (below[k] >= numbers[k])
+        high[k] = middle[k];
+      else
+        low[k] = middle[k] + 1;
+    }
+  }
+  return low;
+}
+
+}  // namespace
+
+IdBlocks::IdBlocks(const Communicator& comm, std::int64_t owned,
+                   const std::function<std::int64_t(std::int64_t)>& owned_id)
+    : comm_(comm) {
+  const std::int64_t total = span_of(comm, static_cast<std::size_t>(owned)).total;
+  std::vector<std::int64_t> numbers{0};  // that blocks begin with
+  // total * r / size, without a product that could overflow.
+  for (int r = 1; r <= comm.size(); ++r)
+    numbers.push_back(total / comm.size() * r + total % comm.size() * r / comm.size());
+  const auto rank = static_cast<std::size_t>(comm.rank());
+  span_ = {numbers[rank], numbers[rank + 1] - numbers[rank], total};
+  ids_.reserve(static_cast<std::size_t>(span_.count));
+  numbers.erase(numbers.begin());
+  numbers.pop_back();
+  if (comm.size() > 1) begin_ = ids_that_begin(comm, {owned, owned_id}, numbers);
+  // Not all at once: the messages would need several times the memory of the ids.
+  const auto most = static_cast<std::int64_t>(comm.largest(static_cast<double>(owned)));
+  for (std::int64_t begin = 0; begin < most; begin += kSentAtOnce) {
+    std::vector<std::int64_t> part;
+    for (std::int64_t k = begin; k < std::min(owned, begin + kSentAtOnce); ++k)
+      part.push_back(owned_id(k));
+    for (const std::int64_t id :
+         delivered(comm, part, [this](std::int64_t i) { return rank_of(i); }))
+      ids_.push_back(id);
+  }
+  std::ranges::sort(ids_);
+}
+
+std::vector<std::int64_t> IdBlocks::ids_at(const std::vector<std::int64_t>& numbers) const {
+  std::vector<std::int64_t> ids(numbers.size(), 0);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const std::int64_t place = numbers[k] - span_.first;
+    if (place >= 0 && place < span_.count) ids[k] = ids_[static_cast<std::size_t>(place)];
+  }
+  comm_.sum(ids);
+  return ids;
+}
+
+int IdBlocks::rank_of(std::int64_t id) const {
+  return static_cast<int>(std::upper_bound(begin_.begin(), begin_.end(), id) - begin_.begin());
+}
+
+std::int64_t IdBlocks::number_in_block(std::int64_t id) const {
+  const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+  if (found == ids_.end() || *found != id)
+    throw Error(ErrorKind::internal, "no rank owns the node with id " + std::to_string(id));
+  return span_.first + (found - ids_.begin());
+}
+
+// Most are in this rank's own block; the others are asked for.
+std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& ids) const {
+  const auto size = static_cast<std::size_t>(comm_.size());
+  std::vector<Bytes> questions(size), answers(size);
+  for (const std::int64_t id : ids)
+    if (rank_of(id) != comm_.rank()) pack(questions[static_cast<std::size_t>(rank_of(id))], id);
+  questions = exchange_with_all(comm_, std::move(questions));
+  agreed(comm_, [&] {
+    for (std::size_t r = 0; r < size; ++r)
+      for_records<std::int64_t>({questions[r]},
+                                [&](std::int64_t id) { pack(answers[r], number_in_block(id)); });
+  });
+  answers = exchange_with_all(comm_, std::move(answers));
+  std::vector<std::int64_t> numbers;
+  agreed(comm_, [&] {
+    std::vector<std::size_t> at(size);  // answers come in the order of the questions to each rank
+    for (const std::int64_t id : ids) {
+      const auto r = static_cast<std::size_t>(rank_of(id));
+      std::int64_t number;
+      if (rank_of(id) == comm_.rank()) {
+        number = number_in_block(id);
+      } else {
+        std::memcpy(&number, answers[r].data() + at[r], sizeof number);
+        at[r] += sizeof number;
+      }
+      numbers.push_back(number);
+    }
+  });
+  return numbers;
+}
+
+}  // namespace pnpbs

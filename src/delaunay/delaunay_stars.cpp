@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "delaunay/delaunay_stars.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "delaunay/plane/block_hull_stars.hpp"
+#include "delaunay/plane/constrained_star.hpp"
+#include "delaunay/plane/hull_star.hpp"
+#include "dynamics/bubble_force.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+double least_spacing_around(const Buckets<2>& buckets, std::int32_t bucket) {
+  double least = std::numeric_limits<double>::infinity();
+  buckets.for_neighbours(
+      bucket, [&](std::int32_t b) { least = std::min(least, buckets.least_spacing(b)); });
+  return least;
+}
+
+// Finds the stars of consecutive blocks of nodes.
+class StarWriter {
+  using Entry = DelaunayStars::Entry;
+
+ public:
+  // fresh_sight: were the lists, and the edges near nodes, made for where the nodes are?
+  StarWriter(const StarInput& input, bool fresh_sight, std::vector<double>& needs)
+      : in_(input), fresh_sight_(fresh_sight), needs_(needs) {}
+
+  void operator()(std::int64_t block, std::vector<Entry>& out) {
+    const std::int64_t count = in_.nodes.count;
+    std::int64_t self[kLanes];
+    double listed_reach[kLanes], hull_reach[kLanes];
+    block_nodes(block, count, self);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::int64_t i = self[lane];
+      listed_reach[lane] = i < count ? reach_of_list(i) : 0;
+      hull_reach[lane] = i < count && !in_.near_edges.any(i) ? listed_reach[lane] : 0;
+    }
+    find_block_hull_stars(in_.lists.block(block), static_cast<std::int32_t>(count),
+                          in_.nodes.x[0].data(), in_.nodes.x[1].data(), self, hull_reach, hulls_);
+    others_.clear();
+    std::size_t longest = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      first_other_[lane] = others_.size();
+      size_[lane] = static_cast<std::size_t>(hulls_.size[lane]);
+      if (!hulls_.found[lane]) {
+        if (self[lane] < count) add_other_star(self[lane], listed_reach[lane]);
+        size_[lane] = others_.size() - first_other_[lane];
+      }
+      longest = std::max(longest, size_[lane]);
+    }
+    write(self, longest, out);
+  }
+
+ private:
+  // The list of node i holds all nodes that it sees and that are nearer than this; 0 if not all are
+  // known there.
+  double reach_of_list(std::int64_t i) {
+    const Nodes<2>& nodes = in_.nodes;
+    const double reach = least_reach(i);
+    const bool known = !rim_ || in_.known.covers(in_.map, box_around<2>(nodes.position(i), reach));
+    return known ? reach : 0;
+  }
+
+  void look_at_bucket(std::int32_t bucket) {
+    bucket_ = bucket;
+    least_ = least_spacing_around(in_.buckets, bucket);
+    double largest = 0;
+    for (std::int32_t i = in_.buckets.begin(bucket); i < in_.buckets.end(bucket); ++i)
+      largest = std::max(largest, in_.nodes.d(i));
+    const double reach = in_.lists.radius() * largest;
+    Box<2> around = in_.map.tree().cell_box(in_.map.tree().leaf_cell(bucket));
+    for (int k = 0; k < 2; ++k) {
+      around.low[k] -= reach;
+      around.high[k] += reach;
+    }
+    rim_ = !in_.known.covers(in_.map, around);
+  }
+
+  StarPoint point(std::int64_t j) const {
+    return {in_.nodes.position(j), in_.nodes.id(j), static_cast<std::int32_t>(j)};
+  }
+
+  void add_other_star(std::int64_t i, double listed_reach) {
+    const bool near_edges = in_.near_edges.any(i);
+    if (!near_edges && listed_reach > 0 && add_hull_star(i, listed_reach)) return;
+    const double needs = constrained_star(in_, i, near_edges && fresh_sight_ ? listed_reach : 0,
+                                          std::max(least_reach(i), in_.nodes.d(i)), others_);
+    if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
+  }
+
+  // Of the list of node i, whatever is around it.
+  double least_reach(std::int64_t i) {
+    if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
+    constexpr double kSteep = 0.9;
+    const double d = in_.nodes.d(i);
+    return least_ < kSteep * d ? reach_to_unlisted(i)
+                               : 0.5 * in_.lists.radius() * (in_.nodes.d(i) + least_);
+  }
+
+  // Up to the nearest node that the list does not hold, or as far as stars mostly need. The
+  // neighbour buckets hold all nodes within radius * d.
+  double reach_to_unlisted(std::int64_t i) const {
+    constexpr double kNeeded = 1.5, kRounding = 1 - 1e-9;
+    const Nodes<2>& nodes = in_.nodes;
+    const Point<2> at = nodes.position(i);
+    const double own = nodes.d(i), radius = in_.lists.radius();
+    const double needed = std::min(kNeeded, radius) * own, half = 0.5 * kRounding * radius;
+    const Box<2> box = box_around<2>(at, needed);
+    const double *x = nodes.x[0].data(), *y = nodes.x[1].data(), *d = nodes.d.data();
+    double nearest = needed * needed;
+    in_.buckets.for_neighbours(bucket_, [&](std::int32_t b) {
+      const Box<2> cell = in_.map.tree().cell_box_with_room(in_.map.tree().leaf_cell(b));
+      for (int k = 0; k < 2; ++k)
+        if (cell.high[k] < box.low[k] || cell.low[k] > box.high[k]) return;
+#pragma omp simd reduction(min : nearest)
+      for (std::int32_t j = in_.buckets.begin(b); j < in_.buckets.end(b); ++j) {
+        const double dx = x[j] - at[0], dy = y[j] - at[1], listed = half * (own + d[j]);
+        const double square = dx * dx + dy * dy;
+        const double unlisted = square < listed * listed ? nearest : square;
+        nearest = unlisted < nearest ? unlisted : nearest;
+      }
+    });
+    return kRounding * std::sqrt(nearest);
+  }
+
+  bool add_hull_star(std::int64_t i, double reach) {
+    around_.clear();
+    in_.lists.for_neighbours(i, [&](std::int64_t j) { around_.push_back(point(j)); });
+    if (!hull_star(point(i), reach, around_)) return false;
+    for (const StarPoint& p : around_) others_.push_back({p.node, true});
+    return true;
+  }
+
+  // The rows of the block: sizes, then `longest` rows of entries.
+  void write(const std::int64_t (&self)[kLanes], std::size_t longest, std::vector<Entry>& out) {
+    const std::size_t begin = out.size();
+    out.resize(begin + (longest + 1) * kLanes);
+    Entry* const sizes = out.data() + begin;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      Entry* const rows = sizes + kLanes + lane;
+      const std::size_t n = size_[lane];
+      bool closed = n > 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        rows[k * kLanes] = hulls_.found[lane] ? Entry{hulls_.node[k][lane], true}
+                                              : others_[first_other_[lane] + k];
+        closed = closed && rows[k * kLanes].flag();
+      }
+      const Entry filler{n > 0 ? rows[0].value() : self[lane], false};
+      for (std::size_t k = n; k < longest; ++k) rows[k * kLanes] = filler;
+      sizes[lane] = {static_cast<std::int64_t>(n), closed};
+    }
+  }
+
+  const StarInput& in_;
+  bool fresh_sight_;
+  std::vector<double>& needs_;
+  std::vector<StarPoint> around_;
+  BlockHullStars hulls_;
+  std::vector<Entry> others_;  // stars of the block that are not among the hulls
+  std::array<std::size_t, kLanes> first_other_{}, size_{};
+  std::int32_t bucket_ = -1;
+  double least_ = 0;  // spacing in the buckets around
+  bool rim_ = false;  // do the lists of some nodes in the bucket reach into the unknown?
+};
+
+}  // namespace
+
+void DelaunayStars::build(const StarInput& input) {
+  count_ = input.nodes.count;
+  needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(count_), 0);
+  const bool fresh_sight = input.near_edges.built_where_nodes_are(input.nodes);
+  blocks_.build("pnpbs::DelaunayStars::build", block_count(),
+                [&] { return StarWriter(input, fresh_sight, needs_); });
+}
+
+DelaunayStars::Column DelaunayStars::column(std::int64_t i) {
+  const std::span<Entry> rows = blocks_.row(i / kLanes);
+  const std::int64_t lane = i % kLanes;
+  return {rows.data() + lane, rows.data() + kLanes + lane,
+          static_cast<std::int32_t>(rows.size() / kLanes) - 1};
+}
+
+std::int32_t DelaunayStars::place_in_star(const Column& star, std::int64_t neighbour) const {
+  std::int32_t k = 0;
+  while (k < star.size->value() && star.at(k).value() != neighbour) ++k;
+  return k;
+}
+
+void DelaunayStars::replace(std::int64_t i, std::int64_t neighbour, std::int64_t by) {
+  const Column star = column(i);
+  for (std::int32_t k = 0; k < star.length; ++k)
+    if (star.at(k).value() == neighbour) star.at(k) = {by, star.at(k).flag()};
+}
+
+void DelaunayStars::remove(std::int64_t i, std::int64_t neighbour) {
+  const Column star = column(i);
+  const std::int32_t n = star.size->value(), there = place_in_star(star, neighbour);
+  if (there == n) return;
+  for (std::int32_t k = there; k + 1 < n; ++k) star.at(k) = star.at(k + 1);
+  *star.size = {n - 1, star.size->flag()};
+  for (std::int32_t k = n - 1; k < star.length; ++k) star.at(k) = {star.at(0).value(), false};
+}
+
+void DelaunayStars::clear(std::int64_t i) {
+  const Column star = column(i);
+  *star.size = {0, false};
+  for (std::int32_t k = 0; k < star.length; ++k) star.at(k) = {i, false};
+}
+
+}  // namespace pnpbs

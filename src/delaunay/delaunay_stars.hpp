@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every node's star in the Delaunay triangulation constrained to the boundary, from its adjacency
+// list alone, so that each rank finds its own: ties are broken by id, and all agree.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/chunked_rows.hpp"
+#include "base/nodes.hpp"
+#include "domain/domain_map.hpp"
+#include "domain/plane/boundary_fans.hpp"
+#include "neighbors/adjacency_list.hpp"
+#include "neighbors/buckets.hpp"
+#include "neighbors/near_edges.hpp"
+#include "partition/known_region.hpp"
+
+namespace pnpbs {
+
+// What the stars are found from; all for the same positions.
+struct StarInput {
+  const Nodes<2>& nodes;
+  const DomainMap& map;
+  const BoundaryFans& fans;
+  const Buckets<2>& buckets;
+  const AdjacencyList<2>& lists;
+  const NearEdges& near_edges;
+  const KnownRegion& known;
+};
+
+// Laid out like the lists: in blocks of kLanes nodes, the k-th neighbours of a block side by side.
+class DelaunayStars {
+ public:
+  // A number and a flag. Of a neighbour j: is (i, j, next neighbour) a triangle of the domain?
+  struct Entry {
+    std::uint32_t bits;
+
+    Entry() = default;
+    Entry(std::int64_t value, bool flag)
+        : bits(static_cast<std::uint32_t>(value) | (flag ? 0x80000000U : 0U)) {}
+    std::int32_t value() const { return static_cast<std::int32_t>(bits & 0x7fffffffU); }
+    bool flag() const { return bits >> 31 != 0; }
+  };
+
+  struct Block {
+    const Entry* sizes;    // [kLanes]; flagged if the star is all triangles
+    const Entry* entries;  // [length][kLanes]; shorter stars are filled up with their first entry
+    std::int32_t length;
+  };
+
+  void build(const StarInput& input);
+
+  std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
+
+  Block block(std::int64_t b) const {
+    const std::span<const Entry> rows = blocks_.row(b);
+    return {rows.data(), rows.data() + kLanes, static_cast<std::int32_t>(rows.size() / kLanes) - 1};
+  }
+
+  // Calls visit(j, triangle) for the neighbours of node i, counter-clockwise; `triangle` tells
+  // whether (i, j, next neighbour) is a triangle of the domain. The neighbour after the last is
+  // the first.
+  template <class Visit>
+  void for_neighbours(std::int64_t i, const Visit& visit) const {
+    const Block stars = block(i / kLanes);
+    const std::int64_t lane = i % kLanes;
+    const std::int32_t n = stars.sizes[lane].value();
+    for (std::int32_t k = 0; k < n; ++k) {
+      const Entry entry = stars.entries[k * kLanes + lane];
+      visit(static_cast<std::int64_t>(entry.value()), entry.flag());
+    }
+  }
+
+  // Calls visit(j, k) for the triangles (i, j, k) around node i.
+  template <class Visit>
+  void for_triangles(std::int64_t i, const Visit& visit) const {
+    const Block stars = block(i / kLanes);
+    const std::int64_t lane = i % kLanes;
+    const std::int32_t n = stars.sizes[lane].value();
+    for (std::int32_t k = 0; k < n; ++k) {
+      const Entry entry = stars.entries[k * kLanes + lane];
+      if (!entry.flag()) continue;
+      const Entry next = stars.entries[(k + 1 < n ? k + 1 : 0) * kLanes + lane];
+      visit(static_cast<std::int64_t>(entry.value()), static_cast<std::int64_t>(next.value()));
+    }
+  }
+
+  // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
+  double needs(std::int64_t i) const {
+    return needs_.empty() ? 0 : needs_[static_cast<std::size_t>(i)];
+  }
+
+  std::int32_t size(std::int64_t i) const { return block(i / kLanes).sizes[i % kLanes].value(); }
+  // Is the star all triangles?
+  bool closed(std::int64_t i) const { return block(i / kLanes).sizes[i % kLanes].flag(); }
+
+  // --- changes by hand, until the next build; the triangles left are the caller's business ---
+  void replace(std::int64_t i, std::int64_t neighbour, std::int64_t by);
+  void remove(std::int64_t i, std::int64_t neighbour);
+  void clear(std::int64_t i);
+
+ private:
+  // The star of a node as it lies in its block.
+  struct Column {
+    Entry* size;
+    Entry* first;
+    std::int32_t length;  // of the block
+
+    Entry& at(std::int32_t k) const { return first[k * kLanes]; }
+  };
+  Column column(std::int64_t i);
+  std::int32_t place_in_star(const Column& star, std::int64_t neighbour) const;
+
+  std::int64_t count_ = 0;
+  ChunkedRows<Entry, 64> blocks_;  // the sizes, then the entries
+  std::vector<double> needs_;      // of the nodes; empty where everything is known
+};
+
+}  // namespace pnpbs

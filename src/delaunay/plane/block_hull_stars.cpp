@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Inversion about the node turns the star into a convex hull, as in hull_star: a neighbour belongs
+// to it if the inverted points before it, at it and after it turn left. All neighbours that do not
+// are dropped together, again and again, until all do. Every decision must hold by a margin far
+// above rounding errors, or else the lane is given up.
+#include "delaunay/plane/block_hull_stars.hpp"
+
+#include <cmath>
+
+#include "dynamics/bubble_force.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Least sine, about, of the angle between two neighbours next to each other: their cross product,
+// in which rounding loses 2^-51 of the terms, is then right to 1e-10.
+constexpr double kLeastTurn = 1e-5;
+// Least turn of three inverted points, relative to the terms of the determinant. Rounding loses
+// less than 2^-49 of them.
+constexpr double kLeastBend = 1e-13;
+// Circles must lie within reach by this margin, in squares, against the errors of cross products
+// here and of circle_diameter, whose area is right to 1e-10 if no neighbour is nearer than that.
+constexpr double kCircleMargin = 1 - 1e-8;
+constexpr double kLeastGap = 1e-4;  // in units of the reach
+// Reaches for which the products of six lengths neither overflow nor lose bits.
+constexpr double kLeastReach = 1e-30, kLargestReach = 1e30;
+
+constexpr std::int32_t kNoKey = 0x7ffffff0;  // comes last, whatever place it names
+constexpr std::int32_t kKeyIndex = kMostListed - 1;
+constexpr double kQuarterTurn = 1 << 24;
+constexpr std::int32_t kTurnMask = (1 << 26) - 1;
+
+using Lanes = double[kLanes];
+using Integers = std::int32_t[kLanes];
+
+class BlockHull {
+ public:
+  BlockHull(const ListBlock& list, std::int32_t pad, const double* x, const double* y,
+            const std::int64_t (&self)[kLanes], const double (&reach)[kLanes])
+      : entries_(list.entries), listed_(list.length) {
+    gather(pad, x, y, self);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const double least_gap = kLeastGap * reach[lane];
+      sure_[lane] = reach[lane] > kLeastReach && reach[lane] < kLargestReach &&
+                    nearest_[lane] > least_gap * least_gap && left_[lane] >= 3;
+    }
+    key_by_angle();
+  }
+
+  void find(const double (&reach)[kLanes], BlockHullStars& stars) {
+    length_ = listed_;
+    do {
+      sort();
+      length_ = longest();
+      close_ring();
+    } while (drop_outsiders());
+    check_circles(reach);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      stars.found[lane] = sure_[lane] != 0;
+      stars.size[lane] = left_[lane];
+    }
+    for (int k = 0; k < length_; ++k)
+#pragma omp simd
+      for (int lane = 0; lane < kLanes; ++lane)
+        stars.node[k][lane] = entries_[(key_[k][lane] & kKeyIndex) * kLanes + lane];
+  }
+
+ private:
+  // Positions relative to the node, and which neighbour is nearest.
+  void gather(std::int32_t pad, const double* x, const double* y,
+              const std::int64_t (&self)[kLanes]) {
+    Lanes own_x, own_y;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      own_x[lane] = x[self[lane]];
+      own_y[lane] = y[self[lane]];
+      nearest_[lane] = 1e300;
+      nearest_place_[lane] = 0;
+      left_[lane] = 0;
+    }
+    for (int k = 0; k < listed_; ++k) {
+#pragma omp simd
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const std::int32_t j = entries_[k * kLanes + lane];
+        const double dx = x[j] - own_x[lane], dy = y[j] - own_y[lane];
+        const double square = j != pad ? dx * dx + dy * dy : 1e300;
+        const double least = nearest_[lane];
+        const std::int32_t nearer = square < least ? -1 : 0;
+        nearest_[lane] = square < least ? square : least;
+        nearest_place_[lane] = (nearest_place_[lane] & ~nearer) | (k & nearer);
+        left_[lane] += j != pad ? 1 : 0;
+        dx_[k][lane] = dx;
+        dy_[k][lane] = dy;
+      }
+    }
+  }
+
+  // Increases with the angle of (dx, dy), by kQuarterTurn from one half axis to the next.
+  static std::int32_t angle(double dx, double dy) {
+    const double t = dy / (std::fabs(dx) + std::fabs(dy) + 1e-300);
+    return static_cast<std::int32_t>(kQuarterTurn * (dx >= 0 ? t : 2 - t));
+  }
+
+  // Keys hold the angle from the nearest neighbour on, and below it the place in the list. The
+  // angles are rough; what comes of them is checked.
+  void key_by_angle() {
+    Integers first;
+#pragma omp simd
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::int32_t place = nearest_place_[lane];
+      first[lane] = angle(dx_[place][lane], dy_[place][lane]);
+    }
+    for (int k = 0; k < listed_; ++k) {
+#pragma omp simd
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const std::int32_t turn = (angle(dx_[k][lane], dy_[k][lane]) - first[lane]) & kTurnMask;
+        key_[k][lane] = k < left_[lane] ? turn * kMostListed + k : kNoKey;
+      }
+    }
+  }
+
+  void sort() {
+    for (int k = 1; k < length_; ++k) {
+      for (int m = k; m > 0; --m) {
+#pragma omp simd
+        for (int lane = 0; lane < kLanes; ++lane) {
+          const std::int32_t a = key_[m - 1][lane], b = key_[m][lane];
+          key_[m - 1][lane] = a < b ? a : b;
+          key_[m][lane] = a < b ? b : a;
+        }
+      }
+    }
+  }
+
+  int longest() const {
+    std::int32_t most = 0;
+    for (int lane = 0; lane < kLanes; ++lane) most = left_[lane] > most ? left_[lane] : most;
+    return most;
+  }
+
+  // Positions in order; after the last come the first and the second again.
+  void close_ring() {
+    for (int k = 0; k < length_ + 2; ++k) {
+      const int row = k < length_ ? k : 0;
+#pragma omp simd
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const std::int32_t after = k - left_[lane];
+        const std::int32_t again = after == 1 ? key_[1][lane] : key_[0][lane];
+        const std::int32_t key = after < 0 ? key_[row][lane] : again;
+        const std::int32_t place = key & kKeyIndex;
+        const double px = dx_[place][lane], py = dy_[place][lane];
+        x_[k][lane] = px;
+        y_[k][lane] = py;
+        square_[k][lane] = px * px + py * py;
+      }
+    }
+    for (int k = 0; k < length_ + 1; ++k) {
+#pragma omp simd
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const double left = x_[k][lane] * y_[k + 1][lane];
+        const double right = y_[k][lane] * x_[k + 1][lane];
+        const double size = std::fabs(left) + std::fabs(right);
+        const bool fine = left - right > kLeastTurn * size || k >= left_[lane];
+        cross_[k][lane] = left - right;
+        cross_size_[k][lane] = size;
+        sure_[lane] &= fine ? 1 : 0;
+      }
+    }
+  }
+
+  // Returns whether there were any, in lanes not given up.
+  bool drop_outsiders() {
+    Integers dropped{};
+    for (int k = 1; k < length_ + 1; ++k) {
+      const int row = k < length_ ? k : 0;
+#pragma omp simd
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const double left = x_[k - 1][lane] * y_[k + 1][lane];
+        const double right = y_[k - 1][lane] * x_[k + 1][lane];
+        const double before = square_[k - 1][lane], at = square_[k][lane],
+                     after = square_[k + 1][lane];
+        const double bend =
+            after * cross_[k - 1][lane] + before * cross_[k][lane] - at * (left - right);
+        const double size = after * cross_size_[k - 1][lane] + before * cross_size_[k][lane] +
+                            at * (std::fabs(left) + std::fabs(right));
+        const std::int32_t here = k <= left_[lane] ? 1 : 0;
+        const std::int32_t inside = bend > kLeastBend * size ? 1 : 0;
+        const std::int32_t outside = bend < -kLeastBend * size ? 1 : 0;
+        sure_[lane] &= (inside | outside) | (1 - here);
+        const std::int32_t drop = outside & here & sure_[lane];
+        // The nearest, which comes last here and first in the keys, always belongs.
+        key_[row][lane] |= k < left_[lane] ? kNoKey & -drop : 0;
+        dropped[lane] += drop;
+      }
+    }
+    std::int32_t any = 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      left_[lane] -= dropped[lane];
+      any += dropped[lane];
+    }
+    return any > 0;
+  }
+
+  // Every circle through the node and two neighbours must lie within its reach.
+  void check_circles(const double (&reach)[kLanes]) {
+    for (int k = 0; k < length_; ++k) {
+#pragma omp simd
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const double sx = x_[k + 1][lane] - x_[k][lane], sy = y_[k + 1][lane] - y_[k][lane];
+        // The diameter is the product of the three sides over twice the area.
+        const double sides = square_[k][lane] * square_[k + 1][lane] * (sx * sx + sy * sy);
+        const double most = reach[lane] * cross_[k][lane];
+        const bool fine = sides <= kCircleMargin * most * most || k >= left_[lane];
+        sure_[lane] &= fine ? 1 : 0;
+      }
+    }
+  }
+
+  const std::int32_t* entries_;
+  int listed_;
+  int length_ = 0;  // of the longest star so far
+  Integers left_;   // neighbours listed and not dropped
+  Integers sure_;   // 0: given up
+  Lanes nearest_;   // squared distance
+  Integers nearest_place_;
+  Lanes dx_[kMostListed], dy_[kMostListed];  // as listed
+  Integers key_[kMostListed];
+  Lanes x_[kMostListed + 2], y_[kMostListed + 2], square_[kMostListed + 2];  // as sorted
+  Lanes cross_[kMostListed + 1], cross_size_[kMostListed + 1];               // of one and the next
+};
+
+}  // namespace
+
+void find_block_hull_stars(const ListBlock& list, std::int32_t pad, const double* x,
+                           const double* y, const std::int64_t (&self)[kLanes],
+                           const double (&reach)[kLanes], BlockHullStars& stars) {
+  if (list.length < 3 || list.length > kMostListed) {
+    for (bool& found : stars.found) found = false;
+    return;
+  }
+  BlockHull(list, pad, x, y, self, reach).find(reach, stars);
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "delaunay/plane/constrained_star.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "delaunay/plane/hull_star.hpp"
+#include "predicates/plane.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using Entry = DelaunayStars::Entry;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class GiftWrap {
+ public:
+  // From the list of node i, which holds all that it sees within reach.
+  GiftWrap(const StarInput& input, std::int64_t i, double reach)
+      : GiftWrap(input, i, reach, false, {}) {
+    gather_listed();
+  }
+
+  // From all nodes within reach.
+  GiftWrap(const StarInput& input, std::int64_t i, double reach, bool everything)
+      : GiftWrap(input, i, reach, everything, {}) {
+    gather_all();
+  }
+
+  // Many boundary nodes, no inner one, and none that makes a circle within reach with an edge of
+  // this node: those that matter are most likely farther away, and it would take long to find out.
+  bool looks_too_near() const {
+    constexpr std::size_t kMany = 64;
+    if (inner_ > 0 || around_.size() <= kMany || everything_ || boundary_ < 0) return false;
+    const std::int32_t edge = in_.fans.begin(boundary_);
+    if (edge == in_.fans.end(boundary_)) return false;
+    const auto other = static_cast<std::size_t>(in_.fans.edge(edge).other);
+    const Point<2>& a = in_.map.boundary().nodes[other].position;
+    return std::none_of(around_.begin(), around_.end(), [&](const StarPoint& p) {
+      return circle_diameter(centre_.position, a, p.position) <= reach_;
+    });
+  }
+
+  // False if nodes beyond the reach may matter. Where all are within reach, none can.
+  bool wrap(std::vector<Entry>& star) {
+    if (!listed_) find_edges();
+    if (boundary_ >= 0 && in_.fans.begin(boundary_) != in_.fans.end(boundary_))
+      return wrap_sectors(star);
+    const int first = nearest_visible();
+    if (first < 0) return false;
+    return wrap_from(first, around_[index(first)].node, star);
+  }
+
+ private:
+  struct Nothing {};
+  GiftWrap(const StarInput& input, std::int64_t i, double reach, bool everything, Nothing)
+      : in_(input),
+        centre_(node(i)),
+        boundary_(input.nodes.boundary_node(i)),
+        reach_(reach),
+        everything_(everything) {}
+
+  static std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+  StarPoint node(std::int64_t j) const {
+    return {in_.nodes.position(j), in_.nodes.id(j), static_cast<std::int32_t>(j)};
+  }
+
+  // Edges between any two of them are within reach as well, and so near to the node.
+  void gather_listed() {
+    around_.reserve(16);
+    in_.lists.for_neighbours(centre_.node, [&](std::int64_t j) {
+      const double gap = squared_distance<2>(centre_.position, in_.nodes.position(j));
+      if (gap > 0 && gap <= reach_ * reach_) around_.push_back(node(j));
+    });
+    put_inner_first();
+    listed_ = true;
+    edges_ = in_.near_edges.edges_of(centre_.node);
+    sees_centre_.assign(around_.size(), 1);
+  }
+
+  void gather_all() {
+    const Point<2>& x = centre_.position;
+    in_.map.tree().for_leaves_in(box_around<2>(x, reach_), [&](std::int32_t leaf) {
+      for (std::int32_t j = in_.buckets.begin(leaf); j < in_.buckets.end(leaf); ++j) {
+        const double gap = squared_distance<2>(x, in_.nodes.position(j));
+        if (j != centre_.node && gap > 0 && gap <= reach_ * reach_) around_.push_back(node(j));
+      }
+    });
+    put_inner_first();
+    sees_centre_.assign(around_.size(), -1);
+  }
+
+  void find_edges() {
+    in_.map.for_edges_near(centre_.position, reach_,
+                           [&](std::int32_t e) { found_edges_.push_back(e); });
+    std::sort(found_edges_.begin(), found_edges_.end());
+    found_edges_.erase(std::unique(found_edges_.begin(), found_edges_.end()), found_edges_.end());
+    edges_ = found_edges_;
+  }
+
+  // What is found does not depend on the order. Where the boundary is far finer than d, the circle
+  // through an inner node and an edge rules out hundreds of boundary nodes at once; among
+  // themselves they often lie on one circle, which takes exact arithmetic to tell.
+  void put_inner_first() {
+    const auto first_of_boundary =
+        std::partition(around_.begin(), around_.end(),
+                       [&](const StarPoint& p) { return in_.nodes.boundary_node(p.node) < 0; });
+    inner_ = static_cast<std::size_t>(first_of_boundary - around_.begin());
+  }
+
+  bool way_is_free_between(const StarPoint& a, const StarPoint& b) const {
+    return way_is_free(in_.map, in_.fans, a.position, in_.nodes.boundary_node(a.node), b.position,
+                       in_.nodes.boundary_node(b.node), edges_);
+  }
+
+  bool sees_centre(int k) {
+    signed char& known = sees_centre_[index(k)];
+    if (known < 0) known = way_is_free_between(centre_, around_[index(k)]);
+    return known != 0;
+  }
+
+  bool is_edge(const StarPoint& a, const StarPoint& b) const {
+    const std::int32_t p = in_.nodes.boundary_node(a.node), q = in_.nodes.boundary_node(b.node);
+    return p >= 0 && q >= 0 && in_.fans.joined(p, q);
+  }
+
+  int nearest_visible() {
+    int nearest = -1;
+    double least = kInfinity;
+    for (int k = 0; k < static_cast<int>(around_.size()); ++k) {
+      const double gap = squared_distance<2>(centre_.position, around_[index(k)].position);
+      const bool nearer =
+          gap < least || (gap == least && around_[index(k)].id < around_[index(nearest)].id);
+      if (!nearer || !sees_centre(k)) continue;
+      least = gap;
+      nearest = k;
+    }
+    return nearest;
+  }
+
+  // A neighbour counter-clockwise of a that a boundary edge joins with a or the centre, or -1.
+  // Where there is one, it mostly is the one that follows, and rules out the others at once.
+  int joined_after(const StarPoint& a) {
+    for (std::size_t k = inner_; k < around_.size(); ++k) {
+      const StarPoint& p = around_[k];
+      if (!is_edge(a, p) && !is_edge(centre_, p)) continue;
+      if (orientation(centre_.position, a.position, p.position) <= 0) continue;
+      if (sees_centre(static_cast<int>(k)) && way_is_free_between(a, p)) return static_cast<int>(k);
+    }
+    return -1;
+  }
+
+  // The neighbour that follows a counter-clockwise, or -1.
+  int next_after(const StarPoint& a) {
+    int best = joined_after(a);
+    for (int k = 0; k < static_cast<int>(around_.size()); ++k) {
+      const StarPoint& p = around_[index(k)];
+      if (p.node == a.node) continue;
+      if (orientation(centre_.position, a.position, p.position) <= 0) continue;
+      if (best >= 0) {
+        const StarPoint& b = around_[index(best)];
+        if (in_circle_perturbed(centre_.position, a.position, b.position, p.position, centre_.id,
+                                a.id, b.id, p.id) <= 0)
+          continue;
+      }
+      if (sees_centre(k) && way_is_free_between(a, p)) best = k;
+    }
+    return best;
+  }
+
+  // How far from the centre a node could lie that would spoil triangle (centre, a, b). Beyond a
+  // boundary edge nothing is seen. In the part of the circle cut off by a side that the circle's
+  // middle is not beyond, nothing is farther than the ends of that side.
+  double needed_reach(const StarPoint& a, const StarPoint& b) const {
+    const Point<2>&i = centre_.position, &p = a.position, &q = b.position;
+    const double to_a = distance<2>(i, p), to_b = distance<2>(i, q);
+    const double diameter = circle_diameter(i, p, q);
+    const auto angle_is_acute = [](const Point<2>& at, const Point<2>& u, const Point<2>& w) {
+      return (u[0] - at[0]) * (w[0] - at[0]) + (u[1] - at[1]) * (w[1] - at[1]) > 0;
+    };
+    const bool acute_i = angle_is_acute(i, p, q), acute_a = angle_is_acute(p, q, i),
+               acute_b = angle_is_acute(q, i, p);
+    double need = std::max(to_a, to_b);
+    if (!is_edge(a, b) && (!acute_i || (acute_a && acute_b))) need = std::max(need, diameter);
+    if (!is_edge(centre_, a) && !acute_b) need = std::max(need, diameter);
+    if (!is_edge(centre_, b) && !acute_a) need = std::max(need, diameter);
+    return need;
+  }
+
+  // Wraps from neighbour `first` on until node `last` has come; appends all but the last.
+  bool wrap_from(int first, std::int32_t last, std::vector<Entry>& star) {
+    StarPoint a = around_[index(first)];
+    for (std::size_t guard = 0; guard <= around_.size(); ++guard) {
+      const int k = next_after(a);
+      if (k < 0) return false;
+      const StarPoint b = around_[index(k)];
+      if (!everything_ && needed_reach(a, b) > reach_) return false;
+      star.push_back({a.node, true});
+      if (b.node == last) return true;
+      a = b;
+    }
+    return false;
+  }
+
+  int find_boundary_node(std::int32_t boundary_node) const {
+    for (int k = 0; k < static_cast<int>(around_.size()); ++k)
+      if (in_.nodes.boundary_node(around_[index(k)].node) == boundary_node) return k;
+    return -1;
+  }
+
+  // A boundary node: sector by sector, each from one boundary edge to the next.
+  bool wrap_sectors(std::vector<Entry>& star) {
+    const std::int32_t begin = in_.fans.begin(boundary_), end = in_.fans.end(boundary_);
+    for (std::int32_t s = begin; s < end; ++s) {
+      const FanEdge& from = in_.fans.edge(s);
+      const FanEdge& to = in_.fans.edge(s + 1 < end ? s + 1 : begin);
+      const int first = find_boundary_node(from.other), last = find_boundary_node(to.other);
+      if (first < 0 || last < 0) return false;
+      if (!from.inside_after) {
+        star.push_back({around_[index(first)].node, false});
+        continue;
+      }
+      if (!wrap_from(first, around_[index(last)].node, star)) return false;
+    }
+    return true;
+  }
+
+  const StarInput& in_;
+  StarPoint centre_;
+  std::int32_t boundary_;
+  double reach_;
+  bool everything_;      // is every node within reach?
+  bool listed_ = false;  // are the nodes around from the list?
+  std::vector<StarPoint> around_;
+  std::size_t inner_ = 0;                // of them, the first ones
+  std::span<const std::int32_t> edges_;  // all that can lie between any of the nodes
+  std::vector<std::int32_t> found_edges_;
+  std::vector<signed char> sees_centre_;  // -1 not asked yet
+};
+
+}  // namespace
+
+double constrained_star(const StarInput& input, std::int64_t i, double listed_reach,
+                        double first_reach, std::vector<Entry>& star) {
+  const std::size_t before = star.size();
+  constexpr double kFar = 16;  // in a channel of boundary nodes alone there is nothing to wait for
+  const auto found = [&](GiftWrap&& wrap, double reach) {
+    return (reach > kFar * first_reach || !wrap.looks_too_near()) && wrap.wrap(star);
+  };
+  if (listed_reach > 0 && found(GiftWrap(input, i, listed_reach), listed_reach)) return 0;
+  for (double reach = first_reach;; reach *= 1.5) {
+    star.resize(before);
+    if (!input.known.covers(input.map, box_around<2>(input.nodes.position(i), reach))) return reach;
+    const bool everything = reach > 2 * input.map.tree().side();
+    if (found(GiftWrap(input, i, reach, everything), reach)) return 0;
+    if (everything) break;
+  }
+  // Nothing more to be found: what there is, with a gap after it (fewer than three nodes in all).
+  if (star.size() > before) star.back() = {star.back().value(), false};
+  return 0;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "delaunay/plane/hull_star.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "predicates/plane.hpp"
+
+namespace pnpbs {
+
+// The area is found from the shortest side, whose ends are the most exact to subtract, and taken at
+// its least: of a triangle too flat to tell, the circle reaches everywhere.
+double circle_diameter(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  const double ab = squared_distance<2>(a, b), bc = squared_distance<2>(b, c),
+               ca = squared_distance<2>(c, a);
+  const Point<2>& from = ab <= bc && ab <= ca ? a : bc <= ca ? b : c;
+  const Point<2>& to = ab <= bc && ab <= ca ? b : bc <= ca ? c : a;
+  const Point<2>& top = ab <= bc && ab <= ca ? c : bc <= ca ? a : b;
+  const double left = (to[0] - from[0]) * (top[1] - from[1]);
+  const double right = (to[1] - from[1]) * (top[0] - from[0]);
+  const double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const double twice_area =
+      std::fabs(left - right) - rounding * (std::fabs(left) + std::fabs(right));
+  if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(ab) * std::sqrt(bc) * std::sqrt(ca) / twice_area;
+}
+
+namespace {
+
+// 0 in the direction of `first` and up to 180 degrees on, 1 beyond.
+int half(const StarPoint& centre, const StarPoint& first, const StarPoint& p) {
+  const int turn = orientation(centre.position, first.position, p.position);
+  if (turn != 0) return turn > 0 ? 0 : 1;
+  const double along =
+      (p.position[0] - centre.position[0]) * (first.position[0] - centre.position[0]) +
+      (p.position[1] - centre.position[1]) * (first.position[1] - centre.position[1]);
+  return along > 0 ? 0 : 1;
+}
+
+// Sorts counter-clockwise from around[0]; of two in one direction the nearer comes first. Few
+// points, nearly sorted by bucket: insertion.
+void sort_by_angle(const StarPoint& centre, std::vector<StarPoint>& around,
+                   std::vector<char>& halves) {
+  halves.resize(around.size());
+  for (std::size_t k = 1; k < around.size(); ++k) {
+    const StarPoint p = around[k];
+    const char half_p = static_cast<char>(half(centre, around[0], p));
+    std::size_t at = k;
+    for (; at > 1; --at) {
+      const StarPoint& q = around[at - 1];
+      if (half_p > halves[at - 1]) break;
+      if (half_p == halves[at - 1]) {
+        const int turn = orientation(centre.position, q.position, p.position);
+        if (turn > 0) break;
+        if (turn == 0 && squared_distance<2>(centre.position, q.position) <=
+                             squared_distance<2>(centre.position, p.position))
+          break;
+      }
+      around[at] = q;
+      halves[at] = halves[at - 1];
+    }
+    around[at] = p;
+    halves[at] = half_p;
+  }
+}
+
+// Does `middle` belong to the star between its neighbours `left` and `right`?
+bool belongs(const StarPoint& centre, const StarPoint& left, const StarPoint& middle,
+             const StarPoint& right) {
+  if (orientation(centre.position, left.position, middle.position) == 0) return false;
+  if (orientation(centre.position, left.position, right.position) <= 0) return true;
+  return in_circle_perturbed(centre.position, left.position, right.position, middle.position,
+                             centre.id, left.id, right.id, middle.id) > 0;
+}
+
+}  // namespace
+
+bool hull_star(const StarPoint& centre, double reach, std::vector<StarPoint>& around) {
+  if (around.size() < 3) return false;
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    const double gap = squared_distance<2>(centre.position, around[k].position);
+    if (gap < least || (gap == least && around[k].id < around[nearest].id)) {
+      least = gap;
+      nearest = k;
+    }
+  }
+  if (least == 0) return false;
+  std::swap(around[0], around[nearest]);
+  static thread_local std::vector<char> halves;
+  sort_by_angle(centre, around, halves);
+
+  // Graham scan; the nearest neighbour is always in the star, so it starts and ends there.
+  const std::size_t n = around.size();
+  std::size_t top = 0;
+  for (std::size_t k = 1; k <= n; ++k) {
+    const StarPoint p = k < n ? around[k] : around[0];
+    while (top >= 1 && !belongs(centre, around[top - 1], around[top], p)) --top;
+    if (k < n) around[++top] = p;
+  }
+  around.resize(top + 1);
+
+  if (around.size() < 3) return false;
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    const StarPoint &a = around[k], &b = around[(k + 1) % around.size()];
+    if (orientation(centre.position, a.position, b.position) <= 0) return false;
+    if (circle_diameter(centre.position, a.position, b.position) > reach) return false;
+  }
+  return true;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/node_limit.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Three digits, in the unit that suits.
+std::string bytes_text(double bytes) {
+  const char* const units[] = {" bytes", " KiB", " MiB", " GiB", " TiB"};
+  int unit = 0;
+  for (; bytes >= 1000 && unit < 4; ++unit) bytes /= 1024;
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, bytes, std::chars_format::general, 3);
+  return std::string(text, end.ptr) + units[unit];
+}
+
+}  // namespace
+
+void NodeLimit::require_memory_for(double nodes) const {
+  const double bytes = kBytesPerNode * nodes;
+  if (bytes <= max_bytes) return;
+  throw Error(ErrorKind::memory,
+              "about " + number_text(std::round(nodes)) + " nodes or more would need " +
+                  bytes_text(bytes) + " of memory, and " + bytes_text(max_bytes) +
+                  " are there for them: use a larger spacing or more machines; the option "
+                  "max_memory = 0 switches this check off");
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How many nodes there may be.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace pnpbs {
+
+struct NodeLimit {
+  NodeLimit(std::int64_t nodes, double bytes = std::numeric_limits<double>::infinity())
+      : max_nodes(nodes), max_bytes(bytes) {}
+
+  // Throws Error(ErrorKind::memory) if so many nodes, and all that is kept of them, would not fit.
+  void require_memory_for(double nodes) const;
+
+  std::int64_t max_nodes;  // more are taken for a mistake in d
+  double max_bytes;        // of memory, on all ranks together
+};
+
+// What a node takes at the end of a run, its share of lists and tree included: measured as 222 to
+// 246 bytes, and some for ghosts.
+inline constexpr double kBytesPerNode = 260;
+
+}  // namespace pnpbs

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/plane/boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "domain/plane/curve_track.hpp"
+#include "domain/plane/faces.hpp"
+#include "domain/plane/plane_sweep.hpp"
+#include "domain/plane/point_tree.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr int kMostRounds = 64;    // of halving
+constexpr std::size_t kNamed = 3;  // of the worst, in warnings
+
+// An edge by its place: from node `step` of the curve to the next one.
+struct EdgePlace {
+  std::int32_t curve;
+  std::int32_t step;
+};
+
+class Layer {
+ public:
+  Layer(const PlaneDomain& domain, const SpacingEvaluator& spacing, std::int64_t most_nodes)
+      : domain_(domain), spacing_(spacing) {
+    for (const BoundaryCurve& curve : domain.curves()) tracks_.emplace_back(curve);
+    stations_ = lay_equal_steps(tracks_, spacing, most_nodes);
+    inner_points_.resize(tracks_.size());
+    for (std::size_t c = 0; c < tracks_.size(); ++c) inner_points_[c] = points_between(c);
+    halved_.assign(tracks_.size(), 0);
+  }
+
+  Boundary run() {
+    for (int round = 0;; ++round) {
+      assemble();
+      const std::vector<std::int32_t> bad = edges_that_mislead();
+      if (bad.empty()) break;
+      if (round == kMostRounds || !halve(bad)) reject(bad);
+    }
+    warn_of_halved_edges();
+    ask_spacing();
+    refuse_far_too_fine();
+    warn_of_short_edges();
+    warn_of_close_fixed_nodes();
+    return std::move(boundary_);
+  }
+
+ private:
+  std::vector<Point<2>> points_between(std::size_t curve) const {
+    const std::vector<double>& stations = stations_[curve];
+    return tracks_[curve].points_at({stations.begin() + 1, stations.end() - 1});
+  }
+
+  // ------------------------------------------------------------ nodes and edges
+  void assemble() {
+    boundary_ = {};
+    places_.clear();
+    for (const Corner& corner : domain_.corners()) {
+      boundary_.nodes.push_back({corner.position, corner.tag});
+    }
+    for (std::size_t c = 0; c < tracks_.size(); ++c) assemble_curve(static_cast<std::int32_t>(c));
+    boundary_.first_fixed = static_cast<std::int64_t>(boundary_.nodes.size());
+    for (const FixedNode& node : domain_.fixed_nodes()) {
+      boundary_.nodes.push_back({node.position, node.tag});
+    }
+    positions_.clear();
+    ends_.clear();
+    for (const BoundaryNode& node : boundary_.nodes) positions_.push_back(node.position);
+    for (const BoundaryEdge& edge : boundary_.edges) ends_.push_back({edge.begin, edge.end});
+  }
+
+  void assemble_curve(std::int32_t c) {
+    const BoundaryCurve& curve = tracks_[c].curve();
+    auto begin = static_cast<std::int32_t>(curve.corner_begin);
+    const auto steps = static_cast<std::int32_t>(stations_[c].size()) - 1;
+    for (std::int32_t step = 0; step < steps; ++step) {
+      auto end = static_cast<std::int32_t>(curve.corner_end);
+      if (step + 1 < steps) {
+        end = static_cast<std::int32_t>(boundary_.nodes.size());
+        boundary_.nodes.push_back({inner_points_[c][step], curve.tag});
+      }
+      boundary_.edges.push_back({begin, end, curve.tag, curve.left_inside, curve.right_inside});
+      places_.push_back({c, step});
+      begin = end;
+    }
+  }
+
+  double begin_station(std::int32_t edge) const {
+    return stations_[places_[edge].curve][places_[edge].step];
+  }
+  double end_station(std::int32_t edge) const {
+    return stations_[places_[edge].curve][places_[edge].step + 1];
+  }
+  const CurveTrack& track(std::int32_t edge) const { return tracks_[places_[edge].curve]; }
+  bool is_straight(std::int32_t edge) const {
+    return track(edge).is_straight(begin_station(edge), end_station(edge));
+  }
+
+  // ------------------------------------------------------------ do they divide the plane alike?
+  // Edges that cut others, or that have others on the wrong side.
+  std::vector<std::int32_t> edges_that_mislead() const {
+    const SweepResult sweep = sweep_plane(positions_, ends_);
+    std::vector<std::int32_t> bad;
+    for (const SweepConflict& conflict : sweep.conflicts) {
+      bad.push_back(conflict.edge);
+      if (conflict.other >= 0) bad.push_back(conflict.other);
+    }
+    if (bad.empty()) bad = edges_beside(misplaced_nodes(sweep));
+    std::sort(bad.begin(), bad.end());
+    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+    return bad;
+  }
+
+  // The face of the domain that a side of an edge should see.
+  std::int32_t face(Side side) const {
+    if (side == 2 * static_cast<Side>(ends_.size())) return 0;
+    const BoundaryCurve& curve = track(static_cast<std::int32_t>(side / 2)).curve();
+    return side % 2 == 0 ? curve.left_face : curve.right_face;
+  }
+
+  // Nodes about which the edges do not agree on the face.
+  std::vector<std::int32_t> misplaced_nodes(const SweepResult& sweep) const {
+    std::vector<std::int32_t> misplaced;
+    for_each_contact(positions_, ends_, sweep, [&](std::int32_t node, Side side, Side other) {
+      if (face(side) == face(other)) return;
+      if (misplaced.empty() || misplaced.back() != node) misplaced.push_back(node);
+    });
+    for (std::size_t f = 0; f < domain_.fixed_nodes().size(); ++f) {
+      const auto node = static_cast<std::int32_t>(boundary_.first_fixed + static_cast<Side>(f));
+      const Side side = side_left_of(node, positions_, ends_, sweep);
+      if (face(side) != domain_.fixed_nodes()[f].face) misplaced.push_back(node);
+    }
+    return misplaced;
+  }
+
+  // Edges that end in one of these nodes, or whose part of the curve may pass it on the other
+  // side than they do.
+  std::vector<std::int32_t> edges_beside(const std::vector<std::int32_t>& nodes) const {
+    if (nodes.empty()) return {};
+    std::vector<Point<2>> points;
+    for (const std::int32_t node : nodes) points.push_back(positions_[node]);
+    const PointTree tree(std::move(points));
+    std::vector<std::int32_t> result;
+    for (std::int32_t e = 0; e < static_cast<std::int32_t>(ends_.size()); ++e) {
+      if (is_straight(e)) continue;
+      const double reach = track(e).deviation(begin_station(e), end_station(e));
+      bool beside = false;
+      tree.for_each_near(positions_[ends_[e][0]], positions_[ends_[e][1]], reach,
+                         [&beside](std::int32_t, double) { beside = true; });
+      if (beside) result.push_back(e);
+    }
+    // Straight edges cannot be at fault; they are named if there are no others.
+    return result.empty() ? edges_at(nodes) : result;
+  }
+
+  std::vector<std::int32_t> edges_at(const std::vector<std::int32_t>& nodes) const {
+    std::vector<char> wanted(positions_.size(), 0);
+    for (const std::int32_t node : nodes) wanted[node] = 1;
+    std::vector<std::int32_t> result;
+    for (std::int32_t e = 0; e < static_cast<std::int32_t>(ends_.size()); ++e) {
+      if (wanted[ends_[e][0]] || wanted[ends_[e][1]]) result.push_back(e);
+    }
+    return result;
+  }
+
+  // False if all these edges are straight parts of their curves.
+  bool halve(const std::vector<std::int32_t>& edges) {
+    std::vector<char> changed(tracks_.size(), 0);
+    for (const std::int32_t edge : edges) {
+      const double begin = begin_station(edge), end = end_station(edge);
+      const double middle = 0.5 * (begin + end);
+      if (is_straight(edge) || middle <= begin || middle >= end) continue;
+      changed[places_[edge].curve] = 1;
+      ++halved_[places_[edge].curve];
+      added_.push_back({places_[edge].curve, middle});
+    }
+    for (const auto& [curve, station] : added_) stations_[curve].push_back(station);
+    added_.clear();
+    bool any = false;
+    for (std::size_t c = 0; c < tracks_.size(); ++c) {
+      if (!changed[c]) continue;
+      any = true;
+      std::sort(stations_[c].begin(), stations_[c].end());
+      inner_points_[c] = points_between(c);
+    }
+    return any;
+  }
+
+  [[noreturn]] void reject(const std::vector<std::int32_t>& edges) const {
+    std::vector<std::string> names;
+    for (const std::int32_t edge : edges) {
+      const std::string& name = track(edge).curve().name;
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      if (names.size() == kNamed) break;
+    }
+    throw Error(ErrorKind::domain,
+                "curves come too close to lay nodes on them: " + list_text(names) + " about " +
+                    (edges.empty() ? "" : point_text(positions_[ends_[edges[0]][0]])));
+  }
+
+  // ------------------------------------------------------------ warnings
+  void warn_of_halved_edges() {
+    std::vector<std::string> names;
+    std::int64_t count = 0;
+    for (std::size_t c = 0; c < tracks_.size(); ++c) {
+      if (halved_[c] == 0) continue;
+      count += halved_[c];
+      names.push_back(tracks_[c].curve().name);
+    }
+    if (names.empty()) return;
+    boundary_.warnings.push_back(
+        "the spacing is larger than the feature: " + std::to_string(count) +
+        " boundary edges that would have cut across others were halved, on " +
+        list_text(names, kNamed));
+  }
+
+  void ask_spacing() {
+    constexpr std::int64_t kBatch = 1 << 16;
+    const auto count = static_cast<std::int64_t>(positions_.size());
+    d_.resize(positions_.size());
+    for (std::int64_t first = 0; first < count; first += kBatch) {
+      spacing_(std::min(kBatch, count - first), positions_.data() + first, d_.data() + first);
+    }
+  }
+
+  // What nodes inside see of edges far shorter than d grows with this sum: beyond it a run would
+  // take more than about a minute, or more memory than there may be.
+  void refuse_far_too_fine() const {
+    constexpr double kFine = 32, kMost = 3e7;
+    // Without inner nodes each boundary node is tested against all, often exactly.
+    constexpr double kNothingWithin = 20;
+    const double size = size_of(domain_.bounds());  // farther nobody sees, however large d is
+    double sum = 0, work = 0;
+    std::int64_t fine = 0;
+    for (const auto& [a, b] : ends_) {
+      const double d = std::min(0.5 * (d_[a] + d_[b]), size);
+      const double ratio = d / distance<2>(positions_[a], positions_[b]);
+      if (ratio <= kFine) continue;
+      sum += ratio;
+      work += d > 0.4 * size ? kNothingWithin * ratio : ratio;
+      ++fine;
+    }
+    if (work <= kMost) return;
+    throw Error(ErrorKind::spacing,
+                "the boundary is far finer than the spacing: " + std::to_string(fine) +
+                    " of its edges are " + rounded_text(sum / static_cast<double>(fine)) +
+                    " times shorter than d; use a smaller d, fewer vertices, or a polyline with a "
+                    "corner_angle, on which nodes are laid as d says");
+  }
+
+  struct Worst {
+    double ratio;
+    std::int32_t which;
+    double distance, spacing;
+    bool operator<(const Worst& other) const {
+      return std::pair(ratio, which) < std::pair(other.ratio, other.which);
+    }
+  };
+
+  template <class Name>
+  static std::string worst_text(std::vector<Worst>& all, const char* length, const Name& name) {
+    std::sort(all.begin(), all.end());
+    std::vector<std::string> names;
+    for (const Worst& worst : all) {
+      if (names.size() == kNamed) break;
+      names.push_back(name(worst.which) + " (" + length + " " + rounded_text(worst.distance) +
+                      ", spacing " + rounded_text(worst.spacing) + ")");
+    }
+    return list_text(names, kNamed);
+  }
+
+  void warn_of_short_edges() {
+    std::vector<Worst> all;
+    for (std::int32_t e = 0; e < static_cast<std::int32_t>(ends_.size()); ++e) {
+      const auto [a, b] = ends_[e];
+      const double length = distance<2>(positions_[a], positions_[b]);
+      const double d = 0.5 * (d_[a] + d_[b]);
+      if (length < 0.5 * d) all.push_back({length / d, e, length, d});
+    }
+    if (all.empty()) return;
+    boundary_.warnings.push_back(
+        "the spacing is larger than the feature at " + std::to_string(all.size()) +
+        " boundary edges shorter than half of it; the worst: " +
+        worst_text(all, "length", [this](std::int32_t e) { return track(e).curve().name; }));
+  }
+
+  void warn_of_close_fixed_nodes() {
+    const std::vector<FixedNode>& fixed = domain_.fixed_nodes();
+    if (fixed.empty()) return;
+    std::vector<Point<2>> points;
+    for (const FixedNode& node : fixed) points.push_back(node.position);
+    const PointTree tree(std::move(points));
+    std::vector<Worst> nearest(fixed.size(), {HUGE_VAL, 0, 0, 0});
+    const auto look = [&](const Point<2>& a, const Point<2>& b, double d, std::int32_t self) {
+      tree.for_each_near(a, b, 0.8 * d, [&](std::int32_t f, double distance) {
+        const double own = d_[boundary_.first_fixed + f];
+        if (f == self || distance >= 0.4 * own) return;
+        nearest[f] = std::min(nearest[f], {distance / own, f, distance, own});
+      });
+    };
+    for (const auto& [a, b] : ends_) {
+      look(positions_[a], positions_[b], std::max(d_[a], d_[b]), -1);
+    }
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(fixed.size()); ++f) {
+      look(fixed[f].position, fixed[f].position, d_[boundary_.first_fixed + f], f);
+    }
+    std::erase_if(nearest, [](const Worst& worst) { return worst.ratio == HUGE_VAL; });
+    if (nearest.empty()) return;
+    boundary_.warnings.push_back(
+        std::to_string(nearest.size()) +
+        " fixed nodes are closer than 0.4 of the spacing to the boundary or to each other; the "
+        "worst: " +
+        worst_text(nearest, "distance", [&fixed](std::int32_t f) { return fixed[f].name; }));
+  }
+
+  const PlaneDomain& domain_;
+  const SpacingEvaluator& spacing_;
+  std::vector<CurveTrack> tracks_;
+  std::vector<std::vector<double>> stations_;           // of the nodes of each curve, with its ends
+  std::vector<std::vector<Point<2>>> inner_points_;     // of the nodes between its ends
+  std::vector<std::int64_t> halved_;                    // edges of each curve
+  std::vector<std::pair<std::int32_t, double>> added_;  // curve, station
+  Boundary boundary_;
+  std::vector<EdgePlace> places_;  // of the edges
+  std::vector<Point<2>> positions_;
+  std::vector<VertexPair> ends_;
+  std::vector<double> d_;  // at the nodes
+};
+
+}  // namespace
+
+std::vector<double> bubbles_on_boundary(const Boundary& boundary) {
+  constexpr double kEdges = 32;  // ordinary boundaries have no edges that short
+  std::vector<double> longest(boundary.nodes.size(), 0);
+  for (const BoundaryEdge& e : boundary.edges) {
+    const auto a = static_cast<std::size_t>(e.begin), b = static_cast<std::size_t>(e.end);
+    const double length = distance<2>(boundary.nodes[a].position, boundary.nodes[b].position);
+    for (const std::size_t node : {a, b}) longest[node] = std::max(longest[node], length);
+  }
+  for (double& bound : longest) bound = bound > 0 ? kEdges * bound : HUGE_VAL;  // fixed nodes
+  return longest;
+}
+
+Boundary lay_boundary(const PlaneDomain& domain, const SpacingEvaluator& spacing,
+                      std::int64_t most_nodes) {
+  return Layer(domain, spacing, most_nodes).run();
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The boundary edges around each boundary node, counter-clockwise, and which of the sectors
+// between them lie inside the domain.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "domain/plane/boundary.hpp"
+
+namespace pnpbs {
+
+struct FanEdge {
+  std::int32_t other;  // boundary node at the far end
+  std::int32_t edge;   // index of the edge
+  bool inside_after;   // is the sector counter-clockwise of this edge inside?
+};
+
+class BoundaryFans {
+ public:
+  void build(const Boundary& boundary);
+
+  std::int32_t begin(std::int32_t node) const { return offset_[static_cast<std::size_t>(node)]; }
+  std::int32_t end(std::int32_t node) const { return offset_[static_cast<std::size_t>(node) + 1]; }
+  const FanEdge& edge(std::int32_t k) const { return edges_[static_cast<std::size_t>(k)]; }
+
+  bool joined(std::int32_t a, std::int32_t b) const;
+
+  // Does the way from boundary node `node` towards x start inside the domain (or along an edge)?
+  bool leads_inside(const Boundary& boundary, std::int32_t node, const Point<2>& x) const;
+
+  // May the straight way from x to y, on which the node lies exactly, go on past the node? Only if
+  // both directions lie in one sector inside the domain, or along its edges.
+  bool lets_pass(const Boundary& boundary, std::int32_t node, const Point<2>& x,
+                 const Point<2>& y) const;
+
+ private:
+  // The sector of a direction, named by the edge before it; two along an edge.
+  struct Sectors {
+    std::int32_t after, before;
+  };
+  Sectors sectors_towards(const Boundary& boundary, std::int32_t node, const Point<2>& x) const;
+
+  std::vector<std::int32_t> offset_;
+  std::vector<FanEdge> edges_;
+};
+
+}  // namespace pnpbs

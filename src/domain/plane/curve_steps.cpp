@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/plane/curve_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/point_text.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kLargestStep = 0.25;     // between samples, in units of d
+constexpr double kLargestRatio = 2;       // of d at neighbouring samples ...
+constexpr double kSmallestStep = 1e-3;    // ... but where d jumps
+constexpr int kLeastIntervals = 8;        // on a curve, however large d is
+constexpr double kMostParts = 64;         // of an interval in one round
+constexpr std::int64_t kBatch = 1 << 16;  // points asked in one call
+
+// d along one curve.
+struct Profile {
+  std::vector<double> stations;
+  std::vector<double> d;
+  std::vector<char> open;  // of the intervals: may have to be divided
+};
+
+// Integral of ds/d over a step h, d going from a to b linearly.
+double integral(double h, double a, double b) {
+  const double x = (b - a) / a;
+  return x == 0 ? h / a : h / a * (std::log1p(x) / x);
+}
+
+// The fraction of the step in which that fraction of its integral lies.
+double inverse(double fraction, double a, double b) {
+  const double x = (b - a) / a;
+  return x == 0 ? fraction : std::expm1(fraction * std::log1p(x)) / x;
+}
+
+class Profiles {
+ public:
+  Profiles(const std::vector<CurveTrack>& tracks, const SpacingEvaluator& spacing,
+           std::int64_t most_nodes)
+      : tracks_(tracks), spacing_(spacing), most_nodes_(static_cast<double>(most_nodes)) {}
+
+  const std::vector<Profile>& run() {
+    for (const CurveTrack& track : tracks_) profiles_.push_back(first_profile(track));
+    for (;;) {
+      ask();
+      require_bearable();
+      bool divided = false;
+      for (Profile& profile : profiles_) divided = divide(profile) || divided;
+      if (!divided) return profiles_;
+    }
+  }
+
+ private:
+  // Unknown values of d are 0.
+  static Profile first_profile(const CurveTrack& track) {
+    const std::vector<double>& vertices = track.vertex_stations();
+    const auto segments = static_cast<int>(std::min<std::size_t>(vertices.size() - 1, 1 << 20));
+    const int parts = (kLeastIntervals + segments - 1) / segments;
+    Profile profile;
+    for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+      for (int k = 0; k < parts; ++k) {
+        const double step = (vertices[i + 1] - vertices[i]) / parts;
+        profile.stations.push_back(vertices[i] + k * step);
+      }
+    }
+    profile.stations.push_back(vertices.back());
+    profile.d.assign(profile.stations.size(), 0);
+    profile.open.assign(profile.stations.size() - 1, 1);
+    return profile;
+  }
+
+  void ask() {
+    points_.clear();
+    for (std::size_t c = 0; c < profiles_.size(); ++c) {
+      std::vector<double> unknown;
+      for (std::size_t i = 0; i < profiles_[c].d.size(); ++i) {
+        if (profiles_[c].d[i] == 0) unknown.push_back(profiles_[c].stations[i]);
+      }
+      const std::vector<Point<2>> points = tracks_[c].points_at(unknown);
+      points_.insert(points_.end(), points.begin(), points.end());
+    }
+    std::vector<double> values(points_.size());
+    const auto count = static_cast<std::int64_t>(points_.size());
+    for (std::int64_t first = 0; first < count; first += kBatch) {
+      spacing_(std::min(kBatch, count - first), points_.data() + first, values.data() + first);
+    }
+    fill_in(values);
+  }
+
+  void fill_in(const std::vector<double>& values) {
+    std::size_t next = 0;
+    for (Profile& profile : profiles_) {
+      for (double& d : profile.d) {
+        if (d != 0) continue;
+        d = values[next];
+        if (!(d > 0 && std::isfinite(d))) {
+          throw Error(ErrorKind::spacing, "the spacing is " + number_text(d) + " at " +
+                                              point_text(points_[next]) +
+                                              ", expected a positive number");
+        }
+        if (d < least_) {
+          least_ = d;
+          least_point_ = points_[next];
+        }
+        ++next;
+      }
+    }
+  }
+
+  void require_bearable() const {
+    double nodes = 0;
+    for (const Profile& profile : profiles_) {
+      for (std::size_t i = 0; i < profile.open.size(); ++i) {
+        nodes +=
+            integral(profile.stations[i + 1] - profile.stations[i], profile.d[i], profile.d[i + 1]);
+      }
+    }
+    if (nodes <= most_nodes_) return;
+    throw Error(ErrorKind::spacing, "the boundary would need about " + rounded_text(nodes) +
+                                        " nodes, more than " + number_text(most_nodes_) +
+                                        ": the spacing is " + number_text(least_) + " at " +
+                                        point_text(least_point_));
+  }
+
+  static int parts(double h, double a, double b) {
+    const double least = std::min(a, b), most = std::max(a, b);
+    const double wanted = std::ceil(h / (kLargestStep * least));
+    if (wanted > 1) return static_cast<int>(std::clamp(wanted, 2.0, kMostParts));
+    return most > kLargestRatio * least && h > kSmallestStep * least ? 2 : 1;
+  }
+
+  // False if all intervals are short enough.
+  static bool divide(Profile& profile) {
+    if (std::find(profile.open.begin(), profile.open.end(), 1) == profile.open.end()) return false;
+    Profile finer;
+    bool divided = false;
+    for (std::size_t i = 0; i < profile.stations.size(); ++i) {
+      finer.stations.push_back(profile.stations[i]);
+      finer.d.push_back(profile.d[i]);
+      if (i == profile.open.size()) break;
+      const double h = profile.stations[i + 1] - profile.stations[i];
+      const int count = profile.open[i] ? parts(h, profile.d[i], profile.d[i + 1]) : 1;
+      finer.open.push_back(count > 1);
+      for (int k = 1; k < count; ++k) {
+        const double station = profile.stations[i] + h * k / count;
+        finer.stations.push_back(station);
+        finer.d.push_back(0);
+        finer.open.push_back(1);
+        divided = true;
+      }
+    }
+    profile = std::move(finer);
+    return divided;
+  }
+
+  const std::vector<CurveTrack>& tracks_;
+  const SpacingEvaluator& spacing_;
+  double most_nodes_;
+  std::vector<Profile> profiles_;
+  std::vector<Point<2>> points_;  // asked in this round
+  double least_ = HUGE_VAL;       // value of d so far
+  Point<2> least_point_{};
+};
+
+std::vector<double> equal_steps(const Profile& profile, bool closed) {
+  std::vector<double> sums{0};
+  for (std::size_t i = 0; i < profile.open.size(); ++i) {
+    sums.push_back(sums.back() + integral(profile.stations[i + 1] - profile.stations[i],
+                                          profile.d[i], profile.d[i + 1]));
+  }
+  const double whole = sums.back();
+  const auto steps = std::max<std::int64_t>(closed ? 3 : 1, std::llround(whole));
+  std::vector<double> stations{0};
+  std::size_t i = 0;
+  for (std::int64_t k = 1; k < steps; ++k) {
+    const double sum = whole * static_cast<double>(k) / static_cast<double>(steps);
+    while (i + 2 < sums.size() && sums[i + 1] <= sum) ++i;
+    const double fraction = (sum - sums[i]) / (sums[i + 1] - sums[i]);
+    const double h = profile.stations[i + 1] - profile.stations[i];
+    stations.push_back(profile.stations[i] + h * inverse(fraction, profile.d[i], profile.d[i + 1]));
+  }
+  stations.push_back(profile.stations.back());
+  return stations;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> lay_equal_steps(const std::vector<CurveTrack>& tracks,
+                                                 const SpacingEvaluator& spacing,
+                                                 std::int64_t most_nodes) {
+  Profiles profiles(tracks, spacing, most_nodes);
+  const std::vector<Profile>& resolved = profiles.run();
+  std::vector<std::vector<double>> stations;
+  for (std::size_t c = 0; c < tracks.size(); ++c) {
+    stations.push_back(equal_steps(resolved[c], tracks[c].is_closed()));
+  }
+  return stations;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/plane/domain_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "domain/plane/point_tree.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using Kind = CurveSource::Kind;
+
+// A point as given, before points at the same place become one vertex.
+struct GivenPoint {
+  std::int32_t source;
+  std::int64_t index;
+  std::int32_t fixed;
+  std::int32_t tag;
+  bool corner;
+  bool curve_end;
+};
+
+// By how much the polyline turns at a point between two segments, in degrees.
+double turn(const Point<2>& before, const Point<2>& at, const Point<2>& after) {
+  const double ux = at[0] - before[0], uy = at[1] - before[1];
+  const double vx = after[0] - at[0], vy = after[1] - at[1];
+  return std::atan2(std::fabs(ux * vy - uy * vx), ux * vx + uy * vy) * 180 / std::numbers::pi;
+}
+
+bool is_corner(const CurveSource& source, std::int64_t point) {
+  if (source.kind == Kind::graph || source.ends_at(point)) return true;
+  if (source.kind == Kind::smooth) return false;
+  if (source.corner_angle == 0) return true;
+  const auto count = static_cast<std::int64_t>(source.points.size());
+  const std::int64_t before = point == 0 ? count - 1 : point - 1;
+  if (source.segment_tag(before) != source.segment_tag(point)) return true;
+  const std::int64_t after = point + 1 == count ? 0 : point + 1;
+  return turn(source.points[before], source.points[point], source.points[after]) >
+         source.corner_angle;
+}
+
+class Joiner {
+ public:
+  Joiner(const std::vector<CurveSource>& sources, const std::vector<FixedNode>& fixed_nodes,
+         double size)
+      : sources_(sources), fixed_nodes_(fixed_nodes) {
+    graph_.size = size;
+  }
+
+  DomainGraph run() {
+    list_points();
+    merge_points();
+    make_vertices();
+    make_edges();
+    split_edges();
+    count_degrees();
+    return std::move(graph_);
+  }
+
+ private:
+  [[noreturn]] static void reject(const std::string& message) {
+    throw Error(ErrorKind::domain, message);
+  }
+
+  void list_points() {
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      const CurveSource& source = sources_[s];
+      first_point_.push_back(static_cast<std::int32_t>(given_.size()));
+      for (std::int64_t i = 0; i < static_cast<std::int64_t>(source.points.size()); ++i) {
+        const std::int32_t tag = source.point_tags.empty() ? 0 : source.point_tags[i];
+        given_.push_back(
+            {static_cast<std::int32_t>(s), i, -1, tag, is_corner(source, i), source.ends_at(i)});
+        positions_.push_back(source.points[i]);
+      }
+    }
+    for (std::size_t f = 0; f < fixed_nodes_.size(); ++f) {
+      const auto fixed = static_cast<std::int32_t>(f);
+      given_.push_back({-1, fixed, fixed, fixed_nodes_[f].tag, true, false});
+      positions_.push_back(fixed_nodes_[f].position);
+    }
+    if (given_.size() >= (std::size_t{1} << 31) - 1) reject("the domain has 2^31 points or more");
+  }
+
+  // Samples in the middle of smooth curves join others only where these were given: two curves
+  // that happen to have a sample in common cross all the same.
+  bool is_mere_sample(std::int32_t point) const {
+    const GivenPoint& given = given_[point];
+    return given.source >= 0 && sources_[given.source].kind == Kind::smooth && !given.curve_end;
+  }
+
+  void merge_points() {
+    const PointTree tree(positions_);
+    root_.resize(given_.size());
+    std::iota(root_.begin(), root_.end(), 0);
+    const auto count = static_cast<std::int32_t>(given_.size());
+    for (std::int32_t p = 0; p < count; ++p) {
+      if (!is_mere_sample(p)) join_nearest(p, tree);
+    }
+    for (std::int32_t p = 0; p < count; ++p) {
+      if (is_mere_sample(p)) join_nearest(p, tree);
+    }
+  }
+
+  // Joins the point to the nearest earlier one at the same place that has joined none.
+  void join_nearest(std::int32_t p, const PointTree& tree) {
+    std::pair<double, std::int32_t> nearest{graph_.size, p};
+    tree.for_each_near(positions_[p], positions_[p], kSameCurveEnd * graph_.size,
+                       [&](std::int32_t other, double distance) {
+                         if (other == p || root_[other] != other || is_mere_sample(other)) return;
+                         if (other > p && !is_mere_sample(p)) return;
+                         const bool end = given_[p].curve_end || given_[other].curve_end;
+                         const double same = end ? kSameCurveEnd : kSamePlace;
+                         if (distance > same * graph_.size) return;
+                         nearest = std::min(nearest, {distance, other});
+                       });
+    if (nearest.second == p) return;
+    require_may_join(nearest.second, p);
+    root_[p] = nearest.second;
+  }
+
+  void require_may_join(std::int32_t a, std::int32_t b) const {
+    const GivenPoint &first = given_[a], &second = given_[b];
+    const bool both_fixed = first.fixed >= 0 && second.fixed >= 0;
+    const bool same_graph = first.source == second.source && first.source >= 0 &&
+                            sources_[first.source].kind == Kind::graph;
+    if (!both_fixed && !same_graph) return;
+    const std::string where = positions_[a] == positions_[b]
+                                  ? " are both at " + point_text(positions_[a])
+                                  : " are too close, at " + point_text(positions_[a]) + " and " +
+                                        point_text(positions_[b]);
+    reject(point_name(a) + " and " + point_name(b) + where);
+  }
+
+  std::string point_name(std::int32_t point) const {
+    const GivenPoint& given = given_[point];
+    if (given.source < 0) return fixed_nodes_[given.fixed].name;
+    return sources_[given.source].point_name(given.index);
+  }
+
+  // Whose position a vertex takes: computed ones of smooth curves give way.
+  int weight(std::int32_t point) const {
+    if (given_[point].fixed >= 0) return 2;
+    return sources_[given_[point].source].kind == Kind::smooth ? 0 : 1;
+  }
+
+  void make_vertices() {
+    vertex_of_.assign(given_.size(), -1);
+    std::vector<int> weights;
+    for (std::int32_t p = 0; p < static_cast<std::int32_t>(given_.size()); ++p) {
+      std::int32_t& vertex = vertex_of_[root_[p]];
+      if (vertex < 0) {
+        const GivenPoint& root = given_[root_[p]];
+        vertex = static_cast<std::int32_t>(graph_.vertices.size());
+        graph_.vertices.push_back(
+            {positions_[root_[p]], root.source, root.index, root.fixed, root.tag, 0, root.corner});
+        weights.push_back(weight(root_[p]));
+      }
+      vertex_of_[p] = vertex;
+      if (root_[p] != p) add_to_vertex(graph_.vertices[vertex], p, weights[vertex]);
+    }
+  }
+
+  void add_to_vertex(GraphVertex& vertex, std::int32_t point, int& largest_weight) {
+    const GivenPoint& given = given_[point];
+    vertex.corner = true;  // curves meet here
+    if (vertex.fixed < 0) vertex.fixed = given.fixed;
+    if (given.fixed >= 0 || vertex.tag == 0) vertex.tag = given.tag;
+    if (weight(point) <= largest_weight) return;
+    largest_weight = weight(point);
+    vertex.position = positions_[point];
+  }
+
+  void make_edges() {
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      const CurveSource& source = sources_[s];
+      const bool smooth = source.kind == Kind::smooth;
+      for (std::int64_t i = 0; i < source.segment_count(); ++i) {
+        const auto [begin, end] = source.ends(i);
+        const VertexPair ends{vertex_of_[first_point_[s] + begin],
+                              vertex_of_[first_point_[s] + end]};
+        if (ends[0] == ends[1]) {
+          reject(source.segment_name(i) + " is too short at " +
+                 point_text(graph_.vertices[ends[0]].position) +
+                 ": its ends count as the same place in a domain of size " +
+                 number_text(graph_.size));
+        }
+        graph_.ends.push_back(ends);
+        graph_.edges.push_back({static_cast<std::int32_t>(s), i, smooth ? source.parameters[i] : 0,
+                                smooth ? source.parameters[i + 1] : 0});
+      }
+    }
+  }
+
+  // Where vertices lie on an edge, from its begin to its end: (fraction, vertex).
+  using Stops = std::vector<std::pair<double, std::int32_t>>;
+
+  Stops vertices_on(const VertexPair& ends, const PointTree& tree) const {
+    const Point<2>& a = graph_.vertices[ends[0]].position;
+    const Point<2>& b = graph_.vertices[ends[1]].position;
+    Stops stops;
+    tree.for_each_near(a, b, kSamePlace * graph_.size, [&](std::int32_t which, double) {
+      const std::int32_t vertex = splitting_[which];
+      if (vertex == ends[0] || vertex == ends[1]) return;
+      const Point<2>& p = graph_.vertices[vertex].position;
+      const double ux = b[0] - a[0], uy = b[1] - a[1];
+      const double fraction = ((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / (ux * ux + uy * uy);
+      if (fraction > 0 && fraction < 1) stops.push_back({fraction, vertex});
+    });
+    std::sort(stops.begin(), stops.end());
+    return stops;
+  }
+
+  void split_edges() {
+    std::vector<Point<2>> positions;
+    splitting_.clear();
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(graph_.vertices.size()); ++v) {
+      const GraphVertex& vertex = graph_.vertices[v];
+      const bool mere_sample = !vertex.corner && sources_[vertex.source].kind == Kind::smooth;
+      if (mere_sample) continue;
+      splitting_.push_back(v);
+      positions.push_back(vertex.position);
+    }
+    const PointTree tree(std::move(positions));
+    std::vector<GraphEdge> edges;
+    std::vector<VertexPair> ends;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      GraphEdge rest = graph_.edges[e];
+      std::int32_t begin = graph_.ends[e][0];
+      for (const auto& [fraction, vertex] : vertices_on(graph_.ends[e], tree)) {
+        const GraphEdge& whole = graph_.edges[e];
+        const double t = whole.t_begin + fraction * (whole.t_end - whole.t_begin);
+        edges.push_back({rest.source, rest.segment, rest.t_begin, t});
+        ends.push_back({begin, vertex});
+        graph_.vertices[vertex].corner = true;
+        rest.t_begin = t;
+        begin = vertex;
+      }
+      edges.push_back(rest);
+      ends.push_back({begin, graph_.ends[e][1]});
+    }
+    graph_.edges = std::move(edges);
+    graph_.ends = std::move(ends);
+  }
+
+  void count_degrees() {
+    for (const VertexPair& ends : graph_.ends) {
+      ++graph_.vertices[ends[0]].degree;
+      ++graph_.vertices[ends[1]].degree;
+    }
+    for (GraphVertex& vertex : graph_.vertices) {
+      if (vertex.degree != 2) vertex.corner = true;
+    }
+  }
+
+  const std::vector<CurveSource>& sources_;
+  const std::vector<FixedNode>& fixed_nodes_;
+  DomainGraph graph_;
+  std::vector<GivenPoint> given_;
+  std::vector<Point<2>> positions_;
+  std::vector<std::int32_t> first_point_;  // of each source, in given_
+  std::vector<std::int32_t> root_;         // of each point: itself or the one it joined
+  std::vector<std::int32_t> vertex_of_;    // of each point
+  std::vector<std::int32_t> splitting_;    // vertices that split the edges they lie on
+};
+
+}  // namespace
+
+double domain_size(const std::vector<CurveSource>& sources) {
+  Box<2> box{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+  for (const CurveSource& source : sources) {
+    for (const Point<2>& point : source.points) include(box, point);
+  }
+  return size_of(box);
+}
+
+DomainGraph join_sources(const std::vector<CurveSource>& sources,
+                         const std::vector<FixedNode>& fixed_nodes, double size) {
+  return Joiner(sources, fixed_nodes, size).run();
+}
+
+std::string vertex_name(const GraphVertex& vertex, const std::vector<CurveSource>& sources,
+                        const std::vector<FixedNode>& fixed_nodes) {
+  if (vertex.source < 0) return fixed_nodes[vertex.fixed].name;
+  return sources[vertex.source].point_name(vertex.index);
+}
+
+}  // namespace pnpbs

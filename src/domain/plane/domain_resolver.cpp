@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/plane/domain_resolver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "domain/plane/domain_extent.hpp"
+#include "domain/plane/domain_graph.hpp"
+#include "domain/plane/faces.hpp"
+#include "domain/plane/plane_sweep.hpp"
+#include "domain/plane/sampling.hpp"
+#include "domain/plane/smooth_contacts.hpp"
+#include "domain/segments.hpp"
+#include "predicates/plane.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using Kind = CurveSource::Kind;
+
+// Chords of smooth curves in conflict are halved this often before the conflict is believed.
+constexpr int kRefinements = 8;
+
+[[noreturn]] void reject(const std::string& message) { throw Error(ErrorKind::domain, message); }
+
+class Resolver {
+ public:
+  Resolver(std::vector<CurveSource>& sources, const std::vector<Hole>& holes,
+           const std::vector<FixedNode>& fixed_nodes)
+      : sources_(sources), holes_(holes), fixed_nodes_(fixed_nodes) {}
+
+  ResolvedDomain run() {
+    make_graph();
+    reject_conflicts();
+    const bool graph_rule = std::any_of(sources_.begin(), sources_.end(), [](const auto& source) {
+      return source.kind == Kind::graph;
+    });
+    if (!graph_rule) require_closed_boundary();
+    faces_ = find_faces(points_, graph_.ends, sweep_);
+    if (graph_rule) {
+      find_inside_of_graph();
+    } else {
+      find_inside_of_boundary();
+    }
+    remove_holes();
+    number_inner_faces();
+    keep_edges();
+    place_lone_vertices();
+    make_curves();
+    make_corners();
+    const Extent extent = extent_of(result_.curves);
+    result_.bounds = extent.bounds;
+    result_.area = extent.area;
+    return std::move(result_);
+  }
+
+ private:
+  // ------------------------------------------------------------ the graph
+  void make_graph() {
+    std::int64_t segments = 0;
+    for (const CurveSource& source : sources_) segments += source.segment_count();
+    if (segments == 0) reject("the domain has no curves");
+    const double size = domain_size(sources_);
+    if (size < kSmallestDomain) {
+      reject("the domain's size is " + number_text(size) + ", less than " +
+             number_text(kSmallestDomain));
+    }
+    reject_far_away(size);
+    attach_to_smooth_curves(sources_, fixed_nodes_, size);
+    for (int round = 0;; ++round) {
+      graph_ = join_sources(sources_, fixed_nodes_, size);
+      points_.clear();
+      for (const GraphVertex& vertex : graph_.vertices) points_.push_back(vertex.position);
+      for (const Hole& hole : holes_) points_.push_back(hole.point);
+      sweep_ = sweep_plane(points_, graph_.ends);
+      if (round == kRefinements) break;
+      if (!refine_conflicting_chords(sources_, graph_, sweep_.conflicts)) break;
+    }
+  }
+
+  // Of a small domain far from the origin the coordinates have too few digits left.
+  void reject_far_away(double size) const {
+    for (const CurveSource& source : sources_)
+      for (const Point<2>& point : source.points)
+        for (const double coordinate : point)
+          if (size < kSmallestRelativeSize * std::fabs(coordinate))
+            reject("the domain's size is " + number_text(size) + ", less than " +
+                   number_text(kSmallestRelativeSize) + " of its distance from the origin, as at " +
+                   point_text(point) + ": move it nearer");
+  }
+
+  std::string edge_name(std::int32_t edge) const {
+    return sources_[graph_.edges[edge].source].segment_name(graph_.edges[edge].segment);
+  }
+
+  std::string name_and_place(std::int32_t vertex) const {
+    return vertex_name(graph_.vertices[vertex], sources_, fixed_nodes_) + " " +
+           point_text(points_[vertex]);
+  }
+
+  bool is_hole(std::int32_t point) const {
+    return static_cast<std::size_t>(point) >= graph_.vertices.size();
+  }
+  const Hole& hole_at(std::int32_t point) const {
+    return holes_[static_cast<std::size_t>(point) - graph_.vertices.size()];
+  }
+
+  // ------------------------------------------------------------ what must not meet
+  void reject_conflicts() const {
+    for (const SweepConflict& conflict : sweep_.conflicts) {
+      if (conflict.other >= 0) {
+        reject_meeting_edges(conflict.edge, conflict.other);
+      } else if (is_hole(conflict.vertex)) {
+        reject_hole_on(hole_at(conflict.vertex), edge_name(conflict.edge));
+      } else {
+        reject(name_and_place(conflict.vertex) + " lies on " + edge_name(conflict.edge));
+      }
+    }
+    for (const VertexPair& pair : sweep_.coincident) {
+      if (is_hole(pair[0])) continue;
+      const std::string name = vertex_name(graph_.vertices[pair[0]], sources_, fixed_nodes_);
+      if (is_hole(pair[1])) reject_hole_on(hole_at(pair[1]), name);
+      reject(name + " and " + vertex_name(graph_.vertices[pair[1]], sources_, fixed_nodes_) +
+             " touch at " + point_text(points_[pair[0]]));
+    }
+  }
+
+  [[noreturn]] static void reject_hole_on(const Hole& hole, const std::string& name) {
+    reject(hole.name + " at " + point_text(hole.point) + " lies on " + name +
+           ": move it into the region it stands for");
+  }
+
+  [[noreturn]] void reject_meeting_edges(std::int32_t first, std::int32_t second) const {
+    if (second < first) std::swap(first, second);
+    const auto [a, b] = graph_.ends[first];
+    const auto [c, d] = graph_.ends[second];
+    const bool common_end = a == c || a == d || b == c || b == d;
+    const bool on_a_line = orientation(points_[a], points_[b], points_[c]) == 0 &&
+                           orientation(points_[a], points_[b], points_[d]) == 0;
+    const Point<2> where = common_end || on_a_line
+                               ? points_[c]
+                               : crossing_point(points_[a], points_[b], points_[c], points_[d]);
+    const std::string name = edge_name(first), other = edge_name(second);
+    const std::string what = common_end || on_a_line ? " overlap at " : " cross at ";
+    if (name == other) reject(name + " meets itself at " + point_text(where));
+    reject(name + " and " + other + what + point_text(where));
+  }
+
+  // Every vertex must end an even number of boundary segments.
+  void require_closed_boundary() const {
+    std::vector<char> odd(graph_.vertices.size(), 0);
+    bool any = false;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      if (!is_boundary(e)) continue;
+      any = true;
+      for (const std::int32_t vertex : graph_.ends[e]) odd[vertex] ^= 1;
+    }
+    if (!any) reject("the domain has no boundary curve, only inner ones");
+    const auto open = std::find(odd.begin(), odd.end(), 1);
+    if (open == odd.end()) return;
+    reject("the boundary is not closed: it ends at " +
+           name_and_place(static_cast<std::int32_t>(open - odd.begin())));
+  }
+
+  bool is_boundary(std::size_t edge) const {
+    return sources_[graph_.edges[edge].source].role == CurveRole::boundary;
+  }
+
+  // ------------------------------------------------------------ the inside
+  std::int32_t face_on_left(std::size_t edge) const { return faces_.of_side[2 * edge]; }
+  std::int32_t face_on_right(std::size_t edge) const { return faces_.of_side[2 * edge + 1]; }
+  std::int32_t face_around(std::int32_t vertex) const {
+    return faces_.of_side[side_left_of(vertex, points_, graph_.ends, sweep_)];
+  }
+
+  // Triangle's rule: all that is enclosed.
+  void find_inside_of_graph() {
+    inside_.assign(faces_.count, 1);
+    inside_[0] = 0;
+    if (faces_.count > 1) return;
+    for (std::size_t v = 0; v < graph_.vertices.size(); ++v) {
+      if (graph_.vertices[v].degree != 1) continue;
+      reject("the segments enclose nothing: they end at " +
+             name_and_place(static_cast<std::int32_t>(v)));
+    }
+    reject("the segments enclose nothing");
+  }
+
+  // Even-odd: each boundary curve leads from outside in or from inside out.
+  void find_inside_of_boundary() {
+    struct Neighbour {
+      std::int32_t face;
+      char crosses;
+    };
+    std::vector<std::vector<Neighbour>> neighbours(faces_.count);
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const char crosses = is_boundary(e) ? 1 : 0;
+      neighbours[face_on_left(e)].push_back({face_on_right(e), crosses});
+      neighbours[face_on_right(e)].push_back({face_on_left(e), crosses});
+    }
+    inside_.assign(faces_.count, 2);  // not known yet
+    inside_[0] = 0;
+    std::vector<std::int32_t> reached{0};
+    while (!reached.empty()) {
+      const std::int32_t face = reached.back();
+      reached.pop_back();
+      for (const Neighbour& next : neighbours[face]) {
+        if (inside_[next.face] != 2) continue;
+        inside_[next.face] = inside_[face] ^ next.crosses;
+        reached.push_back(next.face);
+      }
+    }
+  }
+
+  void remove_holes() {
+    std::vector<std::int32_t> hole_in(faces_.count, -1);
+    for (std::size_t h = 0; h < holes_.size(); ++h) {
+      const auto point = static_cast<std::int32_t>(graph_.vertices.size() + h);
+      const std::int32_t face = face_around(point);
+      if (!inside_[face]) {
+        reject(holes_[h].name + " at " + point_text(holes_[h].point) + " lies outside the domain");
+      }
+      if (hole_in[face] < 0) {
+        hole_in[face] = static_cast<std::int32_t>(h);
+      } else {
+        result_.warnings.push_back(holes_[h].name + " at " + point_text(holes_[h].point) +
+                                   " lies in the same region as " + holes_[hole_in[face]].name);
+      }
+    }
+    for (std::int32_t face = 0; face < faces_.count; ++face) {
+      if (hole_in[face] >= 0) inside_[face] = 0;
+    }
+    if (std::find(inside_.begin(), inside_.end(), 1) == inside_.end()) {
+      reject("the holes leave nothing of the domain");
+    }
+  }
+
+  void number_inner_faces() {
+    inner_face_.assign(faces_.count, 0);
+    std::int32_t count = 0;
+    for (std::int32_t face = 0; face < faces_.count; ++face) {
+      if (inside_[face]) inner_face_[face] = ++count;
+    }
+  }
+
+  // ------------------------------------------------------------ what is part of it
+  void keep_edges() {
+    kept_.resize(graph_.edges.size());
+    kept_degree_.assign(graph_.vertices.size(), 0);
+    std::vector<std::string> left_out;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      kept_[e] = inside_[face_on_left(e)] || inside_[face_on_right(e)];
+      if (kept_[e]) {
+        for (const std::int32_t vertex : graph_.ends[e]) ++kept_degree_[vertex];
+        continue;
+      }
+      const std::string name = edge_name(static_cast<std::int32_t>(e));
+      if (left_out.empty() || left_out.back() != name) left_out.push_back(name);
+    }
+    if (left_out.empty()) return;
+    result_.warnings.push_back("outside the domain and left out: " + list_text(left_out, 5));
+  }
+
+  // Fixed nodes on no curve, and vertices of graphs in no segment, which count as such.
+  void place_lone_vertices() {
+    std::vector<std::string> unused, outside;
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(graph_.vertices.size()); ++v) {
+      const GraphVertex& vertex = graph_.vertices[v];
+      if (kept_degree_[v] > 0) continue;
+      const bool in_face = vertex.degree == 0 && inside_[face_around(v)];
+      if (!in_face && vertex.fixed >= 0) {
+        reject(fixed_nodes_[vertex.fixed].name + " at " + point_text(vertex.position) +
+               " lies outside the domain");
+      }
+      if (vertex.degree > 0) continue;
+      const std::string name = vertex_name(vertex, sources_, fixed_nodes_);
+      if (vertex.fixed < 0) (in_face ? unused : outside).push_back(name);
+      if (!in_face) continue;
+      const std::int32_t tag = vertex.tag != 0 ? vertex.tag : 1;
+      result_.fixed_nodes.push_back({vertex.position, tag, name, inner_face_[face_around(v)]});
+    }
+    if (!unused.empty()) {
+      result_.warnings.push_back("in no segment, taken as fixed nodes: " + list_text(unused, 5));
+    }
+    if (!outside.empty()) {
+      result_.warnings.push_back("in no segment, outside the domain and left out: " +
+                                 list_text(outside, 5));
+    }
+  }
+
+  // ------------------------------------------------------------ curves between corners
+  void make_curves() {
+    std::size_t first = 0;
+    while (first < graph_.edges.size()) {
+      std::size_t end = first;
+      while (end < graph_.edges.size() && graph_.edges[end].source == graph_.edges[first].source) {
+        ++end;
+      }
+      cut_at_corners(first, end);
+      first = end;
+    }
+  }
+
+  bool begins_at_corner(std::size_t edge) const {
+    return graph_.vertices[graph_.ends[edge][0]].corner;
+  }
+
+  // The edges of one source. A closed one is gone round from its first corner.
+  void cut_at_corners(std::size_t first, std::size_t end) {
+    std::size_t start = first;
+    while (start < end && !begins_at_corner(start)) ++start;
+    if (start == end) {
+      start = first;
+      graph_.vertices[graph_.ends[start][0]].corner = true;
+    }
+    std::vector<std::size_t> chain;
+    for (std::size_t k = 0; k < end - first; ++k) {
+      const std::size_t edge = first + (start - first + k) % (end - first);
+      if (!chain.empty() && begins_at_corner(edge)) {
+        add_curve(chain);
+        chain.clear();
+      }
+      if (kept_[edge]) chain.push_back(edge);
+    }
+    if (!chain.empty()) add_curve(chain);
+  }
+
+  void add_curve(const std::vector<std::size_t>& chain) {
+    const std::size_t first = chain.front(), last = chain.back();
+    const CurveSource& source = sources_[graph_.edges[first].source];
+    BoundaryCurve curve;
+    curve.points.push_back(points_[graph_.ends[first][0]]);
+    for (const std::size_t edge : chain) curve.points.push_back(points_[graph_.ends[edge][1]]);
+    if (source.kind == Kind::smooth) {
+      curve.evaluate = source.evaluate;
+      curve.parameters.push_back(graph_.edges[first].t_begin);
+      for (const std::size_t edge : chain) curve.parameters.push_back(graph_.edges[edge].t_end);
+    }
+    curve.corner_begin = graph_.ends[first][0];  // vertices, until corners are numbered
+    curve.corner_end = graph_.ends[last][1];
+    curve.tag = source.segment_tag(graph_.edges[first].segment);
+    curve.left_face = inner_face_[face_on_left(first)];
+    curve.right_face = inner_face_[face_on_right(first)];
+    curve.left_inside = curve.left_face > 0;
+    curve.right_inside = curve.right_face > 0;
+    curve.name = source.segments_name(graph_.edges[first].segment, graph_.edges[last].segment);
+    result_.curves.push_back(std::move(curve));
+  }
+
+  void make_corners() {
+    std::vector<std::int32_t> tag_there(graph_.vertices.size(), 0);
+    for (const BoundaryCurve& curve : result_.curves) {
+      for (const std::int64_t vertex : {curve.corner_begin, curve.corner_end}) {
+        if (tag_there[vertex] == 0) tag_there[vertex] = curve.tag;
+      }
+    }
+    std::vector<std::int64_t> number(graph_.vertices.size(), -1);
+    for (std::size_t v = 0; v < graph_.vertices.size(); ++v) {
+      if (tag_there[v] == 0) continue;
+      const GraphVertex& vertex = graph_.vertices[v];
+      number[v] = static_cast<std::int64_t>(result_.corners.size());
+      result_.corners.push_back({vertex.position, vertex.tag != 0 ? vertex.tag : tag_there[v],
+                                 vertex_name(vertex, sources_, fixed_nodes_)});
+    }
+    for (BoundaryCurve& curve : result_.curves) {
+      curve.corner_begin = number[curve.corner_begin];
+      curve.corner_end = number[curve.corner_end];
+    }
+  }
+
+  std::vector<CurveSource>& sources_;
+  const std::vector<Hole>& holes_;
+  const std::vector<FixedNode>& fixed_nodes_;
+  DomainGraph graph_;
+  std::vector<Point<2>> points_;  // vertices of the graph, then holes
+  SweepResult sweep_;
+  Faces faces_;
+  std::vector<char> inside_;              // of each face
+  std::vector<std::int32_t> inner_face_;  // of each face: its number among the inner ones, or 0
+  std::vector<char> kept_;                // of each edge: is it part of the domain?
+  std::vector<std::int32_t> kept_degree_;
+  ResolvedDomain result_;
+};
+
+}  // namespace
+
+ResolvedDomain resolve_domain(std::vector<CurveSource>& sources, const std::vector<Hole>& holes,
+                              const std::vector<FixedNode>& fixed_nodes) {
+  return Resolver(sources, holes, fixed_nodes).run();
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A plane domain as the user describes it: boundary and inner curves, holes, fixed nodes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+#include "domain/plane/curve_source.hpp"
+
+namespace pnpbs {
+
+// A curve between two corners (or a closed one that starts and ends in the same corner): the
+// unit in which boundary nodes are laid. Straight between `points` unless `evaluate` is set.
+struct BoundaryCurve {
+  std::vector<Point<2>> points;    // polyline, first and last are the corners
+  std::vector<double> parameters;  // of the points, if evaluate is set
+  CurveFunction evaluate;          // the true curve, or empty
+  std::int64_t corner_begin;       // index into PlaneDomain::corners()
+  std::int64_t corner_end;         //
+  std::int32_t tag;
+  bool left_inside;   // is the domain on the left of the way from begin to end?
+  bool right_inside;  // both: an inner curve
+  std::string name;   // for messages: "segment 12", "curve 3", ...
+  // The faces on both sides, numbered from 1 among those inside; 0 outside. (Curves divide the
+  // inside into faces.)
+  std::int32_t left_face = 0;
+  std::int32_t right_face = 0;
+};
+
+struct Corner {
+  Point<2> position;
+  std::int32_t tag;
+  std::string name;  // for messages: "vertex 17"
+};
+
+struct FixedNode {
+  Point<2> position;
+  std::int32_t tag;
+  std::string name = {};  // for messages: "fixed node 3"
+  std::int32_t face = 0;  // that it lies in; see BoundaryCurve
+};
+
+// A point whose surroundings are taken out.
+struct Hole {
+  Point<2> point;
+  std::string name;
+};
+
+// What check() finds out.
+struct ResolvedDomain {
+  std::vector<Corner> corners;
+  std::vector<BoundaryCurve> curves;
+  std::vector<FixedNode> fixed_nodes;
+  std::vector<std::string> warnings;
+  Box<2> bounds{};
+  double area = 0;
+};
+
+class PlaneDomain {
+ public:
+  // Building; see pnpbs.h for what each means. They throw Error(ErrorKind::argument) naming
+  // the argument and its value, and leave the domain as it was.
+  void add_polyline(CurveRole role, bool closed, std::int64_t n, const double* xy,
+                    const std::int32_t* tags, double corner_angle);
+  void add_arc(CurveRole role, const Point<2>& centre, double radius, double begin, double end,
+               std::int32_t tag);
+  void add_curve(CurveRole role, CurveFunction curve, double begin, double end, std::int32_t tag);
+  // first_number: what the user calls vertex 0 in messages (1 for a .poly numbered from 1).
+  void add_pslg(std::int64_t vertices, const double* xy, const std::int32_t* vertex_tags,
+                std::int64_t segments, const std::int64_t* segment_ends,
+                const std::int32_t* segment_tags, std::int64_t holes, const double* hole_points,
+                std::int64_t first_number = 0);
+  void add_hole(const Point<2>& point);
+  void add_fixed_nodes(std::int64_t n, const double* xy, const std::int32_t* tags);
+
+  // Checks everything and resolves corners, curves and sides; does nothing if nothing changed
+  // since the last time. Throws Error(ErrorKind::domain).
+  void check();
+  bool is_checked() const { return checked_; }
+
+  // Valid after check(). Corners come in the order in which they were given, curves likewise.
+  const std::vector<Corner>& corners() const { return resolved_.corners; }
+  const std::vector<BoundaryCurve>& curves() const { return resolved_.curves; }
+  // Fixed nodes that are not corners.
+  const std::vector<FixedNode>& fixed_nodes() const { return resolved_.fixed_nodes; }
+  const std::vector<std::string>& warnings() const { return resolved_.warnings; }
+  // Holds all curves, true ones too.
+  const Box<2>& bounds() const { return resolved_.bounds; }
+  double area() const { return resolved_.area; }
+
+ private:
+  void add_source(CurveSource source);
+
+  std::vector<CurveSource> sources_;
+  std::vector<Hole> holes_;
+  std::vector<FixedNode> given_nodes_;
+  std::int64_t curves_given_ = 0, graphs_given_ = 0, holes_given_ = 0;
+  bool checked_ = false;
+  ResolvedDomain resolved_;
+};
+
+}  // namespace pnpbs

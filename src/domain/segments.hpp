@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small plane geometry on straight segments.
+#pragma once
+
+#include <algorithm>
+
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+// The point of segment ab nearest to x.
+inline Point<2> nearest_on_segment(const Point<2>& a, const Point<2>& b, const Point<2>& x) {
+  const double ux = b[0] - a[0], uy = b[1] - a[1];
+  const double length2 = ux * ux + uy * uy;
+  if (length2 == 0) return a;
+  const double t = ((x[0] - a[0]) * ux + (x[1] - a[1]) * uy) / length2;
+  if (t <= 0) return a;
+  if (t >= 1) return b;
+  return {a[0] + t * ux, a[1] + t * uy};
+}
+
+inline double distance_to_segment(const Point<2>& a, const Point<2>& b, const Point<2>& x) {
+  return distance<2>(nearest_on_segment(a, b, x), x);
+}
+
+inline double squared_distance_to_segment(const Point<2>& a, const Point<2>& b, const Point<2>& x) {
+  const Point<2> q = nearest_on_segment(a, b, x);
+  return (x[0] - q[0]) * (x[0] - q[0]) + (x[1] - q[1]) * (x[1] - q[1]);
+}
+
+// May segment ab meet the closed box? Never says no where it does (rounding counts as meeting).
+inline bool segment_may_meet_box(const Point<2>& a, const Point<2>& b, const Box<2>& box) {
+  for (int k = 0; k < 2; ++k)
+    if (std::max(a[k], b[k]) < box.low[k] || std::min(a[k], b[k]) > box.high[k]) return false;
+  const double nx = a[1] - b[1], ny = b[0] - a[0];
+  const double cx = 0.5 * (box.low[0] + box.high[0]), cy = 0.5 * (box.low[1] + box.high[1]);
+  const double hx = 0.5 * (box.high[0] - box.low[0]), hy = 0.5 * (box.high[1] - box.low[1]);
+  const double offset = std::fabs(nx * (cx - a[0]) + ny * (cy - a[1]));
+  const double reach = std::fabs(nx) * hx + std::fabs(ny) * hy;
+  return offset <= reach * (1 + 1e-9) + 1e-13 * offset;
+}
+
+// Where the segments ab and cd, or nearly parallel lines through them, cross; rounded.
+inline Point<2> crossing_point(const Point<2>& a, const Point<2>& b, const Point<2>& c,
+                               const Point<2>& d) {
+  const double ux = b[0] - a[0], uy = b[1] - a[1];
+  const double vx = d[0] - c[0], vy = d[1] - c[1];
+  const double determinant = ux * vy - uy * vx;
+  const double along = (c[0] - a[0]) * vy - (c[1] - a[1]) * vx;
+  const double fraction = determinant == 0 ? 0.5 : std::clamp(along / determinant, 0.0, 1.0);
+  return {a[0] + fraction * ux, a[1] + fraction * uy};
+}
+
+}  // namespace pnpbs

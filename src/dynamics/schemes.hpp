@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Time steps of the equation of motion (1), m x'' + c x' = f, in scaled units: the variable that
+// moves is x / d with the local d, m = 1, so that fine and coarse bubbles are equally stiff.
+// Each scheme reads positions and velocities and leaves the new positions in `next` and the new
+// velocities in the nodes; nodes that do not move keep theirs.
+#pragma once
+
+#include <algorithm>
+
+#include "dynamics/bubble_force.hpp"
+
+namespace pnpbs {
+
+struct Motion {
+  double dt = 0.8;       // in units of sqrt(m / k0)
+  double damping = 0.4;  // c
+  double most = 0.2;     // no step moves a node by more than this many d
+};
+
+template <int Dim>
+using Field = std::array<View<double>, Dim>;
+
+template <int Dim>
+void reserve_field(Field<Dim>& field, const char* label, std::int64_t n) {
+  for (int k = 0; k < Dim; ++k)
+    if (static_cast<std::int64_t>(field[k].extent(0)) < n + 1)
+      field[k] = make_view<double>(label, n + 1);
+}
+
+// Shortens a move to at most `most`, keeping its direction.
+template <int Dim>
+inline void clamp_move(std::array<double, Dim>& move, double most) {
+  double square = 0;
+  for (int k = 0; k < Dim; ++k) square += move[k] * move[k];
+  const double factor = square > most * most ? most / std::sqrt(square) : 1.0;
+  for (int k = 0; k < Dim; ++k) move[k] *= factor;
+}
+
+// The move of n consecutive nodes from `first` on, under these forces of the law: velocities into
+// v, positions into `next`. A lane computes the same bits whatever n is.
+template <int Dim, class Law>
+inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std::int64_t first,
+                        int n, const Positions<Dim>& x, const double* d,
+                        const std::int32_t* boundary_node, const std::array<double*, Dim>& v,
+                        const std::array<double*, Dim>& next) {
+  const double slow = 1 / (1 + motion.damping * motion.dt);
+  BlockVector<Dim> move;
+  double too_far = 0;
+#pragma omp simd reduction(max : too_far)
+  for (int lane = 0; lane < n; ++lane) {
+    const std::int64_t i = first + lane;
+    const double mobile = boundary_node[i] < 0 ? slow : 0.0;
+    const double scale = Law::template acceleration_scale<Dim>(d[i]);
+    double sum = 0;
+    for (int k = 0; k < Dim; ++k) {
+      move[k][lane] = motion.dt * (mobile * (v[k][i] + motion.dt * scale * force[k][lane]));
+      sum += move[k][lane] * move[k][lane];
+    }
+    const double most = motion.most * d[i];
+    too_far = std::max(too_far, sum - most * most);
+  }
+  // Few blocks have a node that is too fast.
+  for (int lane = 0; too_far > 0 && lane < n; ++lane) {
+    std::array<double, Dim> of_lane;
+    for (int k = 0; k < Dim; ++k) of_lane[k] = move[k][lane];
+    clamp_move<Dim>(of_lane, motion.most * d[first + lane]);
+    for (int k = 0; k < Dim; ++k) move[k][lane] = of_lane[k];
+  }
+  const double per_time = 1 / motion.dt;
+#pragma omp simd
+  for (int lane = 0; lane < n; ++lane)
+    for (int k = 0; k < Dim; ++k) {
+      v[k][first + lane] = per_time * move[k][lane];
+      next[k][first + lane] = x[k][first + lane] + move[k][lane];
+    }
+}
+
+// One force evaluation per step: the damping is taken implicitly, the position follows the new
+// velocity (symplectic Euler for c = 0). First order, stable for dt < 0.816 sqrt(m/k0) or so.
+template <int Dim, class Law>
+void damped_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
+                 const Motion& motion, const Field<Dim>& next) {
+  const Positions<Dim> x = positions_of<Dim>(nodes.x);
+  const double* const d = nodes.d.data();
+  std::array<double*, Dim> v, to;
+  for (int k = 0; k < Dim; ++k) {
+    v[k] = nodes.v[k].data();
+    to[k] = next[k].data();
+  }
+  for_each("pnpbs::damped_step", lists.block_count(), [=, &nodes, &lists](std::int64_t b) {
+    std::int64_t self[kLanes];
+    block_nodes(b, nodes.count, self);
+    BlockVector<Dim> force;
+    block_force<Dim>(lists.block(b), law, x, d, self, force);
+    const std::int64_t first = b * kLanes;
+    const int n = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
+    damped_move<Dim, Law>(force, motion, first, n, x, d, nodes.boundary_node.data(), v, to);
+  });
+}
+
+// Accelerations of all nodes, scaled force less c v, at positions x and velocities v.
+template <int Dim, class Law>
+void accelerations(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
+                   const Motion& motion, const Field<Dim>& at_x, const Field<Dim>& at_v,
+                   const Field<Dim>& a) {
+  const Positions<Dim> x = positions_of<Dim>(at_x);
+  const double* const d = nodes.d.data();
+  for_each("pnpbs::accelerations", lists.block_count(), [=, &nodes, &lists](std::int64_t b) {
+    std::int64_t self[kLanes];
+    block_nodes(b, nodes.count, self);
+    BlockVector<Dim> force;
+    block_force<Dim>(lists.block(b), law, x, d, self, force);
+    for (int lane = 0; lane < kLanes && self[lane] < nodes.count; ++lane) {
+      const std::int64_t i = self[lane];
+      const double scale = Law::template acceleration_scale<Dim>(d[i]);
+      for (int k = 0; k < Dim; ++k)
+        a[k](i) = nodes.moves(i) ? scale * force[k][lane] - motion.damping * at_v[k](i) : 0.0;
+    }
+  });
+}
+
+// Arrays that the schemes with several evaluations per step need; made on first use.
+template <int Dim>
+struct Stages {
+  Field<Dim> x, v, a, sum_x, sum_v;
+
+  void reserve(std::int64_t n) {
+    for (Field<Dim>* field : {&x, &v, &a, &sum_x, &sum_v})
+      reserve_field<Dim>(*field, "pnpbs::Stages", n);
+    for (int k = 0; k < Dim; ++k) x[k](n) = kFarAway;
+  }
+};
+
+// x + h vx and v + h a, the state at which a stage asks for the acceleration. The way there is
+// clamped like the step itself, so that lists and ghosts cover it.
+template <int Dim>
+void stage_state(const Nodes<Dim>& nodes, double h, double most, const Field<Dim>& slope_x,
+                 const Field<Dim>& slope_v, const Field<Dim>& x, const Field<Dim>& v) {
+  for_each("pnpbs::stage_state", nodes.count, [&](std::int64_t i) {
+    std::array<double, Dim> move;
+    for (int k = 0; k < Dim; ++k) move[k] = h * slope_x[k](i);  // slope_x may be v itself
+    clamp_move<Dim>(move, most * nodes.d(i));
+    for (int k = 0; k < Dim; ++k) {
+      x[k](i) = nodes.x[k](i) + move[k];
+      v[k](i) = nodes.v[k](i) + h * slope_v[k](i);
+    }
+  });
+}
+
+// Adds weight times the slopes of a stage to the sums.
+template <int Dim>
+void add_slopes(const Nodes<Dim>& nodes, double weight, bool first, const Field<Dim>& slope_x,
+                const Field<Dim>& slope_v, Stages<Dim>& stages) {
+  for_each("pnpbs::add_slopes", nodes.count, [&](std::int64_t i) {
+    for (int k = 0; k < Dim; ++k) {
+      stages.sum_x[k](i) = (first ? 0.0 : stages.sum_x[k](i)) + weight * slope_x[k](i);
+      stages.sum_v[k](i) = (first ? 0.0 : stages.sum_v[k](i)) + weight * slope_v[k](i);
+    }
+  });
+}
+
+// Ends a step whose mean slopes are in the sums.
+template <int Dim>
+void take_slopes(const Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim>& stages,
+                 const Field<Dim>& next) {
+  for_each("pnpbs::take_slopes", nodes.count, [&](std::int64_t i) {
+    const double mobile = nodes.moves(i) ? 1.0 : 0.0;
+    std::array<double, Dim> move;
+    for (int k = 0; k < Dim; ++k) move[k] = mobile * motion.dt * stages.sum_x[k](i);
+    clamp_move<Dim>(move, motion.most * nodes.d(i));
+    for (int k = 0; k < Dim; ++k) {
+      nodes.v[k](i) = mobile * (nodes.v[k](i) + motion.dt * stages.sum_v[k](i));
+      next[k](i) = nodes.x[k](i) + move[k];
+    }
+  });
+}
+
+// Euler predictor, trapezoidal corrector (section 2.2 of the paper): second order.
+template <int Dim, class Law>
+void predictor_corrector_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
+                              const Law& law, const Motion& motion, Stages<Dim>& stages,
+                              const Field<Dim>& next) {
+  stages.reserve(nodes.count);
+  accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);
+  add_slopes<Dim>(nodes, 0.5, true, nodes.v, stages.a, stages);
+  stage_state<Dim>(nodes, motion.dt, motion.most, nodes.v, stages.a, stages.x, stages.v);
+  accelerations<Dim>(nodes, lists, law, motion, stages.x, stages.v, stages.a);
+  add_slopes<Dim>(nodes, 0.5, false, stages.v, stages.a, stages);
+  take_slopes<Dim>(nodes, motion, stages, next);
+}
+
+// The classical fourth-order Runge-Kutta step, the paper's last iteration.
+template <int Dim, class Law>
+void runge_kutta_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
+                      const Motion& motion, Stages<Dim>& stages, const Field<Dim>& next) {
+  stages.reserve(nodes.count);
+  accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);
+  add_slopes<Dim>(nodes, 1.0 / 6, true, nodes.v, stages.a, stages);
+  stage_state<Dim>(nodes, 0.5 * motion.dt, motion.most, nodes.v, stages.a, stages.x, stages.v);
+  for (int stage = 0; stage < 3; ++stage) {
+    accelerations<Dim>(nodes, lists, law, motion, stages.x, stages.v, stages.a);
+    add_slopes<Dim>(nodes, stage < 2 ? 1.0 / 3 : 1.0 / 6, false, stages.v, stages.a, stages);
+    if (stage < 2)
+      stage_state<Dim>(nodes, stage == 0 ? 0.5 * motion.dt : motion.dt, motion.most, stages.v,
+                       stages.a, stages.x, stages.v);
+  }
+  take_slopes<Dim>(nodes, motion, stages, next);
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "partition/distribution.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace pnpbs {
+
+namespace {
+
+// Which ranks need the nodes of each leaf, spread hop by hop: a leaf is needed by all who need one
+// of its neighbours.
+class Needs {
+ public:
+  Needs(const LeafGraph<2>& graph, const Distribution& distribution, std::int32_t leaves)
+      : graph_(graph), distribution_(distribution), others_(static_cast<std::size_t>(leaves)) {
+    // Two leaves of different owners: one of them is another rank's.
+    std::vector<char> at_rim(others_.size(), 0);
+    for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+      if (distribution.owns(leaf)) continue;
+      graph.for_neighbours(leaf, [&](std::int32_t other) {
+        if (distribution.owner(other) == distribution.owner(leaf)) return;
+        for (const std::int32_t end : {leaf, other}) {
+          if (at_rim[static_cast<std::size_t>(end)]) continue;
+          at_rim[static_cast<std::size_t>(end)] = 1;
+          front_.emplace_back(end, distribution.owner(end));
+        }
+      });
+    }
+  }
+
+  void spread() {
+    std::vector<std::pair<std::int32_t, std::int32_t>> next;
+    for (const auto& [leaf, rank] : front_)
+      graph_.for_neighbours(leaf, [&, r = rank](std::int32_t other) {
+        std::vector<std::int32_t>& ranks = others_[static_cast<std::size_t>(other)];
+        if (distribution_.owner(other) == r) return;
+        if (std::find(ranks.begin(), ranks.end(), r) != ranks.end()) return;
+        ranks.push_back(r);
+        next.emplace_back(other, r);
+      });
+    front_ = std::move(next);
+  }
+
+  // Besides its owner, in increasing order.
+  const std::vector<std::int32_t>& of(std::size_t leaf) {
+    std::sort(others_[leaf].begin(), others_[leaf].end());
+    return others_[leaf];
+  }
+
+ private:
+  const LeafGraph<2>& graph_;
+  const Distribution& distribution_;
+  std::vector<std::vector<std::int32_t>> others_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> front_;  // leaf and rank that came last
+};
+
+Box<2> widened(Box<2> box, double way) {
+  for (int k = 0; k < 2; ++k) {
+    box.low[k] -= way;
+    box.high[k] += way;
+  }
+  return box;
+}
+
+// The leaves within so many hops of these, and they themselves; marks them.
+std::vector<std::int32_t> reached_from(const LeafGraph<2>& graph, std::vector<std::int32_t> leaves,
+                                       int hops, std::vector<char>& reached) {
+  for (std::int32_t leaf : leaves) reached[static_cast<std::size_t>(leaf)] = 1;
+  std::size_t first = 0;  // of those that the last hop reached
+  for (int hop = 0; hop < hops; ++hop) {
+    const std::size_t last = leaves.size();
+    for (std::size_t k = first; k < last; ++k)
+      graph.for_neighbours(leaves[k], [&](std::int32_t other) {
+        if (reached[static_cast<std::size_t>(other)]) return;
+        reached[static_cast<std::size_t>(other)] = 1;
+        leaves.push_back(other);
+      });
+    first = last;
+  }
+  return leaves;
+}
+
+}  // namespace
+
+// A graph of all cells would tell as well, but with many ranks it is far larger than what a rank
+// needs of it.
+std::vector<char> Distribution::cells_near_own(int hops, double reach) const {
+  const BackgroundTree<2>& tree = cells_.tree();
+  const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
+  // A hop goes as far as a bubble reaches and to the far side of the leaf it finds there.
+  const auto way = [&](std::int32_t c) { return hops * (reach + 2) * cells_.largest_spacing(c); };
+  std::vector<char> found(static_cast<std::size_t>(cells_.count()), 0);
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Box<2> around_own{{kNone, kNone}, {-kNone, -kNone}};
+  for (std::int32_t c = 0; c < cells_.count(); ++c) {
+    if (owner_of_cell(c) != rank_) continue;
+    const Box<2> own = box(c);
+    for (int k = 0; k < 2; ++k) {
+      around_own.low[k] = std::min(around_own.low[k], own.low[k]);
+      around_own.high[k] = std::max(around_own.high[k], own.high[k]);
+    }
+    found[static_cast<std::size_t>(c)] = 1;
+    tree.for_leaves_in(widened(own, way(c)), [&](std::int32_t n) {
+      if (squared_gap<2>(own, box(n)) <= way(c) * way(c)) found[static_cast<std::size_t>(n)] = 1;
+    });
+  }
+  // Those with bubbles so much larger than ours that only they reach as far.
+  for (std::int32_t c = 0; c < cells_.count(); ++c)
+    if (!found[static_cast<std::size_t>(c)] &&
+        squared_gap<2>(box(c), around_own) <= way(c) * way(c))
+      found[static_cast<std::size_t>(c)] = near(box(c), rank_, way(c));
+  return found;
+}
+
+void Distribution::take_leaves(const BackgroundTree<2>* tree, const std::vector<char>& refined) {
+  tree_ = tree;
+  refined_ = refined;
+  halos_.clear();
+  cell_of_leaf_.clear();
+  for (std::int32_t leaf = 0; leaf < tree->leaf_count(); ++leaf)
+    cell_of_leaf_.push_back(cells_.at(tree->cell_centre(tree->leaf_cell(leaf))));
+}
+
+// The largest reach of a bubble within so many hops of each of these leaves, at their places.
+std::vector<double> Distribution::reach_within(int hops, std::vector<std::int32_t> leaves) const {
+  std::vector<char> reached(cell_of_leaf_.size(), 0);
+  leaves = reached_from(links_->graph, std::move(leaves), hops, reached);
+  std::vector<double> most = links_->reach, before;
+  for (int hop = 0; hop < hops; ++hop) {
+    before = most;
+    for (std::int32_t leaf : leaves)
+      links_->graph.for_neighbours(leaf, [&](std::int32_t other) {
+        double& largest = most[static_cast<std::size_t>(leaf)];
+        largest = std::max(largest, before[static_cast<std::size_t>(other)]);
+      });
+  }
+  return most;
+}
+
+// Does the rank own something as near as that?
+bool Distribution::near(const Box<2>& box, int rank, double way) const {
+  bool found = false;
+  const BackgroundTree<2>& tree = cells_.tree();
+  tree.for_leaves_in(widened(box, way), [&](std::int32_t cell) {
+    found = found || (owner_of_cell(cell) == rank &&
+                      squared_gap<2>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way);
+  });
+  return found;
+}
+
+std::vector<char> Distribution::leaves_within(int hops) const {
+  const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
+  std::vector<char> reached(static_cast<std::size_t>(leaves), 0);
+  std::vector<std::int32_t> own;
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
+    if (owns(leaf)) own.push_back(leaf);
+  reached_from(links_->graph, std::move(own), hops, reached);
+  return reached;
+}
+
+std::vector<std::int32_t> Distribution::unrefined_within(int hops) const {
+  const std::vector<char> reached = leaves_within(hops);
+  std::set<std::int32_t> found;
+  for (std::int32_t leaf = 0; leaf < static_cast<std::int32_t>(reached.size()); ++leaf)
+    if (reached[static_cast<std::size_t>(leaf)] && !refined(leaf)) found.insert(cell_of(leaf));
+  return {found.begin(), found.end()};
+}
+
+const Halo& Distribution::halo(int hops, double hop_share) {
+  const auto known = halos_.find(hops);
+  if (known != halos_.end()) return known->second;
+  const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
+  Needs needs(links_->graph, *this, leaves);
+  for (int hop = 0; hop < hops; ++hop) needs.spread();
+  std::vector<std::int32_t> needed;
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
+    if (!needs.of(static_cast<std::size_t>(leaf)).empty()) needed.push_back(leaf);
+  const std::vector<double> reach = reach_within(hops, std::move(needed));
+  Halo halo;
+  halo.offset_.push_back(0);
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+    const Box<2> box = tree_->cell_box(tree_->leaf_cell(leaf));
+    for (std::int32_t rank : needs.of(static_cast<std::size_t>(leaf)))
+      if (near(box, rank, hops * hop_share * reach[static_cast<std::size_t>(leaf)]))
+        halo.ranks_.push_back(rank);
+    halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
+  }
+  // A leaf that is not ours alone disturbs itself and those around it.
+  halo.quiet_.assign(static_cast<std::size_t>(leaves), 1);
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+    const auto at = static_cast<std::size_t>(leaf);
+    if (owns(leaf) && halo.offset_[at] == halo.offset_[at + 1]) continue;
+    links_->graph.for_neighbours(
+        leaf, [&](std::int32_t other) { halo.quiet_[static_cast<std::size_t>(other)] = 0; });
+  }
+  needs.spread();
+  std::set<int> neighbours;
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+    if (!owns(leaf)) continue;
+    const std::vector<std::int32_t>& ranks = needs.of(static_cast<std::size_t>(leaf));
+    neighbours.insert(ranks.begin(), ranks.end());
+  }
+  halo.neighbours_.assign(neighbours.begin(), neighbours.end());
+  return halos_.emplace(hops, std::move(halo)).first->second;
+}
+
+std::vector<std::int64_t> Distribution::prefix_sums(const Communicator& comm,
+                                                    std::vector<std::int64_t> counts,
+                                                    std::int64_t& start) const {
+  const auto cell = [this](std::size_t leaf) {
+    return owner_.empty() ? 0 : static_cast<std::size_t>(cell_of_leaf_[leaf]);
+  };
+  std::vector<std::int64_t> next(static_cast<std::size_t>(cells_.count()), 0);
+  for (std::size_t leaf = 0; leaf < counts.size(); ++leaf) next[cell(leaf)] += counts[leaf];
+  comm.sum(next);
+  for (std::int64_t& entry : next) entry = std::exchange(start, start + entry);
+  // The leaves of a cell follow each other.
+  for (std::size_t leaf = 0; leaf < counts.size(); ++leaf)
+    counts[leaf] = std::exchange(next[cell(leaf)], next[cell(leaf)] + counts[leaf]);
+  return counts;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who owns which part of the background tree, and who needs its nodes as ghosts. The cells of the
+// partition are known everywhere; the leaves in them, the graph of their interactions and the
+// halos only as far as this rank's nodes and ghosts can be.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "comm/communicator.hpp"
+#include "partition/partition_cells.hpp"
+#include "tree/leaf_graph.hpp"
+
+namespace pnpbs {
+
+// The ghost layers for one depth, in hops of the leaf graph.
+class Halo {
+ public:
+  // Other ranks that lie within the depth of a leaf of ours, or of one near ours.
+  template <class Visit>
+  void for_ranks(std::int32_t leaf, const Visit& visit) const {
+    for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
+         k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k)
+      visit(ranks_[static_cast<std::size_t>(k)]);
+  }
+  // Is the leaf, and are those it interacts with, ours and needed by no other rank? Then its nodes
+  // have nothing to do with an exchange, wherever they drift.
+  bool quiet(std::int32_t leaf) const { return quiet_[static_cast<std::size_t>(leaf)] != 0; }
+  // Ranks to exchange messages with. Symmetric: who is our neighbour has us as one. One hop more
+  // than the depth, because nodes drift out of their leaves between exchanges.
+  const std::vector<int>& neighbours() const { return neighbours_; }
+
+ private:
+  friend class Distribution;
+  std::vector<std::int32_t> offset_, ranks_;  // the owner is not among them
+  std::vector<char> quiet_;
+  std::vector<int> neighbours_;
+};
+
+class Distribution {
+ public:
+  Distribution() = default;  // one rank, which owns all
+  Distribution(PartitionCells cells, std::vector<std::int32_t> owner, int rank)
+      : cells_(std::move(cells)), owner_(std::move(owner)), rank_(rank) {}
+
+  // The same cells and owners, for another tree.
+  Distribution without_leaves() const { return Distribution(cells_, owner_, rank_); }
+
+  const PartitionCells& cells() const { return cells_; }
+  int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
+  int owner_at(const Point<2>& x) const { return owner_of_cell(cells_.at(x)); }
+  // Cells that may hold ghosts: those within some hops of a bubble of ours, by the largest d.
+  std::vector<char> cells_near_own(int hops, double reach) const;
+
+  // --- once the tree is refined in the cells marked ---
+  void take_leaves(const BackgroundTree<2>* tree, const std::vector<char>& refined);
+  void link_leaves(std::shared_ptr<const LeafLinks<2>> links) { links_ = std::move(links); }
+  bool cell_refined(std::int32_t cell) const {
+    return refined_[static_cast<std::size_t>(cell)] != 0;
+  }
+  bool refined(std::int32_t leaf) const { return cell_refined(cell_of(leaf)); }
+  std::int32_t cell_of(std::int32_t leaf) const {
+    return cell_of_leaf_[static_cast<std::size_t>(leaf)];
+  }
+  bool owns(std::int32_t leaf) const { return owner_.empty() || owner(leaf) == rank_; }
+  int owner(std::int32_t leaf) const { return owner_of_cell(cell_of(leaf)); }
+  // Marks the leaves within so many hops of ours.
+  std::vector<char> leaves_within(int hops) const;
+  // Cells with such leaves that are not refined.
+  std::vector<std::int32_t> unrefined_within(int hops) const;
+  // Made on first use and kept. A hop ends at the far side of a leaf, but what comes over it comes
+  // from no farther than `hop_share` of the reach of the largest bubbles about: what lies beyond
+  // all hops together is not needed.
+  const Halo& halo(int hops, double hop_share);
+
+  // For one count per leaf, on every rank those of its own nodes: the sum over all leaves before
+  // each one in Morton order, of all ranks, from `start` on; moves `start` on by the sum over all.
+  // What is numbered so does not depend on who owns which leaf. Collective.
+  std::vector<std::int64_t> prefix_sums(const Communicator& comm, std::vector<std::int64_t> counts,
+                                        std::int64_t& start) const;
+
+ private:
+  PartitionCells cells_;
+  std::vector<std::int32_t> owner_;  // of the cells; empty: one rank
+  int rank_ = 0;
+
+  const BackgroundTree<2>* tree_ = nullptr;
+  std::shared_ptr<const LeafLinks<2>> links_;  // leaves that interact
+  std::vector<std::int32_t> cell_of_leaf_;
+  std::vector<char> refined_;  // cells
+  std::map<int, Halo> halos_;
+
+  std::vector<double> reach_within(int hops, std::vector<std::int32_t> leaves) const;
+  bool near(const Box<2>& box, int rank, double way) const;
+};
+
+}  // namespace pnpbs

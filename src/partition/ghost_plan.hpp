@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which owned nodes other ranks have as ghosts, and where our ghosts come from: as long as nobody
+// changes its mind about that, positions and velocities of ghosts are renewed by one message to and
+// from each neighbour, in buffers that stay.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "base/nodes.hpp"
+#include "comm/communicator.hpp"
+#include "comm/records.hpp"
+
+namespace pnpbs {
+
+class GhostPlan {
+ public:
+  void start(const std::vector<int>& neighbours, int ranks) {
+    neighbours_ = neighbours;
+    place_ = places_of(neighbours, ranks);
+    send_.assign(neighbours.size(), {});
+    receive_.assign(neighbours.size(), {});
+    outgoing_.resize(neighbours.size());
+    incoming_.resize(neighbours.size());
+  }
+  // Both sides of a pair of ranks must do so.
+  void add_neighbour(int rank) {
+    if (knows(rank)) return;
+    place_[static_cast<std::size_t>(rank)] = static_cast<int>(neighbours_.size());
+    neighbours_.push_back(rank);
+    send_.emplace_back();
+    receive_.emplace_back();
+    outgoing_.emplace_back();
+    incoming_.emplace_back();
+  }
+  bool knows(int rank) const { return place_[static_cast<std::size_t>(rank)] >= 0; }
+  std::size_t place(int rank) const {
+    return static_cast<std::size_t>(place_[static_cast<std::size_t>(rank)]);
+  }
+  // Owned nodes that the rank has as ghosts.
+  const std::vector<std::int32_t>& sent_to(int rank) const { return send_[place(rank)]; }
+  void send(int rank, std::int32_t node) { send_[place(rank)].push_back(node); }
+  void receive(int rank, std::int32_t node) { receive_[place(rank)].push_back(node); }
+
+  std::int64_t neighbour_count() const { return static_cast<std::int64_t>(neighbours_.size()); }
+  std::int64_t nodes_sent() const {
+    std::size_t nodes = 0;
+    for (const std::vector<std::int32_t>& list : send_) nodes += list.size();
+    return static_cast<std::int64_t>(nodes);
+  }
+  // Of a node's position and velocity.
+  template <int Dim>
+  static constexpr std::size_t kRecordSize = 2 * Dim * sizeof(double);
+
+  // Both sides put their lists into the order of ids, so that they match, and make the buffers.
+  template <int Dim>
+  void match(const Nodes<Dim>& nodes) {
+    for (auto* lists : {&send_, &receive_})
+      for (std::vector<std::int32_t>& list : *lists)
+        std::sort(list.begin(), list.end(),
+                  [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      outgoing_[k].resize(send_[k].size() * kRecordSize<Dim>);
+      incoming_[k].resize(receive_[k].size() * kRecordSize<Dim>);
+    }
+  }
+
+  // The nodes were put into another order: what was at from(i) is at i now.
+  void follow(const View<std::int32_t>& from, std::int64_t count) {
+    if (neighbours_.empty()) return;
+    moved_to_.resize(static_cast<std::size_t>(count));
+    for (std::int64_t i = 0; i < count; ++i)
+      moved_to_[static_cast<std::size_t>(from(i))] = static_cast<std::int32_t>(i);
+    for (auto* lists : {&send_, &receive_})
+      for (std::vector<std::int32_t>& list : *lists)
+        for (std::int32_t& node : list) node = moved_to_[static_cast<std::size_t>(node)];
+  }
+
+  // Owners send positions and velocities. All neighbours at the same time.
+  template <int Dim>
+  void renew(const Communicator& comm, const Nodes<Dim>& nodes) {
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      char* out = outgoing_[k].data();
+      for (std::int32_t i : send_[k])
+        for (int d = 0; d < Dim; ++d) {
+          put(out, nodes.x[d](i));
+          put(out, nodes.v[d](i));
+        }
+    }
+    comm.exchange_known(neighbours_, outgoing_, incoming_);
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      const char* in = incoming_[k].data();
+      for (std::int32_t i : receive_[k])
+        for (int d = 0; d < Dim; ++d) {
+          take(in, nodes.x[d](i));
+          take(in, nodes.v[d](i));
+        }
+    }
+  }
+
+ private:
+  static void put(char*& out, double value) {
+    std::memcpy(out, &value, sizeof value);
+    out += sizeof value;
+  }
+  static void take(const char*& in, double& value) {
+    std::memcpy(&value, in, sizeof value);
+    in += sizeof value;
+  }
+
+  std::vector<int> neighbours_, place_;
+  std::vector<std::vector<std::int32_t>> send_, receive_;  // places in memory
+  std::vector<Bytes> outgoing_, incoming_;
+  std::vector<std::int32_t> moved_to_;
+};
+
+}  // namespace pnpbs

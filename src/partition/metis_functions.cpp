@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "partition/metis_functions.hpp"
+
+#if PNPBS_HAVE_MPI
+#ifdef PNPBS_METIS_PATH
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "base/error.hpp"
+#endif
+
+namespace pnpbs {
+
+#ifdef PNPBS_METIS_PATH
+
+namespace {
+
+// RTLD_DEEPBIND: METIS calls itself, too, by names that a host program may have. The sanitizers'
+// run-time libraries end the process at the sight of it.
+int open_mode() {
+  int mode = RTLD_NOW | RTLD_LOCAL;
+#ifdef RTLD_DEEPBIND
+  if (!dlsym(RTLD_DEFAULT, "__sanitizer_set_death_callback")) mode |= RTLD_DEEPBIND;
+#endif
+  return mode;
+}
+
+// By its path first: by its name alone, the linker would give us a host's of the same name.
+void* open_metis() {
+  void* library = dlopen(PNPBS_METIS_PATH, open_mode());
+  if (!library) library = dlopen(PNPBS_METIS_NAME, open_mode());
+  if (library) return library;
+  const char* reason = dlerror();
+  throw Error(ErrorKind::unsupported,
+              std::string("METIS, which distributes nodes over ranks, cannot be opened: neither "
+                          "\"" PNPBS_METIS_PATH "\" nor \"" PNPBS_METIS_NAME "\" (") +
+                  (reason ? reason : "no reason given") +
+                  "): install it, or add its folder to LD_LIBRARY_PATH");
+}
+
+template <class Function>
+void look_up(void* library, const char* name, Function& function) {
+  function = reinterpret_cast<Function>(dlsym(library, name));
+  if (!function)
+    throw Error(ErrorKind::unsupported, std::string("the METIS that was opened has no ") + name +
+                                            ": PNPBS was built with \"" PNPBS_METIS_PATH "\"");
+}
+
+// METIS fills as many of its integers as there are options: more or fewer of ours are filled if
+// they are of another width.
+void require_our_width(const MetisFunctions& functions) {
+  constexpr idx_t kUntouched = 12345;
+  std::array<idx_t, 2 * METIS_NOPTIONS> options;
+  options.fill(kUntouched);
+  functions.set_default_options(options.data());
+  if (std::count(options.begin(), options.end(), kUntouched) == METIS_NOPTIONS) return;
+  throw Error(ErrorKind::unsupported,
+              "the METIS that was opened has integers of another width than the " +
+                  std::to_string(IDXTYPEWIDTH) +
+                  " bits of \"" PNPBS_METIS_PATH
+                  "\", which PNPBS was built with: install that one");
+}
+
+MetisFunctions opened_functions() {
+  void* library = open_metis();
+  MetisFunctions functions{};
+  look_up(library, "METIS_SetDefaultOptions", functions.set_default_options);
+  look_up(library, "METIS_PartGraphRecursive", functions.part_graph_recursive);
+  look_up(library, "METIS_PartGraphKway", functions.part_graph_kway);
+  require_our_width(functions);
+  return functions;
+}
+
+}  // namespace
+
+const MetisFunctions& metis() {
+  static const MetisFunctions functions = opened_functions();
+  return functions;
+}
+
+#else
+
+const MetisFunctions& metis() {
+  static const MetisFunctions functions{METIS_SetDefaultOptions, METIS_PartGraphRecursive,
+                                        METIS_PartGraphKway};
+  return functions;
+}
+
+#endif
+
+}  // namespace pnpbs
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Domain decomposition: cuts the graph of the partition cells into one part per rank, with METIS.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "partition/partition_cells.hpp"
+
+namespace pnpbs {
+
+// Rank that owns each cell: equal shares of the work along the Morton order.
+std::vector<std::int32_t> cut_morton_order(const std::vector<std::int64_t>& work, int ranks);
+
+// The same by METIS, which cuts few interactions; cells without work go as the Morton order has
+// them. Parts may be empty (more ranks than cells with work). Where METIS refuses or leaves the
+// work badly spread, the Morton order is cut instead. The result depends on the seed; the nodes do
+// not.
+std::vector<std::int32_t> cut_by_metis(const PartitionCells& cells, int ranks, std::int64_t seed);
+
+// Gives the parts other numbers so that little work changes its rank. `kept[part * ranks + rank]`:
+// the work in the part that the rank has now.
+std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner,
+                                     const std::vector<std::int64_t>& kept, int ranks);
+
+// Largest over mean work of the parts.
+double imbalance(const std::vector<std::int32_t>& owner, const std::vector<std::int64_t>& work,
+                 int ranks);
+
+}  // namespace pnpbs

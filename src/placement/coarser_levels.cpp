@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Multilevel bubble simulation: the first nodes of a level come from a coarser one, where what is
+// wrong over long distances settles in cheap steps. Each level has twice the spacing of the next;
+// to refine it, a node comes into the middle of every edge of its Delaunay stars, which leaves
+// nearly every node with its six neighbours.
+#include <cmath>
+
+#include "placement/placement.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+class MultipliedSpacing : public Spacing<2> {
+ public:
+  MultipliedSpacing(std::shared_ptr<const Spacing<2>> spacing, double factor)
+      : spacing_(std::move(spacing)), factor_(factor) {}
+
+  void evaluate(std::int64_t n, const Point<2>* x, double* d) const override {
+    spacing_->evaluate(n, x, d);
+    for (std::int64_t i = 0; i < n; ++i) d[i] *= factor_;
+  }
+
+ private:
+  std::shared_ptr<const Spacing<2>> spacing_;
+  double factor_;
+};
+
+double coarser_by(int level) { return std::ldexp(1.0, level); }
+
+std::shared_ptr<const Spacing<2>> spacing_of_level(const std::shared_ptr<const Spacing<2>>& spacing,
+                                                   int level) {
+  if (level == 0) return spacing;
+  return std::make_shared<MultipliedSpacing>(spacing, coarser_by(level));
+}
+
+// All nodes of a level are numbered anew.
+GivenNodes new_nodes(GivenNodes nodes) {
+  for_each("pnpbs::new_nodes", static_cast<std::int64_t>(nodes.size()),
+           [&](std::int64_t k) { nodes[static_cast<std::size_t>(k)].id = -1; });
+  return nodes;
+}
+
+// A coarser level runs like a placement of its own; the coarsest has the most to settle. What
+// is wrong there is wrong on every finer one, too.
+Settings settings_of_level(Settings settings, bool coarsest) {
+  constexpr double kPopulationShare = 0.75;
+  constexpr double kMoreRest = 0.3;  // of the finest level's tolerance: steps are cheap here
+  constexpr double kDenser = 0.997;  // in distance: refining leaves it a little too large
+  settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
+  settings.population_share = kPopulationShare;
+  settings.defects.bad_below = 0;  // no triangle is handed on
+  settings.tolerance_mean *= kMoreRest;
+  settings.population.mean_distance *= kDenser;
+  return settings;
+}
+
+}  // namespace
+
+// None where d is nearly the same everywhere: then one hexagonal lattice fills the domain. A level
+// of few nodes has nothing to settle over long distances, and bubbles of a spacing that varies from
+// one to the next have no rest. Collective, as the spacing is asked.
+int Placement::coarser_levels_that_pay(const Level& finest,
+                                       const std::shared_ptr<const Spacing<2>>& spacing) const {
+  constexpr double kLeastNodes = 500;  // of the coarsest
+  constexpr double kSteepest = 0.27;   // growth of d per unit of length
+  const SpacingVariation d = finest.spacing_variation();
+  const double nodes = finest.expected_nodes();
+  int levels = 0;
+  while (levels < finest.settings().levels && d.largest > kPatchVariation * d.least &&
+         nodes >= kLeastNodes * std::pow(coarser_by(levels + 1), 2) &&
+         d.steepest * coarser_by(levels + 1) <= kSteepest &&
+         boundary_leaves_room(*spacing_of_level(spacing, levels + 1),
+                              static_cast<double>(finest.boundary_nodes()) / coarser_by(levels + 1),
+                              nodes / std::pow(coarser_by(levels + 1), 2)))
+    ++levels;
+  return levels;
+}
+
+// Corners, the few nodes that a small hole needs, and fixed nodes are on every level, however
+// coarse: where they are many among a level's nodes, it settles nothing, bubbles come and go
+// between them, and each has dozens of edges near it. Of a coarser level with this spacing, is what
+// its boundary has beyond its share of the finest one's little beside all of its nodes?
+bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_nodes,
+                                     double nodes) const {
+  constexpr double kMostForced = 0.2;
+  double laid = 0;
+  agreed(*comm_, [&] {
+    const SpacingEvaluator checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+      evaluate_spacing<2>(coarser, domain_->area(), n, x, d);
+    };
+    laid = static_cast<double>(lay_boundary(*domain_, checked).nodes.size());
+  });
+  return laid - boundary_nodes <= kMostForced * nodes;
+}
+
+// From the coarsest level down to twice the spacing. If the monitor stops them, refined nodes are
+// returned nevertheless, as they are.
+GivenNodes Placement::nodes_from_coarser_levels(const Level& finest,
+                                                const std::shared_ptr<const Spacing<2>>& spacing,
+                                                const Settings& settings, Outcome& outcome) {
+  GivenNodes nodes;
+  try {
+    for (int l = coarser_levels_; l > 0; --l) {
+      std::unique_ptr<Level> level = empty_level(
+          spacing_of_level(spacing, l), settings_of_level(settings, l == coarser_levels_), &finest);
+      if (l == coarser_levels_)
+        fill(*level);
+      else
+        level->take(std::move(nodes), 0);
+      adopt_level(std::move(level));
+      begin_schedule(false);
+      schedule_.coarser = true;
+      const ProgressPart part{kCoarseShare * (coarser_levels_ - l) / coarser_levels_,
+                              kCoarseShare * (coarser_levels_ - l + 1) / coarser_levels_};
+      if (outcome != Outcome::stopped) outcome = advance(level_->settings().steps, part);
+      if (outcome != Outcome::stopped) repair_defects();
+      nodes = new_nodes(level_->refined(*spacing_of_level(spacing, l - 1)));
+    }
+    if (outcome != Outcome::stopped) outcome = Outcome::converged;
+    adopt_level(nullptr);
+  } catch (...) {
+    level_.reset();
+    throw;
+  }
+  return nodes;
+}
+
+}  // namespace pnpbs

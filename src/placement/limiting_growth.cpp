@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The spacing as it counts: as given, no larger than makes sense, or with its growth limited,
+// because the user wants it so or because nodes could not follow d as given.
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "placement/placement.hpp"
+#include "spacing/growth_limit.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Of the domain, that d may be large.
+constexpr double kMostSizes = 1024;
+// Growth of d that nodes follow. On a spacing graded from a line (docs/method.md) the worst
+// triangle has a quality of 0.82 up to 0.3, 0.69 at 0.5 and 0.14 at 1. A little more is let pass,
+// so that d which grows by 0.3 stays as it is given, whatever samples make of it.
+constexpr double kMostFollowed = 0.3, kTooSteep = 1.05 * kMostFollowed;
+
+}  // namespace
+
+std::shared_ptr<const Spacing<2>> Placement::bounded_spacing() const {
+  std::shared_ptr<const Spacing<2>> spacing;
+  agreed(*comm_, [&] {
+    spacing =
+        std::make_shared<BoundedSpacing<2>>(spacing_, kMostSizes * size_of(domain_->bounds()));
+  });
+  return spacing;
+}
+
+std::shared_ptr<const Spacing<2>> Placement::growth_limited(
+    std::shared_ptr<const Spacing<2>> spacing, const Settings& settings) {
+  while_monitored("the growth of the spacing was limited", [&](const std::function<void()>& beat) {
+    const PhaseTimer timer(timers_, Phase::spacing);
+    spacing = growth_limited(std::move(spacing), settings, beat);
+  });
+  return spacing;
+}
+
+std::shared_ptr<const Spacing<2>> Placement::growth_limited(
+    std::shared_ptr<const Spacing<2>> spacing, const Settings& settings,
+    const std::function<void()>& beat) const {
+  agreed(*comm_, [&] {
+    try {
+      spacing = std::make_shared<GrowthLimitedSpacing>(
+          *domain_, std::move(spacing), settings.growth_limit, settings.node_limit(), beat);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::spacing && error.kind() != ErrorKind::memory) throw;
+      throw Error(error.kind(), std::string(error.what()) + " (where d grows by at most " +
+                                    number_text(settings.growth_limit) +
+                                    ": option growth_limit, 0 is no limit)");
+    }
+  });
+  return spacing;
+}
+
+bool Placement::too_steep(const SteepestGrowth& steepest) { return steepest.growth > kTooSteep; }
+
+std::string Placement::warning_of_growth(const SteepestGrowth& steepest, double growth_limit) {
+  const std::string found = "the spacing grows by " + rounded_text(steepest.growth) +
+                            " per unit of length near (" + rounded_text(steepest.at[0]) + ", " +
+                            rounded_text(steepest.at[1]) + "), faster than nodes can follow: ";
+  if (growth_limit == 0)
+    return found + "limit its growth (option growth_limit, " + number_text(kMostFollowed) +
+           " or less)";
+  return found + "its growth is limited to " + number_text(growth_limit) +
+         "; set the option growth_limit to choose another limit, or 0 to have it as given";
+}
+
+}  // namespace pnpbs

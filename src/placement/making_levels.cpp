@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Making a level: checks, boundary, tree, growth limit, and the nodes it begins with.
+#include "base/error.hpp"
+#include "base/mixed_hash.hpp"
+#include "placement/placement.hpp"
+
+namespace pnpbs {
+
+// A level for the present spacing, with the present options. Stopped if the monitor has stopped
+// what leads to it.
+Outcome Placement::prepare_level() {
+  const Settings settings(options_);
+  require_same_options();
+  const bool make = !level_ || spacing_replaced_ ||
+                    settings.growth_limit != level_->settings().growth_limit ||
+                    settings.growth_limit_set != level_->settings().growth_limit_set;
+  if (comm_->largest(make) > 0) return make_level();
+  level_->change_settings(settings);
+  return Outcome::converged;
+}
+
+// Ranks with other options or another domain would wait for each other for ever.
+void Placement::require_same_options() const {
+  if (!comm_->same_on_all(options_.fingerprint()))
+    throw Error(ErrorKind::argument,
+                "the options differ between ranks: set the same ones on all of them");
+}
+
+void Placement::require_same_domain() const {
+  std::uint64_t fingerprint = 0;
+  const auto add = [&](double value) { fingerprint = mixed_with(fingerprint, value); };
+  for (const BoundaryCurve& curve : domain_->curves()) {
+    add(curve.tag);
+    add(curve.left_inside);  // the role, and holes
+    add(curve.right_inside);
+    for (const Point<2>& x : curve.points)
+      for (double coordinate : x) add(coordinate);
+  }
+  for (const Corner& corner : domain_->corners()) add(corner.tag);
+  for (const FixedNode& node : domain_->fixed_nodes()) {
+    add(node.tag);
+    for (double coordinate : node.position) add(coordinate);
+  }
+  if (!comm_->same_on_all(fingerprint))
+    throw Error(ErrorKind::domain,
+                "the domains differ between ranks: every rank describes the whole domain");
+}
+
+// Once spacing and domain are there, right, and the same on all ranks. Collective.
+Settings Placement::settings_for_new_level() const {
+  if (!spacing_)
+    throw Error(ErrorKind::state,
+                "the placement has no spacing yet: call one of the set_spacing functions first");
+  Settings settings(options_);
+  settings.max_bytes = bytes_allowed();
+  agreed(*comm_, [this] { domain_->check(); });
+  require_same_domain();
+  return settings;
+}
+
+// A level without inner nodes yet, dealt out to the ranks like another one if that is given.
+std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> spacing,
+                                              const Settings& settings, const Level* like) {
+  std::unique_ptr<Level> level;
+  agreed(*comm_, [&] {
+    // A copy: the caller may go on to change the domain.
+    level = std::make_unique<Level>(comm_, std::make_shared<PlaneDomain>(*domain_),
+                                    std::move(spacing), settings, timers_);
+    level->lay_boundary();
+  });
+  level->grow_tree(like);
+  return level;
+}
+
+// Lays the boundary at the present spacing and puts in the inner nodes: those of the level before,
+// refined where it was coarser, those given, those that coarser levels lead to, or a fill.
+Outcome Placement::make_level() {
+  const Settings settings = settings_for_new_level();
+  std::shared_ptr<const Spacing<2>> spacing = bounded_spacing();
+  if (settings.user_limits_growth()) spacing = growth_limited(std::move(spacing), settings);
+  std::unique_ptr<Level> next = empty_level(spacing, settings);
+  SteepestGrowth steepest;  // none where the user limits it
+  if (!settings.user_limits_growth()) steepest = next->steepest_growth();
+  if (too_steep(steepest) && settings.growth_limit > 0) {
+    next.reset();
+    spacing = growth_limited(std::move(spacing), settings);
+    next = empty_level(spacing, settings);
+  }
+  settings.node_limit().require_memory_for(next->expected_nodes());
+  TakenNodes taken;
+  std::int64_t inserted = 0;
+  Outcome outcome = Outcome::converged;
+  coarser_levels_ = 0;
+  if (level_) {
+    taken = next->take(level_->refined(*spacing), level_->next_id());
+    taken.left_out = 0;  // not the user's
+    inserted = taken.numbered;
+  } else if (start_from_given_) {
+    taken = next->take(given_, 0);
+  } else {
+    coarser_levels_ = coarser_levels_that_pay(*next, spacing);
+    if (coarser_levels_ > 0)
+      next->take(nodes_from_coarser_levels(*next, spacing, settings, outcome), 0);
+    else
+      fill(*next);
+  }
+  // Nothing has failed: from here on the new level counts.
+  adopt_level(std::move(next));
+  dropped_ = taken.left_out;
+  inserted_ += inserted;
+  deleted_ += taken.thinned;
+  warnings_ = domain_->warnings();
+  warnings_.insert(warnings_.end(), level_->boundary().warnings.begin(),
+                   level_->boundary().warnings.end());
+  if (too_steep(steepest)) warnings_.push_back(warning_of_growth(steepest, settings.growth_limit));
+  warnings_of_level_ = warnings_.size();
+  spacing_replaced_ = false;
+  begin_schedule(coarser_levels_ > 0);
+  return outcome;
+}
+
+void Placement::fill(Level& level) {
+  while_monitored("the first nodes were laid",
+                  [&](const std::function<void()>& beat) { level.fill(beat); });
+}
+
+void Placement::adopt_level(std::unique_ptr<Level> next) {
+  if (level_) {
+    rebuilds_before_ += level_->rebuilds();
+    rebalances_before_ += level_->rebalances();
+  }
+  level_ = std::move(next);
+  order_version_ = lists_version_ = stars_version_ = quality_version_ = -1;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "placement/placement.hpp"
+
+#include <limits>
+#include <new>
+
+#include "base/error.hpp"
+#include "base/kokkos_runtime.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+
+}  // namespace
+
+void Placement::set_spacing(std::shared_ptr<const Spacing<2>> spacing) {
+  spacing_ = std::move(spacing);
+  spacing_replaced_ = true;
+}
+
+void Placement::set_nodes(GivenNodes nodes) {
+  given_ = std::move(nodes);
+  start_from_given_ = true;
+  level_.reset();
+}
+
+void Placement::forget_nodes() { level_.reset(); }
+
+Outcome Placement::initialise() {
+  require_kokkos();
+  const PhaseTimer timer(timers_, Phase::total);
+  require_same_options();
+  std::unique_ptr<Level> before = std::move(level_);
+  try {
+    return make_level();
+  } catch (...) {
+    level_ = std::move(before);
+    throw;
+  }
+}
+
+// Changes the nodes there are. Afterwards every node is with the rank that owns its place, so that
+// none changes its rank when it is asked for. A rank that ran out of memory may have lost some:
+// then all let go of theirs.
+template <class Work>
+auto Placement::while_moving(const Work& work) {
+  try {
+    const auto result = work();
+    level_->exchange_for_stars();
+    return result;
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::memory) level_.reset();
+    throw;
+  } catch (const std::bad_alloc&) {
+    level_.reset();
+    throw;
+  }
+}
+
+Outcome Placement::run() {
+  require_kokkos();
+  const PhaseTimer timer(timers_, Phase::total);
+  if (prepare_level() == Outcome::stopped) return Outcome::stopped;
+  return while_moving([this] {
+    if (schedule_.ended) begin_schedule(false);
+    warnings_.resize(warnings_of_level_);
+    const Outcome outcome =
+        advance(level_->settings().steps, {schedule_.refined ? kCoarseShare : 0, kStepsShare});
+    schedule_.ended = true;
+    if (outcome == Outcome::stopped) return outcome;
+    if (finish() == Outcome::stopped) return Outcome::stopped;
+    return spacing_missed() ? Outcome::spacing_missed : outcome;
+  });
+}
+
+Outcome Placement::step(std::int64_t n) {
+  require_kokkos();
+  if (!comm_->same_on_all(static_cast<std::uint64_t>(n)))
+    throw Error(ErrorKind::argument, "argument n differs between ranks");
+  const PhaseTimer timer(timers_, Phase::total);
+  if (prepare_level() == Outcome::stopped) return Outcome::stopped;
+  return while_moving([&] {
+    if (schedule_.ended) begin_schedule(false);
+    const std::int64_t until = schedule_.step > kNoLimit - n ? kNoLimit : schedule_.step + n;
+    return advance(until, {0, 1});
+  });
+}
+
+void Placement::rebalance() {
+  require_kokkos();
+  const PhaseTimer timer(timers_, Phase::total);
+  prepare_level();
+  rebalance_now();
+}
+
+PopulationCounts Placement::adjust_population() {
+  require_kokkos();
+  const PhaseTimer timer(timers_, Phase::total);
+  const PopulationCounts before{inserted_, deleted_};
+  prepare_level();
+  while_moving([this] { return count_population_change(level_->adjust_population()); });
+  return {inserted_ - before.inserted, deleted_ - before.deleted};
+}
+
+PopulationCounts Placement::count_population_change(PopulationCounts change) {
+  change.inserted =
+      static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(change.inserted)));
+  change.deleted =
+      static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(change.deleted)));
+  inserted_ += change.inserted;
+  deleted_ += change.deleted;
+  return change;
+}
+
+}  // namespace pnpbs

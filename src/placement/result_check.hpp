@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Do the results of a placement keep what the interface promises of them? Asked of what is handed
+// out: nodes, lists and stars, over all ranks.
+#pragma once
+
+#include "placement/placement.hpp"
+
+namespace pnpbs {
+
+// Throws Error(ErrorKind::internal), which says what is wrong and at which nodes, unless
+// - ids are unique, no two nodes lie in one place, all lie inside or are nodes of the boundary,
+//   and all of those are there,
+// - node i is in the list of node j where j is in that of i,
+// - stars go round counter-clockwise, each triangle is in the stars of its three corners, and each
+//   edge has triangles on both sides, an edge of the boundary on its inner sides alone: so the
+//   triangles are one conforming triangulation, which holds all edges of the boundary,
+// - the triangles' areas add up to the domain's.
+// No rank learns more than what its own nodes and ghosts are. Collective.
+void check_results(Placement& placement);
+
+}  // namespace pnpbs

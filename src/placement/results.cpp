@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is handed out: the nodes in the order of their ids, lists, stars, and figures of them.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "base/kokkos_runtime.hpp"
+#include "base/mixed_hash.hpp"
+#include "placement/placement.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// The nodes that are owned, or those that are not, in the order of their ids. These are nearly
+// dense where a rank has them all; then no sort is needed.
+void append_by_id(const Nodes<2>& nodes, bool owned, std::vector<std::int32_t>& order) {
+  constexpr std::int64_t kDense = 4;  // ids to a node
+  const auto first = static_cast<std::ptrdiff_t>(order.size());
+  std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = -1;
+  for (std::int32_t i = 0; i < nodes.count; ++i) {
+    if ((nodes.owned(i) != 0) != owned) continue;
+    order.push_back(i);
+    least = std::min(least, nodes.id(i));
+    most = std::max(most, nodes.id(i));
+  }
+  const auto begin = order.begin() + first;
+  if (begin == order.end()) return;
+  bool sort = most - least >= kDense * (order.end() - begin);
+  if (!sort) {
+    std::vector<std::int32_t> node_of(static_cast<std::size_t>(most - least + 1), -1);
+    for (auto i = begin; i != order.end(); ++i) {
+      std::int32_t& node = node_of[static_cast<std::size_t>(nodes.id(*i) - least)];
+      sort = sort || node >= 0;  // two ranks were given the same id
+      node = *i;
+    }
+    if (!sort)
+      std::copy_if(node_of.begin(), node_of.end(), begin, [](std::int32_t i) { return i >= 0; });
+  }
+  if (sort)
+    std::sort(begin, order.end(),
+              [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
+}
+
+}  // namespace
+
+std::int64_t Placement::count() const { return level_ ? level_->owned_count() : 0; }
+
+std::int64_t Placement::global_count() const {
+  return static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(count())));
+}
+
+void Placement::prepare_order() {
+  require_kokkos();
+  if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
+  if (order_version_ == level_->version()) return;
+  // Owned nodes first, then ghosts, each by id.
+  const Nodes<2>& nodes = level_->nodes();
+  by_id_.clear();
+  by_id_.reserve(static_cast<std::size_t>(nodes.count));
+  append_by_id(nodes, true, by_id_);
+  append_by_id(nodes, false, by_id_);
+  place_.resize(by_id_.size());
+  for (std::size_t p = 0; p < by_id_.size(); ++p)
+    place_[static_cast<std::size_t>(by_id_[p])] = static_cast<std::int32_t>(p);
+  order_version_ = level_->version();
+}
+
+void Placement::prepare_lists() {
+  require_kokkos();
+  if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
+  if (lists_version_ == level_->version()) return;
+  level_->prepare_lists();
+  prepare_order();
+  lists_version_ = level_->version();
+  if (level_->distributed()) stars_version_ = lists_version_;
+}
+
+void Placement::prepare_stars() {
+  prepare_lists();
+  if (stars_version_ == level_->version()) return;
+  level_->renew_stars();
+  stars_version_ = level_->version();
+}
+
+ExchangePattern Placement::exchange_pattern() {
+  prepare_lists();
+  const Nodes<2>& nodes = level_->nodes();
+  const std::int64_t owned = count();
+  std::vector<std::int64_t> ids;
+  std::vector<std::int32_t> owners;
+  for (std::int64_t place = 0; place < nodes.count; ++place) {
+    ids.push_back(nodes.id(node_at(place)));
+    if (place >= owned) owners.push_back(level_->owner_of(node_at(place)));
+  }
+  return make_exchange_pattern(*comm_, owned, ids, owners);
+}
+
+std::int64_t Placement::nodes_on_ranks_before() const {
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(comm_->size()), 0);
+  counts[static_cast<std::size_t>(comm_->rank())] = count();
+  comm_->sum(counts);
+  return std::accumulate(counts.begin(), counts.begin() + comm_->rank(), std::int64_t{0});
+}
+
+// ------------------------------------------------------------------ statistics -----------------
+
+NearestNeighbourError Placement::spacing_error() {
+  prepare_lists();
+  const Nodes<2>& nodes = level_->nodes();
+  const AdjacencyList<2>& lists = level_->lists();
+  // Nodes with no listed neighbour count as far as the lists reach.
+  const auto ratio = [&](std::int64_t i) {
+    double nearest = lists.radius() * nodes.d(i);
+    lists.for_neighbours(i, [&](std::int64_t j) {
+      nearest = std::min(nearest, distance<2>(nodes.position(i), nodes.position(j)));
+    });
+    return nearest / nodes.d(i);
+  };
+  const double n = static_cast<double>(global_count());
+  const auto mean_of = [&](const auto& value) {
+    const std::uint64_t sum = sum_of("pnpbs::spacing_error", nodes.count, [&](std::int64_t i) {
+      return nodes.owned(i) ? fixed_point(value(i)) : 0;
+    });
+    return from_fixed_point(comm_->sum(sum)) / n;
+  };
+  NearestNeighbourError error;
+  error.mean = mean_of(ratio);
+  error.deviation = std::sqrt(
+      mean_of([&](std::int64_t i) { return (ratio(i) - error.mean) * (ratio(i) - error.mean); }));
+  error.least = -comm_->largest(
+      largest_of("pnpbs::spacing_error::least", nodes.count, -kFarAway,
+                 [&](std::int64_t i) { return nodes.owned(i) ? -ratio(i) : -kFarAway; }));
+  return error;
+}
+
+// A sum over the nodes, so that it has no order.
+std::uint64_t Placement::hash() const {
+  if (!level_) return 0;
+  const Nodes<2>& nodes = level_->nodes();
+  return comm_->sum(sum_of("pnpbs::hash", nodes.count, [&](std::int64_t i) -> std::uint64_t {
+    if (!nodes.owned(i)) return 0;
+    std::uint64_t h = mixed(static_cast<std::uint64_t>(nodes.id(i)));
+    for (int k = 0; k < 2; ++k) h = mixed_with(h, nodes.x[k](i));
+    return mixed(h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(nodes.tag(i))));
+  }));
+}
+
+}  // namespace pnpbs

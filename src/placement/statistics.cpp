@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "placement/statistics.hpp"
+
+#include <cstdio>
+
+#include "base/available_memory.hpp"
+#include "base/build_config.hpp"
+#include "base/error.hpp"
+#include "base/kokkos_runtime.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using P = Placement&;
+
+StatisticRow integer(const char* name, std::int64_t (*get)(P), const char* help) {
+  return {name, help, get, nullptr, nullptr, false};
+}
+StatisticRow real(const char* name, double (*get)(P), const char* help) {
+  return {name, help, nullptr, get, nullptr, false};
+}
+StatisticRow text(const char* name, std::string (*get)(P), const char* help) {
+  return {name, help, nullptr, nullptr, get, false};
+}
+
+StatisticRow computed(StatisticRow row) {
+  row.computes = true;
+  return row;
+}
+
+template <Phase phase>
+double seconds(P p) {
+  return p.timers().seconds(phase);
+}
+
+std::string stop_reason(P p) {
+  switch (p.stop_reason()) {
+    case StopReason::rest:
+      return "rest";
+    case StopReason::step_limit:
+      return "step limit";
+    case StopReason::monitor:
+      return "monitor";
+    case StopReason::none:
+      break;
+  }
+  return "none";
+}
+
+std::string hash(P p) {
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(p.hash()));
+  return digits;
+}
+
+}  // namespace
+
+const std::vector<StatisticRow>& statistic_table() {
+  static const std::vector<StatisticRow> table = {
+      integer(
+          "nodes", [](P p) { return p.global_count(); }, "nodes of all kinds"),
+      integer(
+          "boundary_nodes",
+          [](P p) { return p.has_nodes() ? p.level().boundary_nodes() : std::int64_t{0}; },
+          "nodes on boundary and inner curves, and fixed nodes"),
+      integer(
+          "steps", [](P p) { return p.steps_done(); }, "time steps done, on coarser levels, too"),
+      integer(
+          "levels", [](P p) { return std::int64_t{p.coarser_levels()}; },
+          "coarser levels that the nodes came from"),
+      integer(
+          "rebuilds", [](P p) { return p.rebuilds(); }, "times the adjacency lists were made"),
+      integer(
+          "inserted", [](P p) { return p.inserted(); },
+          "nodes inserted by population control, or where d has become finer"),
+      integer(
+          "deleted", [](P p) { return p.deleted(); },
+          "nodes deleted by population control, or where d has become coarser"),
+      integer(
+          "dropped", [](P p) { return p.dropped(); },
+          "nodes given by the user that lie outside or too close to the boundary"),
+      integer(
+          "nodes_held",
+          [](P p) {
+            const std::int64_t held = p.has_nodes() ? p.level().nodes().count : std::int64_t{0};
+            return static_cast<std::int64_t>(p.communicator().largest(static_cast<double>(held)));
+          },
+          "most nodes that any rank holds, its ghosts included"),
+      integer(
+          "ghosts",
+          [](P p) { return p.has_nodes() ? p.level().nodes().count - p.count() : std::int64_t{0}; },
+          "nodes of other ranks that this rank holds now"),
+      integer(
+          "neighbours",
+          [](P p) { return p.has_nodes() ? p.level().neighbour_ranks() : std::int64_t{0}; },
+          "ranks that this rank exchanges ghosts with"),
+      integer(
+          "exchange.bytes",
+          [](P p) { return p.has_nodes() ? p.level().renewal_bytes() : std::int64_t{0}; },
+          "bytes that this rank sends every exchange_interval steps"),
+      integer(
+          "work.owned",
+          [](P p) { return p.has_nodes() ? p.level().owned_work() : std::int64_t{0}; },
+          "cost of a step to this rank: listed pairs of its own nodes, and 8 for each node"),
+      real(
+          "imbalance", [](P p) { return p.has_nodes() ? p.level().imbalance() : 1.0; },
+          "largest over mean of that, over the ranks"),
+      integer(
+          "rebalances", [](P p) { return p.rebalances(); }, "times the work was dealt out anew"),
+      real("seconds.boundary", seconds<Phase::boundary>, "laying the boundary nodes"),
+      real("seconds.tree", seconds<Phase::tree>, "background tree and samples of d"),
+      real("seconds.partition", seconds<Phase::partition>, "leaves to ranks"),
+      real("seconds.fill", seconds<Phase::fill>, "initial inner nodes"),
+      real("seconds.spacing", seconds<Phase::spacing>, "evaluating d at the nodes; growth limit"),
+      real("seconds.lists", seconds<Phase::lists>, "buckets and adjacency lists"),
+      real("seconds.motion", seconds<Phase::motion>, "forces and time steps"),
+      real("seconds.exchange", seconds<Phase::exchange>, "migration and ghosts between ranks"),
+      real("seconds.population", seconds<Phase::population>, "population control"),
+      real("seconds.stars", seconds<Phase::stars>, "Delaunay stars"),
+      real("seconds.sweeps", seconds<Phase::sweeps>, "finishing sweeps"),
+      real("seconds.total", seconds<Phase::total>,
+           "from domain and spacing given to nodes in hand, no files"),
+      integer(
+          "memory.peak_bytes", [](P) { return peak_memory(); },
+          "largest memory of this process so far"),
+      computed(integer(
+          "memory.max_peak_bytes",
+          [](P p) {
+            const auto mine = static_cast<double>(peak_memory());
+            return static_cast<std::int64_t>(p.communicator().largest(mine));
+          },
+          "the largest of that, over the ranks")),
+      computed(real(
+          "d_error.mean", [](P p) { return p.spacing_error().mean; },
+          "nearest-neighbour distance over d: mean")),
+      computed(real(
+          "d_error.deviation", [](P p) { return p.spacing_error().deviation; },
+          "nearest-neighbour distance over d: standard deviation")),
+      computed(real(
+          "d_error.least", [](P p) { return p.spacing_error().least; },
+          "nearest-neighbour distance over d: least")),
+      computed(real(
+          "quality.mean", [](P p) { return p.element_quality().triangle.mean; },
+          "quality of the triangles, 2 r_in / R: mean")),
+      computed(real(
+          "quality.one_percent", [](P p) { return p.element_quality().triangle.one_percent; },
+          "quality of the triangles: 99 % lie above this, a multiple of 2^-16")),
+      computed(real(
+          "quality.min", [](P p) { return p.element_quality().triangle.least; },
+          "quality of the triangles: the worst")),
+      computed(real(
+          "quality.min_angle", [](P p) { return p.element_quality().triangle.least_angle; },
+          "smallest angle of the triangles, degrees")),
+      computed(real(
+          "quality.irregular", [](P p) { return p.element_quality().irregular; },
+          "share of the inner nodes that have not six neighbours in their stars")),
+      computed(real(
+          "edge.mean", [](P p) { return p.element_quality().edge.mean; },
+          "length of the triangles' edges over d, the mean of d at their ends: mean")),
+      computed(real(
+          "edge.deviation", [](P p) { return p.element_quality().edge.deviation; },
+          "length of the triangles' edges over d: standard deviation")),
+      real(
+          "speed.largest", [](P p) { return p.speeds().largest; },
+          "largest scaled speed, spacings per unit of time"),
+      real(
+          "speed.mean", [](P p) { return p.speeds().mean; }, "mean scaled speed"),
+      text("stop_reason", stop_reason,
+           "why the last run or step call ended: rest, step limit, monitor, or none"),
+      text("hash", hash,
+           "64 bits over ids, coordinate bits and tags; the same for any ranks and threads"),
+      text(
+          "version", [](P) { return std::string(PNPBS_PROJECT_VERSION); }, "of the library"),
+      integer(
+          "ranks", [](P p) { return std::int64_t{p.communicator().size()}; },
+          "processes placing together"),
+      integer(
+          "threads", [](P) { return thread_count(); }, "threads of this process"),
+  };
+  return table;
+}
+
+const StatisticRow& find_statistic(const std::string& key) {
+  std::vector<std::string> names;
+  for (const StatisticRow& row : statistic_table()) {
+    if (key == row.name) return row;
+    names.emplace_back(row.name);
+  }
+  throw Error(ErrorKind::key, "unknown statistic \"" + key + "\"; the nearest known one is \"" +
+                                  nearest_name(key, names) + "\"");
+}
+
+}  // namespace pnpbs

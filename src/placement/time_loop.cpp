@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The time loop: steps, the events between them, and the finish.
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include "placement/placement.hpp"
+
+namespace pnpbs {
+
+void Placement::begin_schedule(bool refined) {
+  schedule_ = Schedule();
+  schedule_.refined = refined;
+}
+
+// Steps on to step number `until` of the schedule, or until the bubbles rest. Events happen at
+// step numbers fixed in advance. `part` is the part of the call's work that this is.
+Outcome Placement::advance(std::int64_t until, ProgressPart part) {
+  const Settings& settings = level_->settings();
+  const double first = static_cast<double>(schedule_.step);
+  Outcome outcome = Outcome::not_converged;
+  stop_reason_ = StopReason::step_limit;
+  std::exception_ptr failure;  // of this rank: told to the others at the next event
+  bool started = true;
+  while (schedule_.step < until) {
+    if (started || schedule_.step % settings.event_interval % settings.exchange_interval == 0)
+      level_->exchange_for_steps(failure);
+    started = false;
+    try {
+      if (!failure && level_->lists_may_miss_a_pair()) level_->rebuild_lists();
+      if (!failure) level_->move();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    level_->count_step();
+    ++schedule_.step;
+    ++steps_done_;
+    const bool is_event = schedule_.step % settings.event_interval == 0;
+    if (is_event || schedule_.step == until || !level_->distributed())
+      agree_on_failure(*comm_, failure);
+    const double done = (static_cast<double>(schedule_.step) - first) /
+                        std::max(1.0, static_cast<double>(until) - first);
+    const double fraction = part.begin + done * (part.end - part.begin);
+    if (is_event) event();
+    if (is_event ? monitor_stops(fraction) : stops_between_events(fraction)) {
+      if (!is_event) level_->refresh_spacing();  // as d is at the nodes now
+      outcome = Outcome::stopped;
+      stop_reason_ = StopReason::monitor;
+      break;
+    }
+    if (is_event && bubbles_rest()) {
+      outcome = Outcome::converged;
+      stop_reason_ = StopReason::rest;
+      break;
+    }
+  }
+  return outcome;
+}
+
+// What happens at an event, in this order.
+void Placement::event() {
+  const Settings& settings = level_->settings();
+  last_speeds_ = level_->speeds();
+  level_->refresh_spacing();
+  const double population_until =
+      std::floor(settings.population_share * static_cast<double>(settings.steps));
+  if (static_cast<double>(schedule_.step) > population_until && !far_too_few())
+    schedule_.population_settled = true;
+  if (!schedule_.population_settled)
+    control_population();  // renews the ghosts, too; else the next step does
+  keep_balance();
+}
+
+// Deals the work out anew where it has become unequal, unless it was no better after the last time.
+void Placement::keep_balance() {
+  if (!level_->distributed()) return;
+  constexpr double kNoBetter = 1.02;
+  const double imbalance = level_->imbalance();
+  if (imbalance <=
+      std::max(level_->settings().rebalance_above, kNoBetter * schedule_.imbalance_reached))
+    return;
+  rebalance_now();
+}
+
+void Placement::rebalance_now() {
+  level_->rebalance();
+  schedule_.imbalance_reached = level_->imbalance();
+}
+
+// Nodes given from outside may be so few that they take longer to multiply.
+bool Placement::far_too_few() const {
+  return static_cast<double>(global_count()) < 0.85 * level_->expected_nodes();
+}
+
+// Adjusts the population while it pays, the first time aimed at the mean distance. A new spacing
+// may ask for many times the nodes there are, and one contest lets at most one act within three
+// hops: so there are more rounds at once while they change much.
+void Placement::control_population() {
+  constexpr int kMostRounds = 20;
+  constexpr double kMuch = 0.002;     // share of the nodes
+  constexpr double kRefinedPays = 5;  // times the option's share
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  // What is off on a coarser level is off on all finer ones; on the finest each change costs steps.
+  const double tolerance = (schedule_.coarser ? 1 : 3) * kMeanTolerance;
+  const double nodes = static_cast<double>(global_count());
+  double changed = 0;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const PopulationCounts change =
+        count_population_change(level_->adjust_population(round == 0 ? tolerance : kInfinity));
+    const double acted = static_cast<double>(change.inserted + change.deleted);
+    changed += acted;
+    if (acted < kMuch * nodes) break;
+  }
+  const Settings& settings = level_->settings();
+  // Nodes that have just come may make room for more: so twice in a row. After a coarser level
+  // there is little left to do.
+  const bool quiet =
+      changed <= (schedule_.refined ? kRefinedPays : 1) * settings.population_pays * nodes;
+  schedule_.quiet_events = quiet ? schedule_.quiet_events + 1 : 0;
+  schedule_.population_settled =
+      schedule_.quiet_events >= (schedule_.refined ? 1 : 2) && !far_too_few();
+}
+
+// While the population still changes, rest means nothing.
+bool Placement::bubbles_rest() const {
+  const Settings& settings = level_->settings();
+  return schedule_.population_settled && last_speeds_.mean < settings.tolerance_mean &&
+         last_speeds_.largest < settings.tolerance_max;
+}
+
+// Each part of it leaves valid nodes.
+Outcome Placement::finish() {
+  const Settings& settings = level_->settings();
+  const auto stops = [this] {
+    if (!monitor_stops_by_clock(kStepsShare)) return false;
+    level_->refresh_spacing();
+    stop_reason_ = StopReason::monitor;
+    return true;
+  };
+  if (settings.runge_kutta_finish) {
+    level_->exchange_for_runge_kutta();
+    agreed(*comm_, [this] {
+      level_->rebuild_lists();  // its stages look ahead
+      level_->finish_by_runge_kutta();
+    });
+    level_->count_step();
+    ++steps_done_;
+  }
+  repair_defects();
+  if (stops()) return Outcome::stopped;
+  count_population_change(level_->remove_crowded());
+  if (stops()) return Outcome::stopped;
+  count_population_change(level_->sweep_and_repair(settings.sweeps));
+  level_->refresh_spacing();
+  monitor_stops(1.0);
+  return Outcome::converged;
+}
+
+// Where a node is one too many or one is missing that the overlap ratios do not tell. Nodes that
+// coincide would have no star, so they go first. Rounds must do less and less: where d jumps, what
+// one brings another may take away, for ever.
+void Placement::repair_defects() {
+  std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  for (std::int64_t round = 0; round < level_->settings().defects.rounds && most > 1; ++round) {
+    count_population_change(level_->remove_crowded());
+    const PopulationCounts change = count_population_change(level_->repair_defects());
+    const std::int64_t changes = change.inserted + change.deleted;
+    if (changes > 0) level_->refresh_spacing();  // a new node has another's so far
+    if (changes == 0 || changes >= most) break;
+    most = changes;
+  }
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "population/population_thresholds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "population/overlap_ratio.hpp"
+#include "spacing/spacing_range.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// What is counted in an octave of d, in this order: owned bubbles by their overlap ratios; the
+// pairs of touching bubbles, from either end; the sum of their distances, in fixed point.
+constexpr int kBinsPerUnit = 32;  // of the overlap ratio
+constexpr int kBins = 16 * kBinsPerUnit;
+constexpr int kPairs = kBins;
+constexpr int kDistances = kBins + 1;
+constexpr int kCounts = kBins + 2;
+// Bubbles nearer than this many desired distances touch: nearly all that are joined by an edge of
+// the Delaunay triangulation are, and hardly any others, whose next shell is at 1.73.
+constexpr double kTouch = 1.3;
+
+struct OctaveCounts {
+  std::vector<std::int64_t> values;  // kCounts per octave
+
+  void add(const OctaveCounts& other) {
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += other.values[k];
+  }
+};
+
+int octave_of(double d) { return std::ilogb(d); }
+
+// A bubble that is squeezed between boundary nodes, which are where they must be, tells nothing of
+// the density.
+template <int Dim>
+bool is_squeezed(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double ratio,
+                 const PopulationRule& rule, std::int64_t i) {
+  constexpr double kSqueezed = 7.0 / 6;  // of the ideal ratio
+  if (ratio <= kSqueezed * rule.ideal) return false;
+  bool at_boundary = false;
+  lists.for_neighbours(i, [&](std::int64_t j) { at_boundary = at_boundary || !nodes.moves(j); });
+  return at_boundary;
+}
+
+template <int Dim>
+void count_node(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double ratio,
+                std::int64_t i, std::int64_t* counts) {
+  const int bin = static_cast<int>(ratio * kBinsPerUnit);
+  ++counts[std::clamp(bin, 0, kBins - 1)];
+  const Point<Dim> x = nodes.position(i);
+  lists.for_neighbours(i, [&](std::int64_t j) {
+    const double desired = 0.5 * (nodes.d(i) + nodes.d(j));
+    const double w = distance<Dim>(x, nodes.position(j)) / desired;
+    if (w > kTouch || !nodes.moves(j)) return;
+    ++counts[kPairs];
+    counts[kDistances] += fixed_point(w);
+  });
+}
+
+// From the least ratio up, or from the largest down, the bins of so many bubbles.
+template <class Bin>
+int bins_of(double bubbles, const Bin& bin) {
+  double sum = 0;
+  int k = 0;
+  while (k < kBins && (sum += static_cast<double>(bin(k))) <= bubbles) ++k;
+  return k;
+}
+
+PopulationThresholds::Pair thresholds_of_octave(const std::int64_t* counts,
+                                                const PopulationRule& rule, double tolerance) {
+  PopulationThresholds::Pair pair{0, rule.delete_above};
+  if (counts[kPairs] == 0) return pair;
+  double bubbles = 0;
+  for (int k = 0; k < kBins; ++k) bubbles += static_cast<double>(counts[k]);
+  const double mean = from_fixed_point(static_cast<std::uint64_t>(counts[kDistances])) /
+                      static_cast<double>(counts[kPairs]);
+  if (std::fabs(mean - rule.mean_distance) <= tolerance) return pair;
+  // A bubble's share of the domain goes with the square of the distance.
+  const double missing = bubbles * ((mean / rule.mean_distance) * (mean / rule.mean_distance) - 1);
+  const int act = bins_of(std::fabs(missing),
+                          [&](int k) { return missing > 0 ? counts[k] : counts[kBins - 1 - k]; });
+  if (missing > 0) {
+    const double below = std::min(rule.ideal, static_cast<double>(act) / kBinsPerUnit);
+    pair.insert_below = std::max(pair.insert_below, below);
+  } else {
+    const double above = std::max(rule.ideal, static_cast<double>(kBins - act) / kBinsPerUnit);
+    pair.delete_above = std::min(pair.delete_above, above);
+  }
+  return pair;
+}
+
+}  // namespace
+
+const PopulationThresholds::Pair& PopulationThresholds::at(double d) const {
+  const int last = static_cast<int>(octaves.size()) - 1;
+  return octaves[static_cast<std::size_t>(std::clamp(octave_of(d) - first_octave, 0, last))];
+}
+
+template <int Dim>
+View<double> overlap_ratios(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists) {
+  const View<double> ratios = make_view<double>("pnpbs::overlap_ratios", nodes.count);
+  for_each("pnpbs::overlap_ratios", nodes.count, [&](std::int64_t i) {
+    ratios(i) = nodes.moves(i) ? overlap_ratio<Dim>(nodes, lists, i) : 0.0;
+  });
+  return ratios;
+}
+
+template <int Dim>
+PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim>& nodes,
+                                       const AdjacencyList<Dim>& lists, const View<double>& ratios,
+                                       const PopulationRule& rule, double tolerance) {
+  PopulationThresholds thresholds(rule);
+  if (rule.mean_distance == 0 || std::isinf(tolerance)) return thresholds;
+  const SpacingRange d = spacing_range<Dim>(comm, nodes);
+  if (d.empty()) return thresholds;
+  const int first = octave_of(d.least), last = octave_of(d.largest);
+  OctaveCounts counts;
+  agreed(comm, [&] {
+    counts.values.assign(static_cast<std::size_t>(last - first + 1) * kCounts, 0);
+    counts = sums_over(
+        "pnpbs::choose_thresholds", nodes.count, counts, [&](std::int64_t i, OctaveCounts& sums) {
+          if (!nodes.moves(i) || !nodes.owned(i)) return;
+          if (is_squeezed<Dim>(nodes, lists, ratios(i), rule, i)) return;
+          count_node<Dim>(nodes, lists, ratios(i), i,
+                          sums.values.data() + (octave_of(nodes.d(i)) - first) * kCounts);
+        });
+  });
+  comm.sum(counts.values);
+  thresholds.first_octave = first;
+  thresholds.octaves.clear();
+  for (int octave = 0; octave <= last - first; ++octave)
+    thresholds.octaves.push_back(
+        thresholds_of_octave(counts.values.data() + octave * kCounts, rule, tolerance));
+  return thresholds;
+}
+
+template View<double> overlap_ratios<2>(const Nodes<2>&, const AdjacencyList<2>&);
+template View<double> overlap_ratios<3>(const Nodes<3>&, const AdjacencyList<3>&);
+template PopulationThresholds choose_thresholds<2>(const Communicator&, const Nodes<2>&,
+                                                   const AdjacencyList<2>&, const View<double>&,
+                                                   const PopulationRule&, double);
+template PopulationThresholds choose_thresholds<3>(const Communicator&, const Nodes<3>&,
+                                                   const AdjacencyList<3>&, const View<double>&,
+                                                   const PopulationRule&, double);
+
+}  // namespace pnpbs

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which overlap ratios are too small and which too large. Bubbles that press on each other equally
+// everywhere rest at any density, and between the ratios at which a single bubble is clearly one
+// too few or too many there is room for some per cent of d. So the distances of touching bubbles
+// are taken over all ranks, by octaves of d; where their mean is not the one aimed at, the
+// thresholds let as many bubbles act as are missing or too many: those with the smallest ratios
+// insert, those with the largest go.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/nodes.hpp"
+#include "comm/communicator.hpp"
+#include "neighbors/adjacency_list.hpp"
+
+namespace pnpbs {
+
+struct PopulationRule {
+  double delete_above = 9;  // overlap ratios: whatever the mean
+  double insert_below = 5;
+  double ideal = 6;          // overlap ratio of a bubble among neighbours at its d
+  double mean_distance = 0;  // of touching bubbles, in desired distances; 0: not aimed at
+  // A new bubble comes no nearer to others than this many spacings. Lattice nodes at their d leave
+  // 0.577 in the middle of three: a bubble more there brings the mean down.
+  double least_gap = 0.75;
+  double least_gap_to_aim = 0.55;
+};
+
+// Above which overlap ratio a bubble of this d goes, and below which it gets company to bring the
+// mean distance down.
+struct PopulationThresholds {
+  struct Pair {
+    double insert_below, delete_above;
+  };
+  int first_octave = 0;
+  std::vector<Pair> octaves;  // from that one on; beyond them the nearest one's
+
+  explicit PopulationThresholds(const PopulationRule& rule) : octaves{{0, rule.delete_above}} {}
+  const Pair& at(double d) const;
+};
+
+// Of the bubbles that move; 0 for others.
+template <int Dim>
+View<double> overlap_ratios(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists);
+
+inline constexpr double kMeanTolerance = 0.001;
+
+// An octave whose mean distance is off by no more than the tolerance is left alone. Collective.
+template <int Dim>
+PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim>& nodes,
+                                       const AdjacencyList<Dim>& lists, const View<double>& ratios,
+                                       const PopulationRule& rule, double tolerance);
+
+}  // namespace pnpbs

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How good the triangles are and how well their edges follow d, over all ranks: the same bits for
+// any number of ranks and threads, as all sums are of integers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/nodes.hpp"
+#include "comm/communicator.hpp"
+#include "delaunay/delaunay_stars.hpp"
+
+namespace pnpbs {
+
+// Of edge length over d, the mean of d at the two ends.
+struct EdgeRatio {
+  std::int64_t edges = 0;
+  double mean = 0, deviation = 0;
+};
+
+// Of the edges whose d is in a band, but not of those between two boundary nodes, whose places the
+// corners of the domain decide.
+struct EdgeBand {
+  double from = 0, to = 0;  // of d
+  EdgeRatio ratio;
+};
+
+struct TriangleQuality {
+  std::int64_t triangles = 0;
+  double mean = 0, least = 0;  // 2 r_in / R
+  double one_percent = 0;      // 99 % lie above; in steps of 2^-16, downwards
+  double least_angle = 0;      // degrees
+};
+
+struct ElementQuality {
+  TriangleQuality triangle;
+  EdgeRatio edge;  // of all edges
+  std::vector<EdgeBand> bands;
+  double irregular = 0;  // share of the inner nodes without six neighbours
+};
+
+// From stars that are right for the owned nodes, and exact ghosts around these. Collective.
+ElementQuality measure_elements(const Communicator& comm, const Nodes<2>& nodes,
+                                const DelaunayStars& stars);
+
+// The bands alone, without those that have no edge. Collective.
+std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<2>& nodes,
+                                         const DelaunayStars& stars);
+
+// The band in which edges are most off d, by more than 10 % in the mean, of those with enough edges
+// for a mean; nullptr if there is none.
+const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands);
+
+}  // namespace pnpbs

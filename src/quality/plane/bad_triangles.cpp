@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "quality/plane/bad_triangles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "quality/sweep_guard.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kAngleWeight = 1.365;
+
+// A triangle of at least this quality has at least that shape: of all with the same smallest angle
+// the isosceles one has the largest quality.
+double quality_that_suffices(double shape) {
+  const double angle = std::asin(std::min(1.0, shape / kAngleWeight));
+  const double sine = std::sin(0.25 * (M_PI - angle));
+  return std::max(shape, 8 * std::sin(0.5 * angle) * sine * sine);
+}
+
+// Where to look, in units of d: in eight directions, ever nearer.
+constexpr double kLongestWay = 0.08, kShortestWay = 0.01;
+constexpr double kDiagonal = 0.70710678118654752;
+constexpr std::array<Point<2>, 8> kDirections{{{1, 0},
+                                               {kDiagonal, kDiagonal},
+                                               {0, 1},
+                                               {-kDiagonal, kDiagonal},
+                                               {-1, 0},
+                                               {-kDiagonal, -kDiagonal},
+                                               {0, -1},
+                                               {kDiagonal, -kDiagonal}}};
+
+}  // namespace
+
+double triangle_shape(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const double ab = distance<2>(a, b), bc = distance<2>(b, c), ca = distance<2>(c, a);
+  const double product = ab * bc * ca;
+  if (product == 0) return 0;
+  const double sine = twice_area * std::min({ab, bc, ca}) / product;
+  const double quality = 4 * twice_area * std::fabs(twice_area) / (product * (ab + bc + ca));
+  return std::min(quality, kAngleWeight * sine);
+}
+
+BadTriangleRepair::BadTriangleRepair(const Nodes<2>& nodes, const DelaunayStars& stars,
+                                     const NearEdges& near_edges, const DomainMap& map,
+                                     double bad_below)
+    : nodes_(nodes), stars_(stars), near_edges_(near_edges), map_(map), bad_below_(bad_below) {
+  for (const std::int32_t i :
+       nodes_with_doubtful_triangles(nodes, stars, quality_that_suffices(bad_below)))
+    if (nodes.moves(i) && stars.closed(i)) candidates_.push_back({i});
+}
+
+// Of the triangles around node i if it were at x.
+void BadTriangleRepair::find_shapes(std::int64_t i, const Point<2>& x,
+                                    std::vector<double>& shapes) const {
+  shapes.clear();
+  stars_.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+    shapes.push_back(triangle_shape(x, nodes_.position(j), nodes_.position(k)));
+  });
+}
+
+// Does a triangle get worse that is or becomes bad?
+bool BadTriangleRepair::spoils(const std::vector<double>& before,
+                               const std::vector<double>& after) const {
+  for (std::size_t t = 0; t < after.size(); ++t)
+    if (after[t] < std::min(before[t], bad_below_)) return true;
+  return false;
+}
+
+Point<2> BadTriangleRepair::allowed_place(std::int64_t i, const Point<2>& x) const {
+  if (!near_edges_.any(i)) return x;
+  const KeptOff kept = keep_off(map_, near_edges_.edges_of(i), nodes_.position(i), x, nodes_.d(i));
+  return kept.room ? kept.position : nodes_.position(i);
+}
+
+void BadTriangleRepair::look_around(Candidate& candidate) const {
+  const std::int64_t i = candidate.node;
+  const Point<2> x = nodes_.position(i);
+  std::vector<double> before, after;
+  find_shapes(i, x, before);
+  candidate.worst = *std::min_element(before.begin(), before.end());
+  candidate.wants = false;
+  if (candidate.worst >= bad_below_) return;
+  double best = candidate.worst;
+  for (double way = kLongestWay; way >= kShortestWay; way *= 0.5)
+    for (const Point<2>& direction : kDirections) {
+      const double d = nodes_.d(i);
+      const Point<2> place =
+          allowed_place(i, {x[0] + way * d * direction[0], x[1] + way * d * direction[1]});
+      find_shapes(i, place, after);
+      const double worst = *std::min_element(after.begin(), after.end());
+      if (worst <= best || spoils(before, after)) continue;
+      best = worst;
+      candidate.goal = place;
+      candidate.wants = true;
+    }
+}
+
+const BadTriangleRepair::Candidate* BadTriangleRepair::candidate_of(std::int64_t i) const {
+  const auto found = std::lower_bound(
+      candidates_.begin(), candidates_.end(), i,
+      [](const Candidate& candidate, std::int64_t node) { return candidate.node < node; });
+  return found != candidates_.end() && found->node == i ? &*found : nullptr;
+}
+
+// The contest: neighbours would change each other's triangles.
+bool BadTriangleRepair::comes_first(const Candidate& candidate) const {
+  bool first = true;
+  stars_.for_neighbours(candidate.node, [&](std::int64_t j, bool) {
+    const Candidate* other = candidate_of(j);
+    if (!other || !other->wants) return;
+    if (other->worst < candidate.worst ||
+        (other->worst == candidate.worst && nodes_.id(j) < nodes_.id(candidate.node)))
+      first = false;
+  });
+  return first;
+}
+
+std::int64_t BadTriangleRepair::round() {
+  for_each_guarded("pnpbs::BadTriangleRepair::look_around",
+                   static_cast<std::int64_t>(candidates_.size()),
+                   [&](std::int64_t c) { look_around(candidates_[static_cast<std::size_t>(c)]); });
+  std::int64_t moved = 0;
+  for (const Candidate& candidate : candidates_) {
+    if (!candidate.wants || !comes_first(candidate)) continue;
+    nodes_.set_position(candidate.node, candidate.goal);
+    moved += nodes_.owned(candidate.node);
+  }
+  return moved;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "quality/plane/star_patch.hpp"
+
+#include <algorithm>
+
+namespace pnpbs {
+
+std::vector<std::int64_t> rings_around(const DelaunayStars& stars, std::int64_t centre, int rings) {
+  std::vector<std::int64_t> reached{centre};
+  std::size_t begin = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t end = reached.size();
+    for (std::size_t k = begin; k < end; ++k)
+      stars.for_neighbours(reached[k], [&](std::int64_t j, bool) {
+        if (std::find(reached.begin(), reached.end(), j) == reached.end()) reached.push_back(j);
+      });
+    begin = end;
+  }
+  return reached;
+}
+
+bool StarPatch::cut_out(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t centre) {
+  members_.clear();
+  const std::size_t inside = rings_around(stars, centre, kRings - 1).size();
+  for (const std::int64_t i : rings_around(stars, centre, kRings)) {
+    members_.push_back({nodes.id(i), i, members_.size() < inside});
+    if (members_.back().inside && stars.needs(i) != 0) return false;
+  }
+  std::sort(members_.begin(), members_.end(),
+            [](const Member& a, const Member& b) { return a.id < b.id; });
+  mesh_.clear();
+  for (const Member& member : members_)
+    mesh_.add_node(nodes.position(member.node), member.inside && nodes.moves(member.node));
+  add_triangles(nodes, stars);
+  return true;
+}
+
+std::int32_t StarPatch::place_of(std::int64_t id) const {
+  const auto found = std::lower_bound(
+      members_.begin(), members_.end(), id,
+      [](const Member& member, std::int64_t wanted) { return member.id < wanted; });
+  return found != members_.end() && found->id == id
+             ? static_cast<std::int32_t>(found - members_.begin())
+             : -1;
+}
+
+// Those with a corner inside, each from its corner inside with the least id.
+void StarPatch::add_triangles(const Nodes<2>& nodes, const DelaunayStars& stars) {
+  std::vector<LocalMesh::Corners> triangles;
+  for (std::int32_t a = 0; a < static_cast<std::int32_t>(members_.size()); ++a) {
+    const Member& member = members_[static_cast<std::size_t>(a)];
+    if (!member.inside) continue;
+    const auto first_from_a = [&](std::int32_t place) {
+      return place > a || !members_[static_cast<std::size_t>(place)].inside;
+    };
+    stars.for_triangles(member.node, [&](std::int64_t j, std::int64_t k) {
+      const std::int32_t b = place_of(nodes.id(j)), c = place_of(nodes.id(k));
+      if (first_from_a(b) && first_from_a(c)) triangles.push_back({a, b, c});
+    });
+  }
+  std::sort(triangles.begin(), triangles.end());
+  for (const LocalMesh::Corners& corners : triangles) mesh_.add_triangle(corners);
+  mesh_.link_triangles();
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rings of nodes around one, cut out of the stars. The same bits on every rank that knows them:
+// places follow the ids.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/nodes.hpp"
+#include "delaunay/delaunay_stars.hpp"
+#include "quality/plane/local_mesh.hpp"
+
+namespace pnpbs {
+
+// The nodes up to so many rings around one, itself included, those nearer first.
+std::vector<std::int64_t> rings_around(const DelaunayStars& stars, std::int64_t centre, int rings);
+
+class StarPatch {
+ public:
+  static constexpr int kRings = 4;  // those of the last one stay where they are
+
+  // False if one of the stars is not there.
+  bool cut_out(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t centre);
+
+  const LocalMesh& mesh() const { return mesh_; }
+  std::int32_t place_of(std::int64_t id) const;
+
+ private:
+  struct Member {
+    std::int64_t id, node;
+    bool inside;  // not of the last ring
+  };
+
+  void add_triangles(const Nodes<2>& nodes, const DelaunayStars& stars);
+
+  std::vector<Member> members_;  // by id
+  LocalMesh mesh_;
+};
+
+}  // namespace pnpbs

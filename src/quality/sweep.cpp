@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "quality/sweep.hpp"
+
+#include <algorithm>
+
+#include "dynamics/bubble_force.hpp"
+#include "dynamics/schemes.hpp"
+#include "quality/sweep_guard.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Where the sweep would take the nodes of block b; their own places if they may not move.
+void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
+             const DomainMap& map, const SweepRule& rule,
+             const std::array<View<double>, 2>& proposed, std::int64_t b) {
+  const DelaunayStars::Block block = stars.block(b);
+  const Positions<2> x = positions_of<2>(nodes.x);
+  std::array<double, kLanes> sum_x{}, sum_y{};
+  const DelaunayStars::Entry* entries = block.entries;
+  for (std::int32_t k = 0; k < block.length; ++k, entries += kLanes) {
+#pragma omp simd
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::int32_t j = entries[lane].value();
+      const double there = k < block.sizes[lane].value() ? 1.0 : 0.0;
+      sum_x[lane] += there * x[0][j];
+      sum_y[lane] += there * x[1][j];
+    }
+  }
+  const std::int64_t first = b * kLanes;
+  const int lanes = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
+  for (int lane = 0; lane < lanes; ++lane) {
+    const std::int64_t i = first + lane;
+    const std::int32_t n = block.sizes[lane].value();
+    const bool may = nodes.moves(i) && n >= 3 && block.sizes[lane].flag();
+    std::array<double, 2> move{rule.weight * (sum_x[lane] / n - x[0][i]),
+                               rule.weight * (sum_y[lane] / n - x[1][i])};
+    clamp_move<2>(move, rule.most * nodes.d(i));
+    proposed[0](i) = may ? x[0][i] + move[0] : x[0][i];
+    proposed[1](i) = may ? x[1][i] + move[1] : x[1][i];
+    if (!may || !near_edges.any(i)) continue;
+    const KeptOff kept = keep_off(map, near_edges.edges_of(i), nodes.position(i),
+                                  point_at<2>(proposed, i), nodes.d(i));
+    for (int k = 0; k < 2; ++k) proposed[k](i) = kept.room ? kept.position[k] : x[k][i];
+  }
+}
+
+}  // namespace
+
+void sweep(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
+           const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& proposed,
+           const View<char>& allowed) {
+  const QualityBound bound(rule.bad_below);
+  for_each("pnpbs::sweep::propose", stars.block_count(),
+           [&](std::int64_t b) { propose(nodes, stars, near_edges, map, rule, proposed, b); });
+  for_each("pnpbs::sweep::guard", stars.block_count(), [&](std::int64_t b) {
+    guard_block(nodes, stars, rule.bad_below, bound, proposed, allowed, b);
+  });
+  for_each("pnpbs::sweep::go", nodes.count, [&](std::int64_t i) {
+    if (allowed(i)) nodes.set_position(i, point_at<2>(proposed, i));
+  });
+}
+
+}  // namespace pnpbs

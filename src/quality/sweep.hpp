@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A finishing sweep: every inner node goes part of the way to the mean of its Delaunay neighbours.
+// All move from the old positions (Jacobi). A guard lets a node go only if none of its triangles
+// gets worse that is or becomes bad, whether the other two corners move or stay.
+#pragma once
+
+#include "delaunay/delaunay_stars.hpp"
+#include "domain/keep_off.hpp"
+#include "neighbors/near_edges.hpp"
+
+namespace pnpbs {
+
+struct SweepRule {
+  double weight = 0.6;      // share of the way
+  double most = 0.1;        // no node moves more than this many d
+  double bad_below = 0.75;  // triangle quality, 2 r_in / R
+};
+
+// Moves the nodes; `proposed` and `allowed` are scratch, one entry per node.
+void sweep(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
+           const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& proposed,
+           const View<char>& allowed);
+
+}  // namespace pnpbs

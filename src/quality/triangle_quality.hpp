@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+// 2 r_in / R of a triangle: 1 if equilateral, 0 if flat, negative if turned over.
+inline double triangle_quality(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  const double twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const double ab = distance<2>(a, b), bc = distance<2>(b, c), ca = distance<2>(c, a);
+  const double product = ab * bc * ca * (ab + bc + ca);
+  return product > 0 ? 4 * twice_area * std::fabs(twice_area) / product : 0.0;
+}
+
+// A bound on quality that many triangles are held against, without square roots.
+class QualityBound {
+ public:
+  explicit QualityBound(double quality) {
+    constexpr double kMargin = 1e-9;  // far above the rounding errors of both ways
+    const double bound = quality > 0 ? quality * (1 + kMargin) : 0;
+    factor_ = 3.0 / 16.0 * bound * bound;
+  }
+
+  // 1 if the quality is certainly above the bound for a triangle with at least this area and at
+  // most these squares of its sides, because a + b + c <= sqrt(3 (a^2 + b^2 + c^2)), which is sharp
+  // for equilateral triangles. Lengths should be of the order of 1.
+  std::int32_t surely_met(double twice_area, double aa, double bb, double cc) const {
+    const double square = twice_area * std::fabs(twice_area);
+    const double product = (aa * bb) * (cc * (aa + bb + cc));
+    return square * std::fabs(square) > factor_ * product + kTiny ? 1 : 0;
+  }
+
+ private:
+  static constexpr double kTiny = 1e-200;  // below, products may have lost their last bits
+  double factor_;
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "settings/options.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.hpp"
+
+namespace pnpbs {
+
+const std::vector<OptionRow>& option_table() {
+  using T = OptionType;
+  static const std::vector<OptionRow> table = {
+      {"method", T::choice, "default", nullptr, nullptr, 0, 0, "default | paper",
+       "preset for the options below: what measures best, or the paper's scheme to the letter"},
+      {"effort", T::choice, "default", nullptr, nullptr, 0, 0, "default | best",
+       "preset, too: fast and good, or some three times slower for the best spacing there is"},
+      {"law", T::choice, "push", "cubic", nullptr, 0, 0, "push | cubic",
+       "force between bubbles: linear push, or equation (2) of the paper"},
+      {"scheme", T::choice, "damped", "predictor_corrector", nullptr, 0, 0,
+       "damped | predictor_corrector",
+       "time step of equation (1): one force per step, or the paper's Euler predictor-corrector"},
+      {"finish", T::choice, "none", "runge_kutta", nullptr, 0, 0, "none | runge_kutta",
+       "last step of a run: as the others, or fourth-order Runge-Kutta"},
+      {"rest_length", T::real, "1.06", nullptr, nullptr, 0.8, 1.4, nullptr,
+       "where the push ends, in desired distances"},
+      {"time_step", T::real, "0.8", "0.3", nullptr, 1e-3, 2, nullptr,
+       "in units of sqrt(m / k0) of a scaled bubble"},
+      {"damping", T::real, "0.2", "0.7", "0.1", 0, 100, nullptr,
+       "c of equation (1), in units of sqrt(k0 m) of a scaled bubble"},
+      {"max_move", T::real, "0.03", nullptr, nullptr, 1e-3, 0.2, nullptr,
+       "no step moves a node by more than this many spacings"},
+      {"steps", T::integer, "300", "1000", nullptr, 0, 1e9, nullptr, "most steps of a run"},
+      {"levels", T::integer, "3", "0", "4", 0, 10, nullptr,
+       "coarser levels that the first nodes come from, each with twice the spacing of the next; "
+       "fewer where d varies too fast for them or asks for few nodes, or the boundary for too "
+       "many"},
+      {"coarsest_steps", T::integer, "100", nullptr, "1000", 0, 1e9, nullptr,
+       "most steps on the coarsest of several levels"},
+      {"refined_steps", T::integer, "80", nullptr, "500", 0, 1e9, nullptr,
+       "most steps on the levels between the coarsest and the finest"},
+      {"event_interval", T::integer, "20", "8", nullptr, 1, 1e6, nullptr,
+       "steps between events: refresh of d, population, stop test, monitor"},
+      {"population_share", T::real, "0.6", "0.75", nullptr, 0, 1, nullptr,
+       "the population is adjusted during this share of the steps at most"},
+      {"population_pays", T::real, "0.0002", nullptr, nullptr, 0, 1, nullptr,
+       "... and until two events in a row change no more than this share of the nodes"},
+      {"delete_above", T::real, "8.5", "9", nullptr, 6, 100, nullptr,
+       "bubbles with a larger overlap ratio are deleted"},
+      {"insert_below", T::real, "4.4", "5", nullptr, 0, 6, nullptr,
+       "beside bubbles with a smaller overlap ratio new ones are inserted"},
+      {"mean_distance", T::real, "1", "0", nullptr, 0, 1.2, nullptr,
+       "mean distance of touching bubbles, in desired distances, that inserting and deleting aim "
+       "at "
+       "in every octave of d; 0: what the two thresholds leave"},
+      {"tolerance_mean", T::real, "0.006", "0.001", "0.003", 0, 1, nullptr,
+       "the bubbles rest when their mean scaled speed is below this ..."},
+      {"tolerance_max", T::real, "0.15", "0.05", nullptr, 0, 10, nullptr,
+       "... and their largest one below this (spacings per unit of time)"},
+      {"sweeps", T::integer, "6", "0", "8", 0, 10000, nullptr,
+       "finishing sweeps towards the mean of the Delaunay neighbours"},
+      {"sweep_weight", T::real, "0.6", nullptr, nullptr, 0, 1, nullptr,
+       "share of the way to that mean that a sweep goes"},
+      {"defect_repairs", T::integer, "0", nullptr, "1", 0, 1000, nullptr,
+       "most rounds at the end of every level in which nodes come or go where one is missing or "
+       "too many: tried on a copy of the nodes around, and kept where the triangles are better"},
+      {"repairs", T::integer, "10", "0", nullptr, 0, 10000, nullptr,
+       "most rounds after the sweeps in which triangles below 0.82 are repaired, and then all bad "
+       "ones; before the sweeps, nodes that are one too many go; 0: neither"},
+      {"repair_below", T::real, "0.82", nullptr, "0.87", 0, 1, nullptr,
+       "triangles are bad whose quality, 2 r_in / R, or 1.365 times the sine of the smallest angle "
+       "is below this"},
+      {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
+       "radius of the lists during the run, in desired distances"},
+      {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 3, nullptr,
+       "radius of the adjacency lists handed out, in desired distances"},
+      {"growth_limit", T::real, "0.3", "0", nullptr, 0, 1e6, nullptr,
+       "d may grow by at most this much per unit of length; 0 is no limit. As long as it is not "
+       "set, it counts only where d as given grows faster, and there is a warning then"},
+      {"exchange_interval", T::integer, "5", nullptr, nullptr, 1, 64, nullptr,
+       "steps between exchanges of ghosts between ranks"},
+      {"rebalance_above", T::real, "1.1", nullptr, nullptr, 1, 1e6, nullptr,
+       "the work is dealt out anew at an event when its largest share passes the mean by this "
+       "factor"},
+      {"halo_deficit", T::integer, "0", nullptr, nullptr, 0, 64, nullptr,
+       "for tests: ghost layers are this many hops too thin, which changes the result"},
+      {"metis_seed", T::integer, "1", nullptr, nullptr, 0, 2e9, nullptr,
+       "seed of the partition; the nodes do not depend on it"},
+      {"max_nodes", T::integer, "100000000", nullptr, nullptr, 1, 2e9, nullptr,
+       "more nodes than this are taken for a mistake in d"},
+      {"max_memory", T::real, "1", nullptr, nullptr, 0, 1e6, nullptr,
+       "a run is refused that would need more than this share of the memory that its machines have "
+       "available; 0: no check"},
+      {"threads", T::integer, "0", nullptr, nullptr, 0, 4096, nullptr,
+       "threads of the process, set on the context before anything runs; 0: OMP_NUM_THREADS or "
+       "KOKKOS_NUM_THREADS, else the cores there are, divided by our ranks on the node"},
+  };
+  return table;
+}
+
+namespace {
+
+std::vector<std::string> choices_of(const OptionRow& row) {
+  std::vector<std::string> names;
+  std::string_view rest = row.choices;
+  while (!rest.empty()) {
+    const std::size_t bar = rest.find(" | ");
+    names.emplace_back(rest.substr(0, bar));
+    rest = bar == std::string_view::npos ? "" : rest.substr(bar + 3);
+  }
+  return names;
+}
+
+const OptionRow& find_row(const std::string& key) {
+  std::vector<std::string> names;
+  for (const OptionRow& row : option_table()) {
+    if (key == row.name) return row;
+    names.emplace_back(row.name);
+  }
+  throw Error(ErrorKind::key, "unknown option \"" + key + "\"; the nearest known one is \"" +
+                                  nearest_name(key, names) + "\"");
+}
+
+[[noreturn]] void reject(const OptionRow& row, const std::string& value) {
+  throw Error(ErrorKind::argument,
+              std::string("option ") + row.name + " = \"" + value + "\": expected " +
+                  (row.type == OptionType::choice
+                       ? "one of "
+                       : std::string(row.type == OptionType::integer ? "an integer" : "a number") +
+                             " in ") +
+                  row.range());
+}
+
+template <class Number>
+bool parse_number(const std::string& text, Number& value) {
+  const char* begin = text.c_str();
+  const char* end = begin + text.size();
+  if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
+  const auto result = std::from_chars(begin, end, value);
+  return result.ec == std::errc() && result.ptr == end && begin != end;
+}
+
+}  // namespace
+
+std::string OptionRow::range() const {
+  if (type == OptionType::choice) return choices;
+  return number_text(least) + " .. " + number_text(most);
+}
+
+std::string nearest_name(std::string_view key, const std::vector<std::string>& names) {
+  std::string nearest;
+  std::size_t fewest = static_cast<std::size_t>(-1);
+  for (const std::string& name : names) {
+    // Levenshtein distance, one row at a time.
+    std::vector<std::size_t> row(name.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < key.size(); ++i) {
+      std::size_t diagonal = row[0]++;
+      for (std::size_t j = 0; j < name.size(); ++j) {
+        const std::size_t change = diagonal + (key[i] != name[j]);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
+      }
+    }
+    if (row.back() < fewest) {
+      fewest = row.back();
+      nearest = name;
+    }
+  }
+  return nearest;
+}
+
+void Options::set(const std::string& key, const std::string& value) {
+  const OptionRow& row = find_row(key);
+  if (row.type == OptionType::choice) {
+    const std::vector<std::string> known = choices_of(row);
+    if (std::find(known.begin(), known.end(), value) == known.end()) reject(row, value);
+  } else if (row.type == OptionType::integer) {
+    std::int64_t number;
+    if (!parse_number(value, number) || static_cast<double>(number) < row.least ||
+        static_cast<double>(number) > row.most)
+      reject(row, value);
+  } else {
+    double number;
+    if (!parse_number(value, number) || !(number >= row.least && number <= row.most))
+      reject(row, value);
+  }
+  values_[key] = value;
+}
+
+void Options::set_integer(const std::string& key, std::int64_t value) {
+  set(key, std::to_string(value));
+}
+
+void Options::set_real(const std::string& key, double value) {
+  const OptionRow& row = find_row(key);
+  if (row.type == OptionType::integer && value == std::floor(value) && std::fabs(value) < 1e15)
+    set(key, std::to_string(static_cast<std::int64_t>(value)));
+  else
+    set(key, number_text(value));
+}
+
+std::string Options::text(const char* key) const {
+  const auto found = values_.find(key);
+  if (found != values_.end()) return found->second;
+  const OptionRow& row = find_row(key);
+  if (row.paper_value && chosen("method", "paper")) return row.paper_value;
+  if (row.best_value && chosen("effort", "best")) return row.best_value;
+  return row.default_value;
+}
+
+bool Options::chosen(const char* preset, const char* value) const {
+  const auto found = values_.find(preset);
+  return found != values_.end() && found->second == value;
+}
+
+std::size_t Options::fingerprint() const {
+  std::string all;
+  for (const auto& [key, value] : values_) all += key + "=" + value + ";";
+  return std::hash<std::string>{}(all);
+}
+
+std::int64_t Options::integer(const char* key) const {
+  std::int64_t value = 0;
+  parse_number(text(key), value);
+  return value;
+}
+
+double Options::real(const char* key) const {
+  double value = 0;
+  parse_number(text(key), value);
+  return value;
+}
+
+std::string Options::choice(const char* key) const { return text(key); }
+
+}  // namespace pnpbs

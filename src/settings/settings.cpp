@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "settings/settings.hpp"
+
+namespace pnpbs {
+
+Settings::Settings(const Options& o)
+    : cubic_law(o.choice("law") == "cubic"),
+      predictor_corrector(o.choice("scheme") == "predictor_corrector"),
+      runge_kutta_finish(o.choice("finish") == "runge_kutta"),
+      rest_length(o.real("rest_length")),
+      steps(o.integer("steps")),
+      levels(static_cast<int>(o.integer("levels"))),
+      coarsest_steps(o.integer("coarsest_steps")),
+      refined_steps(o.integer("refined_steps")),
+      event_interval(o.integer("event_interval")),
+      population_share(o.real("population_share")),
+      population_pays(o.real("population_pays")),
+      tolerance_mean(o.real("tolerance_mean")),
+      tolerance_max(o.real("tolerance_max")),
+      sweeps(o.integer("sweeps")),
+      list_radius(o.real("list_radius")),
+      adjacency_radius(o.real("adjacency_radius")),
+      growth_limit(o.real("growth_limit")),
+      growth_limit_set(o.is_set("growth_limit")),
+      max_nodes(o.integer("max_nodes")),
+      max_memory(o.real("max_memory")),
+      exchange_interval(o.integer("exchange_interval")),
+      metis_seed(o.integer("metis_seed")),
+      rebalance_above(o.real("rebalance_above")),
+      halo_deficit(o.integer("halo_deficit")) {
+  motion.dt = o.real("time_step");
+  motion.damping = o.real("damping");
+  motion.most = o.real("max_move");
+  population.delete_above = o.real("delete_above");
+  population.insert_below = o.real("insert_below");
+  population.mean_distance = o.real("mean_distance");
+  sweep.weight = o.real("sweep_weight");
+  repair.rounds = o.integer("repairs");
+  defects.rounds = o.integer("defect_repairs");
+  repair.bad_below = o.real("repair_below");
+  // The lists must reach beyond the force, or they could never be kept for a step.
+  const double least_radius = force_range() + 0.1;
+  if (list_radius < least_radius) list_radius = least_radius;
+}
+
+}  // namespace pnpbs

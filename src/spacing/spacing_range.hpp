@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The least and the largest d of the nodes of all ranks.
+#pragma once
+
+#include "base/nodes.hpp"
+#include "comm/communicator.hpp"
+
+namespace pnpbs {
+
+struct SpacingRange {
+  double least, largest;
+  bool empty() const { return least > largest; }
+};
+
+// Collective.
+template <int Dim>
+SpacingRange spacing_range(const Communicator& comm, const Nodes<Dim>& nodes) {
+  const auto largest = [&](double sign) {
+    return comm.largest(
+        largest_of("pnpbs::spacing_range", nodes.count, -kFarAway,
+                   [&](std::int64_t i) { return nodes.owned(i) ? sign * nodes.d(i) : -kFarAway; }));
+  };
+  const double least = -largest(-1);
+  return {least, largest(1)};
+}
+
+}  // namespace pnpbs

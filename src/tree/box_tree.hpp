@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boxes sorted into nested boxes, to find those that hold a point or lie near it. What is visited
+// depends on the boxes only; in which order does not matter to who asks.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+// 0 inside.
+inline double squared_gap_to(const Box<2>& box, const Point<2>& x) {
+  double sum = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double gap = std::max({0.0, box.low[k] - x[k], x[k] - box.high[k]});
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+inline bool in_closed_box(const Box<2>& box, const Point<2>& x) {
+  return x[0] >= box.low[0] && x[0] <= box.high[0] && x[1] >= box.low[1] && x[1] <= box.high[1];
+}
+
+inline Box<2> joined(const Box<2>& a, const Box<2>& b) {
+  Box<2> box;
+  for (int k = 0; k < 2; ++k) {
+    box.low[k] = std::min(a.low[k], b.low[k]);
+    box.high[k] = std::max(a.high[k], b.high[k]);
+  }
+  return box;
+}
+
+class BoxTree {
+ public:
+  BoxTree() = default;
+  explicit BoxTree(std::vector<Box<2>> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    if (order_.empty()) return;
+    cells_.push_back({{}, 0, static_cast<std::int32_t>(order_.size()), -1});
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) split(cell);
+  }
+
+  // Calls visit(box) for every box that holds x, its rim included.
+  template <class Visit>
+  void for_holding(const Point<2>& x, const Visit& visit) const {
+    walk([&](const Box<2>& box) { return in_closed_box(box, x); }, visit);
+  }
+
+  // Calls visit(box) for every box with a squared distance to x of at most limit(), which may
+  // shrink on the way.
+  template <class Limit, class Visit>
+  void for_near(const Point<2>& x, const Limit& limit, const Visit& visit) const {
+    walk([&](const Box<2>& box) { return squared_gap_to(box, x) <= limit(); }, visit);
+  }
+
+  // About this many boxes that hold all.
+  std::vector<Box<2>> cover(std::size_t many) const {
+    std::vector<Box<2>> cover;
+    std::vector<std::int32_t> open;
+    if (!cells_.empty()) open.push_back(0);
+    for (std::size_t next = 0; next < open.size(); ++next) {
+      const Cell& cell = cells_[index(open[next])];
+      // `open` in all holds twice as many cells as remain whole.
+      if (cell.child < 0 || open.size() >= 2 * many) {
+        cover.push_back(cell.box);
+        continue;
+      }
+      open.push_back(cell.child);
+      open.push_back(cell.child + 1);
+    }
+    return cover;
+  }
+
+ private:
+  struct Cell {
+    Box<2> box;
+    std::int32_t begin, end;  // in order_
+    std::int32_t child;       // the first of two, or -1
+  };
+
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+  void split(std::size_t c) {
+    constexpr std::int32_t kLeafSize = 4;
+    const std::int32_t begin = cells_[c].begin, end = cells_[c].end;
+    Box<2> box = boxes_[index(order_[index(begin)])];
+    for (std::int32_t i = begin; i < end; ++i) box = joined(box, boxes_[index(order_[index(i)])]);
+    cells_[c].box = box;
+    if (end - begin <= kLeafSize) return;
+    const int k = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
+    const auto twice_middle = [&](std::int32_t b) {
+      return boxes_[index(b)].low[k] + boxes_[index(b)].high[k];
+    };
+    const std::int32_t middle = begin + (end - begin) / 2;
+    std::nth_element(
+        order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+        [&](std::int32_t a, std::int32_t b) { return twice_middle(a) < twice_middle(b); });
+    cells_[c].child = static_cast<std::int32_t>(cells_.size());
+    cells_.push_back({{}, begin, middle, -1});
+    cells_.push_back({{}, middle, end, -1});
+  }
+
+  template <class Enter, class Visit>
+  void walk(const Enter& enter, const Visit& visit) const {
+    if (!cells_.empty()) walk_cell(0, enter, visit);
+  }
+
+  template <class Enter, class Visit>
+  void walk_cell(std::int32_t c, const Enter& enter, const Visit& visit) const {
+    const Cell& cell = cells_[index(c)];
+    if (!enter(cell.box)) return;
+    if (cell.child >= 0) {
+      walk_cell(cell.child, enter, visit);
+      walk_cell(cell.child + 1, enter, visit);
+      return;
+    }
+    for (std::int32_t i = cell.begin; i < cell.end; ++i)
+      if (enter(boxes_[index(order_[index(i)])])) visit(order_[index(i)]);
+  }
+
+  std::vector<Box<2>> boxes_;
+  std::vector<std::int32_t> order_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace pnpbs

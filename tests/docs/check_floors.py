@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The house stands from the ground up: a folder of src includes only what stands before it in
+FLOORS; the public header is for the topmost folders alone. And no file is too long to be read.
+usage: check_floors.py <folder> [--self-test]"""
+
+import pathlib
+import re
+import sys
+import tempfile
+
+FLOORS = ("base comm predicates tree domain spacing initial partition neighbors dynamics "
+          "population delaunay quality settings level placement io picture api tool").split()
+PUBLIC_HEADER_FOR = "api", "tool"
+MAX_LINES = 400
+OURS = re.compile(r'^\s*#\s*include\s*"((?:\w+/)+\w+\.hpp)"', re.M)
+PUBLIC = re.compile(r'^\s*#\s*include\s*["<](pnpbs/\w+\.h)[">]', re.M)
+
+
+def faults(root):
+    """What is wrong, a line each."""
+    source = root / "src"
+    for path in sorted([*source.rglob("*.cpp"), *source.rglob("*.hpp")]):
+        name = path.relative_to(source)
+        text = path.read_text()
+        floor = name.parts[0]
+        if floor not in FLOORS:
+            yield f"{name}: the folder {floor} has no place in FLOORS"
+            continue
+        yield from wrong_includes(name, floor, text)
+        if text.count("\n") > MAX_LINES:
+            yield f"{name}: {text.count(chr(10))} lines, at most {MAX_LINES}"
+
+
+def wrong_includes(name, floor, text):
+    if floor not in PUBLIC_HEADER_FOR:
+        for header in PUBLIC.findall(text):
+            yield f"{name}: includes the public header {header}"
+    for included in OURS.findall(text):
+        folder = included.split("/")[0]
+        if folder not in FLOORS:
+            yield f"{name}: includes {included}, from no folder in FLOORS"
+        elif FLOORS.index(folder) > FLOORS.index(floor):
+            yield f"{name}: includes {included}, which stands above it"
+
+
+def self_test():
+    with tempfile.TemporaryDirectory() as name:
+        root = pathlib.Path(name)
+        files = {
+            "base/types.hpp": "#include <sys/stat.h>\n#include <vector>\n",
+            "tree/tree.hpp": '#include "base/types.hpp"\n',
+            "domain/plane/boundary.hpp": '#include "tree/tree.hpp"\n#include "domain/map.hpp"\n',
+            "domain/map.hpp": '#include "level/level.hpp"\n',
+            "base/nodes.hpp": '#include "pnpbs/pnpbs.h"\n',
+            "api/handles.hpp": '#include <pnpbs/pnpbs.h>\n#include "base/types.hpp"\n',
+            "level/level.hpp": "// a line\n" * (MAX_LINES + 1),
+            "cellar/wine.hpp": "",
+        }
+        for file, text in files.items():
+            path = root / "src" / file
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        found = list(faults(root))
+    expected = ["base/nodes.hpp: includes the public header pnpbs/pnpbs.h",
+                "cellar/wine.hpp: the folder cellar has no place in FLOORS",
+                "domain/map.hpp: includes level/level.hpp, which stands above it",
+                "level/level.hpp: 401 lines, at most 400"]
+    if found != expected:
+        print(f"the check is wrong: it finds {found}")
+        return 1
+    return 0
+
+
+def main():
+    if "--self-test" in sys.argv:
+        return self_test()
+    found = list(faults(pathlib.Path(sys.argv[1])))
+    for line in found:
+        print(line)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
