@@ -1,104 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cases: a domain, the region inside straight segments by the even-odd rule, and a spacing
-d = constant + slope * distance from a point or from a horizontal line."""
+"""The cases: a domain and a spacing d = constant + slope * distance from a point, from a horizontal
+line or from a loop."""
 import dataclasses
 import math
 from pathlib import Path
 
 import numpy as np
+from airfoil import airfoil
+from distance_to_loop import distance_to_loop
+from domain import Domain, from_loops, read_poly
 
 DATA = Path(__file__).resolve().parents[3] / "examples" / "data"
-
-
-@dataclasses.dataclass
-class Domain:
-    vertices: np.ndarray  # (count, 2)
-    segments: np.ndarray  # (count, 2), indices of vertices
-    holes: np.ndarray     # (count, 2), a point in each hole
-
-    def ends(self):
-        """First and second ends of the segments."""
-        return self.vertices[self.segments[:, 0]], self.vertices[self.segments[:, 1]]
-
-    def area(self):
-        """Of simple closed curves, one within another, by the even-odd rule."""
-        areas = [abs(loop_area(self.vertices[loop])) for loop in self.loops()]
-        return 2 * max(areas) - sum(areas)
-
-    def perimeter(self):
-        a, b = self.ends()
-        return np.hypot(*(b - a).T).sum()
-
-    def loops(self):
-        """The closed curves: arrays of vertex numbers, the one that encloses the others first."""
-        after = {}
-        for a, b in self.segments.tolist():
-            after.setdefault(a, []).append(b)
-            after.setdefault(b, []).append(a)
-        left, found = set(after), []
-        while left:
-            start = last = min(left)
-            loop, at = [start], after[start][0]
-            while at != start:
-                loop.append(at)
-                one, other = after[at]
-                last, at = at, other if one == last else one
-            left.difference_update(loop)
-            found.append(np.array(loop))
-        return sorted(found, key=lambda loop: -abs(loop_area(self.vertices[loop])))
-
-    def contains(self, points):
-        """Even-odd rule for many points at once: each segment turns the points to its left in
-        the strip of heights that it spans. Sorted by height, a strip is a slice."""
-        order = np.argsort(points[:, 1], kind="stable")
-        x, y = points[order].T
-        inside = np.zeros(len(points), bool)
-        for (ax, ay), (bx, by) in zip(*self.ends()):
-            first, last = np.searchsorted(y, (min(ay, by), max(ay, by)))
-            if first < last:
-                strip = slice(first, last)
-                inside[strip] ^= x[strip] < ax + (bx - ax) * ((y[strip] - ay) / (by - ay))
-        result = np.empty(len(points), bool)
-        result[order] = inside
-        return result
-
-    def write_poly(self, path):
-        lines = [f"{len(self.vertices)} 2 0 0"]
-        lines += [f"{i} {x!r} {y!r}" for i, (x, y) in enumerate(self.vertices.tolist(), 1)]
-        lines.append(f"{len(self.segments)} 0")
-        lines += [f"{i} {a + 1} {b + 1}" for i, (a, b) in enumerate(self.segments.tolist(), 1)]
-        lines.append(f"{len(self.holes)}")
-        lines += [f"{i} {x!r} {y!r}" for i, (x, y) in enumerate(self.holes.tolist(), 1)]
-        Path(path).write_text("\n".join(lines) + "\n")
-
-
-def loop_area(xy):
-    x, y = xy.T
-    return 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
-
-
-def read_poly(path):
-    """Triangle's .poly, numbered from 0 or 1."""
-    rows = iter([line.split("#")[0].split() for line in Path(path).read_text().splitlines()
-                 if line.split("#")[0].strip()])
-    vertices = [next(rows) for _ in range(int(next(rows)[0]))]
-    first = int(vertices[0][0])
-    segments = [next(rows) for _ in range(int(next(rows)[0]))]
-    holes = [next(rows) for _ in range(int(next(rows)[0]))]
-    return Domain(np.array([[float(v) for v in row[1:3]] for row in vertices]),
-                  np.array([[int(v) - first for v in row[1:3]] for row in segments]),
-                  np.array([[float(v) for v in row[1:3]] for row in holes]).reshape(-1, 2))
-
-
-def from_loops(loops, holes=()):
-    """A domain of closed curves, each an array of its corners."""
-    segments, count = [], 0
-    for loop in loops:
-        numbers = np.arange(len(loop))
-        segments.append(count + np.column_stack([numbers, np.roll(numbers, -1)]))
-        count += len(loop)
-    return Domain(np.concatenate(loops), np.concatenate(segments),
-                  np.array(holes, float).reshape(-1, 2))
 
 
 def square():
@@ -126,6 +38,7 @@ class Case:
     x0: float = 0
     y0: float = 0
     x_counts: int = 1  # in the distance; 0: it is that from the line y = y0
+    has_formula = True
 
     def spacing(self, points):
         return self.constant + self.slope * np.hypot(self.x_counts * (points[:, 0] - self.x0),
@@ -145,29 +58,78 @@ class Case:
     def expected_nodes(self):
         """As many as hexagonal lattices of this spacing have: 2 / (sqrt(3) d^2) per area, and on
         the boundary half a node more per d."""
-        inner, boundary = self.integrals()
-        return inner + boundary
+        return self.inner_nodes() + self.boundary_nodes()
 
-    def integrals(self):
-        domain = self.domain
+    def inner_nodes(self):
         # Where d varies with y alone, and steeply, nearly all samples are spent on that.
-        per_side, parts = ((1000, 1000), 100) if self.x_counts else ((10, 100000), 20000)
-        low, high = domain.vertices.min(0), domain.vertices.max(0)
+        per_side = (1000, 1000) if self.x_counts else (10, 100000)
+        low, high = self.domain.vertices.min(0), self.domain.vertices.max(0)
         x, y = [a + (b - a) * (np.arange(n) + 0.5) / n for a, b, n in zip(low, high, per_side)]
         grid = np.column_stack([axis.ravel() for axis in np.meshgrid(x, y)])
-        grid = grid[domain.contains(grid)]
-        inner = domain.area() * np.mean(2 / math.sqrt(3) / self.spacing(grid) ** 2)
-        a, b = domain.ends()
-        lengths, boundary = np.hypot(*(b - a).T), 0
+        grid = grid[self.domain.contains(grid)]
+        return self.domain.area() * np.mean(2 / math.sqrt(3) / self.spacing(grid) ** 2)
+
+    def boundary_nodes(self):
+        parts = 100 if self.x_counts else 20000
+        a, b = self.domain.ends()
+        lengths, nodes = np.hypot(*(b - a).T), 0
         for part in range(parts):
             there = a + (b - a) * (part + 0.5) / parts
-            boundary += 0.5 * (lengths / parts / self.spacing(there)).sum()
-        return inner, boundary
+            nodes += 0.5 * (lengths / parts / self.spacing(there)).sum()
+        return nodes
 
     def with_nodes(self, nodes):
         """The same with every spacing scaled, so that about so many nodes fit."""
-        inner, boundary = self.integrals()
+        inner, boundary = self.inner_nodes(), self.boundary_nodes()
         return self.scaled((boundary + math.sqrt(boundary ** 2 + 4 * nodes * inner)) / (2 * nodes))
+
+    def with_nodes_by_constant(self, nodes):
+        """The same where d grows as fast whatever the number of nodes: that goes with
+        1 / constant, and only the constant is changed."""
+        case = self
+        for _ in range(12):
+            constant = float(case.constant * case.expected_nodes() / nodes)
+            case = dataclasses.replace(case, constant=constant)
+        return case
+
+
+@dataclasses.dataclass
+class CaseAroundLoop(Case):
+    """d = constant + slope * distance from a convex loop, up to a largest d, which it has before it
+    comes to the outline. The loop begins with its sharpest corner."""
+    loop: np.ndarray = None
+    largest: float = math.inf
+    has_formula = False
+
+    def spacing(self, points):
+        d = self.constant + self.slope * distance_to_loop(points, self.loop)
+        return np.minimum(d, self.largest)
+
+    def continued_spacing(self, points):
+        """For tables: inside the loop d goes on to fall. Who looks up d outside, beside the loop,
+        then sees no bend of d at it."""
+        beside = self.slope * distance_to_loop(points, self.loop)
+        inside = from_loops([self.loop]).contains(points)
+        d = self.constant + np.where(inside, -beside, beside)
+        return np.clip(d, 0.2 * self.constant, self.largest)
+
+    def loop_length(self):
+        return np.hypot(*(self.loop - np.roll(self.loop, 1, 0)).T).sum()
+
+    def inner_nodes(self):
+        """Within s of a convex loop of length P are P s + pi s^2 of area."""
+        least, length = min(self.constant, self.largest), self.loop_length()
+        way = (self.largest - least) / self.slope
+        # The integral of (P + 2 pi s) / d^2 over s = (d - least) / slope.
+        near = ((length * self.slope - 2 * math.pi * least) * (1 / least - 1 / self.largest)
+                + 2 * math.pi * math.log(self.largest / least)) / self.slope ** 2
+        far = self.domain.area() - length * way - math.pi * way ** 2
+        return 2 / math.sqrt(3) * (near + far / self.largest ** 2)
+
+    def boundary_nodes(self):
+        length = self.loop_length()
+        return 0.5 * (length / min(self.constant, self.largest)
+                      + (self.domain.perimeter() - length) / self.largest)
 
 
 # Spacings in proportion as in ../bench.cpp; with_nodes() gives them their size. The square's grows
@@ -182,13 +144,18 @@ def make_graded_square(nodes):
 
 
 def make_graded_line(nodes):
-    """Grows by a fifth of the distance whatever the number of nodes, which goes with 1 / least d:
-    only that is scaled."""
     case = Case("graded-line", "unit square, d growing by 0.2 from a line", square(), 12 / nodes,
                 0.2, 0.5, 0.5, 0)
-    for _ in range(12):
-        case.constant *= float(case.expected_nodes() / nodes)
-    return case
+    return case.with_nodes_by_constant(nodes)
+
+
+def make_graded_airfoil(nodes):
+    loop = airfoil(200)
+    box = np.array([[-1, -1.5], [2, -1.5], [2, 1.5], [-1, 1.5]])
+    case = CaseAroundLoop("graded-airfoil", "box, d growing by 0.15 from an airfoil",
+                          from_loops([box, loop], [(0.5, 0.02)]), 16 / nodes, 0.15, loop=loop,
+                          largest=0.15)
+    return case.with_nodes_by_constant(nodes)
 
 
 def make_annulus(nodes):
@@ -203,5 +170,5 @@ def make_lakes(nodes):
 
 
 CASES = {"uniform-square": make_uniform_square, "graded-square": make_graded_square,
-         "graded-line": make_graded_line,
+         "graded-line": make_graded_line, "graded-airfoil": make_graded_airfoil,
          "uniform-annulus": make_annulus, "graded-lakes": make_lakes}

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pnpbs-cgal-mesh: CGAL's Delaunay mesher and Lloyd optimiser as a command that compare.py can run
 // like any other tool. Usage:
-//   pnpbs-cgal-mesh IN.poly OUT.node CONSTANT SLOPE X0 Y0 EDGE_BOUND LLOYD_STEPS
-// Edges may be EDGE_BOUND d long, d = CONSTANT + SLOPE * distance from (X0, Y0); corners of
-// triangles are 20.6 degrees or more, CGAL's default bound. Prints the seconds without files.
+//   pnpbs-cgal-mesh IN.poly OUT.node CONSTANT SLOPE X0 Y0 X_COUNTS EDGE_BOUND LLOYD_STEPS
+//   pnpbs-cgal-mesh IN.poly OUT.node TABLE EDGE_BOUND LLOYD_STEPS
+// Edges may be EDGE_BOUND d long, d = CONSTANT + SLOPE * distance from (X0, Y0), or from the line
+// y = Y0 where X_COUNTS is 0, or as in the file TABLE (spacing_table.py); corners of triangles are
+// 20.6 degrees or more, CGAL's default bound. Prints the seconds without files.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_criteria_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
@@ -36,11 +38,32 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure>;
 using Point = Kernel::Point_2;
 
+// Values where grid lines cross, linear in each direction between them; a column for each x.
+struct Table {
+  std::vector<double> x, y, values;
+
+  double at(const Point& p) const {
+    const std::size_t i = gap(x, p.x()), j = gap(y, p.y());
+    const double u = (p.x() - x[i]) / (x[i + 1] - x[i]), v = (p.y() - y[j]) / (y[j + 1] - y[j]);
+    const double *left = &values[i * y.size() + j], *right = left + y.size();
+    return (1 - u) * ((1 - v) * left[0] + v * left[1]) + u * ((1 - v) * right[0] + v * right[1]);
+  }
+
+  // Between which lines: the one before.
+  static std::size_t gap(const std::vector<double>& lines, double t) {
+    const auto after = std::upper_bound(lines.begin() + 1, lines.end() - 1, t);
+    return static_cast<std::size_t>(after - lines.begin() - 1);
+  }
+};
+
 struct Spacing {
   double constant, slope;
   Point middle;
   double x_counts;  // in the distance: 1, or 0 for that from a horizontal line
+  Table table;      // counts instead where there is one
+
   double at(const Point& p) const {
+    if (!table.values.empty()) return table.at(p);
     return constant + slope * std::hypot(x_counts * (p.x() - middle.x()), p.y() - middle.y());
   }
 };
@@ -50,7 +73,7 @@ struct Spacing {
 class GradedCriteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
  public:
   GradedCriteria(const Spacing& spacing, double edge_bound)
-      : spacing_(spacing), edge_bound_(edge_bound) {}
+      : spacing_(&spacing), edge_bound_(edge_bound) {}
 
   // How bad a triangle is: its longest edge over what is allowed, then its least angle.
   struct Quality {
@@ -63,7 +86,7 @@ class GradedCriteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
 
   class Is_bad {
    public:
-    Is_bad(const Spacing& spacing, double edge_bound, double sine_bound)
+    Is_bad(const Spacing* spacing, double edge_bound, double sine_bound)
         : spacing_(spacing), edge_bound_(edge_bound), sine_bound_(sine_bound) {}
 
     CGAL::Mesh_2::Face_badness operator()(const Quality& q) const {
@@ -78,21 +101,21 @@ class GradedCriteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
                            CGAL::squared_distance(c, a)};
       std::sort(squared, squared + 3);
       const double area = CGAL::area(a, b, c);
-      q.excess = std::sqrt(squared[2]) / (edge_bound_ * spacing_.at(CGAL::centroid(a, b, c)));
+      q.excess = std::sqrt(squared[2]) / (edge_bound_ * spacing_->at(CGAL::centroid(a, b, c)));
       // The least angle lies between the two longest edges.
       q.squared_sine = 4 * area * area / (squared[1] * squared[2]);
       return (*this)(q);
     }
 
    private:
-    Spacing spacing_;
+    const Spacing* spacing_;
     double edge_bound_, sine_bound_;
   };
 
   Is_bad is_bad_object() const { return Is_bad(spacing_, edge_bound_, this->bound()); }
 
  private:
-  Spacing spacing_;
+  const Spacing* spacing_;
   double edge_bound_;
 };
 
@@ -135,6 +158,31 @@ Input read_poly(const char* name) {
   return input;
 }
 
+Table read_table(const char* name) {
+  std::ifstream file(name);
+  std::size_t columns = 0, rows = 0;
+  file >> columns >> rows;
+  Table table{std::vector<double>(columns), std::vector<double>(rows),
+              std::vector<double>(columns * rows)};
+  for (std::vector<double>* numbers : {&table.x, &table.y, &table.values})
+    for (double& number : *numbers) file >> number;
+  if (!file || columns < 2 || rows < 2) throw std::runtime_error(std::string("no table: ") + name);
+  return table;
+}
+
+// From what stands between the names of the files and the last two arguments.
+Spacing spacing_of(int count, char** words) {
+  if (count == 1) return {0, 0, Point(0, 0), 0, read_table(words[0])};
+  const Spacing spacing{std::atof(words[0]),
+                        std::atof(words[1]),
+                        Point(std::atof(words[2]), std::atof(words[3])),
+                        std::atof(words[4]),
+                        {}};
+  if (!(spacing.constant > 0) || !(spacing.slope >= 0))
+    throw std::runtime_error("CONSTANT must be positive, SLOPE not negative");
+  return spacing;
+}
+
 double place(const Input& input, const Spacing& spacing, double edge_bound, std::size_t steps,
              Triangulation& t) {
   const auto begin = std::chrono::steady_clock::now();
@@ -170,20 +218,20 @@ int main(int argc, char** argv) {
     std::puts(CGAL_VERSION_STR);
     return 0;
   }
-  if (argc != 10) {
+  if (argc != 10 && argc != 6) {
     std::fputs(
-        "usage: pnpbs-cgal-mesh IN.poly OUT.node CONSTANT SLOPE X0 Y0 X_COUNTS EDGE_BOUND LLOYD\n",
+        "usage: pnpbs-cgal-mesh IN.poly OUT.node CONSTANT SLOPE X0 Y0 X_COUNTS EDGE_BOUND LLOYD\n"
+        "       pnpbs-cgal-mesh IN.poly OUT.node TABLE EDGE_BOUND LLOYD\n",
         stderr);
     return 2;
   }
   try {
-    const Spacing spacing{std::atof(argv[3]), std::atof(argv[4]),
-                          Point(std::atof(argv[5]), std::atof(argv[6])), std::atof(argv[7])};
-    if (!(spacing.constant > 0) || !(spacing.slope >= 0) || !(std::atof(argv[8]) > 0))
-      throw std::runtime_error("CONSTANT and EDGE_BOUND must be positive, SLOPE not negative");
+    const Spacing spacing = spacing_of(argc - 5, argv + 3);
+    const double edge_bound = std::atof(argv[argc - 2]);
+    if (!(edge_bound > 0)) throw std::runtime_error("EDGE_BOUND must be positive");
     Triangulation t;
-    const double seconds = place(read_poly(argv[1]), spacing, std::atof(argv[8]),
-                                 static_cast<std::size_t>(std::atoi(argv[9])), t);
+    const double seconds = place(read_poly(argv[1]), spacing, edge_bound,
+                                 static_cast<std::size_t>(std::atoi(argv[argc - 1])), t);
     write_nodes(t, argv[2]);
     std::printf("seconds %.6f\n", seconds);
   } catch (const std::exception& error) {

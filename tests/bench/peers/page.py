@@ -87,6 +87,10 @@ HOW = """What the columns say:
   seconds and the peak of its memory are the system's count of that process, start and files
   included. Python packages carry their interpreter in both. Where a tool tells its own time, that
   is the next column, and the speed is of that one; else the speed is marked *.
+- Around the airfoil no formula has d. CGAL, Triangle and JIGSAW get a table whose lines are dense
+  around it, off d by 5 % at most; gmsh a distance field, d at most 2 % too large; PNPBS that table
+  on the even grid that its command takes, off by 15 % at the trailing edge and by less than 2 % for
+  99 % of the nodes. The evaluator has d exactly.
 - The nodes, and nothing else that the tool says, go to one evaluator: SciPy's Delaunay
   triangulation (Qhull), less the triangles with their centroid outside the domain. "Covered" is the
   area of these over that of the domain; 1 where the nodes resolve the boundary. "Crossing" counts

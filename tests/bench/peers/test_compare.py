@@ -73,6 +73,18 @@ class Compare(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((again / "comparison.md").read_text(), words)
 
+    def test_d_without_a_formula(self):
+        """Each tool follows d in its own way of having it."""
+        done = compare(self.output, "--nodes", "8000", "--cases", "graded-airfoil", "--no-forces",
+                       "--tools", "PNPBS,Delaunay,Triangle,unoptimised")
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        for result in self.results()["placements"]:
+            m = result["measures"]
+            self.assertTrue(7500 < m["nodes"] < 10400, result)
+            self.assertAlmostEqual(m["covered"], 1, 3)
+            self.assertGreater(len(m["edge_bands"]), 3)
+            self.assertTrue(0.8 < min(m["edge_bands"]) < max(m["edge_bands"]) < 1.1, result)
+
     def fake(self, name, text):
         """A folder for --path with a program of that name and those lines of shell."""
         folder = self.folder / "bin"

@@ -13,8 +13,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import cases  # noqa: E402
 import evaluate as evaluator  # noqa: E402
+from adapters import esri_grid  # noqa: E402
+from distance_to_loop import distance_to_loop  # noqa: E402
+from domain import loop_area  # noqa: E402
 from evaluate import CHORDS, Mesh, across_boundary, evaluate, narrow  # noqa: E402
 from measure import Failed, measure  # noqa: E402
+from spacing_table import SpacingTable, read_table, table_of  # noqa: E402
+
 
 def one_everywhere(points):
     return np.ones(len(points))
@@ -257,6 +262,106 @@ class Cases(unittest.TestCase):
             for x, y in ((0.1, 0.9), (0.5, 0.5)):
                 value = eval(case.formula(power="**2"), {"sqrt": math.sqrt, "x": x, "y": y})
                 self.assertAlmostEqual(value, case.spacing(np.array([[x, y]]))[0], 14)
+
+
+class Airfoil(unittest.TestCase):
+    def setUp(self):
+        self.case = cases.make_graded_airfoil(100000)
+        self.random = np.random.default_rng(7)
+
+    def beside(self, count):
+        """Points of the domain beside the airfoil, as many in each octave of the distance."""
+        start = self.case.loop[self.random.integers(0, len(self.case.loop), count)]
+        angle = self.random.uniform(0, 2 * math.pi, count)
+        way = 10 ** self.random.uniform(-5, 0.3, count)
+        points = start + way[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+        return points[self.case.domain.contains(points)]
+
+    def test_domain(self):
+        """The thickness of the section is a polynomial in sqrt(x): its area is known, but for the
+        camber, which makes it longer by a thousandth."""
+        loop = self.case.loop
+        section = 1.2 * (0.2969 / 1.5 - 0.1260 / 2 - 0.3516 / 3 + 0.2843 / 4 - 0.1036 / 5)
+        self.assertAlmostEqual(loop_area(loop) / section, 1.001, 3)
+        self.assertAlmostEqual(self.case.domain.area(), 9 - loop_area(loop), 12)
+        sides = np.roll(loop, -1, 0) - loop
+        after = np.roll(sides, -1, 0)
+        turns = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
+        self.assertGreater(turns.min(), 0)  # convex
+        self.assertEqual(np.argmax(np.arctan2(turns, (sides * after).sum(1))), len(loop) - 1)
+        inside = self.case.domain.contains(np.array([[0.5, 0], [0.5, 0.08], [1.01, 0], [0.99, 0]]))
+        self.assertEqual(inside.tolist(), [False, True, True, False])
+
+    def test_distance(self):
+        """Against one segment after the other."""
+        loop = self.case.loop.tolist()
+        points = np.vstack([self.beside(200), self.case.loop[::40], [[0.5, 0.02], [0.9, 0.003]]])
+        for (x, y), found in zip(points, distance_to_loop(points, self.case.loop)):
+            least = math.inf
+            for (ax, ay), (bx, by) in zip(loop, loop[1:] + loop[:1]):
+                share = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / math.dist((ax, ay),
+                                                                                 (bx, by)) ** 2
+                share = min(max(share, 0), 1)
+                least = min(least, math.dist((x, y), (ax + share * (bx - ax),
+                                                      ay + share * (by - ay))))
+            self.assertAlmostEqual(found, least, 14)
+
+    def test_spacing(self):
+        there = self.case.spacing(np.array([self.case.loop[7], [1.5, 0], [-1, -1.5], [2, 0]]))
+        self.assertAlmostEqual(there[0], self.case.constant, 15)
+        self.assertAlmostEqual(there[1], self.case.constant + 0.15 * 0.5, 12)
+        self.assertEqual(there[2:].tolist(), [0.15, 0.15])
+
+    def test_nodes(self):
+        """Against sums over the cells of the table, which are small where d is."""
+        table = table_of(self.case)
+        middle = [0.5 * (lines[1:] + lines[:-1]) for lines in (table.x, table.y)]
+        points = np.column_stack([a.ravel() for a in np.meshgrid(*middle, indexing="ij")])
+        areas = np.outer(np.diff(table.x), np.diff(table.y)).ravel()
+        inside = self.case.domain.contains(points)
+        nodes = (2 / math.sqrt(3) * areas[inside] / self.case.spacing(points[inside]) ** 2).sum()
+        self.assertAlmostEqual(nodes / self.case.inner_nodes(), 1, 2)
+        self.assertAlmostEqual(cases.Case.boundary_nodes(self.case) / self.case.boundary_nodes(),
+                               1, 6)
+
+    def off(self, table):
+        """How far off d a table is: for 99 % of points that are many at both ends of the airfoil,
+        where it is worst, and at most."""
+        points = self.beside(20000)
+        share = np.abs(table.at(*points.T) / self.case.spacing(points) - 1)
+        return np.quantile(share, 0.99), share.max()
+
+    def test_table(self):
+        table = table_of(self.case)
+        most, worst = self.off(table)
+        self.assertLess(most, 0.01)
+        self.assertLess(worst, 0.05)
+        points = self.beside(500)
+        one = table.at_one()
+        for (x, y), d in zip(points.tolist(), table.at(*points.T)):
+            self.assertAlmostEqual(one(x, y), d, 14)
+        with tempfile.TemporaryDirectory() as folder:
+            table.write(Path(folder) / "table.txt")
+            again = read_table(Path(folder) / "table.txt")
+        for name in ("x", "y", "values"):
+            self.assertTrue(np.array_equal(getattr(table, name), getattr(again, name)), name)
+
+    def test_even_grid(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "grid.asc"
+            esri_grid.write_grid(self.case, path)
+            with open(path) as file:
+                header = dict(next(file).split() for _ in range(6))
+                values = np.loadtxt(file)
+        x, y = (float(header[f"{axis}llcenter"]) + float(header[f"d{axis}"]) * np.arange(count)
+                for axis, count in (("x", int(header["ncols"])), ("y", int(header["nrows"]))))
+        self.assertEqual(values.shape, (len(y), len(x)))
+        self.assertTrue(x[0] <= -1 and x[-1] >= 2 and y[0] <= -1.5 and y[-1] >= 1.5)
+        most, worst = self.off(SpacingTable(x, y, values[::-1].T))
+        self.assertLess(most, 0.08)
+        self.assertLess(worst, 0.15)
+        with self.assertRaisesRegex(Failed, "million values"):
+            esri_grid.write_grid(cases.make_graded_airfoil(1e6), path)
 
 
 class Measuring(unittest.TestCase):

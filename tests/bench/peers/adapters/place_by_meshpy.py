@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the Python package meshpy on a case; see place_common.py for the arguments."""
-import math
 import time
 
 import numpy as np
@@ -14,13 +13,14 @@ def place(job):
     plane.set_facets(job.domain.segments.tolist())
     plane.set_holes(job.domain.holes.tolist())
 
+    spacing_at, area_factor = job.spacing.at_one(), job.area_factor
+
     def too_large(vertices, area):
         (ax, ay), (bx, by), (cx, cy) = vertices
-        d = job.constant + job.slope * math.hypot(job.x_counts * ((ax + bx + cx) / 3 - job.x0),
-                                                  (ay + by + cy) / 3 - job.y0)
-        return area > job.area_factor * d * d
+        d = spacing_at((ax + bx + cx) / 3, (ay + by + cy) / 3)
+        return area > area_factor * d * d
 
-    if job.slope == 0:
+    if job.is_uniform:
         return triangle.build(plane, max_volume=float(job.largest_area(0, 0)),
                               min_angle=job.angle)
     return triangle.build(plane, refinement_func=too_large, min_angle=job.angle)

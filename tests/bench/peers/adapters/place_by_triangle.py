@@ -12,7 +12,7 @@ def place(job):
     if len(job.domain.holes):
         plane["holes"] = job.domain.holes
     angle = f"q{job.angle:g}"
-    if job.slope == 0:
+    if job.is_uniform:
         return triangle.triangulate(plane, f"p{angle}a{float(job.largest_area(0, 0)):.17f}")
     mesh = triangle.triangulate(plane, f"p{angle}")
     while True:

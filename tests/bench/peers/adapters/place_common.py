@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the scripts that run a Python package as a tool have in common: arguments and files."""
+import dataclasses
 import math
 import sys
 from pathlib import Path
@@ -7,21 +8,44 @@ from pathlib import Path
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
-from cases import read_poly  # noqa: E402
+from domain import read_poly  # noqa: E402
+from spacing_table import read_table  # noqa: E402
+
+
+@dataclasses.dataclass
+class Formula:
+    constant: float
+    slope: float
+    x0: float
+    y0: float
+    x_counts: float
+
+    def at(self, x, y):
+        return self.constant + self.slope * np.hypot(self.x_counts * (x - self.x0), y - self.y0)
+
+    def at_one(self):
+        """A function of x and y, for one point at a time, without NumPy: faster so."""
+        return lambda x, y: self.constant + self.slope * math.hypot(
+            self.x_counts * (x - self.x0), y - self.y0)
 
 
 class Job:
-    """IN.poly OUT.node CONSTANT SLOPE X0 Y0 X_COUNTS AREA_BOUND LEAST_ANGLE"""
+    """IN.poly OUT.node SPACING... AREA_BOUND LEAST_ANGLE, where SPACING is CONSTANT SLOPE X0 Y0
+    X_COUNTS or the file of a table"""
 
     def __init__(self):
-        poly, self.output, *numbers = sys.argv[1:]
+        poly, self.output, *spacing, bound, angle = sys.argv[1:]
         self.domain = read_poly(poly)
-        (self.constant, self.slope, self.x0, self.y0, self.x_counts, bound,
-         self.angle) = map(float, numbers)
-        self.area_factor = bound * math.sqrt(3) / 4
+        if len(spacing) == 1:
+            self.spacing = read_table(spacing[0])
+        else:
+            self.spacing = Formula(*map(float, spacing))
+        self.is_uniform = len(spacing) > 1 and self.spacing.slope == 0
+        self.area_factor = float(bound) * math.sqrt(3) / 4
+        self.angle = float(angle)
 
     def largest_area(self, x, y):
-        d = self.constant + self.slope * np.hypot(self.x_counts * (x - self.x0), y - self.y0)
+        d = self.spacing.at(x, y)
         return self.area_factor * d * d
 
     def finish(self, points, seconds):

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from spacing_table import table_of
 
 BUILD = Path(__file__).resolve().parents[4] / "build"
 
@@ -100,9 +101,13 @@ def python(script, *arguments):
     return [sys.executable, "-B", Path(__file__).with_name(script), *arguments]
 
 
-def numbers_of_case(case):
-    return [repr(value)
-            for value in (case.constant, case.slope, case.x0, case.y0, case.x_counts)]
+def words_of_spacing(case, folder):
+    """What scripts and programs of ours take for d: numbers, or the name of a table."""
+    if case.has_formula:
+        return [repr(value)
+                for value in (case.constant, case.slope, case.x0, case.y0, case.x_counts)]
+    table_of(case).write(folder / "spacing.txt")
+    return ["spacing.txt"]
 
 
 def told_seconds(text):

@@ -26,8 +26,9 @@ class Cgal(tool.Tool):
 
     def run(self, case, folder, time_limit):
         case.domain.write_poly(folder / "case.poly")
-        used = measure([self.program(), "case.poly", "nodes.node", *tool.numbers_of_case(case),
-                        EDGE_BOUND, self.steps], folder, time_limit)
+        used = measure([self.program(), "case.poly", "nodes.node",
+                        *tool.words_of_spacing(case, folder), EDGE_BOUND, self.steps], folder,
+                       time_limit)
         return tool.Outcome(tool.read_node(folder / "nodes.node"), used.seconds,
                             tool.told_seconds(used.stdout), used.peak_bytes)
 

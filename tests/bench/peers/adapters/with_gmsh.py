@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """gmsh, by its command or its Python package, with the spacing as a background field."""
+import math
 import re
 import sys
 
@@ -9,15 +10,20 @@ from measure import Failed, measure
 
 AS_COMMAND = "import gmsh, sys; gmsh.initialize(sys.argv, run=True); gmsh.finalize()"
 
+# On the loop that d grows from, d is too large by this share at most: gmsh takes distances from
+# points on it.
+TOO_LARGE = 0.02
+
 
 def geometry(case):
     """The domain and its spacing in gmsh's language."""
-    domain, lines = case.domain, []
+    domain, lines, first_of_loop = case.domain, [], []
     for i, (x, y) in enumerate(domain.vertices.tolist(), 1):
         lines.append(f"Point({i}) = {{{x!r}, {y!r}, 0}};")
     line, loops = 0, domain.loops()
     for number, loop in enumerate(loops, 1):
         first = line + 1
+        first_of_loop.append(first)
         for a, b in zip(loop, np.roll(loop, -1)):
             line += 1
             lines.append(f"Line({line}) = {{{a + 1}, {b + 1}}};")
@@ -26,10 +32,25 @@ def geometry(case):
     lines += ["Mesh.MeshSizeExtendFromBoundary = 0;", "Mesh.MeshSizeFromPoints = 0;"]
     if case.slope == 0:
         lines += [f"Mesh.MeshSize{bound} = {case.constant!r};" for bound in ("Min", "Max")]
-    else:
+    elif case.has_formula:
         lines += ["Field[1] = MathEval;", f'Field[1].F = "{case.formula("Sqrt")}";',
                   "Background Field = 1;"]
+    else:
+        lines += field_from_loop(case, f"{first_of_loop[1]}:{line}")
     return "\n".join(lines) + "\n"
+
+
+def field_from_loop(case, curves):
+    """d grows from the curves of the domain's only hole, the loop of the case."""
+    longest = np.hypot(*(case.loop - np.roll(case.loop, 1, 0)).T).max()
+    points = math.ceil(0.5 * case.slope * longest / (TOO_LARGE * case.constant)) + 1
+    way = (case.largest - case.constant) / case.slope
+    return ["Field[1] = Distance;", f"Field[1].CurvesList = {{{curves}}};",
+            f"Field[1].Sampling = {points};",
+            "Field[2] = Threshold;", "Field[2].InField = 1;",
+            "Field[2].DistMin = 0;", f"Field[2].SizeMin = {case.constant!r};",
+            f"Field[2].DistMax = {way!r};", f"Field[2].SizeMax = {case.largest!r};",
+            "Background Field = 2;"]
 
 
 def read_msh(path):

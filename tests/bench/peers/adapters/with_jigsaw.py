@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from adapters import tool
 from measure import measure
+from spacing_table import SpacingTable, table_of
 
 # Points a side, between which JIGSAW takes the spacing to be linear: one row lies in the middle,
 # where spacings of squares have their tip.
@@ -22,17 +23,22 @@ def geometry(domain):
 
 
 def spacing_grid(case):
-    low, high = case.domain.vertices.min(0), case.domain.vertices.max(0)
-    x, y = (np.linspace(a, b, GRID) for a, b in zip(low, high))
+    table = even_table(case) if case.has_formula else table_of(case)
     lines = ["mshid=3;euclidean-grid", "ndims=2"]
-    for axis, values in enumerate((x, y), 1):
-        lines.append(f"coord={axis};{GRID}")
+    for axis, values in enumerate((table.x, table.y), 1):
+        lines.append(f"coord={axis};{len(values)}")
         lines += [repr(v) for v in values.tolist()]
     # All heights of the first column, then the next one.
-    grid = np.column_stack([part.ravel() for part in np.meshgrid(x, y, indexing="ij")])
-    lines.append(f"value={GRID * GRID};1")
-    lines += [repr(v) for v in case.spacing(grid).tolist()]
+    lines.append(f"value={table.values.size};1")
+    lines += [repr(v) for v in table.values.ravel().tolist()]
     return "\n".join(lines) + "\n"
+
+
+def even_table(case):
+    low, high = case.domain.vertices.min(0), case.domain.vertices.max(0)
+    x, y = (np.linspace(a, b, GRID) for a, b in zip(low, high))
+    grid = np.column_stack([part.ravel() for part in np.meshgrid(x, y, indexing="ij")])
+    return SpacingTable(x, y, case.spacing(grid).reshape(GRID, GRID))
 
 
 def read_points(path):

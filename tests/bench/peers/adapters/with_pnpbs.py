@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 from adapters import tool
+from adapters.esri_grid import write_grid
 from measure import measure
 
 
@@ -23,7 +24,7 @@ class Pnpbs(tool.Tool):
 
     def run(self, case, folder, time_limit):
         case.domain.write_poly(folder / "case.poly")
-        command = [self.program, "--domain", "case.poly", "--spacing", case.formula(),
+        command = [self.program, "--domain", "case.poly", *spacing(case, folder),
                    "--output", "nodes.csv", "--report", "report.json", "--threads", 1, "--quiet"]
         for option in self.options:
             command += ["--set", option]
@@ -33,6 +34,14 @@ class Pnpbs(tool.Tool):
         points = np.loadtxt(folder / "nodes.csv", delimiter=",", skiprows=1, usecols=(1, 2))
         return tool.Outcome(points, used.seconds, report["seconds"]["total"], used.peak_bytes,
                             {"report": report})
+
+
+def spacing(case, folder):
+    """As a formula where there is one, else on a grid."""
+    if case.has_formula:
+        return ["--spacing", case.formula()]
+    write_grid(case, folder / "spacing.asc")
+    return ["--spacing-grid", "spacing.asc"]
 
 
 def find(given):

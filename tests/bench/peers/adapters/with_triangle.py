@@ -27,7 +27,7 @@ class Triangle(tool.Tool):
     def run(self, case, folder, time_limit):
         case.domain.write_poly(folder / "case.poly")
         script = tool.python(f"place_by_{self.package}.py", "case.poly", "nodes.node",
-                             *tool.numbers_of_case(case), AREA_BOUND, LEAST_ANGLE)
+                             *tool.words_of_spacing(case, folder), AREA_BOUND, LEAST_ANGLE)
         used = measure(script, folder, time_limit)
         return tool.Outcome(tool.read_node(folder / "nodes.node"), used.seconds,
                             tool.told_seconds(used.stdout), used.peak_bytes)
