@@ -11,13 +11,13 @@ namespace pnpbs {
 
 // Sends outgoing[r] to rank r, this one included; returns what the ranks sent, in their order.
 // Collective.
-inline std::vector<Bytes> exchange_with_all(const Communicator& comm, std::vector<Bytes> outgoing) {
-  std::vector<Parcel> parcels;
+inline std::vector<Bytes> all_to_all(const Communicator& comm, std::vector<Bytes> outgoing) {
+  std::vector<Message> messages;
   for (std::size_t r = 0; r < outgoing.size(); ++r)
-    if (!outgoing[r].empty()) parcels.push_back({static_cast<int>(r), std::move(outgoing[r])});
+    if (!outgoing[r].empty()) messages.push_back({static_cast<int>(r), std::move(outgoing[r])});
   std::vector<Bytes> incoming(outgoing.size());
-  for (Parcel& parcel : comm.deliver(parcels))
-    incoming[static_cast<std::size_t>(parcel.rank)] = std::move(parcel.bytes);
+  for (Message& message : comm.sparse_all_to_all(messages))
+    incoming[static_cast<std::size_t>(message.rank)] = std::move(message.bytes);
   return incoming;
 }
 

@@ -31,15 +31,16 @@ class SerialCommunicator : public Communicator {
   Reduction reduce(const Reduction& mine) const override { return mine; }
   void sum_entries(std::vector<std::int64_t>&) const override {}
   void broadcast_bytes(char*, std::size_t, int) const override {}
-  std::vector<std::uint64_t> gather_sizes(std::uint64_t mine) const override { return {mine}; }
-  void gather_bytes(const Bytes& mine, const std::vector<std::uint64_t>&,
-                    Bytes& all) const override {
+  std::vector<std::uint64_t> allgather_sizes(std::uint64_t mine) const override { return {mine}; }
+  void allgather_bytes(const Bytes& mine, const std::vector<std::uint64_t>&,
+                       Bytes& all) const override {
     all = mine;
   }
-  std::vector<std::uint64_t> swap_sizes(const std::vector<std::uint64_t>& sizes) const override {
+  std::vector<std::uint64_t> all_to_all_sizes(
+      const std::vector<std::uint64_t>& sizes) const override {
     return sizes;
   }
-  void transfer(const std::vector<Parcel>&, std::vector<Parcel>&) const override {}
+  void transfer(const std::vector<Message>&, std::vector<Message>&) const override {}
 };
 
 // Kind and text of a failure, in a message of one size: telling of it needs no memory.
@@ -93,19 +94,19 @@ void agree_on_failure(const Communicator& comm, std::exception_ptr failure) {
     std::rethrow_exception(failure);
 }
 
-std::uint64_t Communicator::sum(std::uint64_t value) const {
+std::uint64_t Communicator::allreduce_sum(std::uint64_t value) const {
   Reduction mine;
   mine.sum = value;
   return reduce_or_fail(mine).sum;
 }
 
-double Communicator::largest(double value) const {
+double Communicator::allreduce_max(double value) const {
   Reduction mine;
   mine.largest = value;
   return reduce_or_fail(mine).largest;
 }
 
-void Communicator::sum(std::vector<std::int64_t>& values) const {
+void Communicator::allreduce_sum(std::vector<std::int64_t>& values) const {
   reduce_or_fail({});
   sum_entries(values);
 }
@@ -114,7 +115,7 @@ void Communicator::sum(std::vector<std::int64_t>& values) const {
 bool Communicator::same_on_all(std::uint64_t value) const {
   for (const int shift : {0, 32}) {
     const double half = static_cast<double>((value >> shift) & 0xffffffffu);
-    if (largest(half) != -largest(-half)) return false;
+    if (allreduce_max(half) != -allreduce_max(-half)) return false;
   }
   return true;
 }
@@ -127,28 +128,28 @@ void Communicator::broadcast(Bytes& bytes, int root) const {
   broadcast_bytes(bytes.data(), bytes.size(), root);
 }
 
-Bytes Communicator::gather(const Bytes& mine) const {
+Bytes Communicator::allgather(const Bytes& mine) const {
   reduce_or_fail({});
-  const std::vector<std::uint64_t> sizes = gather_sizes(mine.size());
+  const std::vector<std::uint64_t> sizes = allgather_sizes(mine.size());
   Bytes all;
   agreed(*this, [&] { all.resize(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})); });
-  gather_bytes(mine, sizes, all);
+  allgather_bytes(mine, sizes, all);
   return all;
 }
 
-std::vector<Parcel> Communicator::deliver(const std::vector<Parcel>& outgoing) const {
+std::vector<Message> Communicator::sparse_all_to_all(const std::vector<Message>& outgoing) const {
   reduce_or_fail({});
   std::vector<std::uint64_t> sizes;
-  std::vector<Parcel> incoming;
+  std::vector<Message> incoming;
   agreed(*this, [&] {
     sizes.assign(static_cast<std::size_t>(size()), 0);
-    for (const Parcel& parcel : outgoing)
-      if (parcel.rank == rank())
-        incoming.push_back(parcel);
+    for (const Message& message : outgoing)
+      if (message.rank == rank())
+        incoming.push_back(message);
       else
-        sizes[static_cast<std::size_t>(parcel.rank)] = parcel.bytes.size();
+        sizes[static_cast<std::size_t>(message.rank)] = message.bytes.size();
   });
-  sizes = swap_sizes(sizes);
+  sizes = all_to_all_sizes(sizes);
   agreed(*this, [&] {
     for (int r = 0; r < size(); ++r)
       if (r != rank() && sizes[static_cast<std::size_t>(r)] > 0)
@@ -156,7 +157,7 @@ std::vector<Parcel> Communicator::deliver(const std::vector<Parcel>& outgoing) c
   });
   transfer(outgoing, incoming);
   std::sort(incoming.begin(), incoming.end(),
-            [](const Parcel& a, const Parcel& b) { return a.rank < b.rank; });
+            [](const Message& a, const Message& b) { return a.rank < b.rank; });
   return incoming;
 }
 

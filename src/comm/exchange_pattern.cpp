@@ -40,7 +40,7 @@ ExchangePattern make_exchange_pattern(const Communicator& comm, std::int64_t own
   }
   const auto end = ids.begin() + owned;
   for (const Wish& wish :
-       delivered<Wish>(comm, wishes, [](const Wish& w) { return static_cast<int>(w.from); })) {
+       redistribute<Wish>(comm, wishes, [](const Wish& w) { return static_cast<int>(w.from); })) {
     const auto found = std::lower_bound(ids.begin(), end, wish.id);
     if (found == end || *found != wish.id)
       throw Error(ErrorKind::internal, "node " + std::to_string(wish.id) +

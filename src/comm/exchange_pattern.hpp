@@ -29,18 +29,18 @@ template <class Value>
 void fill_ghosts(const Communicator& comm, const ExchangePattern& pattern,
                  std::vector<Value>& values) {
   const auto at = [](std::int64_t k) { return static_cast<std::size_t>(k); };
-  std::vector<Parcel> outgoing;
+  std::vector<Message> outgoing;
   for (std::size_t k = 0; k < pattern.ranks.size(); ++k) {
     outgoing.push_back({pattern.ranks[k], {}});
     for (std::int64_t s = pattern.send_offsets[k]; s < pattern.send_offsets[k + 1]; ++s)
       pack(outgoing.back().bytes, values[at(pattern.send_nodes[at(s)])]);
   }
-  const std::vector<Parcel> incoming = comm.deliver(outgoing);
+  const std::vector<Message> incoming = comm.sparse_all_to_all(outgoing);
   std::size_t k = 0;
-  for (const Parcel& parcel : incoming) {
-    while (pattern.ranks[k] != parcel.rank) ++k;
+  for (const Message& message : incoming) {
+    while (pattern.ranks[k] != message.rank) ++k;
     std::int64_t next = pattern.receive_offsets[k];
-    for_records<Value>({parcel.bytes}, [&](const Value& value) {
+    for_records<Value>({message.bytes}, [&](const Value& value) {
       values[at(pattern.receive_nodes[at(next++)])] = value;
     });
   }

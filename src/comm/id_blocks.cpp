@@ -32,7 +32,7 @@ struct OwnedIds {
 std::vector<std::int64_t> ids_that_begin(const Communicator& comm, const OwnedIds& owned,
                                          const std::vector<std::int64_t>& numbers) {
   const double most =
-      comm.largest(owned.count == 0 ? 0 : static_cast<double>(owned.id(owned.count - 1)));
+      comm.allreduce_max(owned.count == 0 ? 0 : static_cast<double>(owned.id(owned.count - 1)));
   // A double may have lost the last bits of a large id.
   const std::int64_t bound = most < 0x1p62 ? static_cast<std::int64_t>(most * (1 + 0x1p-40)) + 2
                                            : std::numeric_limits<std::int64_t>::max();
@@ -43,7 +43,7 @@ std::vector<std::int64_t> ids_that_begin(const Communicator& comm, const OwnedId
       middle[k] = low[k] + (high[k] - low[k]) / 2;
       below[k] = owned.count_below(middle[k]);
     }
-    comm.sum(below);
+    comm.allreduce_sum(below);
     for (std::size_t k = 0; k < numbers.size(); ++k) {
       if (low[k] == high[k]) continue;
       if (below[k] >= numbers[k])
@@ -72,13 +72,13 @@ IdBlocks::IdBlocks(const Communicator& comm, std::int64_t owned,
   numbers.pop_back();
   if (comm.size() > 1) begin_ = ids_that_begin(comm, {owned, owned_id}, numbers);
   // Not all at once: the messages would need several times the memory of the ids.
-  const auto most = static_cast<std::int64_t>(comm.largest(static_cast<double>(owned)));
+  const auto most = static_cast<std::int64_t>(comm.allreduce_max(static_cast<double>(owned)));
   for (std::int64_t begin = 0; begin < most; begin += kSentAtOnce) {
     std::vector<std::int64_t> part;
     for (std::int64_t k = begin; k < std::min(owned, begin + kSentAtOnce); ++k)
       part.push_back(owned_id(k));
     for (const std::int64_t id :
-         delivered(comm, part, [this](std::int64_t i) { return rank_of(i); }))
+         redistribute(comm, part, [this](std::int64_t i) { return rank_of(i); }))
       ids_.push_back(id);
   }
   std::ranges::sort(ids_);
@@ -90,7 +90,7 @@ std::vector<std::int64_t> IdBlocks::ids_at(const std::vector<std::int64_t>& numb
     const std::int64_t place = numbers[k] - span_.first;
     if (place >= 0 && place < span_.count) ids[k] = ids_[static_cast<std::size_t>(place)];
   }
-  comm_.sum(ids);
+  comm_.allreduce_sum(ids);
   return ids;
 }
 
@@ -111,13 +111,13 @@ std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& 
   std::vector<Bytes> questions(size), answers(size);
   for (const std::int64_t id : ids)
     if (rank_of(id) != comm_.rank()) pack(questions[static_cast<std::size_t>(rank_of(id))], id);
-  questions = exchange_with_all(comm_, std::move(questions));
+  questions = all_to_all(comm_, std::move(questions));
   agreed(comm_, [&] {
     for (std::size_t r = 0; r < size; ++r)
       for_records<std::int64_t>({questions[r]},
                                 [&](std::int64_t id) { pack(answers[r], number_in_block(id)); });
   });
-  answers = exchange_with_all(comm_, std::move(answers));
+  answers = all_to_all(comm_, std::move(answers));
   std::vector<std::int64_t> numbers;
   agreed(comm_, [&] {
     std::vector<std::size_t> at(size);  // answers come in the order of the questions to each rank

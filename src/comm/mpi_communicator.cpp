@@ -154,14 +154,14 @@ class MpiCommunicator : public Communicator {
   void broadcast_bytes(char* bytes, std::size_t n, int root) const override {
     check(MPI_Bcast(bytes, count(n), MPI_BYTE, root, comm_), "MPI_Bcast");
   }
-  std::vector<std::uint64_t> gather_sizes(std::uint64_t mine) const override {
+  std::vector<std::uint64_t> allgather_sizes(std::uint64_t mine) const override {
     std::vector<std::uint64_t> all(static_cast<std::size_t>(size_));
     check(MPI_Allgather(&mine, 1, MPI_UINT64_T, all.data(), 1, MPI_UINT64_T, comm_),
           "MPI_Allgather");
     return all;
   }
-  void gather_bytes(const Bytes& mine, const std::vector<std::uint64_t>& sizes,
-                    Bytes& all) const override {
+  void allgather_bytes(const Bytes& mine, const std::vector<std::uint64_t>& sizes,
+                       Bytes& all) const override {
     count(all.size());  // offsets are no longer either
     std::vector<int> counts, offsets;
     int offset = 0;
@@ -174,22 +174,24 @@ class MpiCommunicator : public Communicator {
                          offsets.data(), MPI_BYTE, comm_),
           "MPI_Allgatherv");
   }
-  std::vector<std::uint64_t> swap_sizes(const std::vector<std::uint64_t>& sizes) const override {
+  std::vector<std::uint64_t> all_to_all_sizes(
+      const std::vector<std::uint64_t>& sizes) const override {
     std::vector<std::uint64_t> from(sizes.size());
     check(MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, comm_),
           "MPI_Alltoall");
     return from;
   }
-  void transfer(const std::vector<Parcel>& outgoing, std::vector<Parcel>& incoming) const override {
+  void transfer(const std::vector<Message>& outgoing,
+                std::vector<Message>& incoming) const override {
     std::vector<MPI_Request> requests;
     requests.reserve(outgoing.size() + incoming.size());
-    for (Parcel& parcel : incoming)
-      if (parcel.rank != rank_)
-        MPI_Irecv(parcel.bytes.data(), count(parcel.bytes.size()), MPI_BYTE, parcel.rank,
+    for (Message& message : incoming)
+      if (message.rank != rank_)
+        MPI_Irecv(message.bytes.data(), count(message.bytes.size()), MPI_BYTE, message.rank,
                   kParcelTag, comm_, &requests.emplace_back());
-    for (const Parcel& parcel : outgoing)
-      if (parcel.rank != rank_ && !parcel.bytes.empty())
-        MPI_Isend(parcel.bytes.data(), count(parcel.bytes.size()), MPI_BYTE, parcel.rank,
+    for (const Message& message : outgoing)
+      if (message.rank != rank_ && !message.bytes.empty())
+        MPI_Isend(message.bytes.data(), count(message.bytes.size()), MPI_BYTE, message.rank,
                   kParcelTag, comm_, &requests.emplace_back());
     wait_for(requests);
   }

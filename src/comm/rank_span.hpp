@@ -19,7 +19,7 @@ struct RankSpan {
 inline RankSpan span_of(const Communicator& comm, std::size_t count) {
   std::vector<std::int64_t> counts(static_cast<std::size_t>(comm.size()));
   counts[static_cast<std::size_t>(comm.rank())] = static_cast<std::int64_t>(count);
-  comm.sum(counts);
+  comm.allreduce_sum(counts);
   RankSpan span;
   span.count = static_cast<std::int64_t>(count);
   for (int r = 0; r < comm.size(); ++r) {

@@ -29,22 +29,22 @@ void for_records(const std::vector<Bytes>& messages, const Visit& visit) {
 // Brings each record to rank owner(record), from wherever it is, and returns what has come here.
 // Collective.
 template <class Record, class Owner>
-std::vector<Record> delivered(const Communicator& comm, const std::vector<Record>& records,
-                              const Owner& owner) {
+std::vector<Record> redistribute(const Communicator& comm, const std::vector<Record>& records,
+                                 const Owner& owner) {
   std::vector<Record> arrived;
-  std::vector<Parcel> parcels;
-  std::vector<int> parcel_for(static_cast<std::size_t>(comm.size()), -1);
+  std::vector<Message> messages;
+  std::vector<int> message_for(static_cast<std::size_t>(comm.size()), -1);
   for (const Record& record : records) {
     const int r = owner(record);
-    int& parcel = parcel_for[static_cast<std::size_t>(r)];
-    if (parcel < 0) {
-      parcel = static_cast<int>(parcels.size());
-      parcels.push_back({r, {}});
+    int& message = message_for[static_cast<std::size_t>(r)];
+    if (message < 0) {
+      message = static_cast<int>(messages.size());
+      messages.push_back({r, {}});
     }
-    pack(parcels[static_cast<std::size_t>(parcel)].bytes, record);
+    pack(messages[static_cast<std::size_t>(message)].bytes, record);
   }
-  for (const Parcel& parcel : comm.deliver(parcels))
-    for_records<Record>({parcel.bytes}, [&](const Record& record) { arrived.push_back(record); });
+  for (const Message& message : comm.sparse_all_to_all(messages))
+    for_records<Record>({message.bytes}, [&](const Record& record) { arrived.push_back(record); });
   return arrived;
 }
 

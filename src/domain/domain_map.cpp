@@ -252,7 +252,7 @@ void DomainMap::grow(const Communicator& comm, const Box<2>& bounds, Growth grow
         growth.nodes_in_leaves += nodes;
     }
   };
-  tree_.build(bounds, split_depth, [&](bool more) { return comm.largest(more) > 0; });
+  tree_.build(bounds, split_depth, [&](bool more) { return comm.allreduce_max(more) > 0; });
   keep_leaves(growth);
 }
 

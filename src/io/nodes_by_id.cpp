@@ -79,7 +79,7 @@ NodesById::NodesById(Placement& placement, bool elements)
     placement.for_triangles([&](auto, auto, auto) { ++counts[1]; });
     placement.for_boundary_edges([&](auto, auto, auto) { ++counts[2]; });
   }
-  comm_.sum(counts);
+  comm_.allreduce_sum(counts);
   contents_.nodes = counts[0];
   contents_.triangles = counts[1];
   contents_.edges = counts[2];
@@ -120,7 +120,7 @@ void NodesById::for_windows(const Visit& visit) const {
 template <class Row, class Label>
 std::vector<Row> NodesById::brought(std::vector<Row> rows, const Label& first_label) const {
   if (!blocks_) return rows;
-  return delivered<Row>(comm_, rows, [&](const Row& row) {
+  return redistribute<Row>(comm_, rows, [&](const Row& row) {
     const auto part = std::ranges::upper_bound(bounds_, first_label(row)) - bounds_.begin() - 1;
     return static_cast<int>(part % comm_.size());
   });
@@ -178,8 +178,8 @@ void NodesById::for_edges(const std::function<void(const EdgeRows&)>& visit) con
     own.push_back({{label(a), label(b)}, tag});
   });
   if (blocks_)
-    own = delivered<EdgeRow>(comm_, own,
-                             [&](const EdgeRow& e) { return blocks_->rank_of(e.ends[0]); });
+    own = redistribute<EdgeRow>(comm_, own,
+                                [&](const EdgeRow& e) { return blocks_->rank_of(e.ends[0]); });
   EdgeRows rows = sorted_edges(std::move(own));
   label_by_numbers(rows.ends);
   rows.first = span_of(comm_, rows.tags.size()).first;

@@ -15,7 +15,7 @@ namespace pnpbs {
 View<double> Level::spacing_at_owned_nodes(const Spacing<2>& spacing) const {
   constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points handed out
   const std::int64_t last =
-      static_cast<std::int64_t>(comm_->largest(static_cast<double>(nodes_.count)));
+      static_cast<std::int64_t>(comm_->allreduce_max(static_cast<double>(nodes_.count)));
   View<double> all;
   agreed(*comm_, [&] {
     all = make_view<double>("pnpbs::Level::spacings", nodes_.count);
@@ -113,8 +113,8 @@ PopulationCounts Level::carry_out(PopulationChange<2> change) {
     if (nodes_.owned(change.parents[k])) born.push_back(change.born[k]);
   for (std::int32_t i : change.deleted) counts.deleted += nodes_.owned(i);
   counts.inserted = static_cast<std::int64_t>(born.size());
-  const std::uint64_t inserted = comm_->sum(static_cast<std::uint64_t>(counts.inserted));
-  const std::uint64_t deleted = comm_->sum(static_cast<std::uint64_t>(counts.deleted));
+  const std::uint64_t inserted = comm_->allreduce_sum(static_cast<std::uint64_t>(counts.inserted));
+  const std::uint64_t deleted = comm_->allreduce_sum(static_cast<std::uint64_t>(counts.deleted));
   if (inserted + deleted == 0) return counts;  // what ghosts at the rim seem to do does not count
   delete_nodes(change.deleted);
   if (inserted > 0) number_births(std::move(born));
@@ -149,7 +149,7 @@ void Level::keep_nodes(const View<std::int32_t>& places, std::int64_t kept) {
 void Level::number_births(std::vector<Birth<2>> born) {
   const BackgroundTree<2>& tree = map_.tree();
   if (distributed())
-    born = delivered<Birth<2>>(*comm_, born, [&](const Birth<2>& birth) {
+    born = redistribute<Birth<2>>(*comm_, born, [&](const Birth<2>& birth) {
       return distribution_.owner_at(birth.position);
     });
   std::vector<std::int64_t> new_ids(static_cast<std::size_t>(tree.leaf_count()), 0);
@@ -169,15 +169,16 @@ Speeds Level::speeds() const {
            nodes_.d(i);
   };
   Speeds speeds;
-  speeds.largest =
-      comm_->largest(largest_of("pnpbs::Level::largest_speed", nodes_.count, 0.0,
-                                [&](std::int64_t i) { return nodes_.owned(i) ? scaled(i) : 0.0; }));
+  speeds.largest = comm_->allreduce_max(
+      largest_of("pnpbs::Level::largest_speed", nodes_.count, 0.0,
+                 [&](std::int64_t i) { return nodes_.owned(i) ? scaled(i) : 0.0; }));
   const std::uint64_t sum = sum_of("pnpbs::Level::mean_speed", nodes_.count, [&](std::int64_t i) {
     return nodes_.owned(i) ? fixed_point(scaled(i)) : 0;
   });
-  const auto all = static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(owned_count())));
+  const auto all =
+      static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(owned_count())));
   const std::int64_t moving = std::max<std::int64_t>(1, all - boundary_nodes());
-  speeds.mean = from_fixed_point(comm_->sum(sum)) / static_cast<double>(moving);
+  speeds.mean = from_fixed_point(comm_->allreduce_sum(sum)) / static_cast<double>(moving);
   return speeds;
 }
 

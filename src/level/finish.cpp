@@ -87,7 +87,7 @@ void Level::repair_triangles_below(double shape) {
     std::int64_t moved = 0;
     agreed(*comm_, [&] { moved = repair->round(); });
     ghosts_exact_ = false;
-    if (comm_->sum(static_cast<std::uint64_t>(moved)) == 0) break;
+    if (comm_->allreduce_sum(static_cast<std::uint64_t>(moved)) == 0) break;
   }
   lists_valid_ = false;
 }

@@ -20,8 +20,8 @@ std::vector<double> Level::wanted_nodes() const {
     if (distribution_.owns(leaf) && !map_.leaf_outside(leaf))
       (map_.leaf_has_edges(leaf) ? crossed : inside) += map_.leaf_size(leaf);
   const double unit = std::pow(std::ldexp(tree.side(), -DomainMap::kMaxDepth), 2);
-  const double area_inside = unit * static_cast<double>(comm_->sum(inside)),
-               area_crossed = unit * static_cast<double>(comm_->sum(crossed));
+  const double area_inside = unit * static_cast<double>(comm_->allreduce_sum(inside)),
+               area_crossed = unit * static_cast<double>(comm_->allreduce_sum(crossed));
   const double share =
       area_crossed > 0 ? std::clamp((domain_->area() - area_inside) / area_crossed, 0.0, 1.0) : 0;
   std::vector<double> wanted;
@@ -38,7 +38,7 @@ std::vector<double> Level::wanted_nodes() const {
 double Level::expected_nodes() const {
   std::int64_t nodes = 0;
   for (double wanted : wanted_nodes()) nodes += fixed_point(wanted);
-  return from_fixed_point(comm_->sum(static_cast<std::uint64_t>(nodes)));
+  return from_fixed_point(comm_->allreduce_sum(static_cast<std::uint64_t>(nodes)));
 }
 
 SpacingVariation Level::spacing_variation() const {
@@ -54,7 +54,8 @@ SpacingVariation Level::spacing_variation() const {
     own.largest = std::max(own.largest, largest);
     own.steepest = std::max(own.steepest, (largest - least) / way);
   }
-  return {-comm_->largest(-own.least), comm_->largest(own.largest), comm_->largest(own.steepest)};
+  return {-comm_->allreduce_max(-own.least), comm_->allreduce_max(own.largest),
+          comm_->allreduce_max(own.steepest)};
 }
 
 SteepestGrowth Level::steepest_growth() const {
@@ -120,7 +121,7 @@ std::vector<LeafSummary> Level::summaries_of_unrefined_leaves() const {
     pack(mine, CellSummary{c, own[static_cast<std::size_t>(here)]});
   }
   std::vector<SpacingSummary> summaries(static_cast<std::size_t>(cells.count()));
-  for_records<CellSummary>({comm_->gather(mine)}, [&](const CellSummary& summary) {
+  for_records<CellSummary>({comm_->allgather(mine)}, [&](const CellSummary& summary) {
     summaries[static_cast<std::size_t>(summary.cell)] = summary.spacing;
   });
   std::vector<LeafSummary> unrefined;

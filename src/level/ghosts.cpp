@@ -71,7 +71,7 @@ bool Level::ghosts_can_stay(int hops) const {
 void Level::renew_ghosts() {
   if (ghosts_exact_ || !distributed()) return;
   const PhaseTimer timer(timers_, Phase::exchange);
-  plan_.renew(*comm_, nodes_);
+  plan_.update(*comm_, nodes_);
   ghosts_exact_ = true;
 }
 
@@ -158,7 +158,7 @@ void Level::append_arriving(const Halo& halo, const std::vector<Bytes>& incoming
     else
       plan_.receive(distribution_.owner(leaf), i);
   });
-  plan_.match(nodes_);
+  plan_.build(nodes_);
 }
 
 // Owned nodes go to their owners by a new partition, however far; there are no ghosts until the
@@ -178,7 +178,7 @@ void Level::migrate() {
     else
       leaving.push_back(packed(nodes_, i));
   }
-  const std::vector<PackedNode> arriving = delivered(*comm_, leaving, owner_at);
+  const std::vector<PackedNode> arriving = redistribute(*comm_, leaving, owner_at);
   agreed(*comm_,
          [&] { nodes_.reserve_with_room(kept + static_cast<std::int64_t>(arriving.size())); });
   keep_nodes(stay, kept);
@@ -207,7 +207,7 @@ void Level::scatter_to_owners(GivenNodes& given) const {
       leaving.push_back(given[k]);
   }
   given.resize(kept);
-  const std::vector<GivenNode> arrived = delivered<GivenNode>(*comm_, leaving, owner_of);
+  const std::vector<GivenNode> arrived = redistribute<GivenNode>(*comm_, leaving, owner_of);
   given.insert(given.end(), arrived.begin(), arrived.end());
 }
 

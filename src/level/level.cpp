@@ -112,7 +112,7 @@ void Level::rebuild_lists(double radius, const Field<2>& seen_from) {
   ++version_;
   const PhaseTimer timer(timers_, Phase::lists);
   if (buckets_.sort(map_.tree(), nodes_, widest_radius()))
-    plan_.follow(buckets_.order(), nodes_.count);
+    plan_.permute(buckets_.order(), nodes_.count);
   near_edges_.build(nodes_, seen_from, buckets_, map_);
   boundary_sight_.look(nodes_, near_edges_, map_, fans_);
   lists_.build(nodes_, buckets_, radius,

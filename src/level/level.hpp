@@ -24,7 +24,7 @@
 #include "neighbors/buckets.hpp"
 #include "neighbors/near_edges.hpp"
 #include "partition/distribution.hpp"
-#include "partition/ghost_plan.hpp"
+#include "partition/halo_exchange.hpp"
 #include "partition/known_region.hpp"
 #include "partition/packed_node.hpp"
 #include "population/population.hpp"
@@ -130,7 +130,7 @@ class Level {
   // Of this rank: ranks it exchanges ghosts with, and what it sends when they are renewed.
   std::int64_t neighbour_ranks() const { return plan_.neighbour_count(); }
   std::int64_t renewal_bytes() const {
-    return plan_.nodes_sent() * static_cast<std::int64_t>(GhostPlan::kRecordSize<2>);
+    return plan_.nodes_sent() * static_cast<std::int64_t>(HaloExchange::kRecordSize<2>);
   }
   // Of this rank, as counted after the last event: listed pairs, and as many again per node.
   std::int64_t owned_work() const { return owned_work_; }
@@ -232,7 +232,7 @@ class Level {
   std::vector<std::int64_t> neighbours_of(const std::vector<std::int64_t>& front,
                                           std::vector<char>& reached) const;
   void fetch_nodes_in(const std::vector<Box<2>>& boxes);
-  Bytes nodes_for(const Parcel& asked);
+  Bytes nodes_for(const Message& asked);
   PopulationCounts carry_out(PopulationChange<2> change);
   void number_births(std::vector<Birth<2>> born);
   void sweep_over_stars(std::int64_t times);
@@ -275,7 +275,7 @@ class Level {
   std::shared_ptr<const LeafLinks<2>> links_;  // leaves of which one reaches the other
   Distribution distribution_;
   int tree_hops_ = 0;  // the tree is refined so far around the leaves we own
-  GhostPlan plan_;
+  HaloExchange plan_;
   int ghost_hops_ = 0;         // ghosts reach so far; 0: they must be chosen anew
   bool ghosts_exact_ = false;  // nothing has moved since they came
   std::int64_t steps_since_choice_ = 0;

@@ -115,11 +115,11 @@ void Level::require_same_leaves() const {
     if (distribution_.owner_of_cell(c) == comm_->rank())
       pack(own, Finding{c, found[static_cast<std::size_t>(c)]});
   bool same = true;
-  for_records<Finding>({comm_->gather(own)}, [&](const Finding& finding) {
+  for_records<Finding>({comm_->allgather(own)}, [&](const Finding& finding) {
     if (distribution_.cell_refined(finding.cell))
       same = same && finding.fingerprint == found[static_cast<std::size_t>(finding.cell)];
   });
-  if (comm_->largest(!same) > 0) throw Error(ErrorKind::spacing, kSpacingsDiffer);
+  if (comm_->allreduce_max(!same) > 0) throw Error(ErrorKind::spacing, kSpacingsDiffer);
 }
 
 // What goes by the leaves of the tree.
@@ -130,7 +130,7 @@ void Level::look_at_new_tree() {
 
 void Level::forget_what_goes_by_leaves() {
   buckets_.reset(links_);
-  plan_ = GhostPlan();
+  plan_ = HaloExchange();
   ghost_hops_ = 0;
   lists_valid_ = false;
 }
@@ -212,7 +212,7 @@ void Level::grow_own_part() {
     distribution_.link_leaves(links_);
     const std::vector<std::int32_t> more = distribution_.unrefined_within(hops);
     for (std::int32_t cell : more) refined[static_cast<std::size_t>(cell)] = 1;
-    missing = comm_->largest(!more.empty()) > 0;
+    missing = comm_->allreduce_max(!more.empty()) > 0;
   }
   require_same_leaves();
   tree_hops_ = hops;
@@ -253,8 +253,9 @@ void Level::count_work() {
 }
 
 double Level::imbalance() const {
-  const auto all = static_cast<double>(comm_->sum(static_cast<std::uint64_t>(owned_work_)));
-  return all > 0 ? comm_->largest(static_cast<double>(owned_work_)) * comm_->size() / all : 1;
+  const auto all =
+      static_cast<double>(comm_->allreduce_sum(static_cast<std::uint64_t>(owned_work_)));
+  return all > 0 ? comm_->allreduce_max(static_cast<double>(owned_work_)) * comm_->size() / all : 1;
 }
 
 std::vector<std::int64_t> Level::counted_work() const {
@@ -296,7 +297,7 @@ std::vector<std::int32_t> Level::keep_numbers(const PartitionCells& cells,
     const auto to = static_cast<std::size_t>(part[static_cast<std::size_t>(cell)]);
     kept[to * ranks + rank] += work[static_cast<std::size_t>(leaf)];
   }
-  comm_->sum(kept);
+  comm_->allreduce_sum(kept);
   return relabelled(std::move(part), kept, comm_->size());
 }
 

@@ -84,7 +84,7 @@ PopulationCounts Level::remove_crowded() {
     agreed(*comm_, [&] { crowded = crowded_nodes(); });
     const auto own = std::count_if(crowded.begin(), crowded.end(),
                                    [this](std::int32_t i) { return nodes_.owned(i) != 0; });
-    if (comm_->sum(static_cast<std::uint64_t>(own)) == 0) return counts;
+    if (comm_->allreduce_sum(static_cast<std::uint64_t>(own)) == 0) return counts;
     counts.deleted += own;
     ++version_;
     delete_nodes(crowded);

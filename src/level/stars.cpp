@@ -52,7 +52,7 @@ void Level::make_stars(int hops, double radius, int rings) {
       renew_stars();
       unknown = unknown_around_stars(rings);
     });
-    if (comm_->sum(unknown.size()) == 0) break;
+    if (comm_->allreduce_sum(unknown.size()) == 0) break;
     fetch_nodes_in(unknown);
     agreed(*comm_, [&] { rebuild_lists(radius); });
   }
@@ -120,30 +120,30 @@ void Level::fetch_nodes_in(const std::vector<Box<2>>& boxes) {
   const PhaseTimer timer(timers_, Phase::exchange);
   Bytes question;
   for (const Box<2>& box : boxes) pack(question, box);
-  std::vector<Parcel> asked, answers;
+  std::vector<Message> asked, answers;
   for (int r = 0; r < comm_->size(); ++r)
     if (r != comm_->rank() && !question.empty()) asked.push_back({r, question});
-  for (const Parcel& theirs : comm_->deliver(asked)) {
+  for (const Message& theirs : comm_->sparse_all_to_all(asked)) {
     Bytes answer = nodes_for(theirs);
     if (!answer.empty()) answers.push_back({theirs.rank, std::move(answer)});
   }
-  const std::vector<Parcel> found = comm_->deliver(answers);
+  const std::vector<Message> found = comm_->sparse_all_to_all(answers);
   agreed(*comm_, [&] {
-    for (const Parcel& theirs : found) {
+    for (const Message& theirs : found) {
       plan_.add_neighbour(theirs.rank);
       for_records<PackedNode>({theirs.bytes}, [&](const PackedNode& node) {
         plan_.receive(theirs.rank, static_cast<std::int32_t>(nodes_.count));
         append(nodes_, node, false);
       });
     }
-    plan_.match(nodes_);
+    plan_.build(nodes_);
   });
   for (const Box<2>& box : boxes) known_.add(box);
   lists_valid_ = false;
 }
 
 // Our nodes in the boxes that a rank asks about, if it does not have them yet; from now on it has.
-Bytes Level::nodes_for(const Parcel& asked) {
+Bytes Level::nodes_for(const Message& asked) {
   std::unordered_set<std::int32_t> has;
   if (plan_.knows(asked.rank)) {
     const std::vector<std::int32_t>& sent = plan_.sent_to(asked.rank);

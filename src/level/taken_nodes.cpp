@@ -46,9 +46,9 @@ TakenNodes Level::take(GivenNodes given, std::int64_t next_id) {
   const std::uint64_t taken = given.size(),
                       numbered = count_if([](const GivenNode&node) { return node.id < 0; });
   number_and_store(std::move(given));
-  return {static_cast<std::int64_t>(comm_->sum(all - fitting)),
-          static_cast<std::int64_t>(comm_->sum(fitting - taken)),
-          static_cast<std::int64_t>(comm_->sum(numbered))};
+  return {static_cast<std::int64_t>(comm_->allreduce_sum(all - fitting)),
+          static_cast<std::int64_t>(comm_->allreduce_sum(fitting - taken)),
+          static_cast<std::int64_t>(comm_->allreduce_sum(numbered))};
 }
 
 // Of inner nodes; a boundary node has none, it is laid afresh.
@@ -203,7 +203,7 @@ void Level::number_and_store(GivenNodes inner) {
       "pnpbs::Level::most_id", static_cast<std::int64_t>(inner.size()),
       static_cast<double>(next_id_ - 1),
       [&](std::int64_t k) { return static_cast<double>(inner[static_cast<std::size_t>(k)].id); });
-  next_id_ = static_cast<std::int64_t>(comm_->largest(most_id)) + 1;
+  next_id_ = static_cast<std::int64_t>(comm_->allreduce_max(most_id)) + 1;
 
   std::vector<LeafNode> own_boundary;
   for (std::size_t b = 0; b < boundary_.nodes.size(); ++b) {

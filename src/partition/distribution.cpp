@@ -215,7 +215,7 @@ std::vector<std::int64_t> Distribution::prefix_sums(const Communicator& comm,
   };
   std::vector<std::int64_t> next(static_cast<std::size_t>(cells_.count()), 0);
   for (std::size_t leaf = 0; leaf < counts.size(); ++leaf) next[cell(leaf)] += counts[leaf];
-  comm.sum(next);
+  comm.allreduce_sum(next);
   for (std::int64_t& entry : next) entry = std::exchange(start, start + entry);
   // The leaves of a cell follow each other.
   for (std::size_t leaf = 0; leaf < counts.size(); ++leaf)

@@ -99,11 +99,11 @@ std::vector<PartitionCell> cells_of_equal_work(const Communicator& comm, const D
   std::uint64_t mine = 0;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf)
     if (owns(leaf)) mine += static_cast<std::uint64_t>(leaf_work[static_cast<std::size_t>(leaf)]);
-  const auto total = static_cast<std::int64_t>(comm.sum(mine));
+  const auto total = static_cast<std::int64_t>(comm.allreduce_sum(mine));
   Bytes found;
   put_together(map.tree(), known, total / (kCellsPerRank * comm.size()), 0, found);
   std::vector<PartitionCell> cells;
-  for_records<PartitionCell>({comm.gather(found)},
+  for_records<PartitionCell>({comm.allgather(found)},
                              [&](const PartitionCell& cell) { cells.push_back(cell); });
   return cells;
 }

@@ -30,8 +30,8 @@ Estimate Placement::estimate() {
   const Settings settings = settings_for_new_level();
   const double ranks = comm_->size();
   const double nodes = estimated_nodes(settings);
-  const double threads = from_fixed_point(
-      comm_->sum(static_cast<std::uint64_t>(fixed_point(static_cast<double>(thread_count())))));
+  const double threads = from_fixed_point(comm_->allreduce_sum(
+      static_cast<std::uint64_t>(fixed_point(static_cast<double>(thread_count())))));
   return {static_cast<std::int64_t>(std::round(nodes)),
           static_cast<std::int64_t>(kBytesOfProcess + kBytesPerNode * nodes / ranks),
           nodes / (nodes_per_second(options_) * std::max(1.0, threads))};
@@ -57,7 +57,7 @@ double Placement::bytes_allowed() const {
   const double share = Settings(options_).max_memory;
   if (share == 0) return std::numeric_limits<double>::infinity();
   const double mine = available_memory() / comm_->ranks_on_node();
-  return share * -comm_->largest(-mine) * comm_->size();
+  return share * -comm_->allreduce_max(-mine) * comm_->size();
 }
 
 }  // namespace pnpbs

@@ -14,7 +14,7 @@ Outcome Placement::prepare_level() {
   const bool make = !level_ || spacing_replaced_ ||
                     settings.growth_limit != level_->settings().growth_limit ||
                     settings.growth_limit_set != level_->settings().growth_limit_set;
-  if (comm_->largest(make) > 0) return make_level();
+  if (comm_->allreduce_max(make) > 0) return make_level();
   level_->change_settings(settings);
   return Outcome::converged;
 }

@@ -11,7 +11,7 @@ bool Placement::monitor_stops(double fraction) {
   const std::int64_t nodes = global_count();
   agreed(*comm_, [&] { stop = asks_to_stop(fraction, nodes); });
   last_asked_ = Clock::now();
-  return comm_->largest(stop) > 0;
+  return comm_->allreduce_max(stop) > 0;
 }
 
 // Has this rank's monitor not been asked for a while?
@@ -23,7 +23,7 @@ bool Placement::monitor_is_due() const {
 // The same of work that takes long only where nodes are many. All ranks ask, or none: a monitor may
 // ask for what is collective.
 bool Placement::monitor_stops_by_clock(double fraction) {
-  return comm_->largest(monitor_is_due()) > 0 && monitor_stops(fraction);
+  return comm_->allreduce_max(monitor_is_due()) > 0 && monitor_stops(fraction);
 }
 
 // The steps between two events of ten million nodes take some seconds. Several ranks have fewer

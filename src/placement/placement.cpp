@@ -106,9 +106,9 @@ PopulationCounts Placement::adjust_population() {
 
 PopulationCounts Placement::count_population_change(PopulationCounts change) {
   change.inserted =
-      static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(change.inserted)));
+      static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(change.inserted)));
   change.deleted =
-      static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(change.deleted)));
+      static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(change.deleted)));
   inserted_ += change.inserted;
   deleted_ += change.deleted;
   return change;

@@ -126,8 +126,8 @@ std::vector<PlacedId> ResultCheck::gathered_by(std::uint64_t (*key)(const Placed
   for_owned([&](std::int64_t i) { mine.push_back({nodes_.id(i), position(i)}); });
   if (comm_.size() == 1) return mine;
   const auto ranks = static_cast<std::uint64_t>(comm_.size());
-  return delivered(comm_, mine,
-                   [&](const PlacedId& node) { return static_cast<int>(key(node) % ranks); });
+  return redistribute(comm_, mine,
+                      [&](const PlacedId& node) { return static_cast<int>(key(node) % ranks); });
 }
 
 void ResultCheck::check_ids() const {
@@ -172,7 +172,7 @@ void ResultCheck::check_boundary_nodes() const {
   for_owned([&](std::int64_t i) {
     if (nodes_.boundary_node(i) >= 0) ++times[static_cast<std::size_t>(nodes_.boundary_node(i))];
   });
-  comm_.sum(times);
+  comm_.allreduce_sum(times);
   const auto wrong = std::ranges::find_if(times, [](std::int64_t n) { return n != 1; });
   if (wrong == times.end()) return;
   const auto b = static_cast<std::size_t>(wrong - times.begin());
@@ -210,7 +210,7 @@ void ResultCheck::check_lists() const {
   });
   if (comm_.size() == 1) return;
   for (const ListedPair& pair :
-       delivered(comm_, elsewhere, [](const ListedPair& pair) { return pair.owner; })) {
+       redistribute(comm_, elsewhere, [](const ListedPair& pair) { return pair.owner; })) {
     const std::int64_t i = owned_node(pair.of);
     if (i < 0)
       fail("node " + std::to_string(pair.listed) + " has node " + std::to_string(pair.of) +
@@ -238,7 +238,7 @@ void ResultCheck::check_stars() const {
   });
   if (comm_.size() == 1) return;
   for (const StarTriangle& t :
-       delivered(comm_, elsewhere, [](const StarTriangle& t) { return t.owner; })) {
+       redistribute(comm_, elsewhere, [](const StarTriangle& t) { return t.owner; })) {
     const std::int64_t i = owned_node(t.of);
     if (i < 0 || !star_has(i, t.next, t.last))
       fail("the star of node " + (i < 0 ? std::to_string(t.of) : name(i)) +
@@ -327,7 +327,7 @@ double ResultCheck::area_of_triangles(double unit) const {
   });
   constexpr double kFine = 0x1p40, kMost = 1e6;
   const double parts = std::clamp(mine / unit, 0.0, kMost) * kFine;
-  const std::uint64_t sum = comm_.sum(static_cast<std::uint64_t>(parts));
+  const std::uint64_t sum = comm_.allreduce_sum(static_cast<std::uint64_t>(parts));
   return static_cast<double>(sum) / kFine * unit;
 }
 

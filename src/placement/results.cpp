@@ -49,7 +49,7 @@ void append_by_id(const Nodes<2>& nodes, bool owned, std::vector<std::int32_t>& 
 std::int64_t Placement::count() const { return level_ ? level_->owned_count() : 0; }
 
 std::int64_t Placement::global_count() const {
-  return static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(count())));
+  return static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(count())));
 }
 
 void Placement::prepare_order() {
@@ -101,7 +101,7 @@ ExchangePattern Placement::exchange_pattern() {
 std::int64_t Placement::nodes_on_ranks_before() const {
   std::vector<std::int64_t> counts(static_cast<std::size_t>(comm_->size()), 0);
   counts[static_cast<std::size_t>(comm_->rank())] = count();
-  comm_->sum(counts);
+  comm_->allreduce_sum(counts);
   return std::accumulate(counts.begin(), counts.begin() + comm_->rank(), std::int64_t{0});
 }
 
@@ -124,13 +124,13 @@ NearestNeighbourError Placement::spacing_error() {
     const std::uint64_t sum = sum_of("pnpbs::spacing_error", nodes.count, [&](std::int64_t i) {
       return nodes.owned(i) ? fixed_point(value(i)) : 0;
     });
-    return from_fixed_point(comm_->sum(sum)) / n;
+    return from_fixed_point(comm_->allreduce_sum(sum)) / n;
   };
   NearestNeighbourError error;
   error.mean = mean_of(ratio);
   error.deviation = std::sqrt(
       mean_of([&](std::int64_t i) { return (ratio(i) - error.mean) * (ratio(i) - error.mean); }));
-  error.least = -comm_->largest(
+  error.least = -comm_->allreduce_max(
       largest_of("pnpbs::spacing_error::least", nodes.count, -kFarAway,
                  [&](std::int64_t i) { return nodes.owned(i) ? -ratio(i) : -kFarAway; }));
   return error;
@@ -140,12 +140,13 @@ NearestNeighbourError Placement::spacing_error() {
 std::uint64_t Placement::hash() const {
   if (!level_) return 0;
   const Nodes<2>& nodes = level_->nodes();
-  return comm_->sum(sum_of("pnpbs::hash", nodes.count, [&](std::int64_t i) -> std::uint64_t {
-    if (!nodes.owned(i)) return 0;
-    std::uint64_t h = mixed(static_cast<std::uint64_t>(nodes.id(i)));
-    for (int k = 0; k < 2; ++k) h = mixed_with(h, nodes.x[k](i));
-    return mixed(h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(nodes.tag(i))));
-  }));
+  return comm_->allreduce_sum(
+      sum_of("pnpbs::hash", nodes.count, [&](std::int64_t i) -> std::uint64_t {
+        if (!nodes.owned(i)) return 0;
+        std::uint64_t h = mixed(static_cast<std::uint64_t>(nodes.id(i)));
+        for (int k = 0; k < 2; ++k) h = mixed_with(h, nodes.x[k](i));
+        return mixed(h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(nodes.tag(i))));
+      }));
 }
 
 }  // namespace pnpbs

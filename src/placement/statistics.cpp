@@ -84,7 +84,8 @@ const std::vector<StatisticRow>& statistic_table() {
           "nodes_held",
           [](P p) {
             const std::int64_t held = p.has_nodes() ? p.level().nodes().count : std::int64_t{0};
-            return static_cast<std::int64_t>(p.communicator().largest(static_cast<double>(held)));
+            return static_cast<std::int64_t>(
+                p.communicator().allreduce_max(static_cast<double>(held)));
           },
           "most nodes that any rank holds, its ghosts included"),
       integer(
@@ -128,7 +129,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "memory.max_peak_bytes",
           [](P p) {
             const auto mine = static_cast<double>(peak_memory());
-            return static_cast<std::int64_t>(p.communicator().largest(mine));
+            return static_cast<std::int64_t>(p.communicator().allreduce_max(mine));
           },
           "the largest of that, over the ranks")),
       computed(real(

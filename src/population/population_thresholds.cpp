@@ -127,7 +127,7 @@ PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim
                           sums.values.data() + (octave_of(nodes.d(i)) - first) * kCounts);
         });
   });
-  comm.sum(counts.values);
+  comm.allreduce_sum(counts.values);
   thresholds.first_octave = first;
   thresholds.octaves.clear();
   for (int octave = 0; octave <= last - first; ++octave)

@@ -95,7 +95,7 @@ EdgeSums edge_sums(const Communicator& comm, const Nodes<2>& nodes, const Delaun
   std::vector<std::int64_t> values;
   for (const RatioSums& part : sums.of)
     values.insert(values.end(), {part.edges, part.excess, part.squares});
-  comm.sum(values);
+  comm.allreduce_sum(values);
   auto value = values.begin();
   for (RatioSums& part : sums.of)
     for (std::int64_t* sum : {&part.edges, &part.excess, &part.squares}) *sum = *value++;
@@ -150,7 +150,7 @@ double largest_cosine(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
 template <class Value>
 double largest_of_triangles(const Communicator& comm, const Nodes<2>& nodes,
                             const DelaunayStars& stars, double floor, const Value& value) {
-  return comm.largest(
+  return comm.allreduce_max(
       largest_of("pnpbs::largest_of_triangles", nodes.count, floor, [&](std::int64_t i) {
         double largest = floor;
         for_triangles_of(nodes, stars, i, [&](std::int64_t j, std::int64_t k) {
@@ -186,10 +186,12 @@ TriangleQuality measure_triangles(const Communicator& comm, const Nodes<2>& node
         });
       });
   TriangleQuality found;
-  found.triangles = static_cast<std::int64_t>(comm.sum(static_cast<std::uint64_t>(sums.triangles)));
-  const double quality = from_fixed_point(comm.sum(static_cast<std::uint64_t>(sums.quality)));
+  found.triangles =
+      static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(sums.triangles)));
+  const double quality =
+      from_fixed_point(comm.allreduce_sum(static_cast<std::uint64_t>(sums.quality)));
   std::vector<std::int64_t> histogram(steps.data(), steps.data() + kQualitySteps);
-  comm.sum(histogram);
+  comm.allreduce_sum(histogram);
   if (found.triangles == 0) return found;
   found.mean = quality / static_cast<double>(found.triangles);
   found.one_percent = one_percent_of(histogram, found.triangles);
@@ -206,7 +208,7 @@ TriangleQuality measure_triangles(const Communicator& comm, const Nodes<2>& node
 double irregular_share(const Communicator& comm, const Nodes<2>& nodes,
                        const DelaunayStars& stars) {
   const auto count = [&](const char* label, const auto& counts) {
-    return static_cast<double>(comm.sum(sum_of(label, nodes.count, [&](std::int64_t i) {
+    return static_cast<double>(comm.allreduce_sum(sum_of(label, nodes.count, [&](std::int64_t i) {
       return nodes.owned(i) && nodes.moves(i) && counts(i) ? 1 : 0;
     })));
   };

@@ -60,7 +60,7 @@ NodalSpacing::Directory NodalSpacing::gather_boxes(const std::vector<Box<2>>& mi
   Bytes bytes;
   for (const Box<2>& box : mine) pack(bytes, OwnedBox{box, comm_->rank()});
   Directory directory;
-  for_records<OwnedBox>({comm_->gather(bytes)}, [&](const OwnedBox& entry) {
+  for_records<OwnedBox>({comm_->allgather(bytes)}, [&](const OwnedBox& entry) {
     directory.boxes.push_back(entry.box);
     directory.ranks.push_back(static_cast<std::int32_t>(entry.rank));
   });
@@ -121,8 +121,8 @@ void NodalSpacing::look(std::int64_t n, const Point<2>* x, bool same, const Rank
       if (!same || rank == me) questions.push_back({x[i], i, me, rank});
   }
   if (!same)
-    questions = delivered<Question>(*comm_, questions,
-                                    [](const Question& q) { return static_cast<int>(q.asked); });
+    questions = redistribute<Question>(*comm_, questions,
+                                       [](const Question& q) { return static_cast<int>(q.asked); });
 
   std::vector<Reply> replies(questions.size());
   for_each("pnpbs::NodalSpacing::look", static_cast<std::int64_t>(questions.size()),
@@ -140,20 +140,20 @@ void NodalSpacing::look(std::int64_t n, const Point<2>* x, bool same, const Rank
     if (reply.answer < best) best = reply.answer;
   };
   if (!same) {
-    replies =
-        delivered<Reply>(*comm_, replies, [](const Reply& r) { return static_cast<int>(r.asker); });
+    replies = redistribute<Reply>(*comm_, replies,
+                                  [](const Reply& r) { return static_cast<int>(r.asker); });
     for (const Reply& reply : replies) take(reply);
   } else {
     Bytes bytes;
     for (const Reply& reply : replies) pack(bytes, reply);
-    for_records<Reply>({comm_->gather(bytes)}, take);
+    for_records<Reply>({comm_->allgather(bytes)}, take);
   }
 }
 
 std::int64_t NodalSpacing::open_on_all(const std::vector<PatchAnswer>& answers) const {
   const auto open = std::count_if(answers.begin(), answers.end(),
                                   [](const PatchAnswer& answer) { return !answer.found(); });
-  return static_cast<std::int64_t>(comm_->sum(static_cast<std::uint64_t>(open)));
+  return static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(open)));
 }
 
 void NodalSpacing::evaluate(std::int64_t n, const Point<2>* x, double* d) const {

@@ -16,7 +16,7 @@ struct SpacingRange {
 template <int Dim>
 SpacingRange spacing_range(const Communicator& comm, const Nodes<Dim>& nodes) {
   const auto largest = [&](double sign) {
-    return comm.largest(
+    return comm.allreduce_max(
         largest_of("pnpbs::spacing_range", nodes.count, -kFarAway,
                    [&](std::int64_t i) { return nodes.owned(i) ? sign * nodes.d(i) : -kFarAway; }));
   };

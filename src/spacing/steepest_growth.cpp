@@ -80,14 +80,14 @@ SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap& map,
   const auto keep_largest = [&](const auto& value) {
     double own = -std::numeric_limits<double>::infinity();
     for (const Slope& slope : slopes) own = std::max(own, value(slope));
-    const double largest = comm.largest(own);
+    const double largest = comm.allreduce_max(own);
     std::erase_if(slopes, [&](const Slope& slope) { return value(slope) < largest; });
     return largest;
   };
   double most = 0;
   for (const Slope& slope : slopes) most = std::max(most, slope.growth);
   SteepestGrowth steepest;
-  steepest.growth = comm.largest(most);
+  steepest.growth = comm.allreduce_max(most);
   std::erase_if(slopes, [&](const Slope& slope) { return slope.growth < 0.5 * steepest.growth; });
   keep_largest([](const Slope& slope) { return -slope.d; });
   for (int k = 0; k < 2; ++k)

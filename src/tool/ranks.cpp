@@ -124,8 +124,8 @@ std::vector<int> Ranks::gathered_counts(std::size_t mine) const {
   return counts;
 }
 
-void Ranks::gather_bytes(const void* mine, std::size_t count, std::size_t size,
-                         const std::vector<int>& counts, void* all) const {
+void Ranks::allgather_bytes(const void* mine, std::size_t count, std::size_t size,
+                            const std::vector<int>& counts, void* all) const {
   MPI_Datatype value;
   MPI_Type_contiguous(static_cast<int>(size), MPI_BYTE, &value);
   MPI_Type_commit(&value);
@@ -167,8 +167,8 @@ bool Ranks::any(bool mine) const { return mine; }
 void Ranks::agree_on_failure(std::exception_ptr) const {}
 void Ranks::broadcast(std::string&, int) const {}
 std::vector<int> Ranks::gathered_counts(std::size_t) const { return {}; }
-void Ranks::gather_bytes(const void*, std::size_t, std::size_t, const std::vector<int>&,
-                         void*) const {}
+void Ranks::allgather_bytes(const void*, std::size_t, std::size_t, const std::vector<int>&,
+                            void*) const {}
 
 void Ranks::abort(int code) const { std::exit(code); }
 

@@ -42,7 +42,7 @@ class Ranks {
     std::size_t total = 0;
     for (const int count : counts) total += static_cast<std::size_t>(count);
     std::vector<Value> all(total);
-    gather_bytes(mine.data(), mine.size(), sizeof(Value), counts, all.data());
+    allgather_bytes(mine.data(), mine.size(), sizeof(Value), counts, all.data());
     return all;
   }
 
@@ -51,8 +51,8 @@ class Ranks {
 
  private:
   std::vector<int> gathered_counts(std::size_t mine) const;  // on the first rank, else empty
-  void gather_bytes(const void* mine, std::size_t count, std::size_t size,
-                    const std::vector<int>& counts, void* all) const;
+  void allgather_bytes(const void* mine, std::size_t count, std::size_t size,
+                       const std::vector<int>& counts, void* all) const;
   void agree_on_failure(std::exception_ptr failure) const;
   void broadcast(std::string& text, int root) const;
 

@@ -14,7 +14,7 @@
 
 namespace pnpbs {
 
-class GhostPlan {
+class HaloExchange {
  public:
   void start(const std::vector<int>& neighbours, int ranks) {
     neighbours_ = neighbours;
@@ -55,7 +55,7 @@ class GhostPlan {
 
   // Both sides put their lists into the order of ids, so that they match, and make the buffers.
   template <int Dim>
-  void match(const Nodes<Dim>& nodes) {
+  void build(const Nodes<Dim>& nodes) {
     for (auto* lists : {&send_, &receive_})
       for (std::vector<std::int32_t>& list : *lists)
         std::sort(list.begin(), list.end(),
@@ -67,7 +67,7 @@ class GhostPlan {
   }
 
   // The nodes were put into another order: what was at from(i) is at i now.
-  void follow(const View<std::int32_t>& from, std::int64_t count) {
+  void permute(const View<std::int32_t>& from, std::int64_t count) {
     if (neighbours_.empty()) return;
     moved_to_.resize(static_cast<std::size_t>(count));
     for (std::int64_t i = 0; i < count; ++i)
@@ -79,7 +79,7 @@ class GhostPlan {
 
   // Owners send positions and velocities. All neighbours at the same time.
   template <int Dim>
-  void renew(const Communicator& comm, const Nodes<Dim>& nodes) {
+  void update(const Communicator& comm, const Nodes<Dim>& nodes) {
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
       char* out = outgoing_[k].data();
       for (std::int32_t i : send_[k])
