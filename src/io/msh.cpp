@@ -2,6 +2,7 @@
 // gmsh's format 2.2, as text: the version that most programs read. Numbers from 1. Boundary edges
 // have their tag as physical group, triangles the group 1. Without elements every node is a point
 // of its tag's group, since gmsh forgets nodes that belong to nothing.
+#include <cmath>
 #include <cstdlib>
 
 #include "io/numbered_points.hpp"

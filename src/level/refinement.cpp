@@ -2,6 +2,7 @@
 // The nodes that a level hands on to a finer one: its own, and new ones between them.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "level/level.hpp"
 

@@ -2,6 +2,7 @@
 #include "partition/partition_cells.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <tuple>

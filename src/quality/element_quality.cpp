@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "quality/element_quality.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

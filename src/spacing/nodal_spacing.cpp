@@ -2,6 +2,7 @@
 #include "spacing/nodal_spacing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "base/error.hpp"

@@ -2,6 +2,7 @@
 #include "delaunay/plane/hull_star.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "predicates/plane.hpp"
