@@ -9,7 +9,7 @@
 #include "base/chunked_rows.hpp"
 #include "base/nodes.hpp"
 #include "domain/domain_map.hpp"
-#include "domain/plane/boundary_fans.hpp"
+#include "domain/plane/incident_sectors.hpp"
 #include "neighbors/adjacency_list.hpp"
 #include "neighbors/buckets.hpp"
 #include "neighbors/near_edges.hpp"
@@ -21,7 +21,7 @@ namespace pnpbs {
 struct StarInput {
   const Nodes<2>& nodes;
   const DomainMap& map;
-  const BoundaryFans& fans;
+  const IncidentSectors& sectors;
   const Buckets<2>& buckets;
   const AdjacencyList<2>& lists;
   const NearEdges& near_edges;

@@ -60,7 +60,7 @@ void Level::refresh_spacing() {
     const auto b = static_cast<std::size_t>(nodes_.boundary_node(i));
     nodes_.d(i) = std::min(d(i), boundary_bound_[b]);
   });
-  drop_anchors();
+  set_reference_positions();
   ghost_hops_ = 0;
 }
 
@@ -68,7 +68,7 @@ void Level::exchange_for_stars() { exchange(kStarHops); }
 
 PopulationCounts Level::adjust_population(double tolerance) {
   ++version_;
-  drop_anchors();
+  set_reference_positions();
   exchange(kPopulationHops);
   PopulationChange<2> change;
   const PopulationRule& rule = settings_.population;
@@ -85,21 +85,22 @@ PopulationCounts Level::adjust_population(double tolerance) {
     const View<char> no_room = nodes_without_room();
     change = choose_population_change<2>(
         nodes_, lists_, ratios, rule, thresholds, [&](std::int64_t i) { return no_room(i) != 0; },
-        [this](const Point<2>& x, double d) { return fits(x, d); });
+        [this](const Point<2>& x, double d) { return has_clearance(x, d); });
   });
   return carry_out(std::move(change));
 }
 
 PopulationCounts Level::repair_defects() {
   ++version_;
-  drop_anchors();
+  set_reference_positions();
   exchange(kPopulationHops);
   make_lists_and_stars(kPopulationHops, settings_.list_radius, kDefectRings);
   PopulationChange<2> change;
   agreed(*comm_, [&] {
     const PhaseTimer timer(timers_, Phase::population);
-    change = choose_defect_repairs(nodes_, stars_, settings_.defects.bad_below,
-                                   [this](const Point<2>& x, double d) { return fits(x, d); });
+    change =
+        choose_defect_repairs(nodes_, stars_, settings_.defects.bad_below,
+                              [this](const Point<2>& x, double d) { return has_clearance(x, d); });
   });
   return carry_out(std::move(change));
 }

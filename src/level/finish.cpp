@@ -12,7 +12,7 @@ namespace pnpbs {
 
 // Lists of the present positions, from which visibility is judged from now on.
 void Level::prepare_finish() {
-  drop_anchors();
+  set_reference_positions();
   exchange(kRepairHops);
   agreed(*comm_, [this] { rebuild_lists(settings_.list_radius); });
   prepared_ = version_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "domain/keep_off.hpp"
+#include "domain/clearance.hpp"
 #include "dynamics/pair_laws.hpp"
 
 namespace pnpbs {
@@ -26,17 +26,17 @@ SpacingEvaluator Level::evaluator() const {
 
 // ------------------------------------------------------------------ making the level -----------
 
-void Level::lay_boundary() {
+void Level::discretize_boundary() {
   const PhaseTimer timer(timers_, Phase::boundary);
-  boundary_ = pnpbs::lay_boundary(*domain_, evaluator(), settings_.max_nodes);
+  boundary_ = pnpbs::discretize_boundary(*domain_, evaluator(), settings_.max_nodes);
   // Fixed nodes off the curves act as edges of no length: inner nodes keep off them, too.
   for (std::size_t f = static_cast<std::size_t>(boundary_.first_fixed); f < boundary_.nodes.size();
        ++f) {
     const std::int32_t node = static_cast<std::int32_t>(f);
     boundary_.edges.push_back({node, node, boundary_.nodes[f].tag, true, true});
   }
-  fans_.build(boundary_);
-  boundary_sight_.reset(boundary_.nodes.size());
+  sectors_.build(boundary_);
+  boundary_visibility_.reset(boundary_.nodes.size());
   boundary_ids_.assign(boundary_.nodes.size(), -1);
   boundary_bound_ = bubbles_on_boundary(boundary_);
   std::vector<Point<2>> positions;
@@ -53,7 +53,7 @@ void Level::change_settings(const Settings& settings) {
   if (widest_radius() != widest_before || settings_.list_radius != list_before)
     tree_hops_ = 0;  // a hop has another length now
   // Nodes count as far from the boundary by the steps that were left since their anchors.
-  if (meeting_radius() != meeting_before) drop_anchors();
+  if (meeting_radius() != meeting_before) set_reference_positions();
   if (edge_radius() == edges_before) return;
   near_edges_.prepare(map_, *links_, edge_radius());
   lists_valid_ = false;
@@ -76,9 +76,10 @@ double Level::widest_radius() const {
 // A pair that was not listed, farther apart than radius times its desired distance, must not have
 // come within the range of the force: each node may travel half of the difference, and a scheme
 // with stages looks one move ahead. d does not change between rebuilds.
-bool Level::lists_may_miss_a_pair() const {
+bool Level::lists_need_rebuild() const {
   const double ahead = settings_.predictor_corrector ? settings_.motion.most : 0;
-  return !lists_valid_ || travelled_ + ahead > 0.5 * (lists_.radius() - settings_.force_range());
+  return !lists_valid_ ||
+         max_displacement_ + ahead > 0.5 * (lists_.radius() - settings_.force_range());
 }
 
 void Level::rebuild_lists() {
@@ -87,7 +88,7 @@ void Level::rebuild_lists() {
   for_each("pnpbs::Level::listed", nodes_.count, [this](std::int64_t i) {
     for (int k = 0; k < 2; ++k) listed_[k](i) = nodes_.x[k](i);
   });
-  travelled_ = 0;
+  max_displacement_ = 0;
   lists_valid_ = true;
 }
 
@@ -100,8 +101,8 @@ void Level::rebuild_lists(double radius) {
 }
 
 // An event: from now on visibility is judged from here.
-void Level::drop_anchors() {
-  for_each("pnpbs::Level::drop_anchors", nodes_.count, [this](std::int64_t i) {
+void Level::set_reference_positions() {
+  for_each("pnpbs::Level::set_reference_positions", nodes_.count, [this](std::int64_t i) {
     for (int k = 0; k < 2; ++k) nodes_.anchor[k](i) = nodes_.x[k](i);
   });
   lists_valid_ = false;
@@ -114,9 +115,9 @@ void Level::rebuild_lists(double radius, const Field<2>& seen_from) {
   if (buckets_.sort(map_.tree(), nodes_, widest_radius()))
     plan_.permute(buckets_.order(), nodes_.count);
   near_edges_.build(nodes_, seen_from, buckets_, map_);
-  boundary_sight_.look(nodes_, near_edges_, map_, fans_);
+  boundary_visibility_.look(nodes_, near_edges_, map_, sectors_);
   lists_.build(nodes_, buckets_, radius,
-               SightPastEdges{nodes_, near_edges_, boundary_sight_, map_, fans_});
+               VisibilityPastEdges{nodes_, near_edges_, boundary_visibility_, map_, sectors_});
   reserve_field<2>(next_, "pnpbs::Level::next", nodes_.capacity());
   set_padding();
   ++rebuilds_;
@@ -142,13 +143,13 @@ void Level::move_by(const Law& law, bool runge_kutta) {
     damped_step<2>(nodes_, lists_, law, settings_.motion, next_);
 }
 
-void Level::move() {
+void Level::step() {
   const PhaseTimer timer(timers_, Phase::motion);
   if (settings_.cubic_law)
     move_by(CubicLaw{}, false);
   else
     move_by(LinearPush{1, settings_.rest_length}, false);
-  take_next_positions();
+  accept_step();
 }
 
 void Level::finish_by_runge_kutta() {
@@ -157,11 +158,11 @@ void Level::finish_by_runge_kutta() {
     move_by(CubicLaw{}, true);
   else
     move_by(LinearPush{1, settings_.rest_length}, true);
-  take_next_positions();
+  accept_step();
 }
 
 // Inner nodes near the boundary are held off it; then the new positions become the positions.
-void Level::take_next_positions() {
+void Level::accept_step() {
   ++version_;
   constexpr std::int64_t kChunk = 64;
   const std::int64_t chunks = (nodes_.count + kChunk - 1) / kChunk;
@@ -173,14 +174,14 @@ void Level::take_next_positions() {
         hold_off_boundary(i);
     return largest_way(first, last);
   });
-  travelled_ = std::sqrt(square);
+  max_displacement_ = std::sqrt(square);
   std::swap(nodes_.x, next_);
 }
 
 void Level::hold_off_boundary(std::int64_t i) const {
   const Point<2> from = nodes_.position(i), to = point_at<2>(next_, i);
   if (near_edges_.stays_clear(i, from, to, kBoundaryClearance * nodes_.d(i))) return;
-  const KeptOff kept = keep_off(map_, near_edges_.edges_of(i), from, to, nodes_.d(i));
+  const ClearPosition kept = clear_position(map_, near_edges_.edges_of(i), from, to, nodes_.d(i));
   for (int k = 0; k < 2; ++k) {
     if (kept.position[k] != to[k])
       nodes_.v[k](i) = (kept.position[k] - from[k]) / settings_.motion.dt;

@@ -14,13 +14,13 @@
 #include "comm/communicator.hpp"
 #include "delaunay/delaunay_stars.hpp"
 #include "domain/domain_map.hpp"
-#include "domain/plane/boundary_fans.hpp"
+#include "domain/plane/incident_sectors.hpp"
 #include "domain/plane/plane_domain.hpp"
 #include "dynamics/schemes.hpp"
 #include "initial/given_nodes.hpp"
 #include "initial/initial_fill.hpp"
 #include "neighbors/adjacency_list.hpp"
-#include "neighbors/boundary_sight.hpp"
+#include "neighbors/boundary_visibility.hpp"
 #include "neighbors/buckets.hpp"
 #include "neighbors/near_edges.hpp"
 #include "partition/distribution.hpp"
@@ -62,7 +62,7 @@ class Level {
         std::shared_ptr<const Spacing<2>> spacing, const Settings& settings, Timers& timers);
 
   // --- making the level ---
-  void lay_boundary();
+  void discretize_boundary();
   // And deals it out to the ranks: over several of them, and where that balances the work, as
   // another level is dealt out whose spacing is a multiple of this one's.
   void grow_tree(const Level* like = nullptr);
@@ -74,9 +74,9 @@ class Level {
   void change_settings(const Settings& settings);
 
   // --- the time loop ---
-  bool lists_may_miss_a_pair() const;
+  bool lists_need_rebuild() const;
   void rebuild_lists();
-  void move();
+  void step();
   // A step is over, done or not: where one rank fails, all must count alike.
   void count_step() {
     ghosts_exact_ = false;
@@ -240,7 +240,7 @@ class Level {
   void repair_triangles_below(double shape);
   void delete_nodes(const std::vector<std::int32_t>& deleted);
   void keep_nodes(const View<std::int32_t>& places, std::int64_t kept);
-  bool fits(const Point<2>& x, double d) const;
+  bool has_clearance(const Point<2>& x, double d) const;
   bool between_edges(std::int64_t i) const;
   template <class Visit>
   void for_coinciding(std::int64_t i, const Visit& visit) const;
@@ -248,11 +248,11 @@ class Level {
   std::vector<std::int32_t> crowded_nodes() const;
   void prepare_finish();
   void find_edge_bands();
-  void take_next_positions();
+  void accept_step();
   void hold_off_boundary(std::int64_t i) const;
   double largest_way(std::int64_t first, std::int64_t last) const;
   void rebuild_lists(double radius, const Field<2>& seen_from);
-  void drop_anchors();
+  void set_reference_positions();
   void set_padding();
   template <class Law>
   void move_by(const Law& law, bool runge_kutta);
@@ -264,7 +264,7 @@ class Level {
   Timers& timers_;
 
   Boundary boundary_;
-  BoundaryFans fans_;
+  IncidentSectors sectors_;
   DomainMap map_;
   std::vector<std::int64_t> boundary_ids_;  // of the boundary nodes, -1 until numbered
   std::vector<double> boundary_bound_;      // of their bubbles: see bubbles_on_boundary
@@ -284,7 +284,7 @@ class Level {
 
   Buckets<2> buckets_;
   NearEdges near_edges_;
-  BoundarySight boundary_sight_;
+  BoundaryVisibility boundary_visibility_;
   AdjacencyList<2> lists_;
   DelaunayStars stars_;
   std::vector<EdgeBand> edge_bands_;
@@ -293,7 +293,7 @@ class Level {
   Field<2> next_;    // positions after the move in progress
   Field<2> listed_;  // positions at which the lists were made
   Stages<2> stages_;
-  double travelled_ = 0;  // largest way of a node since then, in units of its d
+  double max_displacement_ = 0;  // largest way of a node since then, in units of its d
   bool lists_valid_ = false;
   std::int64_t rebuilds_ = 0;
   std::int64_t version_ = 0;

@@ -66,7 +66,7 @@ void Level::for_new_nodes(std::int64_t i, double d, const Visit& visit) const {
 // to grow.
 GivenNodes Level::refined(const Spacing<2>& next) {
   constexpr std::int64_t kChunk = 512;
-  drop_anchors();
+  set_reference_positions();
   exchange(kStarHops);
   make_lists_and_stars(kStarHops, settings_.list_radius, 0);
   const View<double> spacing = spacing_at_owned_nodes(next);
@@ -105,7 +105,7 @@ GivenNodes Level::refined(const Spacing<2>& next) {
 // Are these the ends of a boundary edge?
 bool Level::on_one_edge(std::int64_t i, std::int64_t j) const {
   return !nodes_.moves(i) && !nodes_.moves(j) &&
-         fans_.joined(nodes_.boundary_node(i), nodes_.boundary_node(j));
+         sectors_.joined(nodes_.boundary_node(i), nodes_.boundary_node(j));
 }
 
 }  // namespace pnpbs

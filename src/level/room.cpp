@@ -2,7 +2,7 @@
 // Nodes that have no room: between boundary edges, or on top of another node.
 #include <algorithm>
 
-#include "domain/keep_off.hpp"
+#include "domain/clearance.hpp"
 #include "dynamics/bubble_force.hpp"
 #include "level/level.hpp"
 

@@ -25,7 +25,7 @@ void widen(Box<2>& box, const Box<2>& by) {
 
 void Level::renew_stars() {
   const PhaseTimer timer(timers_, Phase::stars);
-  stars_.build({nodes_, map_, fans_, buckets_, lists_, near_edges_, known_});
+  stars_.build({nodes_, map_, sectors_, buckets_, lists_, near_edges_, known_});
 }
 
 void Level::prepare_lists() {

@@ -10,7 +10,7 @@
 
 #include "base/counting_sort.hpp"
 #include "comm/records.hpp"
-#include "domain/keep_off.hpp"
+#include "domain/clearance.hpp"
 #include "initial/graded_fill.hpp"
 #include "initial/initial_fill.hpp"
 #include "level/level.hpp"
@@ -70,7 +70,7 @@ void Level::leave_out_those_without_place(GivenNodes& given) const {
 // In the domain, and not too close to its boundary.
 bool Level::has_place(const GivenNode& node) const {
   if (near_edges_.leaf_is_clear(node.leaf)) return !map_.leaf_outside(node.leaf);
-  return fits(node.position, map_.leaf_spacing(node.leaf));
+  return has_clearance(node.position, map_.leaf_spacing(node.leaf));
 }
 
 // By leaf, in Morton order, and by place within it, so that nothing depends on where nodes came
@@ -252,7 +252,7 @@ void Level::number_and_store(GivenNodes inner) {
   exchange(step_hops());
 }
 
-bool Level::fits(const Point<2>& x, double d) const {
+bool Level::has_clearance(const Point<2>& x, double d) const {
   const Box<2>& box = domain_->bounds();
   for (int k = 0; k < 2; ++k)
     if (!(x[k] > box.low[k] && x[k] < box.high[k])) return false;

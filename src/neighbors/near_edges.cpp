@@ -187,11 +187,11 @@ void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& 
                [&] { return Finder(*this, nodes, buckets, map); });
 }
 
-bool NearEdges::way_between_is_free(const Nodes<2>& nodes, const DomainMap& map,
-                                    const BoundaryFans& fans, std::int64_t i, std::int64_t j,
-                                    std::int64_t wide) const {
-  return way_is_free(map, fans, place_of(i), nodes.boundary_node(i), place_of(j),
-                     nodes.boundary_node(j), edges_of(wide));
+bool NearEdges::visible_past_edges(const Nodes<2>& nodes, const DomainMap& map,
+                                   const IncidentSectors& sectors, std::int64_t i, std::int64_t j,
+                                   std::int64_t wide) const {
+  return visible_between(map, sectors, place_of(i), nodes.boundary_node(i), place_of(j),
+                         nodes.boundary_node(j), edges_of(wide));
 }
 
 }  // namespace pnpbs

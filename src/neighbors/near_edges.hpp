@@ -10,7 +10,7 @@
 #include "base/chunked_rows.hpp"
 #include "base/nodes.hpp"
 #include "domain/domain_map.hpp"
-#include "domain/plane/boundary_fans.hpp"
+#include "domain/plane/incident_sectors.hpp"
 #include "neighbors/buckets.hpp"
 
 namespace pnpbs {
@@ -74,8 +74,9 @@ class NearEdges {
   }
 
   // Does none of the edges near node `wide` separate nodes i and j?
-  bool way_between_is_free(const Nodes<2>& nodes, const DomainMap& map, const BoundaryFans& fans,
-                           std::int64_t i, std::int64_t j, std::int64_t wide) const;
+  bool visible_past_edges(const Nodes<2>& nodes, const DomainMap& map,
+                          const IncidentSectors& sectors, std::int64_t i, std::int64_t j,
+                          std::int64_t wide) const;
 
  private:
   // Is the way between two nodes surely shorter than that?
@@ -121,9 +122,9 @@ inline bool boxes_are_apart(const Point<2>& x, const Point<2>& y, const Point<2>
 // Does the straight way between two nodes stay inside the domain, as far as `edges` (all that can
 // lie between them) tell? Boundary nodes are given by their index, inner ones by -1.
 template <class Edges>
-bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>& x,
-                 std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
-                 const Edges& edges);
+bool visible_between(const DomainMap& map, const IncidentSectors& sectors, const Point<2>& x,
+                     std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
+                     const Edges& edges);
 
 }  // namespace pnpbs
 
@@ -132,17 +133,17 @@ bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>&
 namespace pnpbs {
 
 template <class Edges>
-bool way_is_free(const DomainMap& map, const BoundaryFans& fans, const Point<2>& x,
-                 std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
-                 const Edges& edges) {
-  if (boundary_x >= 0 && boundary_y >= 0 && fans.joined(boundary_x, boundary_y)) return true;
-  if (boundary_x >= 0 && !fans.leads_inside(map.boundary(), boundary_x, y)) return false;
-  if (boundary_y >= 0 && !fans.leads_inside(map.boundary(), boundary_y, x)) return false;
+bool visible_between(const DomainMap& map, const IncidentSectors& sectors, const Point<2>& x,
+                     std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
+                     const Edges& edges) {
+  if (boundary_x >= 0 && boundary_y >= 0 && sectors.joined(boundary_x, boundary_y)) return true;
+  if (boundary_x >= 0 && !sectors.leads_inside(map.boundary(), boundary_x, y)) return false;
+  if (boundary_y >= 0 && !sectors.leads_inside(map.boundary(), boundary_y, x)) return false;
   // Past a boundary node that lies exactly on the way it goes only within one sector.
   const auto stops = [&](const Point<2>& node, std::int32_t boundary_node) {
     const int k = x[0] != y[0] ? 0 : 1;
     if (!(std::min(x[k], y[k]) < node[k] && node[k] < std::max(x[k], y[k]))) return false;
-    return !fans.lets_pass(map.boundary(), boundary_node, x, y);
+    return !sectors.lets_pass(map.boundary(), boundary_node, x, y);
   };
   const std::span<const std::int32_t> row(edges);
   for (std::size_t k = 0; k < row.size(); ++k) {

@@ -89,7 +89,7 @@ bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_
     const SpacingEvaluator checked = [&](std::int64_t n, const Point<2>* x, double* d) {
       evaluate_spacing<2>(coarser, domain_->area(), n, x, d);
     };
-    laid = static_cast<double>(lay_boundary(*domain_, checked).nodes.size());
+    laid = static_cast<double>(discretize_boundary(*domain_, checked).nodes.size());
   });
   return laid - boundary_nodes <= kMostForced * nodes;
 }

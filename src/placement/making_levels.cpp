@@ -66,7 +66,7 @@ std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> 
     // A copy: the caller may go on to change the domain.
     level = std::make_unique<Level>(comm_, std::make_shared<PlaneDomain>(*domain_),
                                     std::move(spacing), settings, timers_);
-    level->lay_boundary();
+    level->discretize_boundary();
   });
   level->grow_tree(like);
   return level;

@@ -37,7 +37,7 @@ NodeEstimate estimate_nodes(const Communicator& comm, const PlaneDomain& domain,
     evaluate_spacing<2>(spacing, domain.area(), n, x, d);
   };
   Boundary boundary;
-  agreed(comm, [&] { boundary = lay_boundary(domain, evaluator, max_boundary_nodes); });
+  agreed(comm, [&] { boundary = discretize_boundary(domain, evaluator, max_boundary_nodes); });
   DomainMap map;
   double most = std::numeric_limits<double>::infinity(), nodes = 0;
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -49,7 +49,7 @@ class ResultCheck {
         nodes_(level_.nodes()),
         boundary_(level_.boundary()),
         owned_(placement.count()) {
-    fans_.build(boundary_);
+    sectors_.build(boundary_);
   }
 
   void check() const {
@@ -98,7 +98,7 @@ class ResultCheck {
   const Level& level_;
   const Nodes<2>& nodes_;
   const Boundary& boundary_;
-  BoundaryFans fans_;
+  IncidentSectors sectors_;
   std::int64_t owned_;
 };
 
@@ -283,9 +283,9 @@ void ResultCheck::check_corner(std::int64_t corner, std::int64_t next, std::int6
 void ResultCheck::check_sides_of(std::int64_t i, std::int64_t j, bool left, bool right) const {
   bool left_inside = true, right_inside = true;
   const std::int32_t b = nodes_.boundary_node(i), c = nodes_.boundary_node(j);
-  for (std::int32_t k = b < 0 ? 0 : fans_.begin(b); b >= 0 && k < fans_.end(b); ++k) {
-    if (fans_.edge(k).other != c) continue;
-    const BoundaryEdge& e = boundary_.edges[static_cast<std::size_t>(fans_.edge(k).edge)];
+  for (std::int32_t k = b < 0 ? 0 : sectors_.begin(b); b >= 0 && k < sectors_.end(b); ++k) {
+    if (sectors_.edge(k).other != c) continue;
+    const BoundaryEdge& e = boundary_.edges[static_cast<std::size_t>(sectors_.edge(k).edge)];
     left_inside = e.begin == b ? e.left_inside : e.right_inside;
     right_inside = e.begin == b ? e.right_inside : e.left_inside;
   }
@@ -302,8 +302,8 @@ void ResultCheck::check_sides_of(std::int64_t i, std::int64_t j, bool left, bool
 void ResultCheck::check_boundary_edges_of(std::int64_t i) const {
   const std::int32_t b = nodes_.boundary_node(i);
   if (b < 0) return;
-  for (std::int32_t k = fans_.begin(b); k < fans_.end(b); ++k) {
-    const std::int32_t other = fans_.edge(k).other;
+  for (std::int32_t k = sectors_.begin(b); k < sectors_.end(b); ++k) {
+    const std::int32_t other = sectors_.edge(k).other;
     if (other == b) continue;  // a fixed node
     bool found = false;
     level_.stars().for_neighbours(

@@ -28,8 +28,8 @@ Outcome Placement::advance(std::int64_t until, ProgressPart part) {
       level_->exchange_for_steps(failure);
     started = false;
     try {
-      if (!failure && level_->lists_may_miss_a_pair()) level_->rebuild_lists();
-      if (!failure) level_->move();
+      if (!failure && level_->lists_need_rebuild()) level_->rebuild_lists();
+      if (!failure) level_->step();
     } catch (...) {
       failure = std::current_exception();
     }

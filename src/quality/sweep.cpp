@@ -40,9 +40,9 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
     proposed[0](i) = may ? x[0][i] + move[0] : x[0][i];
     proposed[1](i) = may ? x[1][i] + move[1] : x[1][i];
     if (!may || !near_edges.any(i)) continue;
-    const KeptOff kept = keep_off(map, near_edges.edges_of(i), nodes.position(i),
-                                  point_at<2>(proposed, i), nodes.d(i));
-    for (int k = 0; k < 2; ++k) proposed[k](i) = kept.room ? kept.position[k] : x[k][i];
+    const ClearPosition kept = clear_position(map, near_edges.edges_of(i), nodes.position(i),
+                                              point_at<2>(proposed, i), nodes.d(i));
+    for (int k = 0; k < 2; ++k) proposed[k](i) = kept.clear ? kept.position[k] : x[k][i];
   }
 }
 

@@ -19,7 +19,7 @@ GrowthLimitedSpacing::GrowthLimitedSpacing(const PlaneDomain& domain,
     beat();
     evaluate_spacing<2>(*raw_, domain.area(), n, x, d);
   };
-  boundary_ = lay_boundary(domain, checked, limit.max_nodes);
+  boundary_ = discretize_boundary(domain, checked, limit.max_nodes);
   map_.build(domain.bounds(), boundary_, checked, limit, growth);
   look_at_new_tree(samples_of_leaves(domain.area()), beat);
   fit_tree(domain, limit, beat);

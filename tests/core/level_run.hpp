@@ -67,15 +67,15 @@ struct LevelRun {
     event_interval = settings.event_interval;
     level = std::make_unique<pnpbs::Level>(pnpbs::serial_communicator(), domain, spacing_of(d),
                                            settings, *timers);
-    level->lay_boundary();
+    level->discretize_boundary();
     level->grow_tree();
   }
 
   // n steps with the events between them.
   void steps(std::int64_t n, bool rebuild_always = false, bool population = true) {
     for (const std::int64_t last = steps_done + n; steps_done < last;) {
-      if (rebuild_always || level->lists_may_miss_a_pair()) level->rebuild_lists();
-      level->move();
+      if (rebuild_always || level->lists_need_rebuild()) level->rebuild_lists();
+      level->step();
       ++steps_done;
       if (steps_done % event_interval != 0) continue;
       level->refresh_spacing();

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "domain/clearance.hpp"
 #include "domain/domain_map.hpp"
-#include "domain/keep_off.hpp"
 #include "geometry/expect_error.hpp"
 #include "level_run.hpp"
 #include "predicates/plane.hpp"
@@ -35,7 +35,7 @@ struct Mapped {
   Mapped(const Build& build, const Plane& d, std::int64_t max_nodes = 1'000'000'000) {
     build(domain);
     domain.check();
-    boundary = pnpbs::lay_boundary(domain, evaluator_of(d), max_nodes);
+    boundary = pnpbs::discretize_boundary(domain, evaluator_of(d), max_nodes);
     map.build(domain.bounds(), boundary, evaluator_of(d), max_nodes);
   }
   Mapped(const Mapped&) = delete;
@@ -297,17 +297,17 @@ START_TEST(walls_hold) {
     if (gap_to_boundary(m, from) == 0) continue;
     const double reach = random.between(0, 0.5);
     const P to{from[0] + random.between(-reach, reach), from[1] + random.between(-reach, reach)};
-    const pnpbs::KeptOff kept = pnpbs::keep_off(m.map, edges, from, to, 0.11);
+    const pnpbs::ClearPosition kept = pnpbs::clear_position(m.map, edges, from, to, 0.11);
     quick_assert(m.map.inside(kept.position));
     ck_assert_int_eq(chamber(kept.position), chamber(from));
     const double gap = gap_to_boundary(m, kept.position);
-    quick_assert(kept.room == (gap >= 0.35 * 0.11) || std::fabs(gap - 0.35 * 0.11) < 1e-12);
+    quick_assert(kept.clear == (gap >= 0.35 * 0.11) || std::fabs(gap - 0.35 * 0.11) < 1e-12);
     if (m.map.inside(to) && chamber(to) == chamber(from) && gap_to_boundary(m, to) >= 0.4 * 0.11)
       quick_assert(kept.position == to);
     else
       ++held;
     // The chambers' corners have 84 degrees at least.
-    quick_assert(kept.room);
+    quick_assert(kept.clear);
   }
   ck_assert_int_gt(held, 5000);
 }
@@ -318,21 +318,21 @@ START_TEST(clearance_is_reached_where_there_is_room) {
   const Mapped m([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); }, constant(d));
   const std::vector<std::int32_t> edges = all_edges(m);
   const auto keep = [&](const P& from, const P& to) {
-    return pnpbs::keep_off(m.map, edges, from, to, d);
+    return pnpbs::clear_position(m.map, edges, from, to, d);
   };
   for (const double y : {0.3, 0.51, 0.777}) {
-    pnpbs::KeptOff kept = keep({0.06, y}, {0.01, y + 0.02});  // too near a side
-    quick_assert(kept.room);
+    pnpbs::ClearPosition kept = keep({0.06, y}, {0.01, y + 0.02});  // too near a side
+    quick_assert(kept.clear);
     ck_assert_double_eq_tol(kept.position[0], 0.04, 1e-15);
     ck_assert_double_eq_tol(kept.position[1], y + 0.02, 1e-15);
     kept = keep({0.06, y}, {-0.05, y});  // beyond it: back to where it was
-    quick_assert(kept.room);
+    quick_assert(kept.clear);
     quick_assert(kept.position == (P{0.06, y}));
     kept = keep({0.06, y}, {0, y});  // onto it
     quick_assert(kept.position == (P{0.06, y}));
   }
-  const pnpbs::KeptOff corner = keep({0.05, 0.05}, {0.01, 0.02});
-  quick_assert(corner.room);
+  const pnpbs::ClearPosition corner = keep({0.05, 0.05}, {0.01, 0.02});
+  quick_assert(corner.clear);
   ck_assert_double_eq_tol(corner.position[0], 0.04, 1e-15);
   ck_assert_double_eq_tol(corner.position[1], 0.04, 1e-15);
 }
@@ -352,8 +352,9 @@ START_TEST(tips_are_kept_off) {
   for (const double y : {0.5, 0.2}) {
     const double side = y == 0.5 ? -1 : 1;  // where there is room
     const P to{0.503, y + side * 0.02};
-    const pnpbs::KeptOff kept = pnpbs::keep_off(m.map, edges, {0.46, y + side * 0.05}, to, d);
-    quick_assert(kept.room);
+    const pnpbs::ClearPosition kept =
+        pnpbs::clear_position(m.map, edges, {0.46, y + side * 0.05}, to, d);
+    quick_assert(kept.clear);
     const double gap = std::hypot(kept.position[0] - 0.5, kept.position[1] - y);
     ck_assert_double_eq_tol(gap, 0.4 * d, 1e-15);
     // Straight away from the tip.
@@ -376,16 +377,16 @@ START_TEST(no_room_in_wedges_and_gaps) {
   for (int trial = 0; trial < 1000; ++trial) {
     const double x = random.between(0.01, 0.99), y = random.between(0.01, 0.99) * 0.05 * x;
     const P to{x + random.between(-0.02, 0.02), y + random.between(-0.02, 0.02)};
-    const pnpbs::KeptOff kept = pnpbs::keep_off(wedge.map, edges, {x, y}, to, d);
-    quick_assert(!kept.room);
+    const pnpbs::ClearPosition kept = pnpbs::clear_position(wedge.map, edges, {x, y}, to, d);
+    quick_assert(!kept.clear);
     quick_assert(wedge.map.inside(kept.position));
   }
   // Gaps between two walls: pushed to 0.4 d off the one, a node must be 0.35 d off the other.
   for (const double width : {0.068, 0.074, 0.076, 0.081}) {
     const Mapped gap([&](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, width)); }, constant(d));
-    const pnpbs::KeptOff kept =
-        pnpbs::keep_off(gap.map, all_edges(gap), {0.5, width / 2}, {0.52, width / 2}, d);
-    quick_assert(kept.room == (width > 0.075));
+    const pnpbs::ClearPosition kept =
+        pnpbs::clear_position(gap.map, all_edges(gap), {0.5, width / 2}, {0.52, width / 2}, d);
+    quick_assert(kept.clear == (width > 0.075));
     quick_assert(gap.map.inside(kept.position));
   }
 }

@@ -30,7 +30,7 @@ struct Filled {
   Filled(const Build& build, const Plane& d) {
     build(domain);
     domain.check();
-    boundary = pnpbs::lay_boundary(domain, evaluator_of(d));
+    boundary = pnpbs::discretize_boundary(domain, evaluator_of(d));
     map.build(domain.bounds(), boundary, evaluator_of(d), 1'000'000'000);
     const auto all = [](std::int32_t) { return true; };
     nodes = pnpbs::hexagonal_fill(map, domain.bounds(), all);

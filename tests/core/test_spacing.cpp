@@ -241,7 +241,7 @@ pnpbs::SteepestGrowth steepest_of(const Build& build, const Plane& d) {
   const pnpbs::SpacingEvaluator spacing = [&](std::int64_t n, const P* x, double* values) {
     for (std::int64_t i = 0; i < n; ++i) values[i] = d(x[i][0], x[i][1]);
   };
-  const pnpbs::Boundary boundary = pnpbs::lay_boundary(domain, spacing);
+  const pnpbs::Boundary boundary = pnpbs::discretize_boundary(domain, spacing);
   pnpbs::DomainMap map;
   map.build(domain.bounds(), boundary, spacing, {1'000'000'000});
   return pnpbs::steepest_growth(

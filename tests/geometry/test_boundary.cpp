@@ -41,7 +41,7 @@ SpacingEvaluator constant(double d) {
 
 Boundary lay(PlaneDomain& domain, const SpacingEvaluator& d) {
   domain.check();
-  return pnpbs::lay_boundary(domain, d);
+  return pnpbs::discretize_boundary(domain, d);
 }
 
 PlaneDomain lake(const char* name) {
@@ -376,15 +376,15 @@ START_TEST(bad_spacing) {
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity()}) {
     expect_error(pnpbs::ErrorKind::spacing, {"the spacing is ", " at (0, 0)"},
-                 [&] { pnpbs::lay_boundary(domain, constant(bad)); });
+                 [&] { pnpbs::discretize_boundary(domain, constant(bad)); });
   }
   expect_error(pnpbs::ErrorKind::spacing,
                {"would need about 4e+12 nodes", "the spacing is 1e-12 at"},
-               [&] { pnpbs::lay_boundary(domain, constant(1e-12)); });
+               [&] { pnpbs::discretize_boundary(domain, constant(1e-12)); });
   expect_error(pnpbs::ErrorKind::spacing, {"would need about 400 nodes, more than 300"},
-               [&] { pnpbs::lay_boundary(domain, constant(1e-2), 300); });
+               [&] { pnpbs::discretize_boundary(domain, constant(1e-2), 300); });
   expect_error(pnpbs::ErrorKind::spacing, {"would need about"}, [&] {
-    pnpbs::lay_boundary(domain, constant(std::numeric_limits<double>::denorm_min()));
+    pnpbs::discretize_boundary(domain, constant(std::numeric_limits<double>::denorm_min()));
   });
 }
 END_TEST
@@ -404,7 +404,7 @@ START_TEST(callbacks_that_change_their_mind) {
   domain.check();
   broken = true;
   expect_error(pnpbs::ErrorKind::argument, {"curve 0: the callback gave (", "nan"},
-               [&] { pnpbs::lay_boundary(domain, constant(0.1)); });
+               [&] { pnpbs::discretize_boundary(domain, constant(0.1)); });
 }
 END_TEST
 

@@ -34,9 +34,9 @@ class GiftWrap {
   bool looks_too_near() const {
     constexpr std::size_t kMany = 64;
     if (inner_ > 0 || around_.size() <= kMany || everything_ || boundary_ < 0) return false;
-    const std::int32_t edge = in_.fans.begin(boundary_);
-    if (edge == in_.fans.end(boundary_)) return false;
-    const auto other = static_cast<std::size_t>(in_.fans.edge(edge).other);
+    const std::int32_t edge = in_.sectors.begin(boundary_);
+    if (edge == in_.sectors.end(boundary_)) return false;
+    const auto other = static_cast<std::size_t>(in_.sectors.edge(edge).other);
     const Point<2>& a = in_.map.boundary().nodes[other].position;
     return std::none_of(around_.begin(), around_.end(), [&](const StarPoint& p) {
       return circle_diameter(centre_.position, a, p.position) <= reach_;
@@ -46,7 +46,7 @@ class GiftWrap {
   // False if nodes beyond the reach may matter. Where all are within reach, none can.
   bool wrap(std::vector<Entry>& star) {
     if (!listed_) find_edges();
-    if (boundary_ >= 0 && in_.fans.begin(boundary_) != in_.fans.end(boundary_))
+    if (boundary_ >= 0 && in_.sectors.begin(boundary_) != in_.sectors.end(boundary_))
       return wrap_sectors(star);
     const int first = nearest_visible();
     if (first < 0) return false;
@@ -111,20 +111,20 @@ class GiftWrap {
     inner_ = static_cast<std::size_t>(first_of_boundary - around_.begin());
   }
 
-  bool way_is_free_between(const StarPoint& a, const StarPoint& b) const {
-    return way_is_free(in_.map, in_.fans, a.position, in_.nodes.boundary_node(a.node), b.position,
-                       in_.nodes.boundary_node(b.node), edges_);
+  bool visible(const StarPoint& a, const StarPoint& b) const {
+    return visible_between(in_.map, in_.sectors, a.position, in_.nodes.boundary_node(a.node),
+                           b.position, in_.nodes.boundary_node(b.node), edges_);
   }
 
   bool sees_centre(int k) {
     signed char& known = sees_centre_[index(k)];
-    if (known < 0) known = way_is_free_between(centre_, around_[index(k)]);
+    if (known < 0) known = visible(centre_, around_[index(k)]);
     return known != 0;
   }
 
   bool is_edge(const StarPoint& a, const StarPoint& b) const {
     const std::int32_t p = in_.nodes.boundary_node(a.node), q = in_.nodes.boundary_node(b.node);
-    return p >= 0 && q >= 0 && in_.fans.joined(p, q);
+    return p >= 0 && q >= 0 && in_.sectors.joined(p, q);
   }
 
   int nearest_visible() {
@@ -148,7 +148,7 @@ class GiftWrap {
       const StarPoint& p = around_[k];
       if (!is_edge(a, p) && !is_edge(centre_, p)) continue;
       if (orientation(centre_.position, a.position, p.position) <= 0) continue;
-      if (sees_centre(static_cast<int>(k)) && way_is_free_between(a, p)) return static_cast<int>(k);
+      if (sees_centre(static_cast<int>(k)) && visible(a, p)) return static_cast<int>(k);
     }
     return -1;
   }
@@ -166,7 +166,7 @@ class GiftWrap {
                                 a.id, b.id, p.id) <= 0)
           continue;
       }
-      if (sees_centre(k) && way_is_free_between(a, p)) best = k;
+      if (sees_centre(k) && visible(a, p)) best = k;
     }
     return best;
   }
@@ -213,10 +213,10 @@ class GiftWrap {
 
   // A boundary node: sector by sector, each from one boundary edge to the next.
   bool wrap_sectors(std::vector<Entry>& star) {
-    const std::int32_t begin = in_.fans.begin(boundary_), end = in_.fans.end(boundary_);
+    const std::int32_t begin = in_.sectors.begin(boundary_), end = in_.sectors.end(boundary_);
     for (std::int32_t s = begin; s < end; ++s) {
-      const FanEdge& from = in_.fans.edge(s);
-      const FanEdge& to = in_.fans.edge(s + 1 < end ? s + 1 : begin);
+      const SectorEdge& from = in_.sectors.edge(s);
+      const SectorEdge& to = in_.sectors.edge(s + 1 < end ? s + 1 : begin);
       const int first = find_boundary_node(from.other), last = find_boundary_node(to.other);
       if (first < 0 || last < 0) return false;
       if (!from.inside_after) {

@@ -347,8 +347,8 @@ std::vector<double> bubbles_on_boundary(const Boundary& boundary) {
   return longest;
 }
 
-Boundary lay_boundary(const PlaneDomain& domain, const SpacingEvaluator& spacing,
-                      std::int64_t most_nodes) {
+Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator& spacing,
+                             std::int64_t most_nodes) {
   return Layer(domain, spacing, most_nodes).run();
 }
 

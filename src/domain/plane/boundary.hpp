@@ -43,8 +43,8 @@ struct Boundary {
 // the feature (edges shorter than half of d: the worst few are named, with the number of them),
 // and where a fixed node is closer than 0.4 d to an edge or to another fixed node.
 // Throws Error(ErrorKind::spacing) if there would be more than `most_nodes`.
-Boundary lay_boundary(const PlaneDomain& domain, const SpacingEvaluator& spacing,
-                      std::int64_t most_nodes = (std::int64_t{1} << 31) - 2);
+Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator& spacing,
+                             std::int64_t most_nodes = (std::int64_t{1} << 31) - 2);
 
 // How large the bubble of each boundary node may be. Where a boundary is far finer than d, as a
 // circle of thousands of segments, bubbles of diameter d would hold thousands of each other: there

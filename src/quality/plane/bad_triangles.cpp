@@ -73,8 +73,9 @@ bool BadTriangleRepair::spoils(const std::vector<double>& before,
 
 Point<2> BadTriangleRepair::allowed_place(std::int64_t i, const Point<2>& x) const {
   if (!near_edges_.any(i)) return x;
-  const KeptOff kept = keep_off(map_, near_edges_.edges_of(i), nodes_.position(i), x, nodes_.d(i));
-  return kept.room ? kept.position : nodes_.position(i);
+  const ClearPosition kept =
+      clear_position(map_, near_edges_.edges_of(i), nodes_.position(i), x, nodes_.d(i));
+  return kept.clear ? kept.position : nodes_.position(i);
 }
 
 void BadTriangleRepair::look_around(Candidate& candidate) const {

@@ -10,19 +10,19 @@
 
 namespace pnpbs {
 
-struct FanEdge {
+struct SectorEdge {
   std::int32_t other;  // boundary node at the far end
   std::int32_t edge;   // index of the edge
   bool inside_after;   // is the sector counter-clockwise of this edge inside?
 };
 
-class BoundaryFans {
+class IncidentSectors {
  public:
   void build(const Boundary& boundary);
 
   std::int32_t begin(std::int32_t node) const { return offset_[static_cast<std::size_t>(node)]; }
   std::int32_t end(std::int32_t node) const { return offset_[static_cast<std::size_t>(node) + 1]; }
-  const FanEdge& edge(std::int32_t k) const { return edges_[static_cast<std::size_t>(k)]; }
+  const SectorEdge& edge(std::int32_t k) const { return edges_[static_cast<std::size_t>(k)]; }
 
   bool joined(std::int32_t a, std::int32_t b) const;
 
@@ -42,7 +42,7 @@ class BoundaryFans {
   Sectors sectors_towards(const Boundary& boundary, std::int32_t node, const Point<2>& x) const;
 
   std::vector<std::int32_t> offset_;
-  std::vector<FanEdge> edges_;
+  std::vector<SectorEdge> edges_;
 };
 
 }  // namespace pnpbs

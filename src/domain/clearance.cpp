@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/keep_off.hpp"
+#include "domain/clearance.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -50,8 +50,8 @@ bool clear_of_all(const DomainMap& map, std::span<const std::int32_t> edges, con
 
 }  // namespace
 
-KeptOff keep_off(const DomainMap& map, std::span<const std::int32_t> edges, const Point<2>& from,
-                 const Point<2>& to, double d) {
+ClearPosition clear_position(const DomainMap& map, std::span<const std::int32_t> edges,
+                             const Point<2>& from, const Point<2>& to, double d) {
   const double wanted = kBoundaryClearance * d;
   if (clear_of_all(map, edges, from, to, wanted)) return {to, true};  // nearly always
   Point<2> x = crosses_any(map, edges, from, to) ? from : to;

@@ -8,12 +8,12 @@
 
 #include "base/nodes.hpp"
 #include "domain/domain_map.hpp"
-#include "domain/plane/boundary_fans.hpp"
+#include "domain/plane/incident_sectors.hpp"
 #include "neighbors/near_edges.hpp"
 
 namespace pnpbs {
 
-class BoundarySight {
+class BoundaryVisibility {
  public:
   // A new boundary of so many nodes.
   void reset(std::size_t boundary_nodes);
@@ -21,26 +21,26 @@ class BoundarySight {
   // Finds what the boundary nodes among these see within the radius of near_edges, times their d,
   // unless that is known.
   void look(const Nodes<2>& nodes, const NearEdges& near_edges, const DomainMap& map,
-            const BoundaryFans& fans);
+            const IncidentSectors& sectors);
 
   // Does boundary node b, one of those, see the boundary node c that near?
   bool sees(std::int32_t b, std::int32_t c) const;
 
  private:
   void look_from(const Nodes<2>& nodes, std::int64_t i, const NearEdges& near_edges,
-                 const DomainMap& map, const BoundaryFans& fans);
+                 const DomainMap& map, const IncidentSectors& sectors);
 
   std::vector<std::vector<std::int32_t>> seen_;  // from each boundary node, sorted
   std::vector<double> reach_;                    // how far; 0: nothing is known
 };
 
 // Who sees whom among the nodes, as lists ask.
-struct SightPastEdges {
+struct VisibilityPastEdges {
   const Nodes<2>& nodes;
   const NearEdges& near_edges;
-  const BoundarySight& boundary_sight;
+  const BoundaryVisibility& boundary_visibility;
   const DomainMap& map;
-  const BoundaryFans& fans;
+  const IncidentSectors& sectors;
 
   bool may_hide(std::int64_t i) const { return near_edges.any(i); }
 

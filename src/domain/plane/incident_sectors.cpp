@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/plane/boundary_fans.hpp"
+#include "domain/plane/incident_sectors.hpp"
 
 #include <algorithm>
 
@@ -24,7 +24,7 @@ int before(const Point<2>& centre, const Point<2>& a, const Point<2>& b) {
 
 }  // namespace
 
-void BoundaryFans::build(const Boundary& boundary) {
+void IncidentSectors::build(const Boundary& boundary) {
   const auto position = [&](std::int32_t n) {
     return boundary.nodes[static_cast<std::size_t>(n)].position;
   };
@@ -49,20 +49,21 @@ void BoundaryFans::build(const Boundary& boundary) {
   for (std::size_t n = 0; n < boundary.nodes.size(); ++n) {
     const Point<2> centre = boundary.nodes[n].position;
     std::sort(edges_.begin() + offset_[n], edges_.begin() + offset_[n + 1],
-              [&](const FanEdge& a, const FanEdge& b) {
+              [&](const SectorEdge& a, const SectorEdge& b) {
                 return before(centre, position(a.other), position(b.other)) > 0;
               });
   }
 }
 
-bool BoundaryFans::joined(std::int32_t a, std::int32_t b) const {
+bool IncidentSectors::joined(std::int32_t a, std::int32_t b) const {
   for (std::int32_t k = begin(a); k < end(a); ++k)
     if (edge(k).other == b) return true;
   return false;
 }
 
-BoundaryFans::Sectors BoundaryFans::sectors_towards(const Boundary& boundary, std::int32_t node,
-                                                    const Point<2>& x) const {
+IncidentSectors::Sectors IncidentSectors::sectors_towards(const Boundary& boundary,
+                                                          std::int32_t node,
+                                                          const Point<2>& x) const {
   const Point<2> centre = boundary.nodes[static_cast<std::size_t>(node)].position;
   // The last edge not after the direction of x; before the first edge, the last one holds.
   std::int32_t sector = end(node) - 1;
@@ -76,15 +77,15 @@ BoundaryFans::Sectors BoundaryFans::sectors_towards(const Boundary& boundary, st
   return {sector, sector};
 }
 
-bool BoundaryFans::leads_inside(const Boundary& boundary, std::int32_t node,
-                                const Point<2>& x) const {
+bool IncidentSectors::leads_inside(const Boundary& boundary, std::int32_t node,
+                                   const Point<2>& x) const {
   if (begin(node) == end(node)) return true;
   const Sectors sectors = sectors_towards(boundary, node, x);
   return edge(sectors.after).inside_after || edge(sectors.before).inside_after;
 }
 
-bool BoundaryFans::lets_pass(const Boundary& boundary, std::int32_t node, const Point<2>& x,
-                             const Point<2>& y) const {
+bool IncidentSectors::lets_pass(const Boundary& boundary, std::int32_t node, const Point<2>& x,
+                                const Point<2>& y) const {
   if (begin(node) == end(node)) return true;
   const Sectors from = sectors_towards(boundary, node, x), to = sectors_towards(boundary, node, y);
   for (const std::int32_t sector : {from.after, from.before})

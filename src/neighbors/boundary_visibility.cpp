@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "neighbors/boundary_sight.hpp"
+#include "neighbors/boundary_visibility.hpp"
 
 #include <algorithm>
 
@@ -29,24 +29,25 @@ bool holds(const std::vector<std::int32_t>& row, std::int32_t number) {
 
 }  // namespace
 
-void BoundarySight::reset(std::size_t boundary_nodes) {
+void BoundaryVisibility::reset(std::size_t boundary_nodes) {
   seen_.assign(boundary_nodes, {});
   reach_.assign(boundary_nodes, 0);
 }
 
-void BoundarySight::look(const Nodes<2>& nodes, const NearEdges& near_edges, const DomainMap& map,
-                         const BoundaryFans& fans) {
+void BoundaryVisibility::look(const Nodes<2>& nodes, const NearEdges& near_edges,
+                              const DomainMap& map, const IncidentSectors& sectors) {
   constexpr std::int64_t kChunk = 256;
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
-  for_each_guarded("pnpbs::BoundarySight::look", chunks, [&](std::int64_t chunk) {
+  for_each_guarded("pnpbs::BoundaryVisibility::look", chunks, [&](std::int64_t chunk) {
     const std::int64_t last = std::min((chunk + 1) * kChunk, nodes.count);
     for (std::int64_t i = chunk * kChunk; i < last; ++i)
-      if (!nodes.moves(i)) look_from(nodes, i, near_edges, map, fans);
+      if (!nodes.moves(i)) look_from(nodes, i, near_edges, map, sectors);
   });
 }
 
-void BoundarySight::look_from(const Nodes<2>& nodes, std::int64_t i, const NearEdges& near_edges,
-                              const DomainMap& map, const BoundaryFans& fans) {
+void BoundaryVisibility::look_from(const Nodes<2>& nodes, std::int64_t i,
+                                   const NearEdges& near_edges, const DomainMap& map,
+                                   const IncidentSectors& sectors) {
   constexpr double kRounding = 1 + 1e-9;
   const std::int32_t b = nodes.boundary_node(i);
   const auto index = static_cast<std::size_t>(b);
@@ -58,13 +59,13 @@ void BoundarySight::look_from(const Nodes<2>& nodes, std::int64_t i, const NearE
     const Point<2>& y = map.boundary().nodes[static_cast<std::size_t>(c)].position;
     if (c == b) return false;  // nobody asks, and the numbers stay consecutive
     return distance<2>(x, y) > kRounding * reach ||
-           !way_is_free(map, fans, x, b, y, c, near_edges.edges_of(i));
+           !visible_between(map, sectors, x, b, y, c, near_edges.edges_of(i));
   });
   seen_[index] = std::move(seen);
   reach_[index] = reach;
 }
 
-bool BoundarySight::sees(std::int32_t b, std::int32_t c) const {
+bool BoundaryVisibility::sees(std::int32_t b, std::int32_t c) const {
   constexpr std::size_t kFew = 32;
   const std::vector<std::int32_t>& row = seen_[static_cast<std::size_t>(b)];
   if (row.size() > kFew) return holds(row, c);
@@ -74,14 +75,14 @@ bool BoundarySight::sees(std::int32_t b, std::int32_t c) const {
   return seen;
 }
 
-bool SightPastEdges::sees_past_edges(std::int64_t wide, std::int64_t other) const {
+bool VisibilityPastEdges::sees_past_edges(std::int64_t wide, std::int64_t other) const {
   const std::int32_t b = nodes.boundary_node(wide), c = nodes.boundary_node(other);
-  if (b >= 0 && c >= 0) return boundary_sight.sees(b, c);
+  if (b >= 0 && c >= 0) return boundary_visibility.sees(b, c);
   if (b >= 0 && near_edges.leaves_boundary_behind(wide, b, other))
-    return fans.leads_inside(map.boundary(), b, near_edges.place_of(other));
+    return sectors.leads_inside(map.boundary(), b, near_edges.place_of(other));
   if (c >= 0 && near_edges.leaves_boundary_behind(other, c, wide))
-    return fans.leads_inside(map.boundary(), c, near_edges.place_of(wide));
-  return near_edges.way_between_is_free(nodes, map, fans, wide, other, wide);
+    return sectors.leads_inside(map.boundary(), c, near_edges.place_of(wide));
+  return near_edges.visible_past_edges(nodes, map, sectors, wide, other, wide);
 }
 
 }  // namespace pnpbs
