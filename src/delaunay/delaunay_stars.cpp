@@ -62,7 +62,8 @@ class StarWriter {
   double reach_of_list(std::int64_t i) {
     const Nodes<2>& nodes = in_.nodes;
     const double reach = least_reach(i);
-    const bool known = !rim_ || in_.known.covers(in_.map, box_around<2>(nodes.position(i), reach));
+    const bool known =
+        !rim_ || in_.known.covers(in_.map.tree(), box_around<2>(nodes.position(i), reach));
     return known ? reach : 0;
   }
 
@@ -78,7 +79,7 @@ class StarWriter {
       around.low[k] -= reach;
       around.high[k] += reach;
     }
-    rim_ = !in_.known.covers(in_.map, around);
+    rim_ = !in_.known.covers(in_.map.tree(), around);
   }
 
   StarPoint point(std::int64_t j) const {

@@ -25,7 +25,7 @@ struct StarInput {
   const Buckets<2>& buckets;
   const AdjacencyList<2>& lists;
   const NearEdges& near_edges;
-  const KnownRegion& known;
+  const KnownRegion<2>& known;
 };
 
 // Laid out like the lists: in blocks of kLanes nodes, the k-th neighbours of a block side by side.

@@ -105,7 +105,7 @@ std::vector<Point<2>> Level::graded_fill(const std::function<bool(std::int32_t)>
 // Where the tree is not refined here, the owners of the cells tell what is in them.
 std::vector<LeafSummary> Level::summaries_of_unrefined_leaves() const {
   if (!distributed()) return {};
-  const PartitionCells& cells = distribution_.cells();
+  const PartitionCells<2>& cells = distribution_.cells();
   const BackgroundTree<2>& tree = map_.tree();
   const std::vector<SpacingSummary> own = spacing_summaries(map_, {});
   struct CellSummary {

@@ -147,10 +147,10 @@ void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
 
 // Ghosts, and nodes that have drifted to us: those, others may have as ghosts.
 void Level::append_arriving(const Halo& halo, const std::vector<Bytes>& incoming) {
-  nodes_.reserve_with_room(nodes_.count + records_in<PackedNode>(incoming));
+  nodes_.reserve_with_room(nodes_.count + records_in<PackedNode<2>>(incoming));
   std::int32_t leaf = -1;  // nodes of the same one come together
-  for_records<PackedNode>(incoming, [&](const PackedNode& node) {
-    leaf = map_.tree().leaf_at({node.x[0], node.x[1]}, leaf);
+  for_records<PackedNode<2>>(incoming, [&](const PackedNode<2>& node) {
+    leaf = map_.tree().leaf_at(node.x, leaf);
     const auto i = static_cast<std::int32_t>(nodes_.count);
     append(nodes_, node, distribution_.owns(leaf));
     if (distribution_.owns(leaf))
@@ -165,11 +165,11 @@ void Level::append_arriving(const Halo& halo, const std::vector<Bytes>& incoming
 // next exchange.
 void Level::migrate() {
   const PhaseTimer timer(timers_, Phase::exchange);
-  std::vector<PackedNode> leaving;
+  std::vector<PackedNode<2>> leaving;
   const View<std::int32_t> stay = nodes_.order_scratch();
   std::int64_t kept = 0;
-  const auto owner_at = [this](const PackedNode& node) {
-    return distribution_.owner_at({node.x[0], node.x[1]});
+  const auto owner_at = [this](const PackedNode<2>& node) {
+    return distribution_.owner_at(node.x);
   };
   for (std::int64_t i = 0; i < nodes_.count; ++i) {
     if (!nodes_.owned(i)) continue;
@@ -178,11 +178,11 @@ void Level::migrate() {
     else
       leaving.push_back(packed(nodes_, i));
   }
-  const std::vector<PackedNode> arriving = redistribute(*comm_, leaving, owner_at);
+  const std::vector<PackedNode<2>> arriving = redistribute(*comm_, leaving, owner_at);
   agreed(*comm_,
          [&] { nodes_.reserve_with_room(kept + static_cast<std::int64_t>(arriving.size())); });
   keep_nodes(stay, kept);
-  for (const PackedNode& node : arriving) append(nodes_, node, true);
+  for (const PackedNode<2>& node : arriving) append(nodes_, node, true);
   ++version_;
   ghost_hops_ = 0;
   lists_valid_ = false;

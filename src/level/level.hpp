@@ -130,7 +130,7 @@ class Level {
   // Of this rank: ranks it exchanges ghosts with, and what it sends when they are renewed.
   std::int64_t neighbour_ranks() const { return plan_.neighbour_count(); }
   std::int64_t renewal_bytes() const {
-    return plan_.nodes_sent() * static_cast<std::int64_t>(HaloExchange::kRecordSize<2>);
+    return plan_.nodes_sent() * static_cast<std::int64_t>(HaloExchange<2>::kRecordSize);
   }
   // Of this rank, as counted after the last event: listed pairs, and as many again per node.
   std::int64_t owned_work() const { return owned_work_; }
@@ -167,25 +167,27 @@ class Level {
   SpacingEvaluator evaluator() const;
 
   // --- the partition ---
-  void require_same_ground(const PartitionCells& cells) const;
+  void require_same_ground(const PartitionCells<2>& cells) const;
   void require_same_leaves() const;
   void look_at_new_tree();
   void forget_what_goes_by_leaves();
-  std::vector<PartitionCell> rough_cells();
+  std::vector<PartitionCell<2>> rough_cells();
   std::vector<std::int64_t> expected_work() const;
   void refine_tree(const std::vector<char>& refined);
   void link_leaves();
   void grow_own_part();
   std::function<bool(std::int32_t)> owns_leaf() const;
+  LeafFunctions leaf_functions(std::vector<std::int64_t> work) const;
   void take_rough_cells();
-  std::vector<std::int32_t> cut_on_first_rank(const PartitionCells& cells) const;
-  std::vector<std::int32_t> cut_like(const Distribution& other, const PartitionCells& cells) const;
+  std::vector<std::int32_t> cut_on_first_rank(const PartitionCells<2>& cells) const;
+  std::vector<std::int32_t> cut_like(const Distribution<2>& other,
+                                     const PartitionCells<2>& cells) const;
   std::int64_t node_work(std::int64_t i) const;
   std::vector<std::int64_t> counted_work() const;
-  std::vector<std::int32_t> keep_numbers(const PartitionCells& cells,
+  std::vector<std::int32_t> keep_numbers(const PartitionCells<2>& cells,
                                          std::vector<std::int32_t> part,
                                          const std::vector<std::int64_t>& work) const;
-  void adopt(Distribution next);
+  void adopt(Distribution<2> next);
   void count_work();
 
   // --- exchange ---
@@ -227,7 +229,7 @@ class Level {
   void keep_boundary_ids(const GivenNodes& given);
   void make_lists_and_stars(int hops, double radius, int rings);
   void make_stars(int hops, double radius, int rings);
-  KnownRegion known_after_exchange(int hops);
+  KnownRegion<2> known_after_exchange(int hops);
   std::vector<Box<2>> unknown_around_stars(int rings) const;
   std::vector<std::int64_t> neighbours_of(const std::vector<std::int64_t>& front,
                                           std::vector<char>& reached) const;
@@ -273,9 +275,9 @@ class Level {
   std::int64_t next_id_ = 0;
 
   std::shared_ptr<const LeafLinks<2>> links_;  // leaves of which one reaches the other
-  Distribution distribution_;
+  Distribution<2> distribution_;
   int tree_hops_ = 0;  // the tree is refined so far around the leaves we own
-  HaloExchange plan_;
+  HaloExchange<2> plan_;
   int ghost_hops_ = 0;         // ghosts reach so far; 0: they must be chosen anew
   bool ghosts_exact_ = false;  // nothing has moved since they came
   std::int64_t steps_since_choice_ = 0;
@@ -288,7 +290,7 @@ class Level {
   AdjacencyList<2> lists_;
   DelaunayStars stars_;
   std::vector<EdgeBand> edge_bands_;
-  KnownRegion known_;  // while stars are made: where all nodes are known
+  KnownRegion<2> known_;  // while stars are made: where all nodes are known
 
   Field<2> next_;    // positions after the move in progress
   Field<2> listed_;  // positions at which the lists were made

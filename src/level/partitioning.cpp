@@ -54,24 +54,24 @@ void Level::grow_tree(const Level* like) {
   for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
     own.push_back(distribution_.owner_of_cell(c) == comm_->rank());
   refine_tree(own);
-  PartitionCells cells(domain_->bounds(),
-                       cells_of_equal_work(*comm_, map_, owns_leaf(), expected_work()));
+  PartitionCells<2> cells(
+      domain_->bounds(), cells_of_equal_work(*comm_, map_.tree(), leaf_functions(expected_work())));
   std::vector<std::int32_t> owner =
       like ? cut_like(like->distribution_, cells) : cut_on_first_rank(cells);
-  distribution_ = Distribution(std::move(cells), std::move(owner), comm_->rank());
+  distribution_ = Distribution<2>(std::move(cells), std::move(owner), comm_->rank());
   grow_own_part();
 }
 
 // By a few samples of d.
 void Level::take_rough_cells() {
-  PartitionCells cells(domain_->bounds(), rough_cells());
+  PartitionCells<2> cells(domain_->bounds(), rough_cells());
   std::vector<std::int32_t> owner = cut_morton_order(cells.work(), comm_->size());
-  distribution_ = Distribution(std::move(cells), std::move(owner), comm_->rank());
+  distribution_ = Distribution<2>(std::move(cells), std::move(owner), comm_->rank());
 }
 
 // What one level hands on to the next then stays where it is.
-std::vector<std::int32_t> Level::cut_like(const Distribution& other,
-                                          const PartitionCells& cells) const {
+std::vector<std::int32_t> Level::cut_like(const Distribution<2>& other,
+                                          const PartitionCells<2>& cells) const {
   constexpr double kBalanced = 1.05;  // a coarse level has few nodes, and little of the work
   std::vector<std::int32_t> owner;
   for (std::int32_t c = 0; c < cells.count(); ++c)
@@ -89,7 +89,7 @@ constexpr const char* kSpacingsDiffer =
 }  // namespace
 
 // Ranks whose callbacks tell different things would wait for each other for ever.
-void Level::require_same_ground(const PartitionCells& cells) const {
+void Level::require_same_ground(const PartitionCells<2>& cells) const {
   std::uint64_t fingerprint = 0;
   for (const BoundaryNode& node : boundary_.nodes)
     for (double coordinate : node.position) fingerprint = mixed_with(fingerprint, coordinate);
@@ -130,7 +130,7 @@ void Level::look_at_new_tree() {
 
 void Level::forget_what_goes_by_leaves() {
   buckets_.reset(links_);
-  plan_ = HaloExchange();
+  plan_ = HaloExchange<2>();
   ghost_hops_ = 0;
   lists_valid_ = false;
 }
@@ -139,8 +139,17 @@ std::function<bool(std::int32_t)> Level::owns_leaf() const {
   return [this](std::int32_t leaf) { return distribution_.owns(leaf); };
 }
 
+LeafFunctions Level::leaf_functions(std::vector<std::int64_t> work) const {
+  return {
+      owns_leaf(),
+      [work = std::move(work)](std::int32_t leaf) { return work[static_cast<std::size_t>(leaf)]; },
+      [this](std::int32_t leaf) {
+        return map_.leaf_outside(leaf) ? 0 : map_.leaf_largest_spacing(leaf);
+      }};
+}
+
 // From samples of d in large cells, the same on every rank: enough to begin with.
-std::vector<PartitionCell> Level::rough_cells() {
+std::vector<PartitionCell<2>> Level::rough_cells() {
   constexpr int kUniformDepth = 3, kPasses = 3, kCellsPerRank = 32;
   double most = std::numeric_limits<double>::infinity();
   std::vector<std::int64_t> work;
@@ -153,7 +162,7 @@ std::vector<PartitionCell> Level::rough_cells() {
     most = static_cast<double>(std::accumulate(work.begin(), work.end(), std::int64_t{0})) /
            (kWorkPerNode * kCellsPerRank * comm_->size());
   }
-  std::vector<PartitionCell> cells;
+  std::vector<PartitionCell<2>> cells;
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
     const BackgroundTree<2>::Cell& cell = map_.tree().cell(map_.tree().leaf_cell(leaf));
     cells.push_back({cell.index, cell.depth, work[static_cast<std::size_t>(leaf)],
@@ -219,7 +228,7 @@ void Level::grow_own_part() {
   look_at_new_tree();
 }
 
-std::vector<std::int32_t> Level::cut_on_first_rank(const PartitionCells& cells) const {
+std::vector<std::int32_t> Level::cut_on_first_rank(const PartitionCells<2>& cells) const {
   Bytes bytes;
   agreed(*comm_, [&] {
     if (comm_->rank() == 0)
@@ -273,9 +282,10 @@ void Level::rebalance() {
   agreed(*comm_, [this] { rebuild_lists(); });
   const PhaseTimer timer(timers_, Phase::partition);
   const std::vector<std::int64_t> work = counted_work();
-  PartitionCells cells(domain_->bounds(), cells_of_equal_work(*comm_, map_, owns_leaf(), work));
+  PartitionCells<2> cells(domain_->bounds(),
+                          cells_of_equal_work(*comm_, map_.tree(), leaf_functions(work)));
   std::vector<std::int32_t> owner = keep_numbers(cells, cut_on_first_rank(cells), work);
-  adopt(Distribution(std::move(cells), std::move(owner), comm_->rank()));
+  adopt(Distribution<2>(std::move(cells), std::move(owner), comm_->rank()));
   migrate();
   exchange(step_hops());
   work_is_old_ = true;
@@ -284,7 +294,7 @@ void Level::rebalance() {
 }
 
 // Parts get the numbers that let most of the work stay where it is.
-std::vector<std::int32_t> Level::keep_numbers(const PartitionCells& cells,
+std::vector<std::int32_t> Level::keep_numbers(const PartitionCells<2>& cells,
                                               std::vector<std::int32_t> part,
                                               const std::vector<std::int64_t>& work) const {
   const auto ranks = static_cast<std::size_t>(comm_->size()),
@@ -303,11 +313,11 @@ std::vector<std::int32_t> Level::keep_numbers(const PartitionCells& cells,
 
 // The nodes are yet to migrate. If it fails, all stays as it was; putting it back asks for no
 // memory, there may be none.
-void Level::adopt(Distribution next) {
+void Level::adopt(Distribution<2> next) {
   DomainMap map_before = std::move(map_);
   NearEdges near_edges_before =
       std::exchange(near_edges_, {});  // a View moved from is no empty one
-  Distribution before = std::exchange(distribution_, std::move(next));
+  Distribution<2> before = std::exchange(distribution_, std::move(next));
   std::shared_ptr<const LeafLinks<2>> links_before = links_;
   try {
     grow_own_part();

@@ -56,21 +56,21 @@ void Level::make_stars(int hops, double radius, int rings) {
     fetch_nodes_in(unknown);
     agreed(*comm_, [&] { rebuild_lists(radius); });
   }
-  known_ = KnownRegion();
+  known_ = KnownRegion<2>();
 }
 
-KnownRegion Level::known_after_exchange(int hops) {
+KnownRegion<2> Level::known_after_exchange(int hops) {
   if (!distributed()) return {};
   const Halo& halo = halo_of(hops);
-  std::vector<char> held(static_cast<std::size_t>(map_.tree().leaf_count()), 0);
+  std::vector<char> known(static_cast<std::size_t>(map_.tree().leaf_count()), 0);
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
-    held[static_cast<std::size_t>(leaf)] = distribution_.owns(leaf);
+    known[static_cast<std::size_t>(leaf)] = distribution_.owns(leaf) || map_.leaf_outside(leaf);
     if (distribution_.refined(leaf))
       halo.for_ranks(leaf, [&](int r) {
-        if (r == comm_->rank()) held[static_cast<std::size_t>(leaf)] = 1;
+        if (r == comm_->rank()) known[static_cast<std::size_t>(leaf)] = 1;
       });
   }
-  return KnownRegion(map_, held);
+  return KnownRegion<2>(map_.tree(), known);
 }
 
 // Those not reached yet.
@@ -131,7 +131,7 @@ void Level::fetch_nodes_in(const std::vector<Box<2>>& boxes) {
   agreed(*comm_, [&] {
     for (const Message& theirs : found) {
       plan_.add_neighbour(theirs.rank);
-      for_records<PackedNode>({theirs.bytes}, [&](const PackedNode& node) {
+      for_records<PackedNode<2>>({theirs.bytes}, [&](const PackedNode<2>& node) {
         plan_.receive(theirs.rank, static_cast<std::int32_t>(nodes_.count));
         append(nodes_, node, false);
       });

@@ -12,9 +12,10 @@ namespace {
 
 // Which ranks need the nodes of each leaf, spread hop by hop: a leaf is needed by all who need one
 // of its neighbours.
+template <int Dim>
 class Needs {
  public:
-  Needs(const LeafGraph<2>& graph, const Distribution& distribution, std::int32_t leaves)
+  Needs(const LeafGraph<Dim>& graph, const Distribution<Dim>& distribution, std::int32_t leaves)
       : graph_(graph), distribution_(distribution), others_(static_cast<std::size_t>(leaves)) {
     // Two leaves of different owners: one of them is another rank's.
     std::vector<char> at_rim(others_.size(), 0);
@@ -51,14 +52,15 @@ class Needs {
   }
 
  private:
-  const LeafGraph<2>& graph_;
-  const Distribution& distribution_;
+  const LeafGraph<Dim>& graph_;
+  const Distribution<Dim>& distribution_;
   std::vector<std::vector<std::int32_t>> others_;
   std::vector<std::pair<std::int32_t, std::int32_t>> front_;  // leaf and rank that came last
 };
 
-Box<2> widened(Box<2> box, double way) {
-  for (int k = 0; k < 2; ++k) {
+template <int Dim>
+Box<Dim> widened(Box<Dim> box, double way) {
+  for (int k = 0; k < Dim; ++k) {
     box.low[k] -= way;
     box.high[k] += way;
   }
@@ -66,8 +68,10 @@ Box<2> widened(Box<2> box, double way) {
 }
 
 // The leaves within so many hops of these, and they themselves; marks them.
-std::vector<std::int32_t> reached_from(const LeafGraph<2>& graph, std::vector<std::int32_t> leaves,
-                                       int hops, std::vector<char>& reached) {
+template <int Dim>
+std::vector<std::int32_t> reached_from(const LeafGraph<Dim>& graph,
+                                       std::vector<std::int32_t> leaves, int hops,
+                                       std::vector<char>& reached) {
   for (std::int32_t leaf : leaves) reached[static_cast<std::size_t>(leaf)] = 1;
   std::size_t first = 0;  // of those that the last hop reached
   for (int hop = 0; hop < hops; ++hop) {
@@ -87,35 +91,40 @@ std::vector<std::int32_t> reached_from(const LeafGraph<2>& graph, std::vector<st
 
 // A graph of all cells would tell as well, but with many ranks it is far larger than what a rank
 // needs of it.
-std::vector<char> Distribution::cells_near_own(int hops, double reach) const {
-  const BackgroundTree<2>& tree = cells_.tree();
+template <int Dim>
+std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) const {
+  const BackgroundTree<Dim>& tree = cells_.tree();
   const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
   // A hop goes as far as a bubble reaches and to the far side of the leaf it finds there.
   const auto way = [&](std::int32_t c) { return hops * (reach + 2) * cells_.largest_spacing(c); };
   std::vector<char> found(static_cast<std::size_t>(cells_.count()), 0);
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  Box<2> around_own{{kNone, kNone}, {-kNone, -kNone}};
+  Box<Dim> around_own;
+  around_own.low.fill(kNone);
+  around_own.high.fill(-kNone);
   for (std::int32_t c = 0; c < cells_.count(); ++c) {
     if (owner_of_cell(c) != rank_) continue;
-    const Box<2> own = box(c);
-    for (int k = 0; k < 2; ++k) {
+    const Box<Dim> own = box(c);
+    for (int k = 0; k < Dim; ++k) {
       around_own.low[k] = std::min(around_own.low[k], own.low[k]);
       around_own.high[k] = std::max(around_own.high[k], own.high[k]);
     }
     found[static_cast<std::size_t>(c)] = 1;
     tree.for_leaves_in(widened(own, way(c)), [&](std::int32_t n) {
-      if (squared_gap<2>(own, box(n)) <= way(c) * way(c)) found[static_cast<std::size_t>(n)] = 1;
+      if (squared_gap<Dim>(own, box(n)) <= way(c) * way(c)) found[static_cast<std::size_t>(n)] = 1;
     });
   }
   // Those with bubbles so much larger than ours that only they reach as far.
   for (std::int32_t c = 0; c < cells_.count(); ++c)
     if (!found[static_cast<std::size_t>(c)] &&
-        squared_gap<2>(box(c), around_own) <= way(c) * way(c))
+        squared_gap<Dim>(box(c), around_own) <= way(c) * way(c))
       found[static_cast<std::size_t>(c)] = near(box(c), rank_, way(c));
   return found;
 }
 
-void Distribution::take_leaves(const BackgroundTree<2>* tree, const std::vector<char>& refined) {
+template <int Dim>
+void Distribution<Dim>::take_leaves(const BackgroundTree<Dim>* tree,
+                                    const std::vector<char>& refined) {
   tree_ = tree;
   refined_ = refined;
   halos_.clear();
@@ -125,7 +134,9 @@ void Distribution::take_leaves(const BackgroundTree<2>* tree, const std::vector<
 }
 
 // The largest reach of a bubble within so many hops of each of these leaves, at their places.
-std::vector<double> Distribution::reach_within(int hops, std::vector<std::int32_t> leaves) const {
+template <int Dim>
+std::vector<double> Distribution<Dim>::reach_within(int hops,
+                                                    std::vector<std::int32_t> leaves) const {
   std::vector<char> reached(cell_of_leaf_.size(), 0);
   leaves = reached_from(links_->graph, std::move(leaves), hops, reached);
   std::vector<double> most = links_->reach, before;
@@ -141,17 +152,19 @@ std::vector<double> Distribution::reach_within(int hops, std::vector<std::int32_
 }
 
 // Does the rank own something as near as that?
-bool Distribution::near(const Box<2>& box, int rank, double way) const {
+template <int Dim>
+bool Distribution<Dim>::near(const Box<Dim>& box, int rank, double way) const {
   bool found = false;
-  const BackgroundTree<2>& tree = cells_.tree();
+  const BackgroundTree<Dim>& tree = cells_.tree();
   tree.for_leaves_in(widened(box, way), [&](std::int32_t cell) {
     found = found || (owner_of_cell(cell) == rank &&
-                      squared_gap<2>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way);
+                      squared_gap<Dim>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way);
   });
   return found;
 }
 
-std::vector<char> Distribution::leaves_within(int hops) const {
+template <int Dim>
+std::vector<char> Distribution<Dim>::leaves_within(int hops) const {
   const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
   std::vector<char> reached(static_cast<std::size_t>(leaves), 0);
   std::vector<std::int32_t> own;
@@ -161,7 +174,8 @@ std::vector<char> Distribution::leaves_within(int hops) const {
   return reached;
 }
 
-std::vector<std::int32_t> Distribution::unrefined_within(int hops) const {
+template <int Dim>
+std::vector<std::int32_t> Distribution<Dim>::unrefined_within(int hops) const {
   const std::vector<char> reached = leaves_within(hops);
   std::set<std::int32_t> found;
   for (std::int32_t leaf = 0; leaf < static_cast<std::int32_t>(reached.size()); ++leaf)
@@ -169,11 +183,12 @@ std::vector<std::int32_t> Distribution::unrefined_within(int hops) const {
   return {found.begin(), found.end()};
 }
 
-const Halo& Distribution::halo(int hops, double hop_share) {
+template <int Dim>
+const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
   const auto known = halos_.find(hops);
   if (known != halos_.end()) return known->second;
   const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
-  Needs needs(links_->graph, *this, leaves);
+  Needs<Dim> needs(links_->graph, *this, leaves);
   for (int hop = 0; hop < hops; ++hop) needs.spread();
   std::vector<std::int32_t> needed;
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
@@ -182,7 +197,7 @@ const Halo& Distribution::halo(int hops, double hop_share) {
   Halo halo;
   halo.offset_.push_back(0);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    const Box<2> box = tree_->cell_box(tree_->leaf_cell(leaf));
+    const Box<Dim> box = tree_->cell_box(tree_->leaf_cell(leaf));
     for (std::int32_t rank : needs.of(static_cast<std::size_t>(leaf)))
       if (near(box, rank, hops * hop_share * reach[static_cast<std::size_t>(leaf)]))
         halo.ranks_.push_back(rank);
@@ -207,9 +222,10 @@ const Halo& Distribution::halo(int hops, double hop_share) {
   return halos_.emplace(hops, std::move(halo)).first->second;
 }
 
-std::vector<std::int64_t> Distribution::prefix_sums(const Communicator& comm,
-                                                    std::vector<std::int64_t> counts,
-                                                    std::int64_t& start) const {
+template <int Dim>
+std::vector<std::int64_t> Distribution<Dim>::prefix_sums(const Communicator& comm,
+                                                         std::vector<std::int64_t> counts,
+                                                         std::int64_t& start) const {
   const auto cell = [this](std::size_t leaf) {
     return owner_.empty() ? 0 : static_cast<std::size_t>(cell_of_leaf_[leaf]);
   };
@@ -222,5 +238,8 @@ std::vector<std::int64_t> Distribution::prefix_sums(const Communicator& comm,
     counts[leaf] = std::exchange(next[cell(leaf)], next[cell(leaf)] + counts[leaf]);
   return counts;
 }
+
+template class Distribution<2>;
+template class Distribution<3>;
 
 }  // namespace pnpbs

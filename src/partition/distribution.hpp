@@ -34,30 +34,32 @@ class Halo {
   const std::vector<int>& neighbours() const { return neighbours_; }
 
  private:
+  template <int Dim>
   friend class Distribution;
   std::vector<std::int32_t> offset_, ranks_;  // the owner is not among them
   std::vector<char> quiet_;
   std::vector<int> neighbours_;
 };
 
+template <int Dim>
 class Distribution {
  public:
   Distribution() = default;  // one rank, which owns all
-  Distribution(PartitionCells cells, std::vector<std::int32_t> owner, int rank)
+  Distribution(PartitionCells<Dim> cells, std::vector<std::int32_t> owner, int rank)
       : cells_(std::move(cells)), owner_(std::move(owner)), rank_(rank) {}
 
   // The same cells and owners, for another tree.
   Distribution without_leaves() const { return Distribution(cells_, owner_, rank_); }
 
-  const PartitionCells& cells() const { return cells_; }
+  const PartitionCells<Dim>& cells() const { return cells_; }
   int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
-  int owner_at(const Point<2>& x) const { return owner_of_cell(cells_.at(x)); }
+  int owner_at(const Point<Dim>& x) const { return owner_of_cell(cells_.at(x)); }
   // Cells that may hold ghosts: those within some hops of a bubble of ours, by the largest d.
   std::vector<char> cells_near_own(int hops, double reach) const;
 
   // --- once the tree is refined in the cells marked ---
-  void take_leaves(const BackgroundTree<2>* tree, const std::vector<char>& refined);
-  void link_leaves(std::shared_ptr<const LeafLinks<2>> links) { links_ = std::move(links); }
+  void take_leaves(const BackgroundTree<Dim>* tree, const std::vector<char>& refined);
+  void link_leaves(std::shared_ptr<const LeafLinks<Dim>> links) { links_ = std::move(links); }
   bool cell_refined(std::int32_t cell) const {
     return refined_[static_cast<std::size_t>(cell)] != 0;
   }
@@ -83,18 +85,21 @@ class Distribution {
                                         std::int64_t& start) const;
 
  private:
-  PartitionCells cells_;
+  PartitionCells<Dim> cells_;
   std::vector<std::int32_t> owner_;  // of the cells; empty: one rank
   int rank_ = 0;
 
-  const BackgroundTree<2>* tree_ = nullptr;
-  std::shared_ptr<const LeafLinks<2>> links_;  // leaves that interact
+  const BackgroundTree<Dim>* tree_ = nullptr;
+  std::shared_ptr<const LeafLinks<Dim>> links_;  // leaves that interact
   std::vector<std::int32_t> cell_of_leaf_;
   std::vector<char> refined_;  // cells
   std::map<int, Halo> halos_;
 
   std::vector<double> reach_within(int hops, std::vector<std::int32_t> leaves) const;
-  bool near(const Box<2>& box, int rank, double way) const;
+  bool near(const Box<Dim>& box, int rank, double way) const;
 };
+
+extern template class Distribution<2>;
+extern template class Distribution<3>;
 
 }  // namespace pnpbs

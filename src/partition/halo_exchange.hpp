@@ -14,6 +14,7 @@
 
 namespace pnpbs {
 
+template <int Dim>
 class HaloExchange {
  public:
   void start(const std::vector<int>& neighbours, int ranks) {
@@ -50,19 +51,17 @@ class HaloExchange {
     return static_cast<std::int64_t>(nodes);
   }
   // Of a node's position and velocity.
-  template <int Dim>
   static constexpr std::size_t kRecordSize = 2 * Dim * sizeof(double);
 
   // Both sides put their lists into the order of ids, so that they match, and make the buffers.
-  template <int Dim>
   void build(const Nodes<Dim>& nodes) {
     for (auto* lists : {&send_, &receive_})
       for (std::vector<std::int32_t>& list : *lists)
         std::sort(list.begin(), list.end(),
                   [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      outgoing_[k].resize(send_[k].size() * kRecordSize<Dim>);
-      incoming_[k].resize(receive_[k].size() * kRecordSize<Dim>);
+      outgoing_[k].resize(send_[k].size() * kRecordSize);
+      incoming_[k].resize(receive_[k].size() * kRecordSize);
     }
   }
 
@@ -78,7 +77,6 @@ class HaloExchange {
   }
 
   // Owners send positions and velocities. All neighbours at the same time.
-  template <int Dim>
   void update(const Communicator& comm, const Nodes<Dim>& nodes) {
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
       char* out = outgoing_[k].data();

@@ -7,52 +7,55 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/domain_map.hpp"
+#include "tree/background_tree.hpp"
 
 namespace pnpbs {
 
+template <int Dim>
 class KnownRegion {
  public:
   KnownRegion() = default;  // everywhere
-  KnownRegion(const DomainMap& map, const std::vector<char>& held_leaves);
+  // Known leaves: those whose nodes are held, and those outside the domain, which have none.
+  KnownRegion(const BackgroundTree<Dim>& tree, const std::vector<char>& known_leaves);
 
   bool is_everywhere() const { return unknown_in_.empty(); }
-  void add(const Box<2>& box) { boxes_.push_back(box); }
+  void add(const Box<Dim>& box) { boxes_.push_back(box); }
 
-  // Is all of the box known that lies in the domain?
-  bool covers(const DomainMap& map, const Box<2>& box) const {
+  // Is all of the box known?
+  bool covers(const BackgroundTree<Dim>& tree, const Box<Dim>& box) const {
     if (is_everywhere()) return true;
     if (std::any_of(boxes_.begin(), boxes_.end(),
-                    [&](const Box<2>& known) { return contains(known, box); }))
+                    [&](const Box<Dim>& known) { return contains(known, box); }))
       return true;
     bool all = true;
     const auto look = [&](std::int32_t cell) {
       return all && unknown_in_[static_cast<std::size_t>(cell)] != 0;
     };
-    map.tree().for_leaves_in(box, look, [&](std::int32_t) { all = false; });
+    tree.for_leaves_in(box, look, [&](std::int32_t) { all = false; });
     return all;
   }
 
  private:
-  static bool contains(const Box<2>& outer, const Box<2>& inner) {
-    for (int k = 0; k < 2; ++k)
+  static bool contains(const Box<Dim>& outer, const Box<Dim>& inner) {
+    for (int k = 0; k < Dim; ++k)
       if (inner.low[k] < outer.low[k] || inner.high[k] > outer.high[k]) return false;
     return true;
   }
 
   std::vector<char> unknown_in_;  // of each cell of the tree, is any leaf; empty: all are known
-  std::vector<Box<2>> boxes_;
+  std::vector<Box<Dim>> boxes_;
 };
 
-inline KnownRegion::KnownRegion(const DomainMap& map, const std::vector<char>& held_leaves)
-    : unknown_in_(static_cast<std::size_t>(map.tree().cell_count()), 0) {
+template <int Dim>
+KnownRegion<Dim>::KnownRegion(const BackgroundTree<Dim>& tree,
+                              const std::vector<char>& known_leaves)
+    : unknown_in_(static_cast<std::size_t>(tree.cell_count()), 0) {
   // Children come behind their parents.
-  for (std::int32_t c = map.tree().cell_count() - 1; c >= 0; --c) {
-    const BackgroundTree<2>::Cell& cell = map.tree().cell(c);
+  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {
+    const typename BackgroundTree<Dim>::Cell& cell = tree.cell(c);
     char& unknown = unknown_in_[static_cast<std::size_t>(c)];
-    if (cell.first_child < 0)
-      unknown = !held_leaves[static_cast<std::size_t>(cell.leaf)] && !map.leaf_outside(cell.leaf);
-    for (int k = 0; cell.first_child >= 0 && k < BackgroundTree<2>::kChildren; ++k)
+    if (cell.first_child < 0) unknown = !known_leaves[static_cast<std::size_t>(cell.leaf)];
+    for (int k = 0; cell.first_child >= 0 && k < BackgroundTree<Dim>::kChildren; ++k)
       unknown = unknown || unknown_in_[static_cast<std::size_t>(cell.first_child + k)];
   }
 }

@@ -8,26 +8,25 @@
 
 namespace pnpbs {
 
+template <int Dim>
 struct PackedNode {
   std::int64_t id;
-  double x[2], v[2], anchor[2], d;
+  Point<Dim> x, v, anchor;
+  double d;
   std::int32_t tag, boundary_node;
 };
 
-inline PackedNode packed(const Nodes<2>& nodes, std::int64_t i) {
-  return {nodes.id(i),
-          {nodes.x[0](i), nodes.x[1](i)},
-          {nodes.v[0](i), nodes.v[1](i)},
-          {nodes.anchor[0](i), nodes.anchor[1](i)},
-          nodes.d(i),
-          nodes.tag(i),
-          nodes.boundary_node(i)};
+template <int Dim>
+PackedNode<Dim> packed(const Nodes<Dim>& nodes, std::int64_t i) {
+  return {nodes.id(i), nodes.position(i), point_at<Dim>(nodes.v, i), point_at<Dim>(nodes.anchor, i),
+          nodes.d(i),  nodes.tag(i),      nodes.boundary_node(i)};
 }
 
-inline void append(Nodes<2>& nodes, const PackedNode& packed, bool owned) {
-  nodes.append({packed.x[0], packed.x[1]}, packed.d, packed.id, packed.tag, packed.boundary_node);
+template <int Dim>
+void append(Nodes<Dim>& nodes, const PackedNode<Dim>& packed, bool owned) {
+  nodes.append(packed.x, packed.d, packed.id, packed.tag, packed.boundary_node);
   const std::int64_t i = nodes.count - 1;
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < Dim; ++k) {
     nodes.v[k](i) = packed.v[k];
     nodes.anchor[k](i) = packed.anchor[k];
   }

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 #include "base/build_config.hpp"
+#include "partition/cell_graph.hpp"
 #include "partition/metis_functions.hpp"
-#include "tree/leaf_graph.hpp"
 
 namespace pnpbs {
 
@@ -30,60 +29,13 @@ namespace {
 
 #if PNPBS_HAVE_MPI
 
-// The graph of the cells that have work, linked where they touch; METIS dislikes weights of 0 and
-// empty graphs.
-struct WorkGraph {
-  std::vector<std::int32_t> cell;  // of each vertex
-  std::vector<idx_t> offset{0}, neighbour, weight, cut_weight;
-};
-
-// Length of the side that two cells share, 0 if they touch in a corner.
-double shared_side(const Box<2>& a, const Box<2>& b) {
-  double length = 0;
-  for (int k = 0; k < 2; ++k)
-    length = std::max(length, std::min(a.high[k], b.high[k]) - std::max(a.low[k], b.low[k]));
-  return length;
-}
-
-WorkGraph make_graph(const PartitionCells& cells) {
-  const BackgroundTree<2>& tree = cells.tree();
-  const auto has_work = [&](std::int32_t c) { return cells.work(c) > 0; };
-  LeafGraph<2> touching;
-  touching.build(tree, std::vector<double>(static_cast<std::size_t>(cells.count()),
-                                           std::ldexp(tree.side(), -40)));
-  WorkGraph result;
-  std::vector<std::int32_t> vertex(static_cast<std::size_t>(cells.count()), -1);
-  for (std::int32_t c = 0; c < cells.count(); ++c) {
-    if (!has_work(c)) continue;
-    vertex[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(result.cell.size());
-    result.cell.push_back(c);
-  }
-  // Weights must add up within idx_t.
-  const std::int64_t total =
-      std::accumulate(cells.work().begin(), cells.work().end(), std::int64_t{0});
-  const std::int64_t scale = std::max<std::int64_t>(1, total / 1000000000);
-  const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
-  const auto density = [&](std::int32_t c) {
-    return static_cast<double>(cells.work(c)) / std::pow(tree.cell_side(tree.leaf_cell(c)), 2);
-  };
-  for (std::int32_t c : result.cell) {
-    touching.for_neighbours(c, [&](std::int32_t other) {
-      if (other == c || !has_work(other)) return;
-      result.neighbour.push_back(vertex[static_cast<std::size_t>(other)]);
-      // Pairs across the common side: as many as bubbles lie along it.
-      const double pairs =
-          shared_side(box(c), box(other)) * std::sqrt(std::max(density(c), density(other)));
-      result.cut_weight.push_back(static_cast<idx_t>(1 + std::min(pairs, 1e6)));
-    });
-    result.offset.push_back(static_cast<idx_t>(result.neighbour.size()));
-    result.weight.push_back(static_cast<idx_t>(std::max<std::int64_t>(1, cells.work(c) / scale)));
-  }
-  return result;
+std::vector<idx_t> as_metis(const std::vector<std::int32_t>& values) {
+  return {values.begin(), values.end()};
 }
 
 constexpr int kMostBisected = 32, kMostTried = 8;  // ranks
 
-bool cut_graph(const WorkGraph& graph, int ranks, std::int64_t seed, std::vector<idx_t>& part) {
+bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector<idx_t>& part) {
   idx_t vertices = static_cast<idx_t>(graph.cell.size()), constraints = 1, parts = ranks, cut = 0;
   if (vertices < 4 * parts) return false;
   idx_t options[METIS_NOPTIONS];
@@ -95,13 +47,11 @@ bool cut_graph(const WorkGraph& graph, int ranks, std::int64_t seed, std::vector
   const bool bisect = ranks <= kMostBisected;
   if (ranks <= kMostTried) options[METIS_OPTION_NCUTS] = 10;
   part.resize(graph.cell.size());
-  auto* offset = const_cast<idx_t*>(graph.offset.data());
-  auto* neighbour = const_cast<idx_t*>(graph.neighbour.data());
-  auto* weight = const_cast<idx_t*>(graph.weight.data());
-  auto* cut_weight = const_cast<idx_t*>(graph.cut_weight.data());
+  std::vector<idx_t> offset = as_metis(graph.offset), neighbour = as_metis(graph.neighbour),
+                     weight = as_metis(graph.weight), cut_weight = as_metis(graph.cut_weight);
   return (bisect ? metis().part_graph_recursive : metis().part_graph_kway)(
-             &vertices, &constraints, offset, neighbour, weight, nullptr, cut_weight, &parts,
-             nullptr, nullptr, options, &cut, part.data()) == METIS_OK;
+             &vertices, &constraints, offset.data(), neighbour.data(), weight.data(), nullptr,
+             cut_weight.data(), &parts, nullptr, nullptr, options, &cut, part.data()) == METIS_OK;
 }
 
 #endif
@@ -121,11 +71,13 @@ double imbalance(const std::vector<std::int32_t>& owner, const std::vector<std::
          static_cast<double>(total);
 }
 
-std::vector<std::int32_t> cut_by_metis(const PartitionCells& cells, int ranks, std::int64_t seed) {
+template <int Dim>
+std::vector<std::int32_t> cut_by_metis(const PartitionCells<Dim>& cells, int ranks,
+                                       std::int64_t seed) {
   std::vector<std::int32_t> owner = cut_morton_order(cells.work(), ranks);
   if (ranks == 1) return owner;
 #if PNPBS_HAVE_MPI
-  const WorkGraph graph = make_graph(cells);
+  const CellGraph graph = cell_graph(cells);
   std::vector<idx_t> part;
   if (!cut_graph(graph, ranks, seed, part)) return owner;
   std::vector<std::int32_t> cut = owner;
@@ -165,5 +117,8 @@ std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner,
   for (std::int32_t& part : owner) part = rank_of[static_cast<std::size_t>(part)];
   return owner;
 }
+
+template std::vector<std::int32_t> cut_by_metis(const PartitionCells<2>&, int, std::int64_t);
+template std::vector<std::int32_t> cut_by_metis(const PartitionCells<3>&, int, std::int64_t);
 
 }  // namespace pnpbs

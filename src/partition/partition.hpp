@@ -16,7 +16,9 @@ std::vector<std::int32_t> cut_morton_order(const std::vector<std::int64_t>& work
 // them. Parts may be empty (more ranks than cells with work). Where METIS refuses or leaves the
 // work badly spread, the Morton order is cut instead. The result depends on the seed; the nodes do
 // not.
-std::vector<std::int32_t> cut_by_metis(const PartitionCells& cells, int ranks, std::int64_t seed);
+template <int Dim>
+std::vector<std::int32_t> cut_by_metis(const PartitionCells<Dim>& cells, int ranks,
+                                       std::int64_t seed);
 
 // Gives the parts other numbers so that little work changes its rank. `kept[part * ranks + rank]`:
 // the work in the part that the rank has now.

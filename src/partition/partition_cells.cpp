@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "comm/records.hpp"
 
@@ -16,7 +16,9 @@ namespace {
 // METIS balances 100 cells per rank to 3 %.
 constexpr std::int64_t kCellsPerRank = 250;
 
-using CellKey = std::tuple<std::int32_t, std::uint32_t, std::uint32_t>;
+// Depth and index there.
+template <int Dim>
+using CellKey = std::pair<std::int32_t, std::array<std::uint32_t, Dim>>;
 
 // What a rank knows of the cells of the tree above its own leaves.
 struct OwnCells {
@@ -24,23 +26,22 @@ struct OwnCells {
   std::vector<double> largest_spacing;
   std::vector<char> own;  // are all leaves in it this rank's?
 
-  OwnCells(const DomainMap& map, const std::function<bool(std::int32_t)>& owns,
-           const std::vector<std::int64_t>& leaf_work) {
-    const BackgroundTree<2>& tree = map.tree();
+  template <int Dim>
+  OwnCells(const BackgroundTree<Dim>& tree, const LeafFunctions& leaves) {
     const auto cells = static_cast<std::size_t>(tree.cell_count());
     work.assign(cells, 0);
     largest_spacing.assign(cells, 0);
     own.assign(cells, 1);
     for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {
       const auto at = static_cast<std::size_t>(c);
-      const BackgroundTree<2>::Cell& cell = tree.cell(c);
+      const typename BackgroundTree<Dim>::Cell& cell = tree.cell(c);
       if (cell.first_child < 0) {
-        own[at] = owns(cell.leaf);
-        if (own[at]) work[at] = leaf_work[static_cast<std::size_t>(cell.leaf)];
-        if (!map.leaf_outside(cell.leaf)) largest_spacing[at] = map.leaf_largest_spacing(cell.leaf);
+        own[at] = leaves.owned(cell.leaf);
+        if (own[at]) work[at] = leaves.work(cell.leaf);
+        largest_spacing[at] = leaves.largest_spacing(cell.leaf);
         continue;
       }
-      for (int k = 0; k < BackgroundTree<2>::kChildren; ++k) {
+      for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k) {
         const auto child = static_cast<std::size_t>(cell.first_child + k);
         work[at] += work[child];
         largest_spacing[at] = std::max(largest_spacing[at], largest_spacing[child]);
@@ -50,63 +51,75 @@ struct OwnCells {
   }
 };
 
-void put_together(const BackgroundTree<2>& tree, const OwnCells& known, std::int64_t share,
+template <int Dim>
+void put_together(const BackgroundTree<Dim>& tree, const OwnCells& known, std::int64_t share,
                   std::int32_t c, Bytes& found) {
   const auto at = static_cast<std::size_t>(c);
-  const BackgroundTree<2>::Cell& cell = tree.cell(c);
+  const typename BackgroundTree<Dim>::Cell& cell = tree.cell(c);
   const bool leaf = cell.first_child < 0;
   if (known.own[at] && (leaf || known.work[at] <= share)) {
-    pack(found, PartitionCell{cell.index, cell.depth, known.work[at], known.largest_spacing[at]});
+    pack(found,
+         PartitionCell<Dim>{cell.index, cell.depth, known.work[at], known.largest_spacing[at]});
   } else if (!leaf) {
-    for (int k = 0; k < BackgroundTree<2>::kChildren; ++k)
-      put_together(tree, known, share, cell.first_child + k, found);
+    for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k)
+      put_together<Dim>(tree, known, share, cell.first_child + k, found);
   }
 }
 
 }  // namespace
 
-PartitionCells::PartitionCells(const Box<2>& bounds, const std::vector<PartitionCell>& cells) {
-  std::set<CellKey> above;  // the cells that one of these lies in
-  for (const PartitionCell& cell : cells) {
-    CellKey key{cell.depth, cell.index[0], cell.index[1]};
-    while (std::get<0>(key) > 0) {
-      key = {std::get<0>(key) - 1, std::get<1>(key) / 2, std::get<2>(key) / 2};
+template <int Dim>
+PartitionCells<Dim>::PartitionCells(const Box<Dim>& bounds,
+                                    const std::vector<PartitionCell<Dim>>& cells) {
+  std::set<CellKey<Dim>> above;  // the cells that one of these lies in
+  for (const PartitionCell<Dim>& cell : cells) {
+    CellKey<Dim> key{cell.depth, cell.index};
+    while (key.first > 0) {
+      --key.first;
+      for (std::uint32_t& index : key.second) index /= 2;
       if (!above.insert(key).second) break;
     }
   }
-  tree_.build(bounds, [&](const BackgroundTree<2>& tree, std::int32_t first, std::int32_t last,
+  tree_.build(bounds, [&](const BackgroundTree<Dim>& tree, std::int32_t first, std::int32_t last,
                           std::vector<char>& split) {
-    for (std::int32_t c = first; c < last; ++c) {
-      const BackgroundTree<2>::Cell& cell = tree.cell(c);
+    for (std::int32_t c = first; c < last; ++c)
       split[static_cast<std::size_t>(c - first)] =
-          above.count({cell.depth, cell.index[0], cell.index[1]}) > 0;
-    }
+          above.count({tree.cell(c).depth, tree.cell(c).index}) > 0;
   });
   work_.assign(static_cast<std::size_t>(count()), 0);
   largest_spacing_.assign(static_cast<std::size_t>(count()), 0);
-  for (const PartitionCell& cell : cells) {
+  for (const PartitionCell<Dim>& cell : cells) {
     const double side = std::ldexp(tree_.side(), -cell.depth);
-    const std::int32_t leaf = at({tree_.origin()[0] + side * (cell.index[0] + 0.5),
-                                  tree_.origin()[1] + side * (cell.index[1] + 0.5)});
-    work_[static_cast<std::size_t>(leaf)] = cell.work;
-    largest_spacing_[static_cast<std::size_t>(leaf)] = cell.largest_spacing;
+    Point<Dim> centre;
+    for (int k = 0; k < Dim; ++k) centre[k] = tree_.origin()[k] + side * (cell.index[k] + 0.5);
+    const auto leaf = static_cast<std::size_t>(at(centre));
+    work_[leaf] = cell.work;
+    largest_spacing_[leaf] = cell.largest_spacing;
   }
 }
 
-std::vector<PartitionCell> cells_of_equal_work(const Communicator& comm, const DomainMap& map,
-                                               const std::function<bool(std::int32_t)>& owns,
-                                               const std::vector<std::int64_t>& leaf_work) {
-  const OwnCells known(map, owns, leaf_work);
-  std::uint64_t mine = 0;
-  for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf)
-    if (owns(leaf)) mine += static_cast<std::uint64_t>(leaf_work[static_cast<std::size_t>(leaf)]);
+template <int Dim>
+std::vector<PartitionCell<Dim>> cells_of_equal_work(const Communicator& comm,
+                                                    const BackgroundTree<Dim>& tree,
+                                                    const LeafFunctions& leaves) {
+  const OwnCells known(tree, leaves);
+  const auto mine = static_cast<std::uint64_t>(known.work[0]);  // the root's
   const auto total = static_cast<std::int64_t>(comm.allreduce_sum(mine));
   Bytes found;
-  put_together(map.tree(), known, total / (kCellsPerRank * comm.size()), 0, found);
-  std::vector<PartitionCell> cells;
-  for_records<PartitionCell>({comm.allgather(found)},
-                             [&](const PartitionCell& cell) { cells.push_back(cell); });
+  put_together<Dim>(tree, known, total / (kCellsPerRank * comm.size()), 0, found);
+  std::vector<PartitionCell<Dim>> cells;
+  for_records<PartitionCell<Dim>>({comm.allgather(found)},
+                                  [&](const PartitionCell<Dim>& cell) { cells.push_back(cell); });
   return cells;
 }
+
+template class PartitionCells<2>;
+template class PartitionCells<3>;
+template std::vector<PartitionCell<2>> cells_of_equal_work(const Communicator&,
+                                                           const BackgroundTree<2>&,
+                                                           const LeafFunctions&);
+template std::vector<PartitionCell<3>> cells_of_equal_work(const Communicator&,
+                                                           const BackgroundTree<3>&,
+                                                           const LeafFunctions&);
 
 }  // namespace pnpbs

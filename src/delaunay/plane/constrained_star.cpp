@@ -253,7 +253,8 @@ double constrained_star(const StarInput& input, std::int64_t i, double listed_re
   if (listed_reach > 0 && found(GiftWrap(input, i, listed_reach), listed_reach)) return 0;
   for (double reach = first_reach;; reach *= 1.5) {
     star.resize(before);
-    if (!input.known.covers(input.map, box_around<2>(input.nodes.position(i), reach))) return reach;
+    if (!input.known.covers(input.map.tree(), box_around<2>(input.nodes.position(i), reach)))
+      return reach;
     const bool everything = reach > 2 * input.map.tree().side();
     if (found(GiftWrap(input, i, reach, everything), reach)) return 0;
     if (everything) break;
