@@ -433,17 +433,17 @@ contains
   !>   role          PNPBS_BOUNDARY or PNPBS_INNER
   !>   closed        whether a segment leads from the last vertex to the first; the first vertex is
   !>                 not repeated
-  !>   xy            (2, n)
+  !>   coordinates            (2, n)
   !>   tags          optional: one for each segment, nonzero; 1 without
   !>   corner_angle  optional, degrees, 0 .. 180; 0 without: every vertex becomes a node. Otherwise
   !>                 only vertices where the direction turns by more than this do, as do the ends of
   !>                 open polylines and vertices where curves meet; between them the polyline stands
   !>                 for a smooth curve.
-  subroutine domain_add_polyline(self, role, closed, xy, tags, corner_angle, stat, errmsg)
+  subroutine domain_add_polyline(self, role, closed, coordinates, tags, corner_angle, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(in) :: role
     logical, intent(in) :: closed
-    real(c_double), intent(in) :: xy(:,:)
+    real(c_double), intent(in) :: coordinates(:,:)
     integer(c_int32_t), intent(in), optional :: tags(:)
     real(c_double), intent(in), optional :: corner_angle
     class(*), intent(out), optional :: stat
@@ -453,16 +453,16 @@ contains
     integer(c_int64_t) :: n, segments, room
     integer(c_int) :: status
     real(c_double) :: angle
-    n = size(xy, 2, kind=c_int64_t)
+    n = size(coordinates, 2, kind=c_int64_t)
     segments = merge(n, n - 1, closed)
-    call given%check_rows('xy', size(xy, 1), 2)
+    call given%check_rows('coordinates', size(coordinates, 1), 2)
     call given%place_int32('tags', tags, a_tags, room)
     call given%require('tags', room, segments)
     angle = 0
     if (present(corner_angle)) angle = corner_angle
     status = PNPBS_OK
     if (.not. given%is_wrong()) &
-      status = c_domain_add_polyline(self%c, role, flag(closed), n, xy, a_tags, angle)
+      status = c_domain_add_polyline(self%c, role, flag(closed), n, coordinates, a_tags, angle)
     call conclude('domain%add_polyline', status, stat, errmsg, given)
   end subroutine
 
@@ -513,15 +513,15 @@ contains
   !> chain are inner curves. Every vertex becomes a node. Shared vertices and T-junctions (within
   !> 1e-12 of the domain's size) are legal. Once a graph was added, this rule holds for all curves
   !> of the domain. Local.
-  !>   xy            (2, vertices)
+  !>   coordinates            (2, vertices)
   !>   segment_ends  (2, segments) vertices, counted from 1
   !>   vertex_tags   optional, (vertices); 0 = take the segment's
   !>   segment_tags  optional, (segments); 1 without
   !>   hole_points   optional, (2, holes)
-  subroutine domain_add_pslg(self, xy, segment_ends, vertex_tags, segment_tags, hole_points, stat, &
-                             errmsg)
+  subroutine domain_add_pslg(self, coordinates, segment_ends, vertex_tags, segment_tags, &
+                             hole_points, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
-    real(c_double), intent(in) :: xy(:,:)
+    real(c_double), intent(in) :: coordinates(:,:)
     integer(c_int64_t), intent(in) :: segment_ends(:,:)
     integer(c_int32_t), intent(in), optional :: vertex_tags(:), segment_tags(:)
     real(c_double), intent(in), optional :: hole_points(:,:)
@@ -531,9 +531,9 @@ contains
     type(c_ptr) :: a_vertex_tags, a_segment_tags, a_holes
     integer(c_int64_t) :: vertices, segments, holes, room
     integer(c_int) :: status
-    vertices = size(xy, 2, kind=c_int64_t)
+    vertices = size(coordinates, 2, kind=c_int64_t)
     segments = size(segment_ends, 2, kind=c_int64_t)
-    call given%check_rows('xy', size(xy, 1), 2)
+    call given%check_rows('coordinates', size(coordinates, 1), 2)
     call given%check_rows('segment_ends', size(segment_ends, 1), 2)
     call given%place_int32('vertex_tags', vertex_tags, a_vertex_tags, room)
     call given%require('vertex_tags', room, vertices)
@@ -543,7 +543,8 @@ contains
     if (.not. present(hole_points)) holes = 0
     status = PNPBS_OK
     if (.not. given%is_wrong()) &
-      status = c_domain_add_pslg(self%c, vertices, xy, a_vertex_tags, segments, segment_ends - 1, &
+      status = c_domain_add_pslg(self%c, vertices, coordinates, a_vertex_tags, segments, &
+        segment_ends - 1, &
                                  a_segment_tags, holes, a_holes)
     call conclude('domain%add_pslg', status, stat, errmsg, given)
   end subroutine
@@ -563,11 +564,11 @@ contains
   end subroutine
 
   !> Adds nodes that must appear exactly. Local.
-  !>   xy    (2, n), inside the domain or on a vertex of its curves
+  !>   coordinates    (2, n), inside the domain or on a vertex of its curves
   !>   tags  optional, (n), nonzero; 1 without
-  subroutine domain_add_fixed_nodes(self, xy, tags, stat, errmsg)
+  subroutine domain_add_fixed_nodes(self, coordinates, tags, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
-    real(c_double), intent(in) :: xy(:,:)
+    real(c_double), intent(in) :: coordinates(:,:)
     integer(c_int32_t), intent(in), optional :: tags(:)
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
@@ -575,12 +576,12 @@ contains
     type(c_ptr) :: a_tags
     integer(c_int64_t) :: n, room
     integer(c_int) :: status
-    n = size(xy, 2, kind=c_int64_t)
-    call given%check_rows('xy', size(xy, 1), 2)
+    n = size(coordinates, 2, kind=c_int64_t)
+    call given%check_rows('coordinates', size(coordinates, 1), 2)
     call given%place_int32('tags', tags, a_tags, room)
     call given%require('tags', room, n)
     status = PNPBS_OK
-    if (.not. given%is_wrong()) status = c_domain_add_fixed_nodes(self%c, n, xy, a_tags)
+    if (.not. given%is_wrong()) status = c_domain_add_fixed_nodes(self%c, n, coordinates, a_tags)
     call conclude('domain%add_fixed_nodes', status, stat, errmsg, given)
   end subroutine
 
@@ -832,11 +833,11 @@ contains
   !> library. Over several ranks each gives some, wherever they lie. Where they are many times too
   !> dense for d they are thinned (statistic 'deleted'). Points outside the domain or too close to
   !> its boundary are left out (statistic 'dropped'). Clears the nodes there are. Collective.
-  !>   xy   (2, n)
+  !>   coordinates   (2, n)
   !>   ids  optional, (n): distinct, 0 .. 2**62; of the library's choice without
-  subroutine placement_set_nodes(self, xy, ids, stat, errmsg)
+  subroutine placement_set_nodes(self, coordinates, ids, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
-    real(c_double), intent(in) :: xy(:,:)
+    real(c_double), intent(in) :: coordinates(:,:)
     integer(c_int64_t), intent(in), optional :: ids(:)
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
@@ -844,11 +845,11 @@ contains
     type(c_ptr) :: a_ids
     integer(c_int64_t) :: n, room
     integer(c_int) :: status
-    n = size(xy, 2, kind=c_int64_t)
-    call given%check_rows('xy', size(xy, 1), 2)
+    n = size(coordinates, 2, kind=c_int64_t)
+    call given%check_rows('coordinates', size(coordinates, 1), 2)
     call given%place_int64('ids', ids, a_ids, room)
     call given%require('ids', room, n)
-    status = c_placement_set_nodes(self%c, given%capacity(n), xy, a_ids)
+    status = c_placement_set_nodes(self%c, given%capacity(n), coordinates, a_ids)
     call conclude('placement%set_nodes', status, stat, errmsg, given)
   end subroutine
 
@@ -959,13 +960,13 @@ contains
   end subroutine
 
   !> Copies the nodes of this rank out, in their local order; all arrays are optional. Local.
-  !>   xy       (2, nodes)
+  !>   coordinates       (2, nodes)
   !>   ids      (nodes) global ids, the same for any number of ranks and threads
   !>   tags     (nodes) 0 inner, otherwise the tag of the boundary, curve or fixed node
   !>   spacing  (nodes) d at the node
-  subroutine placement_get_nodes(self, xy, ids, tags, spacing, stat, errmsg)
+  subroutine placement_get_nodes(self, coordinates, ids, tags, spacing, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
-    real(c_double), intent(inout), optional :: xy(:,:), spacing(:)
+    real(c_double), intent(inout), optional :: coordinates(:,:), spacing(:)
     integer(c_int64_t), intent(inout), optional :: ids(:)
     integer(c_int32_t), intent(inout), optional :: tags(:)
     class(*), intent(out), optional :: stat
@@ -974,7 +975,7 @@ contains
     type(c_ptr) :: a_xy, a_ids, a_tags, a_spacing
     integer(c_int64_t) :: room(4)
     integer(c_int) :: status
-    call given%place_real_columns('xy', xy, 2, a_xy, room(1))
+    call given%place_real_columns('coordinates', coordinates, 2, a_xy, room(1))
     call given%place_int64('ids', ids, a_ids, room(2))
     call given%place_int32('tags', tags, a_tags, room(3))
     call given%place_real('spacing', spacing, a_spacing, room(4))
@@ -995,11 +996,11 @@ contains
   end subroutine
 
   !> Copies the ghosts out, by increasing id; all arrays are optional. Collective.
-  !>   xy, ids, tags, spacing  as get_nodes
+  !>   coordinates, ids, tags, spacing  as get_nodes
   !>   owners                  (ghosts) the rank that owns each
-  subroutine placement_get_ghosts(self, xy, ids, tags, spacing, owners, stat, errmsg)
+  subroutine placement_get_ghosts(self, coordinates, ids, tags, spacing, owners, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
-    real(c_double), intent(inout), optional :: xy(:,:), spacing(:)
+    real(c_double), intent(inout), optional :: coordinates(:,:), spacing(:)
     integer(c_int64_t), intent(inout), optional :: ids(:)
     integer(c_int32_t), intent(inout), optional :: tags(:), owners(:)
     class(*), intent(out), optional :: stat
@@ -1008,7 +1009,7 @@ contains
     type(c_ptr) :: a_xy, a_ids, a_tags, a_spacing, a_owners
     integer(c_int64_t) :: room(5)
     integer(c_int) :: status
-    call given%place_real_columns('xy', xy, 2, a_xy, room(1))
+    call given%place_real_columns('coordinates', coordinates, 2, a_xy, room(1))
     call given%place_int64('ids', ids, a_ids, room(2))
     call given%place_int32('tags', tags, a_tags, room(3))
     call given%place_real('spacing', spacing, a_spacing, room(4))

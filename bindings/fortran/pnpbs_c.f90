@@ -47,28 +47,29 @@ module pnpbs_c
   ! they need to know comes through user, the c_loc of a target that outlives the calls.
 
   abstract interface
-    !> A curve by its parameter: fills xy(2,n) for t(n). Must be a pure function, continuous, and
-    !> with no self-intersection. Returns 0, or anything else to fail the call with
-    !> PNPBS_ERROR_CALLBACK.
-    function pnpbs_curve_fn(n, t, xy, user) bind(C)
-      import
-      implicit none
-      integer(c_int64_t), value :: n
-      real(c_double), intent(in) :: t(n)
-      real(c_double), intent(out) :: xy(2, n)
-      type(c_ptr), value :: user ! void *
-      integer(c_int32_t) :: pnpbs_curve_fn
-    end function
-
-    !> The spacing: fills d(n) for xyz(dim,n); n may be 0. Must be a pure function of the point. May
-    !> be asked wherever there is domain or boundary; how often and with which points, and on which
-    !> rank, may differ from run to run. Returns as above.
-    function pnpbs_spacing_fn(n, dim, xyz, d, user) bind(C)
+    !> A curve by its parameter: fills coordinates(dim,n) for t(n). Must be a pure function,
+    !> continuous, and with no self-intersection. Returns 0, or anything else to fail the call
+    !> with PNPBS_ERROR_CALLBACK.
+    function pnpbs_curve_fn(n, dim, t, coordinates, user) bind(C)
       import
       implicit none
       integer(c_int64_t), value :: n
       integer(c_int32_t), value :: dim
-      real(c_double), intent(in) :: xyz(dim, n)
+      real(c_double), intent(in) :: t(n)
+      real(c_double), intent(out) :: coordinates(dim, n)
+      type(c_ptr), value :: user ! void *
+      integer(c_int32_t) :: pnpbs_curve_fn
+    end function
+
+    !> The spacing: fills d(n) for coordinates(dim,n); n may be 0. Must be a pure function of the
+    !> point. May be asked wherever there is domain or boundary; how often and with which points, and on which
+    !> rank, may differ from run to run. Returns as above.
+    function pnpbs_spacing_fn(n, dim, coordinates, d, user) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: dim
+      real(c_double), intent(in) :: coordinates(dim, n)
       real(c_double), intent(out) :: d(n)
       type(c_ptr), value :: user ! void *
       integer(c_int32_t) :: pnpbs_spacing_fn
@@ -254,14 +255,14 @@ module pnpbs_c
       integer(c_int) :: c_domain_destroy
     end function
 
-    function c_domain_add_polyline(domain, role, closed, n, xy, tags, corner_angle) bind(C, &
+    function c_domain_add_polyline(domain, role, closed, n, coordinates, tags, corner_angle) bind(C, &
       name="pnpbs_domain_add_polyline")
       import
       implicit none
       type(c_ptr), value :: domain
       integer(c_int32_t), value :: role, closed
       integer(c_int64_t), value :: n
-      real(c_double), intent(in) :: xy(*)
+      real(c_double), intent(in) :: coordinates(*)
       type(c_ptr), value :: tags ! const int32_t *
       real(c_double), value :: corner_angle
       integer(c_int) :: c_domain_add_polyline
@@ -292,13 +293,13 @@ module pnpbs_c
       integer(c_int) :: c_domain_add_curve
     end function
 
-    function c_domain_add_pslg(domain, vertices, xy, vertex_tags, segments, segment_ends, &
+    function c_domain_add_pslg(domain, vertices, coordinates, vertex_tags, segments, segment_ends, &
       segment_tags, holes, hole_points) bind(C, name="pnpbs_domain_add_pslg")
       import
       implicit none
       type(c_ptr), value :: domain
       integer(c_int64_t), value :: vertices
-      real(c_double), intent(in) :: xy(*)
+      real(c_double), intent(in) :: coordinates(*)
       type(c_ptr), value :: vertex_tags ! const int32_t *
       integer(c_int64_t), value :: segments
       integer(c_int64_t), intent(in) :: segment_ends(*)
@@ -316,13 +317,13 @@ module pnpbs_c
       integer(c_int) :: c_domain_add_hole
     end function
 
-    function c_domain_add_fixed_nodes(domain, n, xy, tags) bind(C, &
+    function c_domain_add_fixed_nodes(domain, n, coordinates, tags) bind(C, &
       name="pnpbs_domain_add_fixed_nodes")
       import
       implicit none
       type(c_ptr), value :: domain
       integer(c_int64_t), value :: n
-      real(c_double), intent(in) :: xy(*)
+      real(c_double), intent(in) :: coordinates(*)
       type(c_ptr), value :: tags ! const int32_t *
       integer(c_int) :: c_domain_add_fixed_nodes
     end function
@@ -473,13 +474,13 @@ module pnpbs_c
       integer(c_int) :: c_placement_set_monitor
     end function
 
-    function c_placement_set_nodes(placement, n, xy, ids) bind(C, &
+    function c_placement_set_nodes(placement, n, coordinates, ids) bind(C, &
       name="pnpbs_placement_set_nodes")
       import
       implicit none
       type(c_ptr), value :: placement
       integer(c_int64_t), value :: n
-      real(c_double), intent(in) :: xy(*)
+      real(c_double), intent(in) :: coordinates(*)
       type(c_ptr), value :: ids ! const int64_t *
       integer(c_int) :: c_placement_set_nodes
     end function
@@ -541,13 +542,13 @@ module pnpbs_c
       integer(c_int) :: c_placement_count
     end function
 
-    function c_placement_get_nodes(placement, capacity, xy, ids, tags, spacing) bind(C, &
+    function c_placement_get_nodes(placement, capacity, coordinates, ids, tags, spacing) bind(C, &
       name="pnpbs_placement_get_nodes")
       import
       implicit none
       type(c_ptr), value :: placement
       integer(c_int64_t), value :: capacity
-      type(c_ptr), value :: xy ! double *
+      type(c_ptr), value :: coordinates ! double *
       type(c_ptr), value :: ids ! int64_t *
       type(c_ptr), value :: tags ! int32_t *
       type(c_ptr), value :: spacing ! double *
@@ -563,13 +564,13 @@ module pnpbs_c
       integer(c_int) :: c_placement_ghost_count
     end function
 
-    function c_placement_get_ghosts(placement, capacity, xy, ids, tags, spacing, owners) &
+    function c_placement_get_ghosts(placement, capacity, coordinates, ids, tags, spacing, owners) &
       bind(C, name="pnpbs_placement_get_ghosts")
       import
       implicit none
       type(c_ptr), value :: placement
       integer(c_int64_t), value :: capacity
-      type(c_ptr), value :: xy ! double *
+      type(c_ptr), value :: coordinates ! double *
       type(c_ptr), value :: ids ! int64_t *
       type(c_ptr), value :: tags ! int32_t *
       type(c_ptr), value :: spacing ! double *

@@ -44,9 +44,9 @@
 #include <stdint.h>
 
 #define PNPBS_VERSION_MAJOR 0
-#define PNPBS_VERSION_MINOR 1
+#define PNPBS_VERSION_MINOR 2
 #define PNPBS_VERSION_PATCH 0
-#define PNPBS_VERSION_STRING "0.1.0"
+#define PNPBS_VERSION_STRING "0.2.0"
 
 #if defined(_WIN32) || !defined(__GNUC__)
 #define PNPBS_API
@@ -202,10 +202,11 @@ PNPBS_API pnpbs_status pnpbs_format_info(int32_t index, const char **name, const
 #define PNPBS_BOUNDARY 0
 #define PNPBS_INNER 1
 
-/** A curve by its parameter: fills xy[n][2] for t[n]. Must be a pure function, continuous and
- *  with no self-intersection. Return 0, or nonzero to fail the call with
+/** A curve by its parameter: fills coordinates[n][dim] for t[n]. Must be a pure function,
+ *  continuous and with no self-intersection. Return 0, or nonzero to fail the call with
  *  PNPBS_ERROR_CALLBACK. */
-typedef int32_t (*pnpbs_curve_fn)(int64_t n, const double *t, double *xy, void *user);
+typedef int32_t (*pnpbs_curve_fn)(int64_t n, int32_t dim, const double *t, double *coordinates,
+                                  void *user);
 
 /** An empty domain. Local.
  *  @param[in] dim  2 (3 comes later: PNPBS_ERROR_UNSUPPORTED) */
@@ -219,19 +220,19 @@ PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
  *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER
  *  @param[in] closed        nonzero: a segment leads from the last vertex to the first; the
  *                           first vertex is not repeated
- *  @param[in] xy            [n][2]
+ *  @param[in] coordinates   [n][dim]
  *  @param[in] tags          [number of segments], nonzero, or NULL for 1
  *  @param[in] corner_angle  degrees, 0 .. 180. 0: every vertex becomes a node. Otherwise only
  *                           vertices where the direction turns by more than this do, as do the
  *                           ends of open polylines and vertices where curves meet; between them
  *                           the polyline stands for a smooth curve. */
 PNPBS_API pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed,
-                                                 int64_t n, const double *xy, const int32_t *tags,
-                                                 double corner_angle);
+                                                 int64_t n, const double *coordinates,
+                                                 const int32_t *tags, double corner_angle);
 
 /** Adds a circular arc; its ends join curves that end at the same point (within 1e-9 of the
  *  domain's size). Local.
- *  @param[in] centre          [2]
+ *  @param[in] centre          [dim]
  *  @param[in] radius          > 0
  *  @param[in] begin,end       angles in radians; |end - begin| = 2 pi makes a full circle */
 PNPBS_API pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const double *centre,
@@ -250,13 +251,13 @@ PNPBS_API pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role,
  *  open chain are inner curves. Every vertex becomes a node. Shared vertices and T-junctions
  *  (within 1e-12 of the domain's size) are legal. Once a graph was added, this rule holds for
  *  all curves of the domain. Local.
- *  @param[in] xy            [vertices][2]
+ *  @param[in] coordinates   [vertices][dim]
  *  @param[in] vertex_tags   [vertices] or NULL; 0 = take the segment's
  *  @param[in] segment_ends  [segments][2], 0-based vertex indices
  *  @param[in] segment_tags  [segments] or NULL for 1
- *  @param[in] hole_points   [holes][2]; may be NULL if holes is 0 */
+ *  @param[in] hole_points   [holes][dim]; may be NULL if holes is 0 */
 PNPBS_API pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices,
-                                             const double *xy, const int32_t *vertex_tags,
+                                             const double *coordinates, const int32_t *vertex_tags,
                                              int64_t segments, const int64_t *segment_ends,
                                              const int32_t *segment_tags, int64_t holes,
                                              const double *hole_points);
@@ -265,10 +266,10 @@ PNPBS_API pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertic
 PNPBS_API pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double *point);
 
 /** Adds nodes that must appear exactly. Local.
- *  @param[in] xy    [n][2], inside the domain or on a vertex of its curves
+ *  @param[in] coordinates  [n][dim], inside the domain or on a vertex of its curves
  *  @param[in] tags  [n], nonzero, or NULL for 1 */
 PNPBS_API pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n,
-                                                    const double *xy, const int32_t *tags);
+                                                    const double *coordinates, const int32_t *tags);
 
 /** Reads a file of Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
  *  markers kept as tags) and adds it as pnpbs_domain_add_pslg does. Local. Errors:
@@ -301,10 +302,10 @@ PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t ca
 
 /* ---------------------------------------------------------------- placement ------------- */
 
-/** Spacing callback: fills d[n] for xyz[n][dim]. n may be 0. Must be a pure function of the
+/** Spacing callback: fills d[n] for coordinates[n][dim]. n may be 0. Must be a pure function of the
  *  point; may be asked anywhere in the domain's bounding box that lies inside the domain or on
  *  its boundary. Return 0, or nonzero to fail the call with PNPBS_ERROR_CALLBACK. */
-typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *xyz, double *d,
+typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *coordinates, double *d,
                                     void *user);
 
 /** Progress, told at fixed step numbers and, some times a second, while the first nodes are laid or
@@ -376,10 +377,10 @@ PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
  *  library. Over several ranks each gives some, wherever they lie. Where they are many times too
  *  dense for d they are thinned (statistic `deleted`). Points outside the domain or too close to
  *  its boundary are left out (statistic `dropped`). Clears the nodes there are. Collective.
- *  @param[in] xy   [n][dim]
+ *  @param[in] coordinates   [n][dim]
  *  @param[in] ids  [n], distinct, 0 .. 2^62, or NULL for ids of the library's choice */
 PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
-                                                 const double *xy, const int64_t *ids);
+                                                 const double *coordinates, const int64_t *ids);
 
 /** What a run from nothing would come to, from domain, spacing and options alone: d is sampled in
  *  some thousand places (where its growth is limited, in as many as by the run), no inner node is
@@ -430,13 +431,13 @@ PNPBS_API pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t 
 
 /** Copies the nodes of this rank out, in their local order; any array may be NULL. Local.
  *  @param[in]  capacity  nodes the arrays have room for; too small is PNPBS_ERROR_CAPACITY
- *  @param[out] xy        [nodes][dim]
+ *  @param[out] coordinates  [nodes][dim]
  *  @param[out] ids       [nodes] global ids, the same for any number of ranks and threads
  *  @param[out] tags      [nodes] 0 inner, otherwise the tag of the boundary, curve or fixed node
  *  @param[out] spacing   [nodes] d at the node, no more than 1024 times the domain's size; on a
  *                        boundary that is far finer than d, 32 of the node's longest edge there */
 PNPBS_API pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity,
-                                                 double *xy, int64_t *ids, int32_t *tags,
+                                                 double *coordinates, int64_t *ids, int32_t *tags,
                                                  double *spacing);
 
 /** Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars and
@@ -445,10 +446,10 @@ PNPBS_API pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, in
 
 /** Copies the ghosts out, by increasing id; any array may be NULL. Collective.
  *  @param[in]  capacity  ghosts the arrays have room for
- *  @param[out] xy, ids, tags, spacing  as pnpbs_placement_get_nodes
+ *  @param[out] coordinates, ids, tags, spacing  as pnpbs_placement_get_nodes
  *  @param[out] owners    [ghosts] the rank that owns each */
 PNPBS_API pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capacity,
-                                                  double *xy, int64_t *ids, int32_t *tags,
+                                                  double *coordinates, int64_t *ids, int32_t *tags,
                                                   double *spacing, int32_t *owners);
 
 /** Sizes of the exchange pattern: how values at nodes reach their ghosts on other ranks.

@@ -12,13 +12,13 @@ class Pnpbs(CMakePackage):
 
     # To be filled in for the first release: no address and no archive exists yet.
     homepage = "https://pnpbs.invalid"
-    url = "https://pnpbs.invalid/releases/pnpbs-0.1.0.tar.gz"
+    url = "https://pnpbs.invalid/releases/pnpbs-0.2.0.tar.gz"
     git = "https://pnpbs.invalid/pnpbs.git"
 
     license("BSD-3-Clause")
 
     version("main", branch="main")
-    version("0.1.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
+    version("0.2.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
 
     variant("mpi", default=True, description="Contexts on an MPI communicator")
     variant("openmp", default=True, description="Threads")

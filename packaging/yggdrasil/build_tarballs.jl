@@ -7,7 +7,7 @@ const YGGDRASIL_DIR = "../.."
 include(joinpath(YGGDRASIL_DIR, "platforms", "mpi.jl"))
 
 name = "PNPBS"
-version = v"0.1.0"
+version = v"0.2.0"
 
 # Kokkos_jll is older than PNPBS needs (4.5), so Kokkos is built here and hidden inside the library.
 sources = [

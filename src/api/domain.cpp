@@ -73,11 +73,12 @@ pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) {
 }
 
 pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed, int64_t n,
-                                       const double* xy, const int32_t* tags, double corner_angle) {
+                                       const double* coordinates, const int32_t* tags,
+                                       double corner_angle) {
   return change_domain(domain, [&](PlaneDomain& plane) {
     require_count(n, "n");
-    require_pointer(xy, "xy");
-    plane.add_polyline(role_from(role), closed != 0, n, xy, tags, corner_angle);
+    require_pointer(coordinates, "coordinates");
+    plane.add_polyline(role_from(role), closed != 0, n, coordinates, tags, corner_angle);
   });
 }
 
@@ -93,10 +94,11 @@ pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role, pnpbs_cur
                                     void* user, double begin, double end, int32_t tag) {
   return change_domain(domain, [&](PlaneDomain& plane) {
     if (!curve) throw Error(ErrorKind::argument, "argument curve is NULL");
-    const CurveFunction function = [curve, user](std::int64_t n, const double* t, Point<2>* xy) {
+    const CurveFunction function = [curve, user](std::int64_t n, const double* t,
+                                                 Point<2>* coordinates) {
       const int32_t answer = [&] {
         const HostArithmetic arithmetic;
-        return curve(n, t, n > 0 ? xy->data() : nullptr, user);
+        return curve(n, 2, t, n > 0 ? coordinates->data() : nullptr, user);
       }();
       if (answer != 0)
         throw Error(ErrorKind::callback,
@@ -106,7 +108,7 @@ pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role, pnpbs_cur
   });
 }
 
-pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices, const double* xy,
+pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices, const double* coordinates,
                                    const int32_t* vertex_tags, int64_t segments,
                                    const int64_t* segment_ends, const int32_t* segment_tags,
                                    int64_t holes, const double* hole_points) {
@@ -114,10 +116,10 @@ pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices, const 
     require_count(vertices, "vertices");
     require_count(segments, "segments");
     require_count(holes, "holes");
-    if (vertices > 0) require_pointer(xy, "xy");
+    if (vertices > 0) require_pointer(coordinates, "coordinates");
     if (segments > 0) require_pointer(segment_ends, "segment_ends");
     if (holes > 0) require_pointer(hole_points, "hole_points");
-    plane.add_pslg(vertices, xy, vertex_tags, segments, segment_ends, segment_tags, holes,
+    plane.add_pslg(vertices, coordinates, vertex_tags, segments, segment_ends, segment_tags, holes,
                    hole_points);
   });
 }
@@ -129,12 +131,12 @@ pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double* point) {
   });
 }
 
-pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n, const double* xy,
+pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n, const double* coordinates,
                                           const int32_t* tags) {
   return change_domain(domain, [&](PlaneDomain& plane) {
     require_count(n, "n");
-    if (n > 0) require_pointer(xy, "xy");
-    plane.add_fixed_nodes(n, xy, tags);
+    if (n > 0) require_pointer(coordinates, "coordinates");
+    plane.add_fixed_nodes(n, coordinates, tags);
   });
 }
 

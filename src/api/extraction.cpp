@@ -27,13 +27,13 @@ std::int64_t star_entries(const Placement& placement) {
 }
 
 // Copies nodes with places first .. first + n - 1 out; arrays may be NULL.
-void copy_nodes(const Placement& p, std::int64_t first, std::int64_t n, double* xy,
+void copy_nodes(const Placement& p, std::int64_t first, std::int64_t n, double* coordinates,
                 std::int64_t* ids, std::int32_t* tags, double* spacing) {
   const Nodes<2>& nodes = p.level().nodes();
   for_each("pnpbs::copy_nodes", n, [&](std::int64_t k) {
     const std::int64_t i = p.node_at(first + k);
-    if (xy)
-      for (int c = 0; c < 2; ++c) xy[2 * k + c] = nodes.x[c](i);
+    if (coordinates)
+      for (int c = 0; c < 2; ++c) coordinates[2 * k + c] = nodes.x[c](i);
     if (ids) ids[k] = nodes.id(i);
     if (tags) tags[k] = nodes.tag(i);
     if (spacing) spacing[k] = nodes.d(i);
@@ -50,14 +50,15 @@ pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t* nodes) {
   });
 }
 
-pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity, double* xy,
-                                       int64_t* ids, int32_t* tags, double* spacing) {
+pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity,
+                                       double* coordinates, int64_t* ids, int32_t* tags,
+                                       double* spacing) {
   return guarded(placement, [&](PlacementObject& object) {
     Placement& p = object.placement;
     require_capacity(capacity, p.count());
     if (p.count() == 0) return PNPBS_OK;
     p.prepare_order();
-    copy_nodes(p, 0, p.count(), xy, ids, tags, spacing);
+    copy_nodes(p, 0, p.count(), coordinates, ids, tags, spacing);
     return PNPBS_OK;
   });
 }
@@ -71,15 +72,15 @@ pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t* gho
   });
 }
 
-pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capacity, double* xy,
-                                        int64_t* ids, int32_t* tags, double* spacing,
-                                        int32_t* owners) {
+pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capacity,
+                                        double* coordinates, int64_t* ids, int32_t* tags,
+                                        double* spacing, int32_t* owners) {
   return collective(placement, [&](Placement& p) {
     p.prepare_lists();
     const Nodes<2>& nodes = p.level().nodes();
     const std::int64_t owned = p.count(), ghosts = nodes.count - owned;
     require_capacity(capacity, ghosts);
-    copy_nodes(p, owned, ghosts, xy, ids, tags, spacing);
+    copy_nodes(p, owned, ghosts, coordinates, ids, tags, spacing);
     for (std::int64_t g = 0; owners && g < ghosts; ++g)
       owners[g] = p.level().owner_of(p.node_at(owned + g));
     return PNPBS_OK;

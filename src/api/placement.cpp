@@ -113,20 +113,21 @@ pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monito
 
 namespace {
 
-GivenNodes checked_nodes(std::int64_t n, const double* xy, const std::int64_t* ids) {
+GivenNodes checked_nodes(std::int64_t n, const double* coordinates, const std::int64_t* ids) {
   require_count(n, "n");
-  if (n > 0) require_pointer(xy, "xy");
+  if (n > 0) require_pointer(coordinates, "coordinates");
   constexpr std::int64_t kLargestId = std::int64_t{1} << 62;  // leaves numbers for new nodes
   GivenNodes nodes;
   for (std::int64_t i = 0; i < n; ++i) {
-    if (!std::isfinite(xy[2 * i]) || !std::isfinite(xy[2 * i + 1]))
-      throw Error(ErrorKind::argument, "argument xy[" + std::to_string(i) + "] = (" +
-                                           number_text(xy[2 * i]) + ", " +
-                                           number_text(xy[2 * i + 1]) + ") must be finite");
+    if (!std::isfinite(coordinates[2 * i]) || !std::isfinite(coordinates[2 * i + 1]))
+      throw Error(ErrorKind::argument, "argument coordinates[" + std::to_string(i) + "] = (" +
+                                           number_text(coordinates[2 * i]) + ", " +
+                                           number_text(coordinates[2 * i + 1]) +
+                                           ") must be finite");
     if (ids && (ids[i] < 0 || ids[i] > kLargestId))
       throw Error(ErrorKind::argument, "argument ids[" + std::to_string(i) + "] = " +
                                            std::to_string(ids[i]) + " must be in 0 .. 2^62");
-    nodes.push_back({{xy[2 * i], xy[2 * i + 1]}, ids ? ids[i] : -1});
+    nodes.push_back({{coordinates[2 * i], coordinates[2 * i + 1]}, ids ? ids[i] : -1});
   }
   if (ids) {
     std::vector<std::int64_t> sorted(ids, ids + n);
@@ -141,11 +142,11 @@ GivenNodes checked_nodes(std::int64_t n, const double* xy, const std::int64_t* i
 
 }  // namespace
 
-pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n, const double* xy,
-                                       const int64_t* ids) {
+pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
+                                       const double* coordinates, const int64_t* ids) {
   return local_change(placement, [&](Placement& p) {
     GivenNodes nodes;
-    agreed(p.communicator(), [&] { nodes = checked_nodes(n, xy, ids); });
+    agreed(p.communicator(), [&] { nodes = checked_nodes(n, coordinates, ids); });
     p.set_nodes(std::move(nodes));  // on all ranks or none
     return PNPBS_OK;
   });

@@ -116,7 +116,7 @@ void Placement::control_population() {
   // Nodes that have just come may make room for more: so twice in a row. After a coarser level
   // there is little left to do.
   const bool quiet =
-      changed <= (schedule_.refined ? kRefinedPays : 1) * settings.population_pays * nodes;
+      changed <= (schedule_.refined ? kRefinedPays : 1) * settings.population_tolerance * nodes;
   schedule_.quiet_events = quiet ? schedule_.quiet_events + 1 : 0;
   schedule_.population_settled =
       schedule_.quiet_events >= (schedule_.refined ? 1 : 2) && !far_too_few();

@@ -45,7 +45,7 @@ const std::vector<OptionRow>& option_table() {
        "steps between events: refresh of d, population, stop test, monitor"},
       {"population_share", T::real, "0.6", "0.75", nullptr, 0, 1, nullptr,
        "the population is adjusted during this share of the steps at most"},
-      {"population_pays", T::real, "0.0002", nullptr, nullptr, 0, 1, nullptr,
+      {"population_tolerance", T::real, "0.0002", nullptr, nullptr, 0, 1, nullptr,
        "... and until two events in a row change no more than this share of the nodes"},
       {"delete_above", T::real, "8.5", "9", nullptr, 6, 100, nullptr,
        "bubbles with a larger overlap ratio are deleted"},
@@ -63,13 +63,13 @@ const std::vector<OptionRow>& option_table() {
        "finishing sweeps towards the mean of the Delaunay neighbours"},
       {"sweep_weight", T::real, "0.6", nullptr, nullptr, 0, 1, nullptr,
        "share of the way to that mean that a sweep goes"},
-      {"defect_repairs", T::integer, "0", nullptr, "1", 0, 1000, nullptr,
+      {"topology_repairs", T::integer, "0", nullptr, "1", 0, 1000, nullptr,
        "most rounds at the end of every level in which nodes come or go where one is missing or "
        "too many: tried on a copy of the nodes around, and kept where the triangles are better"},
-      {"repairs", T::integer, "10", "0", nullptr, 0, 10000, nullptr,
+      {"smoothing_rounds", T::integer, "10", "0", nullptr, 0, 10000, nullptr,
        "most rounds after the sweeps in which triangles below 0.82 are repaired, and then all bad "
        "ones; before the sweeps, nodes that are one too many go; 0: neither"},
-      {"repair_below", T::real, "0.82", nullptr, "0.87", 0, 1, nullptr,
+      {"smooth_below", T::real, "0.82", nullptr, "0.87", 0, 1, nullptr,
        "triangles are bad whose quality, 2 r_in / R, or 1.365 times the sine of the smallest angle "
        "is below this"},
       {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
@@ -84,8 +84,6 @@ const std::vector<OptionRow>& option_table() {
       {"rebalance_above", T::real, "1.1", nullptr, nullptr, 1, 1e6, nullptr,
        "the work is dealt out anew at an event when its largest share passes the mean by this "
        "factor"},
-      {"halo_deficit", T::integer, "0", nullptr, nullptr, 0, 64, nullptr,
-       "for tests: ghost layers are this many hops too thin, which changes the result"},
       {"metis_seed", T::integer, "1", nullptr, nullptr, 0, 2e9, nullptr,
        "seed of the partition; the nodes do not depend on it"},
       {"max_nodes", T::integer, "100000000", nullptr, nullptr, 1, 2e9, nullptr,
@@ -101,6 +99,27 @@ const std::vector<OptionRow>& option_table() {
 }
 
 namespace {
+
+// Options of our tests alone, which no list of options names.
+const std::vector<OptionRow>& hidden_table() {
+  static const std::vector<OptionRow> table = {
+      {"halo_deficit", OptionType::integer, "0", nullptr, nullptr, 0, 64, nullptr,
+       "ghost layers are this many hops too thin, which changes the result"},
+  };
+  return table;
+}
+
+struct RenamedOption {
+  const char* before;
+  const char* name;
+};
+constexpr RenamedOption kRenamed[] = {
+    // since 0.2
+    {"population_pays", "population_tolerance"},
+    {"defect_repairs", "topology_repairs"},
+    {"repairs", "smoothing_rounds"},
+    {"repair_below", "smooth_below"},
+};
 
 std::vector<std::string> choices_of(const OptionRow& row) {
   std::vector<std::string> names;
@@ -119,6 +138,12 @@ const OptionRow& find_row(const std::string& key) {
     if (key == row.name) return row;
     names.emplace_back(row.name);
   }
+  for (const OptionRow& row : hidden_table())
+    if (key == row.name) return row;
+  for (const RenamedOption& renamed : kRenamed)
+    if (key == renamed.before)
+      throw Error(ErrorKind::key, "unknown option \"" + key + "\"; it is \"" + renamed.name +
+                                      "\" since version 0.2");
   throw Error(ErrorKind::key, "unknown option \"" + key + "\"; the nearest known one is \"" +
                                   nearest_name(key, names) + "\"");
 }

@@ -14,7 +14,7 @@ Settings::Settings(const Options& o)
       refined_steps(o.integer("refined_steps")),
       event_interval(o.integer("event_interval")),
       population_share(o.real("population_share")),
-      population_pays(o.real("population_pays")),
+      population_tolerance(o.real("population_tolerance")),
       tolerance_mean(o.real("tolerance_mean")),
       tolerance_max(o.real("tolerance_max")),
       sweeps(o.integer("sweeps")),
@@ -35,9 +35,9 @@ Settings::Settings(const Options& o)
   population.insert_below = o.real("insert_below");
   population.mean_distance = o.real("mean_distance");
   sweep.weight = o.real("sweep_weight");
-  repair.rounds = o.integer("repairs");
-  defects.rounds = o.integer("defect_repairs");
-  repair.bad_below = o.real("repair_below");
+  repair.rounds = o.integer("smoothing_rounds");
+  defects.rounds = o.integer("topology_repairs");
+  repair.bad_below = o.real("smooth_below");
   // The lists must reach beyond the force, or they could never be kept for a step.
   const double least_radius = force_range() + 0.1;
   if (list_radius < least_radius) list_radius = least_radius;

@@ -30,7 +30,7 @@ struct Settings {
   std::int64_t refined_steps;   // on those between it and the finest
   std::int64_t event_interval;
   double population_share;  // of the steps
-  double population_pays;   // share of the nodes
+  double population_tolerance;   // share of the nodes
   PopulationRule population;
   double tolerance_mean, tolerance_max;  // scaled speeds
   std::int64_t sweeps;

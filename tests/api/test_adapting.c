@@ -469,7 +469,7 @@ START_TEST(a_run_is_its_steps) {
   job run = stepping_job(), step = stepping_job();
   MUST(pnpbs_placement_set(run.placement, "steps", "60"));
   MUST(pnpbs_placement_set(run.placement, "sweeps", "0"));
-  MUST(pnpbs_placement_set(run.placement, "repairs", "0"));
+  MUST(pnpbs_placement_set(run.placement, "smoothing_rounds", "0"));
   MUST(pnpbs_placement_set(step.placement, "steps", "60"));
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_run(run.placement));
   MUST_BE(PNPBS_NOT_CONVERGED, pnpbs_placement_step(step.placement, 60));
@@ -545,7 +545,7 @@ START_TEST(no_steps_at_all) {
   hash_text before;
   MUST(pnpbs_placement_set(it.placement, "steps", "0"));
   MUST(pnpbs_placement_set(it.placement, "sweeps", "0"));
-  MUST(pnpbs_placement_set(it.placement, "repairs", "0"));
+  MUST(pnpbs_placement_set(it.placement, "smoothing_rounds", "0"));
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
   MUST(pnpbs_placement_initialise(it.placement));
   before = hash_of(it.placement);

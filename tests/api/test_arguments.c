@@ -14,7 +14,8 @@ static job it; /* what the calls are made on */
 static int32_t curve_answer;
 static double curve_x;
 
-static int32_t curve(int64_t n, const double* t, double* xy, void* user) {
+static int32_t curve(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
+  (void)dim;
   int64_t i;
   (void)user;
   for (i = 0; i < n; ++i) {
@@ -197,10 +198,13 @@ START_TEST(polylines) {
   REFUSE(ARGUMENT, "n ", "0", pnpbs_domain_add_polyline(d, 0, 0, 0, square, NULL, 0));
   REFUSE(ARGUMENT, "n ", "9223372036854775807",
          pnpbs_domain_add_polyline(d, 0, 0, INT64_MAX, square, NULL, 0));
-  REFUSE(ARGUMENT, "xy", "NULL", pnpbs_domain_add_polyline(d, 0, 1, 4, NULL, NULL, 0));
-  REFUSE(ARGUMENT, "xy[2][1]", "nan", pnpbs_domain_add_polyline(d, 0, 1, 4, nan_y, NULL, 0));
-  REFUSE(ARGUMENT, "xy[3][0]", "-inf", pnpbs_domain_add_polyline(d, 0, 1, 4, endless, NULL, 0));
-  REFUSE(ARGUMENT, "xy[2][0]", "1e+200", pnpbs_domain_add_polyline(d, 0, 1, 4, huge, NULL, 0));
+  REFUSE(ARGUMENT, "coordinates", "NULL", pnpbs_domain_add_polyline(d, 0, 1, 4, NULL, NULL, 0));
+  REFUSE(ARGUMENT, "coordinates[2][1]", "nan",
+         pnpbs_domain_add_polyline(d, 0, 1, 4, nan_y, NULL, 0));
+  REFUSE(ARGUMENT, "coordinates[3][0]", "-inf",
+         pnpbs_domain_add_polyline(d, 0, 1, 4, endless, NULL, 0));
+  REFUSE(ARGUMENT, "coordinates[2][0]", "1e+200",
+         pnpbs_domain_add_polyline(d, 0, 1, 4, huge, NULL, 0));
   REFUSE(ARGUMENT, "vertices 1 and 2", "(1, 0)",
          pnpbs_domain_add_polyline(d, 0, 1, 4, twice, NULL, 0));
   REFUSE(ARGUMENT, "vertex 3", "(0, 0)", pnpbs_domain_add_polyline(d, 0, 1, 4, repeated, NULL, 0));
@@ -260,12 +264,13 @@ START_TEST(graphs) {
   REFUSE(ARGUMENT, "holes", "-2", pnpbs_domain_add_pslg(d, 3, xy, NULL, 3, ends, NULL, -2, xy));
   REFUSE(ARGUMENT, "vertices", "9223372036854775807",
          pnpbs_domain_add_pslg(d, INT64_MAX, xy, NULL, 3, ends, NULL, 0, NULL));
-  REFUSE(ARGUMENT, "xy", "NULL", pnpbs_domain_add_pslg(d, 3, NULL, NULL, 3, ends, NULL, 0, NULL));
+  REFUSE(ARGUMENT, "coordinates", "NULL",
+         pnpbs_domain_add_pslg(d, 3, NULL, NULL, 3, ends, NULL, 0, NULL));
   REFUSE(ARGUMENT, "segment_ends", "NULL",
          pnpbs_domain_add_pslg(d, 3, xy, NULL, 3, NULL, NULL, 0, NULL));
   REFUSE(ARGUMENT, "hole_points", "NULL",
          pnpbs_domain_add_pslg(d, 3, xy, NULL, 3, ends, NULL, 1, NULL));
-  REFUSE(ARGUMENT, "xy[2][0]", "nan",
+  REFUSE(ARGUMENT, "coordinates[2][0]", "nan",
          pnpbs_domain_add_pslg(d, 3, bad, NULL, 3, ends, NULL, 0, NULL));
   REFUSE(ARGUMENT, "hole_points[0][1]", "inf",
          pnpbs_domain_add_pslg(d, 3, xy, NULL, 3, ends, NULL, 1, hole));
@@ -285,8 +290,8 @@ START_TEST(points_and_files) {
   REFUSE(ARGUMENT, "point", "NULL", pnpbs_domain_add_hole(d, NULL));
   REFUSE(ARGUMENT, "point[1]", "nan", pnpbs_domain_add_hole(d, bad));
   REFUSE(ARGUMENT, "n ", "-1", pnpbs_domain_add_fixed_nodes(d, -1, good, NULL));
-  REFUSE(ARGUMENT, "xy", "NULL", pnpbs_domain_add_fixed_nodes(d, 1, NULL, NULL));
-  REFUSE(ARGUMENT, "xy[0][1]", "nan", pnpbs_domain_add_fixed_nodes(d, 1, bad, NULL));
+  REFUSE(ARGUMENT, "coordinates", "NULL", pnpbs_domain_add_fixed_nodes(d, 1, NULL, NULL));
+  REFUSE(ARGUMENT, "coordinates[0][1]", "nan", pnpbs_domain_add_fixed_nodes(d, 1, bad, NULL));
   REFUSE(ARGUMENT, "tags[0]", "0", pnpbs_domain_add_fixed_nodes(d, 1, good, &no_tag));
 
   REFUSE(ARGUMENT, "path", "NULL", pnpbs_domain_read_poly(d, NULL));
@@ -353,8 +358,8 @@ START_TEST(given_nodes) {
   const int64_t same[2] = {7, 7}, below[2] = {7, -8}, last[2] = {3, INT64_MAX};
   pnpbs_placement p = it.placement;
   REFUSE(ARGUMENT, "n ", "-1", pnpbs_placement_set_nodes(p, -1, xy, NULL));
-  REFUSE(ARGUMENT, "xy", "NULL", pnpbs_placement_set_nodes(p, 2, NULL, NULL));
-  REFUSE(ARGUMENT, "xy[1]", "inf", pnpbs_placement_set_nodes(p, 2, bad, NULL));
+  REFUSE(ARGUMENT, "coordinates", "NULL", pnpbs_placement_set_nodes(p, 2, NULL, NULL));
+  REFUSE(ARGUMENT, "coordinates[1]", "inf", pnpbs_placement_set_nodes(p, 2, bad, NULL));
   REFUSE(ARGUMENT, "ids[1]", "-8", pnpbs_placement_set_nodes(p, 2, xy, below));
   REFUSE(ARGUMENT, "ids", "7", pnpbs_placement_set_nodes(p, 2, xy, same));
   /* No number would be left for new nodes. */

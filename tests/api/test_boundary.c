@@ -210,7 +210,8 @@ START_TEST(arcs_that_join_segments) {
 END_TEST
 
 /* r = 1 + 0.3 cos 5 t */
-static int32_t flower(int64_t n, const double* t, double* xy, void* user) {
+static int32_t flower(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
+  (void)dim;
   int64_t i;
   (void)user;
   for (i = 0; i < n; ++i) {

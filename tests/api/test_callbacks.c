@@ -431,7 +431,8 @@ static job inside; /* the job whose callback is running */
 static int times_inside, quiet;
 static int64_t batches_inside;
 
-static int32_t small_curve(int64_t n, const double* t, double* xy, void* user) {
+static int32_t small_curve(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
+  (void)dim;
   int64_t i;
   (void)user;
   for (i = 0; i < n; ++i) xy[2 * i] = 0.3 + 0.1 * cos(t[i]), xy[2 * i + 1] = 0.3 + 0.1 * sin(t[i]);
@@ -579,9 +580,10 @@ static int32_t curious_monitor(double fraction, int64_t step, int64_t nodes, dou
   return 0;
 }
 
-static int32_t curious_curve(int64_t n, const double* t, double* xy, void* user) {
+static int32_t curious_curve(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
+  (void)dim;
   look_around();
-  return small_curve(n, t, xy, user);
+  return small_curve(n, dim, t, xy, user);
 }
 
 /* A run in which the callbacks look around gives what one gives in which they do not. */
@@ -691,7 +693,8 @@ typedef struct {
   double least, most; /* parameters asked */
 } curve_probe;
 
-static int32_t probing_curve(int64_t n, const double* t, double* xy, void* user) {
+static int32_t probing_curve(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
+  (void)dim;
   curve_probe* it = user;
   const int is_bad = it->calls >= it->bad_from;
   int64_t i;

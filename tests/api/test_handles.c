@@ -35,7 +35,8 @@ static const int64_t grid_size[2] = {1, 2};
 static const double grid[6] = {0.5, 0.5, 1, 1, 0.2, 0.3}; /* origin, step, values */
 static cone a_cone = {0.1, 0, 0, 0};
 
-static int32_t circle(int64_t n, const double* t, double* points, void* user) {
+static int32_t circle(int64_t n, int32_t dim, const double* t, double* points, void* user) {
+  (void)dim;
   int64_t i;
   (void)user;
   for (i = 0; i < n; ++i) {

@@ -106,8 +106,8 @@ static double least_quality_with(const char* key, const char* value) {
 }
 
 START_TEST(defects_are_repaired) {
-  const double with = least_quality_with("repairs", "10"),
-               without = least_quality_with("repairs", "0");
+  const double with = least_quality_with("smoothing_rounds", "10"),
+               without = least_quality_with("smoothing_rounds", "0");
   ck_assert_msg(with > 0.8 && without < 0.78, "least quality %.3f, without repairs %.3f", with,
                 without);
 }
@@ -118,8 +118,8 @@ START_TEST(defects_become_fewer) {
   double with = 0, without = 0;
   int k;
   for (k = 0; k < 5; ++k) {
-    with += quality_with(1 + 0.01 * k, "defect_repairs", "3").below_95 / 5;
-    without += quality_with(1 + 0.01 * k, "defect_repairs", "0").below_95 / 5;
+    with += quality_with(1 + 0.01 * k, "topology_repairs", "3").below_95 / 5;
+    without += quality_with(1 + 0.01 * k, "topology_repairs", "0").below_95 / 5;
   }
   ck_assert_msg(with < 0.9 * without, "below 0.95 are %.5f of the triangles, without repairs %.5f",
                 with, without);

@@ -257,7 +257,7 @@ START_TEST(missed_without_sweeps) {
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.02));
   MUST(pnpbs_placement_set_nodes(it.placement, 1, xy, NULL));
   MUST(pnpbs_placement_set(it.placement, "sweeps", "0"));
-  MUST(pnpbs_placement_set(it.placement, "repairs", "0"));
+  MUST(pnpbs_placement_set(it.placement, "smoothing_rounds", "0"));
   MUST(pnpbs_placement_set(it.placement, "steps", "0"));
   MUST_BE(PNPBS_SPACING_MISSED, pnpbs_placement_run(it.placement));
   job_end(&it);

@@ -210,7 +210,7 @@ static int32_t coarse_beside_fine(int64_t n, int32_t dim, const double* xyz, dou
  * have ended up in one place, the first stays. */
 START_TEST(a_crowded_corner) {
   static const char* const options[][2] = {
-      {"steps", "40"}, {"steps", "60"}, {"sweeps", "4"}, {"defect_repairs", "2"}};
+      {"steps", "40"}, {"steps", "60"}, {"sweeps", "4"}, {"topology_repairs", "2"}};
   job it = square_job(1);
   result nodes;
   int64_t i, j;
@@ -247,7 +247,7 @@ START_TEST(rounds_of_repairs_end) {
     MUST(pnpbs_placement_set_spacing_callback(it.placement, coarse_beside_fine, NULL));
     MUST(pnpbs_placement_set(it.placement, "growth_limit", "0"));
     MUST(pnpbs_placement_set(it.placement, "steps", "0"));
-    MUST(pnpbs_placement_set(it.placement, "defect_repairs", rounds[k]));
+    MUST(pnpbs_placement_set(it.placement, "topology_repairs", rounds[k]));
     ck_assert_int_ge(pnpbs_placement_run(it.placement), PNPBS_OK); /* nothing can follow that d */
     inserted[k] = integer_of(it.placement, "inserted");
     deleted[k] = integer_of(it.placement, "deleted");
@@ -331,9 +331,8 @@ END_TEST
 /* method=paper is the options it stands for. */
 START_TEST(the_paper_is_a_preset) {
   static const char* const options[][2] = {
-      {"law", "cubic"},          {"scheme", "predictor_corrector"},
-      {"finish", "runge_kutta"}, {"sweeps", "0"},
-      {"repairs", "0"},          {"steps", "50"},
+      {"law", "cubic"},       {"scheme", "predictor_corrector"}, {"finish", "runge_kutta"},
+      {"sweeps", "0"},        {"smoothing_rounds", "0"},         {"steps", "50"},
       {"list_radius", "1.7"},
   };
   job it = square_job(1), plain = square_job(1), other = square_job(1);

@@ -46,8 +46,8 @@ static const thread_job jobs[] = {
     {"restless",
      NULL,
      {0.02, 0.02, 0, 0},
-     {"delete_above", "6.3", "insert_below", "5.9", "event_interval", "4", "population_pays", "0",
-      NULL},
+     {"delete_above", "6.3", "insert_below", "5.9", "event_interval", "4", "population_tolerance",
+      "0", NULL},
      0},
 };
 

@@ -171,7 +171,7 @@ void run(const Arguments& arguments, const char* list_radius) {
   constexpr int kSweeps = 5;  // a block, within which the stars stay
   const double d = std::sqrt(2 / std::sqrt(3.0) / arguments.nodes);
   const pnpbs::GivenNodes lattice = moved_lattice(d, arguments.moved);
-  LevelRun run(fill_square, constant(d), {{"list_radius", list_radius}, {"repairs", "0"}});
+  LevelRun run(fill_square, constant(d), {{"list_radius", list_radius}, {"smoothing_rounds", "0"}});
   Level& level = *run.level;
   Scratch scratch;
   Rows times;

@@ -69,7 +69,7 @@ START_TEST(nodes_go_towards_the_mean) {
   Random random(110);
   for (pnpbs::GivenNode& node : nodes)
     for (double& x : node.position) x += random.between(-0.04, 0.04) * 0.05;
-  LevelRun run(square, d, {{"repairs", "0"}});
+  LevelRun run(square, d, {{"smoothing_rounds", "0"}});
   run.level->take(nodes, 0);
   run.renew_stars();
   const Level& level = *run.level;

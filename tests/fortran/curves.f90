@@ -5,19 +5,20 @@ module curves
   implicit none
 contains
   !> An ellipse with the axes that user points to; fails without.
-  function ellipse(n, t, xy, user) bind(C)
+  function ellipse(n, dim, t, coordinates, user) bind(C)
     integer(c_int64_t), value :: n
+    integer(c_int32_t), value :: dim
     real(c_double), intent(in) :: t(n)
-    real(c_double), intent(out) :: xy(2, n)
+    real(c_double), intent(out) :: coordinates(dim, n)
     type(c_ptr), value :: user
     integer(c_int32_t) :: ellipse
     real(c_double), pointer :: axes(:)
     ellipse = 4
-    xy = 0
+    coordinates = 0
     if (.not. c_associated(user)) return
     call c_f_pointer(user, axes, [2])
-    xy(1, :) = axes(1) * cos(t)
-    xy(2, :) = axes(2) * sin(t)
+    coordinates(1, :) = axes(1) * cos(t)
+    coordinates(2, :) = axes(2) * sin(t)
     ellipse = 0
   end function
 end module curves

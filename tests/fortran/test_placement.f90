@@ -199,7 +199,7 @@ contains
     call placement%set_nodes(xy, ids(:2), stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'ids has room for 2; 3')
     call placement%set_nodes(reshape(xy, [3, 2]), stat=stat, errmsg=errmsg)
-    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xy')
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates')
     call placement%destroy
     call domain%destroy
   end subroutine
@@ -217,9 +217,9 @@ contains
     call placement%count(nodes)
     allocate (three(3, nodes), ids(2 * nodes), offsets(nodes + 1))
     call placement%get_nodes(three, stat=stat, errmsg=errmsg)
-    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xy has an extent of 3 where 2')
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has an extent of 3 where 2')
     call placement%get_nodes(three(1:2, :), stat=stat, errmsg=errmsg)
-    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xy has gaps in memory')
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has gaps in memory')
     call placement%get_nodes(ids=ids(::2), stat=stat, errmsg=errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'ids has gaps in memory')
     call placement%get_nodes(ids=ids(2 * nodes:1:-1), stat=stat, errmsg=errmsg)

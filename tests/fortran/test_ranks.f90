@@ -96,7 +96,8 @@ contains
     xy = 0.5d0
     call placement%set_nodes(xy, stat=stat, errmsg=errmsg)
     call expect(stat < 0, 'a wrong shape on one rank')
-    if (rank == 0) call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'xy has an extent of 3')
+    if (rank == 0) &
+      call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has an extent of 3')
     call placement%run(stat)
     call expect(stat >= 0, 'it goes on afterwards')
     call placement%destroy

@@ -107,7 +107,7 @@ contains
     xy = 0
     call placement%get_nodes(ids=ids)
     call expect(all(ids(n + 1:) == -7), 'room that is not needed')
-    call placement%get_nodes(xy=xy)
+    call placement%get_nodes(coordinates=xy)
     call expect(twin_nodes(placement%handle(), n, xy, ids, tags, d) == 0, 'nodes one by one')
   end subroutine
 

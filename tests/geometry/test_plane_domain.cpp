@@ -791,15 +791,15 @@ START_TEST(bad_polylines) {
                        const std::int32_t* t = nullptr) {
     return [=, &domain] { domain.add_polyline(role, true, n, points, t, angle); };
   };
-  expect_argument_error({"xy[1][1] is nan"}, add(3, bad));
-  expect_argument_error({"xy[2][0] is 1e+151"}, add(3, huge));
-  expect_argument_error({"xy[2][1] is -inf"}, add(3, endless));
+  expect_argument_error({"coordinates[1][1] is nan"}, add(3, bad));
+  expect_argument_error({"coordinates[2][0] is 1e+151"}, add(3, huge));
+  expect_argument_error({"coordinates[2][1] is -inf"}, add(3, endless));
   expect_argument_error({"vertices 1 and 2 are both (1, 0)"}, add(4, twice));
   expect_argument_error({"repeated as the last, vertex 3"}, add(4, closing));
   expect_argument_error({"tags[2] is 0"}, add(4, xy, 0, pnpbs::CurveRole::boundary, tags));
   expect_argument_error({"n is 2"}, add(2, xy));
   expect_argument_error({"n is -1"}, add(-1, xy));
-  expect_argument_error({"xy is NULL"}, add(4, nullptr));
+  expect_argument_error({"coordinates is NULL"}, add(4, nullptr));
   expect_argument_error({"corner_angle is 181"}, add(4, xy, 181));
   expect_argument_error({"corner_angle is nan"}, add(4, xy, nan_value));
   add(4, xy)();
@@ -875,7 +875,7 @@ START_TEST(bad_graphs) {
   expect_argument_error({"vertices is -3"},
                         [&] { domain.add_pslg(-3, xy, nullptr, 3, good, nullptr, 0, nullptr); });
   expect_argument_error({"point[1] is nan"}, [&] { domain.add_hole({0, nan_value}); });
-  expect_argument_error({"xy[0][1] is inf"}, [&] { domain.add_fixed_nodes(1, hole, nullptr); });
+  expect_argument_error({"coordinates[0][1] is inf"}, [&] { domain.add_fixed_nodes(1, hole, nullptr); });
   domain.add_pslg(3, xy, nullptr, 3, good, nullptr, 0, nullptr);
   expect_area(domain, 0.5);
 }

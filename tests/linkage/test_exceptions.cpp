@@ -25,7 +25,8 @@ int32_t monitor(double, int64_t, int64_t, double, void*) {
   return 0;
 }
 
-int32_t curve(int64_t n, const double* t, double* xy, void*) {
+int32_t curve(int64_t n, int32_t dim, const double* t, double* xy, void*) {
+  (void)dim;
   if (throws == Throws::curve) throw std::out_of_range("beyond the curve");
   for (int64_t i = 0; i < n; ++i) {
     xy[2 * i] = t[i];

@@ -121,7 +121,8 @@ static void failing_callbacks(double value, pnpbs_status wanted, const char* par
   expect(after > 10, "calls to fail in");
 }
 
-static int32_t curve(int64_t n, const double* t, double* xy, void* user) {
+static int32_t curve(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
+  (void)dim;
   const struct fault* fault = user;
   int64_t i;
   for (i = 0; i < n; ++i) {

@@ -67,7 +67,7 @@ compare 16 1 2 2
 begin "$data/great_lakes_islands.poly" 4
 compare 8 1 4 1
 # Many events with many insertions and deletions.
-begin graded-square 8 event_interval=3 population_pays=0 delete_above=6.3 insert_below=5.7
+begin graded-square 8 event_interval=3 population_tolerance=0 delete_above=6.3 insert_below=5.7
 compare 4 1 2 1
 compare 7 1 8 2
 require_at_least 50 inserted "population control had little to do"
@@ -97,7 +97,7 @@ compare 8 1 5 1
 compare 16 1 2 1
 require_at_least 20 deleted "no surplus node had to go"
 # Many defects, far from rest, so that repairs have much to try and often bar each other.
-begin graded-square 8 steps=0 levels=0 defect_repairs=6 sweeps=0 repairs=0
+begin graded-square 8 steps=0 levels=0 topology_repairs=6 sweeps=0 smoothing_rounds=0
 compare 2 1 4 1
 compare 3 2 1 2
 compare 5 1 5 1

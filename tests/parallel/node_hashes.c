@@ -48,7 +48,8 @@ static void add_annulus(pnpbs_domain domain) {
   add_circle(domain, PNPBS_BOUNDARY, 0.5, 0.5, 0.2);
 }
 
-static int32_t wave(int64_t n, const double* t, double* xy, void* user) {
+static int32_t wave(int64_t n, int32_t dim, const double* t, double* xy, void* user) {
+  (void)dim;
   int64_t i;
   (void)user;
   for (i = 0; i < n; ++i) {
@@ -92,7 +93,7 @@ static void add_sharp_corner(pnpbs_domain domain) {
 struct spacing {
   double constant, slope, x, y; /* grows from a point, or from a line if x is nan */
   double max;
-  double line, beyond;          /* something else right of a line */
+  double line, beyond; /* something else right of a line */
 };
 
 static int32_t spacing_at(int64_t n, int32_t dim, const double* x, double* d, void* user) {
@@ -133,10 +134,7 @@ static const struct placing placings[] = {
      {0.06, 0, 0, 0, HUGE_VAL, 0.52, 0.012},
      {"growth_limit", "0", "steps", "60", NULL}},
     {"steep", add_square, {0.0005, 0.9, 0.3, 0.4, EVERYWHERE}, {NULL}},
-    {"slow-growth",
-     add_square,
-     {0.001, 0.4, 0.3, 0.4, EVERYWHERE},
-     {"growth_limit", "0.1", NULL}},
+    {"slow-growth", add_square, {0.001, 0.4, 0.3, 0.4, EVERYWHERE}, {"growth_limit", "0.1", NULL}},
     {"lake", add_lake, {3, 0, 0, 0, EVERYWHERE}, {NULL}},
     {"lake-graded", add_lake, {1, 0.025, 0, 0, EVERYWHERE}, {NULL}},
     {"lake-best", add_lake, {2, 0.035, 0, 0, EVERYWHERE}, {"effort", "best", NULL}},
@@ -160,7 +158,7 @@ static const struct placing placings[] = {
     {"small-holes-graded",
      add_square_with_small_holes,
      {0.01, 0.1, 1, 1, EVERYWHERE},
-     {"defect_repairs", "1", NULL}},
+     {"topology_repairs", "1", NULL}},
     {"sharp-corner", add_sharp_corner, {0.01, 0.03, 0, 0, EVERYWHERE}, {NULL}},
     {"wide-lists",
      add_annulus,

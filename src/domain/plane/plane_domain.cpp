@@ -131,7 +131,7 @@ void PlaneDomain::add_polyline(CurveRole role, bool closed, std::int64_t n, cons
   source.kind = CurveSource::Kind::polyline;
   source.role = role;
   source.closed = closed;
-  source.points = read_points("xy", n, xy);
+  source.points = read_points("coordinates", n, xy);
   source.tags = read_tags("tags", closed ? n : n - 1, tags);
   source.corner_angle = corner_angle;
   require_distinct_neighbours(source.points, closed);
@@ -194,7 +194,7 @@ void PlaneDomain::add_pslg(std::int64_t vertices, const double* xy, const std::i
   CurveSource graph;
   graph.kind = CurveSource::Kind::graph;
   graph.first_number = first_number;
-  graph.points = read_points("xy", vertices, xy);
+  graph.points = read_points("coordinates", vertices, xy);
   if (vertex_tags != nullptr) graph.point_tags.assign(vertex_tags, vertex_tags + vertices);
   read_segments(graph, segments, segment_ends, segment_tags);
   const std::vector<Point<2>> points = read_points("hole_points", holes, hole_points);
@@ -214,7 +214,7 @@ void PlaneDomain::add_hole(const Point<2>& point) {
 
 void PlaneDomain::add_fixed_nodes(std::int64_t n, const double* xy, const std::int32_t* tags) {
   require_count("n", n, 0);
-  const std::vector<Point<2>> points = read_points("xy", n, xy);
+  const std::vector<Point<2>> points = read_points("coordinates", n, xy);
   const std::vector<std::int32_t> values = read_tags("tags", n, tags);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::string name = "fixed node " + std::to_string(given_nodes_.size());

@@ -121,9 +121,9 @@ pnpbs_domain_create(context, dim, domain) =
 pnpbs_domain_destroy(domain) =
     @ccall $(symbol(:pnpbs_domain_destroy))(domain::Ptr{pnpbs_domain})::pnpbs_status
 
-pnpbs_domain_add_polyline(domain, role, closed, n, xy, tags, corner_angle) =
+pnpbs_domain_add_polyline(domain, role, closed, n, coordinates, tags, corner_angle) =
     @ccall $(symbol(:pnpbs_domain_add_polyline))(
-        domain::pnpbs_domain, role::Int32, closed::Int32, n::Int64, xy::Ptr{Cdouble},
+        domain::pnpbs_domain, role::Int32, closed::Int32, n::Int64, coordinates::Ptr{Cdouble},
         tags::Ptr{Int32}, corner_angle::Cdouble)::pnpbs_status
 
 pnpbs_domain_add_arc(domain, role, centre, radius, from, to, tag) =
@@ -136,10 +136,10 @@ pnpbs_domain_add_curve(domain, role, curve, user, from, to, tag) =
         domain::pnpbs_domain, role::Int32, curve::pnpbs_curve_fn, user::Ptr{Cvoid},
         from::Cdouble, to::Cdouble, tag::Int32)::pnpbs_status
 
-pnpbs_domain_add_pslg(domain, vertices, xy, vertex_tags, segments, segment_ends,
+pnpbs_domain_add_pslg(domain, vertices, coordinates, vertex_tags, segments, segment_ends,
                       segment_tags, holes, hole_points) =
     @ccall $(symbol(:pnpbs_domain_add_pslg))(
-        domain::pnpbs_domain, vertices::Int64, xy::Ptr{Cdouble}, vertex_tags::Ptr{Int32},
+        domain::pnpbs_domain, vertices::Int64, coordinates::Ptr{Cdouble}, vertex_tags::Ptr{Int32},
         segments::Int64, segment_ends::Ptr{Int64}, segment_tags::Ptr{Int32}, holes::Int64,
         hole_points::Ptr{Cdouble})::pnpbs_status
 
@@ -147,9 +147,9 @@ pnpbs_domain_add_hole(domain, point) =
     @ccall $(symbol(:pnpbs_domain_add_hole))(
         domain::pnpbs_domain, point::Ptr{Cdouble})::pnpbs_status
 
-pnpbs_domain_add_fixed_nodes(domain, n, xy, tags) =
+pnpbs_domain_add_fixed_nodes(domain, n, coordinates, tags) =
     @ccall $(symbol(:pnpbs_domain_add_fixed_nodes))(
-        domain::pnpbs_domain, n::Int64, xy::Ptr{Cdouble}, tags::Ptr{Int32})::pnpbs_status
+        domain::pnpbs_domain, n::Int64, coordinates::Ptr{Cdouble}, tags::Ptr{Int32})::pnpbs_status
 
 pnpbs_domain_read_poly(domain, path) =
     @ccall $(symbol(:pnpbs_domain_read_poly))(
@@ -220,9 +220,9 @@ pnpbs_placement_set_monitor(placement, monitor, user) =
         placement::pnpbs_placement, monitor::pnpbs_monitor_fn,
         user::Ptr{Cvoid})::pnpbs_status
 
-pnpbs_placement_set_nodes(placement, n, xy, ids) =
+pnpbs_placement_set_nodes(placement, n, coordinates, ids) =
     @ccall $(symbol(:pnpbs_placement_set_nodes))(
-        placement::pnpbs_placement, n::Int64, xy::Ptr{Cdouble},
+        placement::pnpbs_placement, n::Int64, coordinates::Ptr{Cdouble},
         ids::Ptr{Int64})::pnpbs_status
 
 pnpbs_placement_estimate(placement, nodes, bytes, seconds) =
@@ -251,18 +251,18 @@ pnpbs_placement_count(placement, nodes) =
     @ccall $(symbol(:pnpbs_placement_count))(
         placement::pnpbs_placement, nodes::Ptr{Int64})::pnpbs_status
 
-pnpbs_placement_get_nodes(placement, capacity, xy, ids, tags, spacing) =
+pnpbs_placement_get_nodes(placement, capacity, coordinates, ids, tags, spacing) =
     @ccall $(symbol(:pnpbs_placement_get_nodes))(
-        placement::pnpbs_placement, capacity::Int64, xy::Ptr{Cdouble}, ids::Ptr{Int64},
+        placement::pnpbs_placement, capacity::Int64, coordinates::Ptr{Cdouble}, ids::Ptr{Int64},
         tags::Ptr{Int32}, spacing::Ptr{Cdouble})::pnpbs_status
 
 pnpbs_placement_ghost_count(placement, ghosts) =
     @ccall $(symbol(:pnpbs_placement_ghost_count))(
         placement::pnpbs_placement, ghosts::Ptr{Int64})::pnpbs_status
 
-pnpbs_placement_get_ghosts(placement, capacity, xy, ids, tags, spacing, owners) =
+pnpbs_placement_get_ghosts(placement, capacity, coordinates, ids, tags, spacing, owners) =
     @ccall $(symbol(:pnpbs_placement_get_ghosts))(
-        placement::pnpbs_placement, capacity::Int64, xy::Ptr{Cdouble}, ids::Ptr{Int64},
+        placement::pnpbs_placement, capacity::Int64, coordinates::Ptr{Cdouble}, ids::Ptr{Int64},
         tags::Ptr{Int32}, spacing::Ptr{Cdouble}, owners::Ptr{Int32})::pnpbs_status
 
 pnpbs_placement_exchange_sizes(placement, neighbours, sends, receives) =

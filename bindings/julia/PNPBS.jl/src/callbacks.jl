@@ -54,20 +54,21 @@ function store!(out::Ptr{Float64}, value, wanted, what)
                         "$wanted was expected"))
 end
 
-function call_spacing(n::Int64, dim::Int32, xyz::Ptr{Float64}, d::Ptr{Float64}, user::Ptr{Cvoid})
+function call_spacing(n::Int64, dim::Int32, coordinates::Ptr{Float64}, d::Ptr{Float64}, user::Ptr{Cvoid})
     n == 0 && return Int32(0)
     return guarded(user) do callback
-        values = callback.f(copied(xyz, Int(dim), Int(n)))
+        values = callback.f(copied(coordinates, Int(dim), Int(n)))
         store!(d, values, (Int(n),), "spacing")
         return 0
     end
 end
 
-function call_curve(n::Int64, t::Ptr{Float64}, xy::Ptr{Float64}, user::Ptr{Cvoid})
+function call_curve(n::Int64, dim::Int32, t::Ptr{Float64}, coordinates::Ptr{Float64},
+                    user::Ptr{Cvoid})
     n == 0 && return Int32(0)
     return guarded(user) do callback
         points = callback.f(copied(t, Int(n)))
-        store!(xy, points, (2, Int(n)), "curve")
+        store!(coordinates, points, (Int(dim), Int(n)), "curve")
         return 0
     end
 end
@@ -87,7 +88,7 @@ function make_callback_pointers()
     spacing_pointer[] = @cfunction(call_spacing, Int32,
                                    (Int64, Int32, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}))
     curve_pointer[] = @cfunction(call_curve, Int32,
-                                 (Int64, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}))
+                                 (Int64, Int32, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}))
     monitor_pointer[] = @cfunction(call_monitor, Int32,
                                    (Float64, Int64, Int64, Float64, Ptr{Cvoid}))
     return nothing

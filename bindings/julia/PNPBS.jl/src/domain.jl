@@ -43,16 +43,18 @@ function role_number(role::Symbol)
 end
 
 """
-    add_polyline!(domain, xy; closed = true, role = :boundary, tags = nothing, corner_angle = 0)
+    add_polyline!(domain, coordinates; closed = true, role = :boundary, tags = nothing,
+                  corner_angle = 0)
 
-Adds straight segments through the columns of `xy`; `closed` leads one from the last to the first.
+Adds straight segments through the columns of `coordinates`; `closed` leads one from the last to the
+first.
 `tags` is one for all segments or one for each. With `corner_angle = 0` every vertex becomes a
 node; otherwise those where the direction turns by more than so many degrees, and between them the
 polyline stands for a smooth curve.
 """
-function add_polyline!(domain::Domain, xy::AbstractMatrix{<:Real}; closed::Bool = true,
+function add_polyline!(domain::Domain, coordinates::AbstractMatrix{<:Real}; closed::Bool = true,
                        role::Symbol = :boundary, tags = nothing, corner_angle::Real = 0)
-    points = as_points(xy, "xy")
+    points = as_points(coordinates, "coordinates")
     n = size(points, 2)
     segment_tags = as_tags(tags, closed ? n : max(n - 1, 0), "tags")
     check(domain.context,
@@ -99,16 +101,18 @@ function add_curve!(f, domain::Domain, from::Real, to::Real; role::Symbol = :bou
 end
 
 """
-    add_pslg!(domain, xy, segments; vertex_tags = nothing, segment_tags = nothing, holes = nothing)
+    add_pslg!(domain, coordinates, segments; vertex_tags = nothing, segment_tags = nothing,
+              holes = nothing)
 
 Adds a planar straight-line graph as Triangle means it: what the segments enclose is the domain,
-but for the regions that contain a hole point. `segments` is `(2, m)`, indices of columns of `xy`
+but for the regions that contain a hole point. `segments` is `(2, m)`, indices of columns of `coordinates`
 from 1; `holes` is `(2, h)`. Every vertex becomes a node.
 """
-function add_pslg!(domain::Domain, xy::AbstractMatrix{<:Real}, segments::AbstractMatrix{<:Integer};
+function add_pslg!(domain::Domain, coordinates::AbstractMatrix{<:Real},
+                   segments::AbstractMatrix{<:Integer};
                    vertex_tags = nothing, segment_tags = nothing,
                    holes::Union{Nothing,AbstractMatrix{<:Real}} = nothing)
-    points = as_points(xy, "xy")
+    points = as_points(coordinates, "coordinates")
     require_points(segments, "segments")
     hole_points = holes === nothing ? zeros(2, 0) : as_points(holes, "holes")
     n, m = size(points, 2), size(segments, 2)
@@ -132,12 +136,12 @@ function add_hole!(domain::Domain, point)
 end
 
 """
-    add_fixed_nodes!(domain, xy; tags = nothing)
+    add_fixed_nodes!(domain, coordinates; tags = nothing)
 
 Adds nodes that must appear exactly, inside the domain or on a vertex of its curves.
 """
-function add_fixed_nodes!(domain::Domain, xy::AbstractMatrix{<:Real}; tags = nothing)
-    points = as_points(xy, "xy")
+function add_fixed_nodes!(domain::Domain, coordinates::AbstractMatrix{<:Real}; tags = nothing)
+    points = as_points(coordinates, "coordinates")
     n = size(points, 2)
     check(domain.context,
           LibPNPBS.pnpbs_domain_add_fixed_nodes(live(domain), n, points, as_tags(tags, n, "tags")))

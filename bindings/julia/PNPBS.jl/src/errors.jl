@@ -45,18 +45,18 @@ function require_length(values, n, what)
     return nothing
 end
 
-function require_points(xy, what)
-    size(xy, 1) == 2 || throw(DimensionMismatch(
-        "$what has size $(size(xy)); points are columns, so (2, n) was expected"))
+function require_points(points, what)
+    size(points, 1) == 2 || throw(DimensionMismatch(
+        "$what has size $(size(points)); points are columns, so (2, n) was expected"))
     return nothing
 end
 
-function as_points(xy::AbstractMatrix{<:Real}, what)
-    require_points(xy, what)
-    return convert(Matrix{Float64}, xy)
+function as_points(points::AbstractMatrix{<:Real}, what)
+    require_points(points, what)
+    return convert(Matrix{Float64}, points)
 end
 
-as_point(xy, what) = (require_length(xy, 2, what); Float64[xy...])
+as_point(points, what) = (require_length(points, 2, what); Float64[points...])
 
 # Tags as the library takes them: nothing for its default, one for all, or one for each.
 as_tags(::Nothing, n, what) = C_NULL

@@ -6,7 +6,7 @@ using Libdl
 const PACKAGE = Base.UUID("c5532396-b5c1-415c-b7a9-3fa63870194d")
 # The interface this package is written for. While the major version is 0, a new minor one may
 # change it.
-const INTERFACE = (0, 1)
+const INTERFACE = (0, 2)
 const opened = Ref{Ptr{Cvoid}}(C_NULL)
 const opened_path = Ref("")
 

@@ -154,15 +154,15 @@ set_monitor!(placement::Placement, ::Nothing) = set_monitor!(keep_going, placeme
 keep_going(fraction, step, nodes, max_speed) = false
 
 """
-    set_nodes!(placement, xy; ids = nothing)
+    set_nodes!(placement, coordinates; ids = nothing)
 
-Inner nodes to start from instead of the library's own: the columns of `xy`, on any ranks, with
+Inner nodes to start from instead of the library's own: the columns of `coordinates`, on any ranks, with
 distinct global ids from 0 on if `ids` are given. The boundary is laid by the library. Clears the
 nodes there are. Collective.
 """
-function set_nodes!(placement::Placement, xy::AbstractMatrix{<:Real};
+function set_nodes!(placement::Placement, coordinates::AbstractMatrix{<:Real};
                     ids::Union{Nothing,AbstractVector{<:Integer}} = nothing)
-    points = as_points(xy, "xy")
+    points = as_points(coordinates, "coordinates")
     n = size(points, 2)
     wrong = ids !== nothing && length(ids) != n
     # Where the ids are too many or too few on one rank, the library hears of it, and so do the

@@ -29,8 +29,8 @@ end
 end
 
 @testset "tables" begin
-    @test library_version() == v"0.1.0"
-    @test occursin("version: 0.1.0", build_info())
+    @test library_version() == v"0.2.0"
+    @test occursin("version: 0.2.0", build_info())
     @test mpi_library() isa String
     steps = only(filter(row -> row.name == "steps", option_table()))
     @test steps.type == "integer" && parse(Int, steps.default) > 0 && !isempty(steps.help)
@@ -79,9 +79,9 @@ end
     chosen = in_another_process("using PNPBS; print(PNPBS.LibPNPBS.library_path())",
                                 library = "/a.so")
     @test chosen == "/a.so"
-    @test PNPBS.LibPNPBS.require_interface(0, 1, "x.so") === nothing
-    e = thrown(() -> PNPBS.LibPNPBS.require_interface(0, 2, "x.so"))
-    @test e.msg == "x.so is PNPBS 0.2, but this package is for 0.1; " *
+    @test PNPBS.LibPNPBS.require_interface(0, 2, "x.so") === nothing
+    e = thrown(() -> PNPBS.LibPNPBS.require_interface(0, 3, "x.so"))
+    @test e.msg == "x.so is PNPBS 0.3, but this package is for 0.2; " *
                    "use the package of the same version"
 end
 
