@@ -2,35 +2,15 @@
 #include "predicates/plane.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
+#include "predicates/bit_range.hpp"
 #include "predicates/expansion.hpp"
 #include "predicates/wide_integer.hpp"
 
 namespace pnpbs::predicates {
 
 namespace {
-
-// The bits in which numbers have something: all are multiples of 2^low and below 2^high.
-struct BitRange {
-  int low = 1100;
-  int high = -1100;
-
-  void include(double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    auto mantissa = bits & ((std::uint64_t{1} << 52) - 1);
-    int exponent = static_cast<int>((bits >> 52) & 0x7ff);
-    if (exponent == 0 && mantissa == 0) return;
-    if (exponent == 0) {
-      exponent = 1;  // subnormal
-    } else {
-      mantissa |= std::uint64_t{1} << 52;
-    }
-    low = std::min(low, exponent - 1075 + std::countr_zero(mantissa));
-    high = std::max(high, exponent - 1075 + static_cast<int>(std::bit_width(mantissa)));
-  }
-};
 
 // Between these, the products of four differences neither overflow nor lose bits at the bottom.
 constexpr int kLowestBit = -240;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact signs of determinants: a floating-point filter first, exact expansions where it cannot
-// decide. Method: J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
-// geometric predicates", Discrete Comput. Geom. 18 (1997) 305-363. The filters are inline: they
-// decide almost always, and are asked hundreds of millions of times.
+// Exact signs of determinants of points in the plane: a floating-point filter first, exact
+// expansions where it cannot decide. Method: J. R. Shewchuk, "Adaptive precision floating-point
+// arithmetic and fast robust geometric predicates", Discrete Comput. Geom. 18 (1997) 305-363. The
+// filters are inline: they decide almost always, and are asked hundreds of millions of times.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 
 #include "base/types.hpp"
+#include "predicates/filter.hpp"
 
 namespace pnpbs {
 
@@ -20,12 +21,8 @@ int in_circle_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, con
 int break_tie(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d,
               std::int64_t id_a, std::int64_t id_b, std::int64_t id_c, std::int64_t id_d);
 
-constexpr double kHalfUlp = 0x1p-53;
 constexpr double kOrientationBound = (3 + 16 * kHalfUlp) * kHalfUlp;
 constexpr double kInCircleBound = (10 + 96 * kHalfUlp) * kHalfUlp;
-// Far above what products lose that fall below the normal range: below it, nothing is decided
-// without the exact arithmetic. (Overflow gives inf or NaN, which decide nothing either.)
-constexpr double kUnderflowGuard = 0x1p-960;
 
 }  // namespace predicates
 

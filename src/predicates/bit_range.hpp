@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which bits of finite doubles are in use: what exact arithmetic of them needs.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace pnpbs {
+
+// |value| = mantissa * 2^exponent
+struct BinaryParts {
+  std::uint64_t mantissa;  // below 2^53
+  int exponent;
+};
+
+inline BinaryParts binary_parts(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto fraction = bits & ((std::uint64_t{1} << 52) - 1);
+  const int exponent = static_cast<int>((bits >> 52) & 0x7ff);
+  const std::uint64_t leading = exponent == 0 ? 0 : 1;  // 0 for 0 and subnormal numbers
+  return {fraction | leading << 52, std::max(exponent, 1) - 1075};
+}
+
+// The bits in which numbers have something: all are multiples of 2^low and below 2^high.
+struct BitRange {
+  int low = 1100;
+  int high = -1100;
+
+  // Without branches: which differences are 0 is hard to predict.
+  void include(double value) {
+    const auto [mantissa, exponent] = binary_parts(value);
+    const int beyond = mantissa == 0 ? 4096 : 0;
+    const int lowest = std::countr_zero(mantissa | std::uint64_t{1} << 53);
+    const int highest = static_cast<int>(std::bit_width(mantissa | 1));
+    low = std::min(low, exponent + lowest + beyond);
+    high = std::max(high, exponent + highest - beyond);
+  }
+};
+
+}  // namespace pnpbs
