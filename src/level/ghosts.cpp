@@ -6,6 +6,7 @@
 
 #include "comm/records.hpp"
 #include "level/level.hpp"
+#include "partition/node_exchange.hpp"
 
 namespace pnpbs {
 
@@ -13,13 +14,6 @@ namespace {
 
 // Ghosts are chosen anew after so many steps, because nodes drift.
 constexpr std::int64_t kGhostLife = 20;
-
-template <class Record>
-std::int64_t records_in(const std::vector<Bytes>& messages) {
-  std::size_t bytes = 0;
-  for (const Bytes& message : messages) bytes += message.size();
-  return static_cast<std::int64_t>(bytes / sizeof(Record));
-}
 
 }  // namespace
 
@@ -98,7 +92,14 @@ void Level::exchange(int hops) {
       failure = std::current_exception();
     }
   };
-  attempt([&] { pack_leaving(halo, outgoing); });
+  const NodeExchange<2> travel{map_.tree(), distribution_, halo, comm_->rank(), plan_};
+  attempt([&] {
+    const auto known_leaf = [this](std::int64_t i) {
+      return buckets_.knows(i) ? buckets_.bucket_of(i) : -1;
+    };
+    const View<std::int32_t> stay = nodes_.order_scratch();
+    keep_nodes(stay, travel.pack_leaving(nodes_, known_leaf, outgoing, stay));
+  });
   if (failure)
     for (Bytes& bytes : outgoing) bytes.clear();
   try {
@@ -106,59 +107,12 @@ void Level::exchange(int hops) {
   } catch (...) {
     failure = std::current_exception();
   }
-  attempt([&] { append_arriving(halo, incoming); });
+  attempt([&] { travel.append_arriving(nodes_, incoming); });
   lists_valid_ = false;
   agree_on_failure(*comm_, failure);
   ghost_hops_ = hops;
   ghosts_exact_ = true;
   steps_since_choice_ = 0;
-}
-
-// Packs what other ranks own by now or have as ghosts, and keeps what is ours or our ghost.
-void Level::pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing) {
-  const View<std::int32_t> stay = nodes_.order_scratch();
-  std::int64_t kept = 0;
-  for (std::int64_t i = 0; i < nodes_.count; ++i) {
-    if (!nodes_.owned(i)) continue;
-    if (buckets_.knows(i) && halo.quiet(buckets_.bucket_of(i))) {
-      stay(kept++) = static_cast<std::int32_t>(i);
-      continue;
-    }
-    const std::int32_t leaf =
-        map_.tree().leaf_at(nodes_.position(i), buckets_.knows(i) ? buckets_.bucket_of(i) : -1);
-    const int owner = distribution_.owner(leaf);
-    const bool ours = owner == comm_->rank();
-    bool stays = ours;
-    if (!ours && plan_.knows(owner)) pack(outgoing[plan_.place(owner)], packed(nodes_, i));
-    halo.for_ranks(leaf, [&](int r) {
-      if (r == comm_->rank())
-        stays = true;
-      else if (plan_.knows(r))
-        pack(outgoing[plan_.place(r)], packed(nodes_, i));
-      if (ours) plan_.send(r, static_cast<std::int32_t>(kept));
-    });
-    if (!stays) continue;
-    if (!ours) plan_.receive(owner, static_cast<std::int32_t>(kept));
-    nodes_.owned(i) = ours;
-    stay(kept++) = static_cast<std::int32_t>(i);
-  }
-  keep_nodes(stay, kept);
-}
-
-// Ghosts, and nodes that have drifted to us: those, others may have as ghosts.
-void Level::append_arriving(const Halo& halo, const std::vector<Bytes>& incoming) {
-  nodes_.reserve_with_room(nodes_.count + records_in<PackedNode<2>>(incoming));
-  std::int32_t leaf = -1;  // nodes of the same one come together
-  for_records<PackedNode<2>>(incoming, [&](const PackedNode<2>& node) {
-    leaf = map_.tree().leaf_at(node.x, leaf);
-    const auto i = static_cast<std::int32_t>(nodes_.count);
-    append(nodes_, node, distribution_.owns(leaf));
-    if (distribution_.owns(leaf))
-      halo.for_ranks(leaf, [&](int r) { plan_.send(r, i); });
-    else
-      plan_.receive(distribution_.owner(leaf), i);
-  });
-  plan_.build(nodes_);
 }
 
 // Owned nodes go to their owners by a new partition, however far; there are no ghosts until the

@@ -199,8 +199,6 @@ class Level {
   bool ghosts_can_stay(int hops) const;
   void renew_ghosts();
   void exchange(int hops);
-  void pack_leaving(const Halo& halo, std::vector<Bytes>& outgoing);
-  void append_arriving(const Halo& halo, const std::vector<Bytes>& incoming);
   void migrate();
 
   double widest_radius() const;
