@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who owns what of a volume, and who needs it: owners, halos and sums over leaves in Morton order,
+// against brute force.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/mixed_hash.hpp"
+#include "octree_on_ranks.hpp"
+#include "rank_checks.hpp"
+
+namespace {
+
+using octree::BackgroundTree;
+using octree::Point;
+using pnpbs::Box;
+using pnpbs::Distribution;
+using rank_checks::comm;
+using rank_checks::expect;
+
+constexpr double kRadius = 1.7;  // of the lists
+constexpr int kUnreached = 1000;
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+double spacing(const Point<3>& x) { return 0.01 + 0.08 * pnpbs::distance<3>(x, {0.3, 0.4, 0.6}); }
+
+double leaf_width(const Point<3>& x) { return 4 * spacing(x); }
+
+// What a halo is to be, from the boxes of all leaves and cells.
+class BruteForce {
+ public:
+  BruteForce(const BackgroundTree<3>& tree, const std::vector<double>& d,
+             const Distribution<3>& distribution)
+      : distribution_(distribution), leaves_(index(tree.leaf_count())), near_(leaves_) {
+    for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+      box_.push_back(tree.cell_box(tree.leaf_cell(leaf)));
+      reach_.push_back(pnpbs::kRoomForGrowth * kRadius * d[index(leaf)]);
+    }
+    for (std::size_t a = 0; a < leaves_; ++a)
+      for (std::size_t b = 0; b < leaves_; ++b) {
+        const double reach = std::max(reach_[a], reach_[b]);
+        if (a == b || pnpbs::squared_gap<3>(box_[a], box_[b]) <= reach * reach)
+          near_[a].push_back(static_cast<std::int32_t>(b));
+      }
+    for (int r = 0; r < comm->size(); ++r) {
+      hops_.push_back(hops_from(r));
+      gap_.push_back(squared_gaps_to(r));
+    }
+  }
+
+  int hops(int rank, std::size_t leaf) const { return hops_[index(rank)][leaf]; }
+  const std::vector<std::int32_t>& near(std::size_t leaf) const { return near_[leaf]; }
+
+  // Does the rank, which does not own the leaf, need it?
+  bool needs(int rank, std::size_t leaf, int hops, double hop_share) const {
+    const double way = hops * hop_share * largest_reach_[leaf];
+    return hops_[index(rank)][leaf] <= hops && gap_[index(rank)][leaf] <= way * way;
+  }
+  // Of the leaves within so many hops of each one.
+  void find_largest_reach(int hops) {
+    largest_reach_ = reach_;
+    for (int hop = 0; hop < hops; ++hop) {
+      const std::vector<double> before = largest_reach_;
+      for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
+        for (const std::int32_t other : near_[leaf])
+          largest_reach_[leaf] = std::max(largest_reach_[leaf], before[index(other)]);
+    }
+  }
+
+ private:
+  // By how many hops each leaf is away from those of the rank.
+  std::vector<int> hops_from(int rank) const {
+    std::vector<int> hops(leaves_, kUnreached);
+    std::vector<std::int32_t> front;
+    for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
+      if (distribution_.owner(static_cast<std::int32_t>(leaf)) == rank) {
+        hops[leaf] = 0;
+        front.push_back(static_cast<std::int32_t>(leaf));
+      }
+    for (std::size_t next = 0; next < front.size(); ++next)
+      for (const std::int32_t other : near_[index(front[next])])
+        if (hops[index(other)] == kUnreached) {
+          hops[index(other)] = hops[index(front[next])] + 1;
+          front.push_back(other);
+        }
+    return hops;
+  }
+
+  // From each leaf to the nearest cell of the rank.
+  std::vector<double> squared_gaps_to(int rank) const {
+    const BackgroundTree<3>& cells = distribution_.cells().tree();
+    std::vector<double> gap(leaves_, std::numeric_limits<double>::infinity());
+    for (std::int32_t c = 0; c < cells.leaf_count(); ++c) {
+      if (distribution_.owner_of_cell(c) != rank) continue;
+      const Box<3> cell = cells.cell_box(cells.leaf_cell(c));
+      for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
+        gap[leaf] = std::min(gap[leaf], pnpbs::squared_gap<3>(box_[leaf], cell));
+    }
+    return gap;
+  }
+
+  const Distribution<3>& distribution_;
+  std::size_t leaves_;
+  std::vector<Box<3>> box_;
+  std::vector<double> reach_, largest_reach_;
+  std::vector<std::vector<std::int32_t>> near_;
+  std::vector<std::vector<int>> hops_;    // of each rank
+  std::vector<std::vector<double>> gap_;  // of each rank
+};
+
+// ------------------------------------------------------------------ owners ---------------------
+
+void check_owners(const BackgroundTree<3>& tree, const Distribution<3>& distribution) {
+  std::uint64_t owners = 0;
+  for (std::uint64_t p = 0; p < 5000; ++p) {
+    Point<3> x;
+    for (std::size_t k = 0; k < 3; ++k)
+      x[k] = static_cast<double>(pnpbs::mixed(3 * p + k) >> 11) * 0x1p-53;
+    const int owner = distribution.owner_at(x);
+    const std::int32_t leaf = tree.leaf_at(x);
+    expect(owner == distribution.owner(leaf), "a point's owner is that of its leaf");
+    expect(distribution.owns(leaf) == (owner == comm->rank()), "owns");
+    owners = pnpbs::mixed(owners ^ static_cast<std::uint64_t>(owner));
+  }
+  expect(comm->same_on_all(owners), "owners of points are the same on all ranks");
+}
+
+// Each rank counts leaf + 1 nodes in each leaf of its own.
+void check_prefix_sums(const Distribution<3>& distribution, std::int32_t leaves) {
+  std::vector<std::int64_t> counts(index(leaves), 0);
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
+    if (distribution.owns(leaf)) counts[index(leaf)] = leaf + 1;
+  std::int64_t start = 7;
+  const std::vector<std::int64_t> sums = distribution.prefix_sums(*comm, counts, start);
+  std::int64_t before = 7;
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+    expect(!distribution.owns(leaf) || sums[index(leaf)] == before, "sum over the leaves before");
+    before += leaf + 1;
+  }
+  expect(start == before, "sum over all leaves");
+}
+
+// ------------------------------------------------------------------ halos ----------------------
+
+void check_halo(Distribution<3>& distribution, BruteForce& brute, std::int32_t leaves, int hops,
+                double hop_share) {
+  const std::string what = std::to_string(hops) + " hops: ";
+  brute.find_largest_reach(hops);
+  const pnpbs::Halo& halo = distribution.halo(hops, hop_share);
+  std::vector<char> exchanged(index(leaves), 0), neighbour(index(comm->size()), 0);
+  std::int64_t ghosts = 0;
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+    std::vector<int> ranks, wanted;
+    halo.for_ranks(leaf, [&](int r) { ranks.push_back(r); });
+    for (int r = 0; r < comm->size(); ++r) {
+      if (r == distribution.owner(leaf)) continue;
+      if (brute.needs(r, index(leaf), hops, hop_share)) wanted.push_back(r);
+      if (distribution.owns(leaf) && brute.hops(r, index(leaf)) <= hops + 1)
+        neighbour[index(r)] = 1;
+    }
+    expect(ranks == wanted, what + "ranks that need a leaf");
+    exchanged[index(leaf)] = !distribution.owns(leaf) || !wanted.empty();
+    ghosts += std::count(wanted.begin(), wanted.end(), comm->rank());
+  }
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
+    const std::vector<std::int32_t>& near = brute.near(index(leaf));
+    const bool quiet = std::none_of(near.begin(), near.end(),
+                                    [&](std::int32_t other) { return exchanged[index(other)]; });
+    expect(halo.quiet(leaf) == quiet, what + "leaves that no exchange disturbs");
+  }
+  std::vector<int> wanted;
+  for (int r = 0; r < comm->size(); ++r)
+    if (neighbour[index(r)]) wanted.push_back(r);
+  expect(halo.neighbours() == wanted, what + "ranks to exchange with");
+  expect(comm->size() == 1 ? ghosts == 0 : ghosts > 0, what + "there are ghosts");
+}
+
+void check_reach(const Distribution<3>& distribution, const BruteForce& brute, int hops) {
+  const std::vector<char> reached = distribution.leaves_within(hops);
+  for (std::size_t leaf = 0; leaf < reached.size(); ++leaf)
+    expect((reached[leaf] != 0) == (brute.hops(comm->rank(), leaf) <= hops),
+           "leaves within so many hops of ours");
+  expect(distribution.unrefined_within(hops).empty(), "all cells are refined");
+}
+
+// What a rank refines first, by the spacings in the cells alone, holds what lies within a reach.
+void check_cells_near_own(const Distribution<3>& distribution) {
+  const BackgroundTree<3>& tree = distribution.cells().tree();
+  const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
+  const std::vector<char> found = distribution.cells_near_own(1, kRadius);
+  for (std::int32_t a = 0; a < tree.leaf_count(); ++a) {
+    if (distribution.owner_of_cell(a) != comm->rank()) continue;
+    for (std::int32_t b = 0; b < tree.leaf_count(); ++b) {
+      const double reach = kRadius * std::max(distribution.cells().largest_spacing(a),
+                                              distribution.cells().largest_spacing(b));
+      if (pnpbs::squared_gap<3>(box(a), box(b)) <= reach * reach)
+        expect(found[index(b)] != 0, "a cell near one of ours is found");
+    }
+  }
+}
+
+void check_distribution() {
+  const BackgroundTree<3> tree = octree::refined_to(leaf_width);
+  const std::vector<double> d = octree::largest_spacings(tree, spacing);
+  Distribution<3> distribution = octree::distributed(*comm, tree, d, kRadius);
+  const std::int32_t leaves = tree.leaf_count();
+  check_owners(tree, distribution);
+  check_prefix_sums(distribution, leaves);
+  check_cells_near_own(distribution);
+  BruteForce brute(tree, d, distribution);
+  for (int hops = 0; hops < 4; ++hops) check_reach(distribution, brute, hops);
+  check_halo(distribution, brute, leaves, 1, 1);
+  check_halo(distribution, brute, leaves, 2, 1 / pnpbs::kRoomForGrowth);
+  check_halo(distribution, brute, leaves, 3, 0.5);
+  if (comm->rank() == 0) std::printf("%d leaves\n", leaves);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_distribution); }
