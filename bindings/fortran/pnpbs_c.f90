@@ -38,7 +38,7 @@ module pnpbs_c
 
   !> The version this module was written for; pnpbs_version tells the library's.
   integer(c_int32_t), parameter :: PNPBS_VERSION_MAJOR = 0
-  integer(c_int32_t), parameter :: PNPBS_VERSION_MINOR = 1
+  integer(c_int32_t), parameter :: PNPBS_VERSION_MINOR = 2
   integer(c_int32_t), parameter :: PNPBS_VERSION_PATCH = 0
 
   ! ------------------------------------------------------------ callbacks ---------------------

@@ -113,7 +113,7 @@ def arguments():
 
 def option_table():
     """By option: its value by preset, and what it does."""
-    source = (ROOT / "src" / "core" / "options.cpp").read_text()
+    source = (ROOT / "src" / "settings" / "options.cpp").read_text()
     told = dict(OPTION_HELP.findall((ROOT / "docs" / "reference" / "options.md").read_text()))
     return {name: {"default": default, "best": best or default, "does": told[name]}
             for name, default, best in OPTION_ROW.findall(source)}

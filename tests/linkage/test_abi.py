@@ -122,8 +122,9 @@ class Changes(unittest.TestCase):
                                "new: statistic more integer"])
 
     def test_the_compiler_sees_changes_too(self):
-        for one, other in (("int64_t *count", "int32_t *count"), ("const double *xy", "const float *xy"),
-                           ("int64_t n, const double *t", "int32_t n, const double *t"),
+        for one, other in (("int64_t *count", "int32_t *count"),
+                           ("const double *coordinates", "const float *coordinates"),
+                           ("int32_t dim, const double *t", "int64_t dim, const double *t"),
                            ("void *user", "char *user")):
             self.assertTrue(one in TEXT, one)
             self.assertFalse(compiles(NOW, TEXT.replace(one, other, 1)), one)

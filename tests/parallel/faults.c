@@ -215,7 +215,7 @@ static void different_input(void) {
   expect_bad_rank(pnpbs_placement_set_spacing_constant(placement, is_bad ? 0 : 0.05),
                   PNPBS_ERROR_SPACING, "d = 0");
   expect_bad_rank(pnpbs_placement_set_nodes(placement, 1, is_bad ? bad_point : origin, NULL),
-                  PNPBS_ERROR_ARGUMENT, "xy[0]");
+                  PNPBS_ERROR_ARGUMENT, "coordinates[0]");
   expect_right_nodes(placement, "nodes after what was not set");
   pnpbs_placement_destroy(&placement);
 
