@@ -21,12 +21,12 @@ Box<2> box_around(const std::vector<PatchNode>& nodes, const std::array<std::int
 }
 
 template <std::size_t N>
-BoxTree tree_of(const std::vector<PatchNode>& nodes,
-                const std::vector<std::array<std::int32_t, N>>& rows) {
+BoxTree<2> tree_of(const std::vector<PatchNode>& nodes,
+                   const std::vector<std::array<std::int32_t, N>>& rows) {
   std::vector<Box<2>> boxes;
   boxes.reserve(rows.size());
   for (const auto& row : rows) boxes.push_back(box_around(nodes, row));
-  return BoxTree(std::move(boxes));
+  return BoxTree<2>(std::move(boxes));
 }
 
 bool holds(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& x) {

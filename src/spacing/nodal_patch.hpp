@@ -55,7 +55,7 @@ class NodalPatch {
   const PatchNode& node(std::int32_t i) const { return patch_.nodes[static_cast<std::size_t>(i)]; }
 
   Patch patch_;
-  BoxTree by_triangle_, by_edge_;
+  BoxTree<2> by_triangle_, by_edge_;
 };
 
 }  // namespace pnpbs

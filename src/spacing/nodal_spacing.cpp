@@ -65,7 +65,7 @@ NodalSpacing::Directory NodalSpacing::gather_boxes(const std::vector<Box<2>>& mi
     directory.boxes.push_back(entry.box);
     directory.ranks.push_back(static_cast<std::int32_t>(entry.rank));
   });
-  directory.tree = BoxTree(directory.boxes);
+  directory.tree = BoxTree<2>(directory.boxes);
   return directory;
 }
 

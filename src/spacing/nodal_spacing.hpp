@@ -28,7 +28,7 @@ class NodalSpacing : public Spacing<2> {
   struct Directory {
     std::vector<Box<2>> boxes;
     std::vector<std::int32_t> ranks;
-    BoxTree tree;
+    BoxTree<2> tree;
   };
   using Find = void (NodalPatch::*)(const Point<2>& x, PatchAnswer& best) const;
 

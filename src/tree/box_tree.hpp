@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
@@ -13,32 +15,38 @@
 namespace pnpbs {
 
 // 0 inside.
-inline double squared_gap_to(const Box<2>& box, const Point<2>& x) {
+template <int Dim>
+double squared_gap_to(const Box<Dim>& box, const std::type_identity_t<Point<Dim>>& x) {
   double sum = 0;
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < Dim; ++k) {
     const double gap = std::max({0.0, box.low[k] - x[k], x[k] - box.high[k]});
     sum += gap * gap;
   }
   return sum;
 }
 
-inline bool in_closed_box(const Box<2>& box, const Point<2>& x) {
-  return x[0] >= box.low[0] && x[0] <= box.high[0] && x[1] >= box.low[1] && x[1] <= box.high[1];
+template <int Dim>
+bool in_closed_box(const Box<Dim>& box, const std::type_identity_t<Point<Dim>>& x) {
+  for (int k = 0; k < Dim; ++k)
+    if (!(x[k] >= box.low[k] && x[k] <= box.high[k])) return false;  // nor is NaN
+  return true;
 }
 
-inline Box<2> joined(const Box<2>& a, const Box<2>& b) {
-  Box<2> box;
-  for (int k = 0; k < 2; ++k) {
+template <int Dim>
+Box<Dim> joined(const Box<Dim>& a, const std::type_identity_t<Box<Dim>>& b) {
+  Box<Dim> box;
+  for (int k = 0; k < Dim; ++k) {
     box.low[k] = std::min(a.low[k], b.low[k]);
     box.high[k] = std::max(a.high[k], b.high[k]);
   }
   return box;
 }
 
+template <int Dim>
 class BoxTree {
  public:
   BoxTree() = default;
-  explicit BoxTree(std::vector<Box<2>> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+  explicit BoxTree(std::vector<Box<Dim>> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     if (order_.empty()) return;
     cells_.push_back({{}, 0, static_cast<std::int32_t>(order_.size()), -1});
@@ -47,20 +55,20 @@ class BoxTree {
 
   // Calls visit(box) for every box that holds x, its rim included.
   template <class Visit>
-  void for_holding(const Point<2>& x, const Visit& visit) const {
-    walk([&](const Box<2>& box) { return in_closed_box(box, x); }, visit);
+  void for_holding(const Point<Dim>& x, const Visit& visit) const {
+    walk([&](const Box<Dim>& box) { return in_closed_box(box, x); }, visit);
   }
 
   // Calls visit(box) for every box with a squared distance to x of at most limit(), which may
   // shrink on the way.
   template <class Limit, class Visit>
-  void for_near(const Point<2>& x, const Limit& limit, const Visit& visit) const {
-    walk([&](const Box<2>& box) { return squared_gap_to(box, x) <= limit(); }, visit);
+  void for_near(const Point<Dim>& x, const Limit& limit, const Visit& visit) const {
+    walk([&](const Box<Dim>& box) { return squared_gap_to(box, x) <= limit(); }, visit);
   }
 
   // About this many boxes that hold all.
-  std::vector<Box<2>> cover(std::size_t many) const {
-    std::vector<Box<2>> cover;
+  std::vector<Box<Dim>> cover(std::size_t many) const {
+    std::vector<Box<Dim>> cover;
     std::vector<std::int32_t> open;
     if (!cells_.empty()) open.push_back(0);
     for (std::size_t next = 0; next < open.size(); ++next) {
@@ -78,7 +86,7 @@ class BoxTree {
 
  private:
   struct Cell {
-    Box<2> box;
+    Box<Dim> box;
     std::int32_t begin, end;  // in order_
     std::int32_t child;       // the first of two, or -1
   };
@@ -88,11 +96,13 @@ class BoxTree {
   void split(std::size_t c) {
     constexpr std::int32_t kLeafSize = 4;
     const std::int32_t begin = cells_[c].begin, end = cells_[c].end;
-    Box<2> box = boxes_[index(order_[index(begin)])];
+    Box<Dim> box = boxes_[index(order_[index(begin)])];
     for (std::int32_t i = begin; i < end; ++i) box = joined(box, boxes_[index(order_[index(i)])]);
     cells_[c].box = box;
     if (end - begin <= kLeafSize) return;
-    const int k = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
+    int k = 0;  // across the longest side
+    for (int other = 1; other < Dim; ++other)
+      if (box.high[k] - box.low[k] < box.high[other] - box.low[other]) k = other;
     const auto twice_middle = [&](std::int32_t b) {
       return boxes_[index(b)].low[k] + boxes_[index(b)].high[k];
     };
@@ -123,7 +133,7 @@ class BoxTree {
       if (enter(boxes_[index(order_[index(i)])])) visit(order_[index(i)]);
   }
 
-  std::vector<Box<2>> boxes_;
+  std::vector<Box<Dim>> boxes_;
   std::vector<std::int32_t> order_;
   std::vector<Cell> cells_;
 };

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The graph of leaves and the tree of boxes, in plane and volume, against all pairs.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "bubbles.hpp"
+#include "run_kernel_suite.hpp"
+#include "tree/box_tree.hpp"
+
+namespace {
+
+using Indices = std::vector<std::int32_t>;
+
+// Between the nearest points of two boxes, by projecting one's middle on the other and back: the
+// nearest points of boxes along the axes are found axis by axis.
+template <int Dim>
+double gap_between(const Box<Dim>& a, const Box<Dim>& b) {
+  Point<Dim> in_a, in_b;
+  for (int k = 0; k < Dim; ++k) {
+    in_a[k] = std::clamp(0.5 * (b.low[k] + b.high[k]), a.low[k], a.high[k]);
+    in_b[k] = std::clamp(in_a[k], b.low[k], b.high[k]);
+    in_a[k] = std::clamp(in_b[k], a.low[k], a.high[k]);
+  }
+  return pnpbs::distance<Dim>(in_a, in_b);
+}
+
+// ------------------------------------------------------------------ leaves ---------------------
+
+// From leaves 1/64 of the root wide to such that are half of it.
+template <int Dim>
+pnpbs::BackgroundTree<Dim> graded_tree() {
+  Bubbles<Dim> b;
+  b.grow_tree(
+      [](const Point<Dim>& x) {
+        return 0.008 + (Dim == 2 ? 0.1 : 0.2) * pnpbs::distance<Dim>(x, {});
+      },
+      2);
+  return b.tree;
+}
+
+// Linked are those of which one reaches the other, and each to itself.
+template <int Dim>
+void expect_links(const pnpbs::BackgroundTree<Dim>& tree, const std::vector<double>& reach) {
+  pnpbs::LeafGraph<Dim> graph;
+  graph.build(tree, reach);
+  std::size_t links = 0;
+  for (std::int32_t a = 0; a < tree.leaf_count(); ++a) {
+    Indices expected, found;
+    const Box<Dim> box = tree.cell_box(tree.leaf_cell(a));
+    for (std::int32_t b = 0; b < tree.leaf_count(); ++b) {
+      const double farther =
+          std::max(reach[static_cast<std::size_t>(a)], reach[static_cast<std::size_t>(b)]);
+      const double gap = gap_between<Dim>(box, tree.cell_box(tree.leaf_cell(b)));
+      if (a == b || (farther > 0 && gap <= farther)) expected.push_back(b);
+    }
+    graph.for_neighbours(a, [&](std::int32_t b) { found.push_back(b); });
+    quick_assert(found == expected);
+    links += found.size();
+  }
+  ck_assert_uint_gt(links, 2 * static_cast<std::size_t>(tree.leaf_count()));
+}
+
+template <int Dim>
+void expect_leaf_graphs() {
+  const pnpbs::BackgroundTree<Dim> tree = graded_tree<Dim>();
+  ck_assert_int_gt(tree.leaf_count(), 100);
+  Random random(81);
+  const auto leaves = static_cast<std::size_t>(tree.leaf_count());
+  // As far as each is wide; at random, with some that reach nobody; only to those that touch.
+  std::vector<double> widths(leaves), any(leaves), touching(leaves, 1e-9);
+  for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+    widths[leaf] = 1.01 * tree.cell_side(tree.leaf_cell(static_cast<std::int32_t>(leaf)));
+    any[leaf] = random.below(4) == 0 ? 0 : std::pow(10, random.between(-3, -0.5));
+  }
+  for (const auto& reach : {widths, any, touching}) expect_links<Dim>(tree, reach);
+}
+
+// ------------------------------------------------------------------ boxes ----------------------
+
+template <int Dim>
+std::vector<Box<Dim>> random_boxes(Random& random, std::size_t n, double widest) {
+  std::vector<Box<Dim>> boxes;
+  for (std::size_t b = 0; b < n; ++b) {
+    const Point<Dim> low = random.point<Dim>(unit_box<Dim>());
+    Box<Dim> box{low, low};
+    for (int k = 0; k < Dim; ++k) box.high[k] += widest * std::pow(random.between(0, 1), 6);
+    if (b % 7 == 0) box.high = low;  // some are points
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+template <int Dim>
+bool lies_in(const Point<Dim>& x, const Box<Dim>& box) {
+  bool in = true;
+  for (int k = 0; k < Dim; ++k) in = in && box.low[k] <= x[k] && x[k] <= box.high[k];
+  return in;
+}
+
+template <int Dim>
+void expect_boxes_at(const std::vector<Box<Dim>>& boxes, const pnpbs::BoxTree<Dim>& tree,
+                     const Point<Dim>& x, double limit) {
+  Indices holding, near, expected_holding, expected_near;
+  tree.for_holding(x, [&](std::int32_t b) { holding.push_back(b); });
+  tree.for_near(
+      x, [=] { return limit * limit; }, [&](std::int32_t b) { near.push_back(b); });
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    const double gap = gap_between<Dim>(boxes[b], {x, x});
+    if (lies_in<Dim>(x, boxes[b])) expected_holding.push_back(static_cast<std::int32_t>(b));
+    if (gap <= limit) expected_near.push_back(static_cast<std::int32_t>(b));
+    least = std::min(least, gap);
+  }
+  std::sort(holding.begin(), holding.end());
+  std::sort(near.begin(), near.end());
+  quick_assert(holding == expected_holding);
+  quick_assert(near == expected_near);
+  // The nearest one, with a limit that shrinks on the way.
+  double nearest = std::numeric_limits<double>::infinity();
+  tree.for_near(
+      x, [&] { return nearest; },
+      [&](std::int32_t b) {
+        nearest = std::min(nearest, pnpbs::squared_gap_to(boxes[static_cast<std::size_t>(b)], x));
+      });
+  quick_assert(boxes.empty() || std::fabs(std::sqrt(nearest) - least) < 1e-14);
+}
+
+template <int Dim>
+void expect_box_queries() {
+  Random random(82);
+  for (const std::size_t n : {0, 1, 4, 5, 700}) {
+    const std::vector<Box<Dim>> boxes = random_boxes<Dim>(random, n, 0.3);
+    const pnpbs::BoxTree<Dim> tree(boxes);
+    for (int trial = 0; trial < 400; ++trial) {
+      Point<Dim> x = random.point<Dim>({pnpbs::box_around<Dim>({}, 0.2).low, unit_box<Dim>().high});
+      // A corner of a box, which it holds.
+      if (trial % 5 == 0 && n > 0) x = boxes[static_cast<std::size_t>(trial) % n].high;
+      expect_boxes_at<Dim>(boxes, tree, x, 0.15 * random.between(0, 1));
+    }
+  }
+}
+
+// Every box lies in one of the cover, which is not much more than was asked for.
+template <int Dim>
+void expect_cover() {
+  Random random(83);
+  const std::vector<Box<Dim>> boxes = random_boxes<Dim>(random, 500, 0.03);
+  const pnpbs::BoxTree<Dim> tree(boxes);
+  double before = std::numeric_limits<double>::infinity();
+  for (const std::size_t many : {1, 8, 64}) {
+    const std::vector<Box<Dim>> cover = tree.cover(many);
+    ck_assert_uint_le(cover.size(), many + 1);
+    for (const Box<Dim>& box : boxes)
+      quick_assert(std::any_of(cover.begin(), cover.end(), [&](const Box<Dim>& c) {
+        return lies_in<Dim>(box.low, c) && lies_in<Dim>(box.high, c);
+      }));
+    double volume = 0;
+    for (const Box<Dim>& c : cover) {
+      double of_box = 1;
+      for (int k = 0; k < Dim; ++k) of_box *= c.high[k] - c.low[k];
+      volume += of_box;
+    }
+    ck_assert_double_lt(volume, before);  // they are cut where they are longest
+    before = volume;
+  }
+}
+
+}  // namespace
+
+START_TEST(leaves_are_linked_as_by_search) {
+  expect_leaf_graphs<2>();
+  expect_leaf_graphs<3>();
+}
+END_TEST
+
+START_TEST(boxes_are_found_as_by_search) {
+  expect_box_queries<2>();
+  expect_box_queries<3>();
+}
+END_TEST
+
+START_TEST(covers_hold_all_boxes) {
+  expect_cover<2>();
+  expect_cover<3>();
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite("trees", {leaves_are_linked_as_by_search, boxes_are_found_as_by_search,
+                                    covers_hold_all_boxes});
+}
