@@ -71,7 +71,7 @@ PopulationCounts Level::adjust_population(double tolerance) {
   set_reference_positions();
   exchange(kPopulationHops);
   PopulationChange<2> change;
-  const PopulationRule& rule = settings_.population;
+  const PopulationRule<2>& rule = settings_.population;
   View<double> ratios;
   agreed(*comm_, [&] {
     rebuild_lists();

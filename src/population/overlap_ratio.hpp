@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The overlap ratio of a bubble, equation (3) of the paper:
 //   alpha_i = (1 / r_i) sum_j (2 r_i + r_j - l_ij),   r = d / 2, l the distance,
-// every term clamped at 0, so that pairs out of reach add exactly nothing. Ideal: 2 on a line, 6 in
-// the plane (hexagonal lattice at spacing d), 12 in the close packing of a volume.
+// every term clamped at 0, so that pairs out of reach add exactly nothing. Ideal: 2 on a line,
+// Lattice<Dim>::kIdealOverlap inside, where it is the number of neighbours.
 #pragma once
 
 #include "base/nodes.hpp"

@@ -127,7 +127,7 @@ Point<Dim> free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, 
 // they always need the full gap.
 template <int Dim>
 bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
-              const Point<Dim>& place, double gap, const PopulationRule& rule) {
+              const Point<Dim>& place, double gap, const PopulationRule<Dim>& rule) {
   bool room = true;
   const auto test = [&](std::int64_t j) {
     const double desired = 0.5 * (nodes.d(i) + nodes.d(j));
@@ -199,7 +199,7 @@ bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<d
 template <int Dim>
 PopulationChange<Dim> choose_population_change(
     const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<double>& ratios,
-    const PopulationRule& rule, const PopulationThresholds& thresholds,
+    const PopulationRule<Dim>& rule, const PopulationThresholds& thresholds,
     const std::function<bool(std::int64_t)>& must_go,
     const std::function<bool(const Point<Dim>&, double)>& fits) {
   const View<double> defects = make_view<double>("pnpbs::population::defects", nodes.count);
@@ -252,11 +252,11 @@ PopulationChange<Dim> choose_population_change(
 }
 
 template PopulationChange<2> choose_population_change<2>(
-    const Nodes<2>&, const AdjacencyList<2>&, const View<double>&, const PopulationRule&,
+    const Nodes<2>&, const AdjacencyList<2>&, const View<double>&, const PopulationRule<2>&,
     const PopulationThresholds&, const std::function<bool(std::int64_t)>&,
     const std::function<bool(const Point<2>&, double)>&);
 template PopulationChange<3> choose_population_change<3>(
-    const Nodes<3>&, const AdjacencyList<3>&, const View<double>&, const PopulationRule&,
+    const Nodes<3>&, const AdjacencyList<3>&, const View<double>&, const PopulationRule<3>&,
     const PopulationThresholds&, const std::function<bool(std::int64_t)>&,
     const std::function<bool(const Point<3>&, double)>&);
 

@@ -34,7 +34,7 @@ struct PopulationChange {
 template <int Dim>
 PopulationChange<Dim> choose_population_change(
     const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<double>& ratios,
-    const PopulationRule& rule, const PopulationThresholds& thresholds,
+    const PopulationRule<Dim>& rule, const PopulationThresholds& thresholds,
     const std::function<bool(std::int64_t)>& must_go,
     const std::function<bool(const Point<Dim>&, double)>& fits);
 

@@ -14,12 +14,17 @@ namespace {
 // What is counted in an octave of d, in this order: owned bubbles by their overlap ratios; the
 // pairs of touching bubbles, from either end; the sum of their distances, in fixed point.
 constexpr int kBinsPerUnit = 32;  // of the overlap ratio
-constexpr int kBins = 16 * kBinsPerUnit;
-constexpr int kPairs = kBins;
-constexpr int kDistances = kBins + 1;
-constexpr int kCounts = kBins + 2;
+template <int Dim>
+constexpr int kBins{kBinsPerUnit * Lattice<Dim>::kOverlapEnd};
+template <int Dim>
+constexpr int kPairs = kBins<Dim>;
+template <int Dim>
+constexpr int kDistances = kBins<Dim> + 1;
+template <int Dim>
+constexpr int kCounts = kBins<Dim> + 2;
 // Bubbles nearer than this many desired distances touch: nearly all that are joined by an edge of
-// the Delaunay triangulation are, and hardly any others, whose next shell is at 1.73.
+// the Delaunay triangulation are, and hardly any others: the lattice's next shell is at 1.73 in the
+// plane, at 1.53 in a volume, where edges end at 1.08.
 constexpr double kTouch = 1.3;
 
 struct OctaveCounts {
@@ -36,7 +41,7 @@ int octave_of(double d) { return std::ilogb(d); }
 // the density.
 template <int Dim>
 bool is_squeezed(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double ratio,
-                 const PopulationRule& rule, std::int64_t i) {
+                 const PopulationRule<Dim>& rule, std::int64_t i) {
   constexpr double kSqueezed = 7.0 / 6;  // of the ideal ratio
   if (ratio <= kSqueezed * rule.ideal) return false;
   bool at_boundary = false;
@@ -48,44 +53,46 @@ template <int Dim>
 void count_node(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double ratio,
                 std::int64_t i, std::int64_t* counts) {
   const int bin = static_cast<int>(ratio * kBinsPerUnit);
-  ++counts[std::clamp(bin, 0, kBins - 1)];
+  ++counts[std::clamp(bin, 0, kBins<Dim> - 1)];
   const Point<Dim> x = nodes.position(i);
   lists.for_neighbours(i, [&](std::int64_t j) {
     const double desired = 0.5 * (nodes.d(i) + nodes.d(j));
     const double w = distance<Dim>(x, nodes.position(j)) / desired;
     if (w > kTouch || !nodes.moves(j)) return;
-    ++counts[kPairs];
-    counts[kDistances] += fixed_point(w);
+    ++counts[kPairs<Dim>];
+    counts[kDistances<Dim>] += fixed_point(w);
   });
 }
 
 // From the least ratio up, or from the largest down, the bins of so many bubbles.
-template <class Bin>
+template <int Dim, class Bin>
 int bins_of(double bubbles, const Bin& bin) {
   double sum = 0;
   int k = 0;
-  while (k < kBins && (sum += static_cast<double>(bin(k))) <= bubbles) ++k;
+  while (k < kBins<Dim> && (sum += static_cast<double>(bin(k))) <= bubbles) ++k;
   return k;
 }
 
+template <int Dim>
 PopulationThresholds::Pair thresholds_of_octave(const std::int64_t* counts,
-                                                const PopulationRule& rule, double tolerance) {
+                                                const PopulationRule<Dim>& rule, double tolerance) {
   PopulationThresholds::Pair pair{0, rule.delete_above};
-  if (counts[kPairs] == 0) return pair;
+  if (counts[kPairs<Dim>] == 0) return pair;
   double bubbles = 0;
-  for (int k = 0; k < kBins; ++k) bubbles += static_cast<double>(counts[k]);
-  const double mean = from_fixed_point(static_cast<std::uint64_t>(counts[kDistances])) /
-                      static_cast<double>(counts[kPairs]);
+  for (int k = 0; k < kBins<Dim>; ++k) bubbles += static_cast<double>(counts[k]);
+  const double mean = from_fixed_point(static_cast<std::uint64_t>(counts[kDistances<Dim>])) /
+                      static_cast<double>(counts[kPairs<Dim>]);
   if (std::fabs(mean - rule.mean_distance) <= tolerance) return pair;
-  // A bubble's share of the domain goes with the square of the distance.
-  const double missing = bubbles * ((mean / rule.mean_distance) * (mean / rule.mean_distance) - 1);
-  const int act = bins_of(std::fabs(missing),
-                          [&](int k) { return missing > 0 ? counts[k] : counts[kBins - 1 - k]; });
+  // A bubble's share of the domain goes with the square (cube) of the distance.
+  const double missing = bubbles * (power<Dim>(mean / rule.mean_distance) - 1);
+  const int act = bins_of<Dim>(std::fabs(missing), [&](int k) {
+    return missing > 0 ? counts[k] : counts[kBins<Dim> - 1 - k];
+  });
   if (missing > 0) {
     const double below = std::min(rule.ideal, static_cast<double>(act) / kBinsPerUnit);
     pair.insert_below = std::max(pair.insert_below, below);
   } else {
-    const double above = std::max(rule.ideal, static_cast<double>(kBins - act) / kBinsPerUnit);
+    const double above = std::max(rule.ideal, static_cast<double>(kBins<Dim> - act) / kBinsPerUnit);
     pair.delete_above = std::min(pair.delete_above, above);
   }
   return pair;
@@ -110,7 +117,7 @@ View<double> overlap_ratios(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& l
 template <int Dim>
 PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim>& nodes,
                                        const AdjacencyList<Dim>& lists, const View<double>& ratios,
-                                       const PopulationRule& rule, double tolerance) {
+                                       const PopulationRule<Dim>& rule, double tolerance) {
   PopulationThresholds thresholds(rule);
   if (rule.mean_distance == 0 || std::isinf(tolerance)) return thresholds;
   const SpacingRange d = spacing_range<Dim>(comm, nodes);
@@ -118,13 +125,13 @@ PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim
   const int first = octave_of(d.least), last = octave_of(d.largest);
   OctaveCounts counts;
   agreed(comm, [&] {
-    counts.values.assign(static_cast<std::size_t>(last - first + 1) * kCounts, 0);
+    counts.values.assign(static_cast<std::size_t>(last - first + 1) * kCounts<Dim>, 0);
     counts = sums_over(
         "pnpbs::choose_thresholds", nodes.count, counts, [&](std::int64_t i, OctaveCounts& sums) {
           if (!nodes.moves(i) || !nodes.owned(i)) return;
           if (is_squeezed<Dim>(nodes, lists, ratios(i), rule, i)) return;
           count_node<Dim>(nodes, lists, ratios(i), i,
-                          sums.values.data() + (octave_of(nodes.d(i)) - first) * kCounts);
+                          sums.values.data() + (octave_of(nodes.d(i)) - first) * kCounts<Dim>);
         });
   });
   comm.allreduce_sum(counts.values);
@@ -132,7 +139,7 @@ PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim
   thresholds.octaves.clear();
   for (int octave = 0; octave <= last - first; ++octave)
     thresholds.octaves.push_back(
-        thresholds_of_octave(counts.values.data() + octave * kCounts, rule, tolerance));
+        thresholds_of_octave<Dim>(counts.values.data() + octave * kCounts<Dim>, rule, tolerance));
   return thresholds;
 }
 
@@ -140,9 +147,9 @@ template View<double> overlap_ratios<2>(const Nodes<2>&, const AdjacencyList<2>&
 template View<double> overlap_ratios<3>(const Nodes<3>&, const AdjacencyList<3>&);
 template PopulationThresholds choose_thresholds<2>(const Communicator&, const Nodes<2>&,
                                                    const AdjacencyList<2>&, const View<double>&,
-                                                   const PopulationRule&, double);
+                                                   const PopulationRule<2>&, double);
 template PopulationThresholds choose_thresholds<3>(const Communicator&, const Nodes<3>&,
                                                    const AdjacencyList<3>&, const View<double>&,
-                                                   const PopulationRule&, double);
+                                                   const PopulationRule<3>&, double);
 
 }  // namespace pnpbs

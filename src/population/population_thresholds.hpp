@@ -10,19 +10,21 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/lattice.hpp"
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
 #include "neighbors/adjacency_list.hpp"
 
 namespace pnpbs {
 
+template <int Dim>
 struct PopulationRule {
-  double delete_above = 9;  // overlap ratios: whatever the mean
-  double insert_below = 5;
-  double ideal = 6;          // overlap ratio of a bubble among neighbours at its d
+  double delete_above = Lattice<Dim>::kDeleteAbove;  // overlap ratios: whatever the mean
+  double insert_below = Lattice<Dim>::kInsertBelow;
+  double ideal = Lattice<Dim>::kIdealOverlap;  // of a bubble among neighbours at its d
   double mean_distance = 0;  // of touching bubbles, in desired distances; 0: not aimed at
   // A new bubble comes no nearer to others than this many spacings. Lattice nodes at their d leave
-  // 0.577 in the middle of three: a bubble more there brings the mean down.
+  // 0.577 in the middle of three, 0.605 in that of four: a bubble more there brings the mean down.
   double least_gap = 0.75;
   double least_gap_to_aim = 0.55;
 };
@@ -36,7 +38,9 @@ struct PopulationThresholds {
   int first_octave = 0;
   std::vector<Pair> octaves;  // from that one on; beyond them the nearest one's
 
-  explicit PopulationThresholds(const PopulationRule& rule) : octaves{{0, rule.delete_above}} {}
+  template <int Dim>
+  explicit PopulationThresholds(const PopulationRule<Dim>& rule)
+      : octaves{{0, rule.delete_above}} {}
   const Pair& at(double d) const;
 };
 
@@ -50,6 +54,6 @@ inline constexpr double kMeanTolerance = 0.001;
 template <int Dim>
 PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim>& nodes,
                                        const AdjacencyList<Dim>& lists, const View<double>& ratios,
-                                       const PopulationRule& rule, double tolerance);
+                                       const PopulationRule<Dim>& rule, double tolerance);
 
 }  // namespace pnpbs

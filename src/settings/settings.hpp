@@ -30,8 +30,8 @@ struct Settings {
   std::int64_t refined_steps;   // on those between it and the finest
   std::int64_t event_interval;
   double population_share;  // of the steps
-  double population_tolerance;   // share of the nodes
-  PopulationRule population;
+  double population_tolerance;  // share of the nodes
+  PopulationRule<2> population;
   double tolerance_mean, tolerance_max;  // scaled speeds
   std::int64_t sweeps;
   SweepRule sweep;

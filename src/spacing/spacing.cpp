@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/execution.hpp"
+#include "base/lattice.hpp"
 
 namespace pnpbs {
 
@@ -68,11 +69,10 @@ std::string point_text(const Point<Dim>& x) {
   return text + ")";
 }
 
-// Nodes that spacing d means in a domain of this measure: 2/sqrt(3) per d^2 (hexagonal lattice),
-// 1.575 per d^3 (body-centred cubic, mean Delaunay edge d).
+// Nodes that spacing d means in a domain of this measure.
 template <int Dim>
 double meant_nodes(double d, double measure) {
-  return Dim == 2 ? kHexagonalDensity * measure / (d * d) : 1.575 * measure / (d * d * d);
+  return Lattice<Dim>::kDensity * measure / power<Dim>(d);
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ struct Freedom {
 };
 
 template <int Dim>
-Change<Dim> choose(const Set<Dim>& set, const PopulationRule& rule, const Freedom& freedom = {},
-                   double radius = 1.5) {
+Change<Dim> choose(const Set<Dim>& set, const PopulationRule<Dim>& rule,
+                   const Freedom& freedom = {}, double radius = 1.5) {
   Bubbles<Dim> b;
   b.box.low.fill(-1);
   b.box.high.fill(2);
@@ -111,7 +111,7 @@ bool hole_by_search(const Set<2>& set, std::size_t i, double radius, Point<2>& m
 }
 
 template <int Dim>
-Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRule& rule,
+Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRule<Dim>& rule,
                          const Freedom& freedom, double radius) {
   Candidate<Dim> result;
   const Bubble<Dim>& own = set[i];
@@ -155,8 +155,8 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
 constexpr int kHops = 3;
 
 template <int Dim>
-void expect_as_by_search(const Set<Dim>& set, const PopulationRule& rule, const Freedom& freedom,
-                         double radius, std::size_t least_actors) {
+void expect_as_by_search(const Set<Dim>& set, const PopulationRule<Dim>& rule,
+                         const Freedom& freedom, double radius, std::size_t least_actors) {
   std::vector<Candidate<Dim>> candidates;
   for (std::size_t i = 0; i < set.size(); ++i)
     candidates.push_back(candidate<Dim>(set, i, rule, freedom, radius));
@@ -329,7 +329,7 @@ START_TEST(nothing_is_born_that_would_have_to_go) {
     const double angle = (-75 + k * 150 / 7.0) * degree;
     set.push_back({{d + 0.7 * d * std::cos(angle), 0.7 * d * std::sin(angle)}, d, 3 + k, false});
   }
-  PopulationRule rule;
+  PopulationRule<2> rule;
   rule.least_gap = 0.65;
   quick_assert(choose<2>(set, rule).born.empty());
   set.erase(set.begin() + 4, set.begin() + 10);
@@ -341,7 +341,7 @@ END_TEST
 // in each, so many are below or above its threshold as are missing or too many.
 START_TEST(thresholds_follow_the_mean_distance) {
   Random random(64);
-  PopulationRule rule;
+  PopulationRule<2> rule;
   rule.mean_distance = 1;
   const double stretch[] = {1.04, 0.96};
   Set<2> set;
@@ -398,10 +398,8 @@ START_TEST(contests_are_won_as_by_search) {
   Random random(63);
   const SpacingFunction<2> plane = [](const Point<2>& x) { return 0.05 + 0.06 * x[0]; };
   const SpacingFunction<3> volume = [](const Point<3>&) { return 0.16; };
-  PopulationRule in_volume;
-  in_volume.delete_above = 20;
+  PopulationRule<3> in_volume;
   in_volume.insert_below = 11;
-  in_volume.ideal = 14;
   for (const double radius : {1.5, 1.7}) {
     Set<2> set = random_bubbles<2>(random, 180, plane);
     for (std::size_t i = 0; i < set.size(); i += 11) set[i].moves = false;
@@ -418,7 +416,7 @@ END_TEST
 // Many equal candidates: nobody within three hops of a winner wins as well.
 START_TEST(winners_are_far_apart) {
   Set<2> set = lattice(1.2);  // every bubble is too lonely
-  PopulationRule rule;
+  PopulationRule<2> rule;
   rule.least_gap = 0;
   const Change<2> change = choose<2>(set, rule);
   ck_assert_uint_gt(change.born.size(), 5);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lattice that bubbles settle into, and the numbers of the method that follow from it: what a
+// formula would otherwise say with a 2 or a 6 of the plane.
+#pragma once
+
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+struct Lattice;
+
+// The plane's: hexagonal, every edge d.
+template <>
+struct Lattice<2> {
+  static constexpr double kDensity = kHexagonalDensity;  // nodes per d^2
+  static constexpr int kNeighbours = 6;                  // by edges of the Delaunay triangulation
+  static constexpr double kIdealOverlap = 6;             // overlap ratio of a node
+  // Overlap ratios of bubbles that are one too many and one too few (paper, 2.4).
+  static constexpr double kDeleteAbove = 9, kInsertBelow = 5;
+  static constexpr int kOverlapEnd = 16;  // larger overlap ratios are not told apart
+};
+
+// The volume's: body-centred cubic. All its tetrahedra are alike, nothing is cospherical, and the
+// midpoints of its edges make the lattice of half the spacing. d is the mean of a node's edges: 8
+// along half diagonals of the cubic cell and 6 along its sides.
+template <>
+struct Lattice<3> {
+  static constexpr double kCell = 1.0829037686547607;     // its side over d: 14 / (4 sqrt(3) + 6)
+  static constexpr double kDensity = 1.5749268979030462;  // nodes per d^3: 2 / kCell^3
+  static constexpr int kNeighbours = 14;
+  static constexpr double kIdealOverlap = 14;  // each edge adds 3 - 2 l / d
+  // A vacancy leaves its neighbours near 13: only the aim of a mean distance fills it.
+  static constexpr double kDeleteAbove = 19, kInsertBelow = 9;
+  static constexpr int kOverlapEnd = 32;
+};
+
+// t^N for N >= 1, multiplied from the left.
+template <int N>
+constexpr double power(double t) {
+  double product = t;
+  for (int k = 1; k < N; ++k) product *= t;
+  return product;
+}
+
+}  // namespace pnpbs
