@@ -2,6 +2,7 @@
 #include "population/population.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -77,40 +78,80 @@ Point<Dim> place_away(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, 
   return place;
 }
 
-// The centre of the circle through three nodes; none if they lie on a line.
-std::optional<Point<2>> circumcentre(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-  const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+// The centre of the circle through x and two others; none if they lie on a line.
+std::optional<Point<2>> circumcentre(const Point<2>& x, const std::array<Point<2>, 2>& others) {
+  const auto& [b, c] = others;
+  const double bx = b[0] - x[0], by = b[1] - x[1], cx = c[0] - x[0], cy = c[1] - x[1];
   const double area = 2 * (bx * cy - by * cx);
   if (area == 0) return std::nullopt;
   const double bb = bx * bx + by * by, cc = cx * cx + cy * cy;
-  return Point<2>{a[0] + (cy * bb - by * cc) / area, a[1] + (bx * cc - cx * bb) / area};
+  return Point<2>{x[0] + (cy * bb - by * cc) / area, x[1] + (bx * cc - cx * bb) / area};
 }
 
-// The middle of the largest hole beside node i: of the circles through it and two neighbours that
-// hold none, the one with the largest radius up to d. None if there is a larger one, or the node
-// has too few neighbours.
-std::optional<Point<2>> hole_beside(const Nodes<2>& nodes, const AdjacencyList<2>& lists,
-                                    std::int64_t i) {
+Point<3> cross(const Point<3>& a, const Point<3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// The centre of the sphere through x and three others; none if they lie in a plane.
+std::optional<Point<3>> circumcentre(const Point<3>& x, const std::array<Point<3>, 3>& others) {
+  std::array<Point<3>, 3> to;
+  std::array<double, 3> square;
+  for (std::size_t n = 0; n < 3; ++n) {
+    for (std::size_t k = 0; k < 3; ++k) to[n][k] = others[n][k] - x[k];
+    square[n] = dot<3>(to[n], to[n]);
+  }
+  const std::array<Point<3>, 3> normal{cross(to[1], to[2]), cross(to[2], to[0]),
+                                       cross(to[0], to[1])};
+  const double volume = 2 * dot<3>(to[0], normal[0]);
+  if (volume == 0) return std::nullopt;
+  Point<3> centre;
+  for (std::size_t k = 0; k < 3; ++k)
+    centre[k] =
+        x[k] +
+        (square[0] * normal[0][k] + square[1] * normal[1][k] + square[2] * normal[2][k]) / volume;
+  return centre;
+}
+
+// Calls visit(corners) for all choices of Dim of the first `end` points; `Left` are to be chosen.
+template <int Left, int Dim, class Visit>
+void for_choices(const std::vector<Point<Dim>>& points, std::size_t end,
+                 std::array<Point<Dim>, Dim>& corners, const Visit& visit) {
+  if constexpr (Left == 0) {
+    visit(corners);
+  } else {
+    for (std::size_t j = 0; j < end; ++j) {
+      corners[Dim - Left] = points[j];
+      for_choices<Left - 1, Dim>(points, j, corners, visit);
+    }
+  }
+}
+
+// The middle of the largest hole beside node i: of the circles (spheres) through it and two (three)
+// neighbours that hold none, the one with the largest radius up to d. None if there is a larger
+// one, or the node has too few neighbours.
+template <int Dim>
+std::optional<Point<Dim>> hole_beside(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
+                                      std::int64_t i) {
   constexpr double kRounding = 1 - 1e-9;
-  std::vector<Point<2>> around;
+  std::vector<Point<Dim>> around;
   lists.for_neighbours(i, [&](std::int64_t j) { around.push_back(nodes.position(j)); });
-  const Point<2> x = nodes.position(i);
-  const auto is_empty = [&](const Point<2>& centre, double radius) {
-    return std::none_of(around.begin(), around.end(), [&](const Point<2>& y) {
-      return distance<2>(y, centre) < kRounding * radius;
+  const Point<Dim> x = nodes.position(i);
+  const auto is_empty = [&](const Point<Dim>& centre, double radius) {
+    return std::none_of(around.begin(), around.end(), [&](const Point<Dim>& y) {
+      return distance<Dim>(y, centre) < kRounding * radius;
     });
   };
-  std::optional<Point<2>> hole;
+  std::optional<Point<Dim>> hole;
   double largest = 0;
-  for (std::size_t j = 0; j < around.size(); ++j)
-    for (std::size_t k = 0; k < j; ++k) {
-      const std::optional<Point<2>> centre = circumcentre(x, around[j], around[k]);
-      if (!centre) continue;
-      const double radius = distance<2>(x, *centre);
-      if (radius <= largest || !is_empty(*centre, radius)) continue;
-      largest = radius;
-      hole = centre;
-    }
+  std::array<Point<Dim>, Dim> corners;
+  for_choices<Dim, Dim>(around, around.size(), corners, [&](const auto& chosen) {
+    const std::optional<Point<Dim>> centre = circumcentre(x, chosen);
+    if (!centre) return;
+    const double radius = distance<Dim>(x, *centre);
+    if (radius <= largest || !is_empty(*centre, radius)) return;
+    largest = radius;
+    hole = centre;
+  });
   if (largest > nodes.d(i)) hole.reset();
   return hole;
 }
@@ -118,8 +159,7 @@ std::optional<Point<2>> hole_beside(const Nodes<2>& nodes, const AdjacencyList<2
 // The free place beside a sparse bubble.
 template <int Dim>
 Point<Dim> free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i) {
-  if constexpr (Dim == 2)
-    if (const std::optional<Point<2>> hole = hole_beside(nodes, lists, i)) return *hole;
+  if (const std::optional<Point<Dim>> hole = hole_beside<Dim>(nodes, lists, i)) return *hole;
   return place_away<Dim>(nodes, lists, i);
 }
 
