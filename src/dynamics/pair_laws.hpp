@@ -13,6 +13,8 @@
 // units in which fine and coarse bubbles are equally stiff.
 #pragma once
 
+#include <type_traits>
+
 namespace pnpbs {
 
 // Equation (2) of the paper (after Shimada and Gossard): pushes below w = 1, pulls up to 1.5. To
@@ -59,5 +61,34 @@ struct LinearPush {
     return Dim == 2 ? 1.0 : 1.0 / d;  // d^(2 - Dim)
   }
 };
+
+// A push that fades out smoothly, (1 - (w / range)^2)^2, for volumes: it takes body-centred cubic
+// order, where a linear push that reaches no farther than touching bubbles prefers close packing,
+// and a pull damages the lattice. Leaves no stress.
+struct SmoothPush {
+  double k0 = 1;
+  double range = 1.2;
+
+  double operator()(double w) const {
+    const double u = w / range, rest = 1.0 - u * u;
+    return rest > 0.0 ? k0 * (rest * rest) : 0.0;
+  }
+  // d_ij^(Dim-1) f(w) / distance.
+  template <int Dim>
+  double per_length(double distance, double desired) const {
+    const double reach = range * desired, u = distance / reach;
+    const double rest = 1.0 - u * u, positive = rest > 0.0 ? rest : 0.0;
+    double push = k0 * (positive * positive) / distance;
+    for (int k = 1; k < Dim; ++k) push *= desired;
+    return push;
+  }
+  template <int Dim>
+  static double acceleration_scale(double d) {
+    return Dim == 2 ? 1.0 : 1.0 / d;  // d^(2 - Dim)
+  }
+};
+
+template <int Dim>
+using DefaultLaw = std::conditional_t<Dim == 2, LinearPush, SmoothPush>;
 
 }  // namespace pnpbs

@@ -19,6 +19,11 @@ struct Motion {
 };
 
 template <int Dim>
+constexpr Motion default_motion() {
+  return Dim == 2 ? Motion{} : Motion{0.6, 0.2, 0.2};
+}
+
+template <int Dim>
 using Field = std::array<View<double>, Dim>;
 
 template <int Dim>

@@ -107,6 +107,15 @@ std::vector<Bubble<Dim>> random_bubbles(Random& random, std::int64_t n,
   return bubbles;
 }
 
+// Every bubble moves that is farther than this from the box's sides.
+template <int Dim>
+bool is_inner(const Box<Dim>& box, const Point<Dim>& x, double rim) {
+  bool inner = true;
+  for (int k = 0; k < Dim; ++k)
+    inner = inner && x[k] > box.low[k] + rim && x[k] < box.high[k] - rim;
+  return inner;
+}
+
 // Rows of a hexagonal lattice of this spacing that fill the box; those within `rim` of the box's
 // edge do not move.
 inline std::vector<Bubble<2>> hexagonal_lattice(const Box<2>& box, double spacing, double d,
@@ -117,10 +126,8 @@ inline std::vector<Bubble<2>> hexagonal_lattice(const Box<2>& box, double spacin
     for (int c = 0;; ++c) {
       const Point<2> x{box.low[0] + spacing * (c + 0.5 * (r % 2)), box.low[1] + r * row};
       if (x[0] > box.high[0]) break;
-      bool inner = true;
-      for (int k = 0; k < 2; ++k)
-        inner = inner && x[k] > box.low[k] + rim && x[k] < box.high[k] - rim;
-      bubbles.push_back({x, d, static_cast<std::int64_t>(bubbles.size()), inner});
+      bubbles.push_back(
+          {x, d, static_cast<std::int64_t>(bubbles.size()), is_inner<2>(box, x, rim)});
     }
   }
   return bubbles;

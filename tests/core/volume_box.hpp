@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A box of body-centred cubic order whose outer layers do not move: the whole way of a volume's
+// nodes from a shaken lattice back to rest, without a domain.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/lattice.hpp"
+#include "base/mixed_hash.hpp"
+#include "bubbles.hpp"
+#include "dynamics/pair_laws.hpp"
+#include "dynamics/schemes.hpp"
+
+namespace volume_box {
+
+inline constexpr double kCell = pnpbs::Lattice<3>::kCell;
+
+// So many cubic cells along each side, d = 1; all of its nodes lie inside.
+struct Lattice {
+  int cells;
+
+  Box<3> box() const {
+    const double side = cells * kCell, room = 0.5;
+    return {{-room, -room, -room}, {side + room, side + room, side + room}};
+  }
+  // The force must not reach a place that is missing beyond the outermost layer.
+  bool moves(const Point<3>& x) const { return is_inner<3>(box(), x, 0.5 + 1.25); }
+};
+
+// Corners and centres of the cells: id n is at the same place whatever asks for it.
+inline std::vector<Bubble<3>> sites(const Lattice& lattice) {
+  std::vector<Bubble<3>> all;
+  for (int half : {0, 1})
+    for (int i = 0; i <= lattice.cells - half; ++i)
+      for (int j = 0; j <= lattice.cells - half; ++j)
+        for (int k = 0; k <= lattice.cells - half; ++k) {
+          const double shift = 0.5 * half;
+          const Point<3> x{kCell * (i + shift), kCell * (j + shift), kCell * (k + shift)};
+          all.push_back({x, 1, static_cast<std::int64_t>(all.size()), lattice.moves(x)});
+        }
+  return all;
+}
+
+// A point of the unit ball that follows from the id alone.
+inline Point<3> shift_of(std::int64_t id) {
+  Point<3> shift;
+  std::uint64_t bits = static_cast<std::uint64_t>(id);
+  do {
+    for (double& along : shift) {
+      bits = pnpbs::mixed(bits);
+      along = 2 * static_cast<double>(bits >> 11) * 0x1p-53 - 1;
+    }
+  } while (pnpbs::distance<3>(shift, {}) > 1);
+  return shift;
+}
+
+// Shifts every bubble that moves by up to `most` d.
+inline void shake(std::vector<Bubble<3>>& bubbles, double most) {
+  for (Bubble<3>& b : bubbles) {
+    if (!b.moves) continue;
+    const Point<3> shift = shift_of(b.id);
+    for (std::size_t k = 0; k < 3; ++k) b.x[k] += most * b.d * shift[k];
+  }
+}
+
+// Buckets, lists and time steps by the law and the scheme that are the volume's defaults.
+class Relaxation {
+ public:
+  explicit Relaxation(const Lattice& lattice) {
+    bubbles_.box = lattice.box();
+    bubbles_.grow_tree([](const Point<3>&) { return 1.0; }, 3);
+  }
+
+  void set(const std::vector<Bubble<3>>& bubbles) {
+    bubbles_.set(bubbles);
+    valid_ = false;
+  }
+  Bubbles<3>& bubbles() { return bubbles_; }
+  const Bubbles<3>& bubbles() const { return bubbles_; }
+  int rebuilds() const { return rebuilds_; }
+
+  void step() {
+    if (needs_rebuild()) rebuild();
+    pnpbs::damped_step<3>(bubbles_.nodes, bubbles_.lists, law_, motion_, next_);
+    std::swap(bubbles_.nodes.x, next_);
+  }
+  void steps(int n) {
+    for (int k = 0; k < n; ++k) step();
+  }
+
+  // Lists hold all pairs in reach of the force until two nodes have come half the skin closer each.
+  bool needs_rebuild() const {
+    return !valid_ || max_displacement() > 0.5 * (kRadius - law_.range);
+  }
+  void rebuild() {
+    bubbles_.list(kRadius);
+    const pnpbs::Nodes<3>& nodes = bubbles_.nodes;
+    pnpbs::reserve_field<3>(next_, "next", nodes.capacity());
+    pnpbs::reserve_field<3>(listed_, "listed", nodes.capacity());
+    bubbles_.pad(next_);
+    pnpbs::for_each("listed", nodes.count, [&](std::int64_t i) {
+      for (int k = 0; k < 3; ++k) listed_[k](i) = nodes.x[k](i);
+    });
+    valid_ = true;
+    ++rebuilds_;
+  }
+
+ private:
+  static constexpr double kRadius = 1.6;
+
+  // Since the lists were built, in d of the node.
+  double max_displacement() const {
+    const pnpbs::Nodes<3>& nodes = bubbles_.nodes;
+    return pnpbs::largest_of("max_displacement", nodes.count, 0, [&](std::int64_t i) {
+      return pnpbs::distance<3>(nodes.position(i), pnpbs::point_at<3>(listed_, i)) / nodes.d(i);
+    });
+  }
+
+  Bubbles<3> bubbles_;
+  pnpbs::Field<3> next_, listed_;
+  pnpbs::DefaultLaw<3> law_;
+  pnpbs::Motion motion_ = pnpbs::default_motion<3>();
+  bool valid_ = false;
+  int rebuilds_ = 0;
+};
+
+// How far the bubbles that move are from their sites, in d.
+struct Deviation {
+  double mean = 0, largest = 0;
+};
+
+inline Deviation deviation_from_sites(const std::vector<Bubble<3>>& bubbles,
+                                      const Lattice& lattice) {
+  const std::vector<Bubble<3>> perfect = sites(lattice);
+  Deviation deviation;
+  double moving = 0;
+  for (const Bubble<3>& b : bubbles) {
+    if (!b.moves) continue;
+    const double way = pnpbs::distance<3>(b.x, perfect[static_cast<std::size_t>(b.id)].x) / b.d;
+    deviation.mean += way;
+    deviation.largest = std::max(deviation.largest, way);
+    ++moving;
+  }
+  deviation.mean /= moving;
+  return deviation;
+}
+
+}  // namespace volume_box
