@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time steps against the exact solution of a damped oscillator: one bubble between two fixed ones.
 // With a linear push that reaches far enough the force on it is exactly linear.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -141,7 +142,65 @@ void expect_clamp(Scheme scheme) {
   ck_assert(run.bubbles.nodes.position(run.node(2)) == before[2]);
 }
 
+// The force on bubble i by the volume's law, as a sum over all others.
+Point<3> force_on(const std::vector<Bubble<3>>& all, std::size_t i) {
+  Point<3> force{};
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const double gap = pnpbs::distance<3>(all[i].x, all[j].x);
+    const double desired = (all[i].d + all[j].d) / 2, u = gap / (1.2 * desired);
+    if (j == i || u >= 1) continue;
+    const double f = desired * desired * (1 - u * u) * (1 - u * u);
+    for (std::size_t k = 0; k < 3; ++k) force[k] += f * (all[i].x[k] - all[j].x[k]) / gap;
+  }
+  return force;
+}
+
+// Velocity and position of one bubble after the volume's step of 0.6 with damping 0.2.
+void step_one(const Point<3>& force, const Bubble<3>& b, Point<3>& v, Point<3>& x) {
+  double square = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    v[k] = b.moves ? (v[k] + 0.6 * force[k] / b.d) / (1 + 0.2 * 0.6) : 0;
+    square += 0.36 * v[k] * v[k];
+  }
+  const double shorten = std::min(1.0, 0.2 * b.d / std::sqrt(std::max(square, 1e-300)));
+  for (std::size_t k = 0; k < 3; ++k) {
+    v[k] *= shorten;
+    x[k] = b.x[k] + 0.6 * v[k];
+  }
+}
+
 }  // namespace
+
+// Bubbles of all sizes, some of which do not move, and some of which are too fast.
+START_TEST(volume_steps_as_one_bubble_after_the_other) {
+  Random random(99);
+  const SpacingFunction<3> d = [](const Point<3>& x) { return 0.05 + 0.1 * x[0]; };
+  std::vector<Bubble<3>> all = random_bubbles<3>(random, 1003, d);
+  for (std::size_t i = 0; i < all.size(); i += 9) all[i].moves = false;
+  Run<3> run(all, 1.5);
+  all = run.bubbles.bubbles();
+  std::vector<Point<3>> v(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      v[i][k] = all[i].moves ? random.between(-0.1, 0.1) * all[i].d : 0;
+      run.bubbles.nodes.v[k](static_cast<std::int64_t>(i)) = v[i][k];
+    }
+  run.step(Scheme::damped, pnpbs::DefaultLaw<3>{}, pnpbs::default_motion<3>());
+  int at_most = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Point<3> x;
+    step_one(force_on(all, i), all[i], v[i], x);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto node = static_cast<std::int64_t>(i);
+      ck_assert_double_eq_tol(run.bubbles.nodes.x[k](node), x[k], 1e-14);
+      ck_assert_double_eq_tol(run.bubbles.nodes.v[k](node), v[i][k], 1e-13);
+    }
+    at_most += pnpbs::distance<3>(x, all[i].x) > 0.199 * all[i].d;
+  }
+  ck_assert_int_gt(at_most, 50);
+  ck_assert_int_lt(at_most, 850);
+}
+END_TEST
 
 START_TEST(damped_step_is_of_first_order) { expect_order(Scheme::damped, 1, 0.2); }
 END_TEST
@@ -193,8 +252,9 @@ START_TEST(clamp_keeps_short_moves) {
 END_TEST
 
 int main() {
-  return run_kernel_suite("schemes",
-                          {damped_step_is_of_first_order, predictor_corrector_is_of_second_order,
-                           runge_kutta_is_of_fourth_order, fine_and_coarse_bubbles_move_alike,
-                           moves_are_clamped, clamp_keeps_short_moves});
+  return run_kernel_suite(
+      "schemes",
+      {damped_step_is_of_first_order, predictor_corrector_is_of_second_order,
+       runge_kutta_is_of_fourth_order, fine_and_coarse_bubbles_move_alike, moves_are_clamped,
+       clamp_keeps_short_moves, volume_steps_as_one_bubble_after_the_other});
 }
