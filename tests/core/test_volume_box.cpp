@@ -18,7 +18,7 @@ namespace {
 
 std::string program;
 
-constexpr volume_box::Lattice kLattice{24};  // 29 449 nodes
+constexpr volume_box::Crystal kCrystal{24};  // 29 449 nodes
 constexpr double kShaken = 0.3;              // d, at most
 constexpr int kSteps = 200;
 
@@ -26,10 +26,10 @@ constexpr int kSteps = 200;
 using Places = std::vector<Point<3>>;
 
 Places relax(int seed) {
-  std::vector<Bubble<3>> bubbles = volume_box::sites(kLattice);
+  std::vector<Bubble<3>> bubbles = volume_box::sites(kCrystal);
   volume_box::shake(bubbles, kShaken);
   if (seed != 0) Random(static_cast<std::uint64_t>(seed)).shuffle(bubbles);
-  volume_box::Relaxation relaxation(kLattice);
+  volume_box::Relaxation relaxation(kCrystal);
   relaxation.set(bubbles);
   relaxation.steps(kSteps);
   Places places(bubbles.size());
@@ -62,7 +62,7 @@ Places run(int threads, int seed) {
   int status = 1;
   ck_assert(waitpid(child, &status, 0) == child);
   ck_assert_int_eq(status, 0);
-  Places places(volume_box::sites(kLattice).size());
+  Places places(volume_box::sites(kCrystal).size());
   std::ifstream file(name, std::ios::binary);
   file.read(reinterpret_cast<char*>(places.data()),
             static_cast<std::streamsize>(places.size() * sizeof(Point<3>)));
@@ -72,7 +72,7 @@ Places run(int threads, int seed) {
 }
 
 std::vector<Bubble<3>> bubbles_at(const Places& places) {
-  std::vector<Bubble<3>> bubbles = volume_box::sites(kLattice);
+  std::vector<Bubble<3>> bubbles = volume_box::sites(kCrystal);
   for (std::size_t i = 0; i < bubbles.size(); ++i) {
     quick_assert(bubbles[i].moves || bubbles[i].x == places[i]);
     bubbles[i].x = places[i];
@@ -83,14 +83,14 @@ std::vector<Bubble<3>> bubbles_at(const Places& places) {
 }  // namespace
 
 START_TEST(shaken_lattice_comes_to_rest) {
-  std::vector<Bubble<3>> shaken = volume_box::sites(kLattice);
+  std::vector<Bubble<3>> shaken = volume_box::sites(kCrystal);
   volume_box::shake(shaken, kShaken);
-  const volume_box::Deviation before = volume_box::deviation_from_sites(shaken, kLattice);
+  const volume_box::Deviation before = volume_box::deviation_from_sites(shaken, kCrystal);
   ck_assert_double_eq_tol(before.mean, 0.75 * kShaken, 0.01 * kShaken);  // of a full ball
 
   const Places places = run(1, 0);
   const volume_box::Deviation after =
-      volume_box::deviation_from_sites(bubbles_at(places), kLattice);
+      volume_box::deviation_from_sites(bubbles_at(places), kCrystal);
   std::printf("from the lattice, in d: mean %.3g, largest %.3g; before %.3g, %.3g\n", after.mean,
               after.largest, before.mean, before.largest);
   ck_assert_double_lt(after.mean, 1e-5);

@@ -110,11 +110,11 @@ void expect_gradient() {
 }
 
 Bubbles<3> perfect(double radius) {
-  const volume_box::Lattice lattice{7};
+  const volume_box::Crystal crystal{7};
   Bubbles<3> b;
-  b.box = lattice.box();
+  b.box = crystal.box();
   b.grow_tree([](const Point<3>&) { return 1.0; });
-  b.set(volume_box::sites(lattice));
+  b.set(volume_box::sites(crystal));
   b.list(radius);
   return b;
 }

@@ -19,7 +19,7 @@ namespace volume_box {
 inline constexpr double kCell = pnpbs::Lattice<3>::kCell;
 
 // So many cubic cells along each side, d = 1; all of its nodes lie inside.
-struct Lattice {
+struct Crystal {
   int cells;
 
   Box<3> box() const {
@@ -31,15 +31,15 @@ struct Lattice {
 };
 
 // Corners and centres of the cells: id n is at the same place whatever asks for it.
-inline std::vector<Bubble<3>> sites(const Lattice& lattice) {
+inline std::vector<Bubble<3>> sites(const Crystal& crystal) {
   std::vector<Bubble<3>> all;
   for (int half : {0, 1})
-    for (int i = 0; i <= lattice.cells - half; ++i)
-      for (int j = 0; j <= lattice.cells - half; ++j)
-        for (int k = 0; k <= lattice.cells - half; ++k) {
+    for (int i = 0; i <= crystal.cells - half; ++i)
+      for (int j = 0; j <= crystal.cells - half; ++j)
+        for (int k = 0; k <= crystal.cells - half; ++k) {
           const double shift = 0.5 * half;
           const Point<3> x{kCell * (i + shift), kCell * (j + shift), kCell * (k + shift)};
-          all.push_back({x, 1, static_cast<std::int64_t>(all.size()), lattice.moves(x)});
+          all.push_back({x, 1, static_cast<std::int64_t>(all.size()), crystal.moves(x)});
         }
   return all;
 }
@@ -69,8 +69,8 @@ inline void shake(std::vector<Bubble<3>>& bubbles, double most) {
 // Buckets, lists and time steps by the law and the scheme that are the volume's defaults.
 class Relaxation {
  public:
-  explicit Relaxation(const Lattice& lattice) {
-    bubbles_.box = lattice.box();
+  explicit Relaxation(const Crystal& crystal) {
+    bubbles_.box = crystal.box();
     bubbles_.grow_tree([](const Point<3>&) { return 1.0; }, 3);
   }
 
@@ -133,8 +133,8 @@ struct Deviation {
 };
 
 inline Deviation deviation_from_sites(const std::vector<Bubble<3>>& bubbles,
-                                      const Lattice& lattice) {
-  const std::vector<Bubble<3>> perfect = sites(lattice);
+                                      const Crystal& crystal) {
+  const std::vector<Bubble<3>> perfect = sites(crystal);
   Deviation deviation;
   double moving = 0;
   for (const Bubble<3>& b : bubbles) {
