@@ -29,7 +29,7 @@ struct Settings {
   std::int64_t coarsest_steps;  // on the coarsest of several levels
   std::int64_t refined_steps;   // on those between it and the finest
   std::int64_t event_interval;
-  double population_share;  // of the steps
+  double population_share;      // of the steps
   double population_tolerance;  // share of the nodes
   PopulationRule<2> population;
   double tolerance_mean, tolerance_max;  // scaled speeds

@@ -875,7 +875,8 @@ START_TEST(bad_graphs) {
   expect_argument_error({"vertices is -3"},
                         [&] { domain.add_pslg(-3, xy, nullptr, 3, good, nullptr, 0, nullptr); });
   expect_argument_error({"point[1] is nan"}, [&] { domain.add_hole({0, nan_value}); });
-  expect_argument_error({"coordinates[0][1] is inf"}, [&] { domain.add_fixed_nodes(1, hole, nullptr); });
+  expect_argument_error({"coordinates[0][1] is inf"},
+                        [&] { domain.add_fixed_nodes(1, hole, nullptr); });
   domain.add_pslg(3, xy, nullptr, 3, good, nullptr, 0, nullptr);
   expect_area(domain, 0.5);
 }
