@@ -163,7 +163,7 @@ START_TEST(bad_values_are_named) {
   evaluate(1e-7);
   const P3 x{1, 2, 3};
   double d;
-  expect_error(pnpbs::ErrorKind::spacing, {"at (1, 2, 3)", "about 1575"},
+  expect_error(pnpbs::ErrorKind::spacing, {"at (1, 2, 3)", "about 15749"},
                [&] { pnpbs::evaluate_spacing<3>(pnpbs::ConstantSpacing<3>(1e-6), 1, 1, &x, &d); });
 }
 END_TEST
