@@ -98,7 +98,7 @@ class Communicator {
 std::shared_ptr<Communicator> serial_communicator();
 
 // A duplicate of the communicator with this Fortran handle. Collective. Throws
-// Error(ErrorKind::mpi or _UNSUPPORTED).
+// Error(ErrorKind::mpi or ::unsupported).
 std::shared_ptr<Communicator> mpi_communicator(std::int32_t fortran_handle);
 
 // Throws Error(ErrorKind::mpi) unless this is what MPI_Get_library_version tells of the MPI that
@@ -107,6 +107,18 @@ void require_our_mpi(const std::string& library);
 
 // Collective: if any rank failed, all ranks throw the failure of the lowest one, named.
 void agree_on_failure(const Communicator& comm, std::exception_ptr failure);
+
+// Runs a piece of this rank's work unless one before it has failed. Its failure waits in `failure`
+// until the ranks agree on it, as others wait for messages meanwhile.
+template <class Work>
+void attempt(std::exception_ptr& failure, const Work& work) {
+  if (failure) return;
+  try {
+    work();
+  } catch (...) {
+    failure = std::current_exception();
+  }
+}
 
 // Runs a piece of work on every rank; if it throws on one, it throws on all.
 template <class Work>

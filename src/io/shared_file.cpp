@@ -79,16 +79,9 @@ void SharedFile::write_at_place(std::span<const char> bytes) {
 // keeps to this, so that nobody waits for ever.
 void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
   std::exception_ptr failure;
-  const auto attempt = [&](const auto& work) {
-    try {
-      if (!failure) work();
-    } catch (...) {
-      failure = std::current_exception();
-    }
-  };
   if (is_first()) {
     Sink sink(to_descriptor(stream_, output_.quoted(), before_write_));
-    attempt([&] {
+    attempt(failure, [&] {
       write(sink);
       sink.flush();
     });
@@ -96,7 +89,7 @@ void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
       for (;;) {
         const Bytes part = comm_->exchange({rank}, {Bytes()})[0];
         if (part.empty()) break;
-        attempt([&] {
+        attempt(failure, [&] {
           sink.bytes(part.data(), part.size());
           sink.flush();
         });
@@ -108,7 +101,7 @@ void SharedFile::append_in_turn(const std::function<void(Sink&)>& write) {
           comm_->exchange({0}, {Bytes(bytes.begin(), bytes.end())});
         },
         kPartSize);
-    attempt([&] {
+    attempt(failure, [&] {
       write(sink);
       sink.flush();
     });

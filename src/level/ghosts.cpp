@@ -85,15 +85,8 @@ void Level::exchange(int hops) {
   });
   const Halo& halo = halo_of(hops);
   std::exception_ptr failure;
-  const auto attempt = [&](const auto& work) {
-    try {
-      if (!failure) work();
-    } catch (...) {
-      failure = std::current_exception();
-    }
-  };
   const NodeExchange<2> travel{map_.tree(), distribution_, halo, comm_->rank(), plan_};
-  attempt([&] {
+  attempt(failure, [&] {
     const auto known_leaf = [this](std::int64_t i) {
       return buckets_.knows(i) ? buckets_.bucket_of(i) : -1;
     };
@@ -107,7 +100,7 @@ void Level::exchange(int hops) {
   } catch (...) {
     failure = std::current_exception();
   }
-  attempt([&] { travel.append_arriving(nodes_, incoming); });
+  attempt(failure, [&] { travel.append_arriving(nodes_, incoming); });
   lists_valid_ = false;
   agree_on_failure(*comm_, failure);
   ghost_hops_ = hops;

@@ -27,12 +27,10 @@ Outcome Placement::advance(std::int64_t until, ProgressPart part) {
     if (started || schedule_.step % settings.event_interval % settings.exchange_interval == 0)
       level_->exchange_for_steps(failure);
     started = false;
-    try {
-      if (!failure && level_->lists_need_rebuild()) level_->rebuild_lists();
-      if (!failure) level_->step();
-    } catch (...) {
-      failure = std::current_exception();
-    }
+    attempt(failure, [this] {
+      if (level_->lists_need_rebuild()) level_->rebuild_lists();
+      level_->step();
+    });
     level_->count_step();
     ++schedule_.step;
     ++steps_done_;
