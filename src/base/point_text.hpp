@@ -2,6 +2,7 @@
 // Points and lists of names as messages show them.
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <string>
 #include <vector>
@@ -12,8 +13,11 @@
 namespace pnpbs {
 
 // "(1.5, 2)"
-inline std::string point_text(const Point<2>& point) {
-  return "(" + number_text(point[0]) + ", " + number_text(point[1]) + ")";
+template <std::size_t Dim>
+std::string point_text(const std::array<double, Dim>& point) {
+  std::string text = "(";
+  for (std::size_t k = 0; k < Dim; ++k) text += (k > 0 ? ", " : "") + number_text(point[k]);
+  return text + ")";
 }
 
 // Four digits, of a number that only shows how large something is.

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/execution.hpp"
 #include "base/lattice.hpp"
+#include "base/point_text.hpp"
 
 namespace pnpbs {
 
@@ -62,13 +63,6 @@ void BoundedSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* 
 
 namespace {
 
-template <int Dim>
-std::string point_text(const Point<Dim>& x) {
-  std::string text = "(";
-  for (int k = 0; k < Dim; ++k) text += (k ? ", " : "") + number_text(x[k]);
-  return text + ")";
-}
-
 // Nodes that spacing d means in a domain of this measure.
 template <int Dim>
 double meant_nodes(double d, double measure) {
@@ -84,7 +78,7 @@ void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t 
   spacing.evaluate(n, x, d);
   for (std::int64_t i = 0; i < n; ++i) {
     if (std::isfinite(d[i]) && d[i] > 0 && meant_nodes<Dim>(d[i], measure) < kMostNodes) continue;
-    std::string message = "spacing d = " + number_text(d[i]) + " at " + point_text<Dim>(x[i]);
+    std::string message = "spacing d = " + number_text(d[i]) + " at " + point_text(x[i]);
     if (!std::isfinite(d[i]))
       message += " is not finite; any number of nodes could be meant";
     else if (d[i] <= 0)
