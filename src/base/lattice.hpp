@@ -3,8 +3,6 @@
 // formula would otherwise say with a 2 or a 6 of the plane.
 #pragma once
 
-#include "base/types.hpp"
-
 namespace pnpbs {
 
 template <int Dim>
@@ -13,9 +11,9 @@ struct Lattice;
 // The plane's: hexagonal, every edge d.
 template <>
 struct Lattice<2> {
-  static constexpr double kDensity = kHexagonalDensity;  // nodes per d^2
-  static constexpr int kNeighbours = 6;                  // by edges of the Delaunay triangulation
-  static constexpr double kIdealOverlap = 6;             // overlap ratio of a node
+  static constexpr double kDensity = 1.1547005383792515;  // nodes per d^2: 2 / sqrt(3)
+  static constexpr int kNeighbours = 6;                   // by edges of the Delaunay triangulation
+  static constexpr double kIdealOverlap = 6;              // overlap ratio of a node
   // Overlap ratios of bubbles that are one too many and one too few (paper, 2.4).
   static constexpr double kDeleteAbove = 9, kInsertBelow = 5;
   static constexpr int kOverlapEnd = 16;  // larger overlap ratios are not told apart

@@ -8,9 +8,6 @@
 
 namespace pnpbs {
 
-// Nodes of a hexagonal lattice with distance d, per d^2: 2 / sqrt(3).
-inline constexpr double kHexagonalDensity = 1.1547005383792515;
-
 template <int Dim>
 using Point = std::array<double, Dim>;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/lattice.hpp"
 #include "domain/segments.hpp"
 #include "predicates/plane.hpp"
 
@@ -193,7 +194,7 @@ struct DomainMap::Growth {
     for (std::int32_t c = first; c < last; ++c) {
       const CellState& cell = cells[index(c)];
       if (cell.outside || cell.first_edge != cell.last_edge) continue;
-      nodes += kHexagonalDensity * std::pow(tree.cell_side(c) / cell.largest, 2);
+      nodes += Lattice<2>::kDensity * std::pow(tree.cell_side(c) / cell.largest, 2);
       if (cells[index(finest)].outside || cell.least < cells[index(finest)].least) finest = c;
     }
     if (nodes <= static_cast<double>(limit.max_nodes)) return limit.require_memory_for(nodes);
@@ -247,7 +248,8 @@ void DomainMap::grow(const Communicator& comm, const Box<2>& bounds, Growth grow
     });
     for (std::int32_t c = first; c < last; ++c) {
       const Growth::CellState& cell = growth.cells[index(c)];
-      const double nodes = kHexagonalDensity * std::pow(tree.cell_side(c), 2) * cell.mean_density;
+      const double nodes =
+          Lattice<2>::kDensity * std::pow(tree.cell_side(c), 2) * cell.mean_density;
       split[index(c - first)] = growth.wants_split(tree, c) && may_split(tree, c, nodes);
       if (!split[index(c - first)] && !cell.outside && cell.first_edge == cell.last_edge)
         growth.nodes_in_leaves += nodes;

@@ -2,6 +2,7 @@
 #include "initial/graded_fill.hpp"
 
 #include "base/execution.hpp"
+#include "base/lattice.hpp"
 #include "initial/initial_fill.hpp"
 
 namespace pnpbs {
@@ -23,7 +24,7 @@ bool is_steep(const DomainMap& map, std::int32_t leaf) {
 
 // In units of 2^-32.
 std::int64_t wanted_in_cell(double side, double d) {
-  return fixed_point(kHexagonalDensity * (side / d) * (side / d));
+  return fixed_point(Lattice<2>::kDensity * (side / d) * (side / d));
 }
 
 // The n-th of `count` places in a cell: its centre, or along its diagonal.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/lattice.hpp"
 #include "comm/records.hpp"
 #include "initial/graded_fill.hpp"
 #include "initial/initial_fill.hpp"
@@ -30,7 +31,7 @@ std::vector<double> Level::wanted_nodes() const {
     const double part = !distribution_.owns(leaf) || map_.leaf_outside(leaf) ? 0
                         : map_.leaf_has_edges(leaf)                          ? share
                                                                              : 1;
-    wanted.push_back(part > 0 ? part * kHexagonalDensity * side * side / (d * d) : 0);
+    wanted.push_back(part > 0 ? part * Lattice<2>::kDensity * side * side / (d * d) : 0);
   }
   return wanted;
 }

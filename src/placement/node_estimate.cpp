@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/lattice.hpp"
 #include "domain/domain_map.hpp"
 #include "domain/plane/boundary.hpp"
 
@@ -20,7 +21,7 @@ double nodes_inside(const DomainMap& map, double area) {
     if (map.leaf_outside(leaf)) continue;
     const double side = map.tree().cell_side(map.tree().leaf_cell(leaf)),
                  d = map.leaf_spacing(leaf);
-    const double nodes = d > 0 ? kHexagonalDensity * side * side / (d * d) : 0;
+    const double nodes = d > 0 ? Lattice<2>::kDensity * side * side / (d * d) : 0;
     (map.leaf_has_edges(leaf) ? crossed : inside) += side * side;
     (map.leaf_has_edges(leaf) ? nodes_of_crossed : nodes_of_inside) += nodes;
   }

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "base/lattice.hpp"
 #include "level_run.hpp"
 #include "run_kernel_suite.hpp"
 
@@ -106,7 +107,7 @@ START_TEST(a_refined_level_is_nearly_right) {
   ck_assert_int_eq(fine.level->boundary_nodes(), 2 * coarse.b);
   ck_assert_int_eq(fine.level->owned_count() + taken.left_out,
                    coarse.n - coarse.b + (3 * coarse.n - 3 - 2 * coarse.b) + 2 * coarse.b);
-  const double wanted = pnpbs::kHexagonalDensity / (0.025 * 0.025) + 0.5 * 160;
+  const double wanted = pnpbs::Lattice<2>::kDensity / (0.025 * 0.025) + 0.5 * 160;
   ck_assert_double_le(std::fabs(static_cast<double>(fine.level->owned_count()) / wanted - 1), 0.03);
   fine.renew_stars();
   std::int64_t six = 0, inner = 0;
