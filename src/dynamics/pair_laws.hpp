@@ -37,6 +37,12 @@ struct CubicLaw {
   }
 };
 
+// d^(2 - Dim), the acceleration_scale of all laws whose force is d_ij^(Dim-1) f(w).
+template <int Dim>
+double stress_free_scale(double d) {
+  return Dim == 2 ? 1.0 : 1.0 / d;
+}
+
 // A linear push up to a rest length a little above the desired distance, no pull. Around five- and
 // seven-neighbour nodes the pull of the cubic law distorts triangles; a push does not. The density
 // is then held by the population control. Leaves no stress.
@@ -58,7 +64,7 @@ struct LinearPush {
   }
   template <int Dim>
   static double acceleration_scale(double d) {
-    return Dim == 2 ? 1.0 : 1.0 / d;  // d^(2 - Dim)
+    return stress_free_scale<Dim>(d);
   }
 };
 
@@ -84,7 +90,7 @@ struct SmoothPush {
   }
   template <int Dim>
   static double acceleration_scale(double d) {
-    return Dim == 2 ? 1.0 : 1.0 / d;  // d^(2 - Dim)
+    return stress_free_scale<Dim>(d);
   }
 };
 

@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "tree/box_tree.hpp"
+
 namespace pnpbs {
 
 namespace {
@@ -105,10 +107,7 @@ std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) cons
   for (std::int32_t c = 0; c < cells_.count(); ++c) {
     if (owner_of_cell(c) != rank_) continue;
     const Box<Dim> own = box(c);
-    for (int k = 0; k < Dim; ++k) {
-      around_own.low[k] = std::min(around_own.low[k], own.low[k]);
-      around_own.high[k] = std::max(around_own.high[k], own.high[k]);
-    }
+    around_own = joined(around_own, own);
     found[static_cast<std::size_t>(c)] = 1;
     tree.for_leaves_in(widened(own, way(c)), [&](std::int32_t n) {
       if (squared_gap<Dim>(own, box(n)) <= way(c) * way(c)) found[static_cast<std::size_t>(n)] = 1;
