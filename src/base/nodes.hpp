@@ -25,15 +25,15 @@ Point<Dim> point_at(const std::array<View<double>, Dim>& x, std::int64_t i) {
 template <int Dim>
 struct Nodes {
   std::int64_t count = 0;
-  std::array<View<double>, Dim> x;       // position
-  std::array<View<double>, Dim> v;       // velocity, length per unit of time
-  std::array<View<double>, Dim> anchor;  // position at the last event: what the boundary hides
-                                         // is judged from there until the next one
-  View<double> d;                        // spacing at the node, as last refreshed
-  View<std::int64_t> id;                 // global id
-  View<std::int32_t> tag;                // 0 inside
-  View<std::int32_t> boundary_node;      // index into Boundary::nodes, -1 for an inner node
-  View<char> owned;                      // 0: a ghost, another rank's node
+  std::array<View<double>, Dim> x;          // position
+  std::array<View<double>, Dim> v;          // velocity, length per unit of time
+  std::array<View<double>, Dim> reference;  // position at the last event: what the boundary hides
+                                            // is judged from there until the next one
+  View<double> d;                           // spacing at the node, as last refreshed
+  View<std::int64_t> id;                    // global id
+  View<std::int32_t> tag;                   // 0 inside
+  View<std::int32_t> boundary_node;         // index into Boundary::nodes, -1 for an inner node
+  View<char> owned;                         // 0: a ghost, another rank's node
 
   std::int64_t capacity() const { return static_cast<std::int64_t>(d.extent(0)) - 1; }
 
@@ -43,7 +43,7 @@ struct Nodes {
     for (int k = 0; k < Dim; ++k) {
       grow_labelled(x[k], "pnpbs::Nodes::x", n);
       grow_labelled(v[k], "pnpbs::Nodes::v", n);
-      grow_labelled(anchor[k], "pnpbs::Nodes::anchor", n);
+      grow_labelled(reference[k], "pnpbs::Nodes::reference", n);
     }
     grow_labelled(d, "pnpbs::Nodes::d", n);
     grow_labelled(id, "pnpbs::Nodes::id", n);
@@ -76,7 +76,7 @@ struct Nodes {
     for (int k = 0; k < Dim; ++k) {
       x[k](i) = position[k];
       v[k](i) = 0;
-      anchor[k](i) = position[k];
+      reference[k](i) = position[k];
     }
     d(i) = spacing;
     id(i) = node_id;
@@ -97,7 +97,7 @@ struct Nodes {
     for (int k = 0; k < Dim; ++k) {
       permute_array(x[k], spare_.real, from);
       permute_array(v[k], spare_.real, from);
-      permute_array(anchor[k], spare_.real, from);
+      permute_array(reference[k], spare_.real, from);
     }
     permute_array(d, spare_.real, from);
     permute_array(id, spare_.id, from);
@@ -114,7 +114,7 @@ struct Nodes {
     for (int k = 0; k < Dim; ++k) {
       real[k] = x[k];
       real[Dim + k] = v[k];
-      real[2 * Dim + k] = anchor[k];
+      real[2 * Dim + k] = reference[k];
     }
     real[3 * Dim] = d;
     for_each("pnpbs::Nodes::keep", kReal + 4, [&](std::int64_t array) {

@@ -23,7 +23,7 @@ class DomainMap {
   // With steepest > 0, cells over which d grows faster than that are refined further, down to a
   // third of their least d, so that the tips of steep funnels are found. Given another tree of the
   // same bounds, it is at least as fine as that.
-  // Throws Error(ErrorKind::spacing or _MEMORY) when d would mean more nodes than the limit
+  // Throws Error(ErrorKind::spacing or ::memory) when d would mean more nodes than the limit
   // allows.
   void build(const Box<2>& bounds, const Boundary& boundary, const SpacingEvaluator& spacing,
              const NodeLimit& limit, double steepest = 0,

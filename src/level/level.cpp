@@ -52,7 +52,8 @@ void Level::change_settings(const Settings& settings) {
   ghost_hops_ = 0;
   if (widest_radius() != widest_before || settings_.list_radius != list_before)
     tree_hops_ = 0;  // a hop has another length now
-  // Nodes count as far from the boundary by the steps that were left since their anchors.
+  // Nodes count as far from the boundary by the steps that were left since their reference
+  // positions.
   if (meeting_radius() != meeting_before) set_reference_positions();
   if (edge_radius() == edges_before) return;
   near_edges_.prepare(map_, *links_, edge_radius());
@@ -83,7 +84,7 @@ bool Level::lists_need_rebuild() const {
 }
 
 void Level::rebuild_lists() {
-  rebuild_lists(settings_.list_radius, nodes_.anchor);
+  rebuild_lists(settings_.list_radius, nodes_.reference);
   reserve_field<2>(listed_, "pnpbs::Level::listed", nodes_.capacity());
   for_each("pnpbs::Level::listed", nodes_.count, [this](std::int64_t i) {
     for (int k = 0; k < 2; ++k) listed_[k](i) = nodes_.x[k](i);
@@ -103,7 +104,7 @@ void Level::rebuild_lists(double radius) {
 // An event: from now on visibility is judged from here.
 void Level::set_reference_positions() {
   for_each("pnpbs::Level::set_reference_positions", nodes_.count, [this](std::int64_t i) {
-    for (int k = 0; k < 2; ++k) nodes_.anchor[k](i) = nodes_.x[k](i);
+    for (int k = 0; k < 2; ++k) nodes_.reference[k](i) = nodes_.x[k](i);
   });
   lists_valid_ = false;
   work_is_old_ = true;

@@ -11,15 +11,16 @@ namespace pnpbs {
 template <int Dim>
 struct PackedNode {
   std::int64_t id;
-  Point<Dim> x, v, anchor;
+  Point<Dim> x, v, reference;
   double d;
   std::int32_t tag, boundary_node;
 };
 
 template <int Dim>
 PackedNode<Dim> packed(const Nodes<Dim>& nodes, std::int64_t i) {
-  return {nodes.id(i), nodes.position(i), point_at<Dim>(nodes.v, i), point_at<Dim>(nodes.anchor, i),
-          nodes.d(i),  nodes.tag(i),      nodes.boundary_node(i)};
+  return {
+      nodes.id(i), nodes.position(i), point_at<Dim>(nodes.v, i), point_at<Dim>(nodes.reference, i),
+      nodes.d(i),  nodes.tag(i),      nodes.boundary_node(i)};
 }
 
 template <int Dim>
@@ -28,7 +29,7 @@ void append(Nodes<Dim>& nodes, const PackedNode<Dim>& packed, bool owned) {
   const std::int64_t i = nodes.count - 1;
   for (int k = 0; k < Dim; ++k) {
     nodes.v[k](i) = packed.v[k];
-    nodes.anchor[k](i) = packed.anchor[k];
+    nodes.reference[k](i) = packed.reference[k];
   }
   nodes.owned(i) = owned;
 }

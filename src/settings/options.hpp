@@ -31,7 +31,7 @@ std::string nearest_name(std::string_view key, const std::vector<std::string>& n
 
 class Options {
  public:
-  // Throws Error(ErrorKind::key or _ARGUMENT).
+  // Throws Error(ErrorKind::key or ::argument).
   void set(const std::string& key, const std::string& value);
   void set_integer(const std::string& key, std::int64_t value);
   void set_real(const std::string& key, double value);

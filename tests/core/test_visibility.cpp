@@ -231,7 +231,7 @@ START_TEST(changed_options_count_from_here) {
     const pnpbs::Nodes<2>& nodes = run.level->nodes();
     int away = 0;
     for (std::int64_t i = 0; i < nodes.count; ++i)
-      away += nodes.anchor[0](i) != nodes.x[0](i) || nodes.anchor[1](i) != nodes.x[1](i);
+      away += nodes.reference[0](i) != nodes.x[0](i) || nodes.reference[1](i) != nodes.x[1](i);
     return away;
   };
   pnpbs::Options options;

@@ -43,7 +43,7 @@ PackedNode node_at(std::int64_t id, int moment) {
     const double way = moment == 0 ? 0 : kDrift * (number(id, 3 * moment + k) - 0.5);
     node.x[at] = number(id, k) + way;
     node.v[at] = number(id, 20 + 3 * moment + k) - 0.5;
-    node.anchor[at] = number(id, 40 + k);
+    node.reference[at] = number(id, 40 + k);
   }
   node.d = kLeast * (1 + 0.1 * number(id, 50));
   node.tag = static_cast<std::int32_t>(100 * number(id, 51));
@@ -52,7 +52,7 @@ PackedNode node_at(std::int64_t id, int moment) {
 }
 
 bool same(const PackedNode& a, const PackedNode& b) {
-  return a.id == b.id && a.x == b.x && a.v == b.v && a.anchor == b.anchor && a.d == b.d &&
+  return a.id == b.id && a.x == b.x && a.v == b.v && a.reference == b.reference && a.d == b.d &&
          a.tag == b.tag && a.boundary_node == b.boundary_node;
 }
 
