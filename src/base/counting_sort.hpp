@@ -48,21 +48,21 @@ CountingSort::CountingSort(std::int64_t n, std::int32_t keys, const Key& key)
                                       std::min<std::int64_t>(Exec().concurrency(), kMostParts))),
       keys_(keys),
       counts_(make_view<std::int32_t>("pnpbs::CountingSort::counts", parts_ * keys)) {
-  const double disorder =
-      largest_of("pnpbs::CountingSort::count", parts_, 0.0, [&](std::int64_t part) {
-        std::int32_t* const counts = counts_of(part);
-        std::fill_n(counts, keys_, 0);
-        bool ordered = true;
-        std::int32_t before = begin(part) > 0 ? key(begin(part) - 1) : 0;
-        for (std::int64_t i = begin(part); i < begin(part + 1); ++i) {
-          const std::int32_t k = key(i);
-          ordered = ordered && k >= 0 && before <= k;
-          before = k;
-          if (k >= 0) ++counts[k];
-        }
-        return ordered ? 0.0 : 1.0;
-      });
-  in_order_ = disorder == 0;
+  std::vector<char> in_order(static_cast<std::size_t>(parts_));
+  for_each("pnpbs::CountingSort::count", parts_, [&](std::int64_t part) {
+    std::int32_t* const counts = counts_of(part);
+    std::fill_n(counts, keys_, 0);
+    bool ordered = true;
+    std::int32_t before = begin(part) > 0 ? key(begin(part) - 1) : 0;
+    for (std::int64_t i = begin(part); i < begin(part + 1); ++i) {
+      const std::int32_t k = key(i);
+      ordered = ordered && k >= 0 && before <= k;
+      before = k;
+      if (k >= 0) ++counts[k];
+    }
+    in_order[static_cast<std::size_t>(part)] = ordered;
+  });
+  in_order_ = std::find(in_order.begin(), in_order.end(), 0) == in_order.end();
   start_.resize(static_cast<std::size_t>(keys) + 1);
   std::int32_t next = 0;
   for (std::int32_t k = 0; k < keys; ++k) {

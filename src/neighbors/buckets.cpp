@@ -94,21 +94,22 @@ void Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<
     links_ = std::make_shared<const LeafLinks<Dim>>(
         tree, std::vector<double>(static_cast<std::size_t>(buckets), 0));
   least_.resize(static_cast<std::size_t>(buckets));
+  for_each("pnpbs::Buckets::gather_spacings", buckets, [&](std::int64_t b) {
+    const auto bucket = static_cast<std::int32_t>(b);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::int32_t i = begin(bucket); i < end(bucket); ++i) least = std::min(least, nodes.d(i));
+    least_[index(bucket)] = least;
+  });
   const auto largest_in = [&](std::int32_t bucket) {
     double largest = 0;
     for (std::int32_t i = begin(bucket); i < end(bucket); ++i)
       largest = std::max(largest, nodes.d(i));
     return largest;
   };
-  const double grown =
-      largest_of("pnpbs::Buckets::gather_spacings", buckets, 0.0, [&](std::int64_t b) {
-        const auto bucket = static_cast<std::int32_t>(b);
-        double least = std::numeric_limits<double>::infinity();
-        for (std::int32_t i = begin(bucket); i < end(bucket); ++i)
-          least = std::min(least, nodes.d(i));
-        least_[index(bucket)] = least;
-        return radius * largest_in(bucket) > links_->reach[index(bucket)] ? 1.0 : 0.0;
-      });
+  const double grown = largest_of("pnpbs::Buckets::grown", buckets, 0.0, [&](std::int64_t b) {
+    const auto bucket = static_cast<std::int32_t>(b);
+    return radius * largest_in(bucket) > links_->reach[index(bucket)] ? 1.0 : 0.0;
+  });
   if (grown == 0) return;
   std::vector<double> reach = links_->reach;
   for (std::int32_t b = 0; b < buckets; ++b) {
