@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The house stands from the ground up: a folder of src includes only what stands before it in
-FLOORS; the public header is for the topmost folders alone. And no file is too long to be read.
+FLOORS; the public header is for the topmost folders alone. And no file and no function is too long
+to be read; the table of options or statistics may be.
 usage: check_floors.py <folder> [--self-test]"""
 
 import pathlib
@@ -13,7 +14,9 @@ FLOORS = ("base comm predicates tree domain spacing initial partition neighbors 
           "population delaunay quality settings level placement io picture api tool").split()
 PUBLIC_HEADER_FOR = "api", "tool"
 MAX_LINES = 400
+MAX_FUNCTION_LINES = 60
 OURS = re.compile(r'^\s*#\s*include\s*"((?:\w+/)+\w+\.hpp)"', re.M)
+NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)
 PUBLIC = re.compile(r'^\s*#\s*include\s*["<](pnpbs/\w+\.h)[">]', re.M)
 
 
@@ -30,6 +33,36 @@ def faults(root):
         yield from wrong_includes(name, floor, text)
         if text.count("\n") > MAX_LINES:
             yield f"{name}: {text.count(chr(10))} lines, at most {MAX_LINES}"
+        for function, lines in functions(text):
+            if lines > MAX_FUNCTION_LINES and not function.endswith("_table"):
+                yield f"{name}: {function} has {lines} lines, at most {MAX_FUNCTION_LINES}"
+
+
+def functions(text):
+    """Name and number of lines of the functions defined in a source file."""
+    code = NO_CODE.sub(lambda found: "\n" * found[0].count("\n"), text)
+    scopes, header_begin = [], 0  # of each open brace: the name of a function, or what it is else
+    for at, sign in enumerate(code):
+        if sign == "{":
+            header = code[header_begin:at]
+            inside = any(kind not in ("namespace", "class") for kind, _ in scopes)
+            scopes.append((kind_of(header) if not inside else "block",
+                           header_begin + len(header) - len(header.lstrip())))
+        elif sign == "}" and scopes:
+            kind, begin = scopes.pop()
+            if kind not in ("namespace", "class", "block"):
+                yield kind, code.count("\n", begin, at) + 1
+        if sign in "{};":
+            header_begin = at + 1
+
+
+def kind_of(header):
+    if "namespace" in header:
+        return "namespace"
+    called = re.search(r"([\w~:]+|operator\S+)\s*\(", re.sub(r"template\s*<[^{]*?>\n", "", header))
+    if re.search(r"\b(class|struct|union|enum)\b", header.split("(")[0]) and not header.rstrip().endswith(")"):
+        return "class"
+    return called[1] if called else "block"
 
 
 def wrong_includes(name, floor, text):
@@ -56,6 +89,8 @@ def self_test():
             "api/handles.hpp": '#include <pnpbs/pnpbs.h>\n#include "base/types.hpp"\n',
             "level/level.hpp": "// a line\n" * (MAX_LINES + 1),
             "cellar/wine.hpp": "",
+            "quality/sweep.cpp": "namespace pnpbs {\n\nvoid sweep(int n) {\n" + "  ++n;\n" * 59 +
+                                 "}\n\nvoid short_one() {\n}\n\n}\n",
         }
         for file, text in files.items():
             path = root / "src" / file
@@ -65,7 +100,8 @@ def self_test():
     expected = ["base/nodes.hpp: includes the public header pnpbs/pnpbs.h",
                 "cellar/wine.hpp: the folder cellar has no place in FLOORS",
                 "domain/map.hpp: includes level/level.hpp, which stands above it",
-                "level/level.hpp: 401 lines, at most 400"]
+                "level/level.hpp: 401 lines, at most 400",
+                "quality/sweep.cpp: sweep has 61 lines, at most 60"]
     if found != expected:
         print(f"the check is wrong: it finds {found}")
         return 1
