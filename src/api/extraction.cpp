@@ -11,9 +11,9 @@ namespace {
 std::int64_t adjacency_entries(const Placement& placement) {
   const Level& level = placement.level();
   return static_cast<std::int64_t>(
-      sum_of("pnpbs::adjacency_entries", level.nodes().count, [&](std::int64_t i) {
+      sum_of("pnpbs::adjacency_entries", level.nodes.count, [&](std::int64_t i) {
         std::int64_t n = 0;
-        if (!level.nodes().owned(i)) return n;
+        if (!level.nodes.owned(i)) return n;
         level.lists().for_neighbours(i, [&](std::int64_t) { ++n; });
         return n;
       }));
@@ -22,14 +22,14 @@ std::int64_t adjacency_entries(const Placement& placement) {
 std::int64_t star_entries(const Placement& placement) {
   const Level& level = placement.level();
   return static_cast<std::int64_t>(
-      sum_of("pnpbs::star_entries", level.nodes().count,
-             [&](std::int64_t i) { return level.nodes().owned(i) ? level.stars().size(i) : 0; }));
+      sum_of("pnpbs::star_entries", level.nodes.count,
+             [&](std::int64_t i) { return level.nodes.owned(i) ? level.stars.size(i) : 0; }));
 }
 
 // Copies nodes with places first .. first + n - 1 out; arrays may be NULL.
 void copy_nodes(const Placement& p, std::int64_t first, std::int64_t n, double* coordinates,
                 std::int64_t* ids, std::int32_t* tags, double* spacing) {
-  const Nodes<2>& nodes = p.level().nodes();
+  const Nodes<2>& nodes = p.level().nodes;
   for_each("pnpbs::copy_nodes", n, [&](std::int64_t k) {
     const std::int64_t i = p.node_at(first + k);
     if (coordinates)
@@ -67,7 +67,7 @@ pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t* gho
   return collective(placement, [&](Placement& p) {
     require_pointer(ghosts, "ghosts");
     p.prepare_lists();
-    *ghosts = p.level().nodes().count - p.count();
+    *ghosts = p.level().nodes.count - p.count();
     return PNPBS_OK;
   });
 }
@@ -77,12 +77,12 @@ pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capac
                                         double* spacing, int32_t* owners) {
   return collective(placement, [&](Placement& p) {
     p.prepare_lists();
-    const Nodes<2>& nodes = p.level().nodes();
+    const Nodes<2>& nodes = p.level().nodes;
     const std::int64_t owned = p.count(), ghosts = nodes.count - owned;
     require_capacity(capacity, ghosts);
     copy_nodes(p, owned, ghosts, coordinates, ids, tags, spacing);
     for (std::int64_t g = 0; owners && g < ghosts; ++g)
-      owners[g] = p.level().owner_of(p.node_at(owned + g));
+      owners[g] = p.level().tree->owner_at(nodes.position(p.node_at(owned + g)));
     return PNPBS_OK;
   });
 }
@@ -135,10 +135,11 @@ pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int64_t capaci
     const std::int64_t owned = p.count();
     for (std::int64_t place = 0; place < owned; ++place) {
       offsets[place] = at;
-      p.level().stars().for_neighbours(p.node_at(place), [&](std::int64_t j, bool is_triangle) {
-        if (triangle) triangle[at] = is_triangle;
-        neighbours[at++] = p.place_of(j);
-      });
+      p.level().stars.for_neighbours_in_order(p.node_at(place),
+                                              [&](std::int64_t j, bool is_triangle) {
+                                                if (triangle) triangle[at] = is_triangle;
+                                                neighbours[at++] = p.place_of(j);
+                                              });
     }
     offsets[owned] = at;
     return PNPBS_OK;

@@ -90,7 +90,7 @@ pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int
       if (!std::isfinite(d[i]) || d[i] <= 0)
         throw Error(ErrorKind::spacing, "argument d[" + std::to_string(i) +
                                             "] = " + number_text(d[i]) + " at node " +
-                                            std::to_string(p.level().nodes().id(p.node_at(i))) +
+                                            std::to_string(p.level().nodes.id(p.node_at(i))) +
                                             ": the spacing must be finite and greater than 0");
     return p.spacing_from(std::vector<double>(d, d + n));
   });

@@ -22,6 +22,9 @@ Point<Dim> point_at(const std::array<View<double>, Dim>& x, std::int64_t i) {
   return p;
 }
 
+// What holds a node, and with that, how it may move.
+enum class Carrier : std::int8_t { free, fixed };
+
 template <int Dim>
 struct Nodes {
   std::int64_t count = 0;
@@ -32,10 +35,48 @@ struct Nodes {
   View<double> d;                           // spacing at the node, as last refreshed
   View<std::int64_t> id;                    // global id
   View<std::int32_t> tag;                   // 0 inside
-  View<std::int32_t> boundary_node;         // index into Boundary::nodes, -1 for an inner node
-  View<char> owned;                         // 0: a ghost, another rank's node
+  View<Carrier> carrier;
+  View<std::int32_t> boundary_node;  // index into Boundary::nodes, -1 for an inner node
+  View<char> owned;                  // 0: a ghost, another rank's node
 
   std::int64_t capacity() const { return static_cast<std::int64_t>(d.extent(0)) - 1; }
+
+  // Stamps for what is derived from the nodes. Which nodes there are, and their order in memory:
+  std::int64_t arrangement() const { return arrangement_; }
+  // Where they are, as far as moved() was called:
+  std::int64_t positions() const { return positions_; }
+  // Their reference positions:
+  std::int64_t references() const { return references_; }
+  // Any of these.
+  std::int64_t version() const { return arrangement_ + positions_ + references_; }
+
+  // Who writes positions says so.
+  void moved() { ++positions_; }
+
+  // An event: from now on visibility is judged from here.
+  void set_reference_positions() {
+    for_each("pnpbs::Nodes::set_reference_positions", count, [this](std::int64_t i) {
+      for (int k = 0; k < Dim; ++k) reference[k](i) = x[k](i);
+    });
+    ++references_;
+    referenced_at_ = positions_;
+  }
+  // Are the nodes where their reference positions are?
+  bool referenced_here() const { return referenced_at_ == positions_; }
+
+  // The far-away node behind the last one, which fills up the blocks of the lists.
+  void set_padding() {
+    for (int k = 0; k < Dim; ++k) x[k](count) = kFarAway;
+    d(count) = 1;
+  }
+
+  // So many nodes, yet to be put.
+  void reset(std::int64_t n, std::int64_t room) {
+    count = 0;
+    reserve(room);
+    count = n;
+    ++arrangement_;
+  }
 
   // Room for n nodes and, behind them, the one far-away node that pads blocks of lists.
   void reserve(std::int64_t n) {
@@ -48,6 +89,7 @@ struct Nodes {
     grow_labelled(d, "pnpbs::Nodes::d", n);
     grow_labelled(id, "pnpbs::Nodes::id", n);
     grow_labelled(tag, "pnpbs::Nodes::tag", n);
+    grow_labelled(carrier, "pnpbs::Nodes::carrier", n);
     grow_labelled(boundary_node, "pnpbs::Nodes::boundary_node", n);
     grow_labelled(owned, "pnpbs::Nodes::owned", n);
     spare_ = Spare();
@@ -65,14 +107,15 @@ struct Nodes {
   }
 
   void append(const Point<Dim>& position, double spacing, std::int64_t node_id,
-              std::int32_t node_tag, std::int32_t on_boundary) {
+              std::int32_t node_tag, Carrier node_carrier, std::int32_t on_boundary) {
     if (count + 1 > capacity()) reserve(count + count / 8 + 64);
-    put(count++, position, spacing, node_id, node_tag, on_boundary);
+    put(count++, position, spacing, node_id, node_tag, node_carrier, on_boundary);
+    ++arrangement_;
   }
 
   // At a place that there is room for.
   void put(std::int64_t i, const Point<Dim>& position, double spacing, std::int64_t node_id,
-           std::int32_t node_tag, std::int32_t on_boundary) const {
+           std::int32_t node_tag, Carrier node_carrier, std::int32_t on_boundary) {
     for (int k = 0; k < Dim; ++k) {
       x[k](i) = position[k];
       v[k](i) = 0;
@@ -81,15 +124,16 @@ struct Nodes {
     d(i) = spacing;
     id(i) = node_id;
     tag(i) = node_tag;
+    carrier(i) = node_carrier;
     boundary_node(i) = on_boundary;
     owned(i) = 1;
   }
 
   Point<Dim> position(std::int64_t i) const { return point_at<Dim>(x, i); }
-  void set_position(std::int64_t i, const Point<Dim>& p) const {
+  void set_position(std::int64_t i, const Point<Dim>& p) {
     for (int k = 0; k < Dim; ++k) x[k](i) = p[k];
   }
-  bool moves(std::int64_t i) const { return boundary_node(i) < 0; }
+  bool moves(std::int64_t i) const { return carrier(i) == Carrier::free; }
 
   // Puts the nodes into the order given: new place i holds what was at from(i). Array by array,
   // into spare ones that are kept: nothing is allocated from one rebuild of the lists to the next.
@@ -102,8 +146,10 @@ struct Nodes {
     permute_array(d, spare_.real, from);
     permute_array(id, spare_.id, from);
     permute_array(tag, spare_.integer, from);
+    permute_array(carrier, spare_.carrier, from);
     permute_array(boundary_node, spare_.integer, from);
     permute_array(owned, spare_.flag, from);
+    ++arrangement_;
   }
 
   // Keeps the first `kept` nodes named, whose places increase, and drops the others. In place, with
@@ -117,14 +163,16 @@ struct Nodes {
       real[2 * Dim + k] = reference[k];
     }
     real[3 * Dim] = d;
-    for_each("pnpbs::Nodes::keep", kReal + 4, [&](std::int64_t array) {
+    for_each("pnpbs::Nodes::keep", kReal + 5, [&](std::int64_t array) {
       if (array < kReal) keep_in_array(real[static_cast<std::size_t>(array)], places, kept);
       if (array == kReal) keep_in_array(id, places, kept);
       if (array == kReal + 1) keep_in_array(tag, places, kept);
       if (array == kReal + 2) keep_in_array(boundary_node, places, kept);
       if (array == kReal + 3) keep_in_array(owned, places, kept);
+      if (array == kReal + 4) keep_in_array(carrier, places, kept);
     });
     count = kept;
+    ++arrangement_;
   }
 
  private:
@@ -162,9 +210,11 @@ struct Nodes {
     View<std::int64_t> id;
     View<std::int32_t> integer;
     View<char> flag;
+    View<Carrier> carrier;
   };
   Spare spare_;
   View<std::int32_t> order_;
+  std::int64_t arrangement_ = 0, positions_ = 0, references_ = 0, referenced_at_ = -1;
 };
 
 }  // namespace pnpbs

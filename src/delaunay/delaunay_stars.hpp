@@ -3,6 +3,7 @@
 // list alone, so that each rank finds its own: ties are broken by id, and all agree.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -48,6 +49,8 @@ class DelaunayStars {
     std::int32_t length;
   };
 
+  using Corners = std::array<std::int64_t, 2>;
+
   void build(const StarInput& input);
 
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
@@ -57,32 +60,33 @@ class DelaunayStars {
     return {rows.data(), rows.data() + kLanes, static_cast<std::int32_t>(rows.size() / kLanes) - 1};
   }
 
+  // Calls visit(j) for the neighbours of node i.
+  template <class Visit>
+  void for_neighbours(std::int64_t i, const Visit& visit) const {
+    for_neighbours_in_order(i, [&](std::int64_t j, bool) { visit(j); });
+  }
+
+  // Calls visit(corners) for the triangles of the domain around node i: their other corners, so
+  // that node i and these follow each other counter-clockwise.
+  template <class Visit>
+  void for_simplices(std::int64_t i, const Visit& visit) const {
+    const Row star = row(i);
+    for (std::int32_t k = 0; k < star.size; ++k) {
+      if (!star.at(k).flag()) continue;
+      const Entry next = star.at(k + 1 < star.size ? k + 1 : 0);
+      visit(Corners{star.at(k).value(), next.value()});
+    }
+  }
+
+  // --- what only the plane has: a cyclic order ---
   // Calls visit(j, triangle) for the neighbours of node i, counter-clockwise; `triangle` tells
   // whether (i, j, next neighbour) is a triangle of the domain. The neighbour after the last is
   // the first.
   template <class Visit>
-  void for_neighbours(std::int64_t i, const Visit& visit) const {
-    const Block stars = block(i / kLanes);
-    const std::int64_t lane = i % kLanes;
-    const std::int32_t n = stars.sizes[lane].value();
-    for (std::int32_t k = 0; k < n; ++k) {
-      const Entry entry = stars.entries[k * kLanes + lane];
-      visit(static_cast<std::int64_t>(entry.value()), entry.flag());
-    }
-  }
-
-  // Calls visit(j, k) for the triangles (i, j, k) around node i.
-  template <class Visit>
-  void for_triangles(std::int64_t i, const Visit& visit) const {
-    const Block stars = block(i / kLanes);
-    const std::int64_t lane = i % kLanes;
-    const std::int32_t n = stars.sizes[lane].value();
-    for (std::int32_t k = 0; k < n; ++k) {
-      const Entry entry = stars.entries[k * kLanes + lane];
-      if (!entry.flag()) continue;
-      const Entry next = stars.entries[(k + 1 < n ? k + 1 : 0) * kLanes + lane];
-      visit(static_cast<std::int64_t>(entry.value()), static_cast<std::int64_t>(next.value()));
-    }
+  void for_neighbours_in_order(std::int64_t i, const Visit& visit) const {
+    const Row star = row(i);
+    for (std::int32_t k = 0; k < star.size; ++k)
+      visit(static_cast<std::int64_t>(star.at(k).value()), star.at(k).flag());
   }
 
   // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
@@ -100,7 +104,19 @@ class DelaunayStars {
   void clear(std::int64_t i);
 
  private:
-  // The star of a node as it lies in its block.
+  // The star of a node as it lies in its block, to read.
+  struct Row {
+    const Entry* first;
+    std::int32_t size;
+
+    const Entry& at(std::int32_t k) const { return first[k * kLanes]; }
+  };
+  Row row(std::int64_t i) const {
+    const Block stars = block(i / kLanes);
+    const std::int64_t lane = i % kLanes;
+    return {stars.entries + lane, stars.sizes[lane].value()};
+  }
+  // The same, to change.
   struct Column {
     Entry* size;
     Entry* first;

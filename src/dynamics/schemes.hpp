@@ -46,16 +46,15 @@ inline void clamp_move(std::array<double, Dim>& move, double most) {
 // v, positions into `next`. A lane computes the same bits whatever n is.
 template <int Dim, class Law>
 inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std::int64_t first,
-                        int n, const Positions<Dim>& x, const double* d,
-                        const std::int32_t* boundary_node, const std::array<double*, Dim>& v,
-                        const std::array<double*, Dim>& next) {
+                        int n, const Positions<Dim>& x, const double* d, const Carrier* carrier,
+                        const std::array<double*, Dim>& v, const std::array<double*, Dim>& next) {
   const double slow = 1 / (1 + motion.damping * motion.dt);
   BlockVector<Dim> move;
   double too_far = 0;
 #pragma omp simd reduction(max : too_far)
   for (int lane = 0; lane < n; ++lane) {
     const std::int64_t i = first + lane;
-    const double mobile = boundary_node[i] < 0 ? slow : 0.0;
+    const double mobile = carrier[i] == Carrier::free ? slow : 0.0;
     const double scale = Law::template acceleration_scale<Dim>(d[i]);
     double sum = 0;
     for (int k = 0; k < Dim; ++k) {
@@ -84,7 +83,7 @@ inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std
 // One force evaluation per step: the damping is taken implicitly, the position follows the new
 // velocity (symplectic Euler for c = 0). First order, stable for dt < 0.816 sqrt(m/k0) or so.
 template <int Dim, class Law>
-void damped_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
+void damped_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
                  const Motion& motion, const Field<Dim>& next) {
   const Positions<Dim> x = positions_of<Dim>(nodes.x);
   const double* const d = nodes.d.data();
@@ -100,7 +99,7 @@ void damped_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const
     block_force<Dim>(lists.block(b), law, x, d, self, force);
     const std::int64_t first = b * kLanes;
     const int n = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
-    damped_move<Dim, Law>(force, motion, first, n, x, d, nodes.boundary_node.data(), v, to);
+    damped_move<Dim, Law>(force, motion, first, n, x, d, nodes.carrier.data(), v, to);
   });
 }
 
@@ -167,7 +166,7 @@ void add_slopes(const Nodes<Dim>& nodes, double weight, bool first, const Field<
 
 // Ends a step whose mean slopes are in the sums.
 template <int Dim>
-void take_slopes(const Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim>& stages,
+void take_slopes(Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim>& stages,
                  const Field<Dim>& next) {
   for_each("pnpbs::take_slopes", nodes.count, [&](std::int64_t i) {
     const double mobile = nodes.moves(i) ? 1.0 : 0.0;
@@ -183,9 +182,8 @@ void take_slopes(const Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim
 
 // Euler predictor, trapezoidal corrector (section 2.2 of the paper): second order.
 template <int Dim, class Law>
-void predictor_corrector_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
-                              const Law& law, const Motion& motion, Stages<Dim>& stages,
-                              const Field<Dim>& next) {
+void predictor_corrector_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
+                              const Motion& motion, Stages<Dim>& stages, const Field<Dim>& next) {
   stages.reserve(nodes.count);
   accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);
   add_slopes<Dim>(nodes, 0.5, true, nodes.v, stages.a, stages);
@@ -197,7 +195,7 @@ void predictor_corrector_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>&
 
 // The classical fourth-order Runge-Kutta step, the paper's last iteration.
 template <int Dim, class Law>
-void runge_kutta_step(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
+void runge_kutta_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
                       const Motion& motion, Stages<Dim>& stages, const Field<Dim>& next) {
   stages.reserve(nodes.count);
   accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);

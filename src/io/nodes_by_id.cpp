@@ -84,7 +84,7 @@ NodesById::NodesById(Placement& placement, bool elements)
   contents_.triangles = counts[1];
   contents_.edges = counts[2];
   if (comm_.size() == 1) return;
-  const View<std::int64_t> id = placement.level().nodes().id;
+  const View<std::int64_t> id = placement.level().nodes.id;
   blocks_.emplace(comm_, placement.count(),
                   [&](std::int64_t place) { return id(placement.node_at(place)); });
   std::vector<std::int64_t> numbers;
@@ -100,7 +100,7 @@ std::int64_t NodesById::first_place_in(std::size_t part) const {
   const std::int64_t owned = placement_.count();
   if (!blocks_) return std::min(static_cast<std::int64_t>(part) * kWindow, owned);
   if (part >= bounds_.size()) return owned;
-  const View<std::int64_t> id = placement_.level().nodes().id;
+  const View<std::int64_t> id = placement_.level().nodes.id;
   const auto places = std::views::iota(std::int64_t{0}, owned);
   return *std::ranges::lower_bound(
       places, bounds_[part], {}, [&](std::int64_t place) { return id(placement_.node_at(place)); });
@@ -127,7 +127,7 @@ std::vector<Row> NodesById::brought(std::vector<Row> rows, const Label& first_la
 }
 
 std::int64_t NodesById::label(std::int64_t place) const {
-  return blocks_ ? placement_.level().nodes().id(placement_.node_at(place)) : place;
+  return blocks_ ? placement_.level().nodes.id(placement_.node_at(place)) : place;
 }
 
 void NodesById::label_by_numbers(std::vector<std::int64_t>& labels) const {
@@ -137,7 +137,7 @@ void NodesById::label_by_numbers(std::vector<std::int64_t>& labels) const {
 // ------------------------------------------------------------------ rows -----------------------
 
 void NodesById::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
-  const Nodes<2>& nodes = placement_.level().nodes();
+  const Nodes<2>& nodes = placement_.level().nodes;
   for_windows([&](const Window& window) {
     std::vector<NodeRow> own;
     for (std::int64_t place = window.begin; place < window.end; ++place)
@@ -149,7 +149,7 @@ void NodesById::for_nodes(const std::function<void(const NodeRows&)>& visit) con
 }
 
 void NodesById::for_triangles(const std::function<void(const TriangleRows&)>& visit) const {
-  const Nodes<2>& nodes = placement_.level().nodes();
+  const Nodes<2>& nodes = placement_.level().nodes;
   const auto position = [&](std::int64_t place) {
     return nodes.position(placement_.node_at(place));
   };

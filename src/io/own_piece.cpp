@@ -10,7 +10,7 @@ namespace pnpbs::io {
 OwnPiece::OwnPiece(const Placement& placement, bool elements)
     : placement_(placement),
       owned_(placement.count()),
-      number_(static_cast<std::size_t>(placement.level().nodes().count - owned_), -1) {
+      number_(static_cast<std::size_t>(placement.level().nodes.count - owned_), -1) {
   contents_.is_piece = true;
   contents_.elements = elements;
   if (elements) {
@@ -29,7 +29,7 @@ OwnPiece::OwnPiece(const Placement& placement, bool elements)
 }
 
 void OwnPiece::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
-  const Nodes<2>& nodes = placement_.level().nodes();
+  const Nodes<2>& nodes = placement_.level().nodes;
   for (std::int64_t begin = 0; begin < contents_.nodes; begin += kWindow) {
     NodeRows rows;
     rows.first = begin;
@@ -48,7 +48,7 @@ void OwnPiece::for_nodes(const std::function<void(const NodeRows&)>& visit) cons
 }
 
 void OwnPiece::for_triangles(const std::function<void(const TriangleRows&)>& visit) const {
-  const Nodes<2>& nodes = placement_.level().nodes();
+  const Nodes<2>& nodes = placement_.level().nodes;
   const auto position = [&](std::int64_t place) {
     return nodes.position(placement_.node_at(place));
   };

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes that a level hands on to a finer one: its own, and new ones between them.
+#include "level/refinement.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "level/level.hpp"
+#include "level/exchange.hpp"
+#include "level/lists_and_stars.hpp"
+#include "level/node_spacing.hpp"
+#include "level/reach.hpp"
 
 namespace pnpbs {
 
@@ -41,71 +45,68 @@ void fill_triangle(const std::array<Point<2>, 3>& x, double d, int most, const V
     }
 }
 
-}  // namespace
-
 // Calls visit(place) for the new nodes of an owned node, where the spacing will be d. Edges and
 // triangles are their node's with the least id.
 template <class Visit>
-void Level::for_new_nodes(std::int64_t i, double d, const Visit& visit) const {
+void for_new_nodes(const Level& level, std::int64_t i, double d, const Visit& visit) {
+  const Nodes<2>& nodes = level.nodes;
   // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
-  const int pieces = pieces_of(spacing_asked_at(i), d);
+  const int pieces = pieces_of(level.ground.spacing_at(nodes, i), d);
   if (pieces < 2) return;
-  const Point<2> x = nodes_.position(i);
-  stars_.for_neighbours(i, [&](std::int64_t j, bool) {
-    if (nodes_.id(i) < nodes_.id(j) && !on_one_edge(i, j))
-      cut_edge(x, nodes_.position(j), d, pieces, visit);
+  const Point<2> x = nodes.position(i);
+  level.stars.for_neighbours(i, [&](std::int64_t j) {
+    if (nodes.id(i) < nodes.id(j) && !level.ground.on_one_edge(nodes, i, j))
+      cut_edge(x, nodes.position(j), d, pieces, visit);
   });
   if (pieces < 3) return;
-  stars_.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-    if (nodes_.id(i) < nodes_.id(j) && nodes_.id(i) < nodes_.id(k))
-      fill_triangle({x, nodes_.position(j), nodes_.position(k)}, d, pieces, visit);
+  level.stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
+    const std::int64_t j = others[0], k = others[1];
+    if (nodes.id(i) < nodes.id(j) && nodes.id(i) < nodes.id(k))
+      fill_triangle({x, nodes.position(j), nodes.position(k)}, d, pieces, visit);
   });
 }
 
+}  // namespace
+
 // Counted first, then written, in chunks of nodes: so that all threads can do it, and nothing has
 // to grow.
-GivenNodes Level::refined(const Spacing<2>& next) {
+GivenNodes refined(Level& level, const Spacing<2>& next) {
   constexpr std::int64_t kChunk = 512;
-  set_reference_positions();
-  exchange(kStarHops);
-  make_lists_and_stars(kStarHops, settings_.list_radius, 0);
-  const View<double> spacing = spacing_at_owned_nodes(next);
-  GivenNodes nodes;
-  agreed(*comm_, [&] {
-    const std::int64_t chunks = (nodes_.count + kChunk - 1) / kChunk;
+  level.nodes.set_reference_positions();
+  exchange(level, kStarHops);
+  make_lists_and_stars(level, kStarHops, level.settings.list_radius, 0);
+  const View<double> spacing = spacing_at_owned_nodes(level, next);
+  const Nodes<2>& nodes = level.nodes;
+  GivenNodes refined;
+  agreed(*level.comm, [&] {
+    const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
     std::vector<std::size_t> begin(static_cast<std::size_t>(chunks) + 1, 0);
     const auto for_owned_in = [&](std::int64_t chunk, const auto& visit) {
-      for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes_.count); ++i)
-        if (nodes_.owned(i)) visit(i);
+      for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes.count); ++i)
+        if (nodes.owned(i)) visit(i);
     };
-    for_each("pnpbs::Level::count_refined", chunks, [&](std::int64_t chunk) {
+    for_each("pnpbs::count_refined", chunks, [&](std::int64_t chunk) {
       std::size_t count = 0;
       for_owned_in(chunk, [&](std::int64_t i) {
         ++count;
-        for_new_nodes(i, spacing(i), [&](const Point<2>&) { ++count; });
+        for_new_nodes(level, i, spacing(i), [&](const Point<2>&) { ++count; });
       });
       begin[static_cast<std::size_t>(chunk) + 1] = count;
     });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    nodes.reserve(begin.back() + begin.back() / 64);  // for some from other ranks
-    nodes.resize(begin.back());
-    for_each("pnpbs::Level::write_refined", chunks, [&](std::int64_t chunk) {
+    refined.reserve(begin.back() + begin.back() / 64);  // for some from other ranks
+    refined.resize(begin.back());
+    for_each("pnpbs::write_refined", chunks, [&](std::int64_t chunk) {
       std::size_t place = begin[static_cast<std::size_t>(chunk)];
       for_owned_in(chunk, [&](std::int64_t i) {
-        nodes[place++] = {nodes_.position(i), nodes_.id(i), nodes_.moves(i), -1, nodes_.d(i)};
-        for_new_nodes(i, spacing(i), [&](const Point<2>& x) {
-          nodes[place++] = {x, -1, true, -1, spacing(i)};
+        refined[place++] = {nodes.position(i), nodes.id(i), nodes.moves(i), -1, nodes.d(i)};
+        for_new_nodes(level, i, spacing(i), [&](const Point<2>& x) {
+          refined[place++] = {x, -1, true, -1, spacing(i)};
         });
       });
     });
   });
-  return nodes;
-}
-
-// Are these the ends of a boundary edge?
-bool Level::on_one_edge(std::int64_t i, std::int64_t j) const {
-  return !nodes_.moves(i) && !nodes_.moves(j) &&
-         sectors_.joined(nodes_.boundary_node(i), nodes_.boundary_node(j));
+  return refined;
 }
 
 }  // namespace pnpbs

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes that have no room: between boundary edges, or on top of another node.
+#include "level/room.hpp"
+
 #include <algorithm>
 
 #include "domain/clearance.hpp"
 #include "dynamics/bubble_force.hpp"
-#include "level/level.hpp"
+#include "level/finish.hpp"
 
 namespace pnpbs {
 
@@ -37,71 +38,83 @@ bool any_neighbour_within(const Nodes<2>& nodes, const AdjacencyList<2>& lists, 
   return within >= 0;
 }
 
-}  // namespace
-
 // The nodes with smaller ids that node i nearly coincides with: those push it no more.
 template <class Visit>
-void Level::for_coinciding(std::int64_t i, const Visit& visit) const {
-  const Point<2> x = nodes_.position(i);
-  lists_.for_neighbours(i, [&](std::int64_t j) {
-    if (nodes_.moves(j) && nodes_.id(j) < nodes_.id(i) &&
-        distance<2>(x, nodes_.position(j)) < kNearlyCoincide * nodes_.d(i))
+void for_coinciding(const Nodes<2>& nodes, const AdjacencyList<2>& lists, std::int64_t i,
+                    const Visit& visit) {
+  const Point<2> x = nodes.position(i);
+  lists.for_neighbours(i, [&](std::int64_t j) {
+    if (nodes.moves(j) && nodes.id(j) < nodes.id(i) &&
+        distance<2>(x, nodes.position(j)) < kNearlyCoincide * nodes.d(i))
       visit(j);
   });
 }
 
 // As the edges were found where the nodes are.
-bool Level::between_edges(std::int64_t i) const {
-  return near_edges_.edge_within(i, kLeastClearance * nodes_.d(i));
+bool between_edges(const Level& level, std::int64_t i) {
+  return level.neighbourhood.near_edges().edge_within(i, kLeastClearance * level.nodes.d(i));
 }
 
-// A flag for each node that is between boundary edges, or on top of another node: of two that
-// nearly coincide it is the one with the larger id. Lists must be fresh, and made where the nodes
-// are.
-View<char> Level::nodes_without_room() const {
+}  // namespace
+
+bool has_clearance(const Level& level, const Point<2>& x, double d) {
+  const Box<2>& box = level.ground.domain().bounds();
+  for (int k = 0; k < 2; ++k)
+    if (!(x[k] > box.low[k] && x[k] < box.high[k])) return false;
+  return level.map().inside(x) &&
+         level.map().clearance(x, kBoundaryClearance * d) >= kBoundaryClearance * d;
+}
+
+View<char> nodes_without_room(const Level& level) {
+  const Nodes<2>& nodes = level.nodes;
+  const AdjacencyList<2>& lists = level.lists();
   constexpr double kALittleMore = 1.001;  // so that rounding decides nothing here
-  const View<char> no_room = make_view<char>("pnpbs::Level::no_room", nodes_.count);
-  for_each("pnpbs::Level::no_room", lists_.block_count(), [&](std::int64_t b) {
-    const bool look = any_neighbour_within(nodes_, lists_, kALittleMore * kNearlyCoincide, b);
-    for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes_.count); ++i) {
+  const View<char> no_room = make_view<char>("pnpbs::no_room", nodes.count);
+  for_each("pnpbs::no_room", lists.block_count(), [&](std::int64_t b) {
+    const bool look = any_neighbour_within(nodes, lists, kALittleMore * kNearlyCoincide, b);
+    for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes.count); ++i) {
       no_room(i) = 0;
-      if (!nodes_.moves(i)) continue;
-      no_room(i) = between_edges(i);
-      if (look) for_coinciding(i, [&](std::int64_t) { no_room(i) = 1; });
+      if (!nodes.moves(i)) continue;
+      no_room(i) = between_edges(level, i);
+      if (look) for_coinciding(nodes, lists, i, [&](std::int64_t) { no_room(i) = 1; });
     }
   });
   return no_room;
 }
 
-// After the last population event nodes may still be pressed into a corner until they coincide.
-// Here nothing is born, so there is no contest: of many in one place all go at once but the first.
-// One that only coincides with nodes that may go themselves waits for the next round.
-PopulationCounts Level::remove_crowded() {
-  PopulationCounts counts;
-  while (true) {
-    prepare_finish();
-    std::vector<std::int32_t> crowded;
-    agreed(*comm_, [&] { crowded = crowded_nodes(); });
-    const auto own = std::count_if(crowded.begin(), crowded.end(),
-                                   [this](std::int32_t i) { return nodes_.owned(i) != 0; });
-    if (comm_->allreduce_sum(static_cast<std::uint64_t>(own)) == 0) return counts;
-    counts.deleted += own;
-    ++version_;
-    delete_nodes(crowded);
-  }
-}
+namespace {
 
-std::vector<std::int32_t> Level::crowded_nodes() const {
-  const PhaseTimer timer(timers_, Phase::population);
-  const View<char> no_room = nodes_without_room();
+std::vector<std::int32_t> crowded_nodes(const Level& level) {
+  const Nodes<2>& nodes = level.nodes;
+  const PhaseTimer timer(level.timers, Phase::population);
+  const View<char> no_room = nodes_without_room(level);
   std::vector<std::int32_t> crowded;
-  for (std::int64_t i = 0; i < nodes_.count; ++i) {
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!no_room(i)) continue;
-    bool goes = between_edges(i);
-    for_coinciding(i, [&](std::int64_t j) { goes = goes || !no_room(j); });
+    bool goes = between_edges(level, i);
+    for_coinciding(nodes, level.lists(), i, [&](std::int64_t j) { goes = goes || !no_room(j); });
     if (goes) crowded.push_back(static_cast<std::int32_t>(i));
   }
   return crowded;
+}
+
+}  // namespace
+
+// After the last population event nodes may still be pressed into a corner until they coincide.
+// Here nothing is born, so there is no contest: of many in one place all go at once but the first.
+// One that only coincides with nodes that may go themselves waits for the next round.
+PopulationCounts remove_crowded(Level& level) {
+  PopulationCounts counts;
+  while (true) {
+    prepare_finish(level);
+    std::vector<std::int32_t> crowded;
+    agreed(*level.comm, [&] { crowded = crowded_nodes(level); });
+    const auto own = std::count_if(crowded.begin(), crowded.end(),
+                                   [&](std::int32_t i) { return level.nodes.owned(i) != 0; });
+    if (level.comm->allreduce_sum(static_cast<std::uint64_t>(own)) == 0) return counts;
+    counts.deleted += own;
+    delete_nodes(level, crowded);
+  }
 }
 
 }  // namespace pnpbs

@@ -77,7 +77,7 @@ class HaloExchange {
   }
 
   // Owners send positions and velocities. All neighbours at the same time.
-  void update(const Communicator& comm, const Nodes<Dim>& nodes) {
+  void update(const Communicator& comm, Nodes<Dim>& nodes) {
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
       char* out = outgoing_[k].data();
       for (std::int32_t i : send_[k])

@@ -29,7 +29,7 @@ struct NodeExchange {
   // many these are. `known_leaf(i)`: the leaf that node i was in when that was last asked, -1 if it
   // never was. The plan counts the places as they are once the others are dropped.
   template <class KnownLeaf>
-  std::int64_t pack_leaving(const Nodes<Dim>& nodes, const KnownLeaf& known_leaf,
+  std::int64_t pack_leaving(Nodes<Dim>& nodes, const KnownLeaf& known_leaf,
                             std::vector<Bytes>& outgoing, const View<std::int32_t>& stay) const;
 
   // Appends ghosts, and nodes that have drifted to us: those, others may have as ghosts.
@@ -38,7 +38,7 @@ struct NodeExchange {
 
 template <int Dim>
 template <class KnownLeaf>
-std::int64_t NodeExchange<Dim>::pack_leaving(const Nodes<Dim>& nodes, const KnownLeaf& known_leaf,
+std::int64_t NodeExchange<Dim>::pack_leaving(Nodes<Dim>& nodes, const KnownLeaf& known_leaf,
                                              std::vector<Bytes>& outgoing,
                                              const View<std::int32_t>& stay) const {
   std::int64_t kept = 0;

@@ -14,18 +14,19 @@ struct PackedNode {
   Point<Dim> x, v, reference;
   double d;
   std::int32_t tag, boundary_node;
+  Carrier carrier;
 };
 
 template <int Dim>
 PackedNode<Dim> packed(const Nodes<Dim>& nodes, std::int64_t i) {
   return {
       nodes.id(i), nodes.position(i), point_at<Dim>(nodes.v, i), point_at<Dim>(nodes.reference, i),
-      nodes.d(i),  nodes.tag(i),      nodes.boundary_node(i)};
+      nodes.d(i),  nodes.tag(i),      nodes.boundary_node(i),    nodes.carrier(i)};
 }
 
 template <int Dim>
 void append(Nodes<Dim>& nodes, const PackedNode<Dim>& packed, bool owned) {
-  nodes.append(packed.x, packed.d, packed.id, packed.tag, packed.boundary_node);
+  nodes.append(packed.x, packed.d, packed.id, packed.tag, packed.carrier, packed.boundary_node);
   const std::int64_t i = nodes.count - 1;
   for (int k = 0; k < Dim; ++k) {
     nodes.v[k](i) = packed.v[k];

@@ -5,6 +5,9 @@
 // nearly every node with its six neighbours.
 #include <cmath>
 
+#include "initial/initial_fill.hpp"
+#include "level/expected_nodes.hpp"
+#include "level/refinement.hpp"
 #include "placement/placement.hpp"
 
 namespace pnpbs {
@@ -64,15 +67,16 @@ int Placement::coarser_levels_that_pay(const Level& finest,
                                        const std::shared_ptr<const Spacing<2>>& spacing) const {
   constexpr double kLeastNodes = 500;  // of the coarsest
   constexpr double kSteepest = 0.27;   // growth of d per unit of length
-  const SpacingVariation d = finest.spacing_variation();
-  const double nodes = finest.expected_nodes();
+  const SpacingVariation d = spacing_variation(finest);
+  const double nodes = expected_nodes(finest);
   int levels = 0;
-  while (levels < finest.settings().levels && d.largest > kPatchVariation * d.least &&
+  while (levels < finest.settings.levels && d.largest > kPatchVariation * d.least &&
          nodes >= kLeastNodes * std::pow(coarser_by(levels + 1), 2) &&
          d.steepest * coarser_by(levels + 1) <= kSteepest &&
-         boundary_leaves_room(*spacing_of_level(spacing, levels + 1),
-                              static_cast<double>(finest.boundary_nodes()) / coarser_by(levels + 1),
-                              nodes / std::pow(coarser_by(levels + 1), 2)))
+         boundary_leaves_room(
+             *spacing_of_level(spacing, levels + 1),
+             static_cast<double>(finest.ground.boundary_nodes()) / coarser_by(levels + 1),
+             nodes / std::pow(coarser_by(levels + 1), 2)))
     ++levels;
   return levels;
 }
@@ -107,15 +111,15 @@ GivenNodes Placement::nodes_from_coarser_levels(const Level& finest,
       if (l == coarser_levels_)
         fill(*level);
       else
-        level->take(std::move(nodes), 0);
+        take(*level, std::move(nodes), 0);
       adopt_level(std::move(level));
       begin_schedule(false);
       schedule_.coarser = true;
       const ProgressPart part{kCoarseShare * (coarser_levels_ - l) / coarser_levels_,
                               kCoarseShare * (coarser_levels_ - l + 1) / coarser_levels_};
-      if (outcome != Outcome::stopped) outcome = advance(level_->settings().steps, part);
+      if (outcome != Outcome::stopped) outcome = advance(level_->settings.steps, part);
       if (outcome != Outcome::stopped) repair_defects();
-      nodes = new_nodes(level_->refined(*spacing_of_level(spacing, l - 1)));
+      nodes = new_nodes(refined(*level_, *spacing_of_level(spacing, l - 1)));
     }
     if (outcome != Outcome::stopped) outcome = Outcome::converged;
     adopt_level(nullptr);

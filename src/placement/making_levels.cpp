@@ -2,6 +2,9 @@
 // Making a level: checks, boundary, tree, growth limit, and the nodes it begins with.
 #include "base/error.hpp"
 #include "base/mixed_hash.hpp"
+#include "level/expected_nodes.hpp"
+#include "level/first_nodes.hpp"
+#include "level/refinement.hpp"
 #include "placement/placement.hpp"
 
 namespace pnpbs {
@@ -12,8 +15,8 @@ Outcome Placement::prepare_level() {
   const Settings settings(options_);
   require_same_options();
   const bool make = !level_ || spacing_replaced_ ||
-                    settings.growth_limit != level_->settings().growth_limit ||
-                    settings.growth_limit_set != level_->settings().growth_limit_set;
+                    settings.growth_limit != level_->settings.growth_limit ||
+                    settings.growth_limit_set != level_->settings.growth_limit_set;
   if (comm_->allreduce_max(make) > 0) return make_level();
   level_->change_settings(settings);
   return Outcome::converged;
@@ -66,7 +69,6 @@ std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> 
     // A copy: the caller may go on to change the domain.
     level = std::make_unique<Level>(comm_, std::make_shared<PlaneDomain>(*domain_),
                                     std::move(spacing), settings, timers_);
-    level->discretize_boundary();
   });
   level->grow_tree(like);
   return level;
@@ -80,27 +82,32 @@ Outcome Placement::make_level() {
   if (settings.user_limits_growth()) spacing = growth_limited(std::move(spacing), settings);
   std::unique_ptr<Level> next = empty_level(spacing, settings);
   SteepestGrowth steepest;  // none where the user limits it
-  if (!settings.user_limits_growth()) steepest = next->steepest_growth();
+  if (!settings.user_limits_growth()) {
+    const PhaseTimer timer(timers_, Phase::spacing);
+    steepest = steepest_growth(
+        *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
+        next->ground.evaluator());
+  }
   if (too_steep(steepest) && settings.growth_limit > 0) {
     next.reset();
     spacing = growth_limited(std::move(spacing), settings);
     next = empty_level(spacing, settings);
   }
-  settings.node_limit().require_memory_for(next->expected_nodes());
+  settings.node_limit().require_memory_for(expected_nodes(*next));
   TakenNodes taken;
   std::int64_t inserted = 0;
   Outcome outcome = Outcome::converged;
   coarser_levels_ = 0;
   if (level_) {
-    taken = next->take(level_->refined(*spacing), level_->next_id());
+    taken = take(*next, refined(*level_, *spacing), level_->next_id);
     taken.left_out = 0;  // not the user's
     inserted = taken.numbered;
   } else if (start_from_given_) {
-    taken = next->take(given_, 0);
+    taken = take(*next, given_, 0);
   } else {
     coarser_levels_ = coarser_levels_that_pay(*next, spacing);
     if (coarser_levels_ > 0)
-      next->take(nodes_from_coarser_levels(*next, spacing, settings, outcome), 0);
+      take(*next, nodes_from_coarser_levels(*next, spacing, settings, outcome), 0);
     else
       fill(*next);
   }
@@ -110,8 +117,8 @@ Outcome Placement::make_level() {
   inserted_ += inserted;
   deleted_ += taken.thinned;
   warnings_ = domain_->warnings();
-  warnings_.insert(warnings_.end(), level_->boundary().warnings.begin(),
-                   level_->boundary().warnings.end());
+  warnings_.insert(warnings_.end(), level_->ground.boundary().warnings.begin(),
+                   level_->ground.boundary().warnings.end());
   if (too_steep(steepest)) warnings_.push_back(warning_of_growth(steepest, settings.growth_limit));
   warnings_of_level_ = warnings_.size();
   spacing_replaced_ = false;
@@ -121,15 +128,16 @@ Outcome Placement::make_level() {
 
 void Placement::fill(Level& level) {
   while_monitored("the first nodes were laid",
-                  [&](const std::function<void()>& beat) { level.fill(beat); });
+                  [&](const std::function<void()>& beat) { pnpbs::fill(level, beat); });
 }
 
 void Placement::adopt_level(std::unique_ptr<Level> next) {
   if (level_) {
-    rebuilds_before_ += level_->rebuilds();
-    rebalances_before_ += level_->rebalances();
+    rebuilds_before_ += level_->neighbourhood.rebuilds();
+    rebalances_before_ += level_->rebalances;
   }
   level_ = std::move(next);
+  edge_bands_.clear();
   order_version_ = lists_version_ = stars_version_ = quality_version_ = -1;
 }
 

@@ -14,12 +14,12 @@ namespace {
 template <class Visit>
 void for_rim_edges(const Placement& placement, const Visit& visit) {
   const Level& level = placement.level();
-  const Nodes<2>& nodes = level.nodes();
+  const Nodes<2>& nodes = level.nodes;
   std::vector<std::pair<std::int64_t, bool>> star;
   for (std::int64_t p = 0; p < placement.count(); ++p) {
     const std::int64_t i = placement.node_at(p);
     star.clear();
-    level.stars().for_neighbours(
+    level.stars.for_neighbours_in_order(
         i, [&](std::int64_t j, bool triangle) { star.emplace_back(j, triangle); });
     for (std::size_t k = 0; k < star.size(); ++k) {
       const bool closed = star[k].second && star[k > 0 ? k - 1 : star.size() - 1].second;
@@ -34,7 +34,7 @@ void for_rim_edges(const Placement& placement, const Visit& visit) {
 std::shared_ptr<const Spacing<2>> Placement::spacing_from(std::vector<double> values) {
   const auto ids = [this] {
     std::vector<std::int64_t> all;
-    for (std::int64_t p = 0; p < count(); ++p) all.push_back(level_->nodes().id(node_at(p)));
+    for (std::int64_t p = 0; p < count(); ++p) all.push_back(level_->nodes.id(node_at(p)));
     return all;
   };
   prepare_order();
@@ -44,7 +44,7 @@ std::shared_ptr<const Spacing<2>> Placement::spacing_from(std::vector<double> va
     throw Error(ErrorKind::state,
                 "nodes have changed their ranks since the computation before failed: ask for the "
                 "nodes again, and give the values at them");
-  const Nodes<2>& nodes = level_->nodes();
+  const Nodes<2>& nodes = level_->nodes;
   values.resize(static_cast<std::size_t>(nodes.count));
   fill_ghosts(*comm_, exchange_pattern(), values);
 

@@ -6,6 +6,8 @@
 
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
+#include "level/exchange.hpp"
+#include "level/reach.hpp"
 
 namespace pnpbs {
 
@@ -48,7 +50,7 @@ template <class Work>
 auto Placement::while_moving(const Work& work) {
   try {
     const auto result = work();
-    level_->exchange_for_stars();
+    exchange(*level_, kStarHops);
     return result;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::memory) level_.reset();
@@ -67,7 +69,7 @@ Outcome Placement::run() {
     if (schedule_.ended) begin_schedule(false);
     warnings_.resize(warnings_of_level_);
     const Outcome outcome =
-        advance(level_->settings().steps, {schedule_.refined ? kCoarseShare : 0, kStepsShare});
+        advance(level_->settings.steps, {schedule_.refined ? kCoarseShare : 0, kStepsShare});
     schedule_.ended = true;
     if (outcome == Outcome::stopped) return outcome;
     if (finish() == Outcome::stopped) return Outcome::stopped;
@@ -100,7 +102,7 @@ PopulationCounts Placement::adjust_population() {
   const PhaseTimer timer(timers_, Phase::total);
   const PopulationCounts before{inserted_, deleted_};
   prepare_level();
-  while_moving([this] { return count_population_change(level_->adjust_population()); });
+  while_moving([this] { return count_population_change(pnpbs::adjust_population(*level_)); });
   return {inserted_ - before.inserted, deleted_ - before.deleted};
 }
 

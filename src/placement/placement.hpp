@@ -11,7 +11,11 @@
 
 #include "comm/communicator.hpp"
 #include "comm/exchange_pattern.hpp"
+#include "level/finish.hpp"
 #include "level/level.hpp"
+#include "level/population_events.hpp"
+#include "level/speeds.hpp"
+#include "level/taken_nodes.hpp"
 #include "placement/node_estimate.hpp"
 #include "settings/options.hpp"
 
@@ -111,15 +115,15 @@ class Placement {
   const std::shared_ptr<const Communicator>& ranks() const { return comm_; }
   std::int64_t steps_done() const { return steps_done_; }  // on all levels
   int coarser_levels() const { return coarser_levels_; }
-  std::int64_t rebuilds() const { return rebuilds_before_ + (level_ ? level_->rebuilds() : 0); }
-  std::int64_t rebalances() const {
-    return rebalances_before_ + (level_ ? level_->rebalances() : 0);
+  std::int64_t rebuilds() const {
+    return rebuilds_before_ + (level_ ? level_->neighbourhood.rebuilds() : 0);
   }
+  std::int64_t rebalances() const { return rebalances_before_ + (level_ ? level_->rebalances : 0); }
   std::int64_t inserted() const { return inserted_; }
   std::int64_t deleted() const { return deleted_; }
   std::int64_t dropped() const { return dropped_; }
   StopReason stop_reason() const { return stop_reason_; }
-  Speeds speeds() const { return level_ ? level_->speeds() : Speeds{}; }
+  Speeds speeds() const { return level_ ? speeds_of(*level_) : Speeds{}; }
   NearestNeighbourError spacing_error();
   // Of the triangles of the stars, and their edges. Collective.
   const ElementQuality& element_quality();
@@ -199,15 +203,17 @@ class Placement {
   // Versions of the level for which these were prepared last.
   std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1, quality_version_ = -1;
   std::vector<std::int32_t> by_id_, place_;
+  std::vector<EdgeBand> edge_bands_;  // of the level's finish
   ElementQuality quality_;
 };
 
 template <class Visit>
 void Placement::for_triangles(std::int64_t begin, std::int64_t end, const Visit& visit) const {
-  const View<std::int64_t> id = level_->nodes().id;
+  const View<std::int64_t> id = level_->nodes.id;
   for (std::int64_t p = begin; p < end; ++p) {
     const std::int64_t i = node_at(p);
-    level_->stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+    level_->stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
+      const std::int64_t j = others[0], k = others[1];
       if (id(i) < id(j) && id(i) < id(k)) visit(p, place_of(j), place_of(k));
     });
   }
@@ -215,8 +221,8 @@ void Placement::for_triangles(std::int64_t begin, std::int64_t end, const Visit&
 
 template <class Visit>
 void Placement::for_boundary_edges(const Visit& visit) const {
-  const Boundary& boundary = level_->boundary();
-  const Nodes<2>& nodes = level_->nodes();
+  const Boundary& boundary = level_->ground.boundary();
+  const Nodes<2>& nodes = level_->nodes;
   std::vector<std::int64_t> place(boundary.nodes.size(), -1);
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (!nodes.moves(i)) place[static_cast<std::size_t>(nodes.boundary_node(i))] = place_of(i);

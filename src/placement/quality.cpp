@@ -31,7 +31,7 @@ std::string warning_of(const EdgeBand& band) {
 
 // By the edges at the end of a run; if so there is a warning.
 bool Placement::spacing_missed() {
-  const EdgeBand* worst = worst_missed_band(level_->edge_bands());
+  const EdgeBand* worst = worst_missed_band(edge_bands_);
   if (worst) warnings_.push_back(warning_of(*worst));
   return worst != nullptr;
 }
@@ -39,7 +39,7 @@ bool Placement::spacing_missed() {
 const ElementQuality& Placement::element_quality() {
   prepare_stars();
   if (quality_version_ != level_->version()) {
-    quality_ = measure_elements(*comm_, level_->nodes(), level_->stars());
+    quality_ = measure_elements(*comm_, level_->nodes, level_->stars);
     quality_version_ = level_->version();
   }
   return quality_;

@@ -46,8 +46,8 @@ class ResultCheck {
       : p_(placement),
         comm_(placement.communicator()),
         level_(placement.level()),
-        nodes_(level_.nodes()),
-        boundary_(level_.boundary()),
+        nodes_(level_.nodes),
+        boundary_(level_.ground.boundary()),
         owned_(placement.count()) {
     sectors_.build(boundary_);
   }
@@ -205,7 +205,7 @@ void ResultCheck::check_lists() const {
       if (nodes_.owned(j))
         require_listed(j, nodes_.id(i));
       else
-        elsewhere.push_back({nodes_.id(j), nodes_.id(i), level_.owner_of(j)});
+        elsewhere.push_back({nodes_.id(j), nodes_.id(i), level_.tree->owner_at(position(j))});
     });
   });
   if (comm_.size() == 1) return;
@@ -224,8 +224,8 @@ void ResultCheck::check_lists() const {
 // Does the star of node i have the triangle with these two, in this order?
 bool ResultCheck::star_has(std::int64_t i, std::int64_t next, std::int64_t last) const {
   bool found = false;
-  level_.stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-    found = found || (nodes_.id(j) == next && nodes_.id(k) == last);
+  level_.stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
+    found = found || (nodes_.id(others[0]) == next && nodes_.id(others[1]) == last);
   });
   return found;
 }
@@ -249,7 +249,7 @@ void ResultCheck::check_stars() const {
 
 void ResultCheck::check_star(std::int64_t i, std::vector<StarTriangle>& elsewhere) const {
   std::vector<std::pair<std::int64_t, bool>> star;
-  level_.stars().for_neighbours(
+  level_.stars.for_neighbours_in_order(
       i, [&](std::int64_t j, bool triangle) { star.emplace_back(j, triangle); });
   const std::size_t n = star.size();
   if (n < 2) fail("the star of node " + name(i) + " has less than two neighbours");
@@ -272,8 +272,8 @@ void ResultCheck::check_star(std::int64_t i, std::vector<StarTriangle>& elsewher
 void ResultCheck::check_corner(std::int64_t corner, std::int64_t next, std::int64_t last,
                                std::vector<StarTriangle>& elsewhere) const {
   if (!nodes_.owned(corner))
-    elsewhere.push_back(
-        {nodes_.id(corner), nodes_.id(next), nodes_.id(last), level_.owner_of(corner)});
+    elsewhere.push_back({nodes_.id(corner), nodes_.id(next), nodes_.id(last),
+                         level_.tree->owner_at(position(corner))});
   else if (!star_has(corner, nodes_.id(next), nodes_.id(last)))
     fail("the star of node " + name(corner) + " lacks the triangle with nodes " + name(next) +
          " and " + name(last));
@@ -306,8 +306,8 @@ void ResultCheck::check_boundary_edges_of(std::int64_t i) const {
     const std::int32_t other = sectors_.edge(k).other;
     if (other == b) continue;  // a fixed node
     bool found = false;
-    level_.stars().for_neighbours(
-        i, [&](std::int64_t j, bool) { found = found || nodes_.boundary_node(j) == other; });
+    level_.stars.for_neighbours(
+        i, [&](std::int64_t j) { found = found || nodes_.boundary_node(j) == other; });
     if (!found)
       fail("the boundary's edge from node " + name(i) + " to " +
            point_text(boundary_.nodes[static_cast<std::size_t>(other)].position) +
@@ -353,7 +353,7 @@ Enclosed enclosed_by(const Boundary& boundary, const Box<2>& bounds) {
 
 void ResultCheck::check_area() const {
   constexpr double kTolerance = 1e-9;
-  const Enclosed enclosed = enclosed_by(boundary_, level_.domain().bounds());
+  const Enclosed enclosed = enclosed_by(boundary_, level_.ground.domain().bounds());
   if (!(enclosed.area > enclosed.rounding)) return;  // too thin to be measured
   const double area = area_of_triangles(enclosed.area);
   if (std::fabs(area - enclosed.area) <= kTolerance * enclosed.area + enclosed.rounding) return;

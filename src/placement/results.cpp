@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
 #include "base/mixed_hash.hpp"
+#include "level/lists_and_stars.hpp"
 #include "placement/placement.hpp"
 
 namespace pnpbs {
@@ -57,7 +58,7 @@ void Placement::prepare_order() {
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
   if (order_version_ == level_->version()) return;
   // Owned nodes first, then ghosts, each by id.
-  const Nodes<2>& nodes = level_->nodes();
+  const Nodes<2>& nodes = level_->nodes;
   by_id_.clear();
   by_id_.reserve(static_cast<std::size_t>(nodes.count));
   append_by_id(nodes, true, by_id_);
@@ -72,7 +73,7 @@ void Placement::prepare_lists() {
   require_kokkos();
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
   if (lists_version_ == level_->version()) return;
-  level_->prepare_lists();
+  pnpbs::prepare_lists(*level_);
   prepare_order();
   lists_version_ = level_->version();
   if (level_->distributed()) stars_version_ = lists_version_;
@@ -81,19 +82,19 @@ void Placement::prepare_lists() {
 void Placement::prepare_stars() {
   prepare_lists();
   if (stars_version_ == level_->version()) return;
-  level_->renew_stars();
+  rebuild_stars(*level_);
   stars_version_ = level_->version();
 }
 
 ExchangePattern Placement::exchange_pattern() {
   prepare_lists();
-  const Nodes<2>& nodes = level_->nodes();
+  const Nodes<2>& nodes = level_->nodes;
   const std::int64_t owned = count();
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> owners;
   for (std::int64_t place = 0; place < nodes.count; ++place) {
     ids.push_back(nodes.id(node_at(place)));
-    if (place >= owned) owners.push_back(level_->owner_of(node_at(place)));
+    if (place >= owned) owners.push_back(level_->tree->owner_at(nodes.position(node_at(place))));
   }
   return make_exchange_pattern(*comm_, owned, ids, owners);
 }
@@ -109,7 +110,7 @@ std::int64_t Placement::nodes_on_ranks_before() const {
 
 NearestNeighbourError Placement::spacing_error() {
   prepare_lists();
-  const Nodes<2>& nodes = level_->nodes();
+  const Nodes<2>& nodes = level_->nodes;
   const AdjacencyList<2>& lists = level_->lists();
   // Nodes with no listed neighbour count as far as the lists reach.
   const auto ratio = [&](std::int64_t i) {
@@ -139,7 +140,7 @@ NearestNeighbourError Placement::spacing_error() {
 // A sum over the nodes, so that it has no order.
 std::uint64_t Placement::hash() const {
   if (!level_) return 0;
-  const Nodes<2>& nodes = level_->nodes();
+  const Nodes<2>& nodes = level_->nodes;
   return comm_->allreduce_sum(
       sum_of("pnpbs::hash", nodes.count, [&](std::int64_t i) -> std::uint64_t {
         if (!nodes.owned(i)) return 0;

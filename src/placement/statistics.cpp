@@ -7,6 +7,7 @@
 #include "base/build_config.hpp"
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
+#include "level/rebalance.hpp"
 
 namespace pnpbs {
 
@@ -62,7 +63,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "nodes", [](P p) { return p.global_count(); }, "nodes of all kinds"),
       integer(
           "boundary_nodes",
-          [](P p) { return p.has_nodes() ? p.level().boundary_nodes() : std::int64_t{0}; },
+          [](P p) { return p.has_nodes() ? p.level().ground.boundary_nodes() : std::int64_t{0}; },
           "nodes on boundary and inner curves, and fixed nodes"),
       integer(
           "steps", [](P p) { return p.steps_done(); }, "time steps done, on coarser levels, too"),
@@ -83,29 +84,31 @@ const std::vector<StatisticRow>& statistic_table() {
       integer(
           "nodes_held",
           [](P p) {
-            const std::int64_t held = p.has_nodes() ? p.level().nodes().count : std::int64_t{0};
+            const std::int64_t held = p.has_nodes() ? p.level().nodes.count : std::int64_t{0};
             return static_cast<std::int64_t>(
                 p.communicator().allreduce_max(static_cast<double>(held)));
           },
           "most nodes that any rank holds, its ghosts included"),
       integer(
           "ghosts",
-          [](P p) { return p.has_nodes() ? p.level().nodes().count - p.count() : std::int64_t{0}; },
+          [](P p) { return p.has_nodes() ? p.level().nodes.count - p.count() : std::int64_t{0}; },
           "nodes of other ranks that this rank holds now"),
       integer(
           "neighbours",
-          [](P p) { return p.has_nodes() ? p.level().neighbour_ranks() : std::int64_t{0}; },
+          [](P p) { return p.has_nodes() ? p.level().ghosts.neighbour_ranks() : std::int64_t{0}; },
           "ranks that this rank exchanges ghosts with"),
       integer(
           "exchange.bytes",
-          [](P p) { return p.has_nodes() ? p.level().renewal_bytes() : std::int64_t{0}; },
+          [](P p) { return p.has_nodes() ? p.level().ghosts.update_bytes() : std::int64_t{0}; },
           "bytes that this rank sends every exchange_interval steps"),
       integer(
           "work.owned",
-          [](P p) { return p.has_nodes() ? p.level().owned_work() : std::int64_t{0}; },
+          [](P p) {
+            return p.has_nodes() ? p.level().neighbourhood.owned_work() : std::int64_t{0};
+          },
           "cost of a step to this rank: listed pairs of its own nodes, and 8 for each node"),
       real(
-          "imbalance", [](P p) { return p.has_nodes() ? p.level().imbalance() : 1.0; },
+          "imbalance", [](P p) { return p.has_nodes() ? imbalance_of(p.level()) : 1.0; },
           "largest over mean of that, over the ranks"),
       integer(
           "rebalances", [](P p) { return p.rebalances(); }, "times the work was dealt out anew"),

@@ -5,6 +5,15 @@
 #include <exception>
 #include <limits>
 
+#include "level/exchange.hpp"
+#include "level/expected_nodes.hpp"
+#include "level/finish.hpp"
+#include "level/node_spacing.hpp"
+#include "level/population_events.hpp"
+#include "level/rebalance.hpp"
+#include "level/room.hpp"
+#include "level/speeds.hpp"
+#include "level/time_step.hpp"
 #include "placement/placement.hpp"
 
 namespace pnpbs {
@@ -17,7 +26,7 @@ void Placement::begin_schedule(bool refined) {
 // Steps on to step number `until` of the schedule, or until the bubbles rest. Events happen at
 // step numbers fixed in advance. `part` is the part of the call's work that this is.
 Outcome Placement::advance(std::int64_t until, ProgressPart part) {
-  const Settings& settings = level_->settings();
+  const Settings& settings = level_->settings;
   const double first = static_cast<double>(schedule_.step);
   Outcome outcome = Outcome::not_converged;
   stop_reason_ = StopReason::step_limit;
@@ -25,13 +34,9 @@ Outcome Placement::advance(std::int64_t until, ProgressPart part) {
   bool started = true;
   while (schedule_.step < until) {
     if (started || schedule_.step % settings.event_interval % settings.exchange_interval == 0)
-      level_->exchange_for_steps(failure);
+      exchange_for_steps(*level_, failure);
     started = false;
-    attempt(failure, [this] {
-      if (level_->lists_need_rebuild()) level_->rebuild_lists();
-      level_->step();
-    });
-    level_->count_step();
+    pnpbs::step(*level_, failure);
     ++schedule_.step;
     ++steps_done_;
     const bool is_event = schedule_.step % settings.event_interval == 0;
@@ -42,7 +47,7 @@ Outcome Placement::advance(std::int64_t until, ProgressPart part) {
     const double fraction = part.begin + done * (part.end - part.begin);
     if (is_event) event();
     if (is_event ? monitor_stops(fraction) : stops_between_events(fraction)) {
-      if (!is_event) level_->refresh_spacing();  // as d is at the nodes now
+      if (!is_event) refresh_spacing(*level_);  // as d is at the nodes now
       outcome = Outcome::stopped;
       stop_reason_ = StopReason::monitor;
       break;
@@ -58,9 +63,9 @@ Outcome Placement::advance(std::int64_t until, ProgressPart part) {
 
 // What happens at an event, in this order.
 void Placement::event() {
-  const Settings& settings = level_->settings();
-  last_speeds_ = level_->speeds();
-  level_->refresh_spacing();
+  const Settings& settings = level_->settings;
+  last_speeds_ = speeds_of(*level_);
+  refresh_spacing(*level_);
   const double population_until =
       std::floor(settings.population_share * static_cast<double>(settings.steps));
   if (static_cast<double>(schedule_.step) > population_until && !far_too_few())
@@ -74,21 +79,21 @@ void Placement::event() {
 void Placement::keep_balance() {
   if (!level_->distributed()) return;
   constexpr double kNoBetter = 1.02;
-  const double imbalance = level_->imbalance();
+  const double imbalance = imbalance_of(*level_);
   if (imbalance <=
-      std::max(level_->settings().rebalance_above, kNoBetter * schedule_.imbalance_reached))
+      std::max(level_->settings.rebalance_above, kNoBetter * schedule_.imbalance_reached))
     return;
   rebalance_now();
 }
 
 void Placement::rebalance_now() {
-  level_->rebalance();
-  schedule_.imbalance_reached = level_->imbalance();
+  pnpbs::rebalance(*level_);
+  schedule_.imbalance_reached = imbalance_of(*level_);
 }
 
 // Nodes given from outside may be so few that they take longer to multiply.
 bool Placement::far_too_few() const {
-  return static_cast<double>(global_count()) < 0.85 * level_->expected_nodes();
+  return static_cast<double>(global_count()) < 0.85 * expected_nodes(*level_);
 }
 
 // Adjusts the population while it pays, the first time aimed at the mean distance. A new spacing
@@ -104,13 +109,13 @@ void Placement::control_population() {
   const double nodes = static_cast<double>(global_count());
   double changed = 0;
   for (int round = 0; round < kMostRounds; ++round) {
-    const PopulationCounts change =
-        count_population_change(level_->adjust_population(round == 0 ? tolerance : kInfinity));
+    const PopulationCounts change = count_population_change(
+        pnpbs::adjust_population(*level_, round == 0 ? tolerance : kInfinity));
     const double acted = static_cast<double>(change.inserted + change.deleted);
     changed += acted;
     if (acted < kMuch * nodes) break;
   }
-  const Settings& settings = level_->settings();
+  const Settings& settings = level_->settings;
   // Nodes that have just come may make room for more: so twice in a row. After a coarser level
   // there is little left to do.
   const bool quiet =
@@ -122,35 +127,32 @@ void Placement::control_population() {
 
 // While the population still changes, rest means nothing.
 bool Placement::bubbles_rest() const {
-  const Settings& settings = level_->settings();
+  const Settings& settings = level_->settings;
   return schedule_.population_settled && last_speeds_.mean < settings.tolerance_mean &&
          last_speeds_.largest < settings.tolerance_max;
 }
 
 // Each part of it leaves valid nodes.
 Outcome Placement::finish() {
-  const Settings& settings = level_->settings();
+  const Settings& settings = level_->settings;
   const auto stops = [this] {
     if (!monitor_stops_by_clock(kStepsShare)) return false;
-    level_->refresh_spacing();
+    refresh_spacing(*level_);
     stop_reason_ = StopReason::monitor;
     return true;
   };
   if (settings.runge_kutta_finish) {
-    level_->exchange_for_runge_kutta();
-    agreed(*comm_, [this] {
-      level_->rebuild_lists();  // its stages look ahead
-      level_->finish_by_runge_kutta();
-    });
-    level_->count_step();
+    finish_by_runge_kutta(*level_);
     ++steps_done_;
   }
   repair_defects();
   if (stops()) return Outcome::stopped;
-  count_population_change(level_->remove_crowded());
+  count_population_change(remove_crowded(*level_));
   if (stops()) return Outcome::stopped;
-  count_population_change(level_->sweep_and_repair(settings.sweeps));
-  level_->refresh_spacing();
+  const FinishResults results = sweep_and_repair(*level_, settings.sweeps);
+  count_population_change(results.counts);
+  edge_bands_ = results.edge_bands;
+  refresh_spacing(*level_);
   monitor_stops(1.0);
   return Outcome::converged;
 }
@@ -160,11 +162,11 @@ Outcome Placement::finish() {
 // one brings another may take away, for ever.
 void Placement::repair_defects() {
   std::int64_t most = std::numeric_limits<std::int64_t>::max();
-  for (std::int64_t round = 0; round < level_->settings().defects.rounds && most > 1; ++round) {
-    count_population_change(level_->remove_crowded());
-    const PopulationCounts change = count_population_change(level_->repair_defects());
+  for (std::int64_t round = 0; round < level_->settings.defects.rounds && most > 1; ++round) {
+    count_population_change(remove_crowded(*level_));
+    const PopulationCounts change = count_population_change(pnpbs::repair_defects(*level_));
     const std::int64_t changes = change.inserted + change.deleted;
-    if (changes > 0) level_->refresh_spacing();  // a new node has another's so far
+    if (changes > 0) refresh_spacing(*level_);  // a new node has another's so far
     if (changes == 0 || changes >= most) break;
     most = changes;
   }

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "neighbors/rings.hpp"
 #include "population/overlap_ratio.hpp"
 
 namespace pnpbs {
@@ -168,17 +171,12 @@ Point<Dim> free_place(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, 
 template <int Dim>
 bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
               const Point<Dim>& place, double gap, const PopulationRule<Dim>& rule) {
-  bool room = true;
-  const auto test = [&](std::int64_t j) {
+  const auto leaves_room = [&](std::int64_t j, int) {
     const double desired = 0.5 * (nodes.d(i) + nodes.d(j));
     const double needed = nodes.moves(j) ? gap : rule.least_gap;
-    if (distance<Dim>(nodes.position(j), place) < needed * desired) room = false;
+    return distance<Dim>(nodes.position(j), place) >= needed * desired;
   };
-  lists.for_neighbours(i, [&](std::int64_t j) {
-    test(j);
-    if (room) lists.for_neighbours(j, test);
-  });
-  return room;
+  return leaves_room(i, 0) && for_rings(lists, i, 2, leaves_room);
 }
 
 // The overlap ratio that a bubble like i would have at `place`, as far as i, its neighbours and
@@ -186,27 +184,17 @@ bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int
 template <int Dim>
 double overlap_ratio_at(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
                         const Point<Dim>& place) {
-  struct Term {
-    std::int64_t id;
-    double overlap;
-    bool operator<(const Term& other) const { return id < other.id; }
-    bool operator==(const Term& other) const { return id == other.id; }
-  };
-  std::vector<Term> terms;
-  const auto add = [&](std::int64_t j) {
+  std::vector<std::pair<std::int64_t, double>> overlaps;  // by id, so that the sum has an order
+  const auto add = [&](std::int64_t j, int) {
     const double gap = distance<Dim>(nodes.position(j), place);
-    const Term term{nodes.id(j), overlap(nodes.d(i), nodes.d(j), gap)};
-    if (term.overlap > 0) terms.push_back(term);
+    overlaps.emplace_back(nodes.id(j), overlap(nodes.d(i), nodes.d(j), gap));
+    return true;
   };
-  add(i);
-  lists.for_neighbours(i, [&](std::int64_t j) {
-    add(j);
-    lists.for_neighbours(j, add);
-  });
-  std::sort(terms.begin(), terms.end());
-  terms.erase(std::unique(terms.begin(), terms.end()), terms.end());
+  add(i, 0);
+  for_rings(lists, i, 2, add);
+  std::sort(overlaps.begin(), overlaps.end());
   double sum = 0;
-  for (const Term& term : terms) sum += term.overlap;
+  for (const auto& [id, term] : overlaps) sum += std::max(0.0, term);
   return sum / (0.5 * nodes.d(i));
 }
 
@@ -217,21 +205,9 @@ bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<d
           std::int64_t i) {
   constexpr int kHops = 3;
   const Bid own{defects(i), nodes.id(i)};
-  bool strongest = true;
-  std::vector<std::int64_t> reached{i};
-  std::size_t begin = 0;
-  for (int hop = 0; hop < kHops && strongest; ++hop) {
-    const std::size_t end = reached.size();
-    for (std::size_t k = begin; k < end && strongest; ++k)
-      lists.for_neighbours(reached[k], [&](std::int64_t j) {
-        if (!strongest) return;
-        if (Bid{defects(j), nodes.id(j)}.beats(own)) strongest = false;
-        if (hop + 1 < kHops && std::find(reached.begin(), reached.end(), j) == reached.end())
-          reached.push_back(j);
-      });
-    begin = end;
-  }
-  return strongest;
+  return for_rings(lists, i, kHops, [&](std::int64_t j, int) {
+    return !Bid{defects(j), nodes.id(j)}.beats(own);
+  });
 }
 
 }  // namespace

@@ -23,8 +23,9 @@ template <class Visit>
 void for_edges(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i,
                const Visit& visit) {
   bool before = stars.closed(i);  // is the triangle before the edge one of the domain?
-  if (!before) stars.for_neighbours(i, [&](std::int64_t, bool triangle) { before = triangle; });
-  stars.for_neighbours(i, [&](std::int64_t j, bool triangle) {
+  if (!before)
+    stars.for_neighbours_in_order(i, [&](std::int64_t, bool triangle) { before = triangle; });
+  stars.for_neighbours_in_order(i, [&](std::int64_t j, bool triangle) {
     if ((before || triangle) && nodes.id(i) < nodes.id(j)) visit(j);
     before = triangle;
   });
@@ -122,7 +123,8 @@ template <class Visit>
 void for_triangles_of(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i,
                       const Visit& visit) {
   if (!nodes.owned(i)) return;
-  stars.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+  stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
+    const std::int64_t j = others[0], k = others[1];
     if (nodes.id(i) < nodes.id(j) && nodes.id(i) < nodes.id(k)) visit(j, k);
   });
 }
@@ -171,27 +173,37 @@ double one_percent_of(const std::vector<std::int64_t>& histogram, std::int64_t t
   return static_cast<double>(step) / static_cast<double>(kQualitySteps);
 }
 
-TriangleQuality measure_triangles(const Communicator& comm, const Nodes<2>& nodes,
-                                  const DelaunayStars& stars) {
+// How many triangles there are of each step of quality, on this rank.
+std::vector<std::int64_t> histogram_of(const Nodes<2>& nodes, const DelaunayStars& stars) {
   const View<std::int64_t> steps = make_view<std::int64_t>("pnpbs::quality", kQualitySteps);
   Kokkos::deep_copy(steps, 0);
+  for_each("pnpbs::quality_histogram", nodes.count, [&](std::int64_t i) {
+    for_triangles_of(nodes, stars, i, [&](std::int64_t j, std::int64_t k) {
+      const auto step = static_cast<std::int64_t>(
+          kQualitySteps *
+          triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k)));
+      Kokkos::atomic_inc(&steps(std::clamp<std::int64_t>(step, 0, kQualitySteps - 1)));
+    });
+  });
+  return {steps.data(), steps.data() + kQualitySteps};
+}
+
+TriangleQuality measure_triangles(const Communicator& comm, const Nodes<2>& nodes,
+                                  const DelaunayStars& stars) {
   const QualitySums sums = sums_over(
       "pnpbs::quality_sums", nodes.count, QualitySums(), [&](std::int64_t i, QualitySums& sum) {
         for_triangles_of(nodes, stars, i, [&](std::int64_t j, std::int64_t k) {
-          const double quality =
-              triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k));
-          const auto step = static_cast<std::int64_t>(quality * kQualitySteps);
-          Kokkos::atomic_inc(&steps(std::clamp<std::int64_t>(step, 0, kQualitySteps - 1)));
           ++sum.triangles;
-          sum.quality += fixed_point(quality);
+          sum.quality += fixed_point(
+              triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k)));
         });
       });
+  std::vector<std::int64_t> histogram = histogram_of(nodes, stars);
   TriangleQuality found;
   found.triangles =
       static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(sums.triangles)));
   const double quality =
       from_fixed_point(comm.allreduce_sum(static_cast<std::uint64_t>(sums.quality)));
-  std::vector<std::int64_t> histogram(steps.data(), steps.data() + kQualitySteps);
   comm.allreduce_sum(histogram);
   if (found.triangles == 0) return found;
   found.mean = quality / static_cast<double>(found.triangles);

@@ -48,7 +48,7 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
 
 }  // namespace
 
-void sweep(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
+void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
            const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& proposed,
            const View<char>& allowed) {
   const QualityBound bound(rule.bad_below);
@@ -60,6 +60,7 @@ void sweep(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& n
   for_each("pnpbs::sweep::go", nodes.count, [&](std::int64_t i) {
     if (allowed(i)) nodes.set_position(i, point_at<2>(proposed, i));
   });
+  nodes.moved();
 }
 
 }  // namespace pnpbs

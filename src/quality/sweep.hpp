@@ -17,7 +17,7 @@ struct SweepRule {
 };
 
 // Moves the nodes; `proposed` and `allowed` are scratch, one entry per node.
-void sweep(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
+void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
            const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& proposed,
            const View<char>& allowed);
 

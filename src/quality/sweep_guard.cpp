@@ -24,8 +24,9 @@ double worst_if_moved(const Nodes<2>& nodes, const std::array<View<double>, 2>& 
 bool may_move(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_below,
               const std::array<View<double>, 2>& proposed, std::int64_t i) {
   bool allowed = true;
-  stars.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+  stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
     if (!allowed) return;
+    const std::int64_t j = others[0], k = others[1];
     const double after = worst_if_moved(nodes, proposed, i, j, k);
     if (after >= bad_below) return;
     allowed = after >= triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k));

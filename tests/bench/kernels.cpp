@@ -118,7 +118,7 @@ void fill_square(pnpbs::PlaneDomain& domain) {
 
 pnpbs::GivenNodes moved_lattice(double d, double most) {
   LevelRun lattice(fill_square, constant(d));
-  lattice.level->fill();
+  pnpbs::fill(*lattice.level);
   pnpbs::GivenNodes nodes = inner_nodes_of(*lattice.level);
   Random random(1);
   for (pnpbs::GivenNode& node : nodes)
@@ -132,19 +132,19 @@ struct Scratch {
 };
 
 void measure_forces(const Level& level, const Scratch& scratch, Rows& rows) {
-  const Nodes<2>& nodes = level.nodes();
-  const LinearPush push{1, level.settings().rest_length};
+  const Nodes<2>& nodes = level.nodes;
+  const LinearPush push{1, level.settings.rest_length};
   rows.measure("force, push", [&] { evaluate_forces(nodes, level.lists(), push, scratch.there); });
   rows.measure("force, cubic",
                [&] { evaluate_forces(nodes, level.lists(), CubicLaw{}, scratch.there); });
 }
 
 // Velocities change, positions do not: so all steps begin at the same ones.
-void measure_steps(const Level& level, Scratch& scratch, Rows& rows) {
-  const Nodes<2>& nodes = level.nodes();
+void measure_steps(Level& level, Scratch& scratch, Rows& rows) {
+  Nodes<2>& nodes = level.nodes;
   const AdjacencyList<2>& lists = level.lists();
-  const pnpbs::Motion& motion = level.settings().motion;
-  const LinearPush push{1, level.settings().rest_length};
+  const pnpbs::Motion& motion = level.settings.motion;
+  const LinearPush push{1, level.settings.rest_length};
   const CubicLaw cubic;
   rows.measure("damped step, push",
                [&] { pnpbs::damped_step<2>(nodes, lists, push, motion, scratch.there); });
@@ -177,18 +177,20 @@ void run(const Arguments& arguments, const char* list_radius) {
   Rows times;
   double listed = 0, rows = 0;
   for (int r = 0; r < arguments.repeat; ++r) {
-    level.take(lattice, 0);
-    measure_phase("lists", *run.timers, Phase::lists, 1, times, [&] { level.rebuild_lists(); });
-    listed = listed_per_node(level.nodes(), level.lists());
+    pnpbs::take(level, lattice, 0);
+    measure_phase("lists", *run.timers, Phase::lists, 1, times,
+                  [&] { pnpbs::rebuild_lists_for_steps(level); });
+    listed = listed_per_node(level.nodes, level.lists());
     rows = rows_per_block(level.lists());
-    pnpbs::reserve_field<2>(scratch.there, "pnpbs::bench::there", level.nodes().count + kLanes);
+    pnpbs::reserve_field<2>(scratch.there, "pnpbs::bench::there", level.nodes.count + kLanes);
     measure_forces(level, scratch, times);
     measure_steps(level, scratch, times);
-    measure_phase("stars", *run.timers, Phase::stars, 1, times, [&] { level.renew_stars(); });
+    measure_phase("stars", *run.timers, Phase::stars, 1, times,
+                  [&] { pnpbs::rebuild_stars(level); });
     measure_phase("sweep", *run.timers, Phase::sweeps, kSweeps, times,
-                  [&] { level.sweep_and_repair(kSweeps); });
+                  [&] { pnpbs::sweep_and_repair(level, kSweeps); });
   }
-  const double nodes = static_cast<double>(level.nodes().count);
+  const double nodes = static_cast<double>(level.nodes.count);
   std::printf("list radius %s: %.0f nodes, %.2f listed neighbours per node, %.2f to fill blocks\n",
               list_radius, nodes, listed, rows);
   times.print_medians(nodes);

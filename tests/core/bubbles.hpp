@@ -57,7 +57,9 @@ struct Bubbles {
   void set(const std::vector<Bubble<Dim>>& bubbles) {
     nodes.count = 0;
     nodes.reserve(static_cast<std::int64_t>(bubbles.size()));
-    for (const Bubble<Dim>& b : bubbles) nodes.append(b.x, b.d, b.id, 0, b.moves ? -1 : 0);
+    for (const Bubble<Dim>& b : bubbles)
+      nodes.append(b.x, b.d, b.id, 0, b.moves ? pnpbs::Carrier::free : pnpbs::Carrier::fixed,
+                   b.moves ? -1 : 0);
   }
 
   // Any node may hide others.

@@ -28,17 +28,18 @@ inline double quality(const pnpbs::Point<2>& a, const pnpbs::Point<2>& b,
 using Places = std::map<std::int64_t, pnpbs::Point<2>>;
 inline Places places_by_id(const pnpbs::Level& level) {
   Places places;
-  for (std::int64_t i = 0; i < level.nodes().count; ++i)
-    places[level.nodes().id(i)] = level.nodes().position(i);
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    places[level.nodes.id(i)] = level.nodes.position(i);
   return places;
 }
 
 inline std::vector<Triangle> triangles_by_id(const pnpbs::Level& level) {
   std::vector<Triangle> triangles;
-  for (std::int64_t i = 0; i < level.nodes().count; ++i)
-    level.stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    level.stars.for_simplices(i, [&](const pnpbs::DelaunayStars::Corners& others) {
+      const std::int64_t j = others[0], k = others[1];
       if (i < j && i < k)
-        triangles.push_back({level.nodes().id(i), level.nodes().id(j), level.nodes().id(k)});
+        triangles.push_back({level.nodes.id(i), level.nodes.id(j), level.nodes.id(k)});
     });
   return triangles;
 }
@@ -51,14 +52,14 @@ inline double quality_of(const Triangle& t, const Places& places) {
 inline LevelRun distorted(const Build& build, const Plane& d, std::uint64_t seed,
                           const std::function<void(pnpbs::Settings&)>& adapt) {
   LevelRun fill(build, d);
-  fill.level->fill();
+  pnpbs::fill(*fill.level);
   pnpbs::GivenNodes nodes = inner_nodes_of(*fill.level);
   Random random(seed);
   for (pnpbs::GivenNode& node : nodes)
     for (double& x : node.position)
       x += random.between(-0.4, 0.4) * d(node.position[0], node.position[1]);
   LevelRun run(build, d, {}, adapt);
-  run.level->take(nodes, 0);
+  pnpbs::take(*run.level, nodes, 0);
   run.renew_stars();
   return run;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,7 +12,17 @@
 
 #include "domain/plane/poly_reader.hpp"
 #include "geometry/shapes.hpp"
+#include "level/exchange.hpp"
+#include "level/finish.hpp"
+#include "level/first_nodes.hpp"
 #include "level/level.hpp"
+#include "level/lists_and_stars.hpp"
+#include "level/node_spacing.hpp"
+#include "level/population_events.hpp"
+#include "level/refinement.hpp"
+#include "level/room.hpp"
+#include "level/taken_nodes.hpp"
+#include "level/time_step.hpp"
 
 using Plane = std::function<double(double x, double y)>;
 
@@ -43,7 +54,7 @@ using OptionList = std::vector<std::pair<const char*, const char*>>;
 // The inner nodes, as nodes to start from (placed for a spacing that take() does not know).
 inline pnpbs::GivenNodes inner_nodes_of(const pnpbs::Level& level) {
   pnpbs::GivenNodes inner;
-  for (const pnpbs::GivenNode& node : level.owned_nodes())
+  for (const pnpbs::GivenNode& node : pnpbs::owned_nodes(level))
     if (node.inner) inner.push_back({node.position, node.id});
   return inner;
 }
@@ -67,24 +78,25 @@ struct LevelRun {
     event_interval = settings.event_interval;
     level = std::make_unique<pnpbs::Level>(pnpbs::serial_communicator(), domain, spacing_of(d),
                                            settings, *timers);
-    level->discretize_boundary();
     level->grow_tree();
   }
 
   // n steps with the events between them.
   void steps(std::int64_t n, bool rebuild_always = false, bool population = true) {
     for (const std::int64_t last = steps_done + n; steps_done < last;) {
-      if (rebuild_always || level->lists_need_rebuild()) level->rebuild_lists();
-      level->step();
+      if (rebuild_always) pnpbs::rebuild_lists_for_steps(*level);
+      std::exception_ptr failure;
+      pnpbs::step(*level, failure);
+      if (failure) std::rethrow_exception(failure);
       ++steps_done;
       if (steps_done % event_interval != 0) continue;
-      level->refresh_spacing();
-      if (population) level->adjust_population();
+      pnpbs::refresh_spacing(*level);
+      if (population) pnpbs::adjust_population(*level);
     }
   }
 
   void renew_stars() {
-    level->rebuild_lists();
-    level->renew_stars();
+    pnpbs::rebuild_lists_for_steps(*level);
+    pnpbs::rebuild_stars(*level);
   }
 };

@@ -22,20 +22,20 @@ inline Triangle sorted(Triangle t) {
 
 // Memory index of each boundary node.
 inline std::vector<std::int64_t> boundary_places(const pnpbs::Level& level) {
-  std::vector<std::int64_t> places(level.boundary().nodes.size(), -1);
-  for (std::int64_t i = 0; i < level.nodes().count; ++i)
-    if (!level.nodes().moves(i))
-      places[static_cast<std::size_t>(level.nodes().boundary_node(i))] = i;
+  std::vector<std::int64_t> places(level.ground.boundary().nodes.size(), -1);
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    if (!level.nodes.moves(i)) places[static_cast<std::size_t>(level.nodes.boundary_node(i))] = i;
   return places;
 }
 
 // The triangles, each found in the stars of all its three corners; all counter-clockwise; and
 // every boundary edge is in the stars of its ends.
 inline std::vector<Triangle> star_triangles(const pnpbs::Level& level) {
-  const pnpbs::Nodes<2>& nodes = level.nodes();
+  const pnpbs::Nodes<2>& nodes = level.nodes;
   std::map<Triangle, int> found;
   for (std::int64_t i = 0; i < nodes.count; ++i)
-    level.stars().for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+    level.stars.for_simplices(i, [&](const pnpbs::DelaunayStars::Corners& others) {
+      const std::int64_t j = others[0], k = others[1];
       quick_assert_msg(
           pnpbs::orientation(nodes.position(i), nodes.position(j), nodes.position(k)) > 0,
           "a triangle of node %lld at (%.17g, %.17g) is flat or turned over",
@@ -50,14 +50,13 @@ inline std::vector<Triangle> star_triangles(const pnpbs::Level& level) {
     triangles.push_back(t);
   }
   const std::vector<std::int64_t> places = boundary_places(level);
-  for (const pnpbs::BoundaryEdge& e : level.boundary().edges) {
+  for (const pnpbs::BoundaryEdge& e : level.ground.boundary().edges) {
     if (e.begin == e.end) continue;
     const std::int64_t a = places[static_cast<std::size_t>(e.begin)];
     const std::int64_t b = places[static_cast<std::size_t>(e.end)];
     for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
       bool there = false;
-      level.stars().for_neighbours(
-          from, [&, to = to](std::int64_t j, bool) { there = there || j == to; });
+      level.stars.for_neighbours(from, [&, to = to](std::int64_t j) { there = there || j == to; });
       quick_assert_msg(there, "a boundary edge is missing at (%.17g, %.17g)", nodes.x[0](from),
                        nodes.x[1](from));
     }

@@ -23,7 +23,7 @@ constexpr double kD = 0.03;
 
 GivenNodes lattice() {
   LevelRun fill(kSquare, constant(kD));
-  fill.level->fill();
+  pnpbs::fill(*fill.level);
   return inner_nodes_of(*fill.level);
 }
 
@@ -58,7 +58,7 @@ LevelRun run_with(const GivenNodes& nodes) {
     settings.defects.bad_below = 0;
     settings.repair.rounds = 0;
   });
-  run.level->take(nodes, 1 << 21);
+  pnpbs::take(*run.level, nodes, 1 << 21);
   return run;
 }
 
@@ -74,8 +74,8 @@ double least_quality(LevelRun& run) {
 // How far from a point is the nearest node?
 double gap_at(const Level& level, const P& x) {
   double gap = 1;
-  for (std::int64_t i = 0; i < level.nodes().count; ++i)
-    gap = std::min(gap, pnpbs::distance<2>(level.nodes().position(i), x));
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    gap = std::min(gap, pnpbs::distance<2>(level.nodes.position(i), x));
   return gap;
 }
 
@@ -88,9 +88,9 @@ void check_counts(const PopulationCounts& counts, std::int64_t inserted, std::in
 
 START_TEST(lattice_stays) {
   LevelRun run = run_with(lattice());
-  const std::int64_t nodes = run.level->nodes().count;
-  check_counts(run.level->repair_defects(), 0, 0);
-  ck_assert_int_eq(run.level->nodes().count, nodes);
+  const std::int64_t nodes = run.level->nodes.count;
+  check_counts(pnpbs::repair_defects(*run.level), 0, 0);
+  ck_assert_int_eq(run.level->nodes.count, nodes);
 }
 END_TEST
 
@@ -99,15 +99,15 @@ START_TEST(missing_node_comes) {
   GivenNodes nodes = lattice();
   const P hole = take_away(nodes, {0.4, 0.6});
   LevelRun run = run_with(nodes);
-  const std::int64_t before = run.level->nodes().count;
-  check_counts(run.level->repair_defects(), 1, 0);
-  ck_assert_int_eq(run.level->nodes().count, before + 1);
+  const std::int64_t before = run.level->nodes.count;
+  check_counts(pnpbs::repair_defects(*run.level), 1, 0);
+  ck_assert_int_eq(run.level->nodes.count, before + 1);
   ck_assert_double_lt(gap_at(*run.level, hole), 0.3 * kD);
-  run.level->sweep_and_repair(20);
+  pnpbs::sweep_and_repair(*run.level, 20);
   LevelRun whole = run_with(lattice());
-  whole.level->sweep_and_repair(20);
+  pnpbs::sweep_and_repair(*whole.level, 20);
   ck_assert_double_gt(least_quality(run), least_quality(whole) - 0.01);
-  check_counts(run.level->repair_defects(), 0, 0);
+  check_counts(pnpbs::repair_defects(*run.level), 0, 0);
 }
 END_TEST
 
@@ -118,11 +118,11 @@ START_TEST(surplus_node_goes) {
       GivenNodes nodes = lattice();
       const P place = split(nodes, {0.6, 0.4}, apart);
       LevelRun run = run_with(nodes);
-      run.level->sweep_and_repair(sweeps);
-      check_counts(run.level->repair_defects(), 0, 1);
-      run.level->sweep_and_repair(20);
+      pnpbs::sweep_and_repair(*run.level, sweeps);
+      check_counts(pnpbs::repair_defects(*run.level), 0, 1);
+      pnpbs::sweep_and_repair(*run.level, 20);
       ck_assert_double_lt(gap_at(*run.level, place), 0.1 * kD);
-      check_counts(run.level->repair_defects(), 0, 0);
+      check_counts(pnpbs::repair_defects(*run.level), 0, 0);
     }
 }
 END_TEST
@@ -134,9 +134,9 @@ START_TEST(near_defects_take_turns) {
   take_away(nodes, {0.3 + 4 * kD, 0.5});
   take_away(nodes, {0.7, 0.5});
   LevelRun run = run_with(nodes);
-  check_counts(run.level->repair_defects(), 2, 0);
-  check_counts(run.level->repair_defects(), 1, 0);
-  check_counts(run.level->repair_defects(), 0, 0);
+  check_counts(pnpbs::repair_defects(*run.level), 2, 0);
+  check_counts(pnpbs::repair_defects(*run.level), 1, 0);
+  check_counts(pnpbs::repair_defects(*run.level), 0, 0);
 }
 END_TEST
 
@@ -148,20 +148,20 @@ START_TEST(bad_triangles_become_fewer) {
     const auto bad_after = [&](int rounds) {
       LevelRun run = distorted(shape.build, shape.d, seed,
                                [](pnpbs::Settings& settings) { settings.repair.rounds = 0; });
-      run.level->sweep_and_repair(20);
+      pnpbs::sweep_and_repair(*run.level, 20);
       std::int64_t changes = 0;
       for (int round = 0; round < rounds; ++round) {
-        const PopulationCounts counts = run.level->repair_defects();
+        const PopulationCounts counts = pnpbs::repair_defects(*run.level);
         changes += counts.inserted + counts.deleted;
-        run.level->sweep_and_repair(20);
+        pnpbs::sweep_and_repair(*run.level, 20);
       }
       if (rounds > 0) ck_assert_int_gt(changes, 5);
-      for (std::int64_t i = 0; i < run.level->nodes().count; ++i) {
-        const P x = run.level->nodes().position(i);
-        if (!run.level->nodes().moves(i)) continue;
+      for (std::int64_t i = 0; i < run.level->nodes.count; ++i) {
+        const P x = run.level->nodes.position(i);
+        if (!run.level->nodes.moves(i)) continue;
         quick_assert(run.level->map().inside(x));
-        quick_assert(run.level->map().clearance(x, run.level->nodes().d(i)) >=
-                     0.35 * run.level->nodes().d(i) * (1 - 1e-12));
+        quick_assert(run.level->map().clearance(x, run.level->nodes.d(i)) >=
+                     0.35 * run.level->nodes.d(i) * (1 - 1e-12));
       }
       run.renew_stars();
       star_triangles(*run.level);  // they conform

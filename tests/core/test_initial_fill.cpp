@@ -156,8 +156,8 @@ START_TEST(steep_spacings_are_met_from_band_to_band) {
   const auto d = [](double y) { return 0.001 + 0.2 * std::fabs(y - 0.4371); };
   LevelRun run([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); },
                [&](double, double y) { return d(y); });
-  run.level->fill();
-  const pnpbs::Nodes<2>& nodes = run.level->nodes();
+  pnpbs::fill(*run.level);
+  const pnpbs::Nodes<2>& nodes = run.level->nodes;
   for (double from = 0.001; from < 0.06; from *= 2) {
     double wanted = 0, placed = 0;
     constexpr int kFine = 100000;
@@ -204,8 +204,8 @@ END_TEST
 // What a level makes of a fill: ids in the order of memory, boundary nodes as laid, d and tags.
 START_TEST(levels_number_their_nodes) {
   LevelRun run(add_ring, [](double x, double) { return 0.05 + 0.02 * x; });
-  run.level->fill();
-  const pnpbs::Nodes<2>& nodes = run.level->nodes();
+  pnpbs::fill(*run.level);
+  const pnpbs::Nodes<2>& nodes = run.level->nodes;
   std::int64_t laid = 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     ck_assert_int_eq(nodes.id(i), i);
@@ -215,30 +215,30 @@ START_TEST(levels_number_their_nodes) {
       ck_assert_int_eq(nodes.tag(i), 0);
       continue;
     }
-    const pnpbs::BoundaryNode& node = run.level->boundary().nodes[nodes.boundary_node(i)];
+    const pnpbs::BoundaryNode& node = run.level->ground.boundary().nodes[nodes.boundary_node(i)];
     quick_assert(nodes.position(i) == node.position);
     ck_assert_int_eq(nodes.tag(i), node.tag);
     ++laid;
   }
-  ck_assert_int_eq(laid, run.level->boundary_nodes());
-  ck_assert_int_eq(run.level->next_id(), nodes.count);
+  ck_assert_int_eq(laid, run.level->ground.boundary_nodes());
+  ck_assert_int_eq(run.level->next_id, nodes.count);
 }
 END_TEST
 
 // Given nodes keep their ids; new ones come after them; what does not fit is left out.
 START_TEST(levels_take_given_nodes) {
   LevelRun run([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); }, constant(0.1));
-  const std::int64_t left_out = run.level
-                                    ->take({{{0.5, 0.5}, 700},
-                                            {{0.05, 0.5}, -1},
-                                            {{0.03, 0.5}, 12},
-                                            {{1.5, 0.5}, 13},
-                                            {{0.5, 0}, 14},
-                                            {{0.2, 0.3}, 5}},
-                                           0)
+  const std::int64_t left_out = pnpbs::take(*run.level,
+                                            {{{0.5, 0.5}, 700},
+                                             {{0.05, 0.5}, -1},
+                                             {{0.03, 0.5}, 12},
+                                             {{1.5, 0.5}, 13},
+                                             {{0.5, 0}, 14},
+                                             {{0.2, 0.3}, 5}},
+                                            0)
                                     .left_out;
   ck_assert_int_eq(left_out, 3);
-  const pnpbs::Nodes<2>& nodes = run.level->nodes();
+  const pnpbs::Nodes<2>& nodes = run.level->nodes;
   ck_assert_int_eq(nodes.count, 40 + 3);
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (nodes.position(i) == P{0.5, 0.5})

@@ -23,7 +23,7 @@ namespace {
 using State = std::map<std::int64_t, std::array<double, 4>>;
 
 State state_of(const Level& level) {
-  const pnpbs::Nodes<2>& nodes = level.nodes();
+  const pnpbs::Nodes<2>& nodes = level.nodes;
   State state;
   for (std::int64_t i = 0; i < nodes.count; ++i)
     state[nodes.id(i)] = {nodes.x[0](i), nodes.x[1](i), nodes.v[0](i), nodes.v[1](i)};
@@ -80,7 +80,7 @@ std::vector<Case> cases() {
 // A fill, shaken so that there is something to do.
 pnpbs::GivenNodes shaken(const Case& c, std::uint64_t seed) {
   LevelRun fill(c.build, c.d);
-  fill.level->fill();
+  pnpbs::fill(*fill.level);
   pnpbs::GivenNodes nodes = inner_nodes_of(*fill.level);
   Random random(seed);
   for (pnpbs::GivenNode& node : nodes)
@@ -90,22 +90,23 @@ pnpbs::GivenNodes shaken(const Case& c, std::uint64_t seed) {
 }
 
 void finish(Level& level) {
-  level.finish_by_runge_kutta();
-  level.sweep_and_repair(6);
+  pnpbs::finish_by_runge_kutta(level);
+  pnpbs::sweep_and_repair(level, 6);
 }
 
 void expect_rebuilds_do_not_matter(const Case& c) {
   const pnpbs::GivenNodes start = shaken(c, 140);
   LevelRun seldom(c.build, c.d, c.options), always(c.build, c.d, c.options);
-  seldom.level->take(start, 0);
-  always.level->take(start, 0);
+  pnpbs::take(*seldom.level, start, 0);
+  pnpbs::take(*always.level, start, 0);
   for (int step = 0; step < 60; ++step) {
     seldom.steps(1);
     always.steps(1, true);
     expect_same(state_of(*seldom.level), state_of(*always.level), c.name, seldom.steps_done);
   }
-  ck_assert_int_ge(always.level->rebuilds(), 60);
-  ck_assert_int_lt(seldom.level->rebuilds(), always.level->rebuilds() - 10);
+  ck_assert_int_ge(always.level->neighbourhood.rebuilds(), 60);
+  ck_assert_int_lt(seldom.level->neighbourhood.rebuilds(),
+                   always.level->neighbourhood.rebuilds() - 10);
 }
 
 }  // namespace
@@ -132,14 +133,13 @@ START_TEST(order_in_memory_does_not_matter) {
   for (const Case& c : cases()) {
     pnpbs::GivenNodes start = shaken(c, 150);
     LevelRun straight(c.build, c.d, c.options), mixed(c.build, c.d, c.options);
-    straight.level->take(start, 0);
+    pnpbs::take(*straight.level, start, 0);
     Random(151).shuffle(start);
-    mixed.level->take(start, 0);
+    pnpbs::take(*mixed.level, start, 0);
     straight.steps(45);
     mixed.steps(45);
     expect_same(state_of(*straight.level), state_of(*mixed.level), c.name, 45);
     for (Level* level : {straight.level.get(), mixed.level.get()}) {
-      if (level->lists_need_rebuild()) level->rebuild_lists();
       finish(*level);
     }
     expect_same(state_of(*straight.level), state_of(*mixed.level), c.name + ", finished", 46);

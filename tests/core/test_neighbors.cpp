@@ -428,7 +428,7 @@ START_TEST(buckets_of_kept_nodes) {
     b.buckets.keep(places, kept);
     for (std::int64_t i = 0; i < kept; ++i)
       quick_assert(b.buckets.bucket_of(i) == buckets[static_cast<std::size_t>(i)]);
-    b.nodes.append(random.point<2>(b.box), 0.03, 1000 + round, 0, -1);
+    b.nodes.append(random.point<2>(b.box), 0.03, 1000 + round, 0, pnpbs::Carrier::free, -1);
     ck_assert(b.buckets.knows(kept - 1));
     ck_assert(!b.buckets.knows(kept));
     b.nodes.set_position(random.below(kept), random.point<2>(b.box));

@@ -28,10 +28,10 @@ struct Rested {
   std::int64_t n, b;
 
   explicit Rested(const Plane& d) : run(square, d) {
-    run.level->fill();
+    pnpbs::fill(*run.level);
     run.steps(60);
     n = run.level->owned_count();
-    b = run.level->boundary_nodes();
+    b = run.level->ground.boundary_nodes();
   }
 };
 
@@ -55,7 +55,7 @@ bool halves_a_pair(const GivenNodes& nodes, const P& x, double longest) {
 
 START_TEST(half_the_spacing_halves_every_edge) {
   Rested level(constant(0.05));
-  const GivenNodes nodes = level.run.level->refined(*spacing_of(constant(0.025)));
+  const GivenNodes nodes = pnpbs::refined(*level.run.level, *spacing_of(constant(0.025)));
   const GivenNodes born = new_ones(nodes);
   ck_assert_int_eq(born.size(), 3 * level.n - 3 - 2 * level.b);
   ck_assert_int_eq(nodes.size() - born.size(), level.n);
@@ -68,7 +68,8 @@ END_TEST
 
 START_TEST(a_third_fills_triangles_too) {
   Rested level(constant(0.05));
-  const GivenNodes born = new_ones(level.run.level->refined(*spacing_of(constant(0.05 / 3))));
+  const GivenNodes born =
+      new_ones(pnpbs::refined(*level.run.level, *spacing_of(constant(0.05 / 3))));
   // An edge that is short by a sixth is only halved: few.
   const double edges = static_cast<double>(3 * level.n - 3 - 2 * level.b),
                triangles = static_cast<double>(2 * level.n - level.b - 2);
@@ -83,13 +84,13 @@ END_TEST
 START_TEST(only_where_it_is_finer) {
   Rested level(constant(0.05));
   for (const double d : {0.2, 0.05, 0.04}) {
-    const GivenNodes nodes = level.run.level->refined(*spacing_of(constant(d)));
+    const GivenNodes nodes = pnpbs::refined(*level.run.level, *spacing_of(constant(d)));
     ck_assert_int_eq(nodes.size(), level.n);
     ck_assert_uint_eq(new_ones(nodes).size(), 0);
   }
   // Edges are their end's with the lesser id: so much is not sure beside the line.
-  const GivenNodes born = new_ones(level.run.level->refined(
-      *spacing_of([](double x, double) { return x < 0.5 ? 0.025 : 0.05; })));
+  const GivenNodes born = new_ones(pnpbs::refined(
+      *level.run.level, *spacing_of([](double x, double) { return x < 0.5 ? 0.025 : 0.05; })));
   ck_assert_double_ge(static_cast<double>(born.size()),
                       0.9 * static_cast<double>(3 * level.n - 3 - 2 * level.b) / 2);
   for (const GivenNode& node : born) quick_assert(node.position[0] < 0.5 + 0.03);
@@ -100,21 +101,21 @@ END_TEST
 START_TEST(a_refined_level_is_nearly_right) {
   Rested coarse(constant(0.05));
   LevelRun fine(square, constant(0.025));
-  const GivenNodes nodes = coarse.run.level->refined(*spacing_of(constant(0.025)));
-  const pnpbs::TakenNodes taken = fine.level->take(nodes, coarse.run.level->next_id());
+  const GivenNodes nodes = pnpbs::refined(*coarse.run.level, *spacing_of(constant(0.025)));
+  const pnpbs::TakenNodes taken = pnpbs::take(*fine.level, nodes, coarse.run.level->next_id);
   ck_assert_int_eq(taken.thinned, 0);
   // The boundary is laid anew, at half of the spacing.
-  ck_assert_int_eq(fine.level->boundary_nodes(), 2 * coarse.b);
+  ck_assert_int_eq(fine.level->ground.boundary_nodes(), 2 * coarse.b);
   ck_assert_int_eq(fine.level->owned_count() + taken.left_out,
                    coarse.n - coarse.b + (3 * coarse.n - 3 - 2 * coarse.b) + 2 * coarse.b);
   const double wanted = pnpbs::Lattice<2>::kDensity / (0.025 * 0.025) + 0.5 * 160;
   ck_assert_double_le(std::fabs(static_cast<double>(fine.level->owned_count()) / wanted - 1), 0.03);
   fine.renew_stars();
   std::int64_t six = 0, inner = 0;
-  for (std::int64_t i = 0; i < fine.level->nodes().count; ++i) {
-    if (!fine.level->nodes().moves(i)) continue;
+  for (std::int64_t i = 0; i < fine.level->nodes.count; ++i) {
+    if (!fine.level->nodes.moves(i)) continue;
     ++inner;
-    six += fine.level->stars().size(i) == 6;
+    six += fine.level->stars.size(i) == 6;
   }
   ck_assert_double_ge(static_cast<double>(six), 0.93 * static_cast<double>(inner));
 }

@@ -27,12 +27,12 @@ constexpr double kD = 0.05;
 constexpr std::int64_t kMore = 100000, kBoundary = 200000;
 LevelRun lattice_with(const std::vector<P>& more) {
   LevelRun fill(kSquare, constant(kD));
-  fill.level->fill();
+  pnpbs::fill(*fill.level);
   GivenNodes nodes = inner_nodes_of(*fill.level);
   std::int64_t id = kMore;
   for (const P& x : more) nodes.push_back({x, id++});
   LevelRun run(kSquare, constant(kD));
-  ck_assert_int_eq(run.level->take(nodes, kBoundary).thinned, 0);
+  ck_assert_int_eq(pnpbs::take(*run.level, nodes, kBoundary).thinned, 0);
   run.renew_stars();
   return run;
 }
@@ -40,7 +40,7 @@ LevelRun lattice_with(const std::vector<P>& more) {
 // The middle of an edge of the lattice: from its node nearest to a point, about in that direction.
 P middle_of_edge(const P& near, double angle) {
   const LevelRun run = lattice_with({});
-  const pnpbs::Nodes<2>& nodes = run.level->nodes();
+  const pnpbs::Nodes<2>& nodes = run.level->nodes;
   const auto nearest_to = [&](const P& x) {
     std::int64_t best = 0;
     for (std::int64_t i = 1; i < nodes.count; ++i)
@@ -55,8 +55,8 @@ P middle_of_edge(const P& near, double angle) {
 
 std::int64_t nodes_added(const Level& level) {
   std::int64_t count = 0;
-  for (std::int64_t i = 0; i < level.nodes().count; ++i)
-    count += level.nodes().id(i) >= kMore && level.nodes().id(i) < kBoundary;
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    count += level.nodes.id(i) >= kMore && level.nodes.id(i) < kBoundary;
   return count;
 }
 
@@ -77,9 +77,9 @@ double shape_of(const Triangle& t, const Places& places) {
 START_TEST(node_in_the_middle_of_an_edge_goes) {
   for (const double angle : {0.0, 1.05, 2.09}) {
     LevelRun run = lattice_with({middle_of_edge({0.3, 0.4}, angle), middle_of_edge({0.6, 0.7}, 0)});
-    const std::int64_t nodes = run.level->nodes().count;
-    ck_assert_int_eq(run.level->sweep_and_repair(0).deleted, 2);
-    ck_assert_int_eq(run.level->nodes().count, nodes - 2);
+    const std::int64_t nodes = run.level->nodes.count;
+    ck_assert_int_eq(pnpbs::sweep_and_repair(*run.level, 0).counts.deleted, 2);
+    ck_assert_int_eq(run.level->nodes.count, nodes - 2);
     ck_assert_int_eq(nodes_added(*run.level), 0);
   }
 }
@@ -89,19 +89,18 @@ END_TEST
 START_TEST(stars_close_over_the_hole) {
   const LevelRun lattice = lattice_with({});
   LevelRun run = lattice_with({middle_of_edge({0.3, 0.4}, 0), middle_of_edge({0.6, 0.7}, 1.05)});
-  DelaunayStars stars = run.level->stars();
-  const std::vector<std::int32_t> surplus =
-      pnpbs::take_out_surplus_nodes(run.level->nodes(), stars);
+  DelaunayStars stars = run.level->stars;
+  const std::vector<std::int32_t> surplus = pnpbs::take_out_surplus_nodes(run.level->nodes, stars);
   ck_assert_uint_eq(surplus.size(), 2);
   const auto triangles = [](const Level& level, const DelaunayStars& of) {
     std::multiset<std::array<std::int64_t, 3>> all;  // from each corner
-    for (std::int64_t i = 0; i < level.nodes().count; ++i)
-      of.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-        all.insert({level.nodes().id(i), level.nodes().id(j), level.nodes().id(k)});
+    for (std::int64_t i = 0; i < level.nodes.count; ++i)
+      of.for_simplices(i, [&](const DelaunayStars::Corners& others) {
+        all.insert({level.nodes.id(i), level.nodes.id(others[0]), level.nodes.id(others[1])});
       });
     return all;
   };
-  quick_assert(triangles(*run.level, stars) == triangles(*lattice.level, lattice.level->stars()));
+  quick_assert(triangles(*run.level, stars) == triangles(*lattice.level, lattice.level->stars));
   for (const std::int32_t i : surplus) {
     ck_assert_int_eq(stars.size(i), 0);
     quick_assert(!stars.closed(i));
@@ -113,12 +112,12 @@ END_TEST
 START_TEST(neighbours_do_not_both_go) {
   const P middle = middle_of_edge({0.4, 0.5}, 0);
   LevelRun run = lattice_with({{middle[0] - kD / 6, middle[1]}, {middle[0] + kD / 6, middle[1]}});
-  DelaunayStars stars = run.level->stars();
+  DelaunayStars stars = run.level->stars;
   int few = 0;
-  for (std::int64_t i = 0; i < run.level->nodes().count; ++i)
+  for (std::int64_t i = 0; i < run.level->nodes.count; ++i)
     few += stars.closed(i) && stars.size(i) <= 4;
   ck_assert_int_eq(few, 2);
-  ck_assert_uint_eq(pnpbs::take_out_surplus_nodes(run.level->nodes(), stars).size(), 0);
+  ck_assert_uint_eq(pnpbs::take_out_surplus_nodes(run.level->nodes, stars).size(), 0);
 }
 END_TEST
 
@@ -132,15 +131,15 @@ START_TEST(good_node_with_four_neighbours_stays) {
   nodes.push_back({{1.5 * d, 1.5 * d}, 100});
   nodes.push_back({{2.5 * d, 2.5 * d}, 101});
   LevelRun run(kSquare, constant(d));
-  run.level->take(nodes, 200);
+  pnpbs::take(*run.level, nodes, 200);
   run.renew_stars();
-  DelaunayStars stars = run.level->stars();
+  DelaunayStars stars = run.level->stars;
   std::int64_t with_four = 0;
-  for (std::int64_t i = 0; i < run.level->nodes().count; ++i)
-    with_four += run.level->nodes().id(i) >= 100 && stars.size(i) == 4;
+  for (std::int64_t i = 0; i < run.level->nodes.count; ++i)
+    with_four += run.level->nodes.id(i) >= 100 && stars.size(i) == 4;
   ck_assert_uint_eq(corners, 9);
   ck_assert_int_gt(with_four, 0);
-  ck_assert_uint_eq(pnpbs::take_out_surplus_nodes(run.level->nodes(), stars).size(), 0);
+  ck_assert_uint_eq(pnpbs::take_out_surplus_nodes(run.level->nodes, stars).size(), 0);
 }
 END_TEST
 
@@ -163,13 +162,13 @@ START_TEST(bad_triangles_get_better) {
   std::uint64_t seed = 160;
   for (const Shape& shape : shapes_to_finish()) {
     LevelRun run = distorted(shape.build, shape.d, ++seed, {});
-    run.level->sweep_and_repair(3);  // so that few are bad
+    pnpbs::sweep_and_repair(*run.level, 3);  // so that few are bad
     run.renew_stars();
     const double bad = pnpbs::RepairRule{}.bad_below;
     const std::vector<Triangle> triangles = triangles_by_id(*run.level);
     const Places before = places_by_id(*run.level);
-    pnpbs::BadTriangleRepair repair(run.level->nodes(), run.level->stars(), run.level->near_edges(),
-                                    run.level->map(), bad);
+    pnpbs::BadTriangleRepair repair(run.level->nodes, run.level->stars,
+                                    run.level->neighbourhood.near_edges(), run.level->map(), bad);
     std::int64_t moved = 0;
     for (int round = 0; round < 10; ++round) moved += repair.round();
     const Places after = places_by_id(*run.level);
@@ -196,10 +195,10 @@ START_TEST(repair_leaves_the_rest_alone) {
     std::set<std::int64_t> of_bad;
     for (const Triangle& t : triangles_by_id(*run.level))
       if (shape_of(t, before) < bad + 1e-9) of_bad.insert(t.begin(), t.end());
-    pnpbs::BadTriangleRepair repair(run.level->nodes(), run.level->stars(), run.level->near_edges(),
-                                    run.level->map(), bad);
+    pnpbs::BadTriangleRepair repair(run.level->nodes, run.level->stars,
+                                    run.level->neighbourhood.near_edges(), run.level->map(), bad);
     ck_assert_int_gt(repair.round(), 0);
-    const pnpbs::Nodes<2>& nodes = run.level->nodes();
+    const pnpbs::Nodes<2>& nodes = run.level->nodes;
     for (std::int64_t i = 0; i < nodes.count; ++i) {
       if (nodes.position(i) == before.at(nodes.id(i))) continue;
       quick_assert(nodes.moves(i));
@@ -223,7 +222,7 @@ START_TEST(a_higher_bound_costs_the_worst_nothing) {
       });
       run.renew_stars();
       const std::vector<Triangle> triangles = triangles_by_id(*run.level);
-      run.level->sweep_and_repair(3);
+      pnpbs::sweep_and_repair(*run.level, 3);
       const Places places = places_by_id(*run.level);
       double least = 1;
       for (const Triangle& t : triangles)

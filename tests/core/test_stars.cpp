@@ -26,12 +26,12 @@ namespace {
 
 std::vector<Triangle> reference(const Level& level) {
   pnpbs_bench::NodeSet set;
-  for (std::int64_t i = 0; i < level.nodes().count; ++i) {
-    set.x.push_back(level.nodes().position(i));
-    set.d.push_back(level.nodes().d(i));
+  for (std::int64_t i = 0; i < level.nodes.count; ++i) {
+    set.x.push_back(level.nodes.position(i));
+    set.d.push_back(level.nodes.d(i));
   }
   const std::vector<std::int64_t> places = boundary_places(level);
-  for (const pnpbs::BoundaryEdge& e : level.boundary().edges) {
+  for (const pnpbs::BoundaryEdge& e : level.ground.boundary().edges) {
     if (e.begin == e.end) continue;
     const std::array<std::int64_t, 2> ends{places[static_cast<std::size_t>(e.begin)],
                                            places[static_cast<std::size_t>(e.end)]};
@@ -41,7 +41,7 @@ std::vector<Triangle> reference(const Level& level) {
 }
 
 int place_in_circle(const Level& level, const Triangle& t, std::int64_t d) {
-  const auto x = [&](std::int64_t i) { return level.nodes().position(i); };
+  const auto x = [&](std::int64_t i) { return level.nodes.position(i); };
   const int turn = pnpbs::orientation(x(t[0]), x(t[1]), x(t[2]));
   return turn * pnpbs::in_circle(x(t[0]), x(t[1]), x(t[2]), x(d));
 }
@@ -77,9 +77,9 @@ void expect_reference(const Level& level, const std::string& what) {
   for (const Triangle& t : ours_only) {
     quick_assert_msg(tied(level, t, theirs_only),
                      "%s: triangle (%.17g, %.17g) (%.17g, %.17g) (%.17g, %.17g) is not Delaunay",
-                     what.c_str(), level.nodes().x[0](t[0]), level.nodes().x[1](t[0]),
-                     level.nodes().x[0](t[1]), level.nodes().x[1](t[1]), level.nodes().x[0](t[2]),
-                     level.nodes().x[1](t[2]));
+                     what.c_str(), level.nodes.x[0](t[0]), level.nodes.x[1](t[0]),
+                     level.nodes.x[0](t[1]), level.nodes.x[1](t[1]), level.nodes.x[0](t[2]),
+                     level.nodes.x[1](t[2]));
   }
 }
 
@@ -87,14 +87,14 @@ void expect_reference(const Level& level, const std::string& what) {
 void expect_stars(const std::string& what, const Build& build, const Plane& d,
                   std::int64_t least_nodes = 100) {
   LevelRun run(build, d);
-  run.level->fill();
-  ck_assert_int_gt(run.level->nodes().count, least_nodes);
+  pnpbs::fill(*run.level);
+  ck_assert_int_gt(run.level->nodes.count, least_nodes);
   for (const std::int64_t until : {0, 5, 100}) {
     run.steps(until - run.steps_done);
     run.renew_stars();
     expect_reference(*run.level, what + " after " + std::to_string(until) + " steps");
   }
-  run.level->sweep_and_repair(5);
+  pnpbs::sweep_and_repair(*run.level, 5);
   run.renew_stars();
   expect_reference(*run.level, what + " after sweeps");
 }
@@ -107,7 +107,7 @@ pnpbs::GivenNodes scattered(const LevelRun& run, std::uint64_t seed, std::int64_
 }
 
 void take_all(const LevelRun& run, const pnpbs::GivenNodes& nodes) {
-  const pnpbs::TakenNodes taken = run.level->take(nodes, 0);
+  const pnpbs::TakenNodes taken = pnpbs::take(*run.level, nodes, 0);
   quick_assert_msg(taken.left_out == 0 && taken.thinned == 0, "%lld nodes left out, %lld thinned",
                    static_cast<long long>(taken.left_out), static_cast<long long>(taken.thinned));
 }
@@ -117,7 +117,7 @@ void expect_stars_of_scattered_nodes(const std::string& what, const Build& build
   std::uint64_t seed = 70;
   for (const std::int64_t n : {0, 1, 2, 5, 30, 200, 3000}) {
     LevelRun run(build, d);
-    run.level->take(scattered(run, ++seed, n), 0);
+    pnpbs::take(*run.level, scattered(run, ++seed, n), 0);
     run.renew_stars();
     expect_reference(*run.level, what + " with " + std::to_string(n) + " scattered nodes");
   }
@@ -185,8 +185,8 @@ START_TEST(flat_triangle) {
   run.renew_stars();
   expect_reference(*run.level, "strip");
   std::vector<std::int64_t> corners;
-  for (std::int64_t i = 0; i < run.level->nodes().count; ++i)
-    if (run.level->nodes().moves(i) || run.level->nodes().position(i) == P{1, 0.1})
+  for (std::int64_t i = 0; i < run.level->nodes.count; ++i)
+    if (run.level->nodes.moves(i) || run.level->nodes.position(i) == P{1, 0.1})
       corners.push_back(i);
   const std::vector<Triangle> triangles = star_triangles(*run.level);
   quick_assert(std::count(triangles.begin(), triangles.end(),
@@ -228,8 +228,8 @@ START_TEST(exact_grids) {
         for (int j = 2; j < 14; ++j) grid.push_back({{(i + 0.5) * h, (j + 0.5) * h}, -1});
       Random(71).shuffle(grid);
       take_all(run, grid);
-      run.level->rebuild_lists(radius);
-      run.level->renew_stars();
+      pnpbs::rebuild_lists(*run.level, radius);
+      pnpbs::rebuild_stars(*run.level);
       expect_reference(*run.level, "grid");
     }
   }
@@ -270,7 +270,7 @@ START_TEST(nodes_an_ulp_apart) {
       nodes.push_back({{std::nextafter(x[0], 1.0), x[1]}, -1});
       if (pair % 3 == 0) nodes.push_back({{x[0], std::nextafter(x[1], 0.0)}, -1});
     }
-    run.level->take(nodes, 0);
+    pnpbs::take(*run.level, nodes, 0);
     run.renew_stars();
     expect_reference(*run.level, "an ulp apart");
   }

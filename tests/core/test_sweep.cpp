@@ -35,7 +35,7 @@ std::int64_t spoilt(const Shape& shape, std::uint64_t seed, std::int64_t sweeps,
   LevelRun run = sweep_only(shape, seed, bad_below);
   const std::vector<Triangle> triangles = triangles_by_id(*run.level);
   const Places before = places_by_id(*run.level);
-  run.level->sweep_and_repair(sweeps);
+  pnpbs::sweep_and_repair(*run.level, sweeps);
   const Places after = places_by_id(*run.level);
   ck_assert_double_gt(mean_quality(triangles, after), mean_quality(triangles, before) + 0.002);
   return std::count_if(triangles.begin(), triangles.end(), [&](const Triangle& t) {
@@ -64,31 +64,31 @@ START_TEST(nodes_go_towards_the_mean) {
   const Plane d = constant(0.05);
   const Build square = [](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
   LevelRun fill(square, d);
-  fill.level->fill();
+  pnpbs::fill(*fill.level);
   pnpbs::GivenNodes nodes = inner_nodes_of(*fill.level);
   Random random(110);
   for (pnpbs::GivenNode& node : nodes)
     for (double& x : node.position) x += random.between(-0.04, 0.04) * 0.05;
   LevelRun run(square, d, {{"smoothing_rounds", "0"}});
-  run.level->take(nodes, 0);
+  pnpbs::take(*run.level, nodes, 0);
   run.renew_stars();
   const Level& level = *run.level;
   std::map<std::int64_t, P> expected;
-  for (std::int64_t i = 0; i < level.nodes().count; ++i) {
-    const P x = level.nodes().position(i);
-    if (level.nodes().moves(i) && level.map().clearance(x, 0.1) < 0.1) continue;
+  for (std::int64_t i = 0; i < level.nodes.count; ++i) {
+    const P x = level.nodes.position(i);
+    if (level.nodes.moves(i) && level.map().clearance(x, 0.1) < 0.1) continue;
     P mean{};
     double n = 0;
-    level.stars().for_neighbours(i, [&](std::int64_t j, bool) {
-      for (const int k : {0, 1}) mean[k] += level.nodes().x[k](j);
+    level.stars.for_neighbours(i, [&](std::int64_t j) {
+      for (const int k : {0, 1}) mean[k] += level.nodes.x[k](j);
       ++n;
     });
     P goal = x;
     for (const int k : {0, 1})
-      if (level.nodes().moves(i)) goal[k] += 0.6 * (mean[k] / n - x[k]);
-    expected[level.nodes().id(i)] = goal;
+      if (level.nodes.moves(i)) goal[k] += 0.6 * (mean[k] / n - x[k]);
+    expected[level.nodes.id(i)] = goal;
   }
-  run.level->sweep_and_repair(1);
+  pnpbs::sweep_and_repair(*run.level, 1);
   ck_assert_uint_gt(expected.size(), 300);
   const Places after = places_by_id(level);
   for (const auto& [id, goal] : expected)
@@ -103,11 +103,11 @@ START_TEST(sweeps_move_a_little_and_keep_off) {
     LevelRun run = sweep_only(shape, ++seed, 0.75);
     for (int round = 0; round < 12; ++round) {
       const Places before = places_by_id(*run.level);
-      run.level->sweep_and_repair(1);
-      for (std::int64_t i = 0; i < run.level->nodes().count; ++i) {
-        const P x = run.level->nodes().position(i), from = before.at(run.level->nodes().id(i));
-        const double d = run.level->nodes().d(i);
-        if (!run.level->nodes().moves(i) || x == from) {
+      pnpbs::sweep_and_repair(*run.level, 1);
+      for (std::int64_t i = 0; i < run.level->nodes.count; ++i) {
+        const P x = run.level->nodes.position(i), from = before.at(run.level->nodes.id(i));
+        const double d = run.level->nodes.d(i);
+        if (!run.level->nodes.moves(i) || x == from) {
           quick_assert(x == from);
           continue;
         }
@@ -124,7 +124,7 @@ END_TEST
 START_TEST(sweeping_nothing_does_nothing) {
   LevelRun run = sweep_only(shapes_to_finish()[0], 130, 0.75);
   const Places before = places_by_id(*run.level);
-  run.level->sweep_and_repair(0);
+  pnpbs::sweep_and_repair(*run.level, 0);
   quick_assert(places_by_id(*run.level) == before);
 }
 END_TEST

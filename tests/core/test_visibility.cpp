@@ -31,7 +31,7 @@ class Walls {
   // Ways from x are asked for next, none longer than this.
   void stand_at(const P& x, double longest) {
     near_.clear();
-    for (const BoundaryEdge& e : level_.boundary().edges)
+    for (const BoundaryEdge& e : level_.ground.boundary().edges)
       if (gap(at(e.begin), at(e.end), x) < longest + 2 * close_) near_.push_back(e);
   }
 
@@ -55,7 +55,7 @@ class Walls {
   }
 
  private:
-  const P& at(std::int32_t node) const { return level_.boundary().nodes[node].position; }
+  const P& at(std::int32_t node) const { return level_.ground.boundary().nodes[node].position; }
 
   static double gap(const P& a, const P& b, const P& x) {
     const double ux = b[0] - a[0], uy = b[1] - a[1], length2 = ux * ux + uy * uy;
@@ -72,7 +72,7 @@ class Walls {
 
   bool inside(const P& x) const {
     bool inside = false;
-    for (const BoundaryEdge& e : level_.boundary().edges) {
+    for (const BoundaryEdge& e : level_.ground.boundary().edges) {
       const P &a = at(e.begin), &b = at(e.end);
       if (e.left_inside != e.right_inside && (a[1] > x[1]) != (b[1] > x[1]) &&
           (pnpbs::orientation(a, b, x) > 0) == (b[1] > a[1]))
@@ -91,9 +91,9 @@ struct Pairs {
 };
 
 void expect_lists(LevelRun& run, double radius, const std::string& what, Pairs& pairs) {
-  run.level->rebuild_lists(radius);
+  pnpbs::rebuild_lists(*run.level, radius);
   const Level& level = *run.level;
-  const pnpbs::Nodes<2>& nodes = level.nodes();
+  const pnpbs::Nodes<2>& nodes = level.nodes;
   Walls walls(level);
   std::vector<char> listed(static_cast<std::size_t>(nodes.count));
   for (std::int64_t i = 0; i < nodes.count; ++i) {
@@ -123,7 +123,7 @@ void expect_lists(LevelRun& run, double radius, const std::string& what, Pairs& 
 
 Pairs expect_lists_in(const Shape& shape, const Plane& d) {
   LevelRun run(shape.build, d);
-  run.level->fill();
+  pnpbs::fill(*run.level);
   Pairs pairs;
   expect_lists(run, 1.5, shape.name, pairs);
   run.steps(10);
@@ -156,10 +156,10 @@ END_TEST
 START_TEST(ways_through_boundary_nodes) {
   const auto listed = [](const Build& build, const P& x, const P& y) {
     LevelRun run(build, constant(0.2));
-    const pnpbs::TakenNodes taken = run.level->take({{x, -1}, {y, -1}}, 0);
+    const pnpbs::TakenNodes taken = pnpbs::take(*run.level, {{x, -1}, {y, -1}}, 0);
     ck_assert_int_eq(taken.left_out, 0);
-    run.level->rebuild_lists(1.7);
-    const pnpbs::Nodes<2>& nodes = run.level->nodes();
+    pnpbs::rebuild_lists(*run.level, 1.7);
+    const pnpbs::Nodes<2>& nodes = run.level->nodes;
     bool found = false;
     for (std::int64_t i = 0; i < nodes.count; ++i)
       run.level->lists().for_neighbours(i, [&](std::int64_t j) {
@@ -201,12 +201,12 @@ END_TEST
 START_TEST(nodes_stay_off_the_boundary) {
   LevelRun run([](PlaneDomain& p) { shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1)); },
                constant(0.1), {{"event_interval", "100"}});
-  run.level->fill();
+  pnpbs::fill(*run.level);
   run.steps(1, false, false);
   const double d = 0.1, toward_wall = -1.5 * d;
   std::int64_t at_wall = 0;
   for (int step = 0; step < 60; ++step) {
-    const pnpbs::Nodes<2>& nodes = run.level->nodes();
+    const pnpbs::Nodes<2>& nodes = run.level->nodes;
     for (std::int64_t i = 0; i < nodes.count; ++i)
       if (nodes.moves(i)) nodes.v[0](i) = toward_wall;
     run.steps(1, false, false);
@@ -225,10 +225,10 @@ END_TEST
 START_TEST(changed_options_count_from_here) {
   LevelRun run([](PlaneDomain& p) { shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1)); },
                [](double x, double) { return 0.03 + 0.04 * x; }, {{"event_interval", "100"}});
-  run.level->fill();
+  pnpbs::fill(*run.level);
   run.steps(10, false, false);
   const auto away_from_anchor = [&] {
-    const pnpbs::Nodes<2>& nodes = run.level->nodes();
+    const pnpbs::Nodes<2>& nodes = run.level->nodes;
     int away = 0;
     for (std::int64_t i = 0; i < nodes.count; ++i)
       away += nodes.reference[0](i) != nodes.x[0](i) || nodes.reference[1](i) != nodes.x[1](i);

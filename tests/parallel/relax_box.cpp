@@ -54,10 +54,10 @@ PackedNode lattice_node(std::int64_t id) {
   const Point<3> site{kEdge * (static_cast<double>(cell / (kCells * kCells)) + offset),
                       kEdge * (static_cast<double>(cell / kCells % kCells) + offset),
                       kEdge * (static_cast<double>(cell % kCells) + offset)};
-  PackedNode node{id, site, {}, site, spacing(site), 0, -1};
+  PackedNode node{id, site, {}, site, spacing(site), 0, -1, pnpbs::Carrier::free};
   for (const double x : site)
-    if (x < kFixedRim || x > 1 - kFixedRim) node.boundary_node = 0;
-  if (node.boundary_node < 0)
+    if (x < kFixedRim || x > 1 - kFixedRim) node.carrier = pnpbs::Carrier::fixed;
+  if (node.carrier == pnpbs::Carrier::free)
     for (int k = 0; k < 3; ++k) node.x[static_cast<std::size_t>(k)] += node.d * jitter(id, k);
   return node;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "neighbors/rings.hpp"
 #include "quality/sweep_guard.hpp"
 
 namespace pnpbs {
@@ -45,7 +46,7 @@ double triangle_shape(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
   return std::min(quality, kAngleWeight * sine);
 }
 
-BadTriangleRepair::BadTriangleRepair(const Nodes<2>& nodes, const DelaunayStars& stars,
+BadTriangleRepair::BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars,
                                      const NearEdges& near_edges, const DomainMap& map,
                                      double bad_below)
     : nodes_(nodes), stars_(stars), near_edges_(near_edges), map_(map), bad_below_(bad_below) {
@@ -58,8 +59,8 @@ BadTriangleRepair::BadTriangleRepair(const Nodes<2>& nodes, const DelaunayStars&
 void BadTriangleRepair::find_shapes(std::int64_t i, const Point<2>& x,
                                     std::vector<double>& shapes) const {
   shapes.clear();
-  stars_.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-    shapes.push_back(triangle_shape(x, nodes_.position(j), nodes_.position(k)));
+  stars_.for_simplices(i, [&](const DelaunayStars::Corners& others) {
+    shapes.push_back(triangle_shape(x, nodes_.position(others[0]), nodes_.position(others[1])));
   });
 }
 
@@ -110,15 +111,12 @@ const BadTriangleRepair::Candidate* BadTriangleRepair::candidate_of(std::int64_t
 
 // The contest: neighbours would change each other's triangles.
 bool BadTriangleRepair::comes_first(const Candidate& candidate) const {
-  bool first = true;
-  stars_.for_neighbours(candidate.node, [&](std::int64_t j, bool) {
+  return for_rings(stars_, candidate.node, 1, [&](std::int64_t j, int) {
     const Candidate* other = candidate_of(j);
-    if (!other || !other->wants) return;
-    if (other->worst < candidate.worst ||
-        (other->worst == candidate.worst && nodes_.id(j) < nodes_.id(candidate.node)))
-      first = false;
+    if (!other || !other->wants) return true;
+    return other->worst > candidate.worst ||
+           (other->worst == candidate.worst && nodes_.id(j) > nodes_.id(candidate.node));
   });
-  return first;
 }
 
 std::int64_t BadTriangleRepair::round() {
@@ -131,6 +129,7 @@ std::int64_t BadTriangleRepair::round() {
     nodes_.set_position(candidate.node, candidate.goal);
     moved += nodes_.owned(candidate.node);
   }
+  nodes_.moved();
   return moved;
 }
 

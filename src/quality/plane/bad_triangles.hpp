@@ -28,7 +28,7 @@ double triangle_shape(const Point<2>& a, const Point<2>& b, const Point<2>& c);
 class BadTriangleRepair {
  public:
   // Finds the nodes of bad triangles.
-  BadTriangleRepair(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
+  BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
                     const DomainMap& map, double bad_below);
 
   // Moves the nodes of bad triangles, of neighbours only the one with the worst. Returns how many
@@ -51,7 +51,7 @@ class BadTriangleRepair {
   const Candidate* candidate_of(std::int64_t i) const;
   bool comes_first(const Candidate& candidate) const;
 
-  const Nodes<2>& nodes_;
+  Nodes<2>& nodes_;
   const DelaunayStars& stars_;
   const NearEdges& near_edges_;
   const DomainMap& map_;

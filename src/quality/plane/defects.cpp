@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "neighbors/rings.hpp"
 #include "quality/triangle_quality.hpp"
 
 namespace pnpbs {
@@ -52,7 +53,7 @@ template <class Visit>
 void for_alike(const DefectInput& in, std::int64_t i, const Visit& visit) {
   const std::int32_t n = in.stars.size(i);
   if (n != 5 && n != 7) return;
-  in.stars.for_neighbours(i, [&](std::int64_t j, bool) {
+  in.stars.for_neighbours(i, [&](std::int64_t j) {
     if (in.nodes.id(j) > in.nodes.id(i) && is_inner(in, j) && in.stars.size(j) == n) visit(j);
   });
 }
@@ -65,7 +66,8 @@ void for_bad_triangles(const DefectInput& in, std::int64_t i, const Visit& visit
   const auto after_i = [&](std::int64_t j) {
     return in.nodes.id(j) > in.nodes.id(i) || !is_inner(in, j);
   };
-  in.stars.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
+  in.stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
+    const std::int64_t j = others[0], k = others[1];
     if (after_i(j) && after_i(k) &&
         triangle_quality(x, in.nodes.position(j), in.nodes.position(k)) < in.bad_below)
       visit(j, k);
@@ -85,8 +87,9 @@ bool is_defect(const DefectInput& in, std::int64_t i) {
 double severity_of(const DefectInput& in, std::int64_t i) {
   const Point<2> x = in.nodes.position(i);
   std::vector<double> terms;
-  in.stars.for_triangles(i, [&](std::int64_t j, std::int64_t k) {
-    const double lack = 1 - triangle_quality(x, in.nodes.position(j), in.nodes.position(k));
+  in.stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
+    const double lack =
+        1 - triangle_quality(x, in.nodes.position(others[0]), in.nodes.position(others[1]));
     terms.push_back(lack * lack);
   });
   std::sort(terms.begin(), terms.end());
@@ -115,10 +118,9 @@ const Defect* defect_at(const std::vector<Defect>& defects, std::int64_t i) {
 template <class Ahead>
 bool leads(const DefectInput& in, const std::vector<Defect>& defects, const Defect& defect,
            int rings, const Ahead& ahead) {
-  const std::vector<std::int64_t> around = rings_around(in.stars, defect.node, rings);
-  return std::none_of(around.begin(), around.end(), [&](std::int64_t i) {
+  return for_rings(in.stars, defect.node, rings, [&](std::int64_t i, int) {
     const Defect* other = defect_at(defects, i);
-    return other && std::invoke(ahead, *other, defect);
+    return !other || !std::invoke(ahead, *other, defect);
   });
 }
 
@@ -174,7 +176,7 @@ class Trial {
 
   // Those with five neighbours.
   void neighbours_may_be_surplus(std::int64_t i) {
-    in_.stars.for_neighbours(i, [&](std::int64_t j, bool) {
+    in_.stars.for_neighbours(i, [&](std::int64_t j) {
       if (in_.stars.size(j) == 5) may_be_surplus(j);
     });
   }

@@ -3,29 +3,17 @@
 
 #include <algorithm>
 
-namespace pnpbs {
+#include "neighbors/rings.hpp"
 
-std::vector<std::int64_t> rings_around(const DelaunayStars& stars, std::int64_t centre, int rings) {
-  std::vector<std::int64_t> reached{centre};
-  std::size_t begin = 0;
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t end = reached.size();
-    for (std::size_t k = begin; k < end; ++k)
-      stars.for_neighbours(reached[k], [&](std::int64_t j, bool) {
-        if (std::find(reached.begin(), reached.end(), j) == reached.end()) reached.push_back(j);
-      });
-    begin = end;
-  }
-  return reached;
-}
+namespace pnpbs {
 
 bool StarPatch::cut_out(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t centre) {
   members_.clear();
-  const std::size_t inside = rings_around(stars, centre, kRings - 1).size();
-  for (const std::int64_t i : rings_around(stars, centre, kRings)) {
-    members_.push_back({nodes.id(i), i, members_.size() < inside});
-    if (members_.back().inside && stars.needs(i) != 0) return false;
-  }
+  const auto add = [&](std::int64_t i, int ring) {
+    members_.push_back({nodes.id(i), i, ring < kRings});
+    return ring == kRings || stars.needs(i) == 0;
+  };
+  if (!add(centre, 0) || !for_rings(stars, centre, kRings, add)) return false;
   std::sort(members_.begin(), members_.end(),
             [](const Member& a, const Member& b) { return a.id < b.id; });
   mesh_.clear();
@@ -53,8 +41,8 @@ void StarPatch::add_triangles(const Nodes<2>& nodes, const DelaunayStars& stars)
     const auto first_from_a = [&](std::int32_t place) {
       return place > a || !members_[static_cast<std::size_t>(place)].inside;
     };
-    stars.for_triangles(member.node, [&](std::int64_t j, std::int64_t k) {
-      const std::int32_t b = place_of(nodes.id(j)), c = place_of(nodes.id(k));
+    stars.for_simplices(member.node, [&](const DelaunayStars::Corners& others) {
+      const std::int32_t b = place_of(nodes.id(others[0])), c = place_of(nodes.id(others[1]));
       if (first_from_a(b) && first_from_a(c)) triangles.push_back({a, b, c});
     });
   }

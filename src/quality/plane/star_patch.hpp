@@ -12,9 +12,6 @@
 
 namespace pnpbs {
 
-// The nodes up to so many rings around one, itself included, those nearer first.
-std::vector<std::int64_t> rings_around(const DelaunayStars& stars, std::int64_t centre, int rings);
-
 class StarPatch {
  public:
   static constexpr int kRings = 4;  // those of the last one stay where they are

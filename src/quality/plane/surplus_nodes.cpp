@@ -22,7 +22,7 @@ struct Ring {
 
 Ring ring_around(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i) {
   Ring ring;
-  stars.for_neighbours(i, [&](std::int64_t j, bool) { ring.node[ring.size++] = j; });
+  stars.for_neighbours_in_order(i, [&](std::int64_t j, bool) { ring.node[ring.size++] = j; });
   const auto begin = ring.node.begin(), end = begin + ring.size;
   std::rotate(
       begin,

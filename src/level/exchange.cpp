@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/exchange.hpp"
+
+#include "comm/records.hpp"
+#include "level/reach.hpp"
+
+namespace pnpbs {
+
+void exchange(Level& level, int hops) {
+  if (!level.distributed()) return;
+  // Deeper than was asked for so far.
+  if (hops + 2 > level.tree->hops())
+    level.adopt_partition(level.tree->distribution().without_leaves());
+  const PhaseTimer timer(level.timers, Phase::exchange);
+  level.ghosts.exchange(*level.comm, *level.tree, level.settings, hops, level.nodes,
+                        level.neighbourhood);
+}
+
+void exchange_for_steps(Level& level, std::exception_ptr& failure) {
+  if (!level.distributed()) return;
+  const int hops = step_hops(level.settings);
+  if (!level.ghosts.can_stay(level.settings, hops)) {
+    agree_on_failure(*level.comm, failure);
+    exchange(level, hops);
+  } else {
+    update_ghosts(level);
+    level.neighbourhood.measure_displacement(level.nodes);
+  }
+}
+
+void update_ghosts(Level& level) {
+  if (!level.distributed()) return;
+  const PhaseTimer timer(level.timers, Phase::exchange);
+  level.ghosts.update(*level.comm, level.nodes);
+}
+
+void scatter_to_owners(const Level& level, GivenNodes& given) {
+  if (!level.distributed()) return;
+  const auto owner_of = [&](const GivenNode& node) { return level.tree->owner_at(node.position); };
+  const View<std::int32_t> owner =
+      make_view<std::int32_t>("pnpbs::owner", static_cast<std::int64_t>(given.size()));
+  for_each("pnpbs::find_owners", static_cast<std::int64_t>(given.size()),
+           [&](std::int64_t k) { owner(k) = owner_of(given[static_cast<std::size_t>(k)]); });
+  std::vector<GivenNode> leaving;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    if (owner(k) == level.comm->rank())
+      given[kept++] = given[k];
+    else
+      leaving.push_back(given[k]);
+  }
+  given.resize(kept);
+  const std::vector<GivenNode> arrived = redistribute<GivenNode>(*level.comm, leaving, owner_of);
+  given.insert(given.end(), arrived.begin(), arrived.end());
+}
+
+GivenNodes owned_nodes(const Level& level) {
+  const Nodes<2>& nodes = level.nodes;
+  GivenNodes owned;
+  owned.reserve(static_cast<std::size_t>(level.owned_count()));
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (nodes.owned(i))
+      owned.push_back({nodes.position(i), nodes.id(i), nodes.moves(i), -1, nodes.d(i)});
+  return owned;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When nodes of a level travel between ranks. With one rank nothing happens.
+#pragma once
+
+#include <exception>
+
+#include "initial/given_nodes.hpp"
+#include "level/level.hpp"
+
+namespace pnpbs {
+
+// Owned nodes to their owners, and ghosts chosen anew, so many hops deep. Where ranks can agree: on
+// the halo before it, which a first use has to find, and that it went well.
+void exchange(Level& level, int hops);
+// For the steps until the next exchange: at the beginning of a row of steps, and once in a while
+// within it. Between agreements only positions and velocities travel, in buffers that are there: a
+// rank that has failed meanwhile sends what it has. Where ranks agree a failure of this rank so far
+// is reported.
+void exchange_for_steps(Level& level, std::exception_ptr& failure);
+// The ghosts there are become exact again.
+void update_ghosts(Level& level);
+
+// Every node to the rank that owns its place, from wherever it is; most are there already.
+void scatter_to_owners(const Level& level, GivenNodes& given);
+GivenNodes owned_nodes(const Level& level);
+
+}  // namespace pnpbs

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/expected_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/lattice.hpp"
+
+namespace pnpbs {
+
+// Of the leaves that the boundary crosses we know only what the domain's area leaves for all of
+// them.
+std::vector<double> wanted_nodes(const Level& level) {
+  const DomainMap& map = level.map();
+  const BackgroundTree<2>& tree = map.tree();
+  std::uint64_t inside = 0, crossed = 0;  // areas
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
+    if (level.tree->owns(leaf) && !map.leaf_outside(leaf))
+      (map.leaf_has_edges(leaf) ? crossed : inside) += map.leaf_size(leaf);
+  const double unit = std::pow(std::ldexp(tree.side(), -DomainMap::kMaxDepth), 2);
+  const double area_inside = unit * static_cast<double>(level.comm->allreduce_sum(inside)),
+               area_crossed = unit * static_cast<double>(level.comm->allreduce_sum(crossed));
+  const double share =
+      area_crossed > 0
+          ? std::clamp((level.ground.domain().area() - area_inside) / area_crossed, 0.0, 1.0)
+          : 0;
+  std::vector<double> wanted;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    const double d = map.leaf_spacing(leaf), side = tree.cell_side(tree.leaf_cell(leaf));
+    const double part = !level.tree->owns(leaf) || map.leaf_outside(leaf) ? 0
+                        : map.leaf_has_edges(leaf)                        ? share
+                                                                          : 1;
+    wanted.push_back(part > 0 ? part * Lattice<2>::kDensity * side * side / (d * d) : 0);
+  }
+  return wanted;
+}
+
+double expected_nodes(const Level& level) {
+  std::int64_t nodes = 0;
+  for (double wanted : wanted_nodes(level)) nodes += fixed_point(wanted);
+  return from_fixed_point(level.comm->allreduce_sum(static_cast<std::uint64_t>(nodes)));
+}
+
+SpacingVariation spacing_variation(const Level& level) {
+  const DomainMap& map = level.map();
+  constexpr double kBetweenSamples = 0.7;  // the farthest of a leaf, in units of its side
+  SpacingVariation own;
+  for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
+    if (!level.tree->owns(leaf) || map.leaf_outside(leaf)) continue;
+    const double least = map.leaf_least_spacing(leaf), largest = map.leaf_largest_spacing(leaf);
+    // Next to the boundary the samples may be those of the cell above.
+    const double cell = map.tree().cell_side(map.tree().leaf_cell(leaf)),
+                 way = kBetweenSamples * (map.leaf_has_edges(leaf) ? 2 * cell : cell);
+    own.least = std::min(own.least, least);
+    own.largest = std::max(own.largest, largest);
+    own.steepest = std::max(own.steepest, (largest - least) / way);
+  }
+  return {-level.comm->allreduce_max(-own.least), level.comm->allreduce_max(own.largest),
+          level.comm->allreduce_max(own.steepest)};
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finishing a level on the Delaunay stars: sweeps, and the repair of bad triangles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "level/level.hpp"
+#include "level/population_events.hpp"
+#include "quality/element_quality.hpp"
+
+namespace pnpbs {
+
+struct FinishResults {
+  PopulationCounts counts;           // of this rank
+  std::vector<EdgeBand> edge_bands;  // edge length over d, of all ranks, with d from before
+};
+
+// So many sweeps, and the repair of bad triangles if the settings ask for it. Collective.
+FinishResults sweep_and_repair(Level& level, std::int64_t sweeps);
+
+// Lists for that, of the present positions. Collective.
+void prepare_finish(Level& level);
+
+}  // namespace pnpbs

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The background tree of a level and its partition: who owns which cells, and the tree refined on
+// this rank wherever its own nodes and ghosts can be. Another partition is another tree.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "comm/communicator.hpp"
+#include "domain/domain_map.hpp"
+#include "level/ground.hpp"
+#include "partition/distribution.hpp"
+#include "settings/settings.hpp"
+#include "tree/leaf_graph.hpp"
+
+namespace pnpbs {
+
+class LevelTree {
+ public:
+  // Partitioned by the work that d asks for or, where that balances it, as another level is whose
+  // spacing is a multiple of this one's. Collective.
+  static std::unique_ptr<LevelTree> grow(const Communicator& comm, const Ground& ground,
+                                         const Settings& settings, const LevelTree* like);
+  // For these cells and owners. Collective.
+  static std::unique_ptr<LevelTree> grow(const Communicator& comm, const Ground& ground,
+                                         const Settings& settings, Distribution<2> distribution);
+  LevelTree(const LevelTree&) = delete;  // the distribution points to the tree
+  LevelTree& operator=(const LevelTree&) = delete;
+
+  const DomainMap& map() const { return map_; }
+  const BackgroundTree<2>& tree() const { return map_.tree(); }
+  // Leaves of which one reaches the other.
+  const std::shared_ptr<const LeafLinks<2>>& links() const { return links_; }
+  const Distribution<2>& distribution() const { return distribution_; }
+  bool owns(std::int32_t leaf) const { return distribution_.owns(leaf); }
+  // Rank that owns what is there.
+  int owner_at(const Point<2>& x) const { return distributed() ? distribution_.owner_at(x) : 0; }
+  // Refined so far around the leaves that this rank owns.
+  int hops() const { return hops_; }
+  void forget_hops() { hops_ = 0; }  // the next exchange grows another tree
+  // Made on first use, and kept.
+  const Halo& halo(int hops, const Settings& settings);
+
+  // Another partition, by the work counted in each leaf of ours; most of it stays where it is.
+  // Collective.
+  Distribution<2> redistributed(const Settings& settings,
+                                const std::vector<std::int64_t>& work) const;
+
+ private:
+  LevelTree(const Communicator& comm, const Ground& ground) : comm_(comm), ground_(ground) {}
+  bool distributed() const { return comm_.size() > 1; }
+
+  // --- growing ---
+  void grow_whole(const Settings& settings);
+  void grow_part(const Settings& settings, const LevelTree* like);
+  void refine(const Settings& settings, const std::vector<char>& refined);
+  void link_leaves(const Settings& settings);
+  void grow_own_part(const Settings& settings);
+
+  // --- the partition ---
+  void take_rough_cells(const Settings& settings);
+  std::vector<PartitionCell<2>> rough_cells(const Settings& settings);
+  std::vector<std::int64_t> expected_work() const;
+  PartitionCells<2> cells_of_equal_work(const std::vector<std::int64_t>& work) const;
+  std::vector<std::int32_t> cut_on_first_rank(const Settings& settings,
+                                              const PartitionCells<2>& cells) const;
+  std::vector<std::int32_t> cut_like(const Settings& settings, const Distribution<2>& other,
+                                     const PartitionCells<2>& cells) const;
+  std::vector<std::int32_t> keep_numbers(const PartitionCells<2>& cells,
+                                         std::vector<std::int32_t> part,
+                                         const std::vector<std::int64_t>& work) const;
+  void require_same_ground() const;
+  void require_same_leaves() const;
+
+  const Communicator& comm_;
+  const Ground& ground_;
+  DomainMap map_;
+  std::shared_ptr<const LeafLinks<2>> links_;
+  Distribution<2> distribution_;
+  int hops_ = 0;
+};
+
+}  // namespace pnpbs

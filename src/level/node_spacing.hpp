@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// d at the nodes of a level.
+#pragma once
+
+#include "level/level.hpp"
+
+namespace pnpbs {
+
+// Of any spacing, at the places of the nodes; what is at those of ghosts means nothing. Collective.
+View<double> spacing_at_owned_nodes(const Level& level, const Spacing<2>& spacing);
+
+// An event: d at the owned nodes becomes what the spacing is there, and visibility is judged from
+// where nodes are now. Ghosts get theirs with the next exchange. Collective.
+void refresh_spacing(Level& level);
+
+}  // namespace pnpbs

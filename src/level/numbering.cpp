@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/numbering.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/counting_sort.hpp"
+#include "level/exchange.hpp"
+#include "level/node_spacing.hpp"
+#include "level/reach.hpp"
+
+namespace pnpbs {
+
+void find_leaves(const Level& level, GivenNodes& given) {
+  for_each("pnpbs::find_leaves", static_cast<std::int64_t>(given.size()), [&](std::int64_t k) {
+    GivenNode& node = given[static_cast<std::size_t>(k)];
+    node.leaf = node.inner ? level.tree->tree().leaf_at(node.position) : -1;
+  });
+}
+
+std::vector<std::int32_t> sort_by_place(const Level& level, GivenNodes& given) {
+  const std::int32_t leaves = level.tree->tree().leaf_count();
+  const auto leaf_of = [&](std::int64_t k) { return given[static_cast<std::size_t>(k)].leaf; };
+  CountingSort by_leaf(static_cast<std::int64_t>(given.size()), leaves, leaf_of);
+  std::vector<std::int32_t> begin = by_leaf.start();
+  GivenNodes sorted(static_cast<std::size_t>(begin.back()));
+  by_leaf.for_places(leaf_of, [&](std::int64_t k, std::int32_t place) {
+    sorted[static_cast<std::size_t>(place)] = given[static_cast<std::size_t>(k)];
+  });
+  given = std::move(sorted);
+  for_each("pnpbs::sort_by_place", leaves, [&](std::int64_t leaf) {
+    const auto at = static_cast<std::size_t>(leaf);
+    std::sort(given.begin() + begin[at], given.begin() + begin[at + 1],
+              [](const GivenNode& a, const GivenNode& b) {
+                return std::tie(a.position[1], a.position[0], a.id, a.d) <
+                       std::tie(b.position[1], b.position[0], b.id, b.d);
+              });
+  });
+  return begin;
+}
+
+namespace {
+
+struct LeafNode {
+  std::int32_t leaf, node;  // of the boundary
+};
+
+// Boundary and inner nodes, both sorted by leaf, as they follow each other: leaf by leaf, boundary
+// nodes first. All threads walk along them, each in its own blocks of leaves.
+class LeafBlocks {
+ public:
+  LeafBlocks(std::int32_t leaves, const std::vector<LeafNode>& boundary, const GivenNodes& inner)
+      : leaves_(leaves), boundary_(boundary), inner_(inner) {}
+
+  // Calls of_boundary(place, node) or of_inner(place, node) for every node.
+  template <class OfBoundary, class OfInner>
+  void for_each_node(const OfBoundary& of_boundary, const OfInner& of_inner) const {
+    constexpr std::int32_t kBlock = 256;
+    for_each("pnpbs::LeafBlocks", (leaves_ + kBlock - 1) / kBlock, [&](std::int64_t block) {
+      const auto first = static_cast<std::int32_t>(block) * kBlock;
+      const auto before = [](const auto& node, std::int32_t leaf) { return node.leaf < leaf; };
+      const auto place_of = [&](const auto& nodes) {
+        return static_cast<std::size_t>(
+            std::lower_bound(nodes.begin(), nodes.end(), first, before) - nodes.begin());
+      };
+      std::size_t b = place_of(boundary_), k = place_of(inner_);
+      for (std::int32_t leaf = first; leaf < std::min(first + kBlock, leaves_); ++leaf) {
+        for (; b < boundary_.size() && boundary_[b].leaf == leaf; ++b)
+          of_boundary(b + k, boundary_[b]);
+        for (; k < inner_.size() && inner_[k].leaf == leaf; ++k) of_inner(b + k, inner_[k]);
+      }
+    });
+  }
+
+ private:
+  std::int32_t leaves_;
+  const std::vector<LeafNode>& boundary_;
+  const GivenNodes& inner_;
+};
+
+// Nodes in one place would never part: the first of them counts. They are sorted by place.
+void leave_out_coinciding(GivenNodes& inner) {
+  const auto same_place = [](const GivenNode& a, const GivenNode& b) {
+    return a.position == b.position;
+  };
+  const std::int64_t pairs = std::max<std::int64_t>(1, static_cast<std::int64_t>(inner.size())) - 1;
+  const std::uint64_t coinciding = sum_of("pnpbs::coinciding", pairs, [&](std::int64_t n) {
+    const auto k = static_cast<std::size_t>(n);
+    return same_place(inner[k], inner[k + 1]);
+  });
+  if (coinciding > 0) inner.erase(std::unique(inner.begin(), inner.end(), same_place), inner.end());
+}
+
+// Those that this rank owns, by leaf.
+std::vector<LeafNode> own_boundary_nodes(const Level& level) {
+  std::vector<LeafNode> own;
+  const std::vector<BoundaryNode>& laid = level.ground.boundary().nodes;
+  for (std::size_t b = 0; b < laid.size(); ++b) {
+    const std::int32_t leaf = level.tree->tree().leaf_at(laid[b].position);
+    if (level.tree->owns(leaf)) own.push_back({leaf, static_cast<std::int32_t>(b)});
+  }
+  std::sort(own.begin(), own.end(), [](const LeafNode& a, const LeafNode& b) {
+    return std::tie(a.leaf, a.node) < std::tie(b.leaf, b.node);
+  });
+  return own;
+}
+
+// An id larger than all there are.
+std::int64_t next_id_after(const Level& level, const GivenNodes& inner) {
+  const double max_id = largest_of(
+      "pnpbs::max_id", static_cast<std::int64_t>(inner.size()),
+      static_cast<double>(level.next_id - 1),
+      [&](std::int64_t k) { return static_cast<double>(inner[static_cast<std::size_t>(k)].id); });
+  return static_cast<std::int64_t>(level.comm->allreduce_max(max_id)) + 1;
+}
+
+// By leaf: the ids for those without one. Moves level.next_id on.
+template <class BoundaryId>
+std::vector<std::int64_t> new_ids(Level& level, const LeafBlocks& blocks,
+                                  const BoundaryId& boundary_id) {
+  std::vector<std::int64_t> next(static_cast<std::size_t>(level.tree->tree().leaf_count()), 0);
+  blocks.for_each_node(
+      [&](std::size_t, const LeafNode& node) {
+        next[static_cast<std::size_t>(node.leaf)] += boundary_id(node) < 0;
+      },
+      [&](std::size_t, const GivenNode& node) {
+        next[static_cast<std::size_t>(node.leaf)] += node.id < 0;
+      });
+  return level.tree->distribution().prefix_sums(*level.comm, std::move(next), level.next_id);
+}
+
+}  // namespace
+
+// New ids go by bucket in Morton order, boundary nodes first, then by place, so that the order of
+// ids is nearly the order in memory.
+void number_and_store(Level& level, GivenNodes inner, std::vector<std::int64_t> boundary_ids) {
+  const std::vector<BoundaryNode>& laid = level.ground.boundary().nodes;
+  boundary_ids.resize(laid.size(), -1);
+  leave_out_coinciding(inner);
+  level.next_id = next_id_after(level, inner);
+  const std::vector<LeafNode> own_boundary = own_boundary_nodes(level);
+  const LeafBlocks blocks(level.tree->tree().leaf_count(), own_boundary, inner);
+  const auto boundary_id = [&](const LeafNode& node) {
+    return boundary_ids[static_cast<std::size_t>(node.node)];
+  };
+  std::vector<std::int64_t> next = new_ids(level, blocks, boundary_id);
+  const auto number = [&](std::int64_t id, std::int32_t leaf) {
+    return id >= 0 ? id : next[static_cast<std::size_t>(leaf)]++;
+  };
+  const auto count = static_cast<std::int64_t>(own_boundary.size() + inner.size());
+  Nodes<2>& nodes = level.nodes;
+  // Room for births and, over several ranks, for ghosts.
+  nodes.reset(count, count + count / (level.distributed() ? 16 : 64) + 64);
+  const View<std::int32_t> bucket = level.neighbourhood.buckets_of_new(nodes);
+  blocks.for_each_node(
+      [&](std::size_t place, const LeafNode& node) {
+        const auto i = static_cast<std::int64_t>(place);
+        const BoundaryNode& at = laid[static_cast<std::size_t>(node.node)];
+        nodes.put(i, at.position, 1, number(boundary_id(node), node.leaf), at.tag, Carrier::fixed,
+                  node.node);
+        bucket(i) = node.leaf;
+      },
+      [&](std::size_t place, const GivenNode& node) {
+        const auto i = static_cast<std::int64_t>(place);
+        nodes.put(i, node.position, 1, number(node.id, node.leaf), 0, Carrier::free, -1);
+        bucket(i) = node.leaf;
+      });
+  refresh_spacing(level);
+  exchange(level, step_hops(level.settings));
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The population of a level changes (section 2.4): bubbles are inserted and deleted.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "level/level.hpp"
+#include "population/population.hpp"
+
+namespace pnpbs {
+
+struct PopulationCounts {
+  std::int64_t inserted = 0;
+  std::int64_t deleted = 0;
+};
+
+// By the thresholds of the settings and, where the mean distance is off by more than the tolerance,
+// by those that it asks for. Counts are of this rank. Collective.
+PopulationCounts adjust_population(Level& level, double tolerance = kMeanTolerance);
+// Deletes and inserts where defects of the Delaunay stars are repaired by it. Collective.
+PopulationCounts repair_defects(Level& level);
+
+// Of this rank, ghosts among them; in the order of memory.
+void delete_nodes(Level& level, const std::vector<std::int32_t>& deleted);
+
+}  // namespace pnpbs

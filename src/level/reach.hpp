@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far a level looks, by its settings: the radii of lists and edges, in units of d, and the hops
+// of the leaf graph that ghosts must reach.
+#pragma once
+
+#include <cstdint>
+
+#include "settings/settings.hpp"
+
+namespace pnpbs {
+
+// In hops of the lists: a candidate is judged by its list, looks two hops far for room, and may
+// not act if a stronger one is within three. A hop of the leaf graph is the longer one.
+inline constexpr int kPopulationHops = 6;
+// For the stars of our nodes and their neighbours, and for lists of any radius, where d is even;
+// what they need farther away is asked for.
+inline constexpr int kStarHops = 3;
+// The same for the stars that sweeps and repairs look at, some neighbours farther away.
+inline constexpr int kRepairHops = 4;
+
+// The larger one of the lists' radius and of that of the adjacency lists.
+double widest_radius(const Settings& settings);
+// Nodes this near to an edge may come within its clearance until the next event.
+double meeting_radius(const Settings& settings);
+// Edges this near to a node are known.
+double edge_radius(const Settings& settings);
+
+// Steps after which ghosts are chosen anew, because nodes drift.
+std::int64_t ghost_life(const Settings& settings);
+// How many hops ghosts must reach for owned nodes to stay exact over so many force evaluations.
+int hops_for(const Settings& settings, std::int64_t evaluations);
+int step_hops(const Settings& settings);         // for the steps until the next exchange
+int runge_kutta_hops(const Settings& settings);  // for the stages of one step
+int deepest_hops(const Settings& settings);      // for anything; the tree is refined so far
+
+}  // namespace pnpbs

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The time integration of a level (section 2.2): one step of the equation of motion, after which
+// inner nodes are held off the boundary.
+#pragma once
+
+#include "dynamics/schemes.hpp"
+#include "level/level_tree.hpp"
+#include "level/neighbourhood.hpp"
+#include "settings/settings.hpp"
+
+namespace pnpbs {
+
+class TimeIntegration {
+ public:
+  // By the scheme of the settings. Lists must be made for it.
+  void step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+            const Settings& settings);
+  // One of the classical fourth order, the paper's last.
+  void runge_kutta_step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+                        const Settings& settings);
+
+  // Room for other positions of the nodes, padded as theirs are.
+  const Field<2>& scratch(const Nodes<2>& nodes);
+
+ private:
+  enum class Scheme { damped, predictor_corrector, runge_kutta };
+  void step(Scheme scheme, Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+            const Settings& settings);
+  template <class Law>
+  void move_by(const Law& law, Scheme scheme, Nodes<2>& nodes, const AdjacencyList<2>& lists,
+               const Settings& settings);
+  void accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+              const Settings& settings);
+  void hold_off_boundary(std::int64_t i, const Nodes<2>& nodes, const NearEdges& near_edges,
+                         const DomainMap& map, const Settings& settings) const;
+
+  Field<2> next_;  // positions after the step in progress
+  Stages<2> stages_;
+  View<double> squares_;  // of the largest displacement in each chunk of nodes
+};
+
+}  // namespace pnpbs

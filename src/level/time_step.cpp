@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/time_step.hpp"
+
+#include "level/exchange.hpp"
+#include "level/lists_and_stars.hpp"
+#include "level/reach.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+void count_step(Level& level) {
+  level.nodes.moved();
+  level.ghosts.count_step();
+}
+
+}  // namespace
+
+void step(Level& level, std::exception_ptr& failure) {
+  attempt(failure, [&] {
+    if (level.neighbourhood.needs_rebuild(level.nodes, level.settings))
+      rebuild_lists_for_steps(level);
+    const PhaseTimer timer(level.timers, Phase::motion);
+    level.time_integration.step(level.nodes, level.neighbourhood, level.map(), level.settings);
+  });
+  count_step(level);
+}
+
+void finish_by_runge_kutta(Level& level) {
+  exchange(level, runge_kutta_hops(level.settings));
+  agreed(*level.comm, [&] {
+    rebuild_lists_for_steps(level);
+    const PhaseTimer timer(level.timers, Phase::motion);
+    level.time_integration.runge_kutta_step(level.nodes, level.neighbourhood, level.map(),
+                                            level.settings);
+  });
+  count_step(level);
+}
+
+}  // namespace pnpbs

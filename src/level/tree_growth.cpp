@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the tree of a level grows: the same everywhere on one rank, and over several in full only
+// where a rank's own nodes and ghosts can be.
+#include "base/error.hpp"
+#include "base/mixed_hash.hpp"
+#include "comm/records.hpp"
+#include "level/level_tree.hpp"
+#include "level/reach.hpp"
+
+namespace pnpbs {
+
+std::unique_ptr<LevelTree> LevelTree::grow(const Communicator& comm, const Ground& ground,
+                                           const Settings& settings, const LevelTree* like) {
+  std::unique_ptr<LevelTree> tree(new LevelTree(comm, ground));
+  if (comm.size() == 1)
+    tree->grow_whole(settings);
+  else
+    tree->grow_part(settings, like);
+  return tree;
+}
+
+std::unique_ptr<LevelTree> LevelTree::grow(const Communicator& comm, const Ground& ground,
+                                           const Settings& settings, Distribution<2> distribution) {
+  std::unique_ptr<LevelTree> tree(new LevelTree(comm, ground));
+  tree->distribution_ = std::move(distribution);
+  tree->grow_own_part(settings);
+  return tree;
+}
+
+void LevelTree::grow_whole(const Settings& settings) {
+  map_.build(ground_.domain().bounds(), ground_.boundary(), ground_.evaluator(),
+             settings.node_limit());
+  link_leaves(settings);
+}
+
+// First roughly; then what lies in each part is known, and is cut again.
+void LevelTree::grow_part(const Settings& settings, const LevelTree* like) {
+  if (like)
+    distribution_ = like->distribution_.without_leaves();
+  else
+    take_rough_cells(settings);
+  require_same_ground();
+  std::vector<char> own;
+  for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
+    own.push_back(distribution_.owner_of_cell(c) == comm_.rank());
+  refine(settings, own);
+  PartitionCells<2> cells = cells_of_equal_work(expected_work());
+  std::vector<std::int32_t> owner =
+      like ? cut_like(settings, like->distribution_, cells) : cut_on_first_rank(settings, cells);
+  distribution_ = Distribution<2>(std::move(cells), std::move(owner), comm_.rank());
+  grow_own_part(settings);
+}
+
+// The tree in full in the cells marked.
+void LevelTree::refine(const Settings& settings, const std::vector<char>& refined) {
+  const BackgroundTree<2>& cells = distribution_.cells().tree();
+  map_.build_part(comm_, ground_.domain().bounds(), ground_.boundary(), ground_.evaluator(),
+                  settings.node_limit(),
+                  [&](const BackgroundTree<2>& tree, std::int32_t c, double) {
+                    const BackgroundTree<2>::Cell& in =
+                        cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
+                    return in.first_child >= 0 || refined[static_cast<std::size_t>(in.leaf)];
+                  });
+  distribution_.take_leaves(&map_.tree(), refined);
+}
+
+void LevelTree::link_leaves(const Settings& settings) {
+  std::vector<double> reach;
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    const double d = !distributed() || distribution_.refined(leaf)
+                         ? map_.leaf_largest_spacing(leaf)
+                         : distribution_.cells().largest_spacing(distribution_.cell_of(leaf));
+    reach.push_back(map_.leaf_outside(leaf) ? 0 : kRoomForGrowth * widest_radius(settings) * d);
+  }
+  links_ = std::make_shared<const LeafLinks<2>>(map_.tree(), std::move(reach));
+}
+
+// In full wherever own nodes and ghosts can be. What is within the hops is known only once it is
+// there: more is refined until nothing is missing.
+void LevelTree::grow_own_part(const Settings& settings) {
+  const int hops = deepest_hops(settings);
+  std::vector<char> refined =
+      distribution_.cells_near_own(hops, kRoomForGrowth * widest_radius(settings));
+  for (bool missing = true; missing;) {
+    refine(settings, refined);
+    link_leaves(settings);
+    distribution_.link_leaves(links_);
+    const std::vector<std::int32_t> more = distribution_.unrefined_within(hops);
+    for (std::int32_t cell : more) refined[static_cast<std::size_t>(cell)] = 1;
+    missing = comm_.allreduce_max(!more.empty()) > 0;
+  }
+  require_same_leaves();
+  hops_ = hops;
+}
+
+namespace {
+
+constexpr const char* kSpacingsDiffer =
+    "the spacing (or a curve given by a callback) differs between ranks: every rank gives the same "
+    "function of the point";
+
+}  // namespace
+
+// Ranks whose callbacks tell different things would wait for each other for ever.
+void LevelTree::require_same_ground() const {
+  const PartitionCells<2>& cells = distribution_.cells();
+  std::uint64_t fingerprint = 0;
+  for (const BoundaryNode& node : ground_.boundary().nodes)
+    for (double coordinate : node.position) fingerprint = mixed_with(fingerprint, coordinate);
+  for (std::int32_t c = 0; c < cells.count(); ++c)
+    fingerprint = mixed_with(fingerprint, cells.largest_spacing(c));
+  if (!comm_.same_on_all(fingerprint)) throw Error(ErrorKind::spacing, kSpacingsDiffer);
+}
+
+// The same, once the leaves are there: what each rank finds in cells of others must be what their
+// owners find.
+void LevelTree::require_same_leaves() const {
+  std::vector<std::uint64_t> found(static_cast<std::size_t>(distribution_.cells().count()), 0);
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    std::uint64_t& cell = found[static_cast<std::size_t>(distribution_.cell_of(leaf))];
+    cell = mixed_with(cell, map_.leaf_spacing(leaf));
+  }
+  struct Finding {
+    std::int32_t cell;
+    std::uint64_t fingerprint;
+  };
+  Bytes own;
+  for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
+    if (distribution_.owner_of_cell(c) == comm_.rank())
+      pack(own, Finding{c, found[static_cast<std::size_t>(c)]});
+  bool same = true;
+  for_records<Finding>({comm_.allgather(own)}, [&](const Finding& finding) {
+    if (distribution_.cell_refined(finding.cell))
+      same = same && finding.fingerprint == found[static_cast<std::size_t>(finding.cell)];
+  });
+  if (comm_.allreduce_max(!same) > 0) throw Error(ErrorKind::spacing, kSpacingsDiffer);
+}
+
+const Halo& LevelTree::halo(int hops, const Settings& settings) {
+  return distribution_.halo(hops,
+                            settings.list_radius / (kRoomForGrowth * widest_radius(settings)));
+}
+
+}  // namespace pnpbs
