@@ -2,7 +2,6 @@
 // What all communicators have in common: agreement on failures.
 #include "comm/communicator.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 #include <new>
@@ -17,6 +16,9 @@ class SerialCommunicator : public Communicator {
   int rank() const override { return 0; }
   int size() const override { return 1; }
   int ranks_on_node() const override { return 1; }
+  std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const override {
+    return outgoing;
+  }
   std::vector<Bytes> exchange(const std::vector<int>&, const std::vector<Bytes>&) const override {
     return {};
   }
@@ -30,17 +32,13 @@ class SerialCommunicator : public Communicator {
  protected:
   Reduction reduce(const Reduction& mine) const override { return mine; }
   void sum_entries(std::vector<std::int64_t>&) const override {}
+  std::int64_t exclusive_scan(std::int64_t) const override { return 0; }
   void broadcast_bytes(char*, std::size_t, int) const override {}
   std::vector<std::uint64_t> allgather_sizes(std::uint64_t mine) const override { return {mine}; }
   void allgather_bytes(const Bytes& mine, const std::vector<std::uint64_t>&,
                        Bytes& all) const override {
     all = mine;
   }
-  std::vector<std::uint64_t> all_to_all_sizes(
-      const std::vector<std::uint64_t>& sizes) const override {
-    return sizes;
-  }
-  void transfer(const std::vector<Message>&, std::vector<Message>&) const override {}
 };
 
 // Kind and text of a failure, in a message of one size: telling of it needs no memory.
@@ -111,6 +109,11 @@ void Communicator::allreduce_sum(std::vector<std::int64_t>& values) const {
   sum_entries(values);
 }
 
+std::int64_t Communicator::sum_before(std::int64_t value) const {
+  reduce_or_fail({});
+  return exclusive_scan(value);
+}
+
 // With the integers below 2^32 that both halves are, doubles are exact.
 bool Communicator::same_on_all(std::uint64_t value) const {
   for (const int shift : {0, 32}) {
@@ -135,30 +138,6 @@ Bytes Communicator::allgather(const Bytes& mine) const {
   agreed(*this, [&] { all.resize(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})); });
   allgather_bytes(mine, sizes, all);
   return all;
-}
-
-std::vector<Message> Communicator::sparse_all_to_all(const std::vector<Message>& outgoing) const {
-  reduce_or_fail({});
-  std::vector<std::uint64_t> sizes;
-  std::vector<Message> incoming;
-  agreed(*this, [&] {
-    sizes.assign(static_cast<std::size_t>(size()), 0);
-    for (const Message& message : outgoing)
-      if (message.rank == rank())
-        incoming.push_back(message);
-      else
-        sizes[static_cast<std::size_t>(message.rank)] = message.bytes.size();
-  });
-  sizes = all_to_all_sizes(sizes);
-  agreed(*this, [&] {
-    for (int r = 0; r < size(); ++r)
-      if (r != rank() && sizes[static_cast<std::size_t>(r)] > 0)
-        incoming.push_back({r, Bytes(sizes[static_cast<std::size_t>(r)])});
-  });
-  transfer(outgoing, incoming);
-  std::sort(incoming.begin(), incoming.end(),
-            [](const Message& a, const Message& b) { return a.rank < b.rank; });
-  return incoming;
 }
 
 std::shared_ptr<Communicator> serial_communicator() {

@@ -48,12 +48,15 @@ class Communicator {
   std::uint64_t allreduce_sum(std::uint64_t value) const;  // modulo 2^64
   double allreduce_max(double value) const;
   void allreduce_sum(std::vector<std::int64_t>& values) const;  // entry by entry
+  std::int64_t sum_before(std::int64_t value) const;            // of the ranks before this one
   bool same_on_all(std::uint64_t value) const;
   void broadcast(Bytes& bytes, int root) const;
   // What every rank gives, one after the other by rank.
   Bytes allgather(const Bytes& mine) const;
-  // Brings each message to its rank, this one included; returns what has come, by rank.
-  std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const;
+  // Brings each message to its rank, this one included; returns what has come, by rank. At most one
+  // to each; empty ones may be left out. Nobody need know who sends to it, and the cost grows with
+  // the messages of a rank, not with the ranks (but for the reductions). Throws on all ranks.
+  virtual std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const = 0;
 
   // Sends outgoing[k] to rank neighbours[k] and returns what they sent. Every rank named must name
   // us in its own call at the same time. Messages may be empty. Throws only when all messages have
@@ -79,16 +82,11 @@ class Communicator {
   };
   virtual Reduction reduce(const Reduction& mine) const = 0;
   virtual void sum_entries(std::vector<std::int64_t>& values) const = 0;
+  virtual std::int64_t exclusive_scan(std::int64_t value) const = 0;
   virtual void broadcast_bytes(char* bytes, std::size_t n, int root) const = 0;
   virtual std::vector<std::uint64_t> allgather_sizes(std::uint64_t mine) const = 0;
   virtual void allgather_bytes(const Bytes& mine, const std::vector<std::uint64_t>& sizes,
                                Bytes& all) const = 0;
-  // sizes[r] bytes for rank r -> bytes from rank r.
-  virtual std::vector<std::uint64_t> all_to_all_sizes(
-      const std::vector<std::uint64_t>& sizes) const = 0;
-  // The messages; incoming ones have their sizes.
-  virtual void transfer(const std::vector<Message>& outgoing,
-                        std::vector<Message>& incoming) const = 0;
 
  private:
   friend void agree_on_failure(const Communicator& comm, std::exception_ptr failure);

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "comm/all_to_all.hpp"
 #include "comm/records.hpp"
 
 namespace pnpbs {
@@ -107,28 +106,30 @@ std::int64_t IdBlocks::number_in_block(std::int64_t id) const {
 
 // Most are in this rank's own block; the others are asked for.
 std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& ids) const {
-  const auto size = static_cast<std::size_t>(comm_.size());
-  std::vector<Bytes> questions(size), answers(size);
+  Outbox questions, answers;
   for (const std::int64_t id : ids)
-    if (rank_of(id) != comm_.rank()) pack(questions[static_cast<std::size_t>(rank_of(id))], id);
-  questions = all_to_all(comm_, std::move(questions));
+    if (rank_of(id) != comm_.rank()) pack(questions.to(rank_of(id)), id);
+  const std::vector<Message> asked = comm_.sparse_all_to_all(questions.messages());
   agreed(comm_, [&] {
-    for (std::size_t r = 0; r < size; ++r)
-      for_records<std::int64_t>({questions[r]},
-                                [&](std::int64_t id) { pack(answers[r], number_in_block(id)); });
+    for (const Message& theirs : asked)
+      for_records<std::int64_t>({theirs.bytes}, [&](std::int64_t id) {
+        pack(answers.to(theirs.rank), number_in_block(id));
+      });
   });
-  answers = all_to_all(comm_, std::move(answers));
+  const std::vector<Message> told = comm_.sparse_all_to_all(answers.messages());
   std::vector<std::int64_t> numbers;
   agreed(comm_, [&] {
-    std::vector<std::size_t> at(size);  // answers come in the order of the questions to each rank
+    RankPlaces places;
+    for (const Message& theirs : told) places.add(theirs.rank);
+    std::vector<std::size_t> at(told.size());  // answers come in the order of the questions
     for (const std::int64_t id : ids) {
-      const auto r = static_cast<std::size_t>(rank_of(id));
       std::int64_t number;
       if (rank_of(id) == comm_.rank()) {
         number = number_in_block(id);
       } else {
-        std::memcpy(&number, answers[r].data() + at[r], sizeof number);
-        at[r] += sizeof number;
+        const auto k = static_cast<std::size_t>(places.of(rank_of(id)));
+        std::memcpy(&number, told[k].bytes.data() + at[k], sizeof number);
+        at[k] += sizeof number;
       }
       numbers.push_back(number);
     }

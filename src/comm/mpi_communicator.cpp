@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "base/build_config.hpp"
@@ -11,7 +12,9 @@
 #if PNPBS_HAVE_MPI
 #include <mpi.h>
 
+#include "comm/mpi_calls.hpp"
 #include "comm/mpi_file.hpp"
+#include "comm/mpi_sparse_exchange.hpp"
 #endif
 
 namespace pnpbs {
@@ -20,10 +23,10 @@ namespace pnpbs {
 
 namespace {
 
-void check(int code, const char* call) {
-  if (code != MPI_SUCCESS)
-    throw Error(ErrorKind::mpi, std::string(call) + " failed with code " + std::to_string(code));
-}
+using mpi::check;
+using mpi::count;
+using mpi::for_pieces;
+using mpi::kPiece;
 
 // After it has ended MPI would abort the process. Asked where calls begin to talk.
 void require_mpi_runs() {
@@ -32,14 +35,6 @@ void require_mpi_runs() {
   if (finalized)
     throw Error(ErrorKind::mpi,
                 "MPI is already finalised: what is computed over its ranks must come before");
-}
-
-// The length of a message, as MPI takes it.
-int count(std::size_t n) {
-  if (n > 0x7fffffff)
-    throw Error(ErrorKind::mpi, "a message of " + std::to_string(n) +
-                                    " entries is longer than MPI takes: use more ranks");
-  return static_cast<int>(n);
 }
 
 class MpiCommunicator : public Communicator {
@@ -132,6 +127,26 @@ class MpiCommunicator : public Communicator {
     wait_for(requests_);
   }
 
+  // The agreement at its end keeps the next exchange from mixing with this one: nobody begins that
+  // before all have stopped receiving.
+  std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const override {
+    std::vector<Message> incoming;
+    std::optional<MpiSparseExchange> exchange;
+    std::exception_ptr failure;
+    attempt(failure, [&] {
+      for (const Message& message : outgoing)
+        if (message.rank == rank_) incoming.push_back(message);
+      exchange.emplace(comm_, rank_, outgoing);
+    });
+    agree_on_failure(*this, failure);
+    if (size_ == 1) return incoming;
+    exchange->run(incoming, dropped_.get(), failure);
+    agree_on_failure(*this, failure);
+    std::sort(incoming.begin(), incoming.end(),
+              [](const Message& a, const Message& b) { return a.rank < b.rank; });
+    return incoming;
+  }
+
   std::unique_ptr<RankFile> open_file(const std::string& path,
                                       const std::string& name) const override {
     std::unique_ptr<RankFile> file;
@@ -150,6 +165,11 @@ class MpiCommunicator : public Communicator {
     check(MPI_Allreduce(MPI_IN_PLACE, values.data(), count(values.size()), MPI_INT64_T, MPI_SUM,
                         comm_),
           "MPI_Allreduce");
+  }
+  std::int64_t exclusive_scan(std::int64_t value) const override {
+    std::int64_t before = 0;
+    check(MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, comm_), "MPI_Exscan");
+    return rank_ == 0 ? 0 : before;  // MPI leaves that of the first rank open
   }
   void broadcast_bytes(char* bytes, std::size_t n, int root) const override {
     check(MPI_Bcast(bytes, count(n), MPI_BYTE, root, comm_), "MPI_Bcast");
@@ -174,39 +194,9 @@ class MpiCommunicator : public Communicator {
                          offsets.data(), MPI_BYTE, comm_),
           "MPI_Allgatherv");
   }
-  std::vector<std::uint64_t> all_to_all_sizes(
-      const std::vector<std::uint64_t>& sizes) const override {
-    std::vector<std::uint64_t> from(sizes.size());
-    check(MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, comm_),
-          "MPI_Alltoall");
-    return from;
-  }
-  void transfer(const std::vector<Message>& outgoing,
-                std::vector<Message>& incoming) const override {
-    std::vector<MPI_Request> requests;
-    requests.reserve(outgoing.size() + incoming.size());
-    for (Message& message : incoming)
-      if (message.rank != rank_)
-        MPI_Irecv(message.bytes.data(), count(message.bytes.size()), MPI_BYTE, message.rank,
-                  kParcelTag, comm_, &requests.emplace_back());
-    for (const Message& message : outgoing)
-      if (message.rank != rank_ && !message.bytes.empty())
-        MPI_Isend(message.bytes.data(), count(message.bytes.size()), MPI_BYTE, message.rank,
-                  kParcelTag, comm_, &requests.emplace_back());
-    wait_for(requests);
-  }
 
  private:
-  static constexpr int kSizeTag = 1, kDataTag = 2, kParcelTag = 3;
-
-  static constexpr int kPiece = 1 << 18;
-
-  // Calls visit(offset, length) for the pieces of a message.
-  template <class Visit>
-  static void for_pieces(std::uint64_t size, const Visit& visit) {
-    for (std::uint64_t at = 0; at < size; at += kPiece)
-      visit(at, static_cast<int>(std::min<std::uint64_t>(kPiece, size - at)));
-  }
+  static constexpr int kSizeTag = 1, kDataTag = 2;  // and those of sparse exchanges
 
   static void wait_for(std::vector<MPI_Request>& requests) {
     check(MPI_Waitall(count(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");

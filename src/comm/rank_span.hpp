@@ -2,8 +2,8 @@
 // Things numbered through over the ranks: those of rank 0 first, then those of rank 1, ...
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "comm/communicator.hpp"
 
@@ -17,15 +17,10 @@ struct RankSpan {
 
 // Collective.
 inline RankSpan span_of(const Communicator& comm, std::size_t count) {
-  std::vector<std::int64_t> counts(static_cast<std::size_t>(comm.size()));
-  counts[static_cast<std::size_t>(comm.rank())] = static_cast<std::int64_t>(count);
-  comm.allreduce_sum(counts);
   RankSpan span;
   span.count = static_cast<std::int64_t>(count);
-  for (int r = 0; r < comm.size(); ++r) {
-    if (r == comm.rank()) span.first = span.total;
-    span.total += counts[static_cast<std::size_t>(r)];
-  }
+  span.first = comm.sum_before(span.count);
+  span.total = static_cast<std::int64_t>(comm.allreduce_sum(std::uint64_t{count}));
   return span;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "comm/communicator.hpp"
+#include "comm/rank_places.hpp"
 
 namespace pnpbs {
 
@@ -26,34 +27,42 @@ void for_records(const std::vector<Bytes>& messages, const Visit& visit) {
     }
 }
 
+// One message for each rank that gets anything.
+class Outbox {
+ public:
+  Bytes& to(int rank) {
+    // Records for one rank mostly come in a row.
+    if (messages_.empty() || messages_[last_].rank != rank) last_ = place(rank);
+    return messages_[last_].bytes;
+  }
+  const std::vector<Message>& messages() const { return messages_; }
+
+ private:
+  std::size_t place(int rank) {
+    int place = places_.of(rank);
+    if (place < 0) {
+      place = places_.add(rank);
+      messages_.push_back({rank, {}});
+    }
+    return static_cast<std::size_t>(place);
+  }
+
+  std::vector<Message> messages_;
+  RankPlaces places_;
+  std::size_t last_ = 0;
+};
+
 // Brings each record to rank owner(record), from wherever it is, and returns what has come here.
 // Collective.
 template <class Record, class Owner>
 std::vector<Record> redistribute(const Communicator& comm, const std::vector<Record>& records,
                                  const Owner& owner) {
+  Outbox outgoing;
+  for (const Record& record : records) pack(outgoing.to(owner(record)), record);
   std::vector<Record> arrived;
-  std::vector<Message> messages;
-  std::vector<int> message_for(static_cast<std::size_t>(comm.size()), -1);
-  for (const Record& record : records) {
-    const int r = owner(record);
-    int& message = message_for[static_cast<std::size_t>(r)];
-    if (message < 0) {
-      message = static_cast<int>(messages.size());
-      messages.push_back({r, {}});
-    }
-    pack(messages[static_cast<std::size_t>(message)].bytes, record);
-  }
-  for (const Message& message : comm.sparse_all_to_all(messages))
+  for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
     for_records<Record>({message.bytes}, [&](const Record& record) { arrived.push_back(record); });
   return arrived;
-}
-
-// Place of each rank among the neighbours, -1 for the others.
-inline std::vector<int> places_of(const std::vector<int>& neighbours, int size) {
-  std::vector<int> place(static_cast<std::size_t>(size), -1);
-  for (std::size_t k = 0; k < neighbours.size(); ++k)
-    place[static_cast<std::size_t>(neighbours[k])] = static_cast<int>(k);
-  return place;
 }
 
 }  // namespace pnpbs

@@ -29,7 +29,7 @@ void Ghosts::exchange(const Communicator& comm, LevelTree& tree, const Settings&
   std::vector<Bytes> outgoing, incoming;
   agreed(comm, [&] {
     const std::vector<int>& neighbours = tree.halo(hops, settings).neighbours();
-    halo_.start(neighbours, comm.size());
+    halo_.start(neighbours);
     outgoing.resize(neighbours.size());
   });
   const Halo& halo = tree.halo(hops, settings);

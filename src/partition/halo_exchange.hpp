@@ -6,20 +6,22 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
-#include "comm/records.hpp"
+#include "comm/rank_places.hpp"
 
 namespace pnpbs {
 
 template <int Dim>
 class HaloExchange {
  public:
-  void start(const std::vector<int>& neighbours, int ranks) {
+  void start(const std::vector<int>& neighbours) {
     neighbours_ = neighbours;
-    place_ = places_of(neighbours, ranks);
+    places_ = {};
+    for (const int rank : neighbours) places_.add(rank);
     send_.assign(neighbours.size(), {});
     receive_.assign(neighbours.size(), {});
     outgoing_.resize(neighbours.size());
@@ -28,17 +30,15 @@ class HaloExchange {
   // Both sides of a pair of ranks must do so.
   void add_neighbour(int rank) {
     if (knows(rank)) return;
-    place_[static_cast<std::size_t>(rank)] = static_cast<int>(neighbours_.size());
+    places_.add(rank);
     neighbours_.push_back(rank);
     send_.emplace_back();
     receive_.emplace_back();
     outgoing_.emplace_back();
     incoming_.emplace_back();
   }
-  bool knows(int rank) const { return place_[static_cast<std::size_t>(rank)] >= 0; }
-  std::size_t place(int rank) const {
-    return static_cast<std::size_t>(place_[static_cast<std::size_t>(rank)]);
-  }
+  bool knows(int rank) const { return places_.of(rank) >= 0; }
+  std::size_t place(int rank) const { return static_cast<std::size_t>(places_.of(rank)); }
   // Owned nodes that the rank has as ghosts.
   const std::vector<std::int32_t>& sent_to(int rank) const { return send_[place(rank)]; }
   void send(int rank, std::int32_t node) { send_[place(rank)].push_back(node); }
@@ -107,7 +107,8 @@ class HaloExchange {
     in += sizeof value;
   }
 
-  std::vector<int> neighbours_, place_;
+  std::vector<int> neighbours_;
+  RankPlaces places_;
   std::vector<std::vector<std::int32_t>> send_, receive_;  // places in memory
   std::vector<Bytes> outgoing_, incoming_;
   std::vector<std::int32_t> moved_to_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
@@ -99,12 +98,7 @@ ExchangePattern Placement::exchange_pattern() {
   return make_exchange_pattern(*comm_, owned, ids, owners);
 }
 
-std::int64_t Placement::nodes_on_ranks_before() const {
-  std::vector<std::int64_t> counts(static_cast<std::size_t>(comm_->size()), 0);
-  counts[static_cast<std::size_t>(comm_->rank())] = count();
-  comm_->allreduce_sum(counts);
-  return std::accumulate(counts.begin(), counts.begin() + comm_->rank(), std::int64_t{0});
-}
+std::int64_t Placement::nodes_on_ranks_before() const { return comm_->sum_before(count()); }
 
 // ------------------------------------------------------------------ statistics -----------------
 

@@ -56,7 +56,7 @@ class BoxNodes {
   void exchange(int hops) {
     if (comm_->size() == 1) return;
     const pnpbs::Halo& halo = this->halo(hops);
-    plan_.start(halo.neighbours(), comm_->size());
+    plan_.start(halo.neighbours());
     std::vector<pnpbs::Bytes> outgoing(halo.neighbours().size());
     const pnpbs::NodeExchange<3> travel{tree_, distribution_, halo, comm_->rank(), plan_};
     const auto known_leaf = [this](std::int64_t i) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What all our calls of MPI have in common; only in builds with MPI.
+#pragma once
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace pnpbs::mpi {
+
+inline void check(int code, const char* call) {
+  if (code != MPI_SUCCESS)
+    throw Error(ErrorKind::mpi, std::string(call) + " failed with code " + std::to_string(code));
+}
+
+// The length of a message, as MPI takes it.
+inline int count(std::size_t n) {
+  if (n > 0x7fffffff)
+    throw Error(ErrorKind::mpi, "a message of " + std::to_string(n) +
+                                    " entries is longer than MPI takes: use more ranks");
+  return static_cast<int>(n);
+}
+
+// Long messages go in pieces, so that one that finds no memory can be received all the same.
+constexpr int kPiece = 1 << 18;  // bytes
+
+inline std::uint64_t pieces(std::uint64_t size) { return (size + kPiece - 1) / kPiece; }
+
+// Calls visit(offset, length) for the pieces of a message.
+template <class Visit>
+void for_pieces(std::uint64_t size, const Visit& visit) {
+  for (std::uint64_t at = 0; at < size; at += kPiece)
+    visit(at, static_cast<int>(std::min<std::uint64_t>(kPiece, size - at)));
+}
+
+}  // namespace pnpbs::mpi
