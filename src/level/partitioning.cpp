@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numeric>
 
+#include "comm/records.hpp"
 #include "level/level_tree.hpp"
 #include "partition/partition.hpp"
 
@@ -118,17 +120,19 @@ Distribution<2> LevelTree::redistributed(const Settings& settings,
 std::vector<std::int32_t> LevelTree::keep_numbers(const PartitionCells<2>& cells,
                                                   std::vector<std::int32_t> part,
                                                   const std::vector<std::int64_t>& work) const {
-  const auto ranks = static_cast<std::size_t>(comm_.size()),
-             rank = static_cast<std::size_t>(comm_.rank());
-  std::vector<std::int64_t> kept(ranks * ranks, 0);
+  std::map<std::int32_t, std::int64_t> kept;  // of ours, by part
   for (std::int32_t leaf = 0; leaf < tree().leaf_count(); ++leaf) {
-    if (!distribution_.owns(leaf)) continue;
+    const std::int64_t leaf_work = work[static_cast<std::size_t>(leaf)];
+    if (!owns(leaf) || leaf_work == 0) continue;
     const std::int32_t cell = cells.at(tree().cell_centre(tree().leaf_cell(leaf)));
-    const auto to = static_cast<std::size_t>(part[static_cast<std::size_t>(cell)]);
-    kept[to * ranks + rank] += work[static_cast<std::size_t>(leaf)];
+    kept[part[static_cast<std::size_t>(cell)]] += leaf_work;
   }
-  comm_.allreduce_sum(kept);
-  return relabelled(std::move(part), kept, comm_.size());
+  Bytes own;
+  for (const auto& [to, kept_work] : kept) pack(own, KeptWork{kept_work, to, comm_.rank()});
+  std::vector<KeptWork> all;
+  for_records<KeptWork>({comm_.allgather(own)},
+                        [&](const KeptWork& entry) { all.push_back(entry); });
+  return relabelled(std::move(part), std::move(all), comm_.size());
 }
 
 }  // namespace pnpbs

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "partition/cell_sums.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {
@@ -225,16 +226,24 @@ template <int Dim>
 std::vector<std::int64_t> Distribution<Dim>::prefix_sums(const Communicator& comm,
                                                          std::vector<std::int64_t> counts,
                                                          std::int64_t& start) const {
-  const auto cell = [this](std::size_t leaf) {
-    return owner_.empty() ? 0 : static_cast<std::size_t>(cell_of_leaf_[leaf]);
-  };
-  std::vector<std::int64_t> next(static_cast<std::size_t>(cells_.count()), 0);
-  for (std::size_t leaf = 0; leaf < counts.size(); ++leaf) next[cell(leaf)] += counts[leaf];
-  comm.allreduce_sum(next);
-  for (std::int64_t& entry : next) entry = std::exchange(start, start + entry);
-  // The leaves of a cell follow each other.
-  for (std::size_t leaf = 0; leaf < counts.size(); ++leaf)
-    counts[leaf] = std::exchange(next[cell(leaf)], next[cell(leaf)] + counts[leaf]);
+  const auto cell = [this](std::size_t leaf) { return owner_.empty() ? 0 : cell_of_leaf_[leaf]; };
+  // The leaves of a cell follow each other, and the cells are in the same order.
+  std::vector<CellSum> own;
+  for (std::size_t leaf = 0; leaf < counts.size(); ++leaf) {
+    const bool ours = owner_.empty() || owner_of_cell(cell(leaf)) == rank_;
+    if (!ours && counts[leaf] == 0) continue;
+    if (own.empty() || own.back().cell != cell(leaf)) own.push_back({cell(leaf), 0});
+    own.back().sum += counts[leaf];
+  }
+  const std::vector<std::int64_t> before = sums_before(comm, cells_.count(), own, start);
+  std::size_t leaf = 0;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    while (cell(leaf) != own[k].cell) counts[leaf++] = 0;
+    std::int64_t next = before[k];
+    for (; leaf < counts.size() && cell(leaf) == own[k].cell; ++leaf)
+      counts[leaf] = std::exchange(next, next + counts[leaf]);
+  }
+  std::fill(counts.begin() + static_cast<std::ptrdiff_t>(leaf), counts.end(), 0);
   return counts;
 }
 

@@ -54,6 +54,14 @@ class Distribution {
   const PartitionCells<Dim>& cells() const { return cells_; }
   int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
   int owner_at(const Point<Dim>& x) const { return owner_of_cell(cells_.at(x)); }
+  // Calls visit(rank) for the owner of each cell that the box touches, once for every cell. Cells
+  // with nothing of the domain in them, which are anybody's, do not count.
+  template <class Visit>
+  void for_owners_in(const Box<Dim>& box, const Visit& visit) const {
+    cells_.tree().for_leaves_in(box, [&](std::int32_t cell) {
+      if (cells_.largest_spacing(cell) > 0) visit(owner_of_cell(cell));
+    });
+  }
   // Cells that may hold ghosts: those within some hops of a bubble of ours, by the largest d.
   std::vector<char> cells_near_own(int hops, double reach) const;
 
@@ -80,7 +88,8 @@ class Distribution {
 
   // For one count per leaf, on every rank those of its own nodes: the sum over all leaves before
   // each one in Morton order, of all ranks, from `start` on; moves `start` on by the sum over all.
-  // What is numbered so does not depend on who owns which leaf. Collective.
+  // 0 for leaves in cells that are another's and in which nothing is counted here. What is numbered
+  // so does not depend on who owns which leaf. Collective.
   std::vector<std::int64_t> prefix_sums(const Communicator& comm, std::vector<std::int64_t> counts,
                                         std::int64_t& start) const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "base/build_config.hpp"
 #include "partition/cell_graph.hpp"
@@ -93,26 +94,28 @@ std::vector<std::int32_t> cut_by_metis(const PartitionCells<Dim>& cells, int ran
 #endif
 }
 
-// The pair of part and rank with the most work in common first, then the next of those left.
-std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner,
-                                     const std::vector<std::int64_t>& kept, int ranks) {
-  struct Match {
-    std::int64_t work;
-    int part, rank;
-  };
-  std::vector<Match> matches;
-  for (int part = 0; part < ranks; ++part)
-    for (int rank = 0; rank < ranks; ++rank)
-      matches.push_back({kept[static_cast<std::size_t>(part * ranks + rank)], part, rank});
-  std::stable_sort(matches.begin(), matches.end(),
-                   [](const Match& a, const Match& b) { return a.work > b.work; });
+// The pair of part and rank with the most work in common first, then the next of those left. Parts
+// that have nothing in common with a rank that is left get these in their order.
+std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner, std::vector<KeptWork> kept,
+                                     int ranks) {
+  std::sort(kept.begin(), kept.end(), [](const KeptWork& a, const KeptWork& b) {
+    return std::tie(b.work, a.part, a.rank) < std::tie(a.work, b.part, b.rank);
+  });
   std::vector<int> rank_of(static_cast<std::size_t>(ranks), -1);
   std::vector<char> taken(static_cast<std::size_t>(ranks), 0);
-  for (const Match& match : matches) {
-    if (rank_of[static_cast<std::size_t>(match.part)] >= 0) continue;
-    if (taken[static_cast<std::size_t>(match.rank)]) continue;
-    rank_of[static_cast<std::size_t>(match.part)] = match.rank;
-    taken[static_cast<std::size_t>(match.rank)] = 1;
+  const auto match = [&](int part, int rank) {
+    rank_of[static_cast<std::size_t>(part)] = rank;
+    taken[static_cast<std::size_t>(rank)] = 1;
+  };
+  for (const KeptWork& entry : kept)
+    if (rank_of[static_cast<std::size_t>(entry.part)] < 0 &&
+        !taken[static_cast<std::size_t>(entry.rank)])
+      match(entry.part, entry.rank);
+  int free = 0;
+  for (int part = 0; part < ranks; ++part) {
+    if (rank_of[static_cast<std::size_t>(part)] >= 0) continue;
+    while (taken[static_cast<std::size_t>(free)]) ++free;
+    match(part, free);
   }
   for (std::int32_t& part : owner) part = rank_of[static_cast<std::size_t>(part)];
   return owner;

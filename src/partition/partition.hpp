@@ -20,10 +20,16 @@ template <int Dim>
 std::vector<std::int32_t> cut_by_metis(const PartitionCells<Dim>& cells, int ranks,
                                        std::int64_t seed);
 
-// Gives the parts other numbers so that little work changes its rank. `kept[part * ranks + rank]`:
-// the work in the part that the rank has now.
-std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner,
-                                     const std::vector<std::int64_t>& kept, int ranks);
+// The work in a part that a rank has now.
+struct KeptWork {
+  std::int64_t work;
+  std::int32_t part, rank;
+};
+
+// Gives the parts other numbers so that little work changes its rank. kept: where there is any, in
+// any order.
+std::vector<std::int32_t> relabelled(std::vector<std::int32_t> owner, std::vector<KeptWork> kept,
+                                     int ranks);
 
 // Largest over mean work of the parts.
 double imbalance(const std::vector<std::int32_t>& owner, const std::vector<std::int64_t>& work,

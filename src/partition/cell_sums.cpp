@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "partition/cell_sums.hpp"
+
+#include <utility>
+
+#include "comm/records.hpp"
+
+namespace pnpbs {
+
+std::vector<std::int64_t> sums_before(const Communicator& comm, std::int64_t cells,
+                                      const std::vector<CellSum>& own, std::int64_t& start) {
+  const std::int64_t length = (cells + comm.size() - 1) / comm.size(), first = comm.rank() * length;
+  Outbox counted, answers;
+  for (const CellSum& entry : own) pack(counted.to(static_cast<int>(entry.cell / length)), entry);
+  const std::vector<Message> asked = comm.sparse_all_to_all(counted.messages());
+
+  std::vector<std::int64_t> before(static_cast<std::size_t>(length), 0);  // in this rank's block
+  const auto at = [&](const CellSum& entry) -> std::int64_t& {
+    return before[static_cast<std::size_t>(entry.cell - first)];
+  };
+  for (const Message& theirs : asked)
+    for_records<CellSum>({theirs.bytes}, [&](const CellSum& entry) { at(entry) += entry.sum; });
+  std::int64_t in_block = 0;
+  for (std::int64_t& entry : before) entry = std::exchange(in_block, in_block + entry);
+  const std::int64_t before_block = start + comm.sum_before(in_block);
+  start += static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(in_block)));
+
+  for (const Message& theirs : asked)
+    for_records<CellSum>({theirs.bytes}, [&](const CellSum& entry) {
+      pack(answers.to(theirs.rank), before_block + at(entry));
+    });
+  // By rank, so in the order of the cells.
+  std::vector<std::int64_t> sums;
+  sums.reserve(own.size());
+  for (const Message& theirs : comm.sparse_all_to_all(answers.messages()))
+    for_records<std::int64_t>({theirs.bytes}, [&](std::int64_t sum) { sums.push_back(sum); });
+  return sums;
+}
+
+}  // namespace pnpbs
