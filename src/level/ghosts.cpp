@@ -2,6 +2,7 @@
 #include "level/ghosts.hpp"
 
 #include <exception>
+#include <set>
 #include <unordered_set>
 
 #include "comm/records.hpp"
@@ -79,12 +80,15 @@ void Ghosts::migrate(const Communicator& comm, const LevelTree& tree, Nodes<2>& 
 
 void Ghosts::fetch(const Communicator& comm, const LevelTree& tree,
                    const std::vector<Box<2>>& boxes, Nodes<2>& nodes, const Buckets<2>& buckets) {
-  Bytes question;
-  for (const Box<2>& box : boxes) pack(question, box);
-  std::vector<Message> asked, answers;
-  for (int r = 0; r < comm.size(); ++r)
-    if (r != comm.rank() && !question.empty()) asked.push_back({r, question});
-  for (const Message& theirs : comm.sparse_all_to_all(asked)) {
+  Outbox questions;
+  for (const Box<2>& box : boxes) {
+    std::set<int> ranks;
+    tree.distribution().for_owners_in(box, [&](int r) { ranks.insert(r); });
+    ranks.erase(comm.rank());
+    for (const int r : ranks) pack(questions.to(r), box);
+  }
+  std::vector<Message> answers;
+  for (const Message& theirs : comm.sparse_all_to_all(questions.messages())) {
     Bytes answer = nodes_for(theirs, tree, nodes, buckets);
     if (!answer.empty()) answers.push_back({theirs.rank, std::move(answer)});
   }

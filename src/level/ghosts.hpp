@@ -27,7 +27,8 @@ class Ghosts {
                Neighbourhood& neighbourhood);
   // The same ghosts, exact again. All neighbours at the same time; no ranks agree on anything.
   void update(const Communicator& comm, Nodes<2>& nodes);
-  // All nodes in these boxes become ghosts of ours, until the next exchange. Collective.
+  // All nodes in these boxes become ghosts of ours, until the next exchange. Each is with the rank
+  // that owns its place, so nobody else is asked. Collective.
   void fetch(const Communicator& comm, const LevelTree& tree, const std::vector<Box<2>>& boxes,
              Nodes<2>& nodes, const Buckets<2>& buckets);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The adjacency lists (section 2.3) and the Delaunay stars of a level, and the ghosts that the
 // stars need. The hops of an exchange bring what lies within a few spacings; where d jumps, or the
-// nodes are far too few for d, the circle of a triangle may reach farther. Then the other ranks are
-// asked for what lies there.
+// nodes are far too few for d, the circle of a triangle may reach farther. Then the ranks that own
+// what lies there are asked.
 #pragma once
 
 #include "level/level.hpp"
