@@ -121,18 +121,19 @@ void LevelTree::require_same_leaves() const {
     cell = mixed_with(cell, map_.leaf_spacing(leaf));
   }
   struct Finding {
-    std::int32_t cell;
+    std::int64_t cell;
     std::uint64_t fingerprint;
   };
-  Bytes own;
+  std::vector<Finding> of_others;
   for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
-    if (distribution_.owner_of_cell(c) == comm_.rank())
-      pack(own, Finding{c, found[static_cast<std::size_t>(c)]});
+    if (distribution_.cell_refined(c) && distribution_.owner_of_cell(c) != comm_.rank())
+      of_others.push_back({c, found[static_cast<std::size_t>(c)]});
+  const auto owner = [this](const Finding& finding) {
+    return distribution_.owner_of_cell(static_cast<std::int32_t>(finding.cell));
+  };
   bool same = true;
-  for_records<Finding>({comm_.allgather(own)}, [&](const Finding& finding) {
-    if (distribution_.cell_refined(finding.cell))
-      same = same && finding.fingerprint == found[static_cast<std::size_t>(finding.cell)];
-  });
+  for (const Finding& finding : redistribute(comm_, of_others, owner))
+    same = same && finding.fingerprint == found[static_cast<std::size_t>(finding.cell)];
   if (comm_.allreduce_max(!same) > 0) throw Error(ErrorKind::spacing, kSpacingsDiffer);
 }
 
