@@ -34,10 +34,10 @@ bool scale_for_expansions(std::array<Point<2>, N>& points, BitRange& range) {
 }
 
 template <class Difference>
-auto orientation_determinant(const std::array<Point<2>, 3>& p, const Difference& difference) {
-  const auto ax = difference(p[0][0], p[2][0]), ay = difference(p[0][1], p[2][1]);
-  const auto bx = difference(p[1][0], p[2][0]), by = difference(p[1][1], p[2][1]);
-  return std::pair{ax * by, ay * bx};
+auto turn_determinant(const std::array<Point<2>, 4>& p, const Difference& difference) {
+  const auto abx = difference(p[1][0], p[0][0]), aby = difference(p[1][1], p[0][1]);
+  const auto cdx = difference(p[3][0], p[2][0]), cdy = difference(p[3][1], p[2][1]);
+  return std::pair{abx * cdy, aby * cdx};
 }
 
 Expansion<512> lifted_cross(const Expansion<2>& ax, const Expansion<2>& ay, const Expansion<2>& bx,
@@ -63,17 +63,17 @@ int in_circle_sign(const std::array<Point<2>, 4>& p, const Difference& differenc
 
 }  // namespace
 
-int orientation_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-  std::array<Point<2>, 3> points{a, b, c};
+int turn_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d) {
+  std::array<Point<2>, 4> points{a, b, c, d};
   BitRange range;
   if (scale_for_expansions(points, range)) {
-    const auto [left, right] = orientation_determinant(points, exact_difference);
+    const auto [left, right] = turn_determinant(points, exact_difference);
     return (left + -right).sign();
   }
   const auto wide_difference = [&range](double x, double y) {
     return WideInteger(x, range.low) - WideInteger(y, range.low);
   };
-  const auto [left, right] = orientation_determinant(points, wide_difference);
+  const auto [left, right] = turn_determinant(points, wide_difference);
   return (left - right).sign();
 }
 

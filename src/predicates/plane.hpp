@@ -16,7 +16,10 @@ namespace pnpbs {
 namespace predicates {
 
 // Exact, slow, for every finite input.
-int orientation_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c);
+int turn_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d);
+inline int orientation_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  return turn_exact(c, a, c, b);
+}
 int in_circle_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d);
 int break_tie(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d,
               std::int64_t id_a, std::int64_t id_b, std::int64_t id_c, std::int64_t id_d);
@@ -36,6 +39,19 @@ inline int orientation(const Point<2>& a, const Point<2>& b, const Point<2>& c) 
   if (determinant > error) return 1;
   if (-determinant > error) return -1;
   return predicates::orientation_exact(a, b, c);
+}
+
+// > 0 if the way from c to d leads to the left of that from a to b, < 0 to its right, 0 if the two
+// are parallel or one of them has no length.
+inline int turn(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d) {
+  const double left = (b[0] - a[0]) * (d[1] - c[1]);
+  const double right = (b[1] - a[1]) * (d[0] - c[0]);
+  const double determinant = left - right;
+  const double error = predicates::kOrientationBound * (std::fabs(left) + std::fabs(right)) +
+                       predicates::kUnderflowGuard;
+  if (determinant > error) return 1;
+  if (-determinant > error) return -1;
+  return predicates::turn_exact(a, b, c, d);
 }
 
 // For a, b, c counter-clockwise: > 0 if d lies inside their circumcircle, < 0 outside, 0 exactly

@@ -72,6 +72,29 @@ void compare_in_circle(std::int64_t range, int exponent, int count) {
   }
 }
 
+Wide turn_of(const Lattice& a, const Lattice& b, const Lattice& c, const Lattice& d) {
+  return Wide(b.x - a.x) * (d.y - c.y) - Wide(b.y - a.y) * (d.x - c.x);
+}
+
+// Every second pair of ways is parallel, or would be but for a unit.
+void compare_turn(std::int64_t range, int exponent, int count) {
+  std::mt19937_64 random(3);
+  std::uniform_int_distribution<std::int64_t> factor(-2, 2), unit(-1, 1);
+  for (int i = 0; i < count; ++i) {
+    const Lattice a = random_lattice(random, range), b = random_lattice(random, range);
+    const Lattice c = random_lattice(random, range);
+    Lattice d = random_lattice(random, range);
+    if (i % 2 == 0) {
+      const std::int64_t times = factor(random);
+      d = {c.x + times * (b.x - a.x) + unit(random), c.y + times * (b.y - a.y)};
+    }
+    const int expected = sign(turn_of(a, b, c, d));
+    ck_assert_int_eq(pnpbs::turn(scaled_point(a, exponent), scaled_point(b, exponent),
+                                 scaled_point(c, exponent), scaled_point(d, exponent)),
+                     expected);
+  }
+}
+
 struct Set {
   std::vector<P> points;
   std::vector<std::int64_t> ids;
@@ -139,6 +162,21 @@ START_TEST(orientation_equals_integer_arithmetic) {
   }
   compare_orientation(1000, -1074, 2000);
   compare_orientation(1000, 1013, 2000);
+}
+END_TEST
+
+START_TEST(turn_equals_integer_arithmetic) {
+  for (const int exponent : {0, -30, 100, -200, 400, 900, -1000}) {
+    compare_turn(3, exponent, 2000);
+    compare_turn(1 << 20, exponent, 2000);
+    compare_turn(std::int64_t{1} << 50, exponent, 2000);
+  }
+  compare_turn(1000, -1074, 2000);
+  compare_turn(200, 1013, 2000);
+  // Bits too far apart for expansions.
+  ck_assert_int_eq(pnpbs::turn({1, 1}, {1e300, 1e300}, {0, 0}, {1e-300, 1e-300}), 0);
+  ck_assert_int_eq(
+      pnpbs::turn({1, 1}, {1e300, 1e300}, {0, 0}, {1e-300, std::nextafter(1e-300, 1.0)}), 1);
 }
 END_TEST
 
@@ -276,9 +314,10 @@ START_TEST(crossing_is_proper) {
 END_TEST
 
 int main() {
-  return run_suite("predicates",
-                   {orientation_equals_integer_arithmetic, orientation_next_to_a_line,
-                    in_circle_equals_integer_arithmetic, differences_that_round_stay_exact,
-                    exponents_far_apart, perturbation_is_antisymmetric, square_gets_one_diagonal,
-                    ties_make_one_triangulation, crossing_is_proper});
+  return run_suite(
+      "predicates",
+      {orientation_equals_integer_arithmetic, turn_equals_integer_arithmetic,
+       orientation_next_to_a_line, in_circle_equals_integer_arithmetic,
+       differences_that_round_stay_exact, exponents_far_apart, perturbation_is_antisymmetric,
+       square_gets_one_diagonal, ties_make_one_triangulation, crossing_is_proper});
 }
