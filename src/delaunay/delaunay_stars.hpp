@@ -9,19 +9,19 @@
 
 #include "base/chunked_rows.hpp"
 #include "base/nodes.hpp"
-#include "domain/domain_map.hpp"
 #include "domain/plane/incident_sectors.hpp"
 #include "neighbors/adjacency_list.hpp"
 #include "neighbors/buckets.hpp"
 #include "neighbors/near_edges.hpp"
 #include "partition/known_region.hpp"
+#include "spacing/domain_map.hpp"
 
 namespace pnpbs {
 
 // What the stars are found from; all for the same positions.
 struct StarInput {
   const Nodes<2>& nodes;
-  const DomainMap& map;
+  const DomainMap<2>& map;
   const IncidentSectors& sectors;
   const Buckets<2>& buckets;
   const AdjacencyList<2>& lists;

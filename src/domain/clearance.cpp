@@ -4,19 +4,20 @@
 #include <algorithm>
 #include <limits>
 
-#include "domain/segments.hpp"
-#include "predicates/plane.hpp"
+#include "domain/plane/edges.hpp"
+#include "domain/volume/triangles.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-double nearest_edge(const DomainMap& map, std::span<const std::int32_t> edges, const Point<2>& x,
-                    Point<2>& nearest) {
+template <int Dim>
+double nearest_facet(const FacetIndex<Dim>& index, std::span<const std::int32_t> facets,
+                     const Point<Dim>& x, Point<Dim>& nearest) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t e : edges) {
-    const Point<2> q = nearest_on_segment(map.edge_begin(e), map.edge_end(e), x);
-    const double gap = distance<2>(q, x);
+  for (const std::int32_t f : facets) {
+    const Point<Dim> q = nearest_on(index.corners(f), x);
+    const double gap = distance<Dim>(q, x);
     if (gap < least) {
       least = gap;
       nearest = q;
@@ -25,46 +26,51 @@ double nearest_edge(const DomainMap& map, std::span<const std::int32_t> edges, c
   return least;
 }
 
-bool crosses_any(const DomainMap& map, std::span<const std::int32_t> edges, const Point<2>& from,
-                 const Point<2>& to) {
-  for (std::int32_t e : edges) {
-    const Point<2>&a = map.edge_begin(e), &b = map.edge_end(e);
-    if (orientation(a, b, from) * orientation(a, b, to) <= 0 &&
-        orientation(from, to, a) * orientation(from, to, b) <= 0)
-      return true;
-  }
-  return false;
+template <int Dim>
+bool may_touch_any(const FacetIndex<Dim>& index, std::span<const std::int32_t> facets,
+                   const Point<Dim>& from, const Point<Dim>& to) {
+  return std::any_of(facets.begin(), facets.end(),
+                     [&](std::int32_t f) { return may_touch(from, to, index.corners(f)); });
 }
 
-// Is every edge farther from `to` than `wanted`, and too far to be met on the way there?
-bool clear_of_all(const DomainMap& map, std::span<const std::int32_t> edges, const Point<2>& from,
-                  const Point<2>& to, double wanted) {
+// Is every facet farther from `to` than `wanted`, and too far to be met on the way there?
+template <int Dim>
+bool clear_of_all(const FacetIndex<Dim>& index, std::span<const std::int32_t> facets,
+                  const Point<Dim>& from, const Point<Dim>& to, double wanted) {
   constexpr double kRounding = 1 + 1e-9;
-  double square = wanted * wanted, way = 0;
-  for (int k = 0; k < 2; ++k) way += (to[k] - from[k]) * (to[k] - from[k]);
-  square = kRounding * std::max(square, way);
-  for (std::int32_t e : edges)
-    if (squared_distance_to_segment(map.edge_begin(e), map.edge_end(e), to) < square) return false;
-  return true;
+  const double square = kRounding * std::max(wanted * wanted, squared_distance<Dim>(to, from));
+  return std::none_of(facets.begin(), facets.end(), [&](std::int32_t f) {
+    return squared_distance<Dim>(to, nearest_on(index.corners(f), to)) < square;
+  });
 }
 
 }  // namespace
 
-ClearPosition clear_position(const DomainMap& map, std::span<const std::int32_t> edges,
-                             const Point<2>& from, const Point<2>& to, double d) {
+template <int Dim>
+ClearPosition<Dim> clear_position(const FacetIndex<Dim>& index,
+                                  std::span<const std::int32_t> facets,
+                                  const std::type_identity_t<Point<Dim>>& from,
+                                  const std::type_identity_t<Point<Dim>>& to, double d) {
   const double wanted = kBoundaryClearance * d;
-  if (clear_of_all(map, edges, from, to, wanted)) return {to, true};  // nearly always
-  Point<2> x = crosses_any(map, edges, from, to) ? from : to;
-  Point<2> wall{};
-  double gap = nearest_edge(map, edges, x, wall);
-  for (int round = 0; round < 3 && gap < wanted && gap > 0; ++round) {
+  if (clear_of_all<Dim>(index, facets, from, to, wanted)) return {to, true};  // nearly always
+  Point<Dim> x = may_touch_any<Dim>(index, facets, from, to) ? from : to;
+  Point<Dim> wall{};
+  double gap = nearest_facet<Dim>(index, facets, x, wall);
+  // Off each of the facets in a corner, and once more as one may push it back towards another.
+  for (int round = 0; round < Dim + 1 && gap < wanted && gap > 0; ++round) {
     const double stretch = wanted / gap;
-    const Point<2> away{wall[0] + (x[0] - wall[0]) * stretch, wall[1] + (x[1] - wall[1]) * stretch};
-    if (crosses_any(map, edges, x, away)) break;
+    Point<Dim> away;
+    for (std::size_t k = 0; k < Dim; ++k) away[k] = wall[k] + (x[k] - wall[k]) * stretch;
+    if (may_touch_any<Dim>(index, facets, x, away)) break;
     x = away;
-    gap = nearest_edge(map, edges, x, wall);
+    gap = nearest_facet<Dim>(index, facets, x, wall);
   }
   return {x, gap >= kLeastClearance * d};
 }
+
+template ClearPosition<2> clear_position(const FacetIndex<2>&, std::span<const std::int32_t>,
+                                         const Point<2>&, const Point<2>&, double);
+template ClearPosition<3> clear_position(const FacetIndex<3>&, std::span<const std::int32_t>,
+                                         const Point<3>&, const Point<3>&, double);
 
 }  // namespace pnpbs

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <span>
+#include <type_traits>
 
-#include "domain/domain_map.hpp"
+#include "domain/facet_index.hpp"
 
 namespace pnpbs {
 
@@ -12,14 +13,23 @@ inline constexpr double kBoundaryClearance = 0.4;  // in units of d
 // With less than this there is no room: a wedge or gap narrower than 0.7 d.
 inline constexpr double kLeastClearance = 0.35;
 
+template <int Dim>
 struct ClearPosition {
-  Point<2> position;
+  Point<Dim> position;
   bool clear;  // false: the node should go at the next population event
 };
 
-// Where a node that wants to move from `from` to `to` may go: pushed off the edges (all that can
+// Where a node that wants to move from `from` to `to` may go: pushed off the facets (all that can
 // be met on the way, in the order of their indices) to the clearance, never across one.
-ClearPosition clear_position(const DomainMap& map, std::span<const std::int32_t> edges,
-                             const Point<2>& from, const Point<2>& to, double d);
+template <int Dim>
+ClearPosition<Dim> clear_position(const FacetIndex<Dim>& index,
+                                  std::span<const std::int32_t> facets,
+                                  const std::type_identity_t<Point<Dim>>& from,
+                                  const std::type_identity_t<Point<Dim>>& to, double d);
+
+extern template ClearPosition<2> clear_position(const FacetIndex<2>&, std::span<const std::int32_t>,
+                                                const Point<2>&, const Point<2>&, double);
+extern template ClearPosition<3> clear_position(const FacetIndex<3>&, std::span<const std::int32_t>,
+                                                const Point<3>&, const Point<3>&, double);
 
 }  // namespace pnpbs

@@ -17,7 +17,7 @@ constexpr int kCellsPerLeaf = kCellsAcross * kCellsAcross;
 int column_of(int place, int k) { return ((place >> k) & 1) | ((place >> (k + 1)) & 2); }
 
 // No lattice of one d fits such a leaf.
-bool is_steep(const DomainMap& map, std::int32_t leaf) {
+bool is_steep(const DomainMap<2>& map, std::int32_t leaf) {
   return !map.leaf_outside(leaf) &&
          map.leaf_largest_spacing(leaf) > kPatchVariation * map.leaf_least_spacing(leaf);
 }
@@ -35,7 +35,7 @@ Point<2> on_diagonal(double side, const Point<2>& centre, int n, int count) {
 
 }  // namespace
 
-GradedFill::GradedFill(const DomainMap& map, const std::function<bool(std::int32_t)>& wanted)
+GradedFill::GradedFill(const DomainMap<2>& map, const std::function<bool(std::int32_t)>& wanted)
     : map_(map) {
   const BackgroundTree<2>& tree = map.tree();
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {

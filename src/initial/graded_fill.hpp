@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "domain/domain_map.hpp"
+#include "spacing/domain_map.hpp"
 
 namespace pnpbs {
 
@@ -17,7 +17,7 @@ class GradedFill {
  public:
   // Of the leaves that hexagonal_fill leaves out, as d varies too much in them, and for which
   // wanted(leaf) holds.
-  GradedFill(const DomainMap& map, const std::function<bool(std::int32_t)>& wanted);
+  GradedFill(const DomainMap<2>& map, const std::function<bool(std::int32_t)>& wanted);
 
   // The centres of the cells in the domain, and d there, which is asked by the caller.
   const std::vector<Point<2>>& centres() const { return centres_; }
@@ -34,7 +34,7 @@ class GradedFill {
     std::size_t first, end;  // its cells
   };
 
-  const DomainMap& map_;
+  const DomainMap<2>& map_;
   std::vector<Leaf> leaves_;
   std::vector<Point<2>> centres_;
 };

@@ -18,7 +18,7 @@ bool nearly_constant(const SpacingSummary& cell) {
   return cell.largest <= kPatchVariation * cell.least;
 }
 
-SpacingSummary summary_of_leaf(const DomainMap& map, std::int32_t c) {
+SpacingSummary summary_of_leaf(const DomainMap<2>& map, std::int32_t c) {
   const std::int32_t leaf = map.tree().cell(c).leaf;
   SpacingSummary own;
   if (map.leaf_outside(leaf)) return own;
@@ -32,8 +32,8 @@ SpacingSummary summary_of_leaf(const DomainMap& map, std::int32_t c) {
 
 class Fill {
  public:
-  Fill(const DomainMap& map, const Box<2>& bounds, const std::function<bool(std::int32_t)>& wanted,
-       const std::vector<LeafSummary>& unrefined)
+  Fill(const DomainMap<2>& map, const Box<2>& bounds,
+       const std::function<bool(std::int32_t)>& wanted, const std::vector<LeafSummary>& unrefined)
       : map_(map), bounds_(bounds), wanted_(wanted), cells_(spacing_summaries(map, unrefined)) {}
 
   std::vector<Point<2>> make() {
@@ -100,7 +100,7 @@ class Fill {
     }
   }
 
-  const DomainMap& map_;
+  const DomainMap<2>& map_;
   const Box<2>& bounds_;
   const std::function<bool(std::int32_t)>& wanted_;
   std::vector<SpacingSummary> cells_;
@@ -116,7 +116,7 @@ void SpacingSummary::add(const SpacingSummary& part) {
   nodes += part.nodes;
 }
 
-std::vector<SpacingSummary> spacing_summaries(const DomainMap& map,
+std::vector<SpacingSummary> spacing_summaries(const DomainMap<2>& map,
                                               const std::vector<LeafSummary>& unrefined) {
   const BackgroundTree<2>& tree = map.tree();
   std::vector<SpacingSummary> cells(static_cast<std::size_t>(tree.cell_count()));
@@ -133,7 +133,7 @@ std::vector<SpacingSummary> spacing_summaries(const DomainMap& map,
   return cells;
 }
 
-std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds,
+std::vector<Point<2>> hexagonal_fill(const DomainMap<2>& map, const Box<2>& bounds,
                                      const std::function<bool(std::int32_t)>& wanted,
                                      const std::vector<LeafSummary>& unrefined) {
   return Fill(map, bounds, wanted, unrefined).make();

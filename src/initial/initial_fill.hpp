@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "domain/domain_map.hpp"
+#include "spacing/domain_map.hpp"
 
 namespace pnpbs {
 
@@ -36,11 +36,11 @@ struct LeafSummary {
 };
 
 // Of every cell of the tree, from the leaves up.
-std::vector<SpacingSummary> spacing_summaries(const DomainMap& map,
+std::vector<SpacingSummary> spacing_summaries(const DomainMap<2>& map,
                                               const std::vector<LeafSummary>& unrefined);
 
 // Of the leaves for which wanted(leaf) holds and that are not steep, in their Morton order.
-std::vector<Point<2>> hexagonal_fill(const DomainMap& map, const Box<2>& bounds,
+std::vector<Point<2>> hexagonal_fill(const DomainMap<2>& map, const Box<2>& bounds,
                                      const std::function<bool(std::int32_t)>& wanted,
                                      const std::vector<LeafSummary>& unrefined = {});
 

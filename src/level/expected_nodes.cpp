@@ -11,13 +11,13 @@ namespace pnpbs {
 // Of the leaves that the boundary crosses we know only what the domain's area leaves for all of
 // them.
 std::vector<double> wanted_nodes(const Level& level) {
-  const DomainMap& map = level.map();
+  const DomainMap<2>& map = level.map();
   const BackgroundTree<2>& tree = map.tree();
   std::uint64_t inside = 0, crossed = 0;  // areas
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
     if (level.tree->owns(leaf) && !map.leaf_outside(leaf))
-      (map.leaf_has_edges(leaf) ? crossed : inside) += map.leaf_size(leaf);
-  const double unit = std::pow(std::ldexp(tree.side(), -DomainMap::kMaxDepth), 2);
+      (map.leaf_has_facets(leaf) ? crossed : inside) += map.leaf_size(leaf);
+  const double unit = std::pow(std::ldexp(tree.side(), -DomainMap<2>::kMaxDepth), 2);
   const double area_inside = unit * static_cast<double>(level.comm->allreduce_sum(inside)),
                area_crossed = unit * static_cast<double>(level.comm->allreduce_sum(crossed));
   const double share =
@@ -28,7 +28,7 @@ std::vector<double> wanted_nodes(const Level& level) {
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const double d = map.leaf_spacing(leaf), side = tree.cell_side(tree.leaf_cell(leaf));
     const double part = !level.tree->owns(leaf) || map.leaf_outside(leaf) ? 0
-                        : map.leaf_has_edges(leaf)                        ? share
+                        : map.leaf_has_facets(leaf)                       ? share
                                                                           : 1;
     wanted.push_back(part > 0 ? part * Lattice<2>::kDensity * side * side / (d * d) : 0);
   }
@@ -42,7 +42,7 @@ double expected_nodes(const Level& level) {
 }
 
 SpacingVariation spacing_variation(const Level& level) {
-  const DomainMap& map = level.map();
+  const DomainMap<2>& map = level.map();
   constexpr double kBetweenSamples = 0.7;  // the farthest of a leaf, in units of its side
   SpacingVariation own;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
@@ -50,7 +50,7 @@ SpacingVariation spacing_variation(const Level& level) {
     const double least = map.leaf_least_spacing(leaf), largest = map.leaf_largest_spacing(leaf);
     // Next to the boundary the samples may be those of the cell above.
     const double cell = map.tree().cell_side(map.tree().leaf_cell(leaf)),
-                 way = kBetweenSamples * (map.leaf_has_edges(leaf) ? 2 * cell : cell);
+                 way = kBetweenSamples * (map.leaf_has_facets(leaf) ? 2 * cell : cell);
     own.least = std::min(own.least, least);
     own.largest = std::max(own.largest, largest);
     own.steepest = std::max(own.steepest, (largest - least) / way);

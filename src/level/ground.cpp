@@ -13,17 +13,17 @@ Ground::Ground(std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const 
   for (std::size_t f = static_cast<std::size_t>(boundary_.first_fixed); f < boundary_.nodes.size();
        ++f) {
     const std::int32_t node = static_cast<std::int32_t>(f);
-    boundary_.edges.push_back({node, node, boundary_.nodes[f].tag, true, true});
+    boundary_.facets.push_back({node, node, boundary_.nodes[f].tag, true, true});
   }
   sectors_.build(boundary_);
   bubble_bound_ = bubbles_on_boundary(boundary_);
   std::vector<Point<2>> positions;
-  for (const BoundaryNode& node : boundary_.nodes) positions.push_back(node.position);
+  for (const BoundaryNode<2>& node : boundary_.nodes) positions.push_back(node.position);
   boundary_spacing_.resize(positions.size());
   evaluator()(std::ssize(positions), positions.data(), boundary_spacing_.data());
 }
 
-SpacingEvaluator Ground::evaluator() const {
+SpacingEvaluator<2> Ground::evaluator() const {
   return [this](std::int64_t n, const Point<2>* x, double* d) {
     evaluate_spacing<2>(*spacing_, domain_->area(), n, x, d);
   };

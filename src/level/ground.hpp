@@ -25,7 +25,7 @@ class Ground {
 
   const PlaneDomain& domain() const { return *domain_; }
   const Spacing<2>& spacing() const { return *spacing_; }
-  SpacingEvaluator evaluator() const;  // d, checked; while this ground is there
+  SpacingEvaluator<2> evaluator() const;  // d, checked; while this ground is there
   const Boundary& boundary() const { return boundary_; }
   const IncidentSectors& sectors() const { return sectors_; }
   std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }

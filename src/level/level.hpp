@@ -34,7 +34,7 @@ struct Level {
   void change_settings(const Settings& next);
 
   bool distributed() const { return comm->size() > 1; }
-  const DomainMap& map() const { return tree->map(); }
+  const DomainMap<2>& map() const { return tree->map(); }
   const AdjacencyList<2>& lists() const { return neighbourhood.lists(); }
   // Changes with the nodes and with the lists.
   std::int64_t version() const {

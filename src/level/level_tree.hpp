@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "comm/communicator.hpp"
-#include "domain/domain_map.hpp"
 #include "level/ground.hpp"
 #include "partition/distribution.hpp"
 #include "settings/settings.hpp"
+#include "spacing/domain_map.hpp"
 #include "tree/leaf_graph.hpp"
 
 namespace pnpbs {
@@ -28,7 +28,7 @@ class LevelTree {
   LevelTree(const LevelTree&) = delete;  // the distribution points to the tree
   LevelTree& operator=(const LevelTree&) = delete;
 
-  const DomainMap& map() const { return map_; }
+  const DomainMap<2>& map() const { return map_; }
   const BackgroundTree<2>& tree() const { return map_.tree(); }
   // Leaves of which one reaches the other.
   const std::shared_ptr<const LeafLinks<2>>& links() const { return links_; }
@@ -75,7 +75,7 @@ class LevelTree {
 
   const Communicator& comm_;
   const Ground& ground_;
-  DomainMap map_;
+  DomainMap<2> map_;
   std::shared_ptr<const LeafLinks<2>> links_;
   Distribution<2> distribution_;
   int hops_ = 0;

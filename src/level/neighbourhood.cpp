@@ -48,7 +48,7 @@ bool Neighbourhood::rebuild(Nodes<2>& nodes, const Ground& ground, const LevelTr
                             const Settings& settings, double radius, const Field<2>& seen_from) {
   for_steps_ = false;
   arrangement_ = -1;
-  const DomainMap& map = tree.map();
+  const DomainMap<2>& map = tree.map();
   const bool reordered = buckets_.sort(map.tree(), nodes, widest_radius(settings));
   near_edges_.build(nodes, seen_from, buckets_, map);
   boundary_visibility_.look(nodes, near_edges_, map, ground.sectors());

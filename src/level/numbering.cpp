@@ -94,7 +94,7 @@ void leave_out_coinciding(GivenNodes& inner) {
 // Those that this rank owns, by leaf.
 std::vector<LeafNode> own_boundary_nodes(const Level& level) {
   std::vector<LeafNode> own;
-  const std::vector<BoundaryNode>& laid = level.ground.boundary().nodes;
+  const std::vector<BoundaryNode<2>>& laid = level.ground.boundary().nodes;
   for (std::size_t b = 0; b < laid.size(); ++b) {
     const std::int32_t leaf = level.tree->tree().leaf_at(laid[b].position);
     if (level.tree->owns(leaf)) own.push_back({leaf, static_cast<std::int32_t>(b)});
@@ -134,7 +134,7 @@ std::vector<std::int64_t> new_ids(Level& level, const LeafBlocks& blocks,
 // New ids go by bucket in Morton order, boundary nodes first, then by place, so that the order of
 // ids is nearly the order in memory.
 void number_and_store(Level& level, GivenNodes inner, std::vector<std::int64_t> boundary_ids) {
-  const std::vector<BoundaryNode>& laid = level.ground.boundary().nodes;
+  const std::vector<BoundaryNode<2>>& laid = level.ground.boundary().nodes;
   boundary_ids.resize(laid.size(), -1);
   leave_out_coinciding(inner);
   level.next_id = next_id_after(level, inner);
@@ -155,7 +155,7 @@ void number_and_store(Level& level, GivenNodes inner, std::vector<std::int64_t> 
   blocks.for_each_node(
       [&](std::size_t place, const LeafNode& node) {
         const auto i = static_cast<std::int64_t>(place);
-        const BoundaryNode& at = laid[static_cast<std::size_t>(node.node)];
+        const BoundaryNode<2>& at = laid[static_cast<std::size_t>(node.node)];
         nodes.put(i, at.position, 1, number(boundary_id(node), node.leaf), at.tag, Carrier::fixed,
                   node.node);
         bucket(i) = node.leaf;

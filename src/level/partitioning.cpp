@@ -90,7 +90,7 @@ std::vector<std::int64_t> LevelTree::expected_work() const {
     const double side = map_.tree().cell_side(map_.tree().leaf_cell(leaf)),
                  d = map_.leaf_spacing(leaf);
     const double nodes = map_.leaf_outside(leaf) || d == 0 ? 0
-                         : map_.leaf_has_edges(leaf)       ? 0.5 * side * side / (d * d)
+                         : map_.leaf_has_facets(leaf)      ? 0.5 * side * side / (d * d)
                                                            : side * side / (d * d);
     work.push_back(map_.leaf_outside(leaf)
                        ? 0

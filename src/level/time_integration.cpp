@@ -17,19 +17,19 @@ const Field<2>& TimeIntegration::scratch(const Nodes<2>& nodes) {
   return next_;
 }
 
-void TimeIntegration::step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+void TimeIntegration::step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
                            const Settings& settings) {
   step(settings.predictor_corrector ? Scheme::predictor_corrector : Scheme::damped, nodes,
        neighbourhood, map, settings);
 }
 
 void TimeIntegration::runge_kutta_step(Nodes<2>& nodes, Neighbourhood& neighbourhood,
-                                       const DomainMap& map, const Settings& settings) {
+                                       const DomainMap<2>& map, const Settings& settings) {
   step(Scheme::runge_kutta, nodes, neighbourhood, map, settings);
 }
 
 void TimeIntegration::step(Scheme scheme, Nodes<2>& nodes, Neighbourhood& neighbourhood,
-                           const DomainMap& map, const Settings& settings) {
+                           const DomainMap<2>& map, const Settings& settings) {
   scratch(nodes);
   if (settings.cubic_law)
     move_by(CubicLaw{}, scheme, nodes, neighbourhood.lists(), settings);
@@ -52,7 +52,7 @@ void TimeIntegration::move_by(const Law& law, Scheme scheme, Nodes<2>& nodes,
 }
 
 // Inner nodes near the boundary are held off it; then the new positions become the positions.
-void TimeIntegration::accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+void TimeIntegration::accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
                              const Settings& settings) {
   constexpr std::int64_t kChunk = 64;
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
@@ -74,11 +74,11 @@ void TimeIntegration::accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, cons
 }
 
 void TimeIntegration::hold_off_boundary(std::int64_t i, const Nodes<2>& nodes,
-                                        const NearEdges& near_edges, const DomainMap& map,
+                                        const NearEdges& near_edges, const DomainMap<2>& map,
                                         const Settings& settings) const {
   const Point<2> from = nodes.position(i), to = point_at<2>(next_, i);
   if (near_edges.stays_clear(i, from, to, kBoundaryClearance * nodes.d(i))) return;
-  const ClearPosition kept = clear_position(map, near_edges.edges_of(i), from, to, nodes.d(i));
+  const ClearPosition<2> kept = clear_position(map, near_edges.edges_of(i), from, to, nodes.d(i));
   for (int k = 0; k < 2; ++k) {
     if (kept.position[k] != to[k])
       nodes.v[k](i) = (kept.position[k] - from[k]) / settings.motion.dt;

@@ -13,10 +13,10 @@ namespace pnpbs {
 class TimeIntegration {
  public:
   // By the scheme of the settings. Lists must be made for it.
-  void step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+  void step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
             const Settings& settings);
   // One of the classical fourth order, the paper's last.
-  void runge_kutta_step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+  void runge_kutta_step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
                         const Settings& settings);
 
   // Room for other positions of the nodes, padded as theirs are.
@@ -24,15 +24,15 @@ class TimeIntegration {
 
  private:
   enum class Scheme { damped, predictor_corrector, runge_kutta };
-  void step(Scheme scheme, Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+  void step(Scheme scheme, Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
             const Settings& settings);
   template <class Law>
   void move_by(const Law& law, Scheme scheme, Nodes<2>& nodes, const AdjacencyList<2>& lists,
                const Settings& settings);
-  void accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap& map,
+  void accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
               const Settings& settings);
   void hold_off_boundary(std::int64_t i, const Nodes<2>& nodes, const NearEdges& near_edges,
-                         const DomainMap& map, const Settings& settings) const;
+                         const DomainMap<2>& map, const Settings& settings) const;
 
   Field<2> next_;  // positions after the step in progress
   Stages<2> stages_;

@@ -105,7 +105,7 @@ constexpr const char* kSpacingsDiffer =
 void LevelTree::require_same_ground() const {
   const PartitionCells<2>& cells = distribution_.cells();
   std::uint64_t fingerprint = 0;
-  for (const BoundaryNode& node : ground_.boundary().nodes)
+  for (const BoundaryNode<2>& node : ground_.boundary().nodes)
     for (double coordinate : node.position) fingerprint = mixed_with(fingerprint, coordinate);
   for (std::int32_t c = 0; c < cells.count(); ++c)
     fingerprint = mixed_with(fingerprint, cells.largest_spacing(c));

@@ -5,11 +5,11 @@
 #include <bit>
 #include <cmath>
 
-#include "domain/segments.hpp"
+#include "domain/plane/segments.hpp"
 
 namespace pnpbs {
 
-void NearEdges::prepare(const DomainMap& map, const LeafLinks<2>& links, double radius) {
+void NearEdges::prepare(const DomainMap<2>& map, const LeafLinks<2>& links, double radius) {
   radius_ = radius;
   at_boundary_nodes_.assign(map.boundary().nodes.size(), {});
   const std::int32_t leaves = map.tree().leaf_count();
@@ -26,24 +26,25 @@ void NearEdges::prepare(const DomainMap& map, const LeafLinks<2>& links, double 
     leaf_reach_[static_cast<std::size_t>(leaf)] = reach;
     gather_near(map, links, leaf, near);
     leaf_edges_.insert(leaf_edges_.end(), near.begin(), near.end());
-    for (std::int32_t e : near) add_box(map.edge_begin(e), map.edge_end(e), reach);
+    for (std::int32_t e : near) add_box(map.corners(e)[0], map.corners(e)[1], reach);
     leaf_offset_.push_back(static_cast<std::int32_t>(leaf_edges_.size()));
   }
 }
 
 // All edges within its reach of a leaf, and some more, by number.
-void NearEdges::gather_near(const DomainMap& map, const LeafLinks<2>& links, std::int32_t leaf,
+void NearEdges::gather_near(const DomainMap<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
                             std::vector<std::int32_t>& near) const {
   near.clear();
-  const auto gather = [&](std::int32_t e) { near.push_back(e); };
   const double reach = leaf_reach_[static_cast<std::size_t>(leaf)];
   if (reach <= links.reach[static_cast<std::size_t>(leaf)]) {
-    links.graph.for_neighbours(leaf,
-                               [&](std::int32_t other) { map.for_edges_of_leaf(other, gather); });
+    links.graph.for_neighbours(leaf, [&](std::int32_t other) {
+      for (const std::int32_t e : map.facets_of_leaf(other)) near.push_back(e);
+    });
   } else {
     const std::int32_t cell = map.tree().leaf_cell(leaf);
     const double half_diagonal = 0.7072 * map.tree().cell_side(cell);
-    map.for_edges_near(map.tree().cell_centre(cell), half_diagonal + reach, gather);
+    map.for_facets_near(map.tree().cell_centre(cell), half_diagonal + reach,
+                        [&](std::int32_t e) { near.push_back(e); });
   }
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
@@ -62,7 +63,8 @@ void NearEdges::add_box(const Point<2>& a, const Point<2>& b, double reach) {
 // Writes the edges near the nodes at consecutive places, one after the other.
 class NearEdges::Finder {
  public:
-  Finder(NearEdges& edges, const Nodes<2>& nodes, const Buckets<2>& buckets, const DomainMap& map)
+  Finder(NearEdges& edges, const Nodes<2>& nodes, const Buckets<2>& buckets,
+         const DomainMap<2>& map)
       : of_(edges), nodes_(nodes), buckets_(buckets), map_(map) {}
 
   void operator()(std::int64_t i, std::vector<std::int32_t>& out) {
@@ -108,12 +110,12 @@ class NearEdges::Finder {
 
   // From boundary node b, at x, to an edge; to the far end of its own.
   double distance_beyond(std::int32_t b, std::int32_t e, const Point<2>& x) const {
-    const BoundaryEdge& edge = map_.edge(e);
+    const BoundaryEdge& edge = map_.facet(e);
     const bool begins = edge.begin == b, ends = edge.end == b;
     if (begins && ends) return kFarAway;  // a fixed node
-    if (begins) return distance<2>(x, map_.edge_end(e));
-    if (ends) return distance<2>(x, map_.edge_begin(e));
-    return distance_to_segment(map_.edge_begin(e), map_.edge_end(e), x);
+    if (begins) return distance<2>(x, map_.corners(e)[1]);
+    if (ends) return distance<2>(x, map_.corners(e)[0]);
+    return distance_to_segment(map_.corners(e)[0], map_.corners(e)[1], x);
   }
 
   // Returns the distance from the nearest, or how far was looked.
@@ -124,7 +126,7 @@ class NearEdges::Finder {
         map_.tree().fine_box_holds(box_, x) ? bucket_ : map_.tree().leaf_at(x);
     double nearest = reach;
     const auto keep_if_near = [&](std::int32_t e) {
-      const double gap = distance_to_segment(map_.edge_begin(e), map_.edge_end(e), x);
+      const double gap = distance_to_segment(map_.corners(e)[0], map_.corners(e)[1], x);
       if (gap > reach) return;
       out.push_back(e);
       nearest = std::min(nearest, gap);
@@ -132,7 +134,7 @@ class NearEdges::Finder {
     if (reach <= of_.leaf_reach_[static_cast<std::size_t>(leaf)])
       for_boxes_near(leaf, x, reach, keep_if_near);
     else
-      map_.for_edges_near(x, reach, keep_if_near);
+      map_.for_facets_near(x, reach, keep_if_near);
     return nearest;
   }
 
@@ -170,14 +172,14 @@ class NearEdges::Finder {
   NearEdges& of_;
   const Nodes<2>& nodes_;
   const Buckets<2>& buckets_;
-  const DomainMap& map_;
+  const DomainMap<2>& map_;
   std::int32_t bucket_ = -1;
   Box<2> box_{};               // of the bucket
   bool nothing_near_ = false;  // to any node of it
 };
 
 void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
-                      const Buckets<2>& buckets, const DomainMap& map) {
+                      const Buckets<2>& buckets, const DomainMap<2>& map) {
   at_ = at;
   if (static_cast<std::int64_t>(any_.extent(0)) < nodes.capacity()) {
     any_ = make_view<char>("pnpbs::NearEdges::any", nodes.capacity());
@@ -187,7 +189,7 @@ void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& 
                [&] { return Finder(*this, nodes, buckets, map); });
 }
 
-bool NearEdges::visible_past_edges(const Nodes<2>& nodes, const DomainMap& map,
+bool NearEdges::visible_past_edges(const Nodes<2>& nodes, const DomainMap<2>& map,
                                    const IncidentSectors& sectors, std::int64_t i, std::int64_t j,
                                    std::int64_t wide) const {
   return visible_between(map, sectors, place_of(i), nodes.boundary_node(i), place_of(j),

@@ -9,22 +9,22 @@
 
 #include "base/chunked_rows.hpp"
 #include "base/nodes.hpp"
-#include "domain/domain_map.hpp"
 #include "domain/plane/incident_sectors.hpp"
 #include "neighbors/buckets.hpp"
+#include "spacing/domain_map.hpp"
 
 namespace pnpbs {
 
 class NearEdges {
  public:
   // Once per level: which edges come near which leaf. The links tell which leaves are near it.
-  void prepare(const DomainMap& map, const LeafLinks<2>& links, double radius);
+  void prepare(const DomainMap<2>& map, const LeafLinks<2>& links, double radius);
 
   // At every rebuild of the lists: the edges within radius * d_i of each node, the nodes being at
   // `at`. During the run that is where they were at the last event, so that it does not matter
   // when the lists are made. Those of boundary nodes, which do not move, are found once.
   void build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
-             const Buckets<2>& buckets, const DomainMap& map);
+             const Buckets<2>& buckets, const DomainMap<2>& map);
 
   // Is no edge near any place in this leaf?
   bool leaf_is_clear(std::int32_t leaf) const {
@@ -74,7 +74,7 @@ class NearEdges {
   }
 
   // Does none of the edges near node `wide` separate nodes i and j?
-  bool visible_past_edges(const Nodes<2>& nodes, const DomainMap& map,
+  bool visible_past_edges(const Nodes<2>& nodes, const DomainMap<2>& map,
                           const IncidentSectors& sectors, std::int64_t i, std::int64_t j,
                           std::int64_t wide) const;
 
@@ -93,7 +93,7 @@ class NearEdges {
     double beyond = 0;  // to the nearest edge or node of the boundary that is not its own
     std::vector<std::int32_t> edges;
   };
-  void gather_near(const DomainMap& map, const LeafLinks<2>& links, std::int32_t leaf,
+  void gather_near(const DomainMap<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
                    std::vector<std::int32_t>& near) const;
   void add_box(const Point<2>& a, const Point<2>& b, double reach);
 
@@ -122,7 +122,7 @@ inline bool boxes_are_apart(const Point<2>& x, const Point<2>& y, const Point<2>
 // Does the straight way between two nodes stay inside the domain, as far as `edges` (all that can
 // lie between them) tell? Boundary nodes are given by their index, inner ones by -1.
 template <class Edges>
-bool visible_between(const DomainMap& map, const IncidentSectors& sectors, const Point<2>& x,
+bool visible_between(const DomainMap<2>& map, const IncidentSectors& sectors, const Point<2>& x,
                      std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
                      const Edges& edges);
 
@@ -133,7 +133,7 @@ bool visible_between(const DomainMap& map, const IncidentSectors& sectors, const
 namespace pnpbs {
 
 template <class Edges>
-bool visible_between(const DomainMap& map, const IncidentSectors& sectors, const Point<2>& x,
+bool visible_between(const DomainMap<2>& map, const IncidentSectors& sectors, const Point<2>& x,
                      std::int32_t boundary_x, const Point<2>& y, std::int32_t boundary_y,
                      const Edges& edges) {
   if (boundary_x >= 0 && boundary_y >= 0 && sectors.joined(boundary_x, boundary_y)) return true;
@@ -147,14 +147,14 @@ bool visible_between(const DomainMap& map, const IncidentSectors& sectors, const
   };
   const std::span<const std::int32_t> row(edges);
   for (std::size_t k = 0; k < row.size(); ++k) {
-    if (const std::size_t off = map.edge_blocks().edges_off_the_way(row, k, x, y)) {
+    if (const std::size_t off = map.facet_blocks().facets_off_the_way(row, k, x, y)) {
       k += off - 1;
       continue;
     }
     const std::int32_t e = row[k];
-    const Point<2>&a = map.edge_begin(e), &b = map.edge_end(e);
+    const auto& [a, b] = map.corners(e);
     if (boxes_are_apart(x, y, a, b)) continue;  // most are
-    const std::int32_t begin = map.edge(e).begin, end = map.edge(e).end;
+    const std::int32_t begin = map.facet(e).begin, end = map.facet(e).end;
     // Of ends that are x or y themselves this much is known, and exact arithmetic is slow.
     const int side_a = begin == boundary_x || begin == boundary_y ? 0 : orientation(x, y, a);
     const int side_b = end == boundary_x || end == boundary_y ? 0 : orientation(x, y, b);

@@ -90,7 +90,7 @@ bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_
   constexpr double kMostForced = 0.2;
   double laid = 0;
   agreed(*comm_, [&] {
-    const SpacingEvaluator checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+    const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
       evaluate_spacing<2>(coarser, domain_->area(), n, x, d);
     };
     laid = static_cast<double>(discretize_boundary(*domain_, checked).nodes.size());

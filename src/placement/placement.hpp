@@ -227,7 +227,7 @@ void Placement::for_boundary_edges(const Visit& visit) const {
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (!nodes.moves(i)) place[static_cast<std::size_t>(nodes.boundary_node(i))] = place_of(i);
   const std::int64_t owned = count();
-  for (const BoundaryEdge& e : boundary.edges) {
+  for (const BoundaryEdge& e : boundary.facets) {
     if (e.begin == e.end) continue;  // a fixed node
     const std::int64_t begin = place[static_cast<std::size_t>(e.begin)];
     if (begin >= 0 && begin < owned) visit(begin, place[static_cast<std::size_t>(e.end)], e.tag);

@@ -285,7 +285,7 @@ void ResultCheck::check_sides_of(std::int64_t i, std::int64_t j, bool left, bool
   const std::int32_t b = nodes_.boundary_node(i), c = nodes_.boundary_node(j);
   for (std::int32_t k = b < 0 ? 0 : sectors_.begin(b); b >= 0 && k < sectors_.end(b); ++k) {
     if (sectors_.edge(k).other != c) continue;
-    const BoundaryEdge& e = boundary_.edges[static_cast<std::size_t>(sectors_.edge(k).edge)];
+    const BoundaryEdge& e = boundary_.facets[static_cast<std::size_t>(sectors_.edge(k).edge)];
     left_inside = e.begin == b ? e.left_inside : e.right_inside;
     right_inside = e.begin == b ? e.right_inside : e.left_inside;
   }
@@ -339,7 +339,7 @@ struct Enclosed {
 Enclosed enclosed_by(const Boundary& boundary, const Box<2>& bounds) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   Enclosed sum;
-  for (const BoundaryEdge& e : boundary.edges) {
+  for (const BoundaryEdge& e : boundary.facets) {
     if (e.left_inside == e.right_inside) continue;
     const Point<2>&a = boundary.nodes[static_cast<std::size_t>(e.begin)].position,
           &b = boundary.nodes[static_cast<std::size_t>(e.end)].position;

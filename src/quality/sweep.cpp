@@ -13,7 +13,7 @@ namespace {
 
 // Where the sweep would take the nodes of block b; their own places if they may not move.
 void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-             const DomainMap& map, const SweepRule& rule,
+             const DomainMap<2>& map, const SweepRule& rule,
              const std::array<View<double>, 2>& proposed, std::int64_t b) {
   const DelaunayStars::Block block = stars.block(b);
   const Positions<2> x = positions_of<2>(nodes.x);
@@ -40,8 +40,8 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
     proposed[0](i) = may ? x[0][i] + move[0] : x[0][i];
     proposed[1](i) = may ? x[1][i] + move[1] : x[1][i];
     if (!may || !near_edges.any(i)) continue;
-    const ClearPosition kept = clear_position(map, near_edges.edges_of(i), nodes.position(i),
-                                              point_at<2>(proposed, i), nodes.d(i));
+    const ClearPosition<2> kept = clear_position(map, near_edges.edges_of(i), nodes.position(i),
+                                                 point_at<2>(proposed, i), nodes.d(i));
     for (int k = 0; k < 2; ++k) proposed[k](i) = kept.clear ? kept.position[k] : x[k][i];
   }
 }
@@ -49,8 +49,8 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
 }  // namespace
 
 void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-           const DomainMap& map, const SweepRule& rule, const std::array<View<double>, 2>& proposed,
-           const View<char>& allowed) {
+           const DomainMap<2>& map, const SweepRule& rule,
+           const std::array<View<double>, 2>& proposed, const View<char>& allowed) {
   const QualityBound bound(rule.bad_below);
   for_each("pnpbs::sweep::propose", stars.block_count(),
            [&](std::int64_t b) { propose(nodes, stars, near_edges, map, rule, proposed, b); });

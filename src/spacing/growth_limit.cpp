@@ -15,7 +15,7 @@ GrowthLimitedSpacing::GrowthLimitedSpacing(const PlaneDomain& domain,
                                            std::shared_ptr<const Spacing<2>> raw, double growth,
                                            const NodeLimit& limit, const Beat& beat)
     : raw_(std::move(raw)), growth_(growth) {
-  const SpacingEvaluator checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+  const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
     beat();
     evaluate_spacing<2>(*raw_, domain.area(), n, x, d);
   };
@@ -40,13 +40,13 @@ void GrowthLimitedSpacing::look_at_new_tree(const std::vector<Source>& sources, 
 void GrowthLimitedSpacing::fit_tree(const PlaneDomain& domain, const NodeLimit& limit,
                                     const Beat& beat) {
   constexpr int kMostPasses = 6;
-  const SpacingEvaluator limited = [&](std::int64_t n, const Point<2>* x, double* d) {
+  const SpacingEvaluator<2> limited = [&](std::int64_t n, const Point<2>* x, double* d) {
     beat();
     evaluate_spacing<2>(*this, domain.area(), n, x, d);
   };
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const std::int32_t leaves = map_.tree().leaf_count();
-    DomainMap fitted;
+    DomainMap<2> fitted;
     fitted.build(domain.bounds(), boundary_, limited, limit, 0, &map_.tree());
     std::vector<Source> sources = std::move(source_);
     std::erase_if(sources, [](const Source& source) { return std::isinf(source.d); });
@@ -94,7 +94,7 @@ std::vector<GrowthLimitedSpacing::Source> GrowthLimitedSpacing::samples_of_leave
       if (map_.inside_in_leaf(leaf, x)) points.push_back(x);
     }
   }
-  for (const BoundaryNode& node : boundary_.nodes) points.push_back(node.position);
+  for (const BoundaryNode<2>& node : boundary_.nodes) points.push_back(node.position);
   std::vector<double> d(points.size());
   evaluate_spacing<2>(*raw_, measure, std::ssize(points), points.data(), d.data());
   std::vector<Source> samples;
@@ -127,7 +127,7 @@ bool GrowthLimitedSpacing::open_way(const Point<2>& a, const Point<2>& b) const 
     const double t = way / length;
     const std::int32_t leaf = tree.leaf_at({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
     const bool end = leaf == first || leaf == last;
-    if (!end && (map_.leaf_outside(leaf) || map_.leaf_has_edges(leaf))) return false;
+    if (!end && (map_.leaf_outside(leaf) || map_.leaf_has_facets(leaf))) return false;
     way += 0.5 * tree.cell_side(tree.leaf_cell(leaf));
   }
   return true;
@@ -169,8 +169,8 @@ double GrowthLimitedSpacing::limit_at(const Point<2>& x) const {
     const std::int32_t other = next_to_[static_cast<std::size_t>(k)];
     const Source& source = source_[static_cast<std::size_t>(other)];
     const double by_other = limit_by(source, x);
-    if (by_other < limit && !map_.edge_between(leaf, x, source.x) &&
-        !map_.edge_between(other, x, source.x))
+    if (by_other < limit && !map_.facet_between(leaf, x, source.x) &&
+        !map_.facet_between(other, x, source.x))
       limit = by_other;
   }
   return limit;

@@ -10,9 +10,9 @@
 #include <memory>
 #include <vector>
 
-#include "domain/domain_map.hpp"
 #include "domain/plane/boundary.hpp"
 #include "domain/plane/plane_domain.hpp"
+#include "spacing/domain_map.hpp"
 #include "spacing/spacing.hpp"
 
 namespace pnpbs {
@@ -50,7 +50,7 @@ class GrowthLimitedSpacing : public Spacing<2> {
   std::shared_ptr<const Spacing<2>> raw_;
   double growth_;
   Boundary boundary_;  // at the unlimited spacing
-  DomainMap map_;
+  DomainMap<2> map_;
   std::vector<Source> source_;
   std::vector<double> at_centre_;               // limited d at the middle of each leaf
   std::vector<std::int32_t> offset_, next_to_;  // leaves that touch

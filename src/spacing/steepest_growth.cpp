@@ -21,7 +21,7 @@ struct Sample {
   bool on_boundary;
 };
 
-std::vector<Sample> samples_of_own(const DomainMap& map,
+std::vector<Sample> samples_of_own(const DomainMap<2>& map,
                                    const std::function<bool(std::int32_t)>& owns_leaf) {
   const BackgroundTree<2>& tree = map.tree();
   std::vector<Sample> samples;
@@ -33,10 +33,10 @@ std::vector<Sample> samples_of_own(const DomainMap& map,
       const Point<2> x{middle[0] + sample[0] * side, middle[1] + sample[1] * side};
       if (map.inside_in_leaf(leaf, x)) samples.push_back({leaf, x, false});
     }
-    map.for_edges_of_leaf(leaf, [&](std::int32_t e) {
-      if (tree.leaf_at(map.edge_begin(e)) == leaf)
-        samples.push_back({leaf, map.edge_begin(e), true});
-    });
+    for (const std::int32_t e : map.facets_of_leaf(leaf)) {
+      const Point<2>& begin = map.corners(e)[0];
+      if (tree.leaf_at(begin) == leaf) samples.push_back({leaf, begin, true});
+    }
   }
   return samples;
 }
@@ -46,9 +46,9 @@ struct Slope {
   Point<2> at;
 };
 
-std::vector<Slope> slopes_of_own(const DomainMap& map,
+std::vector<Slope> slopes_of_own(const DomainMap<2>& map,
                                  const std::function<bool(std::int32_t)>& owns_leaf,
-                                 const SpacingEvaluator& spacing) {
+                                 const SpacingEvaluator<2>& spacing) {
   const std::vector<Sample> samples = samples_of_own(map, owns_leaf);
   std::vector<Point<2>> points;
   for (const Sample& sample : samples) points.push_back(sample.x);
@@ -62,7 +62,7 @@ std::vector<Slope> slopes_of_own(const DomainMap& map,
       if (samples[a].on_boundary && samples[b].on_boundary) continue;
       const double growth = std::abs(d[b] - d[a]) / distance<2>(points[a], points[b]);
       const std::size_t low = d[a] < d[b] ? a : b;
-      if (growth > slopes.back().growth && !map.edge_between(leaf, points[a], points[b]))
+      if (growth > slopes.back().growth && !map.facet_between(leaf, points[a], points[b]))
         slopes.back() = {growth, d[low], points[low]};
     }
   }
@@ -71,9 +71,9 @@ std::vector<Slope> slopes_of_own(const DomainMap& map,
 
 }  // namespace
 
-SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap& map,
+SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap<2>& map,
                                const std::function<bool(std::int32_t)>& owns_leaf,
-                               const SpacingEvaluator& spacing) {
+                               const SpacingEvaluator<2>& spacing) {
   std::vector<Slope> slopes;
   agreed(comm, [&] { slopes = slopes_of_own(map, owns_leaf, spacing); });
   // Of the slopes that are left, over all ranks, those with the largest of something.

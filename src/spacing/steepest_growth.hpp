@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "comm/communicator.hpp"
-#include "domain/domain_map.hpp"
+#include "spacing/domain_map.hpp"
 
 namespace pnpbs {
 
@@ -19,8 +19,8 @@ struct SteepestGrowth {
 // By samples in the middle and on the rim of the leaves that this rank owns, and at the boundary
 // nodes in them: of each pair with one inside the domain and no boundary between. The same on any
 // number of ranks. Collective.
-SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap& map,
+SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap<2>& map,
                                const std::function<bool(std::int32_t)>& owns_leaf,
-                               const SpacingEvaluator& spacing);
+                               const SpacingEvaluator<2>& spacing);
 
 }  // namespace pnpbs

@@ -38,7 +38,7 @@ inline Plane constant(double d) {
   return [d](double, double) { return d; };
 }
 
-inline pnpbs::SpacingEvaluator evaluator_of(const Plane& d) {
+inline pnpbs::SpacingEvaluator<2> evaluator_of(const Plane& d) {
   return [d](std::int64_t n, const pnpbs::Point<2>* x, double* values) {
     for (std::int64_t i = 0; i < n; ++i) values[i] = d(x[i][0], x[i][1]);
   };

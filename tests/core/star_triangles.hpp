@@ -50,7 +50,7 @@ inline std::vector<Triangle> star_triangles(const pnpbs::Level& level) {
     triangles.push_back(t);
   }
   const std::vector<std::int64_t> places = boundary_places(level);
-  for (const pnpbs::BoundaryEdge& e : level.ground.boundary().edges) {
+  for (const pnpbs::BoundaryEdge& e : level.ground.boundary().facets) {
     if (e.begin == e.end) continue;
     const std::int64_t a = places[static_cast<std::size_t>(e.begin)];
     const std::int64_t b = places[static_cast<std::size_t>(e.end)];

@@ -8,16 +8,15 @@
 #include <vector>
 
 #include "domain/clearance.hpp"
-#include "domain/domain_map.hpp"
 #include "geometry/expect_error.hpp"
 #include "level_run.hpp"
 #include "predicates/plane.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
+#include "spacing/domain_map.hpp"
 
 using pnpbs::Boundary;
 using pnpbs::BoundaryEdge;
-using pnpbs::DomainMap;
 using pnpbs::PlaneDomain;
 using shapes::add_chain;
 using shapes::add_circle;
@@ -30,7 +29,7 @@ namespace {
 struct Mapped {
   PlaneDomain domain;
   Boundary boundary;
-  DomainMap map;
+  pnpbs::DomainMap<2> map;
 
   Mapped(const Build& build, const Plane& d, std::int64_t max_nodes = 1'000'000'000) {
     build(domain);
@@ -47,7 +46,7 @@ struct Mapped {
 // How often the boundary, with the domain on its left, goes round x.
 int winding_number(const Mapped& m, const P& x) {
   int winding = 0;
-  for (const BoundaryEdge& e : m.boundary.edges) {
+  for (const BoundaryEdge& e : m.boundary.facets) {
     if (e.left_inside == e.right_inside) continue;
     const P a = e.left_inside ? m.begin(e) : m.end(e), b = e.left_inside ? m.end(e) : m.begin(e);
     if (a[1] <= x[1] && b[1] > x[1] && pnpbs::orientation(a, b, x) > 0) ++winding;
@@ -66,13 +65,13 @@ double gap_to_edge(const P& a, const P& b, const P& x) {
 
 double gap_to_boundary(const Mapped& m, const P& x) {
   double least = std::numeric_limits<double>::infinity();
-  for (const BoundaryEdge& e : m.boundary.edges)
+  for (const BoundaryEdge& e : m.boundary.facets)
     least = std::min(least, gap_to_edge(m.begin(e), m.end(e), x));
   return least;
 }
 
 bool on_boundary(const Mapped& m, const P& x) {
-  for (const BoundaryEdge& e : m.boundary.edges) {
+  for (const BoundaryEdge& e : m.boundary.facets) {
     const P a = m.begin(e), b = m.end(e);
     if (pnpbs::orientation(a, b, x) == 0 && std::min(a[0], b[0]) <= x[0] &&
         x[0] <= std::max(a[0], b[0]) && std::min(a[1], b[1]) <= x[1] &&
@@ -108,8 +107,8 @@ void expect_sides(const Mapped& m, std::uint64_t seed) {
   std::vector<P> points;
   for (int trial = 0; trial < 4000; ++trial) points.push_back(random.point<2>(around));
   for (int trial = 0; trial < 3000; ++trial) {  // near edges, on edges, and level with vertices
-    const BoundaryEdge& e = m.boundary.edges[static_cast<std::size_t>(
-        random.below(static_cast<std::int64_t>(m.boundary.edges.size())))];
+    const BoundaryEdge& e = m.boundary.facets[static_cast<std::size_t>(
+        random.below(static_cast<std::int64_t>(m.boundary.facets.size())))];
     const double t = trial % 3 == 0 ? 0.5 : random.between(0, 1);
     P x{m.begin(e)[0] + t * (m.end(e)[0] - m.begin(e)[0]),
         m.begin(e)[1] + t * (m.end(e)[1] - m.begin(e)[1])};
@@ -179,10 +178,10 @@ START_TEST(edges_near_points) {
   for (int trial = 0; trial < 500; ++trial) {
     const P x = random.point<2>(m.domain.bounds());
     const double reach = random.between(0, 0.5);
-    std::vector<char> named(m.boundary.edges.size(), 0);
-    m.map.for_edges_near(x, reach, [&](std::int32_t e) { named[e] = 1; });
+    std::vector<char> named(m.boundary.facets.size(), 0);
+    m.map.for_facets_near(x, reach, [&](std::int32_t e) { named[e] = 1; });
     for (std::size_t e = 0; e < named.size(); ++e) {
-      const BoundaryEdge& edge = m.boundary.edges[e];
+      const BoundaryEdge& edge = m.boundary.facets[e];
       quick_assert(named[e] || gap_to_edge(m.begin(edge), m.end(edge), x) >= reach);
     }
   }
@@ -211,7 +210,7 @@ START_TEST(leaf_sizes_follow_d) {
     const double side = tree.cell_side(c);
     if (graded.map.leaf_outside(leaf)) {
       quick_assert(!graded.map.inside(tree.cell_centre(c)));
-      quick_assert(!graded.map.leaf_has_edges(leaf));
+      quick_assert(!graded.map.leaf_has_facets(leaf));
       continue;
     }
     const double least = graded.map.leaf_least_spacing(leaf);
@@ -228,7 +227,7 @@ START_TEST(leaf_sizes_follow_d) {
         ck_assert_double_ge(d(x[0], x[1]), least - 0.2 * 1.42 * side);
         ck_assert_double_le(d(x[0], x[1]), largest + 0.2 * 1.42 * side);
       }
-    if (graded.map.leaf_has_edges(leaf)) continue;
+    if (graded.map.leaf_has_facets(leaf)) continue;
     // No finer than needed: half as fine would not have done (least d of four such leaves).
     ck_assert_double_gt(2 * side, 4 * (least - 0.2 * 1.42 * 2 * side));
     nodes += side * side / std::pow(graded.map.leaf_spacing(leaf), 2);
@@ -269,7 +268,7 @@ namespace {
 
 // All edges, in order, as the nodes nearby have them.
 std::vector<std::int32_t> all_edges(const Mapped& m) {
-  std::vector<std::int32_t> edges(m.boundary.edges.size());
+  std::vector<std::int32_t> edges(m.boundary.facets.size());
   std::iota(edges.begin(), edges.end(), 0);
   return edges;
 }
@@ -297,7 +296,7 @@ START_TEST(walls_hold) {
     if (gap_to_boundary(m, from) == 0) continue;
     const double reach = random.between(0, 0.5);
     const P to{from[0] + random.between(-reach, reach), from[1] + random.between(-reach, reach)};
-    const pnpbs::ClearPosition kept = pnpbs::clear_position(m.map, edges, from, to, 0.11);
+    const pnpbs::ClearPosition<2> kept = pnpbs::clear_position<2>(m.map, edges, from, to, 0.11);
     quick_assert(m.map.inside(kept.position));
     ck_assert_int_eq(chamber(kept.position), chamber(from));
     const double gap = gap_to_boundary(m, kept.position);
@@ -318,10 +317,10 @@ START_TEST(clearance_is_reached_where_there_is_room) {
   const Mapped m([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); }, constant(d));
   const std::vector<std::int32_t> edges = all_edges(m);
   const auto keep = [&](const P& from, const P& to) {
-    return pnpbs::clear_position(m.map, edges, from, to, d);
+    return pnpbs::clear_position<2>(m.map, edges, from, to, d);
   };
   for (const double y : {0.3, 0.51, 0.777}) {
-    pnpbs::ClearPosition kept = keep({0.06, y}, {0.01, y + 0.02});  // too near a side
+    pnpbs::ClearPosition<2> kept = keep({0.06, y}, {0.01, y + 0.02});  // too near a side
     quick_assert(kept.clear);
     ck_assert_double_eq_tol(kept.position[0], 0.04, 1e-15);
     ck_assert_double_eq_tol(kept.position[1], y + 0.02, 1e-15);
@@ -331,7 +330,7 @@ START_TEST(clearance_is_reached_where_there_is_room) {
     kept = keep({0.06, y}, {0, y});  // onto it
     quick_assert(kept.position == (P{0.06, y}));
   }
-  const pnpbs::ClearPosition corner = keep({0.05, 0.05}, {0.01, 0.02});
+  const pnpbs::ClearPosition<2> corner = keep({0.05, 0.05}, {0.01, 0.02});
   quick_assert(corner.clear);
   ck_assert_double_eq_tol(corner.position[0], 0.04, 1e-15);
   ck_assert_double_eq_tol(corner.position[1], 0.04, 1e-15);
@@ -352,8 +351,8 @@ START_TEST(tips_are_kept_off) {
   for (const double y : {0.5, 0.2}) {
     const double side = y == 0.5 ? -1 : 1;  // where there is room
     const P to{0.503, y + side * 0.02};
-    const pnpbs::ClearPosition kept =
-        pnpbs::clear_position(m.map, edges, {0.46, y + side * 0.05}, to, d);
+    const pnpbs::ClearPosition<2> kept =
+        pnpbs::clear_position<2>(m.map, edges, {0.46, y + side * 0.05}, to, d);
     quick_assert(kept.clear);
     const double gap = std::hypot(kept.position[0] - 0.5, kept.position[1] - y);
     ck_assert_double_eq_tol(gap, 0.4 * d, 1e-15);
@@ -377,14 +376,14 @@ START_TEST(no_room_in_wedges_and_gaps) {
   for (int trial = 0; trial < 1000; ++trial) {
     const double x = random.between(0.01, 0.99), y = random.between(0.01, 0.99) * 0.05 * x;
     const P to{x + random.between(-0.02, 0.02), y + random.between(-0.02, 0.02)};
-    const pnpbs::ClearPosition kept = pnpbs::clear_position(wedge.map, edges, {x, y}, to, d);
+    const pnpbs::ClearPosition<2> kept = pnpbs::clear_position(wedge.map, edges, {x, y}, to, d);
     quick_assert(!kept.clear);
     quick_assert(wedge.map.inside(kept.position));
   }
   // Gaps between two walls: pushed to 0.4 d off the one, a node must be 0.35 d off the other.
   for (const double width : {0.068, 0.074, 0.076, 0.081}) {
     const Mapped gap([&](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, width)); }, constant(d));
-    const pnpbs::ClearPosition kept =
+    const pnpbs::ClearPosition<2> kept =
         pnpbs::clear_position(gap.map, all_edges(gap), {0.5, width / 2}, {0.52, width / 2}, d);
     quick_assert(kept.clear == (width > 0.075));
     quick_assert(gap.map.inside(kept.position));

@@ -12,7 +12,6 @@
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 
-using pnpbs::DomainMap;
 using pnpbs::PlaneDomain;
 using shapes::add_circle;
 using shapes::add_loop;
@@ -24,7 +23,7 @@ namespace {
 struct Filled {
   PlaneDomain domain;
   pnpbs::Boundary boundary;
-  DomainMap map;
+  pnpbs::DomainMap<2> map;
   std::vector<P> nodes;
 
   Filled(const Build& build, const Plane& d) {
@@ -48,7 +47,7 @@ struct Filled {
 
   double gap_to_boundary(const P& x) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const pnpbs::BoundaryEdge& e : boundary.edges) {
+    for (const pnpbs::BoundaryEdge& e : boundary.facets) {
       const P a = boundary.nodes[e.begin].position, b = boundary.nodes[e.end].position;
       const double ux = b[0] - a[0], uy = b[1] - a[1];
       const double t =
@@ -215,7 +214,7 @@ START_TEST(levels_number_their_nodes) {
       ck_assert_int_eq(nodes.tag(i), 0);
       continue;
     }
-    const pnpbs::BoundaryNode& node = run.level->ground.boundary().nodes[nodes.boundary_node(i)];
+    const pnpbs::BoundaryNode<2>& node = run.level->ground.boundary().nodes[nodes.boundary_node(i)];
     quick_assert(nodes.position(i) == node.position);
     ck_assert_int_eq(nodes.tag(i), node.tag);
     ++laid;

@@ -174,7 +174,7 @@ END_TEST
 
 START_TEST(finds_triangles_on_the_wrong_side_of_the_boundary) {
   expect_complaint([](Placement& p) -> std::vector<std::string> {
-    auto& edges = const_cast<pnpbs::Boundary&>(p.level().ground.boundary()).edges;
+    auto& edges = const_cast<pnpbs::Boundary&>(p.level().ground.boundary()).facets;
     for (pnpbs::BoundaryEdge& e : edges)
       if (e.left_inside && e.right_inside) e.left_inside = false;  // the slit's
     return {"a triangle outside the domain"};
@@ -190,7 +190,7 @@ START_TEST(finds_a_boundary_edge_that_is_no_edge) {
       nodes_of(p).boundary_node(node) = static_cast<std::int32_t>(boundary.nodes.size());
       boundary.nodes.push_back({nodes_of(p).position(node), 1});
     }
-    boundary.edges.push_back(
+    boundary.facets.push_back(
         {nodes_of(p).boundary_node(i), nodes_of(p).boundary_node(j), 1, true, true});
     return {"is no edge of the triangulation", id_text(p, i)};
   });

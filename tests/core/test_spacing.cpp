@@ -238,11 +238,11 @@ pnpbs::SteepestGrowth steepest_of(const Build& build, const Plane& d) {
   PlaneDomain domain;
   build(domain);
   domain.check();
-  const pnpbs::SpacingEvaluator spacing = [&](std::int64_t n, const P* x, double* values) {
+  const pnpbs::SpacingEvaluator<2> spacing = [&](std::int64_t n, const P* x, double* values) {
     for (std::int64_t i = 0; i < n; ++i) values[i] = d(x[i][0], x[i][1]);
   };
   const pnpbs::Boundary boundary = pnpbs::discretize_boundary(domain, spacing);
-  pnpbs::DomainMap map;
+  pnpbs::DomainMap<2> map;
   map.build(domain.bounds(), boundary, spacing, {1'000'000'000});
   return pnpbs::steepest_growth(
       *pnpbs::serial_communicator(), map, [](std::int32_t) { return true; }, spacing);

@@ -31,7 +31,7 @@ std::vector<Triangle> reference(const Level& level) {
     set.d.push_back(level.nodes.d(i));
   }
   const std::vector<std::int64_t> places = boundary_places(level);
-  for (const pnpbs::BoundaryEdge& e : level.ground.boundary().edges) {
+  for (const pnpbs::BoundaryEdge& e : level.ground.boundary().facets) {
     if (e.begin == e.end) continue;
     const std::array<std::int64_t, 2> ends{places[static_cast<std::size_t>(e.begin)],
                                            places[static_cast<std::size_t>(e.end)]};

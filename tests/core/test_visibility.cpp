@@ -31,7 +31,7 @@ class Walls {
   // Ways from x are asked for next, none longer than this.
   void stand_at(const P& x, double longest) {
     near_.clear();
-    for (const BoundaryEdge& e : level_.ground.boundary().edges)
+    for (const BoundaryEdge& e : level_.ground.boundary().facets)
       if (gap(at(e.begin), at(e.end), x) < longest + 2 * close_) near_.push_back(e);
   }
 
@@ -72,7 +72,7 @@ class Walls {
 
   bool inside(const P& x) const {
     bool inside = false;
-    for (const BoundaryEdge& e : level_.ground.boundary().edges) {
+    for (const BoundaryEdge& e : level_.ground.boundary().facets) {
       const P &a = at(e.begin), &b = at(e.end);
       if (e.left_inside != e.right_inside && (a[1] > x[1]) != (b[1] > x[1]) &&
           (pnpbs::orientation(a, b, x) > 0) == (b[1] > a[1]))

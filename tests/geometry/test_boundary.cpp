@@ -29,17 +29,17 @@ using P = pnpbs::Point<2>;
 
 namespace {
 
-SpacingEvaluator spacing(const std::function<double(double x, double y)>& d) {
+SpacingEvaluator<2> spacing(const std::function<double(double x, double y)>& d) {
   return [d](std::int64_t n, const P* x, double* values) {
     for (std::int64_t i = 0; i < n; ++i) values[i] = d(x[i][0], x[i][1]);
   };
 }
 
-SpacingEvaluator constant(double d) {
+SpacingEvaluator<2> constant(double d) {
   return spacing([d](double, double) { return d; });
 }
 
-Boundary lay(PlaneDomain& domain, const SpacingEvaluator& d) {
+Boundary lay(PlaneDomain& domain, const SpacingEvaluator<2>& d) {
   domain.check();
   return pnpbs::discretize_boundary(domain, d);
 }
@@ -65,7 +65,7 @@ void expect_valid(const Boundary& boundary) {
   std::vector<P> points;
   std::vector<pnpbs::VertexPair> ends;
   for (const auto& node : boundary.nodes) points.push_back(node.position);
-  for (const auto& edge : boundary.edges) ends.push_back({edge.begin, edge.end});
+  for (const auto& edge : boundary.facets) ends.push_back({edge.begin, edge.end});
   const auto sweep = pnpbs::sweep_plane(points, ends);
   ck_assert(sweep.conflicts.empty());
   ck_assert(sweep.coincident.empty());
@@ -75,7 +75,7 @@ void expect_valid(const Boundary& boundary) {
   for (std::size_t e = 0; e < ends.size(); ++e) {
     for (const int right : {0, 1}) {
       int& known = inside[faces.of_side[2 * e + right]];
-      const int flag = right ? boundary.edges[e].right_inside : boundary.edges[e].left_inside;
+      const int flag = right ? boundary.facets[e].right_inside : boundary.facets[e].left_inside;
       if (known < 0) known = flag;
       ck_assert_int_eq(known, flag);
     }
@@ -107,14 +107,14 @@ void expect_equal_steps(const std::function<double(double, double)>& d, double t
     const double whole = integral(curve.points[0], curve.points[1], d);
     const double steps = std::max(1.0, std::round(whole));
     for (int k = 0; k < steps; ++k, ++e) {
-      const auto& edge = boundary.edges[e];
+      const auto& edge = boundary.facets[e];
       const double step =
           integral(boundary.nodes[edge.begin].position, boundary.nodes[edge.end].position, d);
       ck_assert_double_eq_tol(step, whole / steps, tolerance * whole / steps);
     }
-    ck_assert_int_eq(boundary.edges[e - 1].end, curve.corner_end);
+    ck_assert_int_eq(boundary.facets[e - 1].end, curve.corner_end);
   }
-  ck_assert_uint_eq(e, boundary.edges.size());
+  ck_assert_uint_eq(e, boundary.facets.size());
 }
 
 }  // namespace
@@ -128,16 +128,16 @@ START_TEST(uniform_square) {
   expect_valid(boundary);
   ck_assert(boundary.warnings.empty());
   ck_assert_uint_eq(boundary.nodes.size(), 40);
-  ck_assert_uint_eq(boundary.edges.size(), 40);
+  ck_assert_uint_eq(boundary.facets.size(), 40);
   ck_assert_int_eq(boundary.first_fixed, 40);
   for (std::size_t c = 0; c < 4; ++c) {
     ck_assert(boundary.nodes[c].position == domain.corners()[c].position);
     ck_assert_int_eq(boundary.nodes[c].tag, domain.corners()[c].tag);
   }
   for (std::size_t e = 0; e < 40; ++e) {
-    ck_assert_double_eq_tol(length(boundary, boundary.edges[e]), 0.1, 1e-15);
-    ck_assert_int_eq(boundary.edges[e].tag, 5 + static_cast<int>(e) / 10);
-    ck_assert(boundary.edges[e].left_inside && !boundary.edges[e].right_inside);
+    ck_assert_double_eq_tol(length(boundary, boundary.facets[e]), 0.1, 1e-15);
+    ck_assert_int_eq(boundary.facets[e].tag, 5 + static_cast<int>(e) / 10);
+    ck_assert(boundary.facets[e].left_inside && !boundary.facets[e].right_inside);
   }
   ck_assert_int_eq(boundary.nodes[4].tag, 5);
   ck_assert_double_eq_tol(boundary.nodes[8].position[0], 0.5, 1e-15);
@@ -163,7 +163,7 @@ START_TEST(number_of_steps_is_rounded) {
   for (const auto& with : cases) {
     PlaneDomain domain;
     add_loop(domain, rectangle(0, 0, 1, 1));
-    ck_assert_uint_eq(lay(domain, constant(with.d)).edges.size(), with.edges);
+    ck_assert_uint_eq(lay(domain, constant(with.d)).facets.size(), with.edges);
   }
 }
 END_TEST
@@ -179,7 +179,7 @@ START_TEST(nodes_lie_on_the_true_curve) {
     ck_assert_double_eq_tol(pnpbs::distance<2>(node.position, {1, 2}), 3, 1e-14);
     ck_assert_int_eq(node.tag, 9);
   }
-  for (const auto& edge : boundary.edges) {
+  for (const auto& edge : boundary.facets) {
     ck_assert_double_eq_tol(length(boundary, edge), 6 * std::sin(pi / steps), 1e-12);
   }
 }
@@ -198,8 +198,8 @@ START_TEST(steps_on_an_unevenly_parametrised_curve) {
       -1, 1, 1);
   const Boundary boundary = lay(domain, constant(0.1));
   expect_valid(boundary);
-  ck_assert_uint_eq(boundary.edges.size(), 63);
-  for (const auto& edge : boundary.edges) {
+  ck_assert_uint_eq(boundary.facets.size(), 63);
+  for (const auto& edge : boundary.facets) {
     ck_assert_double_eq_tol(length(boundary, edge), 2 * std::sin(pi / 63), 3e-4);
   }
 }
@@ -231,7 +231,7 @@ START_TEST(closed_curves_have_three_edges) {
   PlaneDomain domain;
   add_circle(domain, 0, 0, 1);
   const Boundary boundary = lay(domain, constant(100));
-  ck_assert_uint_eq(boundary.edges.size(), 3);
+  ck_assert_uint_eq(boundary.facets.size(), 3);
   expect_valid(boundary);
   ck_assert(warns(boundary, "3 boundary edges shorter than half of it"));
 }
@@ -243,7 +243,7 @@ START_TEST(two_arcs_do_not_collapse) {
   domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 1, pi, 2 * pi, 2);
   const Boundary boundary = lay(domain, constant(100));
   expect_valid(boundary);
-  ck_assert_uint_ge(boundary.edges.size(), 3);
+  ck_assert_uint_ge(boundary.facets.size(), 3);
   ck_assert(warns(boundary, "halved, on curve 0"));
 }
 END_TEST
@@ -254,8 +254,8 @@ START_TEST(chords_that_would_cut_are_halved) {
   domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 0.99, 1, 1 + 2 * pi, 2);
   const Boundary boundary = lay(domain, constant(1));
   expect_valid(boundary);
-  ck_assert_uint_ge(boundary.edges.size(), 30);
-  ck_assert_uint_le(boundary.edges.size(), 150);
+  ck_assert_uint_ge(boundary.facets.size(), 30);
+  ck_assert_uint_le(boundary.facets.size(), 150);
   ck_assert(warns(boundary, "would have cut across"));
 }
 END_TEST
@@ -279,7 +279,7 @@ START_TEST(islands_stay_inside) {
   add_loop(domain, rectangle(0.39, 1.1, 0.41, 1.12));
   const Boundary boundary = lay(domain, constant(10));
   expect_valid(boundary);
-  ck_assert_uint_ge(boundary.edges.size(), 9);
+  ck_assert_uint_ge(boundary.facets.size(), 9);
 }
 END_TEST
 
@@ -318,7 +318,7 @@ START_TEST(lakes_at_any_spacing) {
     for (const double d : {0.5, 5.0, 50.0, 5000.0}) {
       const Boundary boundary = lay(domain, constant(d));
       expect_valid(boundary);
-      ck_assert_uint_ge(boundary.edges.size(), domain.curves().size());
+      ck_assert_uint_ge(boundary.facets.size(), domain.curves().size());
     }
   }
 }

@@ -94,8 +94,8 @@ class GiftWrap {
   }
 
   void find_edges() {
-    in_.map.for_edges_near(centre_.position, reach_,
-                           [&](std::int32_t e) { found_edges_.push_back(e); });
+    in_.map.for_facets_near(centre_.position, reach_,
+                            [&](std::int32_t e) { found_edges_.push_back(e); });
     std::sort(found_edges_.begin(), found_edges_.end());
     found_edges_.erase(std::unique(found_edges_.begin(), found_edges_.end()), found_edges_.end());
     edges_ = found_edges_;

@@ -27,7 +27,7 @@ struct EdgePlace {
 
 class Layer {
  public:
-  Layer(const PlaneDomain& domain, const SpacingEvaluator& spacing, std::int64_t most_nodes)
+  Layer(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing, std::int64_t most_nodes)
       : domain_(domain), spacing_(spacing) {
     for (const BoundaryCurve& curve : domain.curves()) tracks_.emplace_back(curve);
     stations_ = lay_equal_steps(tracks_, spacing, most_nodes);
@@ -71,8 +71,8 @@ class Layer {
     }
     positions_.clear();
     ends_.clear();
-    for (const BoundaryNode& node : boundary_.nodes) positions_.push_back(node.position);
-    for (const BoundaryEdge& edge : boundary_.edges) ends_.push_back({edge.begin, edge.end});
+    for (const BoundaryNode<2>& node : boundary_.nodes) positions_.push_back(node.position);
+    for (const BoundaryEdge& edge : boundary_.facets) ends_.push_back({edge.begin, edge.end});
   }
 
   void assemble_curve(std::int32_t c) {
@@ -85,7 +85,7 @@ class Layer {
         end = static_cast<std::int32_t>(boundary_.nodes.size());
         boundary_.nodes.push_back({inner_points_[c][step], curve.tag});
       }
-      boundary_.edges.push_back({begin, end, curve.tag, curve.left_inside, curve.right_inside});
+      boundary_.facets.push_back({begin, end, curve.tag, curve.left_inside, curve.right_inside});
       places_.push_back({c, step});
       begin = end;
     }
@@ -320,7 +320,7 @@ class Layer {
   }
 
   const PlaneDomain& domain_;
-  const SpacingEvaluator& spacing_;
+  const SpacingEvaluator<2>& spacing_;
   std::vector<CurveTrack> tracks_;
   std::vector<std::vector<double>> stations_;           // of the nodes of each curve, with its ends
   std::vector<std::vector<Point<2>>> inner_points_;     // of the nodes between its ends
@@ -338,7 +338,7 @@ class Layer {
 std::vector<double> bubbles_on_boundary(const Boundary& boundary) {
   constexpr double kEdges = 32;  // ordinary boundaries have no edges that short
   std::vector<double> longest(boundary.nodes.size(), 0);
-  for (const BoundaryEdge& e : boundary.edges) {
+  for (const BoundaryEdge& e : boundary.facets) {
     const auto a = static_cast<std::size_t>(e.begin), b = static_cast<std::size_t>(e.end);
     const double length = distance<2>(boundary.nodes[a].position, boundary.nodes[b].position);
     for (const std::size_t node : {a, b}) longest[node] = std::max(longest[node], length);
@@ -347,7 +347,7 @@ std::vector<double> bubbles_on_boundary(const Boundary& boundary) {
   return longest;
 }
 
-Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator& spacing,
+Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing,
                              std::int64_t most_nodes) {
   return Layer(domain, spacing, most_nodes).run();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary as a level sees it: nodes laid on the curves, and the straight edges between them.
+// The boundary of a plane domain: nodes laid on the curves, and the straight edges between them.
 #pragma once
 
 #include <cstdint>
@@ -7,29 +7,15 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "domain/boundary_mesh.hpp"
 #include "domain/plane/curve_steps.hpp"
 #include "domain/plane/plane_domain.hpp"
 
 namespace pnpbs {
 
-struct BoundaryNode {
-  Point<2> position;
-  std::int32_t tag;
-};
-
-// An edge between consecutive boundary nodes.
-struct BoundaryEdge {
-  std::int32_t begin;  // index into Boundary::nodes
-  std::int32_t end;
-  std::int32_t tag;
-  bool left_inside;
-  bool right_inside;
-};
-
-struct Boundary {
-  std::vector<BoundaryNode> nodes;  // corners first, in the domain's order, then curve by curve,
-                                    // then fixed nodes
-  std::vector<BoundaryEdge> edges;
+// Nodes: corners first, in the domain's order, then curve by curve, then fixed nodes. Edges lie
+// between consecutive nodes of a curve.
+struct Boundary : BoundaryMesh<2> {
   std::int64_t first_fixed;  // index of the first fixed node that is on no curve
   std::vector<std::string> warnings;
 };
@@ -43,7 +29,7 @@ struct Boundary {
 // the feature (edges shorter than half of d: the worst few are named, with the number of them),
 // and where a fixed node is closer than 0.4 d to an edge or to another fixed node.
 // Throws Error(ErrorKind::spacing) if there would be more than `most_nodes`.
-Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator& spacing,
+Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing,
                              std::int64_t most_nodes = (std::int64_t{1} << 31) - 2);
 
 // How large the bubble of each boundary node may be. Where a boundary is far finer than d, as a

@@ -39,7 +39,7 @@ double inverse(double fraction, double a, double b) {
 
 class Profiles {
  public:
-  Profiles(const std::vector<CurveTrack>& tracks, const SpacingEvaluator& spacing,
+  Profiles(const std::vector<CurveTrack>& tracks, const SpacingEvaluator<2>& spacing,
            std::int64_t most_nodes)
       : tracks_(tracks), spacing_(spacing), most_nodes_(static_cast<double>(most_nodes)) {}
 
@@ -158,7 +158,7 @@ class Profiles {
   }
 
   const std::vector<CurveTrack>& tracks_;
-  const SpacingEvaluator& spacing_;
+  const SpacingEvaluator<2>& spacing_;
   double most_nodes_;
   std::vector<Profile> profiles_;
   std::vector<Point<2>> points_;  // asked in this round
@@ -190,7 +190,7 @@ std::vector<double> equal_steps(const Profile& profile, bool closed) {
 }  // namespace
 
 std::vector<std::vector<double>> lay_equal_steps(const std::vector<CurveTrack>& tracks,
-                                                 const SpacingEvaluator& spacing,
+                                                 const SpacingEvaluator<2>& spacing,
                                                  std::int64_t most_nodes) {
   Profiles profiles(tracks, spacing, most_nodes);
   const std::vector<Profile>& resolved = profiles.run();

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "domain/plane/sampling.hpp"
-#include "domain/segments.hpp"
+#include "domain/plane/segments.hpp"
 
 namespace pnpbs {
 

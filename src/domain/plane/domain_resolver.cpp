@@ -12,8 +12,8 @@
 #include "domain/plane/faces.hpp"
 #include "domain/plane/plane_sweep.hpp"
 #include "domain/plane/sampling.hpp"
+#include "domain/plane/segments.hpp"
 #include "domain/plane/smooth_contacts.hpp"
-#include "domain/segments.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {

@@ -24,12 +24,12 @@ int before(const Point<2>& centre, const Point<2>& a, const Point<2>& b) {
 
 }  // namespace
 
-void IncidentSectors::build(const Boundary& boundary) {
+void IncidentSectors::build(const BoundaryMesh<2>& boundary) {
   const auto position = [&](std::int32_t n) {
     return boundary.nodes[static_cast<std::size_t>(n)].position;
   };
   offset_.assign(boundary.nodes.size() + 1, 0);
-  for (const BoundaryEdge& e : boundary.edges) {
+  for (const BoundaryEdge& e : boundary.facets) {
     if (e.begin == e.end) continue;  // a fixed node
     ++offset_[static_cast<std::size_t>(e.begin) + 1];
     ++offset_[static_cast<std::size_t>(e.end) + 1];
@@ -37,8 +37,8 @@ void IncidentSectors::build(const Boundary& boundary) {
   for (std::size_t n = 0; n < boundary.nodes.size(); ++n) offset_[n + 1] += offset_[n];
   edges_.resize(static_cast<std::size_t>(offset_.back()));
   std::vector<std::int32_t> next(offset_.begin(), offset_.end() - 1);
-  for (std::size_t k = 0; k < boundary.edges.size(); ++k) {
-    const BoundaryEdge& e = boundary.edges[k];
+  for (std::size_t k = 0; k < boundary.facets.size(); ++k) {
+    const BoundaryEdge& e = boundary.facets[k];
     if (e.begin == e.end) continue;
     const std::int32_t index = static_cast<std::int32_t>(k);
     edges_[static_cast<std::size_t>(next[static_cast<std::size_t>(e.begin)]++)] = {e.end, index,
@@ -61,7 +61,7 @@ bool IncidentSectors::joined(std::int32_t a, std::int32_t b) const {
   return false;
 }
 
-IncidentSectors::Sectors IncidentSectors::sectors_towards(const Boundary& boundary,
+IncidentSectors::Sectors IncidentSectors::sectors_towards(const BoundaryMesh<2>& boundary,
                                                           std::int32_t node,
                                                           const Point<2>& x) const {
   const Point<2> centre = boundary.nodes[static_cast<std::size_t>(node)].position;
@@ -77,15 +77,15 @@ IncidentSectors::Sectors IncidentSectors::sectors_towards(const Boundary& bounda
   return {sector, sector};
 }
 
-bool IncidentSectors::leads_inside(const Boundary& boundary, std::int32_t node,
+bool IncidentSectors::leads_inside(const BoundaryMesh<2>& boundary, std::int32_t node,
                                    const Point<2>& x) const {
   if (begin(node) == end(node)) return true;
   const Sectors sectors = sectors_towards(boundary, node, x);
   return edge(sectors.after).inside_after || edge(sectors.before).inside_after;
 }
 
-bool IncidentSectors::lets_pass(const Boundary& boundary, std::int32_t node, const Point<2>& x,
-                                const Point<2>& y) const {
+bool IncidentSectors::lets_pass(const BoundaryMesh<2>& boundary, std::int32_t node,
+                                const Point<2>& x, const Point<2>& y) const {
   if (begin(node) == end(node)) return true;
   const Sectors from = sectors_towards(boundary, node, x), to = sectors_towards(boundary, node, y);
   for (const std::int32_t sector : {from.after, from.before})

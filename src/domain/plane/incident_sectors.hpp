@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/plane/boundary.hpp"
+#include "domain/boundary_mesh.hpp"
 
 namespace pnpbs {
 
@@ -18,7 +18,7 @@ struct SectorEdge {
 
 class IncidentSectors {
  public:
-  void build(const Boundary& boundary);
+  void build(const BoundaryMesh<2>& boundary);
 
   std::int32_t begin(std::int32_t node) const { return offset_[static_cast<std::size_t>(node)]; }
   std::int32_t end(std::int32_t node) const { return offset_[static_cast<std::size_t>(node) + 1]; }
@@ -27,11 +27,11 @@ class IncidentSectors {
   bool joined(std::int32_t a, std::int32_t b) const;
 
   // Does the way from boundary node `node` towards x start inside the domain (or along an edge)?
-  bool leads_inside(const Boundary& boundary, std::int32_t node, const Point<2>& x) const;
+  bool leads_inside(const BoundaryMesh<2>& boundary, std::int32_t node, const Point<2>& x) const;
 
   // May the straight way from x to y, on which the node lies exactly, go on past the node? Only if
   // both directions lie in one sector inside the domain, or along its edges.
-  bool lets_pass(const Boundary& boundary, std::int32_t node, const Point<2>& x,
+  bool lets_pass(const BoundaryMesh<2>& boundary, std::int32_t node, const Point<2>& x,
                  const Point<2>& y) const;
 
  private:
@@ -39,7 +39,8 @@ class IncidentSectors {
   struct Sectors {
     std::int32_t after, before;
   };
-  Sectors sectors_towards(const Boundary& boundary, std::int32_t node, const Point<2>& x) const;
+  Sectors sectors_towards(const BoundaryMesh<2>& boundary, std::int32_t node,
+                          const Point<2>& x) const;
 
   std::vector<std::int32_t> offset_;
   std::vector<SectorEdge> edges_;

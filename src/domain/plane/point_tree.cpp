@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "domain/segments.hpp"
+#include "domain/plane/segments.hpp"
 
 namespace pnpbs {
 

@@ -47,7 +47,7 @@ double triangle_shape(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
 }
 
 BadTriangleRepair::BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars,
-                                     const NearEdges& near_edges, const DomainMap& map,
+                                     const NearEdges& near_edges, const DomainMap<2>& map,
                                      double bad_below)
     : nodes_(nodes), stars_(stars), near_edges_(near_edges), map_(map), bad_below_(bad_below) {
   for (const std::int32_t i :
@@ -74,7 +74,7 @@ bool BadTriangleRepair::spoils(const std::vector<double>& before,
 
 Point<2> BadTriangleRepair::allowed_place(std::int64_t i, const Point<2>& x) const {
   if (!near_edges_.any(i)) return x;
-  const ClearPosition kept =
+  const ClearPosition<2> kept =
       clear_position(map_, near_edges_.edges_of(i), nodes_.position(i), x, nodes_.d(i));
   return kept.clear ? kept.position : nodes_.position(i);
 }

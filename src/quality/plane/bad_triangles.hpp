@@ -29,7 +29,7 @@ class BadTriangleRepair {
  public:
   // Finds the nodes of bad triangles.
   BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-                    const DomainMap& map, double bad_below);
+                    const DomainMap<2>& map, double bad_below);
 
   // Moves the nodes of bad triangles, of neighbours only the one with the worst. Returns how many
   // of this rank's. Ghosts must be exact.
@@ -54,7 +54,7 @@ class BadTriangleRepair {
   Nodes<2>& nodes_;
   const DelaunayStars& stars_;
   const NearEdges& near_edges_;
-  const DomainMap& map_;
+  const DomainMap<2>& map_;
   double bad_below_;
   std::vector<Candidate> candidates_;  // in the order of memory
 };

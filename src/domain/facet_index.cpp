@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/facet_index.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "domain/plane/edges.hpp"
+#include "domain/volume/triangles.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+FacetIndex<Dim>::FacetIndex(BackgroundTree<Dim> tree, const FacetCells<Dim>& cells)
+    : tree_(std::move(tree)), boundary_(&cells.mesh()), corners_(cells.corners()), offset_{0} {
+  blocks_.build(corners_);
+  for (std::int32_t c = 0; c < cells.count(); ++c) cell_has_facets_.push_back(cells.crossed(c));
+  for (std::int32_t leaf = 0; leaf < tree_.leaf_count(); ++leaf) {
+    const std::int32_t c = tree_.leaf_cell(leaf);
+    side_.push_back(cells.outside(c)   ? Side::outside
+                    : cells.crossed(c) ? Side::crossed
+                                       : Side::inside);
+    reference_.push_back(cells.reference(c));
+    for (const std::int32_t f : cells.facets(c)) leaf_facets_.push_back(f);
+    offset_.push_back(static_cast<std::int32_t>(leaf_facets_.size()));
+  }
+}
+
+template <int Dim>
+bool FacetIndex<Dim>::inside_in_leaf(std::int32_t leaf, const Point<Dim>& x) const {
+  if (side(leaf) != Side::crossed) return side(leaf) == Side::inside;
+  const ReferencePoint<Dim>& from = reference_[index(leaf)];
+  bool inside = from.inside;
+  for (const std::int32_t f : facets_of_leaf(leaf)) {
+    if (on_facet(corners(f), x)) return false;
+    if (facet(f).bounds() && crosses(from.x, x, corners(f))) inside = !inside;
+  }
+  return inside;
+}
+
+template <int Dim>
+bool FacetIndex<Dim>::facet_between(std::int32_t leaf, const Point<Dim>& a,
+                                    const Point<Dim>& b) const {
+  const std::span<const std::int32_t> facets = facets_of_leaf(leaf);
+  return std::any_of(facets.begin(), facets.end(),
+                     [&](std::int32_t f) { return crosses(a, b, corners(f)); });
+}
+
+template <int Dim>
+NearestPoint<Dim> FacetIndex<Dim>::nearest(const Point<Dim>& x, double reach) const {
+  NearestPoint<Dim> best{reach};
+  for_facets_near(x, reach, [&](std::int32_t f) {
+    const Point<Dim> q = nearest_on(corners(f), x);
+    const double gap = distance<Dim>(q, x);
+    if (gap < best.gap || (gap == best.gap && f < best.facet)) best = {gap, f, q};
+  });
+  return best;
+}
+
+template <int Dim>
+double FacetIndex<Dim>::clearance(const Point<Dim>& x, double reach) const {
+  return nearest(x, reach).gap;
+}
+
+template class FacetIndex<2>;
+template class FacetIndex<3>;
+
+}  // namespace pnpbs

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/domain_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/lattice.hpp"
+#include "base/point_text.hpp"
+#include "tree/box_tree.hpp"
+#include "tree/cell_samples.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// A cell with more boundary nodes than this is split whatever d is. In the plane they have an edge
+// each, in space two triangles.
+constexpr std::size_t kMaxBoundaryNodes = 48;
+constexpr int kMaxDepthByNodes = 26;
+
+double root(double square, std::integral_constant<int, 2>) { return std::sqrt(square); }
+double root(double cube, std::integral_constant<int, 3>) { return std::cbrt(cube); }
+
+}  // namespace
+
+template <int Dim>
+class DomainMap<Dim>::Growth {
+ public:
+  struct CellState {
+    double least = 0, largest = 0;  // of the samples of d
+    double mean_density = 0;        // mean of 1/d^Dim
+  };
+
+  Growth(const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
+         const NodeLimit& limit, double steepest, const BackgroundTree<Dim>* coarsest)
+      : boundary_(boundary),
+        spacing_(spacing),
+        limit_(limit),
+        steepest_(steepest),
+        coarsest_(coarsest) {}
+
+  const FacetCells<Dim>& facets() const { return *facets_; }
+  const CellState& state(std::int32_t c) const { return cells_[static_cast<std::size_t>(c)]; }
+
+  // d at the boundary nodes is asked once.
+  void start() {
+    facets_.emplace(boundary_);
+    std::vector<Point<Dim>> positions;
+    for (const BoundaryNode<Dim>& node : boundary_.nodes) positions.push_back(node.position);
+    boundary_spacing_.resize(positions.size());
+    spacing_(static_cast<std::int64_t>(positions.size()), positions.data(),
+             boundary_spacing_.data());
+  }
+
+  void add_root(const BackgroundTree<Dim>& tree) {
+    facets_->add_root(tree);
+    cells_.assign(1, CellState());
+  }
+
+  // What a child has of d until it is sampled, it has from its parent.
+  void add_children(const BackgroundTree<Dim>& tree, std::int32_t parent) {
+    facets_->add_children(tree, parent);
+    cells_.insert(cells_.end(), BackgroundTree<Dim>::kChildren, CellState(state(parent)));
+  }
+
+  void sample(const BackgroundTree<Dim>& tree, std::int32_t first, std::int32_t last);
+  void check_count(const BackgroundTree<Dim>& tree, std::int32_t first, std::int32_t last) const;
+  bool wants_split(const BackgroundTree<Dim>& tree, std::int32_t c) const;
+
+  // By its samples of d, whether they lie in the domain or not.
+  double nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const {
+    return Lattice<Dim>::kDensity * power<Dim>(tree.cell_side(c)) * state(c).mean_density;
+  }
+  void count_leaf(std::int32_t c, double nodes) {
+    if (wholly_inside(c)) nodes_in_leaves_ += nodes;
+  }
+
+ private:
+  bool wholly_inside(std::int32_t c) const { return !facets_->outside(c) && !facets_->crossed(c); }
+  void add_boundary_samples(const Box<Dim>& box, std::int32_t c, std::vector<double>& values) const;
+  void take_samples(const std::vector<double>& values, CellState& cell) const;
+  bool holds_many_boundary_nodes(const BackgroundTree<Dim>& tree, std::int32_t c) const;
+
+  const BoundaryMesh<Dim>& boundary_;
+  const SpacingEvaluator<Dim>& spacing_;
+  NodeLimit limit_;
+  double steepest_;
+  const BackgroundTree<Dim>* coarsest_;
+  std::optional<FacetCells<Dim>> facets_;
+  std::vector<double> boundary_spacing_;
+  std::vector<CellState> cells_;
+  double nodes_in_leaves_ = 0;  // estimate for the leaves found so far
+};
+
+// Samples d in the cells first .. last-1, in one batch.
+template <int Dim>
+void DomainMap<Dim>::Growth::sample(const BackgroundTree<Dim>& tree, std::int32_t first,
+                                    std::int32_t last) {
+  static constexpr auto kSamples = cell_samples<Dim>();
+  std::vector<Point<Dim>> points;
+  std::vector<std::int32_t> owner;
+  points.reserve(kSamples.size() * static_cast<std::size_t>(last - first));
+  owner.reserve(points.capacity());
+  for (std::int32_t c = first; c < last; ++c) {
+    if (facets_->outside(c)) continue;
+    for (const Point<Dim>& fraction : kSamples) {
+      const Point<Dim> x = point_in<Dim>(tree.cell_box(c), fraction);
+      if (!facets_->inside(c, x)) continue;
+      points.push_back(x);
+      owner.push_back(c);
+    }
+  }
+  std::vector<double> d(points.size());
+  spacing_(static_cast<std::int64_t>(points.size()), points.data(), d.data());
+  std::size_t next = 0;
+  std::vector<double> values;
+  for (std::int32_t c = first; c < last; ++c) {
+    values.clear();
+    for (; next < owner.size() && owner[next] == c; ++next) values.push_back(d[next]);
+    add_boundary_samples(tree.cell_box(c), c, values);
+    take_samples(values, cells_[static_cast<std::size_t>(c)]);
+  }
+}
+
+template <int Dim>
+void DomainMap<Dim>::Growth::add_boundary_samples(const Box<Dim>& box, std::int32_t c,
+                                                  std::vector<double>& values) const {
+  for (const std::int32_t f : facets_->facets(c))
+    for (const std::int32_t node : boundary_.facets[static_cast<std::size_t>(f)].corners())
+      if (in_closed_box(box, boundary_.nodes[static_cast<std::size_t>(node)].position))
+        values.push_back(boundary_spacing_[static_cast<std::size_t>(node)]);
+}
+
+template <int Dim>
+void DomainMap<Dim>::Growth::take_samples(const std::vector<double>& values,
+                                          CellState& cell) const {
+  if (values.empty()) return;  // a sliver of the domain: what the parent cell has must do
+  cell.least = values[0];
+  cell.largest = values[0];
+  double sum = 0;
+  for (const double d : values) {
+    cell.least = std::min(cell.least, d);
+    cell.largest = std::max(cell.largest, d);
+    sum += 1 / power<Dim>(d);
+  }
+  cell.mean_density = sum / static_cast<double>(values.size());
+}
+
+template <int Dim>
+bool DomainMap<Dim>::Growth::wants_split(const BackgroundTree<Dim>& tree, std::int32_t c) const {
+  if (facets_->outside(c)) return false;
+  if (coarsest_) {
+    const std::int32_t there = coarsest_->leaf_cell(coarsest_->leaf_at(tree.cell_centre(c)));
+    if (coarsest_->cell(there).depth > tree.cell(c).depth) return true;
+  }
+  const CellState& cell = state(c);
+  const double side = tree.cell_side(c);
+  if (side > kLeafSpacings * cell.least) return true;
+  if (steepest_ > 0 && cell.largest - cell.least > steepest_ * side && side > 0.35 * cell.least)
+    return true;
+  return tree.cell(c).depth < kMaxDepthByNodes && holds_many_boundary_nodes(tree, c);
+}
+
+// As its facets tell. In space hundreds of them may share a corner, and splitting leaves one cell
+// with all of these: the facets of the only node in a cell do not count.
+template <int Dim>
+bool DomainMap<Dim>::Growth::holds_many_boundary_nodes(const BackgroundTree<Dim>& tree,
+                                                       std::int32_t c) const {
+  const auto facets = facets_->facets(c);
+  if (facets.size() <= kMaxBoundaryNodes * (Dim - 1)) return false;
+  if constexpr (Dim == 2) return true;
+  const Box<Dim> box = tree.cell_box(c);
+  std::int32_t only = -1;
+  std::size_t having_it = 0;
+  for (const std::int32_t f : facets) {
+    bool has = false;
+    for (const std::int32_t node : boundary_.facets[static_cast<std::size_t>(f)].corners()) {
+      if (!in_closed_box(box, boundary_.nodes[static_cast<std::size_t>(node)].position)) continue;
+      if (only >= 0 && node != only) return true;
+      only = node;
+      has = true;
+    }
+    having_it += has;
+  }
+  return facets.size() - having_it > kMaxBoundaryNodes * (Dim - 1);
+}
+
+// Even with the largest d of each cell there would be more nodes than allowed: stop early.
+template <int Dim>
+void DomainMap<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::int32_t first,
+                                         std::int32_t last) const {
+  double nodes = nodes_in_leaves_;
+  std::int32_t finest = first;
+  for (std::int32_t c = first; c < last; ++c) {
+    if (!wholly_inside(c)) continue;
+    nodes += Lattice<Dim>::kDensity * power<Dim>(tree.cell_side(c) / state(c).largest);
+    if (facets_->outside(finest) || state(c).least < state(finest).least) finest = c;
+  }
+  if (nodes <= static_cast<double>(limit_.max_nodes)) return limit_.require_memory_for(nodes);
+  throw Error(ErrorKind::spacing, "spacing d = " + number_text(state(finest).least) + " near " +
+                                      point_text(tree.cell_centre(finest)) + " would mean about " +
+                                      number_text(std::round(nodes)) +
+                                      " nodes or more; the option max_nodes allows " +
+                                      std::to_string(limit_.max_nodes) +
+                                      ": use a larger spacing or a larger max_nodes");
+}
+
+template <int Dim>
+void DomainMap<Dim>::build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
+                           const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
+                           double steepest, const BackgroundTree<Dim>* coarsest) {
+  Growth growth(boundary, spacing, limit, steepest, coarsest);
+  grow(*serial_communicator(), bounds, growth,
+       [](const BackgroundTree<Dim>&, std::int32_t, double) { return true; });
+}
+
+template <int Dim>
+void DomainMap<Dim>::build_part(const Communicator& comm, const Box<Dim>& bounds,
+                                const BoundaryMesh<Dim>& boundary,
+                                const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
+                                const MaySplit& may_split) {
+  Growth growth(boundary, spacing, limit, 0, nullptr);
+  grow(comm, bounds, growth, may_split);
+}
+
+template <int Dim>
+void DomainMap<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Growth& growth,
+                          const MaySplit& may_split) {
+  agreed(comm, [&] { growth.start(); });
+  std::int32_t parents = 0;  // first cell of the depth above
+  const auto split_depth = [&](const BackgroundTree<Dim>& tree, std::int32_t first,
+                               std::int32_t last, std::vector<char>& split) {
+    if (first == 0) growth.add_root(tree);
+    for (std::int32_t parent = parents; parent < first; ++parent)
+      if (tree.cell(parent).first_child >= 0) growth.add_children(tree, parent);
+    parents = first;
+    agreed(comm, [&] {
+      growth.sample(tree, first, last);
+      growth.check_count(tree, first, last);
+    });
+    for (std::int32_t c = first; c < last; ++c) {
+      const double nodes = growth.nodes_in(tree, c);
+      split[static_cast<std::size_t>(c - first)] =
+          growth.wants_split(tree, c) && may_split(tree, c, nodes);
+      if (!split[static_cast<std::size_t>(c - first)]) growth.count_leaf(c, nodes);
+    }
+  };
+  BackgroundTree<Dim> tree;
+  tree.build(bounds, split_depth, [&](bool more) { return comm.allreduce_max(more) > 0; });
+  leaf_spacing_.clear();
+  leaf_least_.clear();
+  leaf_largest_.clear();
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    const auto& cell = growth.state(tree.leaf_cell(leaf));
+    const double density = cell.mean_density;
+    leaf_spacing_.push_back(density > 0 ? 1 / root(density, std::integral_constant<int, Dim>())
+                                        : 0);
+    leaf_least_.push_back(cell.least);
+    leaf_largest_.push_back(cell.largest);
+  }
+  static_cast<FacetIndex<Dim>&>(*this) = FacetIndex<Dim>(std::move(tree), growth.facets());
+}
+
+template class DomainMap<2>;
+template class DomainMap<3>;
+
+}  // namespace pnpbs

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The background tree of a level, refined by d and the boundary, with what lies in its leaves: the
+// facets of the boundary, and samples of d.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "comm/communicator.hpp"
+#include "domain/facet_index.hpp"
+#include "domain/node_limit.hpp"
+#include "domain/spacing_evaluator.hpp"
+#include "tree/background_tree.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class DomainMap : public FacetIndex<Dim> {
+ public:
+  // Refines the tree until leaves are at most kLeafSpacings times d wide (so at least half of that
+  // where d allows) and hold few boundary nodes. d is asked inside the domain only, at the
+  // cell_samples of each cell, and at the boundary nodes: dips of d between them are not seen.
+  // With steepest > 0, cells over which d grows faster than that are refined further, down to a
+  // third of their least d, so that the tips of steep funnels are found. Given another tree of the
+  // same bounds, it is at least as fine as that.
+  // Throws Error(ErrorKind::spacing or ::memory) when d would mean more nodes than the limit
+  // allows.
+  void build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
+             const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit, double steepest = 0,
+             const BackgroundTree<Dim>* coarsest = nullptr);
+
+  // May a cell that d or the boundary wants split be split? `nodes`: those its samples of d ask
+  // for.
+  using MaySplit =
+      std::function<bool(const BackgroundTree<Dim>& tree, std::int32_t cell, double nodes)>;
+  // The same tree, refined only where may_split allows it. Where that differs between ranks the
+  // call is collective, and a failure on one rank is thrown on all.
+  void build_part(const Communicator& comm, const Box<Dim>& bounds,
+                  const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
+                  const NodeLimit& limit, const MaySplit& may_split);
+
+  static constexpr double kLeafSpacings = 4;
+
+  // Its area in units of the smallest cell there can be. (Volumes have too many of these.)
+  static constexpr int kMaxDepth = BackgroundTree<Dim>::kMaxDepth;
+  std::uint64_t leaf_size(std::int32_t leaf) const requires(Dim* kMaxDepth < 64) {
+    const BackgroundTree<Dim>& tree = this->tree();
+    return std::uint64_t{1} << (Dim * (kMaxDepth - tree.cell(tree.leaf_cell(leaf)).depth));
+  }
+  // d that holds the right number of nodes in the leaf, and the least and largest of its samples.
+  double leaf_spacing(std::int32_t leaf) const { return at(leaf_spacing_, leaf); }
+  double leaf_least_spacing(std::int32_t leaf) const { return at(leaf_least_, leaf); }
+  double leaf_largest_spacing(std::int32_t leaf) const { return at(leaf_largest_, leaf); }
+
+ private:
+  class Growth;  // what is known of the cells while the tree grows
+  void grow(const Communicator& comm, const Box<Dim>& bounds, Growth& growth,
+            const MaySplit& may_split);
+  static double at(const std::vector<double>& values, std::int32_t leaf) {
+    return values[static_cast<std::size_t>(leaf)];
+  }
+
+  std::vector<double> leaf_spacing_, leaf_least_, leaf_largest_;
+};
+
+extern template class DomainMap<2>;
+extern template class DomainMap<3>;
+
+}  // namespace pnpbs
