@@ -230,12 +230,15 @@ void DomainMap<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Grow
                           const MaySplit& may_split) {
   agreed(comm, [&] { growth.start(); });
   std::int32_t parents = 0;  // first cell of the depth above
+  const auto add_children_before = [&](const BackgroundTree<Dim>& tree, std::int32_t last) {
+    for (std::int32_t parent = parents; parent < last; ++parent)
+      if (tree.cell(parent).first_child >= 0) growth.add_children(tree, parent);
+    parents = last;
+  };
   const auto split_depth = [&](const BackgroundTree<Dim>& tree, std::int32_t first,
                                std::int32_t last, std::vector<char>& split) {
     if (first == 0) growth.add_root(tree);
-    for (std::int32_t parent = parents; parent < first; ++parent)
-      if (tree.cell(parent).first_child >= 0) growth.add_children(tree, parent);
-    parents = first;
+    add_children_before(tree, first);
     agreed(comm, [&] {
       growth.sample(tree, first, last);
       growth.check_count(tree, first, last);
@@ -249,6 +252,7 @@ void DomainMap<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Grow
   };
   BackgroundTree<Dim> tree;
   tree.build(bounds, split_depth, [&](bool more) { return comm.allreduce_max(more) > 0; });
+  add_children_before(tree, tree.cell_count());  // those of the greatest depth are not asked about
   leaf_spacing_.clear();
   leaf_least_.clear();
   leaf_largest_.clear();

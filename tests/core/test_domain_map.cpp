@@ -243,6 +243,21 @@ START_TEST(leaf_sizes_follow_d) {
 }
 END_TEST
 
+// There d would have the tree deeper than it can be.
+START_TEST(finest_leaves_there_can_be) {
+  const Mapped m([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 3, 2)); },
+                 [](double x, double y) { return 1e-10 + 0.2 * std::hypot(x, y); });
+  const pnpbs::BackgroundTree<2>& tree = m.map.tree();
+  const std::int32_t finest = tree.leaf_at({0, 0});
+  ck_assert_int_eq(tree.cell(tree.leaf_cell(finest)).depth, pnpbs::BackgroundTree<2>::kMaxDepth);
+  ck_assert_double_eq_tol(m.map.leaf_least_spacing(finest), 1e-10, 1e-12);
+  for (const double way : {1e-9, 1e-5, 0.1}) {
+    quick_assert(m.map.inside({way, 2 * way}) && !m.map.inside({way, -way}));
+    ck_assert_double_eq_tol(m.map.clearance({2 * way, way}, 1), way, 1e-20);
+  }
+}
+END_TEST
+
 START_TEST(too_many_nodes) {
   const Build square = [](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
   expect_error(pnpbs::ErrorKind::spacing,
@@ -392,8 +407,9 @@ START_TEST(no_room_in_wedges_and_gaps) {
 END_TEST
 
 int main() {
-  return run_kernel_suite("domain_map", {sides_of_nested_islands, sides_of_lakes, clearances,
-                                         edges_near_points, leaf_sizes_follow_d, too_many_nodes,
-                                         walls_hold, clearance_is_reached_where_there_is_room,
-                                         tips_are_kept_off, no_room_in_wedges_and_gaps});
+  return run_kernel_suite(
+      "domain_map",
+      {sides_of_nested_islands, sides_of_lakes, clearances, edges_near_points, leaf_sizes_follow_d,
+       finest_leaves_there_can_be, too_many_nodes, walls_hold,
+       clearance_is_reached_where_there_is_room, tips_are_kept_off, no_room_in_wedges_and_gaps});
 }

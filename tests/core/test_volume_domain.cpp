@@ -324,6 +324,21 @@ START_TEST(leaves_hold_few_boundary_nodes) {
 }
 END_TEST
 
+// There d would have the tree deeper than it can be.
+START_TEST(finest_leaves_there_can_be) {
+  const Mapped m(block(), [](const P& x) { return 1e-10 + 0.3 * pnpbs::distance<3>(x, {}); });
+  const pnpbs::BackgroundTree<3>& tree = m.map.tree();
+  ck_assert_int_eq(greatest_depth(tree), pnpbs::BackgroundTree<3>::kMaxDepth);
+  const std::int32_t finest = tree.leaf_at({});
+  ck_assert_int_eq(tree.cell(tree.leaf_cell(finest)).depth, pnpbs::BackgroundTree<3>::kMaxDepth);
+  ck_assert_double_eq_tol(m.map.leaf_least_spacing(finest), 1e-10, 1e-12);
+  for (const double way : {1e-9, 1e-5, 0.1}) {
+    quick_assert(m.map.inside({way, 2 * way, way}) && !m.map.inside({way, 2 * way, -way}));
+    ck_assert_double_eq_tol(m.map.clearance({2 * way, 3 * way, way}, 1), way, 1e-20);
+  }
+}
+END_TEST
+
 START_TEST(too_many_nodes) {
   expect_error(
       pnpbs::ErrorKind::spacing,
@@ -441,5 +456,6 @@ int main() {
       "volume_domain",
       {sides_of_a_sphere, sides_of_pierced_blocks, ways_cross_as_often_as_they_should,
        nearest_points, facets_of_leaves, leaf_sizes_follow_d, leaves_hold_few_boundary_nodes,
-       too_many_nodes, walls_hold, clearance_is_reached_where_there_is_room});
+       finest_leaves_there_can_be, too_many_nodes, walls_hold,
+       clearance_is_reached_where_there_is_room});
 }
