@@ -48,7 +48,7 @@ std::shared_ptr<const Spacing<2>> Placement::spacing_from(std::vector<double> va
   values.resize(static_cast<std::size_t>(nodes.count));
   fill_ghosts(*comm_, exchange_pattern(), values);
 
-  Patch patch;
+  Patch<2> patch;
   for (std::int64_t p = 0; p < nodes.count; ++p) {
     const std::int64_t i = node_at(p);
     patch.nodes.push_back({nodes.position(i), nodes.id(i), values[static_cast<std::size_t>(p)]});
@@ -61,9 +61,9 @@ std::shared_ptr<const Spacing<2>> Placement::spacing_from(std::vector<double> va
     });
     return corners;
   };
-  for_triangles([&](auto a, auto b, auto c) { patch.triangles.push_back(row(a, b, c)); });
-  for_rim_edges(*this, [&](auto a, auto b) { patch.rim.push_back(row(a, b)); });
-  return std::make_shared<NodalSpacing>(comm_, std::move(patch));
+  for_triangles([&](auto a, auto b, auto c) { patch.simplices.push_back(row(a, b, c)); });
+  for_rim_edges(*this, [&](auto a, auto b) { patch.border.push_back(row(a, b)); });
+  return std::make_shared<NodalSpacing<2>>(comm_, std::move(patch));
 }
 
 }  // namespace pnpbs

@@ -3,36 +3,66 @@
 
 #include <algorithm>
 
+#include "domain/volume/triangles.hpp"
 #include "predicates/plane.hpp"
+#include "predicates/space.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-template <std::size_t N>
-Box<2> box_around(const std::vector<PatchNode>& nodes, const std::array<std::int32_t, N>& corners) {
-  const Point<2>& first = nodes[static_cast<std::size_t>(corners[0])].x;
-  Box<2> box{first, first};
-  for (const std::int32_t corner : corners) {
-    const Point<2>& x = nodes[static_cast<std::size_t>(corner)].x;
-    box = joined(box, {x, x});
+// The nodes of a simplex or facet.
+template <int Dim, std::size_t N>
+struct Corners {
+  std::array<Point<Dim>, N> x;
+  std::array<double, N> value;
+  std::array<std::int64_t, N> id;
+
+  Corners(const std::vector<PatchNode<Dim>>& nodes, const std::array<std::int32_t, N>& row) {
+    for (std::size_t k = 0; k < N; ++k) {
+      const PatchNode<Dim>& node = nodes[static_cast<std::size_t>(row[k])];
+      x[k] = node.x;
+      value[k] = node.value;
+      id[k] = node.id;
+    }
   }
-  return box;
-}
 
-template <std::size_t N>
-BoxTree<2> tree_of(const std::vector<PatchNode>& nodes,
-                   const std::vector<std::array<std::int32_t, N>>& rows) {
-  std::vector<Box<2>> boxes;
+  Box<Dim> box() const {
+    Box<Dim> box{x[0], x[0]};
+    for (const Point<Dim>& corner : x) box = joined(box, {corner, corner});
+    return box;
+  }
+
+  // Rounding must not take the value beyond those of the corners.
+  double within(double rounded) const {
+    const auto [least, most] = std::minmax_element(value.begin(), value.end());
+    return std::clamp(rounded, *least, *most);
+  }
+};
+
+template <int Dim, std::size_t N>
+BoxTree<Dim> tree_of(const std::vector<PatchNode<Dim>>& nodes,
+                     const std::vector<std::array<std::int32_t, N>>& rows) {
+  std::vector<Box<Dim>> boxes;
   boxes.reserve(rows.size());
-  for (const auto& row : rows) boxes.push_back(box_around(nodes, row));
-  return BoxTree<2>(std::move(boxes));
+  for (const auto& row : rows) boxes.push_back(Corners<Dim, N>(nodes, row).box());
+  return BoxTree<Dim>(std::move(boxes));
 }
 
-bool holds(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& x) {
-  const int signs[3] = {orientation(a, b, x), orientation(b, c, x), orientation(c, a, x)};
-  const bool left = signs[0] > 0 || signs[1] > 0 || signs[2] > 0;
-  const bool right = signs[0] < 0 || signs[1] < 0 || signs[2] < 0;
+int side(const std::array<Point<2>, 3>& x) { return orientation(x[0], x[1], x[2]); }
+int side(const std::array<Point<3>, 4>& x) { return orientation(x[0], x[1], x[2], x[3]); }
+
+// With x in place of one corner after the other it never turns inside out.
+template <int Dim>
+bool holds(const std::array<Point<Dim>, Dim + 1>& simplex, const Point<Dim>& x) {
+  bool left = false, right = false;
+  for (std::size_t k = 0; k <= Dim; ++k) {
+    std::array<Point<Dim>, Dim + 1> part = simplex;
+    part[k] = x;
+    const int sign = side(part);
+    left = left || sign > 0;
+    right = right || sign < 0;
+  }
   return !(left && right);
 }
 
@@ -41,49 +71,90 @@ double area(const Point<2>& x, const Point<2>& a, const Point<2>& b) {
   return (a[0] - x[0]) * (b[1] - x[1]) - (a[1] - x[1]) * (b[0] - x[0]);
 }
 
+// Six times the volume of tetrahedron (x, a, b, c), with its sign.
+double volume(const Point<3>& x, const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  const Point<3> u{a[0] - x[0], a[1] - x[1], a[2] - x[2]};
+  const Point<3> v{b[0] - x[0], b[1] - x[1], b[2] - x[2]};
+  const Point<3> w{c[0] - x[0], c[1] - x[1], c[2] - x[2]};
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+         u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+// How much each corner counts at x: what is left of the simplex with x in its place.
+std::array<double, 3> shares(const std::array<Point<2>, 3>& c, const Point<2>& x) {
+  return {area(x, c[1], c[2]), area(x, c[2], c[0]), area(x, c[0], c[1])};
+}
+std::array<double, 4> shares(const std::array<Point<3>, 4>& c, const Point<3>& x) {
+  return {volume(x, c[1], c[2], c[3]), volume(x, c[0], c[3], c[2]), volume(x, c[0], c[1], c[3]),
+          volume(x, c[0], c[2], c[1])};
+}
+
+// A point of an edge: its first end and so much of the way to the other.
+struct EdgePoint {
+  Point<2> x;
+  std::array<double, 1> along;
+};
+
+EdgePoint nearest_point(const std::array<Point<2>, 2>& edge, const Point<2>& x) {
+  const auto& [a, b] = edge;
+  const double way[2] = {b[0] - a[0], b[1] - a[1]};
+  const double t = std::clamp(
+      ((x[0] - a[0]) * way[0] + (x[1] - a[1]) * way[1]) / (way[0] * way[0] + way[1] * way[1]), 0.0,
+      1.0);
+  return {{a[0] + t * way[0], a[1] + t * way[1]}, {t}};
+}
+TrianglePoint nearest_point(const std::array<Point<3>, 3>& triangle, const Point<3>& x) {
+  return nearest_triangle_point(triangle, x);
+}
+
 }  // namespace
 
-NodalPatch::NodalPatch(Patch patch)
+template <int Dim>
+NodalPatch<Dim>::NodalPatch(Patch<Dim> patch)
     : patch_(std::move(patch)),
-      by_triangle_(tree_of(patch_.nodes, patch_.triangles)),
-      by_edge_(tree_of(patch_.nodes, patch_.rim)) {}
+      by_simplex_(tree_of(patch_.nodes, patch_.simplices)),
+      by_facet_(tree_of(patch_.nodes, patch_.border)) {}
 
-// Rounding must not take the value beyond those of the corners.
-void NodalPatch::interpolate(const Point<2>& x, PatchAnswer& best) const {
-  by_triangle_.for_holding(x, [&](std::int32_t t) {
-    const auto& corners = patch_.triangles[static_cast<std::size_t>(t)];
-    const PatchNode &a = node(corners[0]), &b = node(corners[1]), &c = node(corners[2]);
-    if (!holds(a.x, b.x, c.x, x)) return;
-    PatchAnswer answer{0, {a.id, b.id, c.id}, 0};
+template <int Dim>
+void NodalPatch<Dim>::interpolate(const Point<Dim>& x, PatchAnswer<Dim>& best) const {
+  by_simplex_.for_holding(x, [&](std::int32_t s) {
+    const Corners<Dim, Dim + 1> corners(patch_.nodes,
+                                        patch_.simplices[static_cast<std::size_t>(s)]);
+    if (!holds<Dim>(corners.x, x)) return;
+    PatchAnswer<Dim> answer{0, corners.id, 0};
     if (!(answer < best)) return;
-    const double at_a = area(x, b.x, c.x), at_b = area(x, c.x, a.x), at_c = area(x, a.x, b.x);
-    const double value = (at_a * a.value + at_b * b.value + at_c * c.value) / (at_a + at_b + at_c);
-    const auto [least, most] = std::minmax({a.value, b.value, c.value});
-    answer.value = std::clamp(value, least, most);
+    double sum = 0, all = 0;
+    const auto share = shares(corners.x, x);
+    for (std::size_t k = 0; k <= Dim; ++k) {
+      sum += share[k] * corners.value[k];
+      all += share[k];
+    }
+    answer.value = corners.within(sum / all);
     best = answer;
   });
 }
 
-// The gap is never less than that to the edge's box, so that boxes that are farther than the best
+// The gap is never less than that to the facet's box, so that boxes that are farther than the best
 // answer can be passed over without changing it.
-void NodalPatch::extend(const Point<2>& x, PatchAnswer& best) const {
-  by_edge_.for_near(
+template <int Dim>
+void NodalPatch<Dim>::extend(const Point<Dim>& x, PatchAnswer<Dim>& best) const {
+  by_facet_.for_near(
       x, [&] { return best.gap; },
-      [&](std::int32_t e) {
-        const auto& ends = patch_.rim[static_cast<std::size_t>(e)];
-        const PatchNode &a = node(ends[0]), &b = node(ends[1]);
-        const double along[2] = {b.x[0] - a.x[0], b.x[1] - a.x[1]};
-        const double t = std::clamp(((x[0] - a.x[0]) * along[0] + (x[1] - a.x[1]) * along[1]) /
-                                        (along[0] * along[0] + along[1] * along[1]),
-                                    0.0, 1.0);
-        const Point<2> foot{a.x[0] + t * along[0], a.x[1] + t * along[1]};
-        const double gap = std::max(squared_distance<2>(x, foot),
-                                    squared_gap_to(box_around(patch_.nodes, ends), x));
-        const auto [least, most] = std::minmax({a.value, b.value});
-        const PatchAnswer answer{
-            gap, {a.id, b.id, 0}, std::clamp(a.value + t * (b.value - a.value), least, most)};
+      [&](std::int32_t f) {
+        const Corners<Dim, Dim> corners(patch_.nodes, patch_.border[static_cast<std::size_t>(f)]);
+        const auto foot = nearest_point(corners.x, x);
+        PatchAnswer<Dim> answer;
+        answer.gap = std::max(squared_distance<Dim>(x, foot.x), squared_gap_to(corners.box(), x));
+        std::copy(corners.id.begin(), corners.id.end(), answer.ids.begin());
+        double value = corners.value[0];
+        for (std::size_t k = 1; k < Dim; ++k)
+          value += foot.along[k - 1] * (corners.value[k] - corners.value[0]);
+        answer.value = corners.within(value);
         if (answer < best) best = answer;
       });
 }
+
+template class NodalPatch<2>;
+template class NodalPatch<3>;
 
 }  // namespace pnpbs

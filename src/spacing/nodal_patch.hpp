@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A part of a triangulation with a value at each node, linear on each triangle: what one rank holds
+// A part of a triangulation with a value at each node, linear on each simplex: what one rank holds
 // of a spacing that is given at nodes. Several patches make up the whole; of the answers that they
 // give for a point the least one counts, so that it does not matter who holds what.
 #pragma once
@@ -13,22 +13,25 @@
 
 namespace pnpbs {
 
+template <int Dim>
 struct PatchNode {
-  Point<2> x;
+  Point<Dim> x;
   std::int64_t id;
   double value;
 };
 
+template <int Dim>
 struct Patch {
-  std::vector<PatchNode> nodes;
+  std::vector<PatchNode<Dim>> nodes;
   // Indices of nodes, by increasing id in each row.
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::array<std::int32_t, 2>> rim;  // edges with nothing on one side
+  std::vector<std::array<std::int32_t, Dim + 1>> simplices;
+  std::vector<std::array<std::int32_t, Dim>> border;  // facets with nothing on one side
 };
 
+template <int Dim>
 struct PatchAnswer {
-  double gap = std::numeric_limits<double>::infinity();  // squared distance to the triangle or edge
-  std::array<std::int64_t, 3> ids{};                     // of the nodes the value comes from
+  double gap = std::numeric_limits<double>::infinity();  // squared distance to simplex or facet
+  std::array<std::int64_t, Dim + 1> ids{};               // of the nodes the value comes from
   double value = 0;
 
   bool found() const { return gap < std::numeric_limits<double>::infinity(); }
@@ -37,25 +40,27 @@ struct PatchAnswer {
   }
 };
 
+template <int Dim>
 class NodalPatch {
  public:
   NodalPatch() = default;
-  explicit NodalPatch(Patch patch);
+  explicit NodalPatch(Patch<Dim> patch);
 
-  // From the triangle that holds x; if several do (x on an edge or node), from the one of least
+  // From the simplex that holds x; if several do (x on a facet or node), from the one of least
   // ids. Leaves `best` alone if none does.
-  void interpolate(const Point<2>& x, PatchAnswer& best) const;
-  // From the nearest point of the rim, if it is nearer than `best`.
-  void extend(const Point<2>& x, PatchAnswer& best) const;
+  void interpolate(const Point<Dim>& x, PatchAnswer<Dim>& best) const;
+  // From the nearest point of the border, if it is nearer than `best`.
+  void extend(const Point<Dim>& x, PatchAnswer<Dim>& best) const;
 
-  std::vector<Box<2>> triangles_cover(std::size_t many) const { return by_triangle_.cover(many); }
-  std::vector<Box<2>> rim_cover(std::size_t many) const { return by_edge_.cover(many); }
+  std::vector<Box<Dim>> simplices_cover(std::size_t many) const { return by_simplex_.cover(many); }
+  std::vector<Box<Dim>> border_cover(std::size_t many) const { return by_facet_.cover(many); }
 
  private:
-  const PatchNode& node(std::int32_t i) const { return patch_.nodes[static_cast<std::size_t>(i)]; }
-
-  Patch patch_;
-  BoxTree<2> by_triangle_, by_edge_;
+  Patch<Dim> patch_;
+  BoxTree<Dim> by_simplex_, by_facet_;
 };
+
+extern template class NodalPatch<2>;
+extern template class NodalPatch<3>;
 
 }  // namespace pnpbs

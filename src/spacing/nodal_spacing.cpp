@@ -18,26 +18,30 @@ namespace {
 // Boxes that each rank tells of what it holds: the more, the fewer ranks are asked in vain.
 constexpr std::size_t kBoxesPerRank = 64;
 
+template <int Dim>
 struct OwnedBox {
-  Box<2> box;
+  Box<Dim> box;
   std::int64_t rank;
 };
 
+template <int Dim>
 struct Question {
-  Point<2> x;
+  Point<Dim> x;
   std::int64_t index;  // among the points of the asker
   std::int32_t asker, asked;
 };
 
+template <int Dim>
 struct Reply {
-  PatchAnswer answer;
+  PatchAnswer<Dim> answer;
   std::int64_t index;
   std::int64_t asker;
 };
 
-double squared_distance_to_far_corner(const Box<2>& box, const Point<2>& x) {
+template <int Dim>
+double squared_distance_to_far_corner(const Box<Dim>& box, const Point<Dim>& x) {
   double sum = 0;
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < Dim; ++k) {
     const double far = std::max(std::fabs(x[k] - box.low[k]), std::fabs(x[k] - box.high[k]));
     sum += far * far;
   }
@@ -51,54 +55,60 @@ void sort_once(std::vector<std::int32_t>& ranks) {
 
 }  // namespace
 
-NodalSpacing::NodalSpacing(std::shared_ptr<const Communicator> comm, Patch patch)
+template <int Dim>
+NodalSpacing<Dim>::NodalSpacing(std::shared_ptr<const Communicator> comm, Patch<Dim> patch)
     : comm_(std::move(comm)),
       patch_(std::move(patch)),
-      triangles_(gather_boxes(patch_.triangles_cover(kBoxesPerRank))),
-      rims_(gather_boxes(patch_.rim_cover(kBoxesPerRank))) {}
+      simplices_(gather_boxes(patch_.simplices_cover(kBoxesPerRank))),
+      borders_(gather_boxes(patch_.border_cover(kBoxesPerRank))) {}
 
-NodalSpacing::Directory NodalSpacing::gather_boxes(const std::vector<Box<2>>& mine) const {
+template <int Dim>
+typename NodalSpacing<Dim>::Directory NodalSpacing<Dim>::gather_boxes(
+    const std::vector<Box<Dim>>& mine) const {
   Bytes bytes;
-  for (const Box<2>& box : mine) pack(bytes, OwnedBox{box, comm_->rank()});
+  for (const Box<Dim>& box : mine) pack(bytes, OwnedBox<Dim>{box, comm_->rank()});
   Directory directory;
-  for_records<OwnedBox>({comm_->allgather(bytes)}, [&](const OwnedBox& entry) {
+  for_records<OwnedBox<Dim>>({comm_->allgather(bytes)}, [&](const OwnedBox<Dim>& entry) {
     directory.boxes.push_back(entry.box);
     directory.ranks.push_back(static_cast<std::int32_t>(entry.rank));
   });
-  directory.tree = BoxTree<2>(directory.boxes);
+  directory.tree = BoxTree<Dim>(directory.boxes);
   return directory;
 }
 
-std::vector<std::int32_t> NodalSpacing::ranks_holding(const Point<2>& x) const {
+template <int Dim>
+std::vector<std::int32_t> NodalSpacing<Dim>::ranks_holding(const Point<Dim>& x) const {
   std::vector<std::int32_t> ranks;
-  triangles_.tree.for_holding(
-      x, [&](std::int32_t b) { ranks.push_back(triangles_.ranks[static_cast<std::size_t>(b)]); });
+  simplices_.tree.for_holding(
+      x, [&](std::int32_t b) { ranks.push_back(simplices_.ranks[static_cast<std::size_t>(b)]); });
   sort_once(ranks);
   return ranks;
 }
 
-// No rim edge is nearer than its box, and some edge in a box is no farther than the box's far
-// corner.
-std::vector<std::int32_t> NodalSpacing::ranks_nearest(const Point<2>& x) const {
+// No facet of the border is nearer than its box, and some facet in a box is no farther than the
+// box's far corner.
+template <int Dim>
+std::vector<std::int32_t> NodalSpacing<Dim>::ranks_nearest(const Point<Dim>& x) const {
   constexpr double kRounding = 1 + 1e-6;
   double bound = std::numeric_limits<double>::infinity();
   std::vector<std::int32_t> near;
-  rims_.tree.for_near(
+  borders_.tree.for_near(
       x, [&] { return bound; },
       [&](std::int32_t b) {
-        const Box<2>& box = rims_.boxes[static_cast<std::size_t>(b)];
-        bound = std::min(bound, kRounding * squared_distance_to_far_corner(box, x));
+        const Box<Dim>& box = borders_.boxes[static_cast<std::size_t>(b)];
+        bound = std::min(bound, kRounding * squared_distance_to_far_corner<Dim>(box, x));
         near.push_back(b);
       });
   std::vector<std::int32_t> ranks;
   for (const std::int32_t b : near)
-    if (squared_gap_to(rims_.boxes[static_cast<std::size_t>(b)], x) <= bound)
-      ranks.push_back(rims_.ranks[static_cast<std::size_t>(b)]);
+    if (squared_gap_to(borders_.boxes[static_cast<std::size_t>(b)], x) <= bound)
+      ranks.push_back(borders_.ranks[static_cast<std::size_t>(b)]);
   sort_once(ranks);
   return ranks;
 }
 
-bool NodalSpacing::same_points(std::int64_t n, const Point<2>* x) const {
+template <int Dim>
+bool NodalSpacing<Dim>::same_points(std::int64_t n, const Point<Dim>* x) const {
   if (comm_->size() == 1) return true;
   std::uint64_t hash = mixed(static_cast<std::uint64_t>(n));
   for (std::int64_t i = 0; i < n; ++i)
@@ -111,69 +121,75 @@ bool NodalSpacing::same_points(std::int64_t n, const Point<2>* x) const {
 }
 
 // Asks for all points without an answer.
+template <int Dim>
 template <class Ranks>
-void NodalSpacing::look(std::int64_t n, const Point<2>* x, bool same, const Ranks& ranks_for,
-                        Find find, std::vector<PatchAnswer>& answers) const {
+void NodalSpacing<Dim>::look(std::int64_t n, const Point<Dim>* x, bool same, const Ranks& ranks_for,
+                             Find find, std::vector<PatchAnswer<Dim>>& answers) const {
   const std::int32_t me = comm_->rank();
-  std::vector<Question> questions;
+  std::vector<Question<Dim>> questions;
   for (std::int64_t i = 0; i < n; ++i) {
     if (answers[static_cast<std::size_t>(i)].found()) continue;
     for (const std::int32_t rank : ranks_for(x[i]))
       if (!same || rank == me) questions.push_back({x[i], i, me, rank});
   }
   if (!same)
-    questions = redistribute<Question>(*comm_, questions,
-                                       [](const Question& q) { return static_cast<int>(q.asked); });
+    questions = redistribute<Question<Dim>>(
+        *comm_, questions, [](const Question<Dim>& q) { return static_cast<int>(q.asked); });
 
-  std::vector<Reply> replies(questions.size());
+  std::vector<Reply<Dim>> replies(questions.size());
   for_each("pnpbs::NodalSpacing::look", static_cast<std::int64_t>(questions.size()),
            [&](std::int64_t k) {
-             const Question& question = questions[static_cast<std::size_t>(k)];
-             Reply& reply = replies[static_cast<std::size_t>(k)];
+             const Question<Dim>& question = questions[static_cast<std::size_t>(k)];
+             Reply<Dim>& reply = replies[static_cast<std::size_t>(k)];
              reply.index = question.index;
              reply.asker = question.asker;
              (patch_.*find)(question.x, reply.answer);
            });
-  std::erase_if(replies, [](const Reply& reply) { return !reply.answer.found(); });
+  std::erase_if(replies, [](const Reply<Dim>& reply) { return !reply.answer.found(); });
 
-  const auto take = [&](const Reply& reply) {
-    PatchAnswer& best = answers[static_cast<std::size_t>(reply.index)];
+  const auto take = [&](const Reply<Dim>& reply) {
+    PatchAnswer<Dim>& best = answers[static_cast<std::size_t>(reply.index)];
     if (reply.answer < best) best = reply.answer;
   };
   if (!same) {
-    replies = redistribute<Reply>(*comm_, replies,
-                                  [](const Reply& r) { return static_cast<int>(r.asker); });
-    for (const Reply& reply : replies) take(reply);
+    replies = redistribute<Reply<Dim>>(
+        *comm_, replies, [](const Reply<Dim>& r) { return static_cast<int>(r.asker); });
+    for (const Reply<Dim>& reply : replies) take(reply);
   } else {
     Bytes bytes;
-    for (const Reply& reply : replies) pack(bytes, reply);
-    for_records<Reply>({comm_->allgather(bytes)}, take);
+    for (const Reply<Dim>& reply : replies) pack(bytes, reply);
+    for_records<Reply<Dim>>({comm_->allgather(bytes)}, take);
   }
 }
 
-std::int64_t NodalSpacing::open_on_all(const std::vector<PatchAnswer>& answers) const {
+template <int Dim>
+std::int64_t NodalSpacing<Dim>::open_on_all(const std::vector<PatchAnswer<Dim>>& answers) const {
   const auto open = std::count_if(answers.begin(), answers.end(),
-                                  [](const PatchAnswer& answer) { return !answer.found(); });
+                                  [](const PatchAnswer<Dim>& answer) { return !answer.found(); });
   return static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(open)));
 }
 
-void NodalSpacing::evaluate(std::int64_t n, const Point<2>* x, double* d) const {
+template <int Dim>
+void NodalSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
   const bool same = same_points(n, x);
-  std::vector<PatchAnswer> answers(static_cast<std::size_t>(n));
+  std::vector<PatchAnswer<Dim>> answers(static_cast<std::size_t>(n));
   look(
-      n, x, same, [this](const Point<2>& p) { return ranks_holding(p); }, &NodalPatch::interpolate,
-      answers);
+      n, x, same, [this](const Point<Dim>& p) { return ranks_holding(p); },
+      &NodalPatch<Dim>::interpolate, answers);
   if (open_on_all(answers) > 0)
     look(
-        n, x, same, [this](const Point<2>& p) { return ranks_nearest(p); }, &NodalPatch::extend,
-        answers);
+        n, x, same, [this](const Point<Dim>& p) { return ranks_nearest(p); },
+        &NodalPatch<Dim>::extend, answers);
   for (std::int64_t i = 0; i < n; ++i) {
-    const PatchAnswer& answer = answers[static_cast<std::size_t>(i)];
+    const PatchAnswer<Dim>& answer = answers[static_cast<std::size_t>(i)];
     if (!answer.found())
       throw Error(ErrorKind::internal,
                   "the values at nodes say nothing about the spacing at " + point_text(x[i]));
     d[i] = answer.value;
   }
 }
+
+template class NodalSpacing<2>;
+template class NodalSpacing<3>;
 
 }  // namespace pnpbs

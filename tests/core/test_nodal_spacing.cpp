@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing from values at nodes: linear on triangles, extended from the rim, and the same however
-// the triangles are dealt out; against plain loops over all of them.
+// A spacing from values at nodes: linear on triangles, extended from the border, and the same
+// however the triangles are dealt out; against plain loops over all of them.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "nodal_parts.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 #include "spacing/nodal_spacing.hpp"
 
-using pnpbs::NodalPatch;
-using pnpbs::Patch;
-using pnpbs::PatchAnswer;
+using NodalPatch = pnpbs::NodalPatch<2>;
+using Patch = pnpbs::Patch<2>;
+using PatchAnswer = pnpbs::PatchAnswer<2>;
 using P = pnpbs::Point<2>;
 
 namespace {
@@ -50,13 +51,13 @@ Patch shaken_grid(Random& random, double (*value)(double, double)) {
     for (std::int32_t column = 0; column <= kCells; ++column) {
       const std::int32_t a = row * (kCells + 1) + column, right = a + 1, up = a + kCells + 1;
       if (is_cell(row, column)) {
-        patch.triangles.push_back(by_id(std::array{a, right, up + 1}));
-        patch.triangles.push_back(by_id(std::array{a, up + 1, up}));
+        patch.simplices.push_back(by_id(std::array{a, right, up + 1}));
+        patch.simplices.push_back(by_id(std::array{a, up + 1, up}));
       }
       if (column < kCells && is_cell(row, column) != is_cell(row - 1, column))
-        patch.rim.push_back(by_id(std::array{a, right}));
+        patch.border.push_back(by_id(std::array{a, right}));
       if (row < kCells && is_cell(row, column) != is_cell(row, column - 1))
-        patch.rim.push_back(by_id(std::array{a, up}));
+        patch.border.push_back(by_id(std::array{a, up}));
     }
   return patch;
 }
@@ -78,10 +79,10 @@ bool in_domain(const Patch& patch, const P& x) {
   return x[0] > 0 && x[0] < 1 && x[1] > 0 && x[1] < 1 && !in_hole(patch, x);
 }
 
-// Value at the nearest point of the rim, by looking at all of it.
+// Value at the nearest point of the border, by looking at all of it.
 double nearest_value(const Patch& patch, const P& x) {
   double least = std::numeric_limits<double>::infinity(), value = 0;
-  for (const auto& edge : patch.rim) {
+  for (const auto& edge : patch.border) {
     const auto &a = patch.nodes[static_cast<std::size_t>(edge[0])],
                &b = patch.nodes[static_cast<std::size_t>(edge[1])];
     for (int k = 0; k <= 2000; ++k) {
@@ -96,48 +97,12 @@ double nearest_value(const Patch& patch, const P& x) {
   return value;
 }
 
-// Triangles and edges dealt out to several patches, in another order.
-std::vector<NodalPatch> dealt_out(const Patch& whole, std::size_t many, Random& random) {
-  std::vector<Patch> parts(many);
-  const auto deal = [&](const auto& rows, auto member) {
-    auto shuffled = rows;
-    random.shuffle(shuffled);
-    for (const auto& row : shuffled)
-      (parts[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(many)))].*member)
-          .push_back(row);
-  };
-  deal(whole.triangles, &Patch::triangles);
-  deal(whole.rim, &Patch::rim);
-  std::vector<NodalPatch> patches;
-  for (Patch& part : parts) {
-    part.nodes = whole.nodes;
-    patches.emplace_back(part);
-  }
-  return patches;
-}
-
-PatchAnswer ask(const std::vector<NodalPatch>& patches, const P& x) {
-  PatchAnswer best;
-  for (const NodalPatch& patch : patches) {
-    PatchAnswer answer;
-    patch.interpolate(x, answer);
-    if (answer < best) best = answer;
-  }
-  if (best.found()) return best;
-  for (const NodalPatch& patch : patches) {
-    PatchAnswer answer;
-    patch.extend(x, answer);
-    if (answer < best) best = answer;
-  }
-  return best;
-}
-
 }  // namespace
 
 START_TEST(linear_functions_are_exact) {
   Random random(1);
   const Patch patch = shaken_grid(random, plane);
-  const pnpbs::NodalSpacing spacing(pnpbs::serial_communicator(), patch);
+  const pnpbs::NodalSpacing<2> spacing(pnpbs::serial_communicator(), patch);
   std::vector<P> points;
   while (points.size() < 20000) {
     const P x = random.point<2>({{0, 0}, {1, 1}});
@@ -163,7 +128,7 @@ START_TEST(interpolates_in_the_right_triangle) {
     one.interpolate(x, answer);
     quick_assert(answer.found());
     int found = 0;
-    for (const auto& corners : patch.triangles) {
+    for (const auto& corners : patch.simplices) {
       long double weight[3], all = 0;
       for (int k = 0; k < 3; ++k) {
         const P &a = patch.nodes[static_cast<std::size_t>(corners[(k + 1) % 3])].x,
@@ -187,7 +152,7 @@ START_TEST(interpolates_in_the_right_triangle) {
 }
 END_TEST
 
-START_TEST(extends_from_the_nearest_point_of_the_rim) {
+START_TEST(extends_from_the_nearest_point_of_the_border) {
   Random random(3);
   const Patch patch = shaken_grid(random, waves);
   const NodalPatch one(patch);
@@ -212,17 +177,17 @@ START_TEST(the_same_however_dealt_out) {
   Random random(4);
   const Patch patch = shaken_grid(random, waves);
   std::vector<P> points;
-  for (const pnpbs::PatchNode& node : patch.nodes) points.push_back(node.x);
+  for (const pnpbs::PatchNode<2>& node : patch.nodes) points.push_back(node.x);
   for (int k = 0; k <= 8 * kCells; ++k) points.push_back({k / (8.0 * kCells), 0});
   for (int n = 0; n < 2000; ++n) points.push_back(random.point<2>({{-0.1, -0.1}, {1.1, 1.1}}));
-  const std::vector<NodalPatch> whole = dealt_out(patch, 1, random);
-  const pnpbs::NodalSpacing spacing(pnpbs::serial_communicator(), patch);
+  const std::vector<NodalPatch> whole = dealt_out<2>(patch, 1, random);
+  const pnpbs::NodalSpacing<2> spacing(pnpbs::serial_communicator(), patch);
   std::vector<double> d(points.size());
   spacing.evaluate(static_cast<std::int64_t>(points.size()), points.data(), d.data());
   for (const std::size_t many : {2u, 3u, 7u}) {
-    const std::vector<NodalPatch> parts = dealt_out(patch, many, random);
+    const std::vector<NodalPatch> parts = dealt_out<2>(patch, many, random);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const PatchAnswer a = ask(whole, points[i]), b = ask(parts, points[i]);
+      const PatchAnswer a = ask<2>(whole, points[i]), b = ask<2>(parts, points[i]);
       quick_assert(a.ids == b.ids && a.gap == b.gap && a.value == b.value && d[i] == a.value);
     }
   }
@@ -234,7 +199,7 @@ START_TEST(nodes_have_their_values) {
   Random random(5);
   const Patch patch = shaken_grid(random, waves);
   const NodalPatch one(patch);
-  for (const pnpbs::PatchNode& node : patch.nodes) {
+  for (const pnpbs::PatchNode<2>& node : patch.nodes) {
     PatchAnswer answer;
     one.interpolate(node.x, answer);
     quick_assert(std::fabs(answer.value - node.value) < 2e-15);
@@ -245,6 +210,6 @@ END_TEST
 int main() {
   return run_kernel_suite("nodal_spacing",
                           {linear_functions_are_exact, interpolates_in_the_right_triangle,
-                           extends_from_the_nearest_point_of_the_rim, the_same_however_dealt_out,
+                           extends_from_the_nearest_point_of_the_border, the_same_however_dealt_out,
                            nodes_have_their_values});
 }

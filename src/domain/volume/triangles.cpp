@@ -33,14 +33,22 @@ Point<3> cross(const Point<3>& a, const Point<3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Point<3> nearest_on_segment(const Point<3>& a, const Point<3>& b, const Point<3>& x) {
+struct SegmentPoint {
+  Point<3> x;
+  double along;
+};
+
+SegmentPoint nearest_on_segment(const Point<3>& a, const Point<3>& b, const Point<3>& x) {
   const Point<3> way = difference(b, a);
   const double length2 = dot(way, way);
-  if (length2 == 0) return a;
+  if (length2 == 0) return {a, 0};
   const double t = dot(difference(x, a), way) / length2;
-  if (t <= 0) return a;
-  if (t >= 1) return b;
-  return {a[0] + t * way[0], a[1] + t * way[1], a[2] + t * way[2]};
+  if (t <= 0) return {a, 0};
+  if (t >= 1) return {b, 1};
+  SegmentPoint nearest{{}, t};
+  for (std::size_t k = 0; k < 3; ++k)
+    nearest.x[k] = std::clamp(a[k] + t * way[k], std::min(a[k], b[k]), std::max(a[k], b[k]));
+  return nearest;
 }
 
 // A closed box and the convex hull of points, all seen from the middle of the box: is there a gap
@@ -146,9 +154,8 @@ bool segment_may_meet_box(const Point<3>& a, const Point<3>& b, const Box<3>& bo
   return hull_may_meet_box(std::array{a, b}, box);
 }
 
-// The foot on the triangle's plane if it lies in the triangle, else a point of an edge. By the
-// nearest of the three: with rounding, a needle's foot can be on a wrong side.
-Point<3> nearest_on(const FacetCorners<3>& triangle, const Point<3>& x) {
+// The foot on the triangle's plane if it lies in the triangle, else the nearest point of the edges.
+TrianglePoint nearest_triangle_point(const FacetCorners<3>& triangle, const Point<3>& x) {
   const auto& [a, b, c] = triangle;
   const Point<3> ab = difference(b, a), ac = difference(c, a), ax = difference(x, a);
   const Point<3> normal = cross(ab, ac);
@@ -156,12 +163,16 @@ Point<3> nearest_on(const FacetCorners<3>& triangle, const Point<3>& x) {
   const double t = dot(cross(ax, ac), normal), u = dot(cross(ab, ax), normal);
   if (t > 0 && u > 0 && t + u < square) {
     const double v = t / square, w = u / square;
-    return {a[0] + v * ab[0] + w * ac[0], a[1] + v * ab[1] + w * ac[1],
-            a[2] + v * ab[2] + w * ac[2]};
+    return {
+        {a[0] + v * ab[0] + w * ac[0], a[1] + v * ab[1] + w * ac[1], a[2] + v * ab[2] + w * ac[2]},
+        {v, w}};
   }
-  Point<3> nearest = nearest_on_segment(a, b, x);
-  for (const Point<3>& other : {nearest_on_segment(b, c, x), nearest_on_segment(c, a, x)})
-    if (squared_distance<3>(other, x) < squared_distance<3>(nearest, x)) nearest = other;
+  const SegmentPoint on_ab = nearest_on_segment(a, b, x), on_bc = nearest_on_segment(b, c, x),
+                     on_ac = nearest_on_segment(a, c, x);
+  TrianglePoint nearest{on_ab.x, {on_ab.along, 0}};
+  for (const TrianglePoint& other : {TrianglePoint{on_bc.x, {1 - on_bc.along, on_bc.along}},
+                                     TrianglePoint{on_ac.x, {0, on_ac.along}}})
+    if (squared_distance<3>(other.x, x) < squared_distance<3>(nearest.x, x)) nearest = other;
   return nearest;
 }
 

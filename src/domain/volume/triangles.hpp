@@ -47,7 +47,18 @@ bool on_facet(const FacetCorners<3>& triangle, const Point<3>& x);
 bool may_meet_box(const FacetCorners<3>& triangle, const Box<3>& box);
 bool segment_may_meet_box(const Point<3>& a, const Point<3>& b, const Box<3>& box);
 
-// The point of the triangle nearest to x.
-Point<3> nearest_on(const FacetCorners<3>& triangle, const Point<3>& x);
+// A point of a triangle: its first corner and so much of the ways from there to the other two.
+struct TrianglePoint {
+  Point<3> x;
+  std::array<double, 2> along;
+};
+
+// The point of the triangle nearest to x. Where that is on an edge, two triangles that both have
+// the edge, its corners in the same order, tell the same point to the bit.
+TrianglePoint nearest_triangle_point(const FacetCorners<3>& triangle, const Point<3>& x);
+
+inline Point<3> nearest_on(const FacetCorners<3>& triangle, const Point<3>& x) {
+  return nearest_triangle_point(triangle, x).x;
+}
 
 }  // namespace pnpbs
