@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/execution.hpp"
-#include "base/mixed_hash.hpp"
+#include "comm/same_points.hpp"
 #include "base/point_text.hpp"
 #include "comm/records.hpp"
 
@@ -107,19 +107,6 @@ std::vector<std::int32_t> NodalSpacing<Dim>::ranks_nearest(const Point<Dim>& x) 
   return ranks;
 }
 
-template <int Dim>
-bool NodalSpacing<Dim>::same_points(std::int64_t n, const Point<Dim>* x) const {
-  if (comm_->size() == 1) return true;
-  std::uint64_t hash = mixed(static_cast<std::uint64_t>(n));
-  for (std::int64_t i = 0; i < n; ++i)
-    for (const double coordinate : x[i]) {
-      std::uint64_t bits;
-      std::memcpy(&bits, &coordinate, sizeof bits);
-      hash = mixed(hash ^ bits);
-    }
-  return comm_->same_on_all(hash);
-}
-
 // Asks for all points without an answer.
 template <int Dim>
 template <class Ranks>
@@ -171,7 +158,7 @@ std::int64_t NodalSpacing<Dim>::open_on_all(const std::vector<PatchAnswer<Dim>>&
 
 template <int Dim>
 void NodalSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
-  const bool same = same_points(n, x);
+  const bool same = same_points<Dim>(*comm_, n, x);
   std::vector<PatchAnswer<Dim>> answers(static_cast<std::size_t>(n));
   look(
       n, x, same, [this](const Point<Dim>& p) { return ranks_holding(p); },

@@ -40,7 +40,6 @@ class NodalSpacing : public Spacing<Dim> {
   void look(std::int64_t n, const Point<Dim>* x, bool same, const Ranks& ranks_for, Find find,
             std::vector<PatchAnswer<Dim>>& answers) const;
   std::int64_t open_on_all(const std::vector<PatchAnswer<Dim>>& answers) const;
-  bool same_points(std::int64_t n, const Point<Dim>* x) const;
 
   std::shared_ptr<const Communicator> comm_;
   NodalPatch<Dim> patch_;
