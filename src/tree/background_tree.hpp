@@ -124,6 +124,16 @@ class BackgroundTree {
     return c;
   }
 
+  // Position among the cells of the largest depth.
+  std::array<std::uint32_t, Dim> fine_index(const Point<Dim>& x) const {
+    std::array<std::uint32_t, Dim> fine;
+    for (int k = 0; k < Dim; ++k) {
+      const double t = (x[k] - origin_[k]) * scale_;
+      fine[k] = t <= 0 ? 0u : t >= kCells - 1 ? kLastIndex : static_cast<std::uint32_t>(t);
+    }
+    return fine;
+  }
+
   // The half-open box of a leaf in cells of the largest depth, for many questions about it.
   Box<Dim> fine_box(std::int32_t leaf) const {
     const Cell& c = cell(leaf_cell(leaf));
@@ -163,16 +173,6 @@ class BackgroundTree {
   }
 
  private:
-  // Position among the cells of the largest depth.
-  std::array<std::uint32_t, Dim> fine_index(const Point<Dim>& x) const {
-    std::array<std::uint32_t, Dim> fine;
-    for (int k = 0; k < Dim; ++k) {
-      const double t = (x[k] - origin_[k]) * scale_;
-      fine[k] = t <= 0 ? 0u : t >= kCells - 1 ? kLastIndex : static_cast<std::uint32_t>(t);
-    }
-    return fine;
-  }
-
   // The smallest cell with the box well inside: no other cell outside it meets the box.
   std::int32_t cell_around(const Box<Dim>& box) const {
     const std::array<std::uint32_t, Dim> low = fine_index(box.low), high = fine_index(box.high);

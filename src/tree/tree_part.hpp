@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One rank's part of a background tree that is spread over ranks (leaf_cells.hpp): its own leaves,
+// copies of those of other ranks that touch them, and which of all these touch.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/chunked_rows.hpp"
+#include "comm/exchange_pattern.hpp"
+#include "tree/leaf_cells.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class TreePart {
+ public:
+  TreePart() = default;
+  // own: this rank's leaves in Morton order; those that are not `live` touch nothing. Collective.
+  TreePart(const Communicator& comm, const Box<Dim>& bounds, std::vector<LeafCell<Dim>> own,
+           std::vector<char> live)
+      : stretches_(comm, own), own_(std::ssize(own)), cells_(std::move(own)) {
+    exchange_borders(comm, live);
+    live.resize(cells_.size(), 1);
+    grow_tree(bounds);
+    link(live);
+  }
+
+  // Own leaves come first, then the copies.
+  std::int64_t own_count() const { return own_; }
+  std::int64_t count() const { return std::ssize(cells_); }
+
+  // The leaf that holds x, -1 if that is not here.
+  std::int64_t leaf_at(const Point<Dim>& x) const {
+    return number_[static_cast<std::size_t>(tree_.leaf_at(x))];
+  }
+  bool owns(std::int64_t leaf) const { return leaf >= 0 && leaf < own_; }
+  std::int32_t rank_with(const Point<Dim>& x) const {
+    return stretches_.rank_with(tree_.fine_index(x));
+  }
+
+  // Those that touch a leaf: of an own one all, of a copy own ones.
+  std::span<const std::int32_t> touching_leaves(std::int64_t leaf) const {
+    return touching_.row(leaf);
+  }
+
+  // How values of leaves reach their copies: fill_ghosts.
+  const ExchangePattern& border() const { return border_; }
+
+ private:
+  struct Range {
+    std::int64_t begin, end;
+  };
+
+  // An own leaf goes to all ranks that have something in one of the cells of its size around it.
+  void exchange_borders(const Communicator& comm, const std::vector<char>& live) {
+    const auto ranks = static_cast<std::size_t>(comm.size());
+    if (ranks == 1) return;
+    std::vector<std::vector<std::int64_t>> sent(ranks);
+    for (std::int64_t leaf = 0; leaf < own_; ++leaf) {
+      if (!live[static_cast<std::size_t>(leaf)]) continue;
+      for_ranks_around(cells_[static_cast<std::size_t>(leaf)], [&](std::int32_t rank) {
+        std::vector<std::int64_t>& row = sent[static_cast<std::size_t>(rank)];
+        if (rank != comm.rank() && (row.empty() || row.back() != leaf)) row.push_back(leaf);
+      });
+    }
+    std::vector<Message> messages;
+    for (std::size_t r = 0; r < ranks; ++r) {
+      if (sent[r].empty()) continue;
+      messages.push_back({static_cast<int>(r), {}});
+      for (const std::int64_t leaf : sent[r])
+        pack(messages.back().bytes, cells_[static_cast<std::size_t>(leaf)]);
+    }
+    std::vector<std::int64_t> received(ranks, 0);
+    for (const Message& message : comm.sparse_all_to_all(messages))
+      for_records<LeafCell<Dim>>({message.bytes}, [&](const LeafCell<Dim>& cell) {
+        cells_.push_back(cell);
+        ++received[static_cast<std::size_t>(message.rank)];
+        before_ += message.rank < comm.rank();
+      });
+    keep_pattern(sent, received);
+  }
+
+  void keep_pattern(const std::vector<std::vector<std::int64_t>>& sent,
+                    const std::vector<std::int64_t>& received) {
+    border_.send_offsets.assign(1, 0);
+    border_.receive_offsets.assign(1, 0);
+    std::int64_t next = own_;
+    for (std::size_t r = 0; r < sent.size(); ++r) {
+      if (sent[r].empty() && received[r] == 0) continue;
+      border_.ranks.push_back(static_cast<std::int32_t>(r));
+      border_.send_nodes.insert(border_.send_nodes.end(), sent[r].begin(), sent[r].end());
+      for (std::int64_t k = 0; k < received[r]; ++k) border_.receive_nodes.push_back(next++);
+      border_.send_offsets.push_back(std::ssize(border_.send_nodes));
+      border_.receive_offsets.push_back(std::ssize(border_.receive_nodes));
+    }
+  }
+
+  template <class Visit>
+  void for_ranks_around(const LeafCell<Dim>& cell, const Visit& visit) const {
+    constexpr int kAround = Dim == 2 ? 9 : 27;
+    const std::uint32_t cells = 1u << cell.depth;
+    for (int around = 0; around < kAround; ++around) {
+      LeafCell<Dim> other = cell;
+      bool there = true;
+      for (int k = 0, code = around; k < Dim; ++k, code /= 3) {
+        other.index[k] += static_cast<std::uint32_t>(code % 3) - 1u;  // none is below 0: wraps
+        there = there && other.index[k] < cells;
+      }
+      if (there) stretches_.for_ranks_in(other, visit);
+    }
+  }
+
+  // The place of a leaf among all that are here, in Morton order: copies come by rank, and ranks
+  // have stretches.
+  std::int64_t leaf_in_order(std::int64_t place) const {
+    if (place < before_) return own_ + place;
+    return place < before_ + own_ ? place - before_ : place;
+  }
+  const LeafCell<Dim>& cell_in_order(std::int64_t place) const {
+    return cells_[static_cast<std::size_t>(leaf_in_order(place))];
+  }
+
+  // Whatever is not here is left coarse.
+  void grow_tree(const Box<Dim>& bounds) {
+    std::vector<Range> ranges{{0, count()}};  // of the cells: what is in them
+    std::int32_t parents = 0;                 // first cell of the depth above
+    tree_.build(bounds, [&](const BackgroundTree<Dim>& tree, std::int32_t first, std::int32_t last,
+                            std::vector<char>& split) {
+      add_ranges(tree, parents, first, ranges);
+      parents = first;
+      for (std::int32_t c = first; c < last; ++c) {
+        const Range range = ranges[static_cast<std::size_t>(c)];
+        split[static_cast<std::size_t>(c - first)] =
+            range.begin < range.end && cell_in_order(range.begin).depth > tree.cell(c).depth;
+      }
+    });
+    add_ranges(tree_, parents, tree_.cell_count(), ranges);
+    leaf_.resize(cells_.size());
+    for (std::int32_t leaf = 0; leaf < tree_.leaf_count(); ++leaf) {
+      const Range range = ranges[static_cast<std::size_t>(tree_.leaf_cell(leaf))];
+      const std::int64_t here = range.begin < range.end ? leaf_in_order(range.begin) : -1;
+      number_.push_back(static_cast<std::int32_t>(here));
+      if (here >= 0) leaf_[static_cast<std::size_t>(here)] = leaf;
+    }
+  }
+
+  // Of the children of the cells first .. last-1.
+  void add_ranges(const BackgroundTree<Dim>& tree, std::int32_t first, std::int32_t last,
+                  std::vector<Range>& ranges) const {
+    for (std::int32_t c = first; c < last; ++c) {
+      if (tree.cell(c).first_child < 0) continue;
+      if (std::ssize(ranges) > tree.cell(c).first_child) continue;
+      Range rest = ranges[static_cast<std::size_t>(c)];
+      for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k) {
+        const auto& child = tree.cell(tree.cell(c).first_child + k);
+        const FineIndex<Dim> last_in_child = LeafCell<Dim>{child.index, child.depth}.last();
+        const std::int64_t begin = rest.begin;
+        for (std::int64_t count = rest.end - begin; count > 0;) {
+          const std::int64_t half = count / 2, middle = rest.begin + half;
+          if (morton_before(last_in_child, cell_in_order(middle).first())) {
+            count = half;
+          } else {
+            rest.begin = middle + 1;
+            count -= half + 1;
+          }
+        }
+        ranges.push_back({begin, rest.begin});
+      }
+    }
+  }
+
+  void link(const std::vector<char>& live) {
+    touching_.build("pnpbs::TreePart::link", count(), [&] {
+      return [&](std::int64_t leaf, std::vector<std::int32_t>& row) {
+        if (!live[static_cast<std::size_t>(leaf)]) return;
+        const std::int32_t cell = tree_.leaf_cell(leaf_[static_cast<std::size_t>(leaf)]);
+        tree_.for_leaves_in(tree_.cell_box(cell), [&](std::int32_t found) {
+          const std::int32_t other = number_[static_cast<std::size_t>(found)];
+          if (other < 0 || other == leaf || !live[static_cast<std::size_t>(other)]) return;
+          if (leaf >= own_ && other >= own_) return;
+          if (touching(cells_[static_cast<std::size_t>(leaf)],
+                       cells_[static_cast<std::size_t>(other)]))
+            row.push_back(other);
+        });
+      };
+    });
+  }
+
+  Stretches<Dim> stretches_;
+  std::int64_t own_ = 0, before_ = 0;  // copies from ranks before this one
+  std::vector<LeafCell<Dim>> cells_;
+  ExchangePattern border_;
+  BackgroundTree<Dim> tree_;
+  std::vector<std::int32_t> number_;  // of the leaves of tree_, here; -1 for none
+  std::vector<std::int32_t> leaf_;    // in tree_, of those here
+  ChunkedRows<std::int32_t> touching_;
+};
+
+}  // namespace pnpbs
