@@ -40,15 +40,23 @@ std::shared_ptr<const Spacing<2>> Placement::growth_limited(
 std::shared_ptr<const Spacing<2>> Placement::growth_limited(
     std::shared_ptr<const Spacing<2>> spacing, const Settings& settings,
     const std::function<void()>& beat) const {
+  const auto explained = [&](const Error& error) {
+    return std::string(error.what()) + " (where d grows by at most " +
+           number_text(settings.growth_limit) + ": option growth_limit, 0 is no limit)";
+  };
+  const auto by_spacing = [](const Error& error) {
+    return error.kind() == ErrorKind::spacing || error.kind() == ErrorKind::memory;
+  };
   agreed(*comm_, [&] {
     try {
-      spacing = std::make_shared<GrowthLimitedSpacing>(
-          *domain_, std::move(spacing), settings.growth_limit, settings.node_limit(), beat);
+      spacing = std::make_shared<GrowthLimitedSpacing<2>>(
+          comm_, *domain_, std::move(spacing), settings.growth_limit, settings.node_limit(), beat);
+    } catch (const AgreedError& error) {
+      if (!by_spacing(error)) throw;
+      throw AgreedError(error.kind(), explained(error));
     } catch (const Error& error) {
-      if (error.kind() != ErrorKind::spacing && error.kind() != ErrorKind::memory) throw;
-      throw Error(error.kind(), std::string(error.what()) + " (where d grows by at most " +
-                                    number_text(settings.growth_limit) +
-                                    ": option growth_limit, 0 is no limit)");
+      if (!by_spacing(error)) throw;
+      throw Error(error.kind(), explained(error));
     }
   });
   return spacing;

@@ -1,59 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A spacing whose growth is limited: d grows by at most g per unit of length on the way through
-// the domain. d_limited(x) = min over y of (d(y) + g |x - y|), found once on the background tree.
-// In the open the way is straight; around corners it is measured from leaf to leaf, up to 8 % too
-// long. One y counts for a leaf, and those of the leaves it touches: beside a line of sources d is
-// up to a third too large for it.
+// the domain. d_limited(x) = min over y of (d(y) + g |x - y|), found once on a background tree, of
+// which each rank holds its part. In the open the way is straight; around corners it is measured
+// from leaf to leaf, up to 8 % too long. One y counts for a leaf, and those of the leaves it
+// touches: beside a line of sources d is up to a third too large for it. The same to the bit on any
+// number of ranks.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <vector>
 
-#include "domain/plane/boundary.hpp"
-#include "domain/plane/plane_domain.hpp"
-#include "spacing/domain_map.hpp"
+#include "comm/communicator.hpp"
+#include "domain/node_limit.hpp"
+#include "spacing/growth_labels.hpp"
+#include "spacing/growth_leaves.hpp"
+#include "spacing/open_ways.hpp"
 #include "spacing/spacing.hpp"
 
 namespace pnpbs {
 
-class GrowthLimitedSpacing : public Spacing<2> {
+template <int Dim>
+class GrowthLimitedSpacing : public Spacing<Dim> {
  public:
   using Beat = std::function<void()>;
-  // Calls beat() again and again while it is made; what that throws ends it.
+  using Domain = typename OpenWays<Dim>::Domain;
+  // Calls beat() again and again while it is made; what that throws on one rank ends it on all.
+  // Collective.
   GrowthLimitedSpacing(
-      const PlaneDomain& domain, std::shared_ptr<const Spacing<2>> raw, double growth,
-      const NodeLimit& limit, const Beat& beat = [] {});
-  void evaluate(std::int64_t n, const Point<2>* x, double* d) const override;
+      std::shared_ptr<const Communicator> comm, const Domain& domain,
+      std::shared_ptr<const Spacing<Dim>> raw, double growth, const NodeLimit& limit,
+      const Beat& beat = [] {});
+
+  // Collective: all ranks ask at the same time, as many points as each wants. Of points in its own
+  // leaves a rank asks nobody; where all ask the same points, nobody is asked of any.
+  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+
+  // Of the tree, on this rank: own ones, and copies of those that touch them.
+  std::int64_t leaves_held() const { return labels_.tree().count(); }
 
  private:
-  // A point that limits d in the leaves around it: d there is at most this.
-  struct Source {
-    Point<2> x;
-    double d;
-  };
+  using Evaluator = typename GrowthLeaves<Dim>::Evaluator;
 
-  void look_at_new_tree(const std::vector<Source>& sources, const Beat& beat);
-  void fit_tree(const PlaneDomain& domain, const NodeLimit& limit, const Beat& beat);
-  void link_leaves();
-  double limit_by(const Source& source, const Point<2>& x) const;
-  bool allows_less(const Source& source, std::int32_t leaf) const;  // in its middle
-  bool offer(std::int32_t leaf, const Source& source);
-  bool open_way(const Point<2>& a, const Point<2>& b) const;
-  std::vector<Source> samples_of_leaves(double measure) const;
-  void relax(const Beat& beat);
-  double limit_at(const Point<2>& x) const;
-  Point<2> centre(std::int32_t leaf) const {
-    return map_.tree().cell_centre(map_.tree().leaf_cell(leaf));
-  }
+  void find_labels(const Evaluator& raw, const NodeLimit& limit, const Beat& beat);
+  std::vector<double> limits(std::int64_t n, const Point<Dim>* x) const;
+  void take_answers_of_all(std::int64_t n, const Point<Dim>* x, std::vector<double>& limits) const;
+  void ask_owners(std::int64_t n, const Point<Dim>* x, std::vector<double>& limits) const;
 
-  std::shared_ptr<const Spacing<2>> raw_;
+  std::shared_ptr<const Communicator> comm_;
+  std::shared_ptr<const Spacing<Dim>> raw_;
   double growth_;
-  Boundary boundary_;  // at the unlimited spacing
-  DomainMap<2> map_;
-  std::vector<Source> source_;
-  std::vector<double> at_centre_;               // limited d at the middle of each leaf
-  std::vector<std::int32_t> offset_, next_to_;  // leaves that touch
+  std::unique_ptr<const OpenWays<Dim>> ways_;  // by the boundary at the unlimited spacing
+  GrowthLabels<Dim> labels_;
 };
+
+extern template class GrowthLimitedSpacing<2>;
 
 }  // namespace pnpbs

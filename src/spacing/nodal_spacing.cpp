@@ -7,9 +7,9 @@
 
 #include "base/error.hpp"
 #include "base/execution.hpp"
-#include "comm/same_points.hpp"
 #include "base/point_text.hpp"
 #include "comm/records.hpp"
+#include "comm/same_points.hpp"
 
 namespace pnpbs {
 

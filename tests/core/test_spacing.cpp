@@ -13,7 +13,7 @@
 #include "spacing/steepest_growth.hpp"
 
 using pnpbs::GridSpacing;
-using pnpbs::GrowthLimitedSpacing;
+using GrowthLimitedSpacing = pnpbs::GrowthLimitedSpacing<2>;
 using pnpbs::PlaneDomain;
 using shapes::add_chain;
 using shapes::add_loop;
@@ -42,8 +42,8 @@ struct Limited {
   Limited(const Build& build, Plane d, double growth = kGrowth) : raw(std::move(d)) {
     build(domain);
     domain.check();
-    spacing =
-        std::make_unique<GrowthLimitedSpacing>(domain, spacing_of(raw), growth, 1'000'000'000);
+    spacing = std::make_unique<GrowthLimitedSpacing>(pnpbs::serial_communicator(), domain,
+                                                     spacing_of(raw), growth, 1'000'000'000);
   }
   double at(const P& x) const { return value_at<2>(*spacing, x); }
   double raw_at(const P& x) const { return raw(x[0], x[1]); }
@@ -331,12 +331,116 @@ START_TEST(growth_limit_goes_through_the_domain) {
 }
 END_TEST
 
+// d from many points of different fineness: against the least over all of them.
+START_TEST(growth_limit_of_many_sources) {
+  struct Source {
+    P x;
+    double d;
+  };
+  Random random(96);
+  std::vector<Source> sources;
+  for (int k = 0; k < 40; ++k)
+    sources.push_back({{random.between(0.05, 0.95), random.between(0.05, 0.95)},
+                       0.002 * std::pow(10, random.between(0, 0.7))});
+  const auto least_from = [&](const P& x, double slope) {
+    double least = 0.2;
+    for (const Source& source : sources)
+      least = std::min(least, source.d + slope * pnpbs::distance<2>(x, source.x));
+    return least;
+  };
+  const Limited limited(add_square, [&](double x, double y) { return least_from({x, y}, 0.6); });
+  for (int trial = 0; trial < 10000; ++trial) {
+    const P x = random.point<2>(limited.domain.bounds());
+    const double d = limited.at(x), exact = least_from(x, kGrowth);
+    ck_assert_double_ge(d, exact * (1 - 1e-12));
+    ck_assert_double_le(d, exact * 1.1);
+  }
+}
+END_TEST
+
+namespace {
+
+// Straight or past corners of a rectangular hole, whichever is shortest.
+class WaysAround {
+ public:
+  WaysAround(P low, P high)
+      : low_(low), high_(high), corners_{{low, {high[0], low[1]}, high, {low[0], high[1]}}} {}
+
+  double operator()(const P& a, const P& b) const {
+    double least = open(a, b) ? pnpbs::distance<2>(a, b) : 9;
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (!open(a, corners_[c])) continue;
+      const double there = pnpbs::distance<2>(a, corners_[c]);
+      for (const std::size_t next : {c, (c + 1) % 4, (c + 3) % 4})
+        if (open(corners_[next], b))
+          least = std::min(least, there + pnpbs::distance<2>(corners_[c], corners_[next]) +
+                                      pnpbs::distance<2>(corners_[next], b));
+    }
+    return least;
+  }
+  bool holds(const P& x) const {
+    return x[0] > low_[0] && x[0] < high_[0] && x[1] > low_[1] && x[1] < high_[1];
+  }
+
+ private:
+  // Where the way is over both pairs of sides at once, it is in the hole.
+  bool open(const P& a, const P& b) const {
+    double begin = 0, end = 1;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double along = b[k] - a[k];
+      if (along == 0 && (a[k] <= low_[k] || a[k] >= high_[k])) return true;
+      if (along == 0) continue;
+      const double first = (low_[k] - a[k]) / along, second = (high_[k] - a[k]) / along;
+      begin = std::max(begin, std::min(first, second));
+      end = std::min(end, std::max(first, second));
+    }
+    return end - begin < 1e-9;
+  }
+
+  P low_, high_;
+  std::array<P, 4> corners_;
+};
+
+}  // namespace
+
+// Behind a hole the way leads past its corners: never shorter, but for what a leaf or two cut off,
+// and not much longer. In sight of the source it is straight.
+START_TEST(growth_limit_around_a_hole) {
+  const P low{0.35, 0.2}, high{0.6, 0.7}, tip{0.2, 0.45};
+  const WaysAround ways(low, high);
+  const Build holed = [&](PlaneDomain& p) {
+    add_square(p);
+    add_loop(p, rectangle(low[0], low[1], high[0], high[1]));
+  };
+  constexpr double kLeast = 0.003, kSlow = 0.02;
+  const Limited limited(
+      holed,
+      [&](double x, double y) {
+        return std::min(0.05, kLeast + 0.5 * std::hypot(x - tip[0], y - tip[1]));
+      },
+      kSlow);
+  Random random(97);
+  int behind = 0;
+  for (int trial = 0; trial < 10000; ++trial) {
+    const P x = random.point<2>(limited.domain.bounds());
+    if (ways.holds(x)) continue;
+    const double straight = pnpbs::distance<2>(tip, x), way = ways(tip, x), d = limited.at(x);
+    const double exact = kLeast + kSlow * way;
+    const bool hidden = way > 1.001 * straight;
+    behind += hidden;
+    ck_assert_double_ge(d, exact * (hidden ? 0.97 : 1 - 1e-12));
+    ck_assert_double_le(d, exact * (hidden ? 1.08 : 1.03));
+  }
+  ck_assert_int_gt(behind, 1000);
+}
+END_TEST
+
 START_TEST(growth_limit_reports_bad_values) {
   PlaneDomain domain;
   add_square(domain);
   domain.check();
   expect_error(pnpbs::ErrorKind::spacing, {"d = -1 at ("}, [&] {
-    GrowthLimitedSpacing(domain, spacing_of([](double x, double y) {
+    GrowthLimitedSpacing(pnpbs::serial_communicator(), domain, spacing_of([](double x, double y) {
                            return std::hypot(x - 0.5, y - 0.5) < 0.3 ? -1 : 0.1;
                          }),
                          0.1, 1000000);
@@ -344,8 +448,8 @@ START_TEST(growth_limit_reports_bad_values) {
   // What is bad later, where nobody has looked, stays and is seen then.
   bool broken = false;
   const GrowthLimitedSpacing limited(
-      domain, spacing_of([&broken](double, double) { return broken ? std::nan("") : 0.1; }), 0.1,
-      1000000);
+      pnpbs::serial_communicator(), domain,
+      spacing_of([&broken](double, double) { return broken ? std::nan("") : 0.1; }), 0.1, 1000000);
   broken = true;
   quick_assert(std::isnan(value_at<2>(limited, {0.5, 0.5})));
 }
@@ -353,10 +457,11 @@ END_TEST
 
 int main() {
   return run_kernel_suite(
-      "spacing", {grids_are_linear_in_each_direction, grids_are_linear_only_between_neighbours,
-                  grids_in_space_and_thin_ones, values_beside_a_hole_in_the_grid,
-                  bad_values_are_named, callbacks_that_fail, growth_limit_of_pits,
-                  growth_limit_of_jumps, steepest_growth_of_slopes, steepest_growth_of_jumps,
-                  steepest_growth_of_two_sides, growth_limit_leaves_alone_what_grows_slowly,
-                  growth_limit_goes_through_the_domain, growth_limit_reports_bad_values});
+      "spacing",
+      {grids_are_linear_in_each_direction, grids_are_linear_only_between_neighbours,
+       grids_in_space_and_thin_ones, values_beside_a_hole_in_the_grid, bad_values_are_named,
+       callbacks_that_fail, growth_limit_of_pits, growth_limit_of_jumps, steepest_growth_of_slopes,
+       steepest_growth_of_jumps, steepest_growth_of_two_sides,
+       growth_limit_leaves_alone_what_grows_slowly, growth_limit_goes_through_the_domain,
+       growth_limit_of_many_sources, growth_limit_around_a_hole, growth_limit_reports_bad_values});
 }

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/growth_labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+template <int Dim>
+TreePart<Dim> tree_of(const Communicator& comm, const Box<Dim>& bounds,
+                      const std::vector<GrowthLeaf<Dim>>& own) {
+  std::vector<LeafCell<Dim>> cells;
+  std::vector<char> live;
+  for (const GrowthLeaf<Dim>& leaf : own) {
+    cells.push_back(leaf.cell);
+    live.push_back(!leaf.outside());
+  }
+  return {comm, bounds, std::move(cells), std::move(live)};
+}
+
+}  // namespace
+
+// Leaves whose label has changed since they handed it on. Those with the least values go first, all
+// within a window of values at once, on all ranks; that is nearly the order of Dijkstra's
+// algorithm, but depends on the labels alone.
+template <int Dim>
+struct GrowthLabels<Dim>::Waiting {
+  // From the least value on. A leaf's value is some growth * width above the one it has it from.
+  static constexpr double kWindow = 1.25;
+  enum State : char { idle, near, far };
+
+  double until = -kInfinite;
+  std::vector<std::int32_t> near_leaves, far_leaves;
+  std::vector<State> state;
+
+  explicit Waiting(const std::vector<Label>& labels) : state(labels.size(), idle) {
+    for (std::size_t leaf = 0; leaf < labels.size(); ++leaf)
+      if (labels[leaf].value < kInfinite) add(static_cast<std::int32_t>(leaf), labels[leaf].value);
+  }
+
+  void add(std::int32_t leaf, double value) {
+    State& now = state[static_cast<std::size_t>(leaf)];
+    const State next = value < until ? near : far;
+    if (now == near || now == next) return;
+    (next == near ? near_leaves : far_leaves).push_back(leaf);
+    now = next;
+  }
+
+  // Are there any that go next? Collective.
+  bool next(const Communicator& comm, const std::vector<Label>& labels) {
+    if (comm.allreduce_max(!near_leaves.empty()) > 0) return true;
+    double least = kInfinite;
+    std::erase_if(far_leaves, [this](std::int32_t leaf) {
+      return state[static_cast<std::size_t>(leaf)] != far;
+    });
+    for (const std::int32_t leaf : far_leaves)
+      least = std::min(least, labels[static_cast<std::size_t>(leaf)].value);
+    least = -comm.allreduce_max(-least);
+    until = kWindow * least;
+    for (const std::int32_t leaf : far_leaves) {
+      const double value = labels[static_cast<std::size_t>(leaf)].value;
+      if (value < until) add(leaf, value);
+    }
+    return least < kInfinite;
+  }
+
+  std::vector<std::int32_t> take() {
+    for (const std::int32_t leaf : near_leaves) state[static_cast<std::size_t>(leaf)] = idle;
+    return std::exchange(near_leaves, {});
+  }
+};
+
+template <int Dim>
+GrowthLabels<Dim>::GrowthLabels(const Communicator& comm, const OpenWays<Dim>& ways,
+                                const std::vector<GrowthLeaf<Dim>>& own, double growth,
+                                const Beat& beat)
+    : growth_(growth), tree_(tree_of(comm, ways.bounds(), own)) {
+  using Side = typename GrowthLeaf<Dim>::Side;
+  for (const GrowthLeaf<Dim>& leaf : own) {
+    spots_.push_back({leaf.place, leaf.placed,
+                      leaf.placed && (leaf.side == Side::inside || ways.inside(leaf.place)),
+                      leaf.side == Side::crossed});
+    labels_.push_back(label_at<Dim>(leaf.place, leaf.source, growth_));
+  }
+  spots_.resize(static_cast<std::size_t>(tree_.count()));
+  labels_.resize(spots_.size());
+  fill_ghosts(comm, tree_.border(), spots_);
+  fill_ghosts(comm, tree_.border(), labels_);
+  settle(comm, ways, beat);
+}
+
+// In rounds: all that go next hand on what they have at the same time, wherever they are.
+template <int Dim>
+void GrowthLabels<Dim>::settle(const Communicator& comm, const OpenWays<Dim>& ways,
+                               const Beat& beat) {
+  Waiting waiting(labels_);
+  std::vector<Label> copies_before;
+  while (waiting.next(comm, labels_)) {
+    std::vector<std::int32_t> changed;
+    hand_on(ways, waiting.take(), changed, beat);
+    copies_before.assign(labels_.begin() + tree_.own_count(), labels_.end());
+    fill_ghosts(comm, tree_.border(), labels_);
+    for (std::int64_t copy = tree_.own_count(); copy < tree_.count(); ++copy)
+      if (label(copy) < copies_before[static_cast<std::size_t>(copy - tree_.own_count())])
+        changed.push_back(static_cast<std::int32_t>(copy));
+    for (const std::int32_t leaf : changed) waiting.add(leaf, label(leaf).value);
+  }
+}
+
+// Does the straight way from a source lead to the place that stands for a leaf? Between two places
+// on the boundary it may lie outside of the domain and cross nothing.
+template <int Dim>
+bool GrowthLabels<Dim>::open_way(const OpenWays<Dim>& ways, const Point<Dim>& from,
+                                 const Spot& to) const {
+  if (!to.placed || !ways.open(from, to.place)) return false;
+  Point<Dim> middle;
+  for (int k = 0; k < Dim; ++k) middle[k] = 0.5 * (from[k] + to.place[k]);
+  return to.inside || ways.inside(middle);
+}
+
+// To own leaves; copies get what their owners find.
+template <int Dim>
+void GrowthLabels<Dim>::hand_on(const OpenWays<Dim>& ways, const std::vector<std::int32_t>& leaves,
+                                std::vector<std::int32_t>& changed, const Beat& beat) {
+  constexpr std::size_t kBetweenBeats = 4096;
+  std::vector<Label> handed;  // as they are before the first of them changes
+  for (const std::int32_t leaf : leaves) handed.push_back(label(leaf));
+  for (std::size_t k = 0; k < leaves.size(); ++k) {
+    if (k % kBetweenBeats == 0) beat();
+    const Spot& from = spot(leaves[k]);
+    for (const std::int32_t other : tree_.touching_leaves(leaves[k])) {
+      if (!tree_.owns(other)) continue;
+      const Spot& to = spot(other);
+      Label& there = labels_[static_cast<std::size_t>(other)];
+      Label offer = label_at<Dim>(to.place, handed[k].source, growth_);
+      if (!(offer < there)) continue;  // nor is anything by a longer way
+      if (!open_way(ways, handed[k].source.x, to)) {
+        if (!from.placed) continue;
+        offer = label_at<Dim>(to.place, {from.place, handed[k].value}, growth_);
+        if (!(offer < there)) continue;
+      }
+      there = offer;
+      changed.push_back(other);
+    }
+  }
+}
+
+template <int Dim>
+double GrowthLabels<Dim>::limit_at(const OpenWays<Dim>& ways, const Point<Dim>& x) const {
+  const std::int64_t leaf = tree_.leaf_at(x);
+  if (!tree_.owns(leaf)) return kInfinite;
+  double limit = label(leaf).source.limit(x, growth_);
+  for (const std::int32_t other : tree_.touching_leaves(leaf)) {
+    const GrowthSource<Dim>& source = label(other).source;
+    const double by_other = source.limit(x, growth_);
+    if (!(by_other < limit)) continue;
+    const bool beside_boundary = spot(leaf).crossed || spot(other).crossed;
+    if (!beside_boundary || ways.open(x, source.x)) limit = by_other;
+  }
+  return limit;
+}
+
+template class GrowthLabels<2>;
+
+}  // namespace pnpbs

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/growth_leaves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <tuple>
+
+#include "base/error.hpp"
+#include "base/lattice.hpp"
+#include "base/point_text.hpp"
+#include "tree/cell_samples.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+GrowthLeaves<Dim>::GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways, double growth,
+                                const NodeLimit& limit)
+    : comm_(comm), ways_(ways), growth_(growth), limit_(limit) {
+  root_.build(ways.bounds(),
+              [](const BackgroundTree<Dim>&, std::int32_t, std::int32_t, std::vector<char>&) {});
+  sort_nodes();
+  if (comm.rank() != 0) return;
+  leaves_.emplace_back();
+  look_at_domain(leaves_.front());
+}
+
+template <int Dim>
+void GrowthLeaves<Dim>::sort_nodes() {
+  std::vector<FineIndex<Dim>> fine;
+  for (std::int64_t n = 0; n < ways_.node_count(); ++n)
+    fine.push_back(root_.fine_index(ways_.node(n)));
+  nodes_.resize(fine.size());
+  std::iota(nodes_.begin(), nodes_.end(), 0);
+  const auto at = [](std::int64_t n) { return static_cast<std::size_t>(n); };
+  std::stable_sort(nodes_.begin(), nodes_.end(), [&](std::int64_t a, std::int64_t b) {
+    return morton_before(fine[at(a)], fine[at(b)]);
+  });
+  for (const std::int64_t n : nodes_) fine_of_nodes_.push_back(fine[at(n)]);
+}
+
+template <int Dim>
+template <class Visit>
+void GrowthLeaves<Dim>::for_nodes_in(const LeafCell<Dim>& cell, const Visit& visit) const {
+  auto node = std::lower_bound(fine_of_nodes_.begin(), fine_of_nodes_.end(), cell.first(),
+                               morton_before<static_cast<std::size_t>(Dim)>);
+  for (; node != fine_of_nodes_.end() && cell.holds(*node); ++node)
+    visit(nodes_[static_cast<std::size_t>(node - fine_of_nodes_.begin())]);
+}
+
+template <int Dim>
+double GrowthLeaves<Dim>::side_of(const LeafCell<Dim>& cell) const {
+  return std::ldexp(root_.side(), -cell.depth);
+}
+
+template <int Dim>
+Box<Dim> GrowthLeaves<Dim>::box_of(const LeafCell<Dim>& cell) const {
+  const double side = side_of(cell);
+  Box<Dim> box;
+  for (int k = 0; k < Dim; ++k) {
+    box.low[k] = root_.origin()[k] + side * cell.index[k];
+    box.high[k] = root_.origin()[k] + side * (cell.index[k] + 1.0);
+  }
+  return box;
+}
+
+// The points inside at which d is sampled, then the boundary nodes.
+template <int Dim>
+void GrowthLeaves<Dim>::add_points(const GrowthLeaf<Dim>& leaf,
+                                   std::vector<Point<Dim>>& points) const {
+  for (const Point<Dim>& sample : cell_samples<Dim>()) {
+    const Point<Dim> x = point_in(box_of(leaf.cell), sample);
+    if (leaf.side == GrowthLeaf<Dim>::Side::inside || ways_.inside(x)) points.push_back(x);
+  }
+  if (leaf.has_nodes)
+    for_nodes_in(leaf.cell, [&](std::int64_t n) { points.push_back(ways_.node(n)); });
+}
+
+template <int Dim>
+void GrowthLeaves<Dim>::look_at_domain(GrowthLeaf<Dim>& leaf) const {
+  using Side = typename GrowthLeaf<Dim>::Side;
+  if (leaf.side == Side::crossed) leaf.side = ways_.side_of(box_of(leaf.cell));
+  if (leaf.outside()) {
+    leaf.open = leaf.fresh = false;
+    return;
+  }
+  if (leaf.has_nodes) {
+    leaf.has_nodes = false;
+    for_nodes_in(leaf.cell, [&](std::int64_t) { leaf.has_nodes = true; });
+  }
+  leaf.place = point_in(box_of(leaf.cell), cell_samples<Dim>()[0]);
+  leaf.placed = true;
+  if (leaf.side == Side::inside || ways_.inside(leaf.place)) return;
+  std::vector<Point<Dim>> points;
+  add_points(leaf, points);
+  leaf.placed = !points.empty();
+  if (leaf.placed) leaf.place = points.front();
+}
+
+template <int Dim>
+template <class Wanted>
+typename GrowthLeaves<Dim>::Samples GrowthLeaves<Dim>::samples_in(const Wanted& wanted) const {
+  Samples samples;
+  for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    if (!wanted(leaves_[leaf])) continue;
+    samples.leaves.push_back(leaf);
+    add_points(leaves_[leaf], samples.x);
+    samples.first.push_back(samples.x.size());
+  }
+  samples.d.resize(samples.x.size());
+  return samples;
+}
+
+// A sliver of the domain without samples keeps what the leaf it comes from has.
+template <int Dim>
+void GrowthLeaves<Dim>::take_range(const Samples& samples) {
+  for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
+    if (samples.first[k] == samples.first[k + 1]) continue;
+    GrowthLeaf<Dim>& leaf = leaves_[samples.leaves[k]];
+    const auto [least, largest] = std::minmax_element(samples.d.data() + samples.first[k],
+                                                      samples.d.data() + samples.first[k + 1]);
+    leaf.least = *least;
+    leaf.largest = *largest;
+  }
+}
+
+template <int Dim>
+void GrowthLeaves<Dim>::take_sources(const Samples& samples) {
+  for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
+    GrowthLeaf<Dim>& leaf = leaves_[samples.leaves[k]];
+    leaf.fresh = false;
+    GrowthLabel<Dim> best = label_at<Dim>(leaf.place, leaf.source, growth_);
+    for (std::size_t s = samples.first[k]; s < samples.first[k + 1]; ++s)
+      best = std::min(best, label_at<Dim>(leaf.place, {samples.x[s], samples.d[s]}, growth_));
+    leaf.source = best.source;
+  }
+}
+
+template <int Dim>
+bool GrowthLeaves<Dim>::any_open() const {
+  const bool any = std::any_of(leaves_.begin(), leaves_.end(),
+                               [](const GrowthLeaf<Dim>& leaf) { return leaf.open; });
+  return comm_.allreduce_max(any) > 0;
+}
+
+template <int Dim>
+void GrowthLeaves<Dim>::refine(const Evaluator& raw) {
+  while (any_open()) {
+    spread_evenly(comm_, leaves_);
+    Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; });
+    raw(std::ssize(samples.x), samples.x.data(), samples.d.data());
+    take_range(samples);
+    take_sources(samples);
+    require_few_nodes();
+    split_open(growth_);
+  }
+  spread_evenly(comm_, leaves_);
+}
+
+template <int Dim>
+bool GrowthLeaves<Dim>::fit(const Evaluator& limited) {
+  bool any = false;
+  for (GrowthLeaf<Dim>& leaf : leaves_) leaf.open = !leaf.outside();
+  while (any_open()) {
+    Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; });
+    limited(std::ssize(samples.x), samples.x.data(), samples.d.data());
+    take_range(samples);
+    require_few_nodes();
+    any = split_open(0) || any;
+  }
+  return comm_.allreduce_max(any) > 0;
+}
+
+template <int Dim>
+void GrowthLeaves<Dim>::look_into_new(const Evaluator& raw) {
+  Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.fresh; });
+  raw(std::ssize(samples.x), samples.x.data(), samples.d.data());
+  take_sources(samples);
+  spread_evenly(comm_, leaves_);
+}
+
+template <int Dim>
+bool GrowthLeaves<Dim>::too_wide(const GrowthLeaf<Dim>& leaf, double steepest) const {
+  constexpr double kFinest = 0.35;  // width of leaves over which d is steep, in units of d
+  const double side = side_of(leaf.cell);
+  if (leaf.cell.depth == BackgroundTree<Dim>::kMaxDepth) return false;
+  if (side > DomainMap<Dim>::kLeafSpacings * leaf.least) return true;
+  return steepest > 0 && leaf.largest - leaf.least > steepest * side && side > kFinest * leaf.least;
+}
+
+// Those that are too wide are split, the others are no longer open. Was there any?
+template <int Dim>
+bool GrowthLeaves<Dim>::split_open(double steepest) {
+  const auto splits = [&](const GrowthLeaf<Dim>& leaf) {
+    return leaf.open && too_wide(leaf, steepest);
+  };
+  const bool any = std::any_of(leaves_.begin(), leaves_.end(), splits);
+  if (!any) {
+    for (GrowthLeaf<Dim>& leaf : leaves_) leaf.open = false;
+    return false;
+  }
+  std::vector<GrowthLeaf<Dim>> next;
+  for (GrowthLeaf<Dim>& leaf : leaves_) {
+    if (splits(leaf)) {
+      split(leaf, next);
+    } else {
+      leaf.open = false;
+      next.push_back(leaf);
+    }
+  }
+  leaves_ = std::move(next);
+  return true;
+}
+
+// The child that the source lies in keeps it.
+template <int Dim>
+void GrowthLeaves<Dim>::split(const GrowthLeaf<Dim>& leaf,
+                              std::vector<GrowthLeaf<Dim>>& next) const {
+  const FineIndex<Dim> fine_of_source = root_.fine_index(leaf.source.x);
+  for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k) {
+    GrowthLeaf<Dim> child = leaf;
+    child.cell = leaf.cell.child(k);
+    child.fresh = true;
+    if (!child.cell.holds(fine_of_source)) child.source = {};
+    look_at_domain(child);
+    next.push_back(child);
+  }
+}
+
+// Even with the largest d of each leaf there would be more nodes than allowed: stop early.
+template <int Dim>
+void GrowthLeaves<Dim>::require_few_nodes() const {
+  constexpr double kMostThatAddUp = 9e18;  // on all ranks together, as 64 bits hold
+  double own = 0;
+  for (const GrowthLeaf<Dim>& leaf : leaves_)
+    if (leaf.side == GrowthLeaf<Dim>::Side::inside)
+      own += Lattice<Dim>::kDensity * power<Dim>(side_of(leaf.cell) / leaf.largest);
+  const auto nodes = static_cast<double>(comm_.allreduce_sum(
+      static_cast<std::uint64_t>(std::round(std::min(own, kMostThatAddUp / comm_.size())))));
+  if (nodes > static_cast<double>(limit_.max_nodes)) report_too_many(nodes);
+  limit_.require_memory_for(nodes);
+}
+
+// Names the finest place of all ranks.
+template <int Dim>
+void GrowthLeaves<Dim>::report_too_many(double nodes) const {
+  struct Finest {
+    double d;
+    Point<Dim> x;
+  };
+  const auto before = [](const Finest& a, const Finest& b) {
+    return std::tie(a.d, a.x) < std::tie(b.d, b.x);
+  };
+  Finest finest{std::numeric_limits<double>::infinity(), {}};
+  for (const GrowthLeaf<Dim>& leaf : leaves_)
+    if (!leaf.outside())
+      finest = std::min(finest, Finest{leaf.least, point_in(leaf.cell, 0)}, before);
+  Bytes mine;
+  pack(mine, finest);
+  for_records<Finest>({comm_.allgather(mine)},
+                      [&](const Finest& found) { finest = std::min(finest, found, before); });
+  throw Error(ErrorKind::spacing, "spacing d = " + number_text(finest.d) + " near " +
+                                      point_text(finest.x) + " would mean about " +
+                                      number_text(std::round(nodes)) +
+                                      " nodes or more; the option max_nodes allows " +
+                                      std::to_string(limit_.max_nodes) +
+                                      ": use a larger spacing or a larger max_nodes");
+}
+
+template class GrowthLeaves<2>;
+
+}  // namespace pnpbs

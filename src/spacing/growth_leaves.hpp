@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The leaves on which a spacing with limited growth is found: refined by d, with the samples of d
+// in them, each rank with a stretch of them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "comm/communicator.hpp"
+#include "domain/node_limit.hpp"
+#include "spacing/growth_source.hpp"
+#include "spacing/open_ways.hpp"
+#include "tree/leaf_cells.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+struct GrowthLeaf {
+  using Side = typename OpenWays<Dim>::Side;
+
+  LeafCell<Dim> cell;
+  Side side = Side::crossed;
+  bool open = true;               // to be split, perhaps
+  bool fresh = true;              // no source has been looked for in it
+  bool has_nodes = true;          // of the boundary, or fixed ones
+  bool placed = false;            // is there a place in the domain that stands for it?
+  Point<Dim> place{};             // its middle where that is inside
+  GrowthSource<Dim> source;       // of the samples in it, the one that limits d there the most
+  double least = 0, largest = 0;  // of the samples
+
+  bool outside() const { return side == Side::outside; }
+};
+
+template <int Dim>
+class GrowthLeaves {
+ public:
+  using Evaluator = std::function<void(std::int64_t n, const Point<Dim>* x, double* d)>;
+
+  // All of the domain in one leaf.
+  GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways, double growth,
+               const NodeLimit& limit);
+
+  // Splits leaves wider than some d, and those over which d grows faster than the limit, so that
+  // the tips of steep funnels are found: down to a third of their least d. Keeps sources of d.
+  // Leaves change their ranks. Collective, as all that follows.
+  void refine(const Evaluator& raw);
+  // Splits leaves wider than some of the limited d, which is asked in this rank's leaves alone.
+  // Was there any on any rank?
+  bool fit(const Evaluator& limited);
+  // Looks for sources where fit() has split, and spreads the leaves evenly again.
+  void look_into_new(const Evaluator& raw);
+
+  const std::vector<GrowthLeaf<Dim>>& own() const { return leaves_; }
+
+ private:
+  struct Samples {
+    std::vector<std::size_t> leaves;
+    std::vector<std::size_t> first{0};  // of each leaf, and the end
+    std::vector<Point<Dim>> x;
+    std::vector<double> d;
+  };
+
+  void sort_nodes();
+  template <class Visit>
+  void for_nodes_in(const LeafCell<Dim>& cell, const Visit& visit) const;
+  template <class Wanted>
+  Samples samples_in(const Wanted& wanted) const;
+  void add_points(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
+  double side_of(const LeafCell<Dim>& cell) const;
+  Box<Dim> box_of(const LeafCell<Dim>& cell) const;
+  void look_at_domain(GrowthLeaf<Dim>& leaf) const;
+  void take_range(const Samples& samples);
+  void take_sources(const Samples& samples);
+  bool any_open() const;
+  bool too_wide(const GrowthLeaf<Dim>& leaf, double steepest) const;
+  bool split_open(double steepest);
+  void split(const GrowthLeaf<Dim>& leaf, std::vector<GrowthLeaf<Dim>>& next) const;
+  void require_few_nodes() const;
+  [[noreturn]] void report_too_many(double nodes) const;
+
+  const Communicator& comm_;
+  const OpenWays<Dim>& ways_;
+  double growth_;
+  NodeLimit limit_;
+  BackgroundTree<Dim> root_;         // one cell, for its arithmetic
+  std::vector<std::int64_t> nodes_;  // of the boundary, in Morton order
+  std::vector<FineIndex<Dim>> fine_of_nodes_;
+  std::vector<GrowthLeaf<Dim>> leaves_;  // in Morton order
+};
+
+extern template class GrowthLeaves<2>;
+
+}  // namespace pnpbs

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What limits a spacing whose growth is limited: in the leaves of a tree, the least by far seen.
+#pragma once
+
+#include <limits>
+#include <tuple>
+
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+// A point that limits d around it: d there is at most this.
+template <int Dim>
+struct GrowthSource {
+  Point<Dim> x{};
+  double d = std::numeric_limits<double>::infinity();
+
+  double limit(const Point<Dim>& at, double growth) const {
+    return d + growth * distance<Dim>(x, at);
+  }
+};
+
+// What limits d in a leaf, and how far at the place that stands for the leaf. In a total order, so
+// that the least of several is the same in whatever order they come.
+template <int Dim>
+struct GrowthLabel {
+  double value = std::numeric_limits<double>::infinity();
+  GrowthSource<Dim> source;
+
+  bool operator<(const GrowthLabel& other) const {
+    return std::tie(value, source.d, source.x) <
+           std::tie(other.value, other.source.d, other.source.x);
+  }
+};
+
+template <int Dim>
+GrowthLabel<Dim> label_at(const Point<Dim>& place, const GrowthSource<Dim>& source, double growth) {
+  return {source.limit(place, growth), source};
+}
+
+}  // namespace pnpbs
