@@ -49,8 +49,16 @@ std::shared_ptr<const Spacing<2>> Placement::growth_limited(
   };
   agreed(*comm_, [&] {
     try {
-      spacing = std::make_shared<GrowthLimitedSpacing<2>>(
-          comm_, *domain_, std::move(spacing), settings.growth_limit, settings.node_limit(), beat);
+      const SpacingEvaluator<2> unlimited = [&](std::int64_t n, const Point<2>* x, double* d) {
+        beat();
+        evaluate_spacing<2>(*spacing, domain_->area(), n, x, d);
+      };
+      auto ways = std::make_unique<const OpenWays<2>>(
+          domain_->bounds(), domain_->area(),
+          discretize_boundary(*domain_, unlimited, settings.max_nodes));
+      spacing = std::make_shared<GrowthLimitedSpacing<2>>(comm_, std::move(ways),
+                                                          std::move(spacing), settings.growth_limit,
+                                                          settings.node_limit(), beat);
     } catch (const AgreedError& error) {
       if (!by_spacing(error)) throw;
       throw AgreedError(error.kind(), explained(error));

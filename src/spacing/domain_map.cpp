@@ -34,12 +34,8 @@ class DomainMap<Dim>::Growth {
   };
 
   Growth(const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
-         const NodeLimit& limit, double steepest, const BackgroundTree<Dim>* coarsest)
-      : boundary_(boundary),
-        spacing_(spacing),
-        limit_(limit),
-        steepest_(steepest),
-        coarsest_(coarsest) {}
+         const NodeLimit& limit)
+      : boundary_(boundary), spacing_(spacing), limit_(limit) {}
 
   const FacetCells<Dim>& facets() const { return *facets_; }
   const CellState& state(std::int32_t c) const { return cells_[static_cast<std::size_t>(c)]; }
@@ -86,8 +82,6 @@ class DomainMap<Dim>::Growth {
   const BoundaryMesh<Dim>& boundary_;
   const SpacingEvaluator<Dim>& spacing_;
   NodeLimit limit_;
-  double steepest_;
-  const BackgroundTree<Dim>* coarsest_;
   std::optional<FacetCells<Dim>> facets_;
   std::vector<double> boundary_spacing_;
   std::vector<CellState> cells_;
@@ -151,15 +145,9 @@ void DomainMap<Dim>::Growth::take_samples(const std::vector<double>& values,
 template <int Dim>
 bool DomainMap<Dim>::Growth::wants_split(const BackgroundTree<Dim>& tree, std::int32_t c) const {
   if (facets_->outside(c)) return false;
-  if (coarsest_) {
-    const std::int32_t there = coarsest_->leaf_cell(coarsest_->leaf_at(tree.cell_centre(c)));
-    if (coarsest_->cell(there).depth > tree.cell(c).depth) return true;
-  }
   const CellState& cell = state(c);
   const double side = tree.cell_side(c);
   if (side > kLeafSpacings * cell.least) return true;
-  if (steepest_ > 0 && cell.largest - cell.least > steepest_ * side && side > 0.35 * cell.least)
-    return true;
   return tree.cell(c).depth < kMaxDepthByNodes && holds_many_boundary_nodes(tree, c);
 }
 
@@ -209,9 +197,8 @@ void DomainMap<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::i
 
 template <int Dim>
 void DomainMap<Dim>::build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
-                           const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
-                           double steepest, const BackgroundTree<Dim>* coarsest) {
-  Growth growth(boundary, spacing, limit, steepest, coarsest);
+                           const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit) {
+  Growth growth(boundary, spacing, limit);
   grow(*serial_communicator(), bounds, growth,
        [](const BackgroundTree<Dim>&, std::int32_t, double) { return true; });
 }
@@ -221,7 +208,7 @@ void DomainMap<Dim>::build_part(const Communicator& comm, const Box<Dim>& bounds
                                 const BoundaryMesh<Dim>& boundary,
                                 const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
                                 const MaySplit& may_split) {
-  Growth growth(boundary, spacing, limit, 0, nullptr);
+  Growth growth(boundary, spacing, limit);
   grow(comm, bounds, growth, may_split);
 }
 
@@ -253,6 +240,11 @@ void DomainMap<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Grow
   BackgroundTree<Dim> tree;
   tree.build(bounds, split_depth, [&](bool more) { return comm.allreduce_max(more) > 0; });
   add_children_before(tree, tree.cell_count());  // those of the greatest depth are not asked about
+  agreed(comm, [&] { keep_leaves(std::move(tree), growth); });
+}
+
+template <int Dim>
+void DomainMap<Dim>::keep_leaves(BackgroundTree<Dim> tree, const Growth& growth) {
   leaf_spacing_.clear();
   leaf_least_.clear();
   leaf_largest_.clear();

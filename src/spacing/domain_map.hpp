@@ -21,14 +21,10 @@ class DomainMap : public FacetIndex<Dim> {
   // Refines the tree until leaves are at most kLeafSpacings times d wide (so at least half of that
   // where d allows) and hold few boundary nodes. d is asked inside the domain only, at the
   // cell_samples of each cell, and at the boundary nodes: dips of d between them are not seen.
-  // With steepest > 0, cells over which d grows faster than that are refined further, down to a
-  // third of their least d, so that the tips of steep funnels are found. Given another tree of the
-  // same bounds, it is at least as fine as that.
   // Throws Error(ErrorKind::spacing or ::memory) when d would mean more nodes than the limit
   // allows.
   void build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
-             const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit, double steepest = 0,
-             const BackgroundTree<Dim>* coarsest = nullptr);
+             const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit);
 
   // May a cell that d or the boundary wants split be split? `nodes`: those its samples of d ask
   // for.
@@ -57,6 +53,7 @@ class DomainMap : public FacetIndex<Dim> {
   class Growth;  // what is known of the cells while the tree grows
   void grow(const Communicator& comm, const Box<Dim>& bounds, Growth& growth,
             const MaySplit& may_split);
+  void keep_leaves(BackgroundTree<Dim> tree, const Growth& growth);
   static double at(const std::vector<double>& values, std::int32_t leaf) {
     return values[static_cast<std::size_t>(leaf)];
   }

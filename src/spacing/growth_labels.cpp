@@ -166,5 +166,6 @@ double GrowthLabels<Dim>::limit_at(const OpenWays<Dim>& ways, const Point<Dim>& 
 }
 
 template class GrowthLabels<2>;
+template class GrowthLabels<3>;
 
 }  // namespace pnpbs

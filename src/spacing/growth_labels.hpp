@@ -53,5 +53,6 @@ class GrowthLabels {
 };
 
 extern template class GrowthLabels<2>;
+extern template class GrowthLabels<3>;
 
 }  // namespace pnpbs

@@ -70,7 +70,7 @@ template <int Dim>
 void GrowthLeaves<Dim>::add_points(const GrowthLeaf<Dim>& leaf,
                                    std::vector<Point<Dim>>& points) const {
   for (const Point<Dim>& sample : cell_samples<Dim>()) {
-    const Point<Dim> x = point_in(box_of(leaf.cell), sample);
+    const Point<Dim> x = point_in<Dim>(box_of(leaf.cell), sample);
     if (leaf.side == GrowthLeaf<Dim>::Side::inside || ways_.inside(x)) points.push_back(x);
   }
   if (leaf.has_nodes)
@@ -89,7 +89,7 @@ void GrowthLeaves<Dim>::look_at_domain(GrowthLeaf<Dim>& leaf) const {
     leaf.has_nodes = false;
     for_nodes_in(leaf.cell, [&](std::int64_t) { leaf.has_nodes = true; });
   }
-  leaf.place = point_in(box_of(leaf.cell), cell_samples<Dim>()[0]);
+  leaf.place = point_in<Dim>(box_of(leaf.cell), cell_samples<Dim>()[0]);
   leaf.placed = true;
   if (leaf.side == Side::inside || ways_.inside(leaf.place)) return;
   std::vector<Point<Dim>> points;
@@ -255,7 +255,9 @@ void GrowthLeaves<Dim>::report_too_many(double nodes) const {
   Finest finest{std::numeric_limits<double>::infinity(), {}};
   for (const GrowthLeaf<Dim>& leaf : leaves_)
     if (!leaf.outside())
-      finest = std::min(finest, Finest{leaf.least, point_in(leaf.cell, 0)}, before);
+      finest = std::min(
+          finest, Finest{leaf.least, point_in<Dim>(box_of(leaf.cell), cell_samples<Dim>()[0])},
+          before);
   Bytes mine;
   pack(mine, finest);
   for_records<Finest>({comm_.allgather(mine)},
@@ -269,5 +271,6 @@ void GrowthLeaves<Dim>::report_too_many(double nodes) const {
 }
 
 template class GrowthLeaves<2>;
+template class GrowthLeaves<3>;
 
 }  // namespace pnpbs

@@ -90,5 +90,6 @@ class GrowthLeaves {
 };
 
 extern template class GrowthLeaves<2>;
+extern template class GrowthLeaves<3>;
 
 }  // namespace pnpbs

@@ -29,19 +29,16 @@ struct Answer {
 
 template <int Dim>
 GrowthLimitedSpacing<Dim>::GrowthLimitedSpacing(std::shared_ptr<const Communicator> comm,
-                                                const Domain& domain,
+                                                std::unique_ptr<const OpenWays<Dim>> ways,
                                                 std::shared_ptr<const Spacing<Dim>> raw,
                                                 double growth, const NodeLimit& limit,
                                                 const Beat& beat)
-    : comm_(std::move(comm)), raw_(std::move(raw)), growth_(growth) {
+    : comm_(std::move(comm)), raw_(std::move(raw)), growth_(growth), ways_(std::move(ways)) {
   const Evaluator checked = [&](std::int64_t n, const Point<Dim>* x, double* d) {
     beat();
-    evaluate_spacing<Dim>(*raw_, domain.area(), n, x, d);
+    evaluate_spacing<Dim>(*raw_, ways_->measure(), n, x, d);
   };
-  agreed(*comm_, [&] {
-    ways_ = std::make_unique<const OpenWays<Dim>>(domain, checked, limit.max_nodes);
-    find_labels(checked, limit, beat);
-  });
+  agreed(*comm_, [&] { find_labels(checked, limit, beat); });
 }
 
 // The first leaves are as large as the unlimited d allows, and one source stands for all of a leaf:
@@ -124,5 +121,6 @@ void GrowthLimitedSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, do
 }
 
 template class GrowthLimitedSpacing<2>;
+template class GrowthLimitedSpacing<3>;
 
 }  // namespace pnpbs

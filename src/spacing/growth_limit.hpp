@@ -24,11 +24,11 @@ template <int Dim>
 class GrowthLimitedSpacing : public Spacing<Dim> {
  public:
   using Beat = std::function<void()>;
-  using Domain = typename OpenWays<Dim>::Domain;
+  // ways: of the domain, its boundary at the unlimited spacing.
   // Calls beat() again and again while it is made; what that throws on one rank ends it on all.
   // Collective.
   GrowthLimitedSpacing(
-      std::shared_ptr<const Communicator> comm, const Domain& domain,
+      std::shared_ptr<const Communicator> comm, std::unique_ptr<const OpenWays<Dim>> ways,
       std::shared_ptr<const Spacing<Dim>> raw, double growth, const NodeLimit& limit,
       const Beat& beat = [] {});
 
@@ -50,10 +50,11 @@ class GrowthLimitedSpacing : public Spacing<Dim> {
   std::shared_ptr<const Communicator> comm_;
   std::shared_ptr<const Spacing<Dim>> raw_;
   double growth_;
-  std::unique_ptr<const OpenWays<Dim>> ways_;  // by the boundary at the unlimited spacing
+  std::unique_ptr<const OpenWays<Dim>> ways_;
   GrowthLabels<Dim> labels_;
 };
 
 extern template class GrowthLimitedSpacing<2>;
+extern template class GrowthLimitedSpacing<3>;
 
 }  // namespace pnpbs

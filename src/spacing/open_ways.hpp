@@ -4,46 +4,44 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <iterator>
 
-#include "domain/plane/boundary.hpp"
-#include "domain/plane/plane_domain.hpp"
+#include "domain/boundary_mesh.hpp"
 #include "spacing/domain_map.hpp"
 
 namespace pnpbs {
 
 template <int Dim>
-class OpenWays;
-
-template <>
-class OpenWays<2> {
+class OpenWays {
  public:
-  using Domain = PlaneDomain;
   enum class Side : char { outside, crossed, inside };
 
-  // The boundary with the nodes that d asks for on it.
-  OpenWays(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing, std::int64_t most_nodes);
-  OpenWays(const OpenWays&) = delete;
+  // measure: the domain's area or volume. The boundary has the nodes that d asks for on it.
+  OpenWays(const Box<Dim>& bounds, double measure, BoundaryMesh<Dim> boundary);
+  OpenWays(const OpenWays&) = delete;  // the map points to the boundary
   OpenWays& operator=(const OpenWays&) = delete;
 
-  const Box<2>& bounds() const { return bounds_; }
-  double measure() const { return area_; }
+  const Box<Dim>& bounds() const { return bounds_; }
+  double measure() const { return measure_; }
   std::int64_t node_count() const { return std::ssize(boundary_.nodes); }
-  const Point<2>& node(std::int64_t n) const {
+  const Point<Dim>& node(std::int64_t n) const {
     return boundary_.nodes[static_cast<std::size_t>(n)].position;
   }
 
   // Where the domain is in a box.
-  Side side_of(const Box<2>& box) const;
-  bool inside(const Point<2>& x) const { return map_.inside(x); }
-  // Does the way from a to b cross no boundary edge? Ends may lie on one.
-  bool open(const Point<2>& a, const Point<2>& b) const;
+  Side side_of(const Box<Dim>& box) const;
+  bool inside(const Point<Dim>& x) const { return map_.inside(x); }
+  // Does the way from a to b cross no facet of the boundary? Ends may lie on one.
+  bool open(const Point<Dim>& a, const Point<Dim>& b) const;
 
  private:
-  Box<2> bounds_;
-  double area_;
-  Boundary boundary_;
-  DomainMap<2> map_;  // refined by the boundary alone
+  Box<Dim> bounds_;
+  double measure_;
+  BoundaryMesh<Dim> boundary_;
+  DomainMap<Dim> map_;  // refined by the boundary alone
 };
+
+extern template class OpenWays<2>;
+extern template class OpenWays<3>;
 
 }  // namespace pnpbs

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "geometry/expect_error.hpp"
 #include "level_run.hpp"
+#include "open_ways.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 #include "spacing/growth_limit.hpp"
@@ -42,7 +43,8 @@ struct Limited {
   Limited(const Build& build, Plane d, double growth = kGrowth) : raw(std::move(d)) {
     build(domain);
     domain.check();
-    spacing = std::make_unique<GrowthLimitedSpacing>(pnpbs::serial_communicator(), domain,
+    spacing = std::make_unique<GrowthLimitedSpacing>(pnpbs::serial_communicator(),
+                                                     open_ways(domain, *spacing_of(raw)),
                                                      spacing_of(raw), growth, 1'000'000'000);
   }
   double at(const P& x) const { return value_at<2>(*spacing, x); }
@@ -440,7 +442,9 @@ START_TEST(growth_limit_reports_bad_values) {
   add_square(domain);
   domain.check();
   expect_error(pnpbs::ErrorKind::spacing, {"d = -1 at ("}, [&] {
-    GrowthLimitedSpacing(pnpbs::serial_communicator(), domain, spacing_of([](double x, double y) {
+    GrowthLimitedSpacing(pnpbs::serial_communicator(),
+                         open_ways(domain, *spacing_of(constant(0.1))),
+                         spacing_of([](double x, double y) {
                            return std::hypot(x - 0.5, y - 0.5) < 0.3 ? -1 : 0.1;
                          }),
                          0.1, 1000000);
@@ -448,7 +452,7 @@ START_TEST(growth_limit_reports_bad_values) {
   // What is bad later, where nobody has looked, stays and is seen then.
   bool broken = false;
   const GrowthLimitedSpacing limited(
-      pnpbs::serial_communicator(), domain,
+      pnpbs::serial_communicator(), open_ways(domain, *spacing_of(constant(0.1))),
       spacing_of([&broken](double, double) { return broken ? std::nan("") : 0.1; }), 0.1, 1000000);
   broken = true;
   quick_assert(std::isnan(value_at<2>(limited, {0.5, 0.5})));

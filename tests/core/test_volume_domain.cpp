@@ -58,7 +58,12 @@ Surface scaled(Surface s, double unit) {
 }
 
 Surface fine_sphere() { return scaled(surfaces::sphere(4, 900), 0x1p-10); }
-Surface block() { return scaled(surfaces::pierced_cube(), 0x1p-4); }
+// Its triangles in no order, so that of equally near ones any may be met first.
+Surface block() {
+  Surface s = scaled(surfaces::pierced_cube(), 0x1p-4);
+  Random(0).shuffle(s.triangles);
+  return s;
+}
 Surface oblique_block() { return scaled(surfaces::sheared(surfaces::pierced_cube()), 0x1p-6); }
 
 // Anywhere around the surface, and where one decision after the other is a tie: on triangles and in

@@ -14,7 +14,9 @@
 
 #include "base/error.hpp"
 #include "core/level_run.hpp"
+#include "core/open_ways.hpp"
 #include "core/random.hpp"
+#include "core/volume_growth.hpp"
 #include "rank_checks.hpp"
 
 namespace {
@@ -108,8 +110,10 @@ void check_case(const Case& c) {
   PlaneDomain domain;
   c.build(domain);
   domain.check();
-  const Limited alone(pnpbs::serial_communicator(), domain, spacing_of(c.d), c.growth, kManyNodes);
-  const Limited together(comm, domain, std::make_shared<AskedTogether>(c.d), c.growth, kManyNodes);
+  const Limited alone(pnpbs::serial_communicator(), open_ways(domain, *spacing_of(c.d)),
+                      spacing_of(c.d), c.growth, kManyNodes);
+  const auto asked = std::make_shared<AskedTogether>(c.d);
+  const Limited together(comm, open_ways(domain, *asked), asked, c.growth, kManyNodes);
   const auto seed = static_cast<std::uint64_t>(comm->rank());
   expect_same_bits(alone, together, points_in(domain, 99, 5000),
                    std::string(c.name) + ": the same where all ask the same points");
@@ -125,6 +129,25 @@ void check_case(const Case& c) {
                                                          std::to_string(most) + " of " +
                                                          std::to_string(whole) + " leaves");
   expect(sum_over_ranks(together.leaves_held()) >= whole, "all leaves are somewhere");
+}
+
+void check_volume() {
+  const volume_growth::Block block(true, {0.9, 0.3, 0.2});
+  const auto limited = [&](const std::shared_ptr<const pnpbs::Communicator>& ranks) {
+    return std::make_unique<const pnpbs::GrowthLimitedSpacing<3>>(
+        ranks, block.ways(), block.spacing(), block.kGrowth, kManyNodes);
+  };
+  std::vector<pnpbs::Point<3>> points;
+  Random random(static_cast<std::uint64_t>(comm->rank()));
+  while (points.size() < 2000) {
+    const pnpbs::Point<3> x = random.point<3>(block.bounds());
+    if (block.inside(x)) points.push_back(x);
+  }
+  std::vector<double> alone(points.size()), together(points.size());
+  limited(pnpbs::serial_communicator())->evaluate(std::ssize(points), points.data(), alone.data());
+  limited(comm)->evaluate(std::ssize(points), points.data(), together.data());
+  expect(std::memcmp(alone.data(), together.data(), alone.size() * sizeof(double)) == 0,
+         "a block in space: the same bits");
 }
 
 // ------------------------------------------------------------------ failures -------------------
@@ -147,7 +170,8 @@ void check_failures() {
   const Plane even = constant(0.02);
   int beats = 0;
   const auto make = [&](const Plane& d, std::int64_t most_nodes, const Limited::Beat& beat) {
-    const Limited limited(comm, domain, std::make_shared<AskedTogether>(d), 0.1, most_nodes, beat);
+    const auto asked = std::make_shared<AskedTogether>(d);
+    const Limited limited(comm, open_ways(domain, *spacing_of(even)), asked, 0.1, most_nodes, beat);
   };
   make(even, kManyNodes, [&] { ++beats; });
   // Whenever the last rank's monitor stops it, all stop.
@@ -172,7 +196,8 @@ void check_failures() {
   expect_failure(pnpbs::ErrorKind::spacing, "the option max_nodes allows 1500",
                  [&] { make(even, 1500, [] {}); });
   expect_failure(pnpbs::ErrorKind::memory, "max_memory", [&] {
-    const Limited limited(comm, domain, spacing_of(even), 0.1, {kManyNodes, 1e5});
+    const Limited limited(comm, open_ways(domain, *spacing_of(even)), spacing_of(even), 0.1,
+                          {kManyNodes, 1e5});
   });
 }
 
@@ -181,6 +206,7 @@ void check_failures() {
 int main(int argc, char** argv) {
   return rank_checks::run(argc, argv, [] {
     for (const Case& c : cases()) check_case(c);
+    check_volume();
     check_failures();
   });
 }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ways through a plane domain, its boundary at a spacing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "domain/plane/boundary.hpp"
+#include "domain/plane/plane_domain.hpp"
+#include "spacing/open_ways.hpp"
+#include "spacing/spacing.hpp"
+
+inline std::unique_ptr<const pnpbs::OpenWays<2>> open_ways(const pnpbs::PlaneDomain& domain,
+                                                           const pnpbs::Spacing<2>& spacing) {
+  const pnpbs::SpacingEvaluator<2> evaluator = [&](std::int64_t n, const pnpbs::Point<2>* x,
+                                                   double* d) {
+    pnpbs::evaluate_spacing<2>(spacing, domain.area(), n, x, d);
+  };
+  return std::make_unique<const pnpbs::OpenWays<2>>(domain.bounds(), domain.area(),
+                                                    pnpbs::discretize_boundary(domain, evaluator));
+}
