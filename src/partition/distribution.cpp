@@ -20,16 +20,16 @@ class Needs {
  public:
   Needs(const LeafGraph<Dim>& graph, const Distribution<Dim>& distribution, std::int32_t leaves)
       : graph_(graph), distribution_(distribution), others_(static_cast<std::size_t>(leaves)) {
-    // Two leaves of different owners: one of them is another rank's.
+    // Two leaves with nodes of different ranks, or one of them with none: it is not ours.
     std::vector<char> at_rim(others_.size(), 0);
     for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-      if (distribution.owns(leaf)) continue;
+      if (distribution.holds(leaf)) continue;
       graph.for_neighbours(leaf, [&](std::int32_t other) {
-        if (distribution.owner(other) == distribution.owner(leaf)) return;
+        if (distribution.holder(other) == distribution.holder(leaf)) return;
         for (const std::int32_t end : {leaf, other}) {
-          if (at_rim[static_cast<std::size_t>(end)]) continue;
+          if (at_rim[static_cast<std::size_t>(end)] || distribution.holder(end) < 0) continue;
           at_rim[static_cast<std::size_t>(end)] = 1;
-          front_.emplace_back(end, distribution.owner(end));
+          front_.emplace_back(end, distribution.holder(end));
         }
       });
     }
@@ -40,7 +40,7 @@ class Needs {
     for (const auto& [leaf, rank] : front_)
       graph_.for_neighbours(leaf, [&, r = rank](std::int32_t other) {
         std::vector<std::int32_t>& ranks = others_[static_cast<std::size_t>(other)];
-        if (distribution_.owner(other) == r) return;
+        if (distribution_.holder(other) == r) return;
         if (std::find(ranks.begin(), ranks.end(), r) != ranks.end()) return;
         ranks.push_back(r);
         next.emplace_back(other, r);
@@ -48,7 +48,7 @@ class Needs {
     front_ = std::move(next);
   }
 
-  // Besides its owner, in increasing order.
+  // Besides its holder, in increasing order.
   const std::vector<std::int32_t>& of(std::size_t leaf) {
     std::sort(others_[leaf].begin(), others_[leaf].end());
     return others_[leaf];
@@ -108,8 +108,9 @@ std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) cons
   for (std::int32_t c = 0; c < cells_.count(); ++c) {
     if (owner_of_cell(c) != rank_) continue;
     const Box<Dim> own = box(c);
-    around_own = joined(around_own, own);
     found[static_cast<std::size_t>(c)] = 1;
+    if (empty(c)) continue;
+    around_own = joined(around_own, own);
     tree.for_leaves_in(widened(own, way(c)), [&](std::int32_t n) {
       if (squared_gap<Dim>(own, box(n)) <= way(c) * way(c)) found[static_cast<std::size_t>(n)] = 1;
     });
@@ -157,7 +158,7 @@ bool Distribution<Dim>::near(const Box<Dim>& box, int rank, double way) const {
   bool found = false;
   const BackgroundTree<Dim>& tree = cells_.tree();
   tree.for_leaves_in(widened(box, way), [&](std::int32_t cell) {
-    found = found || (owner_of_cell(cell) == rank &&
+    found = found || (owner_of_cell(cell) == rank && !empty(cell) &&
                       squared_gap<Dim>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way);
   });
   return found;
@@ -169,7 +170,7 @@ std::vector<char> Distribution<Dim>::leaves_within(int hops) const {
   std::vector<char> reached(static_cast<std::size_t>(leaves), 0);
   std::vector<std::int32_t> own;
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
-    if (owns(leaf)) own.push_back(leaf);
+    if (holds(leaf)) own.push_back(leaf);
   reached_from(links_->graph, std::move(own), hops, reached);
   return reached;
 }
@@ -199,7 +200,8 @@ const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const Box<Dim> box = tree_->cell_box(tree_->leaf_cell(leaf));
     for (std::int32_t rank : needs.of(static_cast<std::size_t>(leaf)))
-      if (near(box, rank, hops * hop_share * reach[static_cast<std::size_t>(leaf)]))
+      if (holder(leaf) >= 0 &&
+          near(box, rank, hops * hop_share * reach[static_cast<std::size_t>(leaf)]))
         halo.ranks_.push_back(rank);
     halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
   }
@@ -207,14 +209,14 @@ const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
   halo.quiet_.assign(static_cast<std::size_t>(leaves), 1);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const auto at = static_cast<std::size_t>(leaf);
-    if (owns(leaf) && halo.offset_[at] == halo.offset_[at + 1]) continue;
+    if (holder(leaf) < 0 || (holds(leaf) && halo.offset_[at] == halo.offset_[at + 1])) continue;
     links_->graph.for_neighbours(
         leaf, [&](std::int32_t other) { halo.quiet_[static_cast<std::size_t>(other)] = 0; });
   }
   needs.spread();
   std::set<int> neighbours;
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    if (!owns(leaf)) continue;
+    if (!holds(leaf)) continue;
     const std::vector<std::int32_t>& ranks = needs.of(static_cast<std::size_t>(leaf));
     neighbours.insert(ranks.begin(), ranks.end());
   }

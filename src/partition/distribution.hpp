@@ -19,15 +19,15 @@ namespace pnpbs {
 // The ghost layers for one depth, in hops of the leaf graph.
 class Halo {
  public:
-  // Other ranks that lie within the depth of a leaf of ours, or of one near ours.
+  // Other ranks that hold something within the depth of a leaf of ours, or of one near ours.
   template <class Visit>
   void for_ranks(std::int32_t leaf, const Visit& visit) const {
     for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
          k < offset_[static_cast<std::size_t>(leaf) + 1]; ++k)
       visit(ranks_[static_cast<std::size_t>(k)]);
   }
-  // Is the leaf, and are those it interacts with, ours and needed by no other rank? Then its nodes
-  // have nothing to do with an exchange, wherever they drift.
+  // Are the leaf and those it interacts with ours, or empty, and needed by no other rank? Then its
+  // nodes have nothing to do with an exchange, wherever they drift.
   bool quiet(std::int32_t leaf) const { return quiet_[static_cast<std::size_t>(leaf)] != 0; }
   // Ranks to exchange messages with. Symmetric: who is our neighbour has us as one. One hop more
   // than the depth, because nodes drift out of their leaves between exchanges.
@@ -54,12 +54,14 @@ class Distribution {
   const PartitionCells<Dim>& cells() const { return cells_; }
   int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
   int owner_at(const Point<Dim>& x) const { return owner_of_cell(cells_.at(x)); }
-  // Calls visit(rank) for the owner of each cell that the box touches, once for every cell. Cells
-  // with nothing of the domain in them, which are anybody's, do not count.
+  // Has it nothing of the domain? Such cells are anybody's, and nobody needs them.
+  bool empty(std::int32_t cell) const { return cells_.largest_spacing(cell) == 0; }
+  // Calls visit(rank) for the owner of each cell that the box touches and that is not empty, once
+  // for every cell.
   template <class Visit>
   void for_owners_in(const Box<Dim>& box, const Visit& visit) const {
     cells_.tree().for_leaves_in(box, [&](std::int32_t cell) {
-      if (cells_.largest_spacing(cell) > 0) visit(owner_of_cell(cell));
+      if (!empty(cell)) visit(owner_of_cell(cell));
     });
   }
   // Cells that may hold ghosts: those within some hops of a bubble of ours, by the largest d.
@@ -77,7 +79,10 @@ class Distribution {
   }
   bool owns(std::int32_t leaf) const { return owner_.empty() || owner(leaf) == rank_; }
   int owner(std::int32_t leaf) const { return owner_of_cell(cell_of(leaf)); }
-  // Marks the leaves within so many hops of ours.
+  // Rank that has the nodes in the leaf; -1 if there can be none.
+  int holder(std::int32_t leaf) const { return empty(cell_of(leaf)) ? -1 : owner(leaf); }
+  bool holds(std::int32_t leaf) const { return holder(leaf) == rank_; }
+  // Marks the leaves within so many hops of those we hold.
   std::vector<char> leaves_within(int hops) const;
   // Cells with such leaves that are not refined.
   std::vector<std::int32_t> unrefined_within(int hops) const;

@@ -49,13 +49,14 @@ inline std::vector<double> largest_spacings(const BackgroundTree<3>& tree,
   return largest;
 }
 
-// Ten for every node that d asks for.
+// Ten for every node that d asks for; none in a leaf outside the domain, which has no d.
 inline std::vector<std::int64_t> leaf_work(const BackgroundTree<3>& tree,
                                            const std::vector<double>& d) {
   std::vector<std::int64_t> work;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const double side = tree.cell_side(tree.leaf_cell(leaf));
-    work.push_back(1 + std::llround(10 * std::pow(side / d[static_cast<std::size_t>(leaf)], 3)));
+    const double leaf_d = d[static_cast<std::size_t>(leaf)];
+    work.push_back(leaf_d > 0 ? 1 + std::llround(10 * std::pow(side / leaf_d, 3)) : 0);
   }
   return work;
 }

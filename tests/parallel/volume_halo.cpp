@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Who owns what of a volume, and who needs it: owners, halos and sums over leaves in Morton order,
-// against brute force.
+// against brute force; where the domain fills the box, and where it does not.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -30,6 +30,19 @@ double spacing(const Point<3>& x) { return 0.01 + 0.08 * pnpbs::distance<3>(x, {
 
 double leaf_width(const Point<3>& x) { return 4 * spacing(x); }
 
+// Nothing of the domain is in the cell.
+bool empty_cell(const Distribution<3>& distribution, std::int32_t cell) {
+  return distribution.cells().largest_spacing(cell) == 0;
+}
+
+bool empty_leaf(const Distribution<3>& distribution, std::int32_t leaf) {
+  return empty_cell(distribution, distribution.cell_of(leaf));
+}
+
+bool owns_something_in(const Distribution<3>& distribution, int rank, std::int32_t leaf) {
+  return distribution.owner(leaf) == rank && !empty_leaf(distribution, leaf);
+}
+
 // What a halo is to be, from the boxes of all leaves and cells.
 class BruteForce {
  public:
@@ -43,7 +56,7 @@ class BruteForce {
     for (std::size_t a = 0; a < leaves_; ++a)
       for (std::size_t b = 0; b < leaves_; ++b) {
         const double reach = std::max(reach_[a], reach_[b]);
-        if (a == b || pnpbs::squared_gap<3>(box_[a], box_[b]) <= reach * reach)
+        if (a == b || (reach > 0 && pnpbs::squared_gap<3>(box_[a], box_[b]) <= reach * reach))
           near_[a].push_back(static_cast<std::int32_t>(b));
       }
     for (int r = 0; r < comm->size(); ++r) {
@@ -77,7 +90,7 @@ class BruteForce {
     std::vector<int> hops(leaves_, kUnreached);
     std::vector<std::int32_t> front;
     for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
-      if (distribution_.owner(static_cast<std::int32_t>(leaf)) == rank) {
+      if (owns_something_in(distribution_, rank, static_cast<std::int32_t>(leaf))) {
         hops[leaf] = 0;
         front.push_back(static_cast<std::int32_t>(leaf));
       }
@@ -95,7 +108,7 @@ class BruteForce {
     const BackgroundTree<3>& cells = distribution_.cells().tree();
     std::vector<double> gap(leaves_, std::numeric_limits<double>::infinity());
     for (std::int32_t c = 0; c < cells.leaf_count(); ++c) {
-      if (distribution_.owner_of_cell(c) != rank) continue;
+      if (distribution_.owner_of_cell(c) != rank || empty_cell(distribution_, c)) continue;
       const Box<3> cell = cells.cell_box(cells.leaf_cell(c));
       for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
         gap[leaf] = std::min(gap[leaf], pnpbs::squared_gap<3>(box_[leaf], cell));
@@ -157,13 +170,15 @@ void check_halo(Distribution<3>& distribution, BruteForce& brute, std::int32_t l
     std::vector<int> ranks, wanted;
     halo.for_ranks(leaf, [&](int r) { ranks.push_back(r); });
     for (int r = 0; r < comm->size(); ++r) {
-      if (r == distribution.owner(leaf)) continue;
+      if (r == distribution.owner(leaf) || empty_leaf(distribution, leaf)) continue;
       if (brute.needs(r, index(leaf), hops, hop_share)) wanted.push_back(r);
-      if (distribution.owns(leaf) && brute.hops(r, index(leaf)) <= hops + 1)
+      if (owns_something_in(distribution, comm->rank(), leaf) &&
+          brute.hops(r, index(leaf)) <= hops + 1)
         neighbour[index(r)] = 1;
     }
     expect(ranks == wanted, what + "ranks that need a leaf");
-    exchanged[index(leaf)] = !distribution.owns(leaf) || !wanted.empty();
+    exchanged[index(leaf)] =
+        !empty_leaf(distribution, leaf) && (!distribution.owns(leaf) || !wanted.empty());
     ghosts += std::count(wanted.begin(), wanted.end(), comm->rank());
   }
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
@@ -193,24 +208,58 @@ void check_cells_near_own(const Distribution<3>& distribution) {
   const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
   const std::vector<char> found = distribution.cells_near_own(1, kRadius);
   for (std::int32_t a = 0; a < tree.leaf_count(); ++a) {
-    if (distribution.owner_of_cell(a) != comm->rank()) continue;
+    if (distribution.owner_of_cell(a) != comm->rank() || empty_cell(distribution, a)) continue;
     for (std::int32_t b = 0; b < tree.leaf_count(); ++b) {
       const double reach = kRadius * std::max(distribution.cells().largest_spacing(a),
                                               distribution.cells().largest_spacing(b));
-      if (pnpbs::squared_gap<3>(box(a), box(b)) <= reach * reach)
+      if (!empty_cell(distribution, b) && pnpbs::squared_gap<3>(box(a), box(b)) <= reach * reach)
         expect(found[index(b)] != 0, "a cell near one of ours is found");
     }
   }
 }
 
-void check_distribution() {
+// The domain: all of the box, a slanted slab of it with nothing on both sides, or half of its
+// leaves, so that ways from part to part lead through empty cells.
+bool in_box(const Point<3>&) { return true; }
+bool in_slab(const Point<3>& x) { return std::fabs(x[0] + 0.5 * x[1] - 0.7) < 0.17; }
+
+// Who owns something that a box touches.
+void check_owners_in(const Distribution<3>& distribution) {
+  const BackgroundTree<3>& tree = distribution.cells().tree();
+  for (std::uint64_t n = 0; n < 200; ++n) {
+    Box<3> box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint64_t random = pnpbs::mixed(3 * n + k);
+      box.low[k] = 1.2 * static_cast<double>(random >> 11) * 0x1p-53 - 0.1;
+      box.high[k] = box.low[k] + static_cast<double>(random % 100) * (n % 2 ? 0.001 : 0.005);
+    }
+    std::vector<char> wanted(index(comm->size()), 0), found = wanted;
+    for (std::int32_t c = 0; c < tree.leaf_count(); ++c)
+      if (!empty_cell(distribution, c) &&
+          pnpbs::squared_gap<3>(box, tree.cell_box(tree.leaf_cell(c))) == 0)
+        wanted[index(distribution.owner_of_cell(c))] = 1;
+    distribution.for_owners_in(box, [&](int r) { found[index(r)] = 1; });
+    expect(found == wanted, "owners of what a box touches");
+  }
+}
+
+bool in_sponge(const Point<3>& x) {
+  std::uint64_t hash = 5;
+  for (const double coordinate : x) hash = pnpbs::mixed_with(hash, coordinate);
+  return hash % 2 == 0;
+}
+
+void check_distribution(bool (*inside)(const Point<3>&)) {
   const BackgroundTree<3> tree = octree::refined_to(leaf_width);
-  const std::vector<double> d = octree::largest_spacings(tree, spacing);
-  Distribution<3> distribution = octree::distributed(*comm, tree, d, kRadius);
+  std::vector<double> d = octree::largest_spacings(tree, spacing);
   const std::int32_t leaves = tree.leaf_count();
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
+    if (!inside(tree.cell_centre(tree.leaf_cell(leaf)))) d[index(leaf)] = 0;
+  Distribution<3> distribution = octree::distributed(*comm, tree, d, kRadius);
   check_owners(tree, distribution);
   check_prefix_sums(distribution, leaves);
   check_cells_near_own(distribution);
+  check_owners_in(distribution);
   BruteForce brute(tree, d, distribution);
   for (int hops = 0; hops < 4; ++hops) check_reach(distribution, brute, hops);
   check_halo(distribution, brute, leaves, 1, 1);
@@ -219,6 +268,12 @@ void check_distribution() {
   if (comm->rank() == 0) std::printf("%d leaves\n", leaves);
 }
 
+void check_all() {
+  check_distribution(in_box);
+  check_distribution(in_slab);
+  check_distribution(in_sponge);
+}
+
 }  // namespace
 
-int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_distribution); }
+int main(int argc, char** argv) { return rank_checks::run(argc, argv, check_all); }
