@@ -4,6 +4,7 @@
  * prints one line of names and values, the mean and the largest over the ranks; so many more ranks
  * than cores do. With `rebalance` it deals out once more, by the work counted, and `imbalance` is
  * that of the work; with `run` it places the nodes, which tells the time of a step and the memory.
+ * Messages, bytes and collective calls are those of initialising or placing.
  * usage: decomposition CASE SCALE [run|rebalance] [key=value]...  with the cases of place_on_ranks
  * Ends with status 1 if the figures contradict each other. */
 #include <mpi.h>
@@ -13,6 +14,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "mpi_counts.h"
 #include "placement_cases.h"
 
 enum { BYTES_PER_GHOST = 32 }; /* position and velocity */
@@ -73,6 +75,7 @@ static int consistent(double owned, double ghosts, double bytes) {
 
 int main(int argc, char** argv) {
   struct case_spacing spacing;
+  struct mpi_counts asked;
   int64_t count;
   double owned, ghosts, bytes, empty, core_seconds;
   int run, rebalance, first, right;
@@ -91,9 +94,11 @@ int main(int argc, char** argv) {
   check(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context), "context");
   placement = case_placement(context, argv[1], atof(argv[2]), argc - first, argv + first, &spacing);
   empty = integer("memory.peak_bytes");
+  mpi_counts = (struct mpi_counts){0, 0, 0, 0};
   core_seconds = on_a_core();
   check(run ? pnpbs_placement_run(placement) : pnpbs_placement_initialise(placement), argv[1]);
   core_seconds = on_a_core() - core_seconds;
+  asked = mpi_counts;
   check(pnpbs_placement_count(placement, &count), "count");
   owned = (double)count;
   ghosts = integer("ghosts");
@@ -108,6 +113,10 @@ int main(int argc, char** argv) {
   tell_over_ranks("on_a_core", core_seconds);
   tell_over_ranks("memory.empty", empty);
   tell_over_ranks("memory", integer("memory.peak_bytes"));
+  tell_over_ranks("messages", asked.messages);
+  tell_over_ranks("sent", asked.sent);
+  tell_over_ranks("collectives", asked.collectives);
+  tell_over_ranks("gathered", asked.gathered);
   right = consistent(owned, ghosts, bytes);
   if (rebalance) check(pnpbs_placement_rebalance(placement), "rebalance");
   /* The work is counted from the lists, which a placement without steps does not have. */

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A scaling study that needs no big machine: deals placements out to many ranks, oversubscribed,
 and takes no step; tells what each rank holds and sends, against what a law of surface to volume
-predicts, and what a model of the time per step makes of it on a cluster. Writes Markdown tables
-and, with --plot, a picture. docs/scaling.md tells how to read it."""
+predicts, and what a model of the time per step makes of it on a cluster. Small whole runs, coarser
+levels included, tell what a rank sends in all, and a second model what a large one would take.
+Writes Markdown tables and, with --plot, a picture. docs/scaling.md tells how to read it."""
 import argparse
 import json
 import math
@@ -12,7 +13,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 
-from programs import Failed, line_of_ranks  # noqa: E402
+from programs import Failed, line_of_ranks, text_of  # noqa: E402
 from progress import Progress  # noqa: E402
 from tables import grouped  # noqa: E402
 
@@ -71,6 +72,26 @@ class Cluster:
         return (held * self.seconds_per_node + messages / interval * self.latency
                 + data / interval / self.bandwidth)
 
+    def run_seconds(self, alone, small, cut, nodes, ranks, interval):
+        """Of a whole run, by what it goes to. alone: a run on one rank; small: one on some ranks,
+        whose messages this one would have, each longer; cut: what the partition costs a rank and
+        the first one."""
+        owned = nodes / ranks
+        held = 1 + ghosts_of_inner_part(nodes, ranks, interval) / owned
+        per_node = alone["total.mean"] / alone["nodes"]
+        wider = math.sqrt(owned / (small["nodes"] / small["ranks"]))
+        stages = 2 * math.ceil(math.log2(ranks))
+        return {
+            "own nodes": per_node * owned,
+            "ghosts": per_node * owned * (held - 1),
+            "messages": small["messages.largest"] * self.latency
+                        + wider * small["sent.largest"] / self.bandwidth,
+            "collectives": small["collectives.largest"] * stages * self.latency,
+            "gathered": small["gathered.largest"] / small["ranks"] * ranks / self.bandwidth,
+            "table of cells": cut["table"],
+            "cut on the first rank": cut["cut"],
+        }
+
     def efficiency(self, nodes, ranks, held, messages, data, interval):
         alone = nodes * self.seconds_per_node
         return alone / (ranks * self.step_seconds(held, messages, data, interval))
@@ -89,7 +110,7 @@ class Cluster:
 
 def arguments():
     def integers(text):
-        return [int(part) for part in text.split(",")]
+        return [int(part) for part in text.split(",") if part != "none"]
 
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default=ROOT / "build/release/tests/bench/decomposition")
@@ -100,6 +121,13 @@ def arguments():
     parser.add_argument("--interval", default=5, type=int, help="exchange_interval")
     parser.add_argument("--latency", default=2e-6, type=float, help="of the model, seconds")
     parser.add_argument("--bandwidth", default=1e10, type=float, help="of the model, bytes/s")
+    parser.add_argument("--cost-program", default=ROOT / "build/release/tests/bench/partition_cost")
+    parser.add_argument("--run-ranks", default="2,4,8,16,32,64", type=integers,
+                        help="of whole runs with coarser levels; none: leave them out")
+    parser.add_argument("--run-nodes", type=float, default=5000, help="of these, for each rank")
+    parser.add_argument("--large", default="1e8/256,1e9/1000,1e9/4096", help="NODES/RANKS,... to foresee",
+                        type=lambda text: [tuple(float(n) for n in part.split("/"))
+                                           for part in text.split(",")])
     parser.add_argument("--memory-ranks", default=8, type=int, help="compared with one rank")
     parser.add_argument("--time-limit", type=float, default=3600, help="seconds for one run")
     parser.add_argument("--figures", type=Path,
@@ -112,17 +140,25 @@ def arguments():
             parser.error(f"unknown case {name}: choose from {', '.join(CASES)}")
     if min(args.ranks) < 2:
         parser.error("--ranks: one rank has nothing to exchange, give 2 or more")
-    if not Path(args.program).exists():
-        parser.error(f"{args.program} is not there: build it (cmake --build ... --target decomposition)")
+    for program in (args.program, args.cost_program):
+        if not Path(program).exists():
+            parser.error(f"{program} is not there: build it (cmake --build ... --target "
+                         f"{Path(program).name})")
     return args
 
 
 def decompose(args, case, ranks, *more):
-    """What decomposition prints, as numbers; None, and a line of why, if it does not."""
+    """What decomposition prints, as numbers; None, and a line of why, if it does not. With the word
+    levels a whole run of few nodes for each rank, else one level: a coarser one would take steps,
+    of other numbers of nodes."""
     name, nodes_at_scale_1, _ = CASES[case]
-    scale = (nodes_at_scale_1 / args.nodes) ** 0.5
-    # One level: a coarser one would take steps, of other numbers of nodes.
-    options = [f"exchange_interval={args.interval}", "levels=0"]
+    options = [f"exchange_interval={args.interval}"]
+    if "levels" in more:
+        nodes, more = args.run_nodes * ranks if ranks > 1 else args.nodes, ["run"]
+    else:
+        nodes = args.nodes
+        options.append("levels=0")
+    scale = (nodes_at_scale_1 / nodes) ** 0.5
     try:
         line = line_of_ranks(args.mpiexec, ranks, 1, args.time_limit, args.program, name, scale,
                              *more, *options)
@@ -132,11 +168,19 @@ def decompose(args, case, ranks, *more):
     return {key: float(value) for key, value in line.items()}
 
 
+def partition_costs(args, ranks):
+    """By number of ranks, what the partition costs, by this machine."""
+    words = text_of([args.cost_program, *ranks], 1, args.time_limit).splitlines()
+    lines = [dict(zip(line.split()[0::2], map(float, line.split()[1::2]))) for line in words]
+    return {int(line["ranks"]): line for line in lines}
+
+
 def run_all(args):
     """Whole runs on one and on several ranks, and the decompositions of each case. By job."""
     first = args.cases[0]
     jobs = [(first, 1, "run"), (first, args.memory_ranks, "run")]
     jobs += [(case, ranks) for case in args.cases for ranks in args.ranks]
+    jobs += [(first, ranks, "levels") for ranks in (1, *args.run_ranks) if args.run_ranks]
     kept = {}
     if args.figures and args.figures.exists():
         kept = json.loads(args.figures.read_text())
@@ -144,6 +188,7 @@ def run_all(args):
     for job in jobs:
         progress.begin(f"{job[0]} on {job[1]}")
         key = " ".join(str(part) for part in (*job, f"{args.nodes:g}", args.interval))
+        key += f" {args.run_nodes:g}" if "levels" in job else ""
         found[job] = kept.get(key) or decompose(args, *job)
         if found[job] and args.figures:
             kept[key] = found[job]
@@ -152,9 +197,11 @@ def run_all(args):
     alone, shared = found.pop(jobs[0]), found.pop(jobs[1])
     if not alone or not shared:
         sys.exit("the whole runs failed, and without them there is no model")
+    runs = [found.pop(job) for job in list(found) if "levels" in job]
     lines = {case: [line for job, line in found.items() if line and job[0] == case]
              for case in args.cases}
-    return {case: found for case, found in lines.items() if found}, alone, shared
+    return ({case: found for case, found in lines.items() if found}, alone, shared,
+            [line for line in runs if line])
 
 
 def decomposition_table(args, case, lines, cluster):
@@ -193,6 +240,42 @@ def model_table(args, cluster):
             rows.append(f"| 10^{round(math.log10(nodes))} | {grouped(ranks)} | "
                         f"{grouped(nodes / ranks)} | {told} |")
     return rows
+
+
+def runs_table(runs):
+    """What a rank sends and gets in a whole run, coarser levels included."""
+    rows = ["### A whole run, coarser levels included", "",
+            "| ranks | nodes per rank | steps | messages: mean / most | MiB sent: mean / most | "
+            "collective calls | MiB gathered |",
+            "| --- |" + " --- |" * 6]
+    mib = 2.0 ** 20
+    for line in runs:
+        rows.append(f"| {line['ranks']:.0f} | {grouped(line['nodes'] / line['ranks'])} | "
+                    f"{line['steps']:.0f} | {grouped(line['messages.mean'])} / "
+                    f"{grouped(line['messages.largest'])} | {line['sent.mean'] / mib:.1f} / "
+                    f"{line['sent.largest'] / mib:.1f} | {grouped(line['collectives.largest'])} | "
+                    f"{line['gathered.largest'] / mib:.2f} |")
+    return rows
+
+
+def large_table(args, cluster, runs, shared, costs):
+    """What larger runs would take, by the model: seconds by what they go to, and memory."""
+    alone, small = runs[0], runs[-1]
+    mib = 2.0 ** 20
+    per_node = (shared["memory.largest"] - shared["memory.empty.mean"]) / shared["owned.largest"]
+    columns, rows = None, []
+    for nodes, ranks in args.large:
+        cost = costs[int(ranks)]
+        parts = cluster.run_seconds(alone, small, cost, nodes, ranks, args.interval)
+        if columns is None:
+            columns = [*parts, "all"]
+        held = nodes / ranks * per_node / mib + shared["memory.empty.mean"] / mib
+        seconds = " | ".join(f"{value:.3f}" for value in (*parts.values(), sum(parts.values())))
+        rows.append(f"| 10^{math.log10(nodes):.0f} | {grouped(ranks)} | {seconds} | "
+                    f"{grouped(held + cost['table_mib'])} | {grouped(held + cost['cut_mib'])} |")
+    return ["### Larger runs by the model, seconds", "",
+            "| nodes | ranks | " + " | ".join(columns) + " | MiB per rank | MiB on the first |",
+            "| --- |" + " --- |" * (len(columns) + 3), *rows]
 
 
 def memory_table(alone, shared):
@@ -260,7 +343,7 @@ def draw(args, lines, cluster):
 
 def main():
     args = arguments()
-    lines, alone, shared = run_all(args)
+    lines, alone, shared, runs = run_all(args)
     per_node = 1e9 / (alone["nodes"] * alone["steps"])
     motion, lists = alone["motion.mean"] * per_node, alone["lists.mean"] * per_node
     cluster = Cluster(args, 1e-9 * (motion + lists))
@@ -270,6 +353,9 @@ def main():
     text += [f"One rank: {motion:.1f} ns per node and step for the motion, {lists:.1f} ns for the "
              f"lists; halo depth {halo_depth(args.interval):.1f} spacings.", "",
              *model_table(args, cluster), "", *memory_table(alone, shared), ""]
+    if len(runs) > 1 and runs[0]["ranks"] == 1:
+        costs = partition_costs(args, [int(ranks) for _, ranks in args.large])
+        text += [*runs_table(runs), "", *large_table(args, cluster, runs, shared, costs), ""]
     if args.output:
         args.output.write_text("\n".join(text))
     else:
