@@ -116,7 +116,7 @@ namespace {
 GivenNodes checked_nodes(std::int64_t n, const double* coordinates, const std::int64_t* ids) {
   require_count(n, "n");
   if (n > 0) require_pointer(coordinates, "coordinates");
-  constexpr std::int64_t kLargestId = std::int64_t{1} << 62;  // leaves numbers for new nodes
+  constexpr std::int64_t kMaxId = std::int64_t{1} << 62;  // leaves numbers for new nodes
   GivenNodes nodes;
   for (std::int64_t i = 0; i < n; ++i) {
     if (!std::isfinite(coordinates[2 * i]) || !std::isfinite(coordinates[2 * i + 1]))
@@ -124,7 +124,7 @@ GivenNodes checked_nodes(std::int64_t n, const double* coordinates, const std::i
                                            number_text(coordinates[2 * i]) + ", " +
                                            number_text(coordinates[2 * i + 1]) +
                                            ") must be finite");
-    if (ids && (ids[i] < 0 || ids[i] > kLargestId))
+    if (ids && (ids[i] < 0 || ids[i] > kMaxId))
       throw Error(ErrorKind::argument, "argument ids[" + std::to_string(i) + "] = " +
                                            std::to_string(ids[i]) + " must be in 0 .. 2^62");
     nodes.push_back({{coordinates[2 * i], coordinates[2 * i + 1]}, ids ? ids[i] : -1});

@@ -51,10 +51,10 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
     require_pointer(origin, "origin");
     require_pointer(step, "step");
     require_pointer(values, "values");
-    constexpr std::int64_t kMost = std::int64_t{1} << 31;
+    constexpr std::int64_t kMax = std::int64_t{1} << 31;
     for (int k = 0; k < 2; ++k) {
       const std::string at = "[" + std::to_string(k) + "] = ";
-      if (size[k] < 1 || size[k] > kMost)
+      if (size[k] < 1 || size[k] > kMax)
         throw Error(ErrorKind::argument,
                     "argument size" + at + std::to_string(size[k]) + " must be in 1 .. 2^31");
       if (!std::isfinite(origin[k]))

@@ -29,8 +29,8 @@ class CountingSort {
   void for_places(const Key& key, const Visit& visit);
 
  private:
-  static constexpr std::int64_t kMostParts = 16;        // bounds the memory for the counts
-  static constexpr std::int64_t kLeastEntries = 20000;  // of a part
+  static constexpr std::int64_t kMaxParts = 16;       // bounds the memory for the counts
+  static constexpr std::int64_t kMinEntries = 20000;  // of a part
 
   std::int64_t begin(std::int64_t part) const { return part * n_ / parts_; }
   std::int32_t* counts_of(std::int64_t part) const { return counts_.data() + part * keys_; }
@@ -44,8 +44,8 @@ class CountingSort {
 template <class Key>
 CountingSort::CountingSort(std::int64_t n, std::int32_t keys, const Key& key)
     : n_(n),
-      parts_(std::clamp<std::int64_t>(n / kLeastEntries, 1,
-                                      std::min<std::int64_t>(Exec().concurrency(), kMostParts))),
+      parts_(std::clamp<std::int64_t>(n / kMinEntries, 1,
+                                      std::min<std::int64_t>(Exec().concurrency(), kMaxParts))),
       keys_(keys),
       counts_(make_view<std::int32_t>("pnpbs::CountingSort::counts", parts_ * keys)) {
   std::vector<char> in_order(static_cast<std::size_t>(parts_));

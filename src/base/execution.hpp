@@ -46,13 +46,13 @@ void for_each_guarded(const char* label, std::int64_t n, const Body& body) {
 
 // The largest of body(i), or `floor` if there is none.
 template <class Body>
-double largest_of(const char* label, std::int64_t n, double floor, const Body& body) {
+double max_of(const char* label, std::int64_t n, double floor, const Body& body) {
   double result = floor;
   Kokkos::parallel_reduce(
       label, Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::int64_t>>(0, n),
-      [&](std::int64_t i, double& most) {
+      [&](std::int64_t i, double& max) {
         const double value = body(i);
-        if (value > most) most = value;
+        if (value > max) max = value;
       },
       Kokkos::Max<double>(result));
   return result > floor ? result : floor;

@@ -11,7 +11,7 @@ namespace pnpbs {
 
 // Products of four differences of coordinates, as the in-circle test has them, then neither
 // overflow nor lose digits below the normal range.
-inline constexpr double kLargestCoordinate = 1e60;
+inline constexpr double kMaxCoordinate = 1e60;
 inline constexpr double kSmallestDomain = 1e-60;
 
 // And this many digits of the coordinates must be left to tell places in it apart: of a domain far
@@ -23,7 +23,7 @@ inline constexpr double kSamePlace = 1e-12;    // vertices; a vertex and a segme
 inline constexpr double kSameCurveEnd = 1e-9;  // where one of them is the end of a curve
 
 inline bool is_usable(double coordinate) {
-  return std::fabs(coordinate) <= kLargestCoordinate;  // false for NaN
+  return std::fabs(coordinate) <= kMaxCoordinate;  // false for NaN
 }
 inline bool is_usable(const Point<2>& point) { return is_usable(point[0]) && is_usable(point[1]); }
 

@@ -100,8 +100,8 @@ std::uint64_t Communicator::allreduce_sum(std::uint64_t value) const {
 
 double Communicator::allreduce_max(double value) const {
   Reduction mine;
-  mine.largest = value;
-  return reduce_or_fail(mine).largest;
+  mine.max = value;
+  return reduce_or_fail(mine).max;
 }
 
 void Communicator::allreduce_sum(std::vector<std::int64_t>& values) const {

@@ -78,7 +78,7 @@ class Communicator {
   struct Reduction {
     std::int64_t failed = 0;  // size - rank of a rank that has failed; the largest counts
     std::uint64_t sum = 0;
-    double largest = -std::numeric_limits<double>::infinity();
+    double max = -std::numeric_limits<double>::infinity();
   };
   virtual Reduction reduce(const Reduction& mine) const = 0;
   virtual void sum_entries(std::vector<std::int64_t>& values) const = 0;

@@ -30,11 +30,11 @@ struct OwnedIds {
 // at once, so that no rank ever sees the others' ids.
 std::vector<std::int64_t> ids_that_begin(const Communicator& comm, const OwnedIds& owned,
                                          const std::vector<std::int64_t>& numbers) {
-  const double most =
+  const double max =
       comm.allreduce_max(owned.count == 0 ? 0 : static_cast<double>(owned.id(owned.count - 1)));
   // A double may have lost the last bits of a large id.
-  const std::int64_t bound = most < 0x1p62 ? static_cast<std::int64_t>(most * (1 + 0x1p-40)) + 2
-                                           : std::numeric_limits<std::int64_t>::max();
+  const std::int64_t bound = max < 0x1p62 ? static_cast<std::int64_t>(max * (1 + 0x1p-40)) + 2
+                                          : std::numeric_limits<std::int64_t>::max();
   std::vector<std::int64_t> low(numbers.size(), 0), high(numbers.size(), bound);
   while (low != high) {
     std::vector<std::int64_t> middle(numbers.size()), below(numbers.size());
@@ -71,8 +71,8 @@ IdBlocks::IdBlocks(const Communicator& comm, std::int64_t owned,
   numbers.pop_back();
   if (comm.size() > 1) begin_ = ids_that_begin(comm, {owned, owned_id}, numbers);
   // Not all at once: the messages would need several times the memory of the ids.
-  const auto most = static_cast<std::int64_t>(comm.allreduce_max(static_cast<double>(owned)));
-  for (std::int64_t begin = 0; begin < most; begin += kSentAtOnce) {
+  const auto max = static_cast<std::int64_t>(comm.allreduce_max(static_cast<double>(owned)));
+  for (std::int64_t begin = 0; begin < max; begin += kSentAtOnce) {
     std::vector<std::int64_t> part;
     for (std::int64_t k = begin; k < std::min(owned, begin + kSentAtOnce); ++k)
       part.push_back(owned_id(k));

@@ -208,7 +208,7 @@ class MpiCommunicator : public Communicator {
     for (int i = 0; i < *length; ++i) {
       to[i].failed = std::max(to[i].failed, from[i].failed);
       to[i].sum += from[i].sum;
-      to[i].largest = std::max(to[i].largest, from[i].largest);
+      to[i].max = std::max(to[i].max, from[i].max);
     }
   }
 

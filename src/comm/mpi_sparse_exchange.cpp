@@ -39,13 +39,13 @@ bool arrived(MPI_Comm comm, int tag, MPI_Status& status) {
 
 MpiSparseExchange::MpiSparseExchange(MPI_Comm comm, int rank, const std::vector<Message>& outgoing)
     : comm_(comm), rank_(rank), outgoing_(outgoing) {
-  std::uint64_t pieces = 0, most = 0;
+  std::uint64_t pieces = 0, sizes = 0;
   for (const Message& message : outgoing) {
     if (!is_long(message)) continue;
-    ++most;
+    ++sizes;
     pieces += mpi::pieces(message.bytes.size());
   }
-  sizes_.reserve(most);
+  sizes_.reserve(sizes);
   pieces_.reserve(pieces);
   announced_.reserve(outgoing.size());
 }

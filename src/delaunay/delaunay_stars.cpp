@@ -14,11 +14,11 @@ namespace pnpbs {
 
 namespace {
 
-double least_spacing_around(const Buckets<2>& buckets, std::int32_t bucket) {
-  double least = std::numeric_limits<double>::infinity();
-  buckets.for_neighbours(
-      bucket, [&](std::int32_t b) { least = std::min(least, buckets.least_spacing(b)); });
-  return least;
+double min_spacing_around(const Buckets<2>& buckets, std::int32_t bucket) {
+  double min = std::numeric_limits<double>::infinity();
+  buckets.for_neighbours(bucket,
+                         [&](std::int32_t b) { min = std::min(min, buckets.min_spacing(b)); });
+  return min;
 }
 
 // Finds the stars of consecutive blocks of nodes.
@@ -61,7 +61,7 @@ class StarWriter {
   // known there.
   double reach_of_list(std::int64_t i) {
     const Nodes<2>& nodes = in_.nodes;
-    const double reach = least_reach(i);
+    const double reach = min_reach(i);
     const bool known =
         !rim_ || in_.known.covers(in_.map.tree(), box_around<2>(nodes.position(i), reach));
     return known ? reach : 0;
@@ -69,11 +69,11 @@ class StarWriter {
 
   void look_at_bucket(std::int32_t bucket) {
     bucket_ = bucket;
-    least_ = least_spacing_around(in_.buckets, bucket);
-    double largest = 0;
+    min_ = min_spacing_around(in_.buckets, bucket);
+    double max = 0;
     for (std::int32_t i = in_.buckets.begin(bucket); i < in_.buckets.end(bucket); ++i)
-      largest = std::max(largest, in_.nodes.d(i));
-    const double reach = in_.lists.radius() * largest;
+      max = std::max(max, in_.nodes.d(i));
+    const double reach = in_.lists.radius() * max;
     Box<2> around = in_.map.tree().cell_box(in_.map.tree().leaf_cell(bucket));
     for (int k = 0; k < 2; ++k) {
       around.low[k] -= reach;
@@ -90,17 +90,17 @@ class StarWriter {
     const bool near_edges = in_.near_edges.any(i);
     if (!near_edges && listed_reach > 0 && add_hull_star(i, listed_reach)) return;
     const double needs = constrained_star(in_, i, near_edges && sight_is_fresh_ ? listed_reach : 0,
-                                          std::max(least_reach(i), in_.nodes.d(i)), others_);
+                                          std::max(min_reach(i), in_.nodes.d(i)), others_);
     if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
   }
 
   // Of the list of node i, whatever is around it.
-  double least_reach(std::int64_t i) {
+  double min_reach(std::int64_t i) {
     if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
     constexpr double kSteep = 0.9;
     const double d = in_.nodes.d(i);
-    return least_ < kSteep * d ? reach_to_unlisted(i)
-                               : 0.5 * in_.lists.radius() * (in_.nodes.d(i) + least_);
+    return min_ < kSteep * d ? reach_to_unlisted(i)
+                             : 0.5 * in_.lists.radius() * (in_.nodes.d(i) + min_);
   }
 
   // Up to the nearest node that the list does not hold, or as far as stars mostly need. The
@@ -165,7 +165,7 @@ class StarWriter {
   std::vector<Entry> others_;  // stars of the block that are not among the hulls
   std::array<std::size_t, kLanes> first_other_{}, size_{};
   std::int32_t bucket_ = -1;
-  double least_ = 0;  // spacing in the buckets around
+  double min_ = 0;    // spacing in the buckets around
   bool rim_ = false;  // do the lists of some nodes in the bucket reach into the unknown?
 };
 

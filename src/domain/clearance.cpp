@@ -14,16 +14,16 @@ namespace {
 template <int Dim>
 double nearest_facet(const FacetIndex<Dim>& index, std::span<const std::int32_t> facets,
                      const Point<Dim>& x, Point<Dim>& nearest) {
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   for (const std::int32_t f : facets) {
     const Point<Dim> q = nearest_on(index.corners(f), x);
     const double gap = distance<Dim>(q, x);
-    if (gap < least) {
-      least = gap;
+    if (gap < min) {
+      min = gap;
       nearest = q;
     }
   }
-  return least;
+  return min;
 }
 
 template <int Dim>
@@ -65,7 +65,7 @@ ClearPosition<Dim> clear_position(const FacetIndex<Dim>& index,
     x = away;
     gap = nearest_facet<Dim>(index, facets, x, wall);
   }
-  return {x, gap >= kLeastClearance * d};
+  return {x, gap >= kMinClearance * d};
 }
 
 template ClearPosition<2> clear_position(const FacetIndex<2>&, std::span<const std::int32_t>,

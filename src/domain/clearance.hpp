@@ -11,7 +11,7 @@ namespace pnpbs {
 
 inline constexpr double kBoundaryClearance = 0.4;  // in units of d
 // With less than this there is no room: a wedge or gap narrower than 0.7 d.
-inline constexpr double kLeastClearance = 0.35;
+inline constexpr double kMinClearance = 0.35;
 
 template <int Dim>
 struct ClearPosition {

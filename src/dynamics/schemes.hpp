@@ -13,9 +13,9 @@
 namespace pnpbs {
 
 struct Motion {
-  double dt = 0.8;       // in units of sqrt(m / k0)
-  double damping = 0.4;  // c
-  double most = 0.2;     // no step moves a node by more than this many d
+  double dt = 0.8;        // in units of sqrt(m / k0)
+  double damping = 0.4;   // c
+  double max_move = 0.2;  // no step moves a node by more than this many d
 };
 
 template <int Dim>
@@ -33,12 +33,12 @@ void reserve_field(Field<Dim>& field, const char* label, std::int64_t n) {
       field[k] = make_view<double>(label, n + 1);
 }
 
-// Shortens a move to at most `most`, keeping its direction.
+// Shortens a move to at most `max_length`, keeping its direction.
 template <int Dim>
-inline void clamp_move(std::array<double, Dim>& move, double most) {
+inline void clamp_move(std::array<double, Dim>& move, double max_length) {
   double square = 0;
   for (int k = 0; k < Dim; ++k) square += move[k] * move[k];
-  const double factor = square > most * most ? most / std::sqrt(square) : 1.0;
+  const double factor = square > max_length * max_length ? max_length / std::sqrt(square) : 1.0;
   for (int k = 0; k < Dim; ++k) move[k] *= factor;
 }
 
@@ -61,14 +61,14 @@ inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std
       move[k][lane] = motion.dt * (mobile * (v[k][i] + motion.dt * scale * force[k][lane]));
       sum += move[k][lane] * move[k][lane];
     }
-    const double most = motion.most * d[i];
-    too_far = std::max(too_far, sum - most * most);
+    const double max = motion.max_move * d[i];
+    too_far = std::max(too_far, sum - max * max);
   }
   // Few blocks have a node that is too fast.
   for (int lane = 0; too_far > 0 && lane < n; ++lane) {
     std::array<double, Dim> of_lane;
     for (int k = 0; k < Dim; ++k) of_lane[k] = move[k][lane];
-    clamp_move<Dim>(of_lane, motion.most * d[first + lane]);
+    clamp_move<Dim>(of_lane, motion.max_move * d[first + lane]);
     for (int k = 0; k < Dim; ++k) move[k][lane] = of_lane[k];
   }
   const double per_time = 1 / motion.dt;
@@ -139,12 +139,12 @@ struct Stages {
 // x + h vx and v + h a, the state at which a stage asks for the acceleration. The way there is
 // clamped like the step itself, so that lists and ghosts cover it.
 template <int Dim>
-void stage_state(const Nodes<Dim>& nodes, double h, double most, const Field<Dim>& slope_x,
+void stage_state(const Nodes<Dim>& nodes, double h, double max_move, const Field<Dim>& slope_x,
                  const Field<Dim>& slope_v, const Field<Dim>& x, const Field<Dim>& v) {
   for_each("pnpbs::stage_state", nodes.count, [&](std::int64_t i) {
     std::array<double, Dim> move;
     for (int k = 0; k < Dim; ++k) move[k] = h * slope_x[k](i);  // slope_x may be v itself
-    clamp_move<Dim>(move, most * nodes.d(i));
+    clamp_move<Dim>(move, max_move * nodes.d(i));
     for (int k = 0; k < Dim; ++k) {
       x[k](i) = nodes.x[k](i) + move[k];
       v[k](i) = nodes.v[k](i) + h * slope_v[k](i);
@@ -172,7 +172,7 @@ void take_slopes(Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim>& sta
     const double mobile = nodes.moves(i) ? 1.0 : 0.0;
     std::array<double, Dim> move;
     for (int k = 0; k < Dim; ++k) move[k] = mobile * motion.dt * stages.sum_x[k](i);
-    clamp_move<Dim>(move, motion.most * nodes.d(i));
+    clamp_move<Dim>(move, motion.max_move * nodes.d(i));
     for (int k = 0; k < Dim; ++k) {
       nodes.v[k](i) = mobile * (nodes.v[k](i) + motion.dt * stages.sum_v[k](i));
       next[k](i) = nodes.x[k](i) + move[k];
@@ -187,7 +187,7 @@ void predictor_corrector_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists
   stages.reserve(nodes.count);
   accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);
   add_slopes<Dim>(nodes, 0.5, true, nodes.v, stages.a, stages);
-  stage_state<Dim>(nodes, motion.dt, motion.most, nodes.v, stages.a, stages.x, stages.v);
+  stage_state<Dim>(nodes, motion.dt, motion.max_move, nodes.v, stages.a, stages.x, stages.v);
   accelerations<Dim>(nodes, lists, law, motion, stages.x, stages.v, stages.a);
   add_slopes<Dim>(nodes, 0.5, false, stages.v, stages.a, stages);
   take_slopes<Dim>(nodes, motion, stages, next);
@@ -200,12 +200,12 @@ void runge_kutta_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const 
   stages.reserve(nodes.count);
   accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);
   add_slopes<Dim>(nodes, 1.0 / 6, true, nodes.v, stages.a, stages);
-  stage_state<Dim>(nodes, 0.5 * motion.dt, motion.most, nodes.v, stages.a, stages.x, stages.v);
+  stage_state<Dim>(nodes, 0.5 * motion.dt, motion.max_move, nodes.v, stages.a, stages.x, stages.v);
   for (int stage = 0; stage < 3; ++stage) {
     accelerations<Dim>(nodes, lists, law, motion, stages.x, stages.v, stages.a);
     add_slopes<Dim>(nodes, stage < 2 ? 1.0 / 3 : 1.0 / 6, false, stages.v, stages.a, stages);
     if (stage < 2)
-      stage_state<Dim>(nodes, stage == 0 ? 0.5 * motion.dt : motion.dt, motion.most, stages.v,
+      stage_state<Dim>(nodes, stage == 0 ? 0.5 * motion.dt : motion.dt, motion.max_move, stages.v,
                        stages.a, stages.x, stages.v);
   }
   take_slopes<Dim>(nodes, motion, stages, next);

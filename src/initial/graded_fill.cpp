@@ -19,7 +19,7 @@ int column_of(int place, int k) { return ((place >> k) & 1) | ((place >> (k + 1)
 // No lattice of one d fits such a leaf.
 bool is_steep(const DomainMap<2>& map, std::int32_t leaf) {
   return !map.leaf_outside(leaf) &&
-         map.leaf_largest_spacing(leaf) > kPatchVariation * map.leaf_least_spacing(leaf);
+         map.leaf_max_spacing(leaf) > kPatchVariation * map.leaf_min_spacing(leaf);
 }
 
 // In units of 2^-32.

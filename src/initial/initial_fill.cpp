@@ -14,9 +14,7 @@ struct Lattice {
   double row;   // between rows
 };
 
-bool nearly_constant(const SpacingSummary& cell) {
-  return cell.largest <= kPatchVariation * cell.least;
-}
+bool nearly_constant(const SpacingSummary& cell) { return cell.max <= kPatchVariation * cell.min; }
 
 SpacingSummary summary_of_leaf(const DomainMap<2>& map, std::int32_t c) {
   const std::int32_t leaf = map.tree().cell(c).leaf;
@@ -24,8 +22,8 @@ SpacingSummary summary_of_leaf(const DomainMap<2>& map, std::int32_t c) {
   if (map.leaf_outside(leaf)) return own;
   const double d = map.leaf_spacing(leaf);
   own.area = map.tree().cell_side(c) * map.tree().cell_side(c);
-  own.least = map.leaf_least_spacing(leaf);
-  own.largest = map.leaf_largest_spacing(leaf);
+  own.min = map.leaf_min_spacing(leaf);
+  own.max = map.leaf_max_spacing(leaf);
   own.nodes = own.area / (d * d);
   return own;
 }
@@ -110,8 +108,8 @@ class Fill {
 }  // namespace
 
 void SpacingSummary::add(const SpacingSummary& part) {
-  least = std::min(least, part.least);
-  largest = std::max(largest, part.largest);
+  min = std::min(min, part.min);
+  max = std::max(max, part.max);
   area += part.area;
   nodes += part.nodes;
 }

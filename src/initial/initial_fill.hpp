@@ -21,8 +21,8 @@ inline constexpr double kFillClearance = 0.5;
 
 // d in a cell of the tree, put together from its leaves.
 struct SpacingSummary {
-  double least = std::numeric_limits<double>::infinity();
-  double largest = 0;
+  double min = std::numeric_limits<double>::infinity();
+  double max = 0;
   double area = 0, nodes = 0;  // of the leaves in the domain; nodes in units of 1 per d^2
 
   void add(const SpacingSummary& part);

@@ -24,12 +24,12 @@ namespace {
 
 // Renaming onto a symbolic link would replace the link: find the file it means, there or not yet.
 std::string behind_links(const std::string& path) {
-  constexpr int kMostLinks = 40;
+  constexpr int kMaxLinks = 40;
   std::error_code error;
   const std::filesystem::path there = std::filesystem::canonical(path, error);
   if (!error) return there.string();
   std::filesystem::path target = path;
-  for (int link = 0; link < kMostLinks && std::filesystem::is_symlink(target, error); ++link)
+  for (int link = 0; link < kMaxLinks && std::filesystem::is_symlink(target, error); ++link)
     target = target.parent_path() / std::filesystem::read_symlink(target, error);
   return std::filesystem::is_symlink(target, error) ? path : target.string();
 }

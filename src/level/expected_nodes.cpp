@@ -47,15 +47,15 @@ SpacingVariation spacing_variation(const Level& level) {
   SpacingVariation own;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
     if (!level.tree->owns(leaf) || map.leaf_outside(leaf)) continue;
-    const double least = map.leaf_least_spacing(leaf), largest = map.leaf_largest_spacing(leaf);
+    const double min = map.leaf_min_spacing(leaf), max = map.leaf_max_spacing(leaf);
     // Next to the boundary the samples may be those of the cell above.
     const double cell = map.tree().cell_side(map.tree().leaf_cell(leaf)),
                  way = kBetweenSamples * (map.leaf_has_facets(leaf) ? 2 * cell : cell);
-    own.least = std::min(own.least, least);
-    own.largest = std::max(own.largest, largest);
-    own.steepest = std::max(own.steepest, (largest - least) / way);
+    own.min = std::min(own.min, min);
+    own.max = std::max(own.max, max);
+    own.steepest = std::max(own.steepest, (max - min) / way);
   }
-  return {-level.comm->allreduce_max(-own.least), level.comm->allreduce_max(own.largest),
+  return {-level.comm->allreduce_max(-own.min), level.comm->allreduce_max(own.max),
           level.comm->allreduce_max(own.steepest)};
 }
 

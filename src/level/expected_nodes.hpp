@@ -15,7 +15,7 @@ std::vector<double> wanted_nodes(const Level& level);
 double expected_nodes(const Level& level);
 
 struct SpacingVariation {
-  double least = kFarAway, largest = 0;
+  double min = kFarAway, max = 0;
   double steepest = 0;  // growth of d per unit of length
 };
 

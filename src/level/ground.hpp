@@ -17,9 +17,9 @@ namespace pnpbs {
 
 class Ground {
  public:
-  // Throws Error(ErrorKind::spacing) if the boundary had more than `most_nodes`.
+  // Throws Error(ErrorKind::spacing) if the boundary had more than `max_nodes`.
   Ground(std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const Spacing<2>> spacing,
-         std::int64_t most_nodes);
+         std::int64_t max_nodes);
   Ground(const Ground&) = delete;  // the tree points to the boundary
   Ground& operator=(const Ground&) = delete;
 

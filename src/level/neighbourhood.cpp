@@ -70,7 +70,7 @@ bool Neighbourhood::rebuild(Nodes<2>& nodes, const Ground& ground, const LevelTr
 bool Neighbourhood::needs_rebuild(const Nodes<2>& nodes, const Settings& settings) const {
   if (!for_steps_ || arrangement_ != nodes.arrangement() || references_ != nodes.references())
     return true;
-  const double ahead = settings.predictor_corrector ? settings.motion.most : 0;
+  const double ahead = settings.predictor_corrector ? settings.motion.max_move : 0;
   return max_displacement_ + ahead > 0.5 * (lists_.radius() - settings.force_range());
 }
 
@@ -78,24 +78,24 @@ double Neighbourhood::squared_displacement(const Nodes<2>& nodes, const Field<2>
                                            std::int64_t first, std::int64_t last) const {
   const double *const x = at[0].data(), *const y = at[1].data(), *const d = nodes.d.data(),
                       *const listed_x = listed_[0].data(), *const listed_y = listed_[1].data();
-  double largest = 0;
-#pragma omp simd reduction(max : largest)
+  double max = 0;
+#pragma omp simd reduction(max : max)
   for (std::int64_t i = first; i < last; ++i) {
     const double dx = x[i] - listed_x[i], dy = y[i] - listed_y[i];
-    largest = std::max(largest, (dx * dx + dy * dy) / (d[i] * d[i]));
+    max = std::max(max, (dx * dx + dy * dy) / (d[i] * d[i]));
   }
-  return largest;
+  return max;
 }
 
 void Neighbourhood::measure_displacement(const Nodes<2>& nodes) {
   if (!for_steps_ || arrangement_ != nodes.arrangement()) return;
   constexpr std::int64_t kChunk = 1024;
   max_displacement_ =
-      std::sqrt(largest_of("pnpbs::Neighbourhood::measure_displacement",
-                           (nodes.count + kChunk - 1) / kChunk, 0.0, [&](std::int64_t c) {
-                             return squared_displacement(nodes, nodes.x, c * kChunk,
-                                                         std::min((c + 1) * kChunk, nodes.count));
-                           }));
+      std::sqrt(max_of("pnpbs::Neighbourhood::measure_displacement",
+                       (nodes.count + kChunk - 1) / kChunk, 0.0, [&](std::int64_t c) {
+                         return squared_displacement(nodes, nodes.x, c * kChunk,
+                                                     std::min((c + 1) * kChunk, nodes.count));
+                       }));
 }
 
 void Neighbourhood::keep_nodes(Nodes<2>& nodes, const View<std::int32_t>& places,

@@ -17,10 +17,10 @@ View<double> spacing_at_owned_nodes(const Level& level, const Spacing<2>& spacin
     std::vector<std::int32_t> owned;
     std::vector<Point<2>> x;
     std::vector<double> d;
-    const auto most = static_cast<std::size_t>(std::min(kBatch, nodes.count));
-    owned.reserve(most);
-    x.reserve(most);
-    d.reserve(most);
+    const auto max = static_cast<std::size_t>(std::min(kBatch, nodes.count));
+    owned.reserve(max);
+    x.reserve(max);
+    d.reserve(max);
     for (std::int64_t first = 0; first < last; first += kBatch) {
       owned.clear();
       for (std::int64_t i = first; i < std::min(first + kBatch, nodes.count); ++i)

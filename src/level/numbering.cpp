@@ -107,10 +107,10 @@ std::vector<LeafNode> own_boundary_nodes(const Level& level) {
 
 // An id larger than all there are.
 std::int64_t next_id_after(const Level& level, const GivenNodes& inner) {
-  const double max_id = largest_of(
-      "pnpbs::max_id", static_cast<std::int64_t>(inner.size()),
-      static_cast<double>(level.next_id - 1),
-      [&](std::int64_t k) { return static_cast<double>(inner[static_cast<std::size_t>(k)].id); });
+  const double max_id = max_of("pnpbs::max_id", static_cast<std::int64_t>(inner.size()),
+                               static_cast<double>(level.next_id - 1), [&](std::int64_t k) {
+                                 return static_cast<double>(inner[static_cast<std::size_t>(k)].id);
+                               });
   return static_cast<std::int64_t>(level.comm->allreduce_max(max_id)) + 1;
 }
 

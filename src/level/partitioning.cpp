@@ -54,7 +54,7 @@ PartitionCells<2> LevelTree::cells_of_equal_work(const std::vector<std::int64_t>
       [this](std::int32_t leaf) { return owns(leaf); },
       [&](std::int32_t leaf) { return work[static_cast<std::size_t>(leaf)]; },
       [this](std::int32_t leaf) {
-        return map_.leaf_outside(leaf) ? 0 : map_.leaf_largest_spacing(leaf);
+        return map_.leaf_outside(leaf) ? 0 : map_.leaf_max_spacing(leaf);
       }};
   return {ground_.domain().bounds(), pnpbs::cells_of_equal_work(comm_, tree(), leaves)};
 }
@@ -62,23 +62,23 @@ PartitionCells<2> LevelTree::cells_of_equal_work(const std::vector<std::int64_t>
 // From samples of d in large cells, the same on every rank: enough to begin with.
 std::vector<PartitionCell<2>> LevelTree::rough_cells(const Settings& settings) {
   constexpr int kUniformDepth = 3, kPasses = 3, kCellsPerRank = 32;
-  double most = std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
   std::vector<std::int64_t> work;
   for (int pass = 0; pass < kPasses; ++pass) {
     map_.build_part(comm_, ground_.domain().bounds(), ground_.boundary(), ground_.evaluator(),
                     settings.node_limit(),
                     [&](const BackgroundTree<2>& tree, std::int32_t c, double nodes) {
-                      return tree.cell(c).depth < kUniformDepth || nodes > most;
+                      return tree.cell(c).depth < kUniformDepth || nodes > max;
                     });
     work = expected_work();
-    most = static_cast<double>(std::accumulate(work.begin(), work.end(), std::int64_t{0})) /
-           (kWorkPerNode * kCellsPerRank * comm_.size());
+    max = static_cast<double>(std::accumulate(work.begin(), work.end(), std::int64_t{0})) /
+          (kWorkPerNode * kCellsPerRank * comm_.size());
   }
   std::vector<PartitionCell<2>> cells;
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
     const BackgroundTree<2>::Cell& cell = map_.tree().cell(map_.tree().leaf_cell(leaf));
     cells.push_back({cell.index, cell.depth, work[static_cast<std::size_t>(leaf)],
-                     map_.leaf_largest_spacing(leaf)});
+                     map_.leaf_max_spacing(leaf)});
   }
   return cells;
 }

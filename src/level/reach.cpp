@@ -13,7 +13,8 @@ double widest_radius(const Settings& settings) {
 }
 
 double meeting_radius(const Settings& settings) {
-  return kBoundaryClearance + settings.motion.most * static_cast<double>(settings.event_interval);
+  return kBoundaryClearance +
+         settings.motion.max_move * static_cast<double>(settings.event_interval);
 }
 
 double edge_radius(const Settings& settings) {
@@ -28,10 +29,10 @@ std::int64_t ghost_life(const Settings& settings) {
 // What an evaluation brings in comes from no farther than the range of the force and the ways of
 // both nodes; a hop spans a list radius. Both nodes drift while the ghosts stay the same ones.
 int hops_for(const Settings& settings, std::int64_t evaluations) {
-  const double most = settings.motion.most;
+  const double max = settings.motion.max_move;
   const auto n = static_cast<double>(evaluations);
-  const double drift = 2 * most * static_cast<double>(ghost_life(settings));
-  const double needed = n * (settings.force_range() + 2 * most) + drift;
+  const double drift = 2 * max * static_cast<double>(ghost_life(settings));
+  const double needed = n * (settings.force_range() + 2 * max) + drift;
   const int hops = static_cast<int>(std::ceil(needed / settings.list_radius));
   return std::max(0, hops - static_cast<int>(settings.halo_deficit));
 }

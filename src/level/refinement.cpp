@@ -16,15 +16,15 @@ namespace {
 
 // Into how many pieces of length d a length is cut; one that is long by 1.4 is halved.
 int pieces_of(double length, double d) {
-  constexpr double kMost = 1e9;
-  return static_cast<int>(std::min(length / d + 0.6, kMost));
+  constexpr double kMax = 1e9;
+  return static_cast<int>(std::min(length / d + 0.6, kMax));
 }
 
 // Calls visit(place) for the new nodes on the edge from x to y, cut into equal pieces: so many
 // where it is long enough.
 template <class Visit>
-void cut_edge(const Point<2>& x, const Point<2>& y, double d, int most, const Visit& visit) {
-  const int pieces = std::min(most, pieces_of(distance<2>(x, y), d));
+void cut_edge(const Point<2>& x, const Point<2>& y, double d, int max, const Visit& visit) {
+  const int pieces = std::min(max, pieces_of(distance<2>(x, y), d));
   for (int k = 1; k < pieces; ++k) {
     const double a = static_cast<double>(k) / pieces;
     visit(Point<2>{x[0] + a * (y[0] - x[0]), x[1] + a * (y[1] - x[1])});
@@ -33,9 +33,9 @@ void cut_edge(const Point<2>& x, const Point<2>& y, double d, int most, const Vi
 
 // The same for those within a triangle whose edges are cut into three pieces or more.
 template <class Visit>
-void fill_triangle(const std::array<Point<2>, 3>& x, double d, int most, const Visit& visit) {
+void fill_triangle(const std::array<Point<2>, 3>& x, double d, int max, const Visit& visit) {
   const double around = distance<2>(x[0], x[1]) + distance<2>(x[1], x[2]) + distance<2>(x[2], x[0]);
-  const int pieces = std::min(most, pieces_of(around / 3, d));
+  const int pieces = std::min(max, pieces_of(around / 3, d));
   for (int a = 1; a < pieces - 1; ++a)
     for (int b = 1; b < pieces - a; ++b) {
       Point<2> y;

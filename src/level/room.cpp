@@ -52,7 +52,7 @@ void for_coinciding(const Nodes<2>& nodes, const AdjacencyList<2>& lists, std::i
 
 // As the edges were found where the nodes are.
 bool between_edges(const Level& level, std::int64_t i) {
-  return level.neighbourhood.near_edges().edge_within(i, kLeastClearance * level.nodes.d(i));
+  return level.neighbourhood.near_edges().edge_within(i, kMinClearance * level.nodes.d(i));
 }
 
 }  // namespace

@@ -13,10 +13,9 @@ Speeds speeds_of(const Level& level) {
     return std::sqrt(nodes.v[0](i) * nodes.v[0](i) + nodes.v[1](i) * nodes.v[1](i)) / nodes.d(i);
   };
   Speeds speeds;
-  speeds.largest =
-      comm.allreduce_max(largest_of("pnpbs::largest_speed", nodes.count, 0.0, [&](std::int64_t i) {
-        return nodes.owned(i) ? scaled(i) : 0.0;
-      }));
+  speeds.max =
+      comm.allreduce_max(max_of("pnpbs::largest_speed", nodes.count, 0.0,
+                                [&](std::int64_t i) { return nodes.owned(i) ? scaled(i) : 0.0; }));
   const std::uint64_t sum = sum_of("pnpbs::mean_speed", nodes.count, [&](std::int64_t i) {
     return nodes.owned(i) ? fixed_point(scaled(i)) : 0;
   });

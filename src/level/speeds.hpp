@@ -7,7 +7,7 @@
 namespace pnpbs {
 
 struct Speeds {
-  double largest = 0, mean = 0;  // scaled: spacings per unit of time
+  double max = 0, mean = 0;  // scaled: spacings per unit of time
 };
 
 // Of the nodes of all ranks; the mean, of those that move. Collective.

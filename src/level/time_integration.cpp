@@ -68,8 +68,8 @@ void TimeIntegration::accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, cons
     squares_(c) = neighbourhood.squared_displacement(nodes, next_, first, last);
   });
   neighbourhood.set_max_displacement(
-      std::sqrt(largest_of("pnpbs::TimeIntegration::max_displacement", chunks, 0.0,
-                           [&](std::int64_t c) { return squares_(c); })));
+      std::sqrt(max_of("pnpbs::TimeIntegration::max_displacement", chunks, 0.0,
+                       [&](std::int64_t c) { return squares_(c); })));
   std::swap(nodes.x, next_);
 }
 

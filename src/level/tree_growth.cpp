@@ -68,8 +68,8 @@ void LevelTree::link_leaves(const Settings& settings) {
   std::vector<double> reach;
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
     const double d = !distributed() || distribution_.refined(leaf)
-                         ? map_.leaf_largest_spacing(leaf)
-                         : distribution_.cells().largest_spacing(distribution_.cell_of(leaf));
+                         ? map_.leaf_max_spacing(leaf)
+                         : distribution_.cells().max_spacing(distribution_.cell_of(leaf));
     reach.push_back(map_.leaf_outside(leaf) ? 0 : kRoomForGrowth * widest_radius(settings) * d);
   }
   links_ = std::make_shared<const LeafLinks<2>>(map_.tree(), std::move(reach));
@@ -108,7 +108,7 @@ void LevelTree::require_same_ground() const {
   for (const BoundaryNode<2>& node : ground_.boundary().nodes)
     for (double coordinate : node.position) fingerprint = mixed_with(fingerprint, coordinate);
   for (std::int32_t c = 0; c < cells.count(); ++c)
-    fingerprint = mixed_with(fingerprint, cells.largest_spacing(c));
+    fingerprint = mixed_with(fingerprint, cells.max_spacing(c));
   if (!comm_.same_on_all(fingerprint)) throw Error(ErrorKind::spacing, kSpacingsDiffer);
 }
 

@@ -93,28 +93,27 @@ void Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<
   if (!links_)
     links_ = std::make_shared<const LeafLinks<Dim>>(
         tree, std::vector<double>(static_cast<std::size_t>(buckets), 0));
-  least_.resize(static_cast<std::size_t>(buckets));
+  min_.resize(static_cast<std::size_t>(buckets));
   for_each("pnpbs::Buckets::gather_spacings", buckets, [&](std::int64_t b) {
     const auto bucket = static_cast<std::int32_t>(b);
-    double least = std::numeric_limits<double>::infinity();
-    for (std::int32_t i = begin(bucket); i < end(bucket); ++i) least = std::min(least, nodes.d(i));
-    least_[index(bucket)] = least;
+    double min = std::numeric_limits<double>::infinity();
+    for (std::int32_t i = begin(bucket); i < end(bucket); ++i) min = std::min(min, nodes.d(i));
+    min_[index(bucket)] = min;
   });
-  const auto largest_in = [&](std::int32_t bucket) {
-    double largest = 0;
-    for (std::int32_t i = begin(bucket); i < end(bucket); ++i)
-      largest = std::max(largest, nodes.d(i));
-    return largest;
+  const auto max_in = [&](std::int32_t bucket) {
+    double max = 0;
+    for (std::int32_t i = begin(bucket); i < end(bucket); ++i) max = std::max(max, nodes.d(i));
+    return max;
   };
-  const double grown = largest_of("pnpbs::Buckets::grown", buckets, 0.0, [&](std::int64_t b) {
+  const double grown = max_of("pnpbs::Buckets::grown", buckets, 0.0, [&](std::int64_t b) {
     const auto bucket = static_cast<std::int32_t>(b);
-    return radius * largest_in(bucket) > links_->reach[index(bucket)] ? 1.0 : 0.0;
+    return radius * max_in(bucket) > links_->reach[index(bucket)] ? 1.0 : 0.0;
   });
   if (grown == 0) return;
   std::vector<double> reach = links_->reach;
   for (std::int32_t b = 0; b < buckets; ++b) {
-    const double largest = radius * largest_in(b);
-    if (largest > reach[index(b)]) reach[index(b)] = largest * kRoomForGrowth;
+    const double max = radius * max_in(b);
+    if (max > reach[index(b)]) reach[index(b)] = max * kRoomForGrowth;
   }
   links_ = std::make_shared<const LeafLinks<Dim>>(tree, std::move(reach));
 }

@@ -49,7 +49,7 @@ class Buckets {
   }
 
   // Least spacing of the nodes in a bucket (infinity if empty).
-  double least_spacing(std::int32_t bucket) const { return least_[index(bucket)]; }
+  double min_spacing(std::int32_t bucket) const { return min_[index(bucket)]; }
 
  private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -61,7 +61,7 @@ class Buckets {
   View<std::int32_t> bucket_of_;     // where a node was when they were sorted last
   std::int64_t known_ = 0;           // nodes of which that is known, the first ones
   std::vector<std::int32_t> start_;  // first node of each bucket
-  std::vector<double> least_;        // least d of the nodes in it
+  std::vector<double> min_;          // least d of the nodes in it
   std::shared_ptr<const LeafLinks<Dim>> links_;
   View<std::int32_t> from_;
 };

@@ -101,7 +101,7 @@ class Candidates {
   // What holds all nodes of the bucket.
   struct Surroundings {
     Box<Dim> box;
-    double largest;  // spacing
+    double max;  // spacing
   };
 
   static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -167,7 +167,7 @@ typename Candidates<Dim>::Surroundings Candidates<Dim>::surroundings(
       around.box.low[k] = std::min(around.box.low[k], nodes.x[k](i));
       around.box.high[k] = std::max(around.box.high[k], nodes.x[k](i));
     }
-    around.largest = std::max(around.largest, nodes.d(i));
+    around.max = std::max(around.max, nodes.d(i));
   }
   return around;
 }
@@ -185,7 +185,7 @@ void Candidates<Dim>::add_near(const Nodes<Dim>& nodes, const Surroundings& arou
   for (; start < last && start + kTestGroup <= nodes.count; start += kTestGroup) {
     std::array<const double*, Dim> xs;
     for (int k = 0; k < Dim; ++k) xs[k] = nodes.x[k].data() + start;
-    std::uint64_t bits = near_bits<Dim>(xs, nodes.d.data() + start, 1, half_radius_, around.largest,
+    std::uint64_t bits = near_bits<Dim>(xs, nodes.d.data() + start, 1, half_radius_, around.max,
                                         [box = around.box](int k, double x) {
                                           return std::min(std::max(x, box.low[k]), box.high[k]);
                                         });

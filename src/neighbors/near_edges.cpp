@@ -22,7 +22,7 @@ void NearEdges::prepare(const DomainMap<2>& map, const LeafLinks<2>& links, doub
   }
   std::vector<std::int32_t> near;
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    const double reach = kRoomForGrowth * radius * map.leaf_largest_spacing(leaf);
+    const double reach = kRoomForGrowth * radius * map.leaf_max_spacing(leaf);
     leaf_reach_[static_cast<std::size_t>(leaf)] = reach;
     gather_near(map, links, leaf, near);
     leaf_edges_.insert(leaf_edges_.end(), near.begin(), near.end());

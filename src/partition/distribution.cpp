@@ -99,7 +99,7 @@ std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) cons
   const BackgroundTree<Dim>& tree = cells_.tree();
   const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
   // A hop goes as far as a bubble reaches and to the far side of the leaf it finds there.
-  const auto way = [&](std::int32_t c) { return hops * (reach + 2) * cells_.largest_spacing(c); };
+  const auto way = [&](std::int32_t c) { return hops * (reach + 2) * cells_.max_spacing(c); };
   std::vector<char> found(static_cast<std::size_t>(cells_.count()), 0);
   constexpr double kNone = std::numeric_limits<double>::infinity();
   Box<Dim> around_own;
@@ -140,16 +140,16 @@ std::vector<double> Distribution<Dim>::reach_within(int hops,
                                                     std::vector<std::int32_t> leaves) const {
   std::vector<char> reached(cell_of_leaf_.size(), 0);
   leaves = reached_from(links_->graph, std::move(leaves), hops, reached);
-  std::vector<double> most = links_->reach, before;
+  std::vector<double> max_reach = links_->reach, before;
   for (int hop = 0; hop < hops; ++hop) {
-    before = most;
+    before = max_reach;
     for (std::int32_t leaf : leaves)
       links_->graph.for_neighbours(leaf, [&](std::int32_t other) {
-        double& largest = most[static_cast<std::size_t>(leaf)];
-        largest = std::max(largest, before[static_cast<std::size_t>(other)]);
+        double& max = max_reach[static_cast<std::size_t>(leaf)];
+        max = std::max(max, before[static_cast<std::size_t>(other)]);
       });
   }
-  return most;
+  return max_reach;
 }
 
 // Does the rank own something as near as that?

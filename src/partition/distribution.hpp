@@ -55,7 +55,7 @@ class Distribution {
   int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
   int owner_at(const Point<Dim>& x) const { return owner_of_cell(cells_.at(x)); }
   // Has it nothing of the domain? Such cells are anybody's, and nobody needs them.
-  bool empty(std::int32_t cell) const { return cells_.largest_spacing(cell) == 0; }
+  bool empty(std::int32_t cell) const { return cells_.max_spacing(cell) == 0; }
   // Calls visit(rank) for the owner of each cell that the box touches and that is not empty, once
   // for every cell.
   template <class Visit>

@@ -34,7 +34,7 @@ std::vector<idx_t> as_metis(const std::vector<std::int32_t>& values) {
   return {values.begin(), values.end()};
 }
 
-constexpr int kMostBisected = 32, kMostTried = 8;  // ranks
+constexpr int kMaxBisected = 32, kMaxTried = 8;  // ranks
 
 bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector<idx_t>& part) {
   idx_t vertices = static_cast<idx_t>(graph.cell.size()), constraints = 1, parts = ranks, cut = 0;
@@ -45,8 +45,8 @@ bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector
   options[METIS_OPTION_UFACTOR] = 15;  // allows an imbalance of 1.015
   // Bisection cuts a fifth less than k-way partitioning at few parts, and the best of several
   // tries less still; its cost grows with the parts.
-  const bool bisect = ranks <= kMostBisected;
-  if (ranks <= kMostTried) options[METIS_OPTION_NCUTS] = 10;
+  const bool bisect = ranks <= kMaxBisected;
+  if (ranks <= kMaxTried) options[METIS_OPTION_NCUTS] = 10;
   part.resize(graph.cell.size());
   std::vector<idx_t> offset = as_metis(graph.offset), neighbour = as_metis(graph.neighbour),
                      weight = as_metis(graph.weight), cut_weight = as_metis(graph.cut_weight);

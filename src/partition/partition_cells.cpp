@@ -23,14 +23,14 @@ using CellKey = std::pair<std::int32_t, std::array<std::uint32_t, Dim>>;
 // What a rank knows of the cells of the tree above its own leaves.
 struct OwnCells {
   std::vector<std::int64_t> work;
-  std::vector<double> largest_spacing;
+  std::vector<double> max_spacing;
   std::vector<char> own;  // are all leaves in it this rank's?
 
   template <int Dim>
   OwnCells(const BackgroundTree<Dim>& tree, const LeafFunctions& leaves) {
     const auto cells = static_cast<std::size_t>(tree.cell_count());
     work.assign(cells, 0);
-    largest_spacing.assign(cells, 0);
+    max_spacing.assign(cells, 0);
     own.assign(cells, 1);
     for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {
       const auto at = static_cast<std::size_t>(c);
@@ -38,13 +38,13 @@ struct OwnCells {
       if (cell.first_child < 0) {
         own[at] = leaves.owned(cell.leaf);
         if (own[at]) work[at] = leaves.work(cell.leaf);
-        largest_spacing[at] = leaves.largest_spacing(cell.leaf);
+        max_spacing[at] = leaves.max_spacing(cell.leaf);
         continue;
       }
       for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k) {
         const auto child = static_cast<std::size_t>(cell.first_child + k);
         work[at] += work[child];
-        largest_spacing[at] = std::max(largest_spacing[at], largest_spacing[child]);
+        max_spacing[at] = std::max(max_spacing[at], max_spacing[child]);
         own[at] = own[at] && own[child];
       }
     }
@@ -58,8 +58,7 @@ void put_together(const BackgroundTree<Dim>& tree, const OwnCells& known, std::i
   const typename BackgroundTree<Dim>::Cell& cell = tree.cell(c);
   const bool leaf = cell.first_child < 0;
   if (known.own[at] && (leaf || known.work[at] <= share)) {
-    pack(found,
-         PartitionCell<Dim>{cell.index, cell.depth, known.work[at], known.largest_spacing[at]});
+    pack(found, PartitionCell<Dim>{cell.index, cell.depth, known.work[at], known.max_spacing[at]});
   } else if (!leaf) {
     for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k)
       put_together<Dim>(tree, known, share, cell.first_child + k, found);
@@ -87,14 +86,14 @@ PartitionCells<Dim>::PartitionCells(const Box<Dim>& bounds,
           above.count({tree.cell(c).depth, tree.cell(c).index}) > 0;
   });
   work_.assign(static_cast<std::size_t>(count()), 0);
-  largest_spacing_.assign(static_cast<std::size_t>(count()), 0);
+  max_spacing_.assign(static_cast<std::size_t>(count()), 0);
   for (const PartitionCell<Dim>& cell : cells) {
     const double side = std::ldexp(tree_.side(), -cell.depth);
     Point<Dim> centre;
     for (int k = 0; k < Dim; ++k) centre[k] = tree_.origin()[k] + side * (cell.index[k] + 0.5);
     const auto leaf = static_cast<std::size_t>(at(centre));
     work_[leaf] = cell.work;
-    largest_spacing_[leaf] = cell.largest_spacing;
+    max_spacing_[leaf] = cell.max_spacing;
   }
 }
 

@@ -18,8 +18,8 @@ template <int Dim>
 struct PartitionCell {
   std::array<std::uint32_t, Dim> index;  // among the cells of its depth
   std::int32_t depth;
-  std::int64_t work;       // that its nodes cost
-  double largest_spacing;  // of the samples of d in it
+  std::int64_t work;   // that its nodes cost
+  double max_spacing;  // of the samples of d in it
 };
 
 template <int Dim>
@@ -33,23 +33,21 @@ class PartitionCells {
   std::int32_t at(const Point<Dim>& x) const { return tree_.leaf_at(x); }
   std::int64_t work(std::int32_t c) const { return work_[static_cast<std::size_t>(c)]; }
   const std::vector<std::int64_t>& work() const { return work_; }
-  double largest_spacing(std::int32_t c) const {
-    return largest_spacing_[static_cast<std::size_t>(c)];
-  }
+  double max_spacing(std::int32_t c) const { return max_spacing_[static_cast<std::size_t>(c)]; }
   // The tree whose leaves they are.
   const BackgroundTree<Dim>& tree() const { return tree_; }
 
  private:
   BackgroundTree<Dim> tree_;
   std::vector<std::int64_t> work_;
-  std::vector<double> largest_spacing_;
+  std::vector<double> max_spacing_;
 };
 
 // What a rank tells of the leaves of its tree.
 struct LeafFunctions {
   std::function<bool(std::int32_t leaf)> owned;
-  std::function<std::int64_t(std::int32_t leaf)> work;       // asked for own ones
-  std::function<double(std::int32_t leaf)> largest_spacing;  // 0: nothing of the domain is in it
+  std::function<std::int64_t(std::int32_t leaf)> work;   // asked for own ones
+  std::function<double(std::int32_t leaf)> max_spacing;  // 0: nothing of the domain is in it
 };
 
 // Cells with equal shares of the work, as far as leaves allow. Each rank knows the leaves that it

@@ -7,8 +7,8 @@
 namespace pnpbs::picture {
 namespace {
 
-constexpr double room = 0.14;         // between two ticks, as a fraction of the bar
-constexpr double most_intervals = 4;  // of a linear scale
+constexpr double room = 0.14;        // between two ticks, as a fraction of the bar
+constexpr double max_intervals = 4;  // of a linear scale
 
 // The least of 1, 2, 5 times a power of ten that is at least `value`.
 double round_above(double value) {
@@ -27,7 +27,7 @@ std::vector<double> round_numbers(const ColourScale& scale) {
       if (!powers_only) numbers.insert(numbers.end(), {2 * power, 5 * power});
     }
   } else {
-    const double step = round_above((scale.high - scale.low) / most_intervals);
+    const double step = round_above((scale.high - scale.low) / max_intervals);
     for (double k = std::ceil(scale.low / step); k * step < scale.high; ++k)
       numbers.push_back(k * step);
   }

@@ -23,7 +23,7 @@ constexpr double disc_over_spacing = 0.6;  // diameter over d
 constexpr double dense_disc = 0.85;        // the same where pixels are few
 constexpr double boundary_disc = 0.45;
 constexpr double disc_in_bubble = 0.22;
-constexpr double least_disc = 1.1;      // pixels
+constexpr double min_disc = 1.1;        // pixels
 constexpr double edge_on_colour = 0.3;  // opacity
 
 // ------------------------------------------------------------------------ spacing -----------
@@ -33,15 +33,15 @@ class SpacingScale {
  public:
   explicit SpacingScale(const std::vector<double>& spacing) {
     if (spacing.empty()) return;
-    const auto [least, largest] = std::ranges::minmax_element(spacing);
-    least_ = *least;
-    largest_ = *largest;
+    const auto [min, max] = std::ranges::minmax_element(spacing);
+    min_ = *min;
+    max_ = *max;
   }
-  double least() const { return least_; }
-  double largest() const { return largest_; }
-  bool uniform() const { return largest_ < 1.02 * least_; }
-  double fraction(double d) const { return uniform() ? 0.4 : std::log(d / least_) / span(); }
-  double at(double fraction) const { return least_ * std::exp(fraction * span()); }
+  double min() const { return min_; }
+  double max() const { return max_; }
+  bool uniform() const { return max_ < 1.02 * min_; }
+  double fraction(double d) const { return uniform() ? 0.4 : std::log(d / min_) / span(); }
+  double at(double fraction) const { return min_ * std::exp(fraction * span()); }
   int class_of(double d) const {
     if (uniform()) return 0;
     return std::clamp(static_cast<int>(fraction(d) * spacing_classes), 0, spacing_classes - 1);
@@ -49,8 +49,8 @@ class SpacingScale {
   double class_spacing(int index) const { return at((index + 0.5) / spacing_classes); }
 
  private:
-  double span() const { return std::log(largest_ / least_); }
-  double least_ = 1, largest_ = 1;
+  double span() const { return std::log(max_ / min_); }
+  double min_ = 1, max_ = 1;
 };
 
 // ------------------------------------------------------------------------ nodes -------------
@@ -203,7 +203,7 @@ void Painter::discs_of(const std::vector<std::size_t>& members, const Colour& co
                        double diameter) {
   if (members.empty()) return;
   set_colour(cairo_, colour);
-  cairo_set_line_width(cairo_, std::max(least_disc, diameter));
+  cairo_set_line_width(cairo_, std::max(min_disc, diameter));
   for (std::size_t k = 0; k < members.size(); ++k) {
     dot(x(members[k]), y(members[k]));
     if ((k + 1) % discs_at_once == 0) cairo_stroke(cairo_);
@@ -255,9 +255,9 @@ void Painter::colour_bar(double left, double base, double width) {
   cairo_fill(cairo_);
   cairo_pattern_destroy(gradient);
   const double above = base - height - 0.45 * frame_.font_size;
-  draw_text(cairo_, left, above, "d = " + short_number(scale_.least()), 0);
+  draw_text(cairo_, left, above, "d = " + short_number(scale_.min()), 0);
   draw_text(cairo_, left + 0.5 * width, above, short_number(scale_.at(0.5)), 0.5);
-  draw_text(cairo_, left + width, above, short_number(scale_.largest()), 1);
+  draw_text(cairo_, left + width, above, short_number(scale_.max()), 1);
 }
 
 // A disc and what it means; returns where that ends.
@@ -297,9 +297,9 @@ void Painter::legend() {
   const double middle = 0.3 * frame_.width;
   double end = middle + 0.28 * frame_.width;
   if (scale_.uniform()) {
-    end = draw_text(cairo_, middle, base, "d = " + short_number(scale_.least()), 0) +
-          frame_.font_size;
-    end = key(end, base, "inner", colour_of(scale_.least()));
+    end =
+        draw_text(cairo_, middle, base, "d = " + short_number(scale_.min()), 0) + frame_.font_size;
+    end = key(end, base, "inner", colour_of(scale_.min()));
   } else {
     colour_bar(middle, base, end - middle);
   }

@@ -9,9 +9,9 @@ namespace pnpbs::picture {
 namespace {
 
 constexpr double wanted_spacing = 14;  // pixels between typical nodes, if there is room
-constexpr double least_side = 1000;    // pixels of the domain's longer side
-constexpr double largest_side = 2400;
-constexpr double least_width = 700;  // room for the legend
+constexpr double min_side = 1000;      // pixels of the domain's longer side
+constexpr double max_side = 2400;
+constexpr double min_width = 700;  // room for the legend
 
 struct Bounds {
   double low[2] = {std::numeric_limits<double>::infinity(),
@@ -47,12 +47,12 @@ PictureFrame frame_for(const NodeSet& nodes) {
   PictureFrame frame{};
   frame.typical_spacing = median(nodes.spacing);
   const double wished = frame.typical_spacing > 0 ? longer / frame.typical_spacing : 0;
-  const double side = std::clamp(wished * wanted_spacing, least_side, largest_side);
+  const double side = std::clamp(wished * wanted_spacing, min_side, max_side);
   frame.pixels_per_unit = side / longer;
   frame.font_size = std::round(std::clamp(side / 60, 15.0, 34.0));
   frame.margin = 1.5 * frame.font_size;
   frame.line_width = side / 1000;
-  frame.width = std::ceil(std::max(frame.pixels(bounds.size(0)) + 2 * frame.margin, least_width));
+  frame.width = std::ceil(std::max(frame.pixels(bounds.size(0)) + 2 * frame.margin, min_width));
   frame.height = std::ceil(frame.pixels(bounds.size(1)) + 2 * frame.margin + 3.5 * frame.font_size);
   frame.left = 0.5 * (frame.width - frame.pixels(bounds.size(0)));
   frame.top = frame.margin;

@@ -94,13 +94,13 @@ std::optional<TriangleColour> triangle_colour_called(std::string_view name) {
 
 TriangleValues::TriangleValues(const NodeSet& nodes, TriangleColour by) : nodes_(nodes), by_(by) {
   if (count() > 0) {
-    least_ = std::numeric_limits<double>::infinity();
-    largest_ = -least_;
+    min_ = std::numeric_limits<double>::infinity();
+    max_ = -min_;
   }
   for (std::size_t t = 0; t < count(); ++t) {
     const double value = at(t);
-    least_ = std::min(least_, value);
-    largest_ = std::max(largest_, value);
+    min_ = std::min(min_, value);
+    max_ = std::max(max_, value);
   }
   choose_scale();
 }
@@ -131,15 +131,15 @@ std::string TriangleValues::title() const {
                      : by_ == TriangleColour::edge  ? "mean edge over d"
                                                     : "spacing d";
   if (count() == 0) return what + ": no triangles";
-  return what + ": " + short_number(least_) + " to " + short_number(largest_);
+  return what + ": " + short_number(min_) + " to " + short_number(max_);
 }
 
 void TriangleValues::choose_scale() {
   if (by_ == TriangleColour::quality) choose_quality_scale();
   if (by_ == TriangleColour::edge) choose_edge_scale();
   if (by_ == TriangleColour::spacing) choose_spacing_scale();
-  scale_.below = least_ < scale_.low;
-  scale_.above = largest_ > scale_.high;
+  scale_.below = min_ < scale_.low;
+  scale_.above = max_ > scale_.high;
 }
 
 void TriangleValues::choose_quality_scale() {
@@ -153,18 +153,18 @@ void TriangleValues::choose_quality_scale() {
 void TriangleValues::choose_edge_scale() {
   constexpr std::array widths{0.05, 0.1, 0.2, 0.3, 0.5, 1.0};
   scale_.palette = edge_palette;
-  const double width = narrowest(
-      *this, widths, [](double value, double most) { return std::abs(value - 1) <= most; });
+  const double width =
+      narrowest(*this, widths, [](double value, double max) { return std::abs(value - 1) <= max; });
   scale_.low = 1 - width;
   scale_.high = 1 + width;
 }
 
 void TriangleValues::choose_spacing_scale() {
   scale_.palette = spacing_palette;
-  scale_.logarithmic = largest_ > 10 * least_;
-  scale_.low = least_;
+  scale_.logarithmic = max_ > 10 * min_;
+  scale_.low = min_;
   // Three digits could not tell the ends of a smaller range apart.
-  scale_.high = largest_ < 1.02 * least_ ? least_ : largest_;
+  scale_.high = max_ < 1.02 * min_ ? min_ : max_;
 }
 
 }  // namespace pnpbs::picture

@@ -44,7 +44,7 @@ class TriangleValues {
 
   const NodeSet& nodes_;
   TriangleColour by_;
-  double least_ = 0, largest_ = 0;
+  double min_ = 0, max_ = 0;
   ColourScale scale_;
 };
 

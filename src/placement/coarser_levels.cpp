@@ -65,13 +65,13 @@ Settings settings_of_level(Settings settings, bool coarsest) {
 // one to the next have no rest. Collective, as the spacing is asked.
 int Placement::coarser_levels_that_pay(const Level& finest,
                                        const std::shared_ptr<const Spacing<2>>& spacing) const {
-  constexpr double kLeastNodes = 500;  // of the coarsest
-  constexpr double kSteepest = 0.27;   // growth of d per unit of length
+  constexpr double kMinNodes = 500;   // of the coarsest
+  constexpr double kSteepest = 0.27;  // growth of d per unit of length
   const SpacingVariation d = spacing_variation(finest);
   const double nodes = expected_nodes(finest);
   int levels = 0;
-  while (levels < finest.settings.levels && d.largest > kPatchVariation * d.least &&
-         nodes >= kLeastNodes * std::pow(coarser_by(levels + 1), 2) &&
+  while (levels < finest.settings.levels && d.max > kPatchVariation * d.min &&
+         nodes >= kMinNodes * std::pow(coarser_by(levels + 1), 2) &&
          d.steepest * coarser_by(levels + 1) <= kSteepest &&
          boundary_leaves_room(
              *spacing_of_level(spacing, levels + 1),
@@ -87,7 +87,7 @@ int Placement::coarser_levels_that_pay(const Level& finest,
 // its boundary has beyond its share of the finest one's little beside all of its nodes?
 bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_nodes,
                                      double nodes) const {
-  constexpr double kMostForced = 0.2;
+  constexpr double kMaxForced = 0.2;
   double laid = 0;
   agreed(*comm_, [&] {
     const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
@@ -95,7 +95,7 @@ bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_
     };
     laid = static_cast<double>(discretize_boundary(*domain_, checked).nodes.size());
   });
-  return laid - boundary_nodes <= kMostForced * nodes;
+  return laid - boundary_nodes <= kMaxForced * nodes;
 }
 
 // From the coarsest level down to twice the spacing. If the monitor stops them, refined nodes are

@@ -11,19 +11,18 @@ namespace pnpbs {
 namespace {
 
 // Of the domain, that d may be large.
-constexpr double kMostSizes = 1024;
+constexpr double kMaxSizes = 1024;
 // Growth of d that nodes follow. On a spacing graded from a line (docs/method.md) the worst
 // triangle has a quality of 0.82 up to 0.3, 0.69 at 0.5 and 0.14 at 1. A little more is let pass,
 // so that d which grows by 0.3 stays as it is given, whatever samples make of it.
-constexpr double kMostFollowed = 0.3, kTooSteep = 1.05 * kMostFollowed;
+constexpr double kMaxFollowed = 0.3, kTooSteep = 1.05 * kMaxFollowed;
 
 }  // namespace
 
 std::shared_ptr<const Spacing<2>> Placement::bounded_spacing() const {
   std::shared_ptr<const Spacing<2>> spacing;
   agreed(*comm_, [&] {
-    spacing =
-        std::make_shared<BoundedSpacing<2>>(spacing_, kMostSizes * size_of(domain_->bounds()));
+    spacing = std::make_shared<BoundedSpacing<2>>(spacing_, kMaxSizes * size_of(domain_->bounds()));
   });
   return spacing;
 }
@@ -77,7 +76,7 @@ std::string Placement::warning_of_growth(const SteepestGrowth& steepest, double 
                             " per unit of length near (" + rounded_text(steepest.at[0]) + ", " +
                             rounded_text(steepest.at[1]) + "), faster than nodes can follow: ";
   if (growth_limit == 0)
-    return found + "limit its growth (option growth_limit, " + number_text(kMostFollowed) +
+    return found + "limit its growth (option growth_limit, " + number_text(kMaxFollowed) +
            " or less)";
   return found + "its growth is limited to " + number_text(growth_limit) +
          "; set the option growth_limit to choose another limit, or 0 to have it as given";

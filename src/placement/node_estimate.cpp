@@ -40,15 +40,15 @@ NodeEstimate estimate_nodes(const Communicator& comm, const PlaneDomain& domain,
   Boundary boundary;
   agreed(comm, [&] { boundary = discretize_boundary(domain, evaluator, max_boundary_nodes); });
   DomainMap<2> map;
-  double most = std::numeric_limits<double>::infinity(), nodes = 0;
+  double max = std::numeric_limits<double>::infinity(), nodes = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     map.build_part(comm, domain.bounds(), boundary, evaluator,
                    std::numeric_limits<std::int64_t>::max(),
                    [&](const BackgroundTree<2>& tree, std::int32_t c, double in_cell) {
-                     return tree.cell(c).depth < kUniformDepth || in_cell > most;
+                     return tree.cell(c).depth < kUniformDepth || in_cell > max;
                    });
     nodes = nodes_inside(map, domain.area());
-    most = nodes / kCells;
+    max = nodes / kCells;
   }
   // A boundary node has half of its neighbours outside, and half of its own room.
   nodes += 0.5 * static_cast<double>(boundary.nodes.size());

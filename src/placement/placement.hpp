@@ -44,7 +44,7 @@ enum class Outcome { converged, not_converged, stopped, spacing_missed };
 enum class StopReason { none, rest, step_limit, monitor };
 
 struct NearestNeighbourError {
-  double mean = 0, deviation = 0, least = 0;  // of nearest-neighbour distance over d
+  double mean = 0, deviation = 0, min = 0;  // of nearest-neighbour distance over d
 };
 
 class Placement {
@@ -64,7 +64,7 @@ class Placement {
   void set_monitor(Monitor monitor) { monitor_ = std::move(monitor); }
   // Asks this rank's monitor. The nodes told are those of all ranks.
   bool asks_to_stop(double fraction, std::int64_t nodes) const {
-    return monitor_ && monitor_(fraction, steps_done_, nodes, last_speeds_.largest);
+    return monitor_ && monitor_(fraction, steps_done_, nodes, last_speeds_.max);
   }
 
   // converged, or stopped by the monitor

@@ -325,8 +325,8 @@ double ResultCheck::area_of_triangles(double unit) const {
                    z = position(p_.node_at(c));
     mine += 0.5 * ((y[0] - x[0]) * (z[1] - x[1]) - (y[1] - x[1]) * (z[0] - x[0]));
   });
-  constexpr double kFine = 0x1p40, kMost = 1e6;
-  const double parts = std::clamp(mine / unit, 0.0, kMost) * kFine;
+  constexpr double kFine = 0x1p40, kMax = 1e6;
+  const double parts = std::clamp(mine / unit, 0.0, kMax) * kFine;
   const std::uint64_t sum = comm_.allreduce_sum(static_cast<std::uint64_t>(parts));
   return static_cast<double>(sum) / kFine * unit;
 }

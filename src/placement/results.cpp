@@ -19,20 +19,20 @@ namespace {
 void append_by_id(const Nodes<2>& nodes, bool owned, std::vector<std::int32_t>& order) {
   constexpr std::int64_t kDense = 4;  // ids to a node
   const auto first = static_cast<std::ptrdiff_t>(order.size());
-  std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = -1;
+  std::int64_t min = std::numeric_limits<std::int64_t>::max(), max = -1;
   for (std::int32_t i = 0; i < nodes.count; ++i) {
     if ((nodes.owned(i) != 0) != owned) continue;
     order.push_back(i);
-    least = std::min(least, nodes.id(i));
-    most = std::max(most, nodes.id(i));
+    min = std::min(min, nodes.id(i));
+    max = std::max(max, nodes.id(i));
   }
   const auto begin = order.begin() + first;
   if (begin == order.end()) return;
-  bool sort = most - least >= kDense * (order.end() - begin);
+  bool sort = max - min >= kDense * (order.end() - begin);
   if (!sort) {
-    std::vector<std::int32_t> node_of(static_cast<std::size_t>(most - least + 1), -1);
+    std::vector<std::int32_t> node_of(static_cast<std::size_t>(max - min + 1), -1);
     for (auto i = begin; i != order.end(); ++i) {
-      std::int32_t& node = node_of[static_cast<std::size_t>(nodes.id(*i) - least)];
+      std::int32_t& node = node_of[static_cast<std::size_t>(nodes.id(*i) - min)];
       sort = sort || node >= 0;  // two ranks were given the same id
       node = *i;
     }
@@ -125,9 +125,9 @@ NearestNeighbourError Placement::spacing_error() {
   error.mean = mean_of(ratio);
   error.deviation = std::sqrt(
       mean_of([&](std::int64_t i) { return (ratio(i) - error.mean) * (ratio(i) - error.mean); }));
-  error.least = -comm_->allreduce_max(
-      largest_of("pnpbs::spacing_error::least", nodes.count, -kFarAway,
-                 [&](std::int64_t i) { return nodes.owned(i) ? -ratio(i) : -kFarAway; }));
+  error.min = -comm_->allreduce_max(
+      max_of("pnpbs::spacing_error::least", nodes.count, -kFarAway,
+             [&](std::int64_t i) { return nodes.owned(i) ? -ratio(i) : -kFarAway; }));
   return error;
 }
 

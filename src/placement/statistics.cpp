@@ -142,7 +142,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "d_error.deviation", [](P p) { return p.spacing_error().deviation; },
           "nearest-neighbour distance over d: standard deviation")),
       computed(real(
-          "d_error.least", [](P p) { return p.spacing_error().least; },
+          "d_error.least", [](P p) { return p.spacing_error().min; },
           "nearest-neighbour distance over d: least")),
       computed(real(
           "quality.mean", [](P p) { return p.element_quality().triangle.mean; },
@@ -151,10 +151,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "quality.one_percent", [](P p) { return p.element_quality().triangle.one_percent; },
           "quality of the triangles: 99 % lie above this, a multiple of 2^-16")),
       computed(real(
-          "quality.min", [](P p) { return p.element_quality().triangle.least; },
+          "quality.min", [](P p) { return p.element_quality().triangle.min; },
           "quality of the triangles: the worst")),
       computed(real(
-          "quality.min_angle", [](P p) { return p.element_quality().triangle.least_angle; },
+          "quality.min_angle", [](P p) { return p.element_quality().triangle.min_angle; },
           "smallest angle of the triangles, degrees")),
       computed(real(
           "quality.irregular", [](P p) { return p.element_quality().irregular; },
@@ -166,7 +166,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "edge.deviation", [](P p) { return p.element_quality().edge.deviation; },
           "length of the triangles' edges over d: standard deviation")),
       real(
-          "speed.largest", [](P p) { return p.speeds().largest; },
+          "speed.largest", [](P p) { return p.speeds().max; },
           "largest scaled speed, spacings per unit of time"),
       real(
           "speed.mean", [](P p) { return p.speeds().mean; }, "mean scaled speed"),

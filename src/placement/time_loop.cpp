@@ -100,7 +100,7 @@ bool Placement::far_too_few() const {
 // may ask for many times the nodes there are, and one contest lets at most one act within three
 // hops: so there are more rounds at once while they change much.
 void Placement::control_population() {
-  constexpr int kMostRounds = 20;
+  constexpr int kMaxRounds = 20;
   constexpr double kMuch = 0.002;     // share of the nodes
   constexpr double kRefinedPays = 5;  // times the option's share
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -108,7 +108,7 @@ void Placement::control_population() {
   const double tolerance = (schedule_.coarser ? 1 : 3) * kMeanTolerance;
   const double nodes = static_cast<double>(global_count());
   double changed = 0;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     const PopulationCounts change = count_population_change(
         pnpbs::adjust_population(*level_, round == 0 ? tolerance : kInfinity));
     const double acted = static_cast<double>(change.inserted + change.deleted);
@@ -129,7 +129,7 @@ void Placement::control_population() {
 bool Placement::bubbles_rest() const {
   const Settings& settings = level_->settings;
   return schedule_.population_settled && last_speeds_.mean < settings.tolerance_mean &&
-         last_speeds_.largest < settings.tolerance_max;
+         last_speeds_.max < settings.tolerance_max;
 }
 
 // Each part of it leaves valid nodes.
@@ -161,14 +161,14 @@ Outcome Placement::finish() {
 // coincide would have no star, so they go first. Rounds must do less and less: where d jumps, what
 // one brings another may take away, for ever.
 void Placement::repair_defects() {
-  std::int64_t most = std::numeric_limits<std::int64_t>::max();
-  for (std::int64_t round = 0; round < level_->settings.defects.rounds && most > 1; ++round) {
+  std::int64_t max = std::numeric_limits<std::int64_t>::max();
+  for (std::int64_t round = 0; round < level_->settings.defects.rounds && max > 1; ++round) {
     count_population_change(remove_crowded(*level_));
     const PopulationCounts change = count_population_change(pnpbs::repair_defects(*level_));
     const std::int64_t changes = change.inserted + change.deleted;
     if (changes > 0) refresh_spacing(*level_);  // a new node has another's so far
-    if (changes == 0 || changes >= most) break;
-    most = changes;
+    if (changes == 0 || changes >= max) break;
+    max = changes;
   }
 }
 

@@ -38,14 +38,14 @@ double dot(const Point<Dim>& a, const Point<Dim>& b) {
 // Square to `a`: the axis that is least along it, without the part along it.
 template <int Dim>
 Point<Dim> square_to(const Point<Dim>& a) {
-  int least = 0;
+  int min = 0;
   for (int k = 1; k < Dim; ++k)
-    if (std::fabs(a[k]) < std::fabs(a[least])) least = k;
+    if (std::fabs(a[k]) < std::fabs(a[min])) min = k;
   Point<Dim> b{};
-  b[least] = 1;
+  b[min] = 1;
   const double length = dot<Dim>(a, a);
   if (length == 0) return b;
-  for (int k = 0; k < Dim; ++k) b[k] -= a[least] * a[k] / length;
+  for (int k = 0; k < Dim; ++k) b[k] -= a[min] * a[k] / length;
   return b;
 }
 
@@ -145,17 +145,17 @@ std::optional<Point<Dim>> hole_beside(const Nodes<Dim>& nodes, const AdjacencyLi
     });
   };
   std::optional<Point<Dim>> hole;
-  double largest = 0;
+  double max = 0;
   std::array<Point<Dim>, Dim> corners;
   for_choices<Dim, Dim>(around, around.size(), corners, [&](const auto& chosen) {
     const std::optional<Point<Dim>> centre = circumcentre(x, chosen);
     if (!centre) return;
     const double radius = distance<Dim>(x, *centre);
-    if (radius <= largest || !is_empty(*centre, radius)) return;
-    largest = radius;
+    if (radius <= max || !is_empty(*centre, radius)) return;
+    max = radius;
     hole = centre;
   });
-  if (largest > nodes.d(i)) hole.reset();
+  if (max > nodes.d(i)) hole.reset();
   return hole;
 }
 
@@ -173,7 +173,7 @@ bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int
               const Point<Dim>& place, double gap, const PopulationRule<Dim>& rule) {
   const auto leaves_room = [&](std::int64_t j, int) {
     const double desired = 0.5 * (nodes.d(i) + nodes.d(j));
-    const double needed = nodes.moves(j) ? gap : rule.least_gap;
+    const double needed = nodes.moves(j) ? gap : rule.min_gap;
     return distance<Dim>(nodes.position(j), place) >= needed * desired;
   };
   return leaves_room(i, 0) && for_rings(lists, i, 2, leaves_room);
@@ -233,7 +233,7 @@ PopulationChange<Dim> choose_population_change(
       defects(i) = ratio - rule.ideal;
       action(i) = Action::remove;
     } else if (ratio < std::max(rule.insert_below, threshold.insert_below)) {
-      const double gap = ratio < threshold.insert_below ? rule.least_gap_to_aim : rule.least_gap;
+      const double gap = ratio < threshold.insert_below ? rule.min_gap_to_aim : rule.min_gap;
       const Point<Dim> place = free_place<Dim>(nodes, lists, i);
       // Between boundary nodes that are dense for d a new bubble may be one too many: it would
       // go at once, and come again.

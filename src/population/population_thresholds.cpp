@@ -122,7 +122,7 @@ PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim
   if (rule.mean_distance == 0 || std::isinf(tolerance)) return thresholds;
   const SpacingRange d = spacing_range<Dim>(comm, nodes);
   if (d.empty()) return thresholds;
-  const int first = octave_of(d.least), last = octave_of(d.largest);
+  const int first = octave_of(d.min), last = octave_of(d.max);
   OctaveCounts counts;
   agreed(comm, [&] {
     counts.values.assign(static_cast<std::size_t>(last - first + 1) * kCounts<Dim>, 0);

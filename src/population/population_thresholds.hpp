@@ -25,8 +25,8 @@ struct PopulationRule {
   double mean_distance = 0;  // of touching bubbles, in desired distances; 0: not aimed at
   // A new bubble comes no nearer to others than this many spacings. Lattice nodes at their d leave
   // 0.577 in the middle of three, 0.605 in that of four: a bubble more there brings the mean down.
-  double least_gap = 0.75;
-  double least_gap_to_aim = 0.55;
+  double min_gap = 0.75;
+  double min_gap_to_aim = 0.55;
 };
 
 // Above which overlap ratio a bubble of this d goes, and below which it gets company to bring the

@@ -25,7 +25,7 @@ struct Differences {
 };
 
 // Below this, two_sum does not overflow.
-constexpr double kLargestSum = 0x1p1020;
+constexpr double kMaxSum = 0x1p1020;
 
 template <std::size_t Count>
 Differences<Count> exact_differences(const std::array<Point<3>, Count>& points,
@@ -34,7 +34,7 @@ Differences<Count> exact_differences(const std::array<Point<3>, Count>& points,
   for (std::size_t i = 0; i < Count; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       TwoTerms terms = two_sum(points[i][k], -from[k]);
-      if (!(std::fabs(terms.high) < kLargestSum)) terms = {points[i][k], -from[k]};
+      if (!(std::fabs(terms.high) < kMaxSum)) terms = {points[i][k], -from[k]};
       result.range.include(terms.high);
       if (terms.low != 0) result.range.include(terms.low);
       result.terms[i][k] = terms;

@@ -35,8 +35,8 @@ struct RatioSums {
   std::int64_t edges = 0, excess = 0, squares = 0;  // of ratio - 1, in fixed point
 
   void add(double ratio) {
-    constexpr double kLargest = 1024;  // lest fixed-point numbers overflow
-    const double excess_of_one = std::min(ratio, kLargest) - 1;
+    constexpr double kMax = 1024;  // lest fixed-point numbers overflow
+    const double excess_of_one = std::min(ratio, kMax) - 1;
     ++edges;
     excess += fixed_point(excess_of_one);
     squares += fixed_point(excess_of_one * excess_of_one);
@@ -72,7 +72,7 @@ EdgeRatio ratio_of(const RatioSums& sums) {
 
 SpacingBands bands_of_nodes(const Communicator& comm, const Nodes<2>& nodes) {
   const SpacingRange d = spacing_range(comm, nodes);
-  return {d.least, d.largest};
+  return {d.min, d.max};
 }
 
 EdgeSums local_edge_sums(const Nodes<2>& nodes, const DelaunayStars& stars,
@@ -145,22 +145,21 @@ double cosine(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
 }
 
 // Of the least angle of a triangle.
-double largest_cosine(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+double max_cosine(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
   return std::max({cosine(a, b, c), cosine(b, c, a), cosine(c, a, b)});
 }
 
 // The largest of value(a, b, c) of the triangles, over all ranks; at least `floor`.
 template <class Value>
-double largest_of_triangles(const Communicator& comm, const Nodes<2>& nodes,
-                            const DelaunayStars& stars, double floor, const Value& value) {
+double max_of_triangles(const Communicator& comm, const Nodes<2>& nodes, const DelaunayStars& stars,
+                        double floor, const Value& value) {
   return comm.allreduce_max(
-      largest_of("pnpbs::largest_of_triangles", nodes.count, floor, [&](std::int64_t i) {
-        double largest = floor;
+      max_of("pnpbs::largest_of_triangles", nodes.count, floor, [&](std::int64_t i) {
+        double max = floor;
         for_triangles_of(nodes, stars, i, [&](std::int64_t j, std::int64_t k) {
-          largest =
-              std::max(largest, value(nodes.position(i), nodes.position(j), nodes.position(k)));
+          max = std::max(max, value(nodes.position(i), nodes.position(j), nodes.position(k)));
         });
-        return largest;
+        return max;
       }));
 }
 
@@ -208,11 +207,11 @@ TriangleQuality measure_triangles(const Communicator& comm, const Nodes<2>& node
   if (found.triangles == 0) return found;
   found.mean = quality / static_cast<double>(found.triangles);
   found.one_percent = one_percent_of(histogram, found.triangles);
-  found.least = -largest_of_triangles(
-      comm, nodes, stars, -1, [](const auto&... corner) { return -triangle_quality(corner...); });
-  const double cosine_of_least = largest_of_triangles(
-      comm, nodes, stars, 0.5, [](const auto&... corner) { return largest_cosine(corner...); });
-  found.least_angle = kDegrees * std::acos(std::min(1.0, cosine_of_least));
+  found.min = -max_of_triangles(comm, nodes, stars, -1,
+                                [](const auto&... corner) { return -triangle_quality(corner...); });
+  const double cosine_of_min = max_of_triangles(
+      comm, nodes, stars, 0.5, [](const auto&... corner) { return max_cosine(corner...); });
+  found.min_angle = kDegrees * std::acos(std::min(1.0, cosine_of_min));
   return found;
 }
 

@@ -27,9 +27,9 @@ struct EdgeBand {
 
 struct TriangleQuality {
   std::int64_t triangles = 0;
-  double mean = 0, least = 0;  // 2 r_in / R
-  double one_percent = 0;      // 99 % lie above; in steps of 2^-16, downwards
-  double least_angle = 0;      // degrees
+  double mean = 0, min = 0;  // 2 r_in / R
+  double one_percent = 0;    // 99 % lie above; in steps of 2^-16, downwards
+  double min_angle = 0;      // degrees
 };
 
 struct ElementQuality {

@@ -36,7 +36,7 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
     const bool may = nodes.moves(i) && n >= 3 && block.sizes[lane].flag();
     std::array<double, 2> move{rule.weight * (sum_x[lane] / n - x[0][i]),
                                rule.weight * (sum_y[lane] / n - x[1][i])};
-    clamp_move<2>(move, rule.most * nodes.d(i));
+    clamp_move<2>(move, rule.max_move * nodes.d(i));
     proposed[0](i) = may ? x[0][i] + move[0] : x[0][i];
     proposed[1](i) = may ? x[1][i] + move[1] : x[1][i];
     if (!may || !near_edges.any(i)) continue;

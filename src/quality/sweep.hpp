@@ -12,7 +12,7 @@ namespace pnpbs {
 
 struct SweepRule {
   double weight = 0.6;      // share of the way
-  double most = 0.1;        // no node moves more than this many d
+  double max_move = 0.1;    // no node moves more than this many d
   double bad_below = 0.75;  // triangle quality, 2 r_in / R
 };
 

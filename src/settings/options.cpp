@@ -171,7 +171,7 @@ bool parse_number(const std::string& text, Number& value) {
 
 std::string OptionRow::range() const {
   if (type == OptionType::choice) return choices;
-  return number_text(least) + " .. " + number_text(most);
+  return number_text(min) + " .. " + number_text(max);
 }
 
 std::string nearest_name(std::string_view key, const std::vector<std::string>& names) {
@@ -204,12 +204,12 @@ void Options::set(const std::string& key, const std::string& value) {
     if (std::find(known.begin(), known.end(), value) == known.end()) reject(row, value);
   } else if (row.type == OptionType::integer) {
     std::int64_t number;
-    if (!parse_number(value, number) || static_cast<double>(number) < row.least ||
-        static_cast<double>(number) > row.most)
+    if (!parse_number(value, number) || static_cast<double>(number) < row.min ||
+        static_cast<double>(number) > row.max)
       reject(row, value);
   } else {
     double number;
-    if (!parse_number(value, number) || !(number >= row.least && number <= row.most))
+    if (!parse_number(value, number) || !(number >= row.min && number <= row.max))
       reject(row, value);
   }
   values_[key] = value;

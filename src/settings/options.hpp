@@ -18,7 +18,7 @@ struct OptionRow {
   const char* default_value;
   const char* paper_value;  // the default under method=paper; NULL where it is the same
   const char* best_value;   // the default under effort=best, likewise
-  double least, most;       // range of numbers
+  double min, max;          // range of numbers
   const char* choices;      // "a | b" for choices
   const char* help;
   std::string range() const;

@@ -30,7 +30,7 @@ Settings::Settings(const Options& o)
       halo_deficit(o.integer("halo_deficit")) {
   motion.dt = o.real("time_step");
   motion.damping = o.real("damping");
-  motion.most = o.real("max_move");
+  motion.max_move = o.real("max_move");
   population.delete_above = o.real("delete_above");
   population.insert_below = o.real("insert_below");
   population.mean_distance = o.real("mean_distance");
@@ -39,8 +39,8 @@ Settings::Settings(const Options& o)
   defects.rounds = o.integer("topology_repairs");
   repair.bad_below = o.real("smooth_below");
   // The lists must reach beyond the force, or they could never be kept for a step.
-  const double least_radius = force_range() + 0.1;
-  if (list_radius < least_radius) list_radius = least_radius;
+  const double min_radius = force_range() + 0.1;
+  if (list_radius < min_radius) list_radius = min_radius;
 }
 
 }  // namespace pnpbs

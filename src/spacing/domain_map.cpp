@@ -29,8 +29,8 @@ template <int Dim>
 class DomainMap<Dim>::Growth {
  public:
   struct CellState {
-    double least = 0, largest = 0;  // of the samples of d
-    double mean_density = 0;        // mean of 1/d^Dim
+    double min = 0, max = 0;  // of the samples of d
+    double mean_density = 0;  // mean of 1/d^Dim
   };
 
   Growth(const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
@@ -131,12 +131,12 @@ template <int Dim>
 void DomainMap<Dim>::Growth::take_samples(const std::vector<double>& values,
                                           CellState& cell) const {
   if (values.empty()) return;  // a sliver of the domain: what the parent cell has must do
-  cell.least = values[0];
-  cell.largest = values[0];
+  cell.min = values[0];
+  cell.max = values[0];
   double sum = 0;
   for (const double d : values) {
-    cell.least = std::min(cell.least, d);
-    cell.largest = std::max(cell.largest, d);
+    cell.min = std::min(cell.min, d);
+    cell.max = std::max(cell.max, d);
     sum += 1 / power<Dim>(d);
   }
   cell.mean_density = sum / static_cast<double>(values.size());
@@ -147,7 +147,7 @@ bool DomainMap<Dim>::Growth::wants_split(const BackgroundTree<Dim>& tree, std::i
   if (facets_->outside(c)) return false;
   const CellState& cell = state(c);
   const double side = tree.cell_side(c);
-  if (side > kLeafSpacings * cell.least) return true;
+  if (side > kLeafSpacings * cell.min) return true;
   return tree.cell(c).depth < kMaxDepthByNodes && holds_many_boundary_nodes(tree, c);
 }
 
@@ -183,11 +183,11 @@ void DomainMap<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::i
   std::int32_t finest = first;
   for (std::int32_t c = first; c < last; ++c) {
     if (!wholly_inside(c)) continue;
-    nodes += Lattice<Dim>::kDensity * power<Dim>(tree.cell_side(c) / state(c).largest);
-    if (facets_->outside(finest) || state(c).least < state(finest).least) finest = c;
+    nodes += Lattice<Dim>::kDensity * power<Dim>(tree.cell_side(c) / state(c).max);
+    if (facets_->outside(finest) || state(c).min < state(finest).min) finest = c;
   }
   if (nodes <= static_cast<double>(limit_.max_nodes)) return limit_.require_memory_for(nodes);
-  throw Error(ErrorKind::spacing, "spacing d = " + number_text(state(finest).least) + " near " +
+  throw Error(ErrorKind::spacing, "spacing d = " + number_text(state(finest).min) + " near " +
                                       point_text(tree.cell_centre(finest)) + " would mean about " +
                                       number_text(std::round(nodes)) +
                                       " nodes or more; the option max_nodes allows " +
@@ -246,15 +246,15 @@ void DomainMap<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Grow
 template <int Dim>
 void DomainMap<Dim>::keep_leaves(BackgroundTree<Dim> tree, const Growth& growth) {
   leaf_spacing_.clear();
-  leaf_least_.clear();
-  leaf_largest_.clear();
+  leaf_min_.clear();
+  leaf_max_.clear();
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const auto& cell = growth.state(tree.leaf_cell(leaf));
     const double density = cell.mean_density;
     leaf_spacing_.push_back(density > 0 ? 1 / root(density, std::integral_constant<int, Dim>())
                                         : 0);
-    leaf_least_.push_back(cell.least);
-    leaf_largest_.push_back(cell.largest);
+    leaf_min_.push_back(cell.min);
+    leaf_max_.push_back(cell.max);
   }
   static_cast<FacetIndex<Dim>&>(*this) = FacetIndex<Dim>(std::move(tree), growth.facets());
 }

@@ -46,8 +46,8 @@ class DomainMap : public FacetIndex<Dim> {
   }
   // d that holds the right number of nodes in the leaf, and the least and largest of its samples.
   double leaf_spacing(std::int32_t leaf) const { return at(leaf_spacing_, leaf); }
-  double leaf_least_spacing(std::int32_t leaf) const { return at(leaf_least_, leaf); }
-  double leaf_largest_spacing(std::int32_t leaf) const { return at(leaf_largest_, leaf); }
+  double leaf_min_spacing(std::int32_t leaf) const { return at(leaf_min_, leaf); }
+  double leaf_max_spacing(std::int32_t leaf) const { return at(leaf_max_, leaf); }
 
  private:
   class Growth;  // what is known of the cells while the tree grows
@@ -58,7 +58,7 @@ class DomainMap : public FacetIndex<Dim> {
     return values[static_cast<std::size_t>(leaf)];
   }
 
-  std::vector<double> leaf_spacing_, leaf_least_, leaf_largest_;
+  std::vector<double> leaf_spacing_, leaf_min_, leaf_max_;
 };
 
 extern template class DomainMap<2>;

@@ -54,19 +54,19 @@ struct GrowthLabels<Dim>::Waiting {
   // Are there any that go next? Collective.
   bool next(const Communicator& comm, const std::vector<Label>& labels) {
     if (comm.allreduce_max(!near_leaves.empty()) > 0) return true;
-    double least = kInfinite;
+    double min = kInfinite;
     std::erase_if(far_leaves, [this](std::int32_t leaf) {
       return state[static_cast<std::size_t>(leaf)] != far;
     });
     for (const std::int32_t leaf : far_leaves)
-      least = std::min(least, labels[static_cast<std::size_t>(leaf)].value);
-    least = -comm.allreduce_max(-least);
-    until = kWindow * least;
+      min = std::min(min, labels[static_cast<std::size_t>(leaf)].value);
+    min = -comm.allreduce_max(-min);
+    until = kWindow * min;
     for (const std::int32_t leaf : far_leaves) {
       const double value = labels[static_cast<std::size_t>(leaf)].value;
       if (value < until) add(leaf, value);
     }
-    return least < kInfinite;
+    return min < kInfinite;
   }
 
   std::vector<std::int32_t> take() {

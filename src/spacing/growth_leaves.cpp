@@ -118,10 +118,10 @@ void GrowthLeaves<Dim>::take_range(const Samples& samples) {
   for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
     if (samples.first[k] == samples.first[k + 1]) continue;
     GrowthLeaf<Dim>& leaf = leaves_[samples.leaves[k]];
-    const auto [least, largest] = std::minmax_element(samples.d.data() + samples.first[k],
-                                                      samples.d.data() + samples.first[k + 1]);
-    leaf.least = *least;
-    leaf.largest = *largest;
+    const auto [min, max] = std::minmax_element(samples.d.data() + samples.first[k],
+                                                samples.d.data() + samples.first[k + 1]);
+    leaf.min = *min;
+    leaf.max = *max;
   }
 }
 
@@ -185,8 +185,8 @@ bool GrowthLeaves<Dim>::too_wide(const GrowthLeaf<Dim>& leaf, double steepest) c
   constexpr double kFinest = 0.35;  // width of leaves over which d is steep, in units of d
   const double side = side_of(leaf.cell);
   if (leaf.cell.depth == BackgroundTree<Dim>::kMaxDepth) return false;
-  if (side > DomainMap<Dim>::kLeafSpacings * leaf.least) return true;
-  return steepest > 0 && leaf.largest - leaf.least > steepest * side && side > kFinest * leaf.least;
+  if (side > DomainMap<Dim>::kLeafSpacings * leaf.min) return true;
+  return steepest > 0 && leaf.max - leaf.min > steepest * side && side > kFinest * leaf.min;
 }
 
 // Those that are too wide are split, the others are no longer open. Was there any?
@@ -231,13 +231,13 @@ void GrowthLeaves<Dim>::split(const GrowthLeaf<Dim>& leaf,
 // Even with the largest d of each leaf there would be more nodes than allowed: stop early.
 template <int Dim>
 void GrowthLeaves<Dim>::require_few_nodes() const {
-  constexpr double kMostThatAddUp = 9e18;  // on all ranks together, as 64 bits hold
+  constexpr double kMaxThatAddUp = 9e18;  // on all ranks together, as 64 bits hold
   double own = 0;
   for (const GrowthLeaf<Dim>& leaf : leaves_)
     if (leaf.side == GrowthLeaf<Dim>::Side::inside)
-      own += Lattice<Dim>::kDensity * power<Dim>(side_of(leaf.cell) / leaf.largest);
+      own += Lattice<Dim>::kDensity * power<Dim>(side_of(leaf.cell) / leaf.max);
   const auto nodes = static_cast<double>(comm_.allreduce_sum(
-      static_cast<std::uint64_t>(std::round(std::min(own, kMostThatAddUp / comm_.size())))));
+      static_cast<std::uint64_t>(std::round(std::min(own, kMaxThatAddUp / comm_.size())))));
   if (nodes > static_cast<double>(limit_.max_nodes)) report_too_many(nodes);
   limit_.require_memory_for(nodes);
 }
@@ -255,9 +255,9 @@ void GrowthLeaves<Dim>::report_too_many(double nodes) const {
   Finest finest{std::numeric_limits<double>::infinity(), {}};
   for (const GrowthLeaf<Dim>& leaf : leaves_)
     if (!leaf.outside())
-      finest = std::min(
-          finest, Finest{leaf.least, point_in<Dim>(box_of(leaf.cell), cell_samples<Dim>()[0])},
-          before);
+      finest = std::min(finest,
+                        Finest{leaf.min, point_in<Dim>(box_of(leaf.cell), cell_samples<Dim>()[0])},
+                        before);
   Bytes mine;
   pack(mine, finest);
   for_records<Finest>({comm_.allgather(mine)},

@@ -21,13 +21,13 @@ struct GrowthLeaf {
 
   LeafCell<Dim> cell;
   Side side = Side::crossed;
-  bool open = true;               // to be split, perhaps
-  bool fresh = true;              // no source has been looked for in it
-  bool has_nodes = true;          // of the boundary, or fixed ones
-  bool placed = false;            // is there a place in the domain that stands for it?
-  Point<Dim> place{};             // its middle where that is inside
-  GrowthSource<Dim> source;       // of the samples in it, the one that limits d there the most
-  double least = 0, largest = 0;  // of the samples
+  bool open = true;          // to be split, perhaps
+  bool fresh = true;         // no source has been looked for in it
+  bool has_nodes = true;     // of the boundary, or fixed ones
+  bool placed = false;       // is there a place in the domain that stands for it?
+  Point<Dim> place{};        // its middle where that is inside
+  GrowthSource<Dim> source;  // of the samples in it, the one that limits d there the most
+  double min = 0, max = 0;   // of the samples
 
   bool outside() const { return side == Side::outside; }
 };

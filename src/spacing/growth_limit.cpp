@@ -47,7 +47,7 @@ GrowthLimitedSpacing<Dim>::GrowthLimitedSpacing(std::shared_ptr<const Communicat
 template <int Dim>
 void GrowthLimitedSpacing<Dim>::find_labels(const Evaluator& raw, const NodeLimit& limit,
                                             const Beat& beat) {
-  constexpr int kMostPasses = 6;
+  constexpr int kMaxPasses = 6;
   const Evaluator limited = [&](std::int64_t n, const Point<Dim>* x, double* d) {
     beat();
     for_each("pnpbs::GrowthLimitedSpacing::fit", n,
@@ -56,7 +56,7 @@ void GrowthLimitedSpacing<Dim>::find_labels(const Evaluator& raw, const NodeLimi
   GrowthLeaves<Dim> leaves(*comm_, *ways_, growth_, limit);
   leaves.refine(raw);
   labels_ = {*comm_, *ways_, leaves.own(), growth_, beat};
-  for (int pass = 0; pass < kMostPasses && leaves.fit(limited); ++pass) {
+  for (int pass = 0; pass < kMaxPasses && leaves.fit(limited); ++pass) {
     leaves.look_into_new(raw);
     labels_ = {*comm_, *ways_, leaves.own(), growth_, beat};
   }

@@ -35,8 +35,8 @@ struct Corners {
 
   // Rounding must not take the value beyond those of the corners.
   double within(double rounded) const {
-    const auto [least, most] = std::minmax_element(value.begin(), value.end());
-    return std::clamp(rounded, *least, *most);
+    const auto [min, max] = std::minmax_element(value.begin(), value.end());
+    return std::clamp(rounded, *min, *max);
   }
 };
 

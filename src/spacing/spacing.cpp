@@ -74,10 +74,10 @@ double meant_nodes(double d, double measure) {
 template <int Dim>
 void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t n,
                       const Point<Dim>* x, double* d) {
-  constexpr double kMostNodes = 1e15;  // more than any machine holds, even if meant only nearby
+  constexpr double kMaxNodes = 1e15;  // more than any machine holds, even if meant only nearby
   spacing.evaluate(n, x, d);
   for (std::int64_t i = 0; i < n; ++i) {
-    if (std::isfinite(d[i]) && d[i] > 0 && meant_nodes<Dim>(d[i], measure) < kMostNodes) continue;
+    if (std::isfinite(d[i]) && d[i] > 0 && meant_nodes<Dim>(d[i], measure) < kMaxNodes) continue;
     std::string message = "spacing d = " + number_text(d[i]) + " at " + point_text(x[i]);
     if (!std::isfinite(d[i]))
       message += " is not finite; any number of nodes could be meant";

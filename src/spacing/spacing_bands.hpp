@@ -15,12 +15,10 @@ class SpacingBands {
   // Where d varies by less, bands would tell of noise only.
   static constexpr double kNearlyConstant = 1.1;
 
-  SpacingBands(double least, double largest)
-      : count_(largest > kNearlyConstant * least ? kMaxBands : 1) {
+  SpacingBands(double min, double max) : count_(max > kNearlyConstant * min ? kMaxBands : 1) {
     for (int band = 0; band <= count_; ++band)
-      limits_[static_cast<std::size_t>(band)] =
-          least * std::pow(largest / least, 1.0 * band / count_);
-    limits_[static_cast<std::size_t>(count_)] = largest;
+      limits_[static_cast<std::size_t>(band)] = min * std::pow(max / min, 1.0 * band / count_);
+    limits_[static_cast<std::size_t>(count_)] = max;
   }
 
   int count() const { return count_; }

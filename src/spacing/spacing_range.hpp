@@ -8,20 +8,20 @@
 namespace pnpbs {
 
 struct SpacingRange {
-  double least, largest;
-  bool empty() const { return least > largest; }
+  double min, max;
+  bool empty() const { return min > max; }
 };
 
 // Collective.
 template <int Dim>
 SpacingRange spacing_range(const Communicator& comm, const Nodes<Dim>& nodes) {
-  const auto largest = [&](double sign) {
+  const auto max = [&](double sign) {
     return comm.allreduce_max(
-        largest_of("pnpbs::spacing_range", nodes.count, -kFarAway,
-                   [&](std::int64_t i) { return nodes.owned(i) ? sign * nodes.d(i) : -kFarAway; }));
+        max_of("pnpbs::spacing_range", nodes.count, -kFarAway,
+               [&](std::int64_t i) { return nodes.owned(i) ? sign * nodes.d(i) : -kFarAway; }));
   };
-  const double least = -largest(-1);
-  return {least, largest(1)};
+  const double min = -max(-1);
+  return {min, max(1)};
 }
 
 }  // namespace pnpbs

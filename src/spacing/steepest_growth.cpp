@@ -77,21 +77,21 @@ SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap<2>& map
   std::vector<Slope> slopes;
   agreed(comm, [&] { slopes = slopes_of_own(map, owns_leaf, spacing); });
   // Of the slopes that are left, over all ranks, those with the largest of something.
-  const auto keep_largest = [&](const auto& value) {
+  const auto keep_max = [&](const auto& value) {
     double own = -std::numeric_limits<double>::infinity();
     for (const Slope& slope : slopes) own = std::max(own, value(slope));
-    const double largest = comm.allreduce_max(own);
-    std::erase_if(slopes, [&](const Slope& slope) { return value(slope) < largest; });
-    return largest;
+    const double max = comm.allreduce_max(own);
+    std::erase_if(slopes, [&](const Slope& slope) { return value(slope) < max; });
+    return max;
   };
-  double most = 0;
-  for (const Slope& slope : slopes) most = std::max(most, slope.growth);
+  double max = 0;
+  for (const Slope& slope : slopes) max = std::max(max, slope.growth);
   SteepestGrowth steepest;
-  steepest.growth = comm.allreduce_max(most);
+  steepest.growth = comm.allreduce_max(max);
   std::erase_if(slopes, [&](const Slope& slope) { return slope.growth < 0.5 * steepest.growth; });
-  keep_largest([](const Slope& slope) { return -slope.d; });
+  keep_max([](const Slope& slope) { return -slope.d; });
   for (int k = 0; k < 2; ++k)
-    steepest.at[k] = keep_largest([k](const Slope& slope) { return slope.at[k]; });
+    steepest.at[k] = keep_max([k](const Slope& slope) { return slope.at[k]; });
   return steepest;
 }
 

@@ -11,7 +11,7 @@
 namespace pnpbs::tool {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 30;  // an endless stream is an error
+constexpr std::size_t max_bytes = std::size_t{1} << 30;  // an endless stream is an error
 
 std::string standard_input() {
   std::string text;
@@ -23,7 +23,7 @@ std::string standard_input() {
     if (size < 0)
       throw BadInput(std::string("cannot read standard input: ") + std::strerror(errno));
     text.append(part, static_cast<std::size_t>(size));
-    if (text.size() > most_bytes) throw BadInput("standard input is longer than 1 GiB");
+    if (text.size() > max_bytes) throw BadInput("standard input is longer than 1 GiB");
   }
 }
 

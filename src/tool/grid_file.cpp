@@ -20,7 +20,7 @@
 namespace pnpbs::tool {
 namespace {
 
-constexpr double most_points = 1e9;
+constexpr double max_points = 1e9;
 
 // Words of a text file and the line each is on.
 class Words {
@@ -109,7 +109,7 @@ double value_of(const Header& header, const Words& words, const std::string& nam
 
 std::int64_t count_of(const Header& header, const Words& words, const std::string& name) {
   const double value = value_of(header, words, name);
-  if (!(value >= 1 && value <= most_points && value == std::floor(value))) {
+  if (!(value >= 1 && value <= max_points && value == std::floor(value))) {
     words.fail(name + " to be a whole number from 1 to 1e9", std::to_string(value));
   }
   return static_cast<std::int64_t>(value);
@@ -192,7 +192,7 @@ Grid read_grid(const std::string& path) {
   Grid grid;
   grid.size[0] = count_of(header, words, "ncols");
   grid.size[1] = count_of(header, words, "nrows");
-  if (static_cast<double>(grid.size[0]) * static_cast<double>(grid.size[1]) > most_points) {
+  if (static_cast<double>(grid.size[0]) * static_cast<double>(grid.size[1]) > max_points) {
     words.fail("at most 1e9 grid points", "more");
   }
   read_steps(header, words, grid.step);

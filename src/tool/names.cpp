@@ -34,11 +34,11 @@ constexpr std::size_t longest_name = 64;  // what is longer resembles nothing
 std::string nearest_name(std::string_view text, std::span<const std::string> names) {
   if (text.size() < 2 || text.size() > longest_name) return "";
   std::string nearest;
-  std::size_t least = 1 + std::max<std::size_t>(1, text.size() / 3);
+  std::size_t min = 1 + std::max<std::size_t>(1, text.size() / 3);
   for (const std::string& name : names) {
     const std::size_t errors = typing_errors(text, name);
-    if (errors < least) {
-      least = errors;
+    if (errors < min) {
+      min = errors;
       nearest = name;
     }
   }

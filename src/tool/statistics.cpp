@@ -23,10 +23,10 @@ StatisticValue read(pnpbs_placement placement, const LibraryStatistic& statistic
 
 // None if the library has no value.
 std::vector<EdgeBand> read_edge_bands(pnpbs_placement placement) {
-  constexpr std::size_t most = 8;
-  std::int64_t count = 0, edges[most];
-  double from[most], to[most], mean[most], deviation[most];
-  if (pnpbs_placement_get_edge_bands(placement, most, &count, from, to, edges, mean, deviation) < 0)
+  constexpr std::size_t max = 8;
+  std::int64_t count = 0, edges[max];
+  double from[max], to[max], mean[max], deviation[max];
+  if (pnpbs_placement_get_edge_bands(placement, max, &count, from, to, edges, mean, deviation) < 0)
     return {};
   std::vector<EdgeBand> bands;
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)

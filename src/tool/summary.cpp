@@ -23,23 +23,23 @@ std::string nodes_line(const Statistics& statistics) {
 std::string spacing_line(const Statistics& statistics) {
   const auto* mean = statistics.find<double>("d_error.mean");
   const auto* deviation = statistics.find<double>("d_error.deviation");
-  const auto* least = statistics.find<double>("d_error.least");
+  const auto* min = statistics.find<double>("d_error.least");
   if (!mean || !deviation) return "";
   std::string line = "spacing  nearest neighbour at " + short_number(*mean, 4) + " d +- " +
                      short_number(*deviation, 2);
-  if (least) line += ", least " + short_number(*least, 2) + " d";
+  if (min) line += ", least " + short_number(*min, 2) + " d";
   return line + "\n";
 }
 
 std::string quality_line(const Statistics& statistics) {
   const auto* mean = statistics.find<double>("quality.mean");
   const auto* one_percent = statistics.find<double>("quality.one_percent");
-  const auto* least = statistics.find<double>("quality.min");
+  const auto* min = statistics.find<double>("quality.min");
   const auto* angle = statistics.find<double>("quality.min_angle");
-  if (!mean || !one_percent || !least || !angle) return "";
+  if (!mean || !one_percent || !min || !angle) return "";
   return "quality  " + short_number(*mean, 4) + " in the mean, 99 % above " +
-         short_number(*one_percent, 3) + ", least " + short_number(*least, 3) +
-         "; smallest angle " + short_number(*angle, 3) + " degrees\n";
+         short_number(*one_percent, 3) + ", least " + short_number(*min, 3) + "; smallest angle " +
+         short_number(*angle, 3) + " degrees\n";
 }
 
 std::string edge_line(const Statistics& statistics) {

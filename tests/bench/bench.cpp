@@ -146,8 +146,8 @@ void print(const char* label, const Measures& m) {
   std::printf(
       "  %s %8ld triangles: mean %.4f  1%% %.4f  least %.4f  >.80 %.3f%%  >.90 %.3f%%  "
       "angle %.1f  edge/d %.4f +- %.4f\n",
-      label, static_cast<long>(m.triangles), m.quality_mean, m.quality_one_percent, m.quality_least,
-      100 * m.share_above_80, 100 * m.share_above_90, m.angle_least, m.edge_mean, m.edge_deviation);
+      label, static_cast<long>(m.triangles), m.quality_mean, m.quality_one_percent, m.quality_min,
+      100 * m.share_above_80, 100 * m.share_above_90, m.angle_min, m.edge_mean, m.edge_deviation);
 }
 
 void print(const Verdict& verdict, double nodes) {
@@ -156,9 +156,9 @@ void print(const Verdict& verdict, double nodes) {
     std::printf(" %.4f%s", band.mean, band.edges < 100 ? "?" : "");
   const EdgeBand& at_boundary = verdict.edges.at_boundary;
   std::printf("\n  at the boundary %.4f +- %.4f  worst places %.4f (%.4g %.4g), %.4f (%.4g %.4g)\n",
-              at_boundary.mean, at_boundary.deviation, verdict.edges.least_place,
-              verdict.edges.least_at[0], verdict.edges.least_at[1], verdict.edges.largest_place,
-              verdict.edges.largest_at[0], verdict.edges.largest_at[1]);
+              at_boundary.mean, at_boundary.deviation, verdict.edges.min_place,
+              verdict.edges.min_at[0], verdict.edges.min_at[1], verdict.edges.max_place,
+              verdict.edges.max_at[0], verdict.edges.max_at[1]);
 }
 
 // A name stands for all cases that begin with it, if it ends with "-".

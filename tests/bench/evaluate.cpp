@@ -104,22 +104,21 @@ double quality(const Kernel::Point_2& a, const Kernel::Point_2& b, const Kernel:
   return 16 * area * area / (ab * bc * ca * (ab + bc + ca));
 }
 
-double least_angle(const Kernel::Point_2& a, const Kernel::Point_2& b, const Kernel::Point_2& c) {
-  double least = 180;
+double min_angle(const Kernel::Point_2& a, const Kernel::Point_2& b, const Kernel::Point_2& c) {
+  double min = 180;
   const Kernel::Point_2 p[3] = {a, b, c};
   for (int k = 0; k < 3; ++k) {
     const auto u = p[(k + 1) % 3] - p[k], w = p[(k + 2) % 3] - p[k];
-    least =
-        std::min(least, kDegrees * std::acos(std::clamp((u * w) / std::sqrt(u.squared_length()) /
+    min = std::min(min, kDegrees * std::acos(std::clamp((u * w) / std::sqrt(u.squared_length()) /
                                                             std::sqrt(w.squared_length()),
                                                         -1.0, 1.0)));
   }
-  return least;
+  return min;
 }
 
 // How far from point p, in face f, the boundary is in a direction; at most `most`.
 double way_to_boundary(const Triangulation& t, Face f, const Kernel::Point_2& p,
-                       const Kernel::Vector_2& direction, double most) {
+                       const Kernel::Vector_2& direction, double max) {
   Face from = nullptr;
   // Passing exactly through a node could go round it for ever: a way of so many triangles is long.
   for (int steps = 0; steps < 100; ++steps) {
@@ -139,13 +138,13 @@ double way_to_boundary(const Triangulation& t, Face f, const Kernel::Point_2& p,
         out = k;
       }
     }
-    if (out < 0 || way >= most) return most;
+    if (out < 0 || way >= max) return max;
     if (t.is_constrained({f, out})) return way;
     from = f;
     f = f->neighbor(out);
     if (t.is_infinite(f)) return way;
   }
-  return most;
+  return max;
 }
 
 bool narrow_at(const Triangulation& t, Face f, double d) {
@@ -189,10 +188,10 @@ class Collector {
     const double n = static_cast<double>(qualities_.size());
     m.quality_mean = sum / n;
     m.quality_one_percent = qualities_[qualities_.size() / 100];
-    m.quality_least = qualities_.front();
+    m.quality_min = qualities_.front();
     m.share_above_80 = static_cast<double>(above_80) / n;
     m.share_above_90 = static_cast<double>(above_90) / n;
-    m.angle_least = angle_;
+    m.angle_min = angle_;
     m.edge_mean = sum_ / static_cast<double>(edges_);
     m.edge_deviation = std::sqrt(
         std::max(0.0, squares_ / static_cast<double>(edges_) - m.edge_mean * m.edge_mean));
@@ -246,21 +245,21 @@ void finish(EdgeBand& band) {
 
 std::vector<EdgeBand> bands_of(const std::vector<FreeEdge>& edges) {
   constexpr int kBands = 8;
-  double least = std::numeric_limits<double>::infinity(), largest = 0;
+  double min = std::numeric_limits<double>::infinity(), max = 0;
   for (const FreeEdge& e : edges) {
-    least = std::min(least, e.d);
-    largest = std::max(largest, e.d);
+    min = std::min(min, e.d);
+    max = std::max(max, e.d);
   }
-  const bool graded = largest > 1.1 * least;
+  const bool graded = max > 1.1 * min;
   const int count = graded ? kBands : 1;
-  const double width = graded ? std::log(largest / least) / kBands : 1;
+  const double width = graded ? std::log(max / min) / kBands : 1;
   std::vector<EdgeBand> bands(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
-    bands[static_cast<std::size_t>(k)].d_from = least * std::exp(k * width);
-    bands[static_cast<std::size_t>(k)].d_to = graded ? least * std::exp((k + 1) * width) : largest;
+    bands[static_cast<std::size_t>(k)].d_from = min * std::exp(k * width);
+    bands[static_cast<std::size_t>(k)].d_to = graded ? min * std::exp((k + 1) * width) : max;
   }
   for (const FreeEdge& e : edges) {
-    const int k = graded ? static_cast<int>(std::log(e.d / least) / width) : 0;
+    const int k = graded ? static_cast<int>(std::log(e.d / min) / width) : 0;
     add_to(bands[static_cast<std::size_t>(std::clamp(k, 0, count - 1))], e.ratio);
   }
   for (EdgeBand& band : bands) finish(band);
@@ -285,17 +284,17 @@ void find_worst_places(const NodeSet& set, const std::vector<FreeEdge>& edges,
     wide_sum[e.b] += sum[e.a];
     wide_count[e.b] += count[e.a];
   }
-  by_place.least_place = std::numeric_limits<double>::infinity();
+  by_place.min_place = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < set.x.size(); ++i) {
     if (wide_count[i] < kFewest) continue;
     const double mean = wide_sum[i] / wide_count[i];
-    if (mean < by_place.least_place) {
-      by_place.least_place = mean;
-      by_place.least_at = set.x[i];
+    if (mean < by_place.min_place) {
+      by_place.min_place = mean;
+      by_place.min_at = set.x[i];
     }
-    if (mean > by_place.largest_place) {
-      by_place.largest_place = mean;
-      by_place.largest_at = set.x[i];
+    if (mean > by_place.max_place) {
+      by_place.max_place = mean;
+      by_place.max_at = set.x[i];
     }
   }
 }
@@ -361,7 +360,7 @@ Verdict evaluate(const NodeSet& set) {
       near = near || near_boundary[i];
     }
     const auto &a = f->vertex(0)->point(), &b = f->vertex(1)->point(), &c = f->vertex(2)->point();
-    const double q = quality(a, b, c), angle = least_angle(a, b, c);
+    const double q = quality(a, b, c), angle = min_angle(a, b, c);
     all.add_triangle(q, angle);
     if (mendable && near && narrow_at(t, f, d)) mendable = false;
     if (mendable) wide.add_triangle(q, angle);

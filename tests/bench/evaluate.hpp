@@ -20,10 +20,10 @@ struct Measures {
   std::int64_t triangles = 0;
   double quality_mean = 0;         // 2 r_in / R
   double quality_one_percent = 0;  // 99 % of the triangles are above
-  double quality_least = 0;
+  double quality_min = 0;
   double share_above_80 = 0, share_above_90 = 0;
-  double angle_least = 0;  // degrees
-  double edge_mean = 0;    // edge length over the mean of d at its ends
+  double angle_min = 0;  // degrees
+  double edge_mean = 0;  // edge length over the mean of d at its ends
   double edge_deviation = 0;
 };
 
@@ -40,8 +40,8 @@ struct EdgesByPlace {
   std::vector<EdgeBand> bands;  // equal in log d, from the finest on; those without edges left out
   EdgeBand at_boundary;         // edges with one end on the boundary
   // The means over the edges around a node and its neighbours, where they are least and largest.
-  double least_place = 0, largest_place = 0;
-  std::array<double, 2> least_at{}, largest_at{};
+  double min_place = 0, max_place = 0;
+  std::array<double, 2> min_at{}, max_at{};
 };
 
 struct Verdict {

@@ -116,13 +116,13 @@ void fill_square(pnpbs::PlaneDomain& domain) {
   shapes::add_loop(domain, shapes::rectangle(0, 0, 1, 1));
 }
 
-pnpbs::GivenNodes moved_lattice(double d, double most) {
+pnpbs::GivenNodes moved_lattice(double d, double max) {
   LevelRun lattice(fill_square, constant(d));
   pnpbs::fill(*lattice.level);
   pnpbs::GivenNodes nodes = inner_nodes_of(*lattice.level);
   Random random(1);
   for (pnpbs::GivenNode& node : nodes)
-    for (double& x : node.position) x += random.between(-most * d, most * d);
+    for (double& x : node.position) x += random.between(-max * d, max * d);
   return nodes;
 }
 

@@ -219,7 +219,7 @@ inline long double squared_gap(const Surface& s, std::size_t t, const Place& x) 
     return static_cast<long double>(volume * volume) /
            static_cast<long double>(dot(normal, normal));
   }
-  long double least = INFINITY;
+  long double min = INFINITY;
   for (int k = 0; k < 3; ++k) {
     const Place &p = corners[k], &q = corners[(k + 1) % 3];
     const Place way = q - p;
@@ -229,9 +229,9 @@ inline long double squared_gap(const Surface& s, std::size_t t, const Place& x) 
                             : along >= length2 ? static_cast<long double>(dot(q, q))
                                                : static_cast<long double>(dot(area, area)) /
                                                      static_cast<long double>(length2);
-    least = std::min(least, gap);
+    min = std::min(min, gap);
   }
-  return least;
+  return min;
 }
 
 }  // namespace surfaces

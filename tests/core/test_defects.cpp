@@ -62,13 +62,12 @@ LevelRun run_with(const GivenNodes& nodes) {
   return run;
 }
 
-double least_quality(LevelRun& run) {
+double min_quality(LevelRun& run) {
   run.renew_stars();
   const Places places = places_by_id(*run.level);
-  double least = 1;
-  for (const Triangle& t : triangles_by_id(*run.level))
-    least = std::min(least, quality_of(t, places));
-  return least;
+  double min = 1;
+  for (const Triangle& t : triangles_by_id(*run.level)) min = std::min(min, quality_of(t, places));
+  return min;
 }
 
 // How far from a point is the nearest node?
@@ -106,7 +105,7 @@ START_TEST(missing_node_comes) {
   pnpbs::sweep_and_repair(*run.level, 20);
   LevelRun whole = run_with(lattice());
   pnpbs::sweep_and_repair(*whole.level, 20);
-  ck_assert_double_gt(least_quality(run), least_quality(whole) - 0.01);
+  ck_assert_double_gt(min_quality(run), min_quality(whole) - 0.01);
   check_counts(pnpbs::repair_defects(*run.level), 0, 0);
 }
 END_TEST

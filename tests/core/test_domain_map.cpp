@@ -64,10 +64,10 @@ double gap_to_edge(const P& a, const P& b, const P& x) {
 }
 
 double gap_to_boundary(const Mapped& m, const P& x) {
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   for (const BoundaryEdge& e : m.boundary.facets)
-    least = std::min(least, gap_to_edge(m.begin(e), m.end(e), x));
-  return least;
+    min = std::min(min, gap_to_edge(m.begin(e), m.end(e), x));
+  return min;
 }
 
 bool on_boundary(const Mapped& m, const P& x) {
@@ -196,8 +196,8 @@ START_TEST(leaf_sizes_follow_d) {
     ck_assert_double_le(side, 4 * 0.05);
     ck_assert_double_gt(side, 2 * 0.05);
     ck_assert_double_eq_tol(uniform.map.leaf_spacing(leaf), 0.05, 1e-15);
-    quick_assert(uniform.map.leaf_least_spacing(leaf) == 0.05);
-    quick_assert(uniform.map.leaf_largest_spacing(leaf) == 0.05);
+    quick_assert(uniform.map.leaf_min_spacing(leaf) == 0.05);
+    quick_assert(uniform.map.leaf_max_spacing(leaf) == 0.05);
   }
 
   const Plane d = [](double x, double y) { return 0.004 + 0.2 * std::hypot(x - 0.7, y - 0.4); };
@@ -213,23 +213,23 @@ START_TEST(leaf_sizes_follow_d) {
       quick_assert(!graded.map.leaf_has_facets(leaf));
       continue;
     }
-    const double least = graded.map.leaf_least_spacing(leaf);
-    const double largest = graded.map.leaf_largest_spacing(leaf);
-    ck_assert_double_le(side, 4 * least);
-    ck_assert_double_le(least, graded.map.leaf_spacing(leaf) * (1 + 1e-12));
-    ck_assert_double_le(graded.map.leaf_spacing(leaf), largest * (1 + 1e-12));
+    const double min = graded.map.leaf_min_spacing(leaf);
+    const double max = graded.map.leaf_max_spacing(leaf);
+    ck_assert_double_le(side, 4 * min);
+    ck_assert_double_le(min, graded.map.leaf_spacing(leaf) * (1 + 1e-12));
+    ck_assert_double_le(graded.map.leaf_spacing(leaf), max * (1 + 1e-12));
     // d grows by 0.2 per unit of length, so the samples tell it to within 0.2 of the diagonal.
-    ck_assert_double_le(largest - least, 0.2 * 1.42 * side);
+    ck_assert_double_le(max - min, 0.2 * 1.42 * side);
     for (const double fx : {0.1, 0.6})
       for (const double fy : {0.3, 0.9}) {
         const P x{box.low[0] + fx * side, box.low[1] + fy * side};
         if (!graded.map.inside(x)) continue;
-        ck_assert_double_ge(d(x[0], x[1]), least - 0.2 * 1.42 * side);
-        ck_assert_double_le(d(x[0], x[1]), largest + 0.2 * 1.42 * side);
+        ck_assert_double_ge(d(x[0], x[1]), min - 0.2 * 1.42 * side);
+        ck_assert_double_le(d(x[0], x[1]), max + 0.2 * 1.42 * side);
       }
     if (graded.map.leaf_has_facets(leaf)) continue;
     // No finer than needed: half as fine would not have done (least d of four such leaves).
-    ck_assert_double_gt(2 * side, 4 * (least - 0.2 * 1.42 * 2 * side));
+    ck_assert_double_gt(2 * side, 4 * (min - 0.2 * 1.42 * 2 * side));
     nodes += side * side / std::pow(graded.map.leaf_spacing(leaf), 2);
     constexpr int kFine = 8;
     for (int i = 0; i < kFine; ++i)
@@ -250,7 +250,7 @@ START_TEST(finest_leaves_there_can_be) {
   const pnpbs::BackgroundTree<2>& tree = m.map.tree();
   const std::int32_t finest = tree.leaf_at({0, 0});
   ck_assert_int_eq(tree.cell(tree.leaf_cell(finest)).depth, pnpbs::BackgroundTree<2>::kMaxDepth);
-  ck_assert_double_eq_tol(m.map.leaf_least_spacing(finest), 1e-10, 1e-12);
+  ck_assert_double_eq_tol(m.map.leaf_min_spacing(finest), 1e-10, 1e-12);
   for (const double way : {1e-9, 1e-5, 0.1}) {
     quick_assert(m.map.inside({way, 2 * way}) && !m.map.inside({way, -way}));
     ck_assert_double_eq_tol(m.map.clearance({2 * way, way}, 1), way, 1e-20);

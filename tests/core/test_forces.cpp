@@ -197,17 +197,17 @@ START_TEST(cubic_law) {
     ck_assert_double_eq_tol(law(1.5), 0, 1e-15 * k0);
     const double h = 1e-5;
     ck_assert_double_eq_tol((law(1 + h) - law(1 - h)) / (2 * h), -k0, 1e-8 * k0);
-    double least = 1, where = 0;
+    double min = 1, where = 0;
     for (int step = 0; step <= 15000; ++step) {
       const double w = step * 1e-4;
       ck_assert_double_eq_tol(law(w), k0 * cubic(w), 1e-14 * k0);
-      if (law(w) < least) {
-        least = law(w);
+      if (law(w) < min) {
+        min = law(w);
         where = w;
       }
     }
     ck_assert_double_eq_tol(where, 1.267, 1e-3);
-    ck_assert_double_eq_tol(least, -0.145 * k0, 5e-4 * k0);
+    ck_assert_double_eq_tol(min, -0.145 * k0, 5e-4 * k0);
     for (const double w : {std::nextafter(1.5, 2.0), 1.6, 3.0, 1e100, 1e200})
       quick_assert(law(w) == 0);
   }

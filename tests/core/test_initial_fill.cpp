@@ -46,15 +46,15 @@ struct Filled {
   Filled(const Filled&) = delete;
 
   double gap_to_boundary(const P& x) const {
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (const pnpbs::BoundaryEdge& e : boundary.facets) {
       const P a = boundary.nodes[e.begin].position, b = boundary.nodes[e.end].position;
       const double ux = b[0] - a[0], uy = b[1] - a[1];
       const double t =
           std::clamp(((x[0] - a[0]) * ux + (x[1] - a[1]) * uy) / (ux * ux + uy * uy), 0.0, 1.0);
-      least = std::min(least, std::hypot(x[0] - a[0] - t * ux, x[1] - a[1] - t * uy));
+      min = std::min(min, std::hypot(x[0] - a[0] - t * ux, x[1] - a[1] - t * uy));
     }
-    return least;
+    return min;
   }
 };
 
@@ -102,9 +102,9 @@ double meant(const Filled& filled, const Plane& d) {
   return sum * dx * dy;
 }
 
-void expect_meant(const Build& build, const Plane& d, std::size_t least_nodes) {
+void expect_meant(const Build& build, const Plane& d, std::size_t min_nodes) {
   const Filled filled(build, d);
-  ck_assert_uint_gt(filled.nodes.size(), least_nodes);
+  ck_assert_uint_gt(filled.nodes.size(), min_nodes);
   const double expected = meant(filled, d);
   ck_assert_double_eq_tol(static_cast<double>(filled.nodes.size()), expected, 0.02 * expected);
   for (const P& x : filled.nodes) {

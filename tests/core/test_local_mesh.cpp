@@ -85,7 +85,7 @@ START_TEST(disturbed_lattice_relaxes_to_the_lattice) {
             pnpbs::distance<2>(mesh.position(place(column, row)), lattice_point(column, row)),
             0.03);
     ck_assert_double_lt(mesh.quality().loss, 0.05 * before.loss);
-    ck_assert_double_gt(mesh.quality().least, before.least);
+    ck_assert_double_gt(mesh.quality().min, before.min);
     check_delaunay(mesh, kPlaces, -1);
   }
 }
@@ -94,7 +94,7 @@ END_TEST
 START_TEST(quality_of_the_lattice) {
   const pnpbs::MeshQuality quality = rhombus(0, 1).quality();
   ck_assert_double_eq_tol(quality.loss, 0, 1e-12);
-  ck_assert_double_eq_tol(quality.least, 1, 1e-12);
+  ck_assert_double_eq_tol(quality.min, 1, 1e-12);
 }
 END_TEST
 
@@ -143,7 +143,7 @@ START_TEST(a_node_comes_and_goes) {
       mesh.largest_triangle_at(place(kMiddle, kMiddle), place(kMiddle + 1, kMiddle));
   ck_assert(mesh.remove(mesh.insert(room)));
   for (int k = 0; k < 10; ++k) mesh.relax();
-  ck_assert_double_gt(mesh.quality().least, 1 - 1e-6);
+  ck_assert_double_gt(mesh.quality().min, 1 - 1e-6);
 }
 END_TEST
 

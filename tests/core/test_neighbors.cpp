@@ -334,13 +334,13 @@ START_TEST(nodes_are_sorted_by_bucket) {
   ck_assert_int_eq(b.buckets.begin(0), 0);
   ck_assert_int_eq(b.buckets.end(b.tree.leaf_count() - 1), b.nodes.count);
   for (std::int32_t leaf = 0; leaf < b.tree.leaf_count(); ++leaf) {
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (std::int32_t i = b.buckets.begin(leaf); i < b.buckets.end(leaf); ++i) {
       ck_assert_int_eq(b.tree.leaf_at(b.nodes.position(i)), leaf);
       ck_assert_int_eq(b.buckets.bucket_of(i), leaf);
-      least = std::min(least, b.nodes.d(i));
+      min = std::min(min, b.nodes.d(i));
     }
-    quick_assert(b.buckets.least_spacing(leaf) == least);
+    quick_assert(b.buckets.min_spacing(leaf) == min);
     // Links lead there and back, in order, and the bucket itself is among them.
     std::vector<std::int32_t> others;
     b.buckets.for_neighbours(leaf, [&](std::int32_t other) { others.push_back(other); });
@@ -360,10 +360,10 @@ END_TEST
 START_TEST(counting_sort_is_stable) {
   Random random(60);
   for (const std::int64_t n : {0, 1, 1000, 90001})
-    for (const std::int32_t least : {-1, 0}) {
+    for (const std::int32_t min : {-1, 0}) {
       std::vector<std::int32_t> keys, order;
       for (std::int32_t i = 0; i < n; ++i) {
-        keys.push_back(static_cast<std::int32_t>(random.below(300 - least)) + least);
+        keys.push_back(static_cast<std::int32_t>(random.below(300 - min)) + min);
         if (keys.back() >= 0) order.push_back(i);
       }
       std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {

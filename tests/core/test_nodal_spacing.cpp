@@ -81,7 +81,7 @@ bool in_domain(const Patch& patch, const P& x) {
 
 // Value at the nearest point of the border, by looking at all of it.
 double nearest_value(const Patch& patch, const P& x) {
-  double least = std::numeric_limits<double>::infinity(), value = 0;
+  double min = std::numeric_limits<double>::infinity(), value = 0;
   for (const auto& edge : patch.border) {
     const auto &a = patch.nodes[static_cast<std::size_t>(edge[0])],
                &b = patch.nodes[static_cast<std::size_t>(edge[1])];
@@ -89,8 +89,8 @@ double nearest_value(const Patch& patch, const P& x) {
       const double t = k / 2000.0;
       const double gap =
           std::hypot(a.x[0] + t * (b.x[0] - a.x[0]) - x[0], a.x[1] + t * (b.x[1] - a.x[1]) - x[1]);
-      if (gap >= least) continue;
-      least = gap;
+      if (gap >= min) continue;
+      min = gap;
       value = a.value + t * (b.value - a.value);
     }
   }

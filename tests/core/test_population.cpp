@@ -144,7 +144,7 @@ START_TEST(nothing_is_born_that_would_have_to_go) {
     set.push_back({{d + 0.7 * d * std::cos(angle), 0.7 * d * std::sin(angle)}, d, 3 + k, false});
   }
   PopulationRule<2> rule;
-  rule.least_gap = 0.65;
+  rule.min_gap = 0.65;
   quick_assert(choose<2>(set, rule).born.empty());
   set.erase(set.begin() + 4, set.begin() + 10);
   ck_assert_uint_eq(choose<2>(set, rule).born.size(), 1);
@@ -212,7 +212,7 @@ END_TEST
 START_TEST(winners_are_far_apart) {
   Set<2> set = lattice(1.2);  // every bubble is too lonely
   PopulationRule<2> rule;
-  rule.least_gap = 0;
+  rule.min_gap = 0;
   const Change<2> change = choose<2>(set, rule);
   ck_assert_uint_gt(change.born.size(), 5);
   expect_actors_far_apart<2>(set, change, 1.5);

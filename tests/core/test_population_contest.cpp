@@ -47,7 +47,7 @@ bool hole_by_search(const Set<Dim>& set, std::size_t i, double radius, Point<Dim
   std::vector<Point<Dim>> around;
   for (std::size_t j = 0; j < set.size(); ++j)
     if (j != i && adjacent<Dim>(set[i], set[j], radius)) around.push_back(set[j].x);
-  double largest = 0;
+  double max = 0;
   std::size_t choices = 1;
   for (int k = 0; k < Dim; ++k) choices *= around.size();
   for (std::size_t choice = 0; choice < choices; ++choice) {
@@ -66,11 +66,11 @@ bool hole_by_search(const Set<Dim>& set, std::size_t i, double radius, Point<Dim
     const bool empty = std::all_of(around.begin(), around.end(), [&](const Point<Dim>& other) {
       return pnpbs::distance<Dim>(other, y) > r * (1 - 1e-8);
     });
-    if (!empty || r <= largest) continue;
-    largest = r;
+    if (!empty || r <= max) continue;
+    max = r;
     middle = y;
   }
-  return largest > 0 && largest <= set[i].d;
+  return max > 0 && max <= set[i].d;
 }
 
 template <int Dim>
@@ -103,7 +103,7 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
     double there = 0;  // the new bubble's ratio
     for (std::size_t j : within_hops<Dim>(set, i, 2, radius)) {
       const double gap = pnpbs::distance<Dim>(set[j].x, result.place);
-      if (j != i && gap < rule.least_gap * 0.5 * (own.d + set[j].d)) return result;
+      if (j != i && gap < rule.min_gap * 0.5 * (own.d + set[j].d)) return result;
       there += std::max(0.0, own.d + set[j].d / 2 - gap) / (own.d / 2);
     }
     if (there > rule.delete_above) return result;
@@ -117,7 +117,7 @@ constexpr int kHops = 3;
 
 template <int Dim>
 void expect_as_by_search(const Set<Dim>& set, const PopulationRule<Dim>& rule,
-                         const Freedom& freedom, double radius, std::size_t least_actors) {
+                         const Freedom& freedom, double radius, std::size_t min_actors) {
   std::vector<Candidate<Dim>> candidates;
   for (std::size_t i = 0; i < set.size(); ++i)
     candidates.push_back(candidate<Dim>(set, i, rule, freedom, radius));
@@ -141,7 +141,7 @@ void expect_as_by_search(const Set<Dim>& set, const PopulationRule<Dim>& rule,
     quick_assert(change.born.count(parent) == 1);
     ck_assert_double_lt(pnpbs::distance<Dim>(change.born.at(parent), place), 1e-11);
   }
-  ck_assert_uint_ge(expected.deleted.size() + expected.born.size(), least_actors);
+  ck_assert_uint_ge(expected.deleted.size() + expected.born.size(), min_actors);
 
   // From another order in memory: the same, bit for bit.
   Set<Dim> mixed = set;

@@ -68,8 +68,8 @@ double shape_of(const Triangle& t, const Places& places) {
     const double dot = (u[0] - at[0]) * (w[0] - at[0]) + (u[1] - at[1]) * (w[1] - at[1]);
     return std::atan2(cross, dot);
   };
-  const double least = std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)});
-  return std::min(quality(a, b, c), 1.365 * std::sin(least));
+  const double min = std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)});
+  return std::min(quality(a, b, c), 1.365 * std::sin(min));
 }
 
 }  // namespace
@@ -216,7 +216,7 @@ END_TEST
 START_TEST(a_higher_bound_costs_the_worst_nothing) {
   std::uint64_t seed = 190;
   for (const Shape& shape : shapes_to_finish()) {
-    const auto least_with = [&](double bad_below) {
+    const auto min_with = [&](double bad_below) {
       LevelRun run = distorted(shape.build, shape.d, seed, [&](pnpbs::Settings& settings) {
         settings.repair.bad_below = bad_below;
       });
@@ -224,15 +224,15 @@ START_TEST(a_higher_bound_costs_the_worst_nothing) {
       const std::vector<Triangle> triangles = triangles_by_id(*run.level);
       pnpbs::sweep_and_repair(*run.level, 3);
       const Places places = places_by_id(*run.level);
-      double least = 1;
+      double min = 1;
       for (const Triangle& t : triangles)
         if (places.count(t[0]) * places.count(t[1]) * places.count(t[2]) > 0)
-          least = std::min(least, shape_of(t, places));
-      return least;
+          min = std::min(min, shape_of(t, places));
+      return min;
     };
     ++seed;
-    const double least = least_with(pnpbs::RepairRule{}.worst_below);
-    ck_assert_double_ge(least_with(0.95), least - 1e-9);
+    const double min = min_with(pnpbs::RepairRule{}.worst_below);
+    ck_assert_double_ge(min_with(0.95), min - 1e-9);
   }
 }
 END_TEST

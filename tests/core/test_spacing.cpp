@@ -56,14 +56,14 @@ void add_square(PlaneDomain& domain) { add_loop(domain, rectangle(0, 0, 1, 1)); 
 // A place of fine bubbles, with d rising steeply around it up to a plateau.
 struct Pit {
   P middle;
-  double least, slope, most;
+  double min, slope, max;
 
   double operator()(double x, double y) const {
-    return std::min(most, least + slope * std::hypot(x - middle[0], y - middle[1]));
+    return std::min(max, min + slope * std::hypot(x - middle[0], y - middle[1]));
   }
   // What a growth limit below the slope makes of it in a convex domain.
   double limited(const P& x, double growth) const {
-    return std::min(most, least + growth * pnpbs::distance<2>(x, middle));
+    return std::min(max, min + growth * pnpbs::distance<2>(x, middle));
   }
 };
 
@@ -190,8 +190,8 @@ END_TEST
 // between any two points as allowed, but for 5 % of d.
 START_TEST(growth_limit_of_pits) {
   for (const double slope : {0.225, 0.5}) {
-    for (const double most : {0.03, 0.2}) {
-      const Pit pit{{0.31, 0.42}, 0.003, slope, most};
+    for (const double max : {0.03, 0.2}) {
+      const Pit pit{{0.31, 0.42}, 0.003, slope, max};
       const Limited limited(add_square, pit);
       Random random(93);
       for (int trial = 0; trial < 3000; ++trial) {
@@ -320,15 +320,15 @@ START_TEST(growth_limit_goes_through_the_domain) {
     const std::vector<double> xy{0, 0, 1, 0, 1, 1, 0, 1, 0, 0.6, 0.8, 0.6, 0.8, 0.4, 0, 0.4};
     p.add_polyline(pnpbs::CurveRole::boundary, true, 8, xy.data(), nullptr, 0);
   };
-  const double growth = 0.01, least = 0.004;
+  const double growth = 0.01, min = 0.004;
   const Limited limited(
-      horseshoe, [=](double x, double y) { return x + y < 1e-3 ? least : 0.03; }, growth);
+      horseshoe, [=](double x, double y) { return x + y < 1e-3 ? min : 0.03; }, growth);
   // From the lower left corner round the bend, 0.8 or so, and back.
   const double bend = std::hypot(0.8, 0.4) + 0.2;
   for (const double x : {0.01, 0.2, 0.4}) {
     const double far = bend + 0.8 - x, near = std::hypot(x, 0.39);
-    ck_assert_double_eq_tol(limited.at({x, 0.61}), least + growth * far, 0.1 * growth * far);
-    ck_assert_double_eq_tol(limited.at({x, 0.39}), least + growth * near, 0.1 * growth * near);
+    ck_assert_double_eq_tol(limited.at({x, 0.61}), min + growth * far, 0.1 * growth * far);
+    ck_assert_double_eq_tol(limited.at({x, 0.39}), min + growth * near, 0.1 * growth * near);
   }
 }
 END_TEST
@@ -344,16 +344,16 @@ START_TEST(growth_limit_of_many_sources) {
   for (int k = 0; k < 40; ++k)
     sources.push_back({{random.between(0.05, 0.95), random.between(0.05, 0.95)},
                        0.002 * std::pow(10, random.between(0, 0.7))});
-  const auto least_from = [&](const P& x, double slope) {
-    double least = 0.2;
+  const auto min_from = [&](const P& x, double slope) {
+    double min = 0.2;
     for (const Source& source : sources)
-      least = std::min(least, source.d + slope * pnpbs::distance<2>(x, source.x));
-    return least;
+      min = std::min(min, source.d + slope * pnpbs::distance<2>(x, source.x));
+    return min;
   };
-  const Limited limited(add_square, [&](double x, double y) { return least_from({x, y}, 0.6); });
+  const Limited limited(add_square, [&](double x, double y) { return min_from({x, y}, 0.6); });
   for (int trial = 0; trial < 10000; ++trial) {
     const P x = random.point<2>(limited.domain.bounds());
-    const double d = limited.at(x), exact = least_from(x, kGrowth);
+    const double d = limited.at(x), exact = min_from(x, kGrowth);
     ck_assert_double_ge(d, exact * (1 - 1e-12));
     ck_assert_double_le(d, exact * 1.1);
   }
@@ -369,16 +369,16 @@ class WaysAround {
       : low_(low), high_(high), corners_{{low, {high[0], low[1]}, high, {low[0], high[1]}}} {}
 
   double operator()(const P& a, const P& b) const {
-    double least = open(a, b) ? pnpbs::distance<2>(a, b) : 9;
+    double min = open(a, b) ? pnpbs::distance<2>(a, b) : 9;
     for (std::size_t c = 0; c < 4; ++c) {
       if (!open(a, corners_[c])) continue;
       const double there = pnpbs::distance<2>(a, corners_[c]);
       for (const std::size_t next : {c, (c + 1) % 4, (c + 3) % 4})
         if (open(corners_[next], b))
-          least = std::min(least, there + pnpbs::distance<2>(corners_[c], corners_[next]) +
-                                      pnpbs::distance<2>(corners_[next], b));
+          min = std::min(min, there + pnpbs::distance<2>(corners_[c], corners_[next]) +
+                                  pnpbs::distance<2>(corners_[next], b));
     }
-    return least;
+    return min;
   }
   bool holds(const P& x) const {
     return x[0] > low_[0] && x[0] < high_[0] && x[1] > low_[1] && x[1] < high_[1];
@@ -414,11 +414,11 @@ START_TEST(growth_limit_around_a_hole) {
     add_square(p);
     add_loop(p, rectangle(low[0], low[1], high[0], high[1]));
   };
-  constexpr double kLeast = 0.003, kSlow = 0.02;
+  constexpr double kMin = 0.003, kSlow = 0.02;
   const Limited limited(
       holed,
       [&](double x, double y) {
-        return std::min(0.05, kLeast + 0.5 * std::hypot(x - tip[0], y - tip[1]));
+        return std::min(0.05, kMin + 0.5 * std::hypot(x - tip[0], y - tip[1]));
       },
       kSlow);
   Random random(97);
@@ -427,7 +427,7 @@ START_TEST(growth_limit_around_a_hole) {
     const P x = random.point<2>(limited.domain.bounds());
     if (ways.holds(x)) continue;
     const double straight = pnpbs::distance<2>(tip, x), way = ways(tip, x), d = limited.at(x);
-    const double exact = kLeast + kSlow * way;
+    const double exact = kMin + kSlow * way;
     const bool hidden = way > 1.001 * straight;
     behind += hidden;
     ck_assert_double_ge(d, exact * (hidden ? 0.97 : 1 - 1e-12));

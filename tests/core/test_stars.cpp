@@ -85,10 +85,10 @@ void expect_reference(const Level& level, const std::string& what) {
 
 // From the fill and on: at the start, soon after, and when most has settled.
 void expect_stars(const std::string& what, const Build& build, const Plane& d,
-                  std::int64_t least_nodes = 100) {
+                  std::int64_t min_nodes = 100) {
   LevelRun run(build, d);
   pnpbs::fill(*run.level);
-  ck_assert_int_gt(run.level->nodes.count, least_nodes);
+  ck_assert_int_gt(run.level->nodes.count, min_nodes);
   for (const std::int64_t until : {0, 5, 100}) {
     run.steps(until - run.steps_done);
     run.renew_stars();

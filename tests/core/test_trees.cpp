@@ -107,12 +107,12 @@ void expect_boxes_at(const std::vector<Box<Dim>>& boxes, const pnpbs::BoxTree<Di
   tree.for_holding(x, [&](std::int32_t b) { holding.push_back(b); });
   tree.for_near(
       x, [=] { return limit * limit; }, [&](std::int32_t b) { near.push_back(b); });
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     const double gap = gap_between<Dim>(boxes[b], {x, x});
     if (lies_in<Dim>(x, boxes[b])) expected_holding.push_back(static_cast<std::int32_t>(b));
     if (gap <= limit) expected_near.push_back(static_cast<std::int32_t>(b));
-    least = std::min(least, gap);
+    min = std::min(min, gap);
   }
   std::sort(holding.begin(), holding.end());
   std::sort(near.begin(), near.end());
@@ -125,7 +125,7 @@ void expect_boxes_at(const std::vector<Box<Dim>>& boxes, const pnpbs::BoxTree<Di
       [&](std::int32_t b) {
         nearest = std::min(nearest, pnpbs::squared_gap_to(boxes[static_cast<std::size_t>(b)], x));
       });
-  quick_assert(boxes.empty() || std::fabs(std::sqrt(nearest) - least) < 1e-14);
+  quick_assert(boxes.empty() || std::fabs(std::sqrt(nearest) - min) < 1e-14);
 }
 
 template <int Dim>

@@ -186,23 +186,23 @@ void expect_nearest(const Mapped& m, int many, std::uint64_t seed) {
     for (std::size_t t = 0; t < m.count(); ++t)
       gaps.push_back(unit *
                      static_cast<double>(std::sqrt(surfaces::squared_gap(m.surface, t, place))));
-    const double least = *std::min_element(gaps.begin(), gaps.end());
-    for (const double reach : {0.01 * size, 0.1 * size, 2 * size, least * 0.999, least * 1.001}) {
-      const double expected = std::min(least, reach);
+    const double min = *std::min_element(gaps.begin(), gaps.end());
+    for (const double reach : {0.01 * size, 0.1 * size, 2 * size, min * 0.999, min * 1.001}) {
+      const double expected = std::min(min, reach);
       ck_assert_double_eq_tol(m.map.clearance(x, reach), expected, 1e-14 * size);
       const pnpbs::NearestPoint<3> nearest = m.map.nearest(x, reach);
       ck_assert_double_eq_tol(nearest.gap, expected, 1e-14 * size);
-      quick_assert((nearest.facet >= 0) == (least < reach));
+      quick_assert((nearest.facet >= 0) == (min < reach));
       std::vector<char> named(m.count(), 0);
       m.map.for_facets_near(x, reach, [&](std::int32_t f) { named[f] = 1; });
       for (std::size_t t = 0; t < named.size(); ++t) quick_assert(named[t] || gaps[t] >= reach);
       if (nearest.facet < 0) continue;
-      ck_assert_double_eq_tol(gaps[nearest.facet], least, 1e-14 * size);
+      ck_assert_double_eq_tol(gaps[nearest.facet], min, 1e-14 * size);
       ck_assert_double_eq_tol(pnpbs::distance<3>(nearest.x, x), nearest.gap, 1e-14 * size);
       // On the axes all is exact, ties too.
       if (unit != 0x1p-4) continue;
-      for (std::int32_t t = 0; t < nearest.facet; ++t) quick_assert(gaps[t] > least);
-      equally_near += std::count(gaps.begin(), gaps.end(), least) > 1;
+      for (std::int32_t t = 0; t < nearest.facet; ++t) quick_assert(gaps[t] > min);
+      equally_near += std::count(gaps.begin(), gaps.end(), min) > 1;
     }
   }
   if (unit == 0x1p-4) ck_assert_int_gt(equally_near, many / 10);
@@ -266,15 +266,14 @@ START_TEST(leaf_sizes_follow_d) {
     if (graded.map.leaf_outside(leaf)) continue;
     const pnpbs::Box<3> box = tree.cell_box(tree.leaf_cell(leaf));
     const double side = tree.cell_side(tree.leaf_cell(leaf));
-    const double least = graded.map.leaf_least_spacing(leaf),
-                 largest = graded.map.leaf_largest_spacing(leaf);
-    ck_assert_double_le(side, 4 * least);
-    ck_assert_double_le(least, graded.map.leaf_spacing(leaf) * (1 + 1e-12));
-    ck_assert_double_le(graded.map.leaf_spacing(leaf), largest * (1 + 1e-12));
-    ck_assert_double_le(largest - least, 0.1 * 1.7321 * side);
+    const double min = graded.map.leaf_min_spacing(leaf), max = graded.map.leaf_max_spacing(leaf);
+    ck_assert_double_le(side, 4 * min);
+    ck_assert_double_le(min, graded.map.leaf_spacing(leaf) * (1 + 1e-12));
+    ck_assert_double_le(graded.map.leaf_spacing(leaf), max * (1 + 1e-12));
+    ck_assert_double_le(max - min, 0.1 * 1.7321 * side);
     if (graded.map.leaf_has_facets(leaf)) continue;
     // No finer than needed: half as fine would not have done.
-    ck_assert_double_gt(2 * side, 4 * (least - 0.1 * 1.7321 * 2 * side));
+    ck_assert_double_gt(2 * side, 4 * (min - 0.1 * 1.7321 * 2 * side));
     nodes += std::pow(side / graded.map.leaf_spacing(leaf), 3);
     constexpr int kFine = 4;
     for (int cell = 0; cell < kFine * kFine * kFine; ++cell) {
@@ -318,11 +317,11 @@ std::int32_t greatest_depth(const pnpbs::BackgroundTree<3>& tree) {
 START_TEST(leaves_hold_few_boundary_nodes) {
   const Mapped sphere(fine_sphere(), constant(10));
   const pnpbs::BackgroundTree<3>& tree = sphere.map.tree();
-  std::size_t most = 0;
+  std::size_t max = 0;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
-    most = std::max(most, sphere.map.facets_of_leaf(leaf).size());
-  ck_assert_uint_le(most, 96);
-  ck_assert_uint_gt(most, 48);
+    max = std::max(max, sphere.map.facets_of_leaf(leaf).size());
+  ck_assert_uint_le(max, 96);
+  ck_assert_uint_gt(max, 48);
   const Mapped pointed(cone(500), constant(10));
   ck_assert_int_le(greatest_depth(pointed.map.tree()), 9);
   expect_sides(pointed, 500, 11);
@@ -336,7 +335,7 @@ START_TEST(finest_leaves_there_can_be) {
   ck_assert_int_eq(greatest_depth(tree), pnpbs::BackgroundTree<3>::kMaxDepth);
   const std::int32_t finest = tree.leaf_at({});
   ck_assert_int_eq(tree.cell(tree.leaf_cell(finest)).depth, pnpbs::BackgroundTree<3>::kMaxDepth);
-  ck_assert_double_eq_tol(m.map.leaf_least_spacing(finest), 1e-10, 1e-12);
+  ck_assert_double_eq_tol(m.map.leaf_min_spacing(finest), 1e-10, 1e-12);
   for (const double way : {1e-9, 1e-5, 0.1}) {
     quick_assert(m.map.inside({way, 2 * way, way}) && !m.map.inside({way, 2 * way, -way}));
     ck_assert_double_eq_tol(m.map.clearance({2 * way, 3 * way, way}, 1), way, 1e-20);
@@ -387,9 +386,9 @@ struct Chambers {
   static bool beyond_wall(const P& x) { return 12 * x[0] > 11 + 2 * x[1]; }
   // By the planes of the faces.
   static double gap(const P& x) {
-    double least = std::fabs(12 * x[0] - 11 - 2 * x[1]) / std::hypot(12.0, 2.0);
-    for (std::size_t k = 0; k < 3; ++k) least = std::min({least, x[k], (k == 0 ? 2 : 1) - x[k]});
-    return std::min(least, pnpbs::distance<3>(x, kFixed));
+    double min = std::fabs(12 * x[0] - 11 - 2 * x[1]) / std::hypot(12.0, 2.0);
+    for (std::size_t k = 0; k < 3; ++k) min = std::min({min, x[k], (k == 0 ? 2 : 1) - x[k]});
+    return std::min(min, pnpbs::distance<3>(x, kFixed));
   }
 };
 

@@ -21,7 +21,7 @@ double value_at(const pnpbs::Spacing<3>& spacing, const P3& x) {
 }
 
 // Never more than d itself; of the exact answer at least `least` and at most `most`.
-void expect_limited(const Block& block, double least, double most, std::uint64_t seed) {
+void expect_limited(const Block& block, double min, double max, std::uint64_t seed) {
   const pnpbs::GrowthLimitedSpacing<3> limited(pnpbs::serial_communicator(), block.ways(),
                                                block.spacing(), Block::kGrowth, 1'000'000'000);
   Random random(seed);
@@ -32,8 +32,8 @@ void expect_limited(const Block& block, double least, double most, std::uint64_t
     ++tried;
     const double d = value_at(limited, x), exact = block.limit(x);
     ck_assert_double_le(d, block.raw(x));
-    ck_assert_double_ge(d, least * exact);
-    ck_assert_double_le(d, most * exact);
+    ck_assert_double_ge(d, min * exact);
+    ck_assert_double_le(d, max * exact);
   }
 }
 

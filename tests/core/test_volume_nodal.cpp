@@ -174,7 +174,7 @@ START_TEST(linear_functions_are_exact) {
 }
 END_TEST
 
-START_TEST(interpolates_in_the_tetrahedron_of_least_ids) {
+START_TEST(interpolates_in_the_tetrahedron_of_min_ids) {
   Random random(2);
   const ShakenGrid grid(random, waves);
   const pnpbs::NodalPatch<3> one(grid.patch);
@@ -209,11 +209,11 @@ Answer expected_outside(const ShakenGrid& grid, const Place& x, int& equally_nea
   std::vector<long double> gaps;
   for (std::size_t t = 0; t < grid.patch.border.size(); ++t)
     gaps.push_back(surfaces::squared_gap(grid.border, t, x));
-  const long double least = *std::min_element(gaps.begin(), gaps.end());
+  const long double min = *std::min_element(gaps.begin(), gaps.end());
   Answer best;
   int near = 0;
   for (std::size_t t = 0; t < gaps.size(); ++t) {
-    if (gaps[t] > least * (1 + 1e-16L)) continue;
+    if (gaps[t] > min * (1 + 1e-16L)) continue;
     ++near;
     std::array<std::int64_t, 4> ids{};
     const auto corners = grid.ids_of(grid.patch.border[t]);
@@ -227,7 +227,7 @@ Answer expected_outside(const ShakenGrid& grid, const Place& x, int& equally_nea
 // Value at the nearest point of the border, by trying many.
 double nearest_value(const ShakenGrid& grid, const P& x) {
   constexpr int kParts = 60;
-  double least = std::numeric_limits<double>::infinity(), value = 0;
+  double min = std::numeric_limits<double>::infinity(), value = 0;
   for (const auto& [a, b, c] : grid.patch.border)
     for (int i = 0; i <= kParts; ++i)
       for (int j = 0; i + j <= kParts; ++j) {
@@ -239,8 +239,8 @@ double nearest_value(const ShakenGrid& grid, const P& x) {
                             static_cast<double>(grid.place(c)[k]) * v - x[k];
           gap += at * at;
         }
-        if (gap >= least) continue;
-        least = gap;
+        if (gap >= min) continue;
+        min = gap;
         value = (1 - u - v) * grid.value(a) + u * grid.value(b) + v * grid.value(c);
       }
   return value;
@@ -309,7 +309,7 @@ END_TEST
 
 int main() {
   return run_kernel_suite("volume_nodal",
-                          {linear_functions_are_exact, interpolates_in_the_tetrahedron_of_least_ids,
+                          {linear_functions_are_exact, interpolates_in_the_tetrahedron_of_min_ids,
                            extends_from_the_nearest_point_of_the_border, the_same_however_dealt_out,
                            nodes_have_their_values});
 }

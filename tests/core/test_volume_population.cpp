@@ -21,9 +21,9 @@ Set<3> lattice(double stretch = 1, const volume_box::Crystal& sites = kCrystal) 
   return set;
 }
 
-void jitter(Random& random, Set<3>& set, double most) {
+void jitter(Random& random, Set<3>& set, double max) {
   for (Bubble<3>& b : set)
-    for (double& x : b.x) x += random.between(-most, most);
+    for (double& x : b.x) x += random.between(-max, max);
 }
 
 Point<3> middle_of(const Set<3>& set) {
@@ -59,10 +59,10 @@ std::vector<Point<3>> dig(Set<3>& set, double within) {
   return gone;
 }
 
-double least_distance(const std::vector<Point<3>>& places, const Point<3>& x) {
-  double least = 1e300;
-  for (const Point<3>& place : places) least = std::min(least, pnpbs::distance<3>(place, x));
-  return least;
+double min_distance(const std::vector<Point<3>>& places, const Point<3>& x) {
+  double min = 1e300;
+  for (const Point<3>& place : places) min = std::min(min, pnpbs::distance<3>(place, x));
+  return min;
 }
 
 // Acts as chosen: the dead go, and the newborn get the ids that follow.
@@ -108,7 +108,7 @@ START_TEST(a_vacancy_is_filled_once) {
     const Change<3> change = choose<3>(set, rule);
     quick_assert(change.deleted.empty());
     ck_assert_uint_eq(change.born.size(), 1);
-    ck_assert_double_lt(least_distance(gone, change.born.begin()->second), 0.05);
+    ck_assert_double_lt(min_distance(gone, change.born.begin()->second), 0.05);
     quick_assert(choose<3>(shuffled(set), rule) == change);
   }
 }
@@ -170,7 +170,7 @@ START_TEST(actors_are_far_apart) {
     Set<3> set = lattice(stretch, {12});
     jitter(random, set, 0.1);
     PopulationRule<3> rule;
-    rule.least_gap = 0;
+    rule.min_gap = 0;
     const Change<3> change = choose<3>(set, rule);
     ck_assert_uint_ge(change.born.size() + change.deleted.size(), 2);
     expect_actors_far_apart<3>(set, change, 1.5);

@@ -58,11 +58,11 @@ inline Point<3> shift_of(std::int64_t id) {
 }
 
 // Shifts every bubble that moves by up to `most` d.
-inline void shake(std::vector<Bubble<3>>& bubbles, double most) {
+inline void shake(std::vector<Bubble<3>>& bubbles, double max) {
   for (Bubble<3>& b : bubbles) {
     if (!b.moves) continue;
     const Point<3> shift = shift_of(b.id);
-    for (std::size_t k = 0; k < 3; ++k) b.x[k] += most * b.d * shift[k];
+    for (std::size_t k = 0; k < 3; ++k) b.x[k] += max * b.d * shift[k];
   }
 }
 
@@ -114,7 +114,7 @@ class Relaxation {
   // Since the lists were built, in d of the node.
   double max_displacement() const {
     const pnpbs::Nodes<3>& nodes = bubbles_.nodes;
-    return pnpbs::largest_of("max_displacement", nodes.count, 0, [&](std::int64_t i) {
+    return pnpbs::max_of("max_displacement", nodes.count, 0, [&](std::int64_t i) {
       return pnpbs::distance<3>(nodes.position(i), pnpbs::point_at<3>(listed_, i)) / nodes.d(i);
     });
   }
@@ -129,7 +129,7 @@ class Relaxation {
 
 // How far the bubbles that move are from their sites, in d.
 struct Deviation {
-  double mean = 0, largest = 0;
+  double mean = 0, max = 0;
 };
 
 inline Deviation deviation_from_sites(const std::vector<Bubble<3>>& bubbles,
@@ -141,7 +141,7 @@ inline Deviation deviation_from_sites(const std::vector<Bubble<3>>& bubbles,
     if (!b.moves) continue;
     const double way = pnpbs::distance<3>(b.x, perfect[static_cast<std::size_t>(b.id)].x) / b.d;
     deviation.mean += way;
-    deviation.largest = std::max(deviation.largest, way);
+    deviation.max = std::max(deviation.max, way);
     ++moving;
   }
   deviation.mean /= moving;

@@ -220,20 +220,20 @@ START_TEST(differences_that_round_stay_exact) {
 END_TEST
 
 START_TEST(exponents_far_apart) {
-  const double most = std::numeric_limits<double>::max();
-  const double least = std::numeric_limits<double>::denorm_min();
-  ck_assert_int_eq(orientation({-most, -most}, {0, 0}, {most, most}), 0);
-  ck_assert_int_eq(orientation({-most, -most}, {0, -least}, {most, most}),
-                   -orientation({-most, -most}, {0, least}, {most, most}));
-  ck_assert_int_eq(orientation({-most, -most}, {0, -least}, {most, most}), 1);
+  const double max = std::numeric_limits<double>::max();
+  const double min = std::numeric_limits<double>::denorm_min();
+  ck_assert_int_eq(orientation({-max, -max}, {0, 0}, {max, max}), 0);
+  ck_assert_int_eq(orientation({-max, -max}, {0, -min}, {max, max}),
+                   -orientation({-max, -max}, {0, min}, {max, max}));
+  ck_assert_int_eq(orientation({-max, -max}, {0, -min}, {max, max}), 1);
   ck_assert_int_eq(orientation({0, 0}, {1, 1e-300}, {2, 2e-300}), 0);
   ck_assert_int_eq(orientation({0, 0}, {1, 1e-300}, {2, std::nextafter(2e-300, 1.0)}), 1);
   ck_assert_int_eq(in_circle({1, 0}, {0, 1}, {-1, 0}, {0, -1}), 0);
   ck_assert_int_eq(in_circle({1, 0}, {0, 1}, {-1, 0}, {1e-300, -1}), -1);
-  ck_assert_int_eq(in_circle({most, 0}, {0, most}, {-most, 0}, {0, -most}), 0);
-  ck_assert_int_eq(in_circle({most, 0}, {0, most}, {-most, 0}, {least, -most}), -1);
-  ck_assert_int_eq(in_circle({most, 0}, {0, most}, {-most, 0}, {0, least}), 1);
-  ck_assert_int_eq(in_circle({least, 0}, {0, least}, {-least, 0}, {0, 0}), 1);
+  ck_assert_int_eq(in_circle({max, 0}, {0, max}, {-max, 0}, {0, -max}), 0);
+  ck_assert_int_eq(in_circle({max, 0}, {0, max}, {-max, 0}, {min, -max}), -1);
+  ck_assert_int_eq(in_circle({max, 0}, {0, max}, {-max, 0}, {0, min}), 1);
+  ck_assert_int_eq(in_circle({min, 0}, {0, min}, {-min, 0}, {0, 0}), 1);
   ck_assert_int_eq(in_circle({1e150, 0}, {1e-170, 1e-170}, {-1e-170, 1e-170}, {0, 0}),
                    -in_circle({1e-170, 1e-170}, {1e150, 0}, {-1e-170, 1e-170}, {0, 0}));
 }

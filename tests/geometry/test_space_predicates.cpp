@@ -86,10 +86,10 @@ Zeros compare_scaled(int count, const std::vector<int>& exponents, const Make& m
 // x^2 + y^2 + z^2 = square
 std::vector<Whole> lattice_sphere(std::int64_t square) {
   std::vector<Whole> found;
-  const auto most = static_cast<std::int64_t>(std::sqrt(static_cast<double>(square)));
-  for (std::int64_t x = -most; x <= most; ++x) {
-    for (std::int64_t y = -most; y <= most; ++y) {
-      for (std::int64_t z = -most; z <= most; ++z) {
+  const auto max = static_cast<std::int64_t>(std::sqrt(static_cast<double>(square)));
+  for (std::int64_t x = -max; x <= max; ++x) {
+    for (std::int64_t y = -max; y <= max; ++y) {
+      for (std::int64_t z = -max; z <= max; ++z) {
         if (x * x + y * y + z * z == square) found.push_back({x, y, z});
       }
     }
@@ -266,7 +266,7 @@ END_TEST
 START_TEST(as_many_bits_as_fit) {
   compare(20000, [](Random& random) {
     const int bits = 18 + static_cast<int>(random.below(113));
-    const double most = std::ldexp(1.0, bits) - std::ldexp(1.0, std::max(bits - 53, 0));
+    const double max = std::ldexp(1.0, bits) - std::ldexp(1.0, std::max(bits - 53, 0));
     std::vector<Whole> corners{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     random.shuffle(corners);
     const bool regular = random.below(2) == 0;
@@ -275,7 +275,7 @@ START_TEST(as_many_bits_as_fit) {
       const Whole middle = random_lattice(random, 1);
       for (int k = 0; k < 3; ++k) {
         const auto side = regular && i < 4 ? corners[i][k] : 2 * random.below(2) - 1;
-        points[i][k] = i < 4 ? static_cast<double>(side) * most : static_cast<double>(middle[k]);
+        points[i][k] = i < 4 ? static_cast<double>(side) * max : static_cast<double>(middle[k]);
       }
     }
     return points;
@@ -345,17 +345,17 @@ START_TEST(differences_that_round_stay_exact) {
 END_TEST
 
 START_TEST(exponents_far_apart) {
-  const double most = std::numeric_limits<double>::max();
-  const double least = std::numeric_limits<double>::denorm_min();
-  const P a{-most, -most, 0}, b{most, -most, 0}, c{0, most, 0};
+  const double max = std::numeric_limits<double>::max();
+  const double min = std::numeric_limits<double>::denorm_min();
+  const P a{-max, -max, 0}, b{max, -max, 0}, c{0, max, 0};
   ck_assert_int_eq(orientation(a, b, c, {0, 0, 0}), 0);
-  ck_assert_int_eq(orientation(a, b, c, {most, most, least}), 1);
-  ck_assert_int_eq(orientation(a, b, c, {most, -most, -least}), -1);
-  const P x{most, 0, 0}, y{0, most, 0}, z{0, 0, most};
-  const int turn = orientation(x, y, z, {-most, 0, 0});
-  ck_assert_int_eq(in_sphere(x, y, z, {-most, 0, 0}, {0, -most, 0}), 0);
-  ck_assert_int_eq(in_sphere(x, y, z, {-most, 0, 0}, {least, -most, 0}), -turn);
-  ck_assert_int_eq(in_sphere(x, y, z, {-most, 0, 0}, {0, 0, least}), turn);
+  ck_assert_int_eq(orientation(a, b, c, {max, max, min}), 1);
+  ck_assert_int_eq(orientation(a, b, c, {max, -max, -min}), -1);
+  const P x{max, 0, 0}, y{0, max, 0}, z{0, 0, max};
+  const int turn = orientation(x, y, z, {-max, 0, 0});
+  ck_assert_int_eq(in_sphere(x, y, z, {-max, 0, 0}, {0, -max, 0}), 0);
+  ck_assert_int_eq(in_sphere(x, y, z, {-max, 0, 0}, {min, -max, 0}), -turn);
+  ck_assert_int_eq(in_sphere(x, y, z, {-max, 0, 0}, {0, 0, min}), turn);
 }
 END_TEST
 

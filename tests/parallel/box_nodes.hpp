@@ -34,7 +34,7 @@ class BoxNodes {
         radius_(radius),
         tree_(octree::refined_to(leaf_width)),
         distribution_(
-            octree::distributed(*comm_, tree_, octree::largest_spacings(tree_, spacing), radius)) {
+            octree::distributed(*comm_, tree_, octree::max_spacings(tree_, spacing), radius)) {
     nodes_.reserve(1);
   }
   BoxNodes(const BoxNodes&) = delete;  // the distribution points to the tree
@@ -82,7 +82,7 @@ class BoxNodes {
   bool lists_may_miss_a_pair(double range) const {
     if (!lists_valid_) return true;
     const double square =
-        pnpbs::largest_of("BoxNodes::travelled", nodes_.count, 0.0, [this](std::int64_t i) {
+        pnpbs::max_of("BoxNodes::travelled", nodes_.count, 0.0, [this](std::int64_t i) {
           return pnpbs::squared_distance<3>(nodes_.position(i), pnpbs::point_at<3>(listed_, i)) /
                  (nodes_.d(i) * nodes_.d(i));
         });

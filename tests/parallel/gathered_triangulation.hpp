@@ -67,10 +67,10 @@ inline std::vector<Node> local_nodes(pnpbs_placement p, std::int64_t& owned) {
   std::int64_t ghosts;
   require(pnpbs_placement_ghost_count(p, &ghosts), "ghost count");
   require(pnpbs_placement_count(p, &owned), "count");
-  const std::int64_t most = std::max(owned, ghosts);
-  std::vector<double> xy(2 * static_cast<std::size_t>(most));
-  std::vector<std::int64_t> ids(static_cast<std::size_t>(most));
-  std::vector<std::int32_t> owners(static_cast<std::size_t>(most));
+  const std::int64_t max = std::max(owned, ghosts);
+  std::vector<double> xy(2 * static_cast<std::size_t>(max));
+  std::vector<std::int64_t> ids(static_cast<std::size_t>(max));
+  std::vector<std::int32_t> owners(static_cast<std::size_t>(max));
   std::vector<Node> nodes;
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -78,11 +78,11 @@ inline std::vector<Node> local_nodes(pnpbs_placement p, std::int64_t& owned) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
       nodes.push_back({ids[i], xy[2 * i], xy[2 * i + 1], owners[i]});
   };
-  require(pnpbs_placement_get_nodes(p, most, xy.data(), ids.data(), nullptr, nullptr), "nodes");
+  require(pnpbs_placement_get_nodes(p, max, xy.data(), ids.data(), nullptr, nullptr), "nodes");
   std::fill(owners.begin(), owners.end(), rank);
   append(owned);
   require(
-      pnpbs_placement_get_ghosts(p, most, xy.data(), ids.data(), nullptr, nullptr, owners.data()),
+      pnpbs_placement_get_ghosts(p, max, xy.data(), ids.data(), nullptr, nullptr, owners.data()),
       "ghosts");
   append(ghosts);
   return nodes;

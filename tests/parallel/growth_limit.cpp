@@ -124,10 +124,10 @@ void check_case(const Case& c) {
   // Copies are a band along the border, and some large leaves beside it.
   const auto whole = static_cast<double>(alone.leaves_held());
   const double share = whole / comm->size(),
-               most = comm->allreduce_max(static_cast<double>(together.leaves_held()));
-  expect(most <= share + 16 * std::sqrt(share) + 60, std::string(c.name) + ": a rank holds " +
-                                                         std::to_string(most) + " of " +
-                                                         std::to_string(whole) + " leaves");
+               max = comm->allreduce_max(static_cast<double>(together.leaves_held()));
+  expect(max <= share + 16 * std::sqrt(share) + 60, std::string(c.name) + ": a rank holds " +
+                                                        std::to_string(max) + " of " +
+                                                        std::to_string(whole) + " leaves");
   expect(sum_over_ranks(together.leaves_held()) >= whole, "all leaves are somewhere");
 }
 
@@ -169,9 +169,9 @@ void check_failures() {
   domain.check();
   const Plane even = constant(0.02);
   int beats = 0;
-  const auto make = [&](const Plane& d, std::int64_t most_nodes, const Limited::Beat& beat) {
+  const auto make = [&](const Plane& d, std::int64_t max_nodes, const Limited::Beat& beat) {
     const auto asked = std::make_shared<AskedTogether>(d);
-    const Limited limited(comm, open_ways(domain, *spacing_of(even)), asked, 0.1, most_nodes, beat);
+    const Limited limited(comm, open_ways(domain, *spacing_of(even)), asked, 0.1, max_nodes, beat);
   };
   make(even, kManyNodes, [&] { ++beats; });
   // Whenever the last rank's monitor stops it, all stop.

@@ -149,10 +149,10 @@ bool fails_well(int on_rank, long n, bool all_after, const std::string& right_ha
   until_refusal = -1;
   long happened = refusals;
   MPI_Bcast(&happened, 1, MPI_LONG, on_rank, MPI_COMM_WORLD);
-  int mine = status, least, most;
-  MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-  expect(least == most, name + ": ranks disagree on the status");
+  int mine = status, min, max;
+  MPI_Allreduce(&mine, &min, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  MPI_Allreduce(&mine, &max, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  expect(min == max, name + ": ranks disagree on the status");
   if (status < 0) {
     expect(status == PNPBS_ERROR_MEMORY, name + ": another status");
     const std::string wanted = size > 1 ? "rank " + std::to_string(on_rank) + ": " : "out of";

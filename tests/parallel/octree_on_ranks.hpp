@@ -34,19 +34,18 @@ inline BackgroundTree<3> refined_to(const Function& width) {
 }
 
 // The largest d in each leaf: in a corner, as the spacings here are convex functions.
-inline std::vector<double> largest_spacings(const BackgroundTree<3>& tree,
-                                            const Function& spacing) {
-  std::vector<double> largest(static_cast<std::size_t>(tree.leaf_count()), 0);
+inline std::vector<double> max_spacings(const BackgroundTree<3>& tree, const Function& spacing) {
+  std::vector<double> max(static_cast<std::size_t>(tree.leaf_count()), 0);
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const pnpbs::Box<3> box = tree.cell_box(tree.leaf_cell(leaf));
     for (unsigned corner = 0; corner < 8; ++corner) {
       Point<3> x;
       for (std::size_t k = 0; k < 3; ++k) x[k] = (corner >> k & 1) ? box.high[k] : box.low[k];
-      double& d = largest[static_cast<std::size_t>(leaf)];
+      double& d = max[static_cast<std::size_t>(leaf)];
       d = std::max(d, spacing(x));
     }
   }
-  return largest;
+  return max;
 }
 
 // Ten for every node that d asks for; none in a leaf outside the domain, which has no d.

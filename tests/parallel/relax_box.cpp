@@ -68,13 +68,13 @@ PackedNode lattice_node(std::int64_t id) {
 // farther than the range of the force and the ways of both nodes, both drift while the ghosts stay
 // the same ones, and a hop spans a list radius.
 int hops_needed() {
-  const double step = kLaw.range + 2 * kMotion.most, drift = 2 * kMotion.most * kGhostLife;
+  const double step = kLaw.range + 2 * kMotion.max_move, drift = 2 * kMotion.max_move * kGhostLife;
   return static_cast<int>(std::ceil((kExchangeInterval * step + drift) / kListRadius));
 }
 
 struct Relaxed {
-  std::uint64_t hash = 0;          // of ids and coordinates of all nodes
-  double least_gap = kListRadius;  // distance of two nodes over the desired one
+  std::uint64_t hash = 0;        // of ids and coordinates of all nodes
+  double min_gap = kListRadius;  // distance of two nodes over the desired one
   std::uint64_t nodes = 0;
   std::uint64_t held = 0;  // in the last step: ghosts, too
 };
@@ -94,12 +94,12 @@ Relaxed measured(const Communicator& ranks, BoxNodes& box) {
     box.lists().for_neighbours(i, [&](std::int64_t j) {
       const double desired = 0.5 * (nodes.d(i) + nodes.d(j));
       const double gap = pnpbs::distance<3>(nodes.position(i), nodes.position(j)) / desired;
-      result.least_gap = std::min(result.least_gap, gap);
+      result.min_gap = std::min(result.min_gap, gap);
     });
   }
   result.hash = ranks.allreduce_sum(result.hash);
   result.nodes = ranks.allreduce_sum(result.nodes);
-  result.least_gap = -ranks.allreduce_max(-result.least_gap);
+  result.min_gap = -ranks.allreduce_max(-result.min_gap);
   return result;
 }
 
@@ -126,7 +126,7 @@ void print(const char* what, const Relaxed& relaxed) {
   if (comm->rank() == 0)
     std::printf("%s: %llu nodes, hash %016llx, least gap %.3f, %llu held\n", what,
                 static_cast<unsigned long long>(relaxed.nodes),
-                static_cast<unsigned long long>(relaxed.hash), relaxed.least_gap,
+                static_cast<unsigned long long>(relaxed.hash), relaxed.min_gap,
                 static_cast<unsigned long long>(relaxed.held));
 }
 
@@ -136,7 +136,7 @@ void check_relaxation() {
   print("before", before);
   print("after", after);
   expect(after.nodes == 2 * kCells * kCells * kCells, "all nodes are there");
-  expect(after.least_gap > 0.8 && before.least_gap < 0.4, "the jitter is gone");
+  expect(after.min_gap > 0.8 && before.min_gap < 0.4, "the jitter is gone");
   std::uint64_t alone = 0;
   if (comm->rank() == 0) alone = relax(pnpbs::serial_communicator(), kSteps, hops).hash;
   alone = comm->allreduce_sum(alone);  // of the first rank

@@ -32,7 +32,7 @@ double leaf_width(const Point<3>& x) { return 4 * spacing(x); }
 
 // Nothing of the domain is in the cell.
 bool empty_cell(const Distribution<3>& distribution, std::int32_t cell) {
-  return distribution.cells().largest_spacing(cell) == 0;
+  return distribution.cells().max_spacing(cell) == 0;
 }
 
 bool empty_leaf(const Distribution<3>& distribution, std::int32_t leaf) {
@@ -70,17 +70,17 @@ class BruteForce {
 
   // Does the rank, which does not own the leaf, need it?
   bool needs(int rank, std::size_t leaf, int hops, double hop_share) const {
-    const double way = hops * hop_share * largest_reach_[leaf];
+    const double way = hops * hop_share * max_reach_[leaf];
     return hops_[index(rank)][leaf] <= hops && gap_[index(rank)][leaf] <= way * way;
   }
   // Of the leaves within so many hops of each one.
-  void find_largest_reach(int hops) {
-    largest_reach_ = reach_;
+  void find_max_reach(int hops) {
+    max_reach_ = reach_;
     for (int hop = 0; hop < hops; ++hop) {
-      const std::vector<double> before = largest_reach_;
+      const std::vector<double> before = max_reach_;
       for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
         for (const std::int32_t other : near_[leaf])
-          largest_reach_[leaf] = std::max(largest_reach_[leaf], before[index(other)]);
+          max_reach_[leaf] = std::max(max_reach_[leaf], before[index(other)]);
     }
   }
 
@@ -119,7 +119,7 @@ class BruteForce {
   const Distribution<3>& distribution_;
   std::size_t leaves_;
   std::vector<Box<3>> box_;
-  std::vector<double> reach_, largest_reach_;
+  std::vector<double> reach_, max_reach_;
   std::vector<std::vector<std::int32_t>> near_;
   std::vector<std::vector<int>> hops_;    // of each rank
   std::vector<std::vector<double>> gap_;  // of each rank
@@ -162,7 +162,7 @@ void check_prefix_sums(const Distribution<3>& distribution, std::int32_t leaves)
 void check_halo(Distribution<3>& distribution, BruteForce& brute, std::int32_t leaves, int hops,
                 double hop_share) {
   const std::string what = std::to_string(hops) + " hops: ";
-  brute.find_largest_reach(hops);
+  brute.find_max_reach(hops);
   const pnpbs::Halo& halo = distribution.halo(hops, hop_share);
   std::vector<char> exchanged(index(leaves), 0), neighbour(index(comm->size()), 0);
   std::int64_t ghosts = 0;
@@ -210,8 +210,8 @@ void check_cells_near_own(const Distribution<3>& distribution) {
   for (std::int32_t a = 0; a < tree.leaf_count(); ++a) {
     if (distribution.owner_of_cell(a) != comm->rank() || empty_cell(distribution, a)) continue;
     for (std::int32_t b = 0; b < tree.leaf_count(); ++b) {
-      const double reach = kRadius * std::max(distribution.cells().largest_spacing(a),
-                                              distribution.cells().largest_spacing(b));
+      const double reach = kRadius * std::max(distribution.cells().max_spacing(a),
+                                              distribution.cells().max_spacing(b));
       if (!empty_cell(distribution, b) && pnpbs::squared_gap<3>(box(a), box(b)) <= reach * reach)
         expect(found[index(b)] != 0, "a cell near one of ours is found");
     }
@@ -251,7 +251,7 @@ bool in_sponge(const Point<3>& x) {
 
 void check_distribution(bool (*inside)(const Point<3>&)) {
   const BackgroundTree<3> tree = octree::refined_to(leaf_width);
-  std::vector<double> d = octree::largest_spacings(tree, spacing);
+  std::vector<double> d = octree::max_spacings(tree, spacing);
   const std::int32_t leaves = tree.leaf_count();
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
     if (!inside(tree.cell_centre(tree.leaf_cell(leaf)))) d[index(leaf)] = 0;

@@ -19,11 +19,11 @@ using rank_checks::expect;
 
 constexpr std::int64_t kNodes = 20000;
 constexpr int kHops = 2;
-constexpr double kRadius = 1.7, kLeast = 0.03;  // of the lists; spacing
+constexpr double kRadius = 1.7, kMin = 0.03;  // of the lists; spacing
 // Between two exchanges nodes drift less than a hop, as in a placement.
-constexpr double kDrift = 0.6 * kRadius * kLeast;
+constexpr double kDrift = 0.6 * kRadius * kMin;
 
-double spacing(const Point<3>& x) { return kLeast + 0.05 * pnpbs::distance<3>(x, {0.3, 0.4, 0.6}); }
+double spacing(const Point<3>& x) { return kMin + 0.05 * pnpbs::distance<3>(x, {0.3, 0.4, 0.6}); }
 
 double leaf_width(const Point<3>& x) { return 4 * spacing(x); }
 
@@ -45,7 +45,7 @@ PackedNode node_at(std::int64_t id, int moment) {
     node.v[at] = number(id, 20 + 3 * moment + k) - 0.5;
     node.reference[at] = number(id, 40 + k);
   }
-  node.d = kLeast * (1 + 0.1 * number(id, 50));
+  node.d = kMin * (1 + 0.1 * number(id, 50));
   node.tag = static_cast<std::int32_t>(100 * number(id, 51));
   node.boundary_node = static_cast<std::int32_t>(10 * number(id, 52)) - 8;
   node.carrier = number(id, 53) < 0.5 ? pnpbs::Carrier::free : pnpbs::Carrier::fixed;

@@ -48,7 +48,7 @@ std::uint64_t hash_of_cells(const std::vector<PartitionCell<3>>& cells) {
     for (const std::uint32_t i : cell.index) hash = pnpbs::mixed(hash ^ i);
     hash = pnpbs::mixed(hash ^ static_cast<std::uint64_t>(cell.depth));
     hash = pnpbs::mixed(hash ^ static_cast<std::uint64_t>(cell.work));
-    hash = pnpbs::mixed_with(hash, cell.largest_spacing);
+    hash = pnpbs::mixed_with(hash, cell.max_spacing);
   }
   return hash;
 }
@@ -75,12 +75,12 @@ std::int64_t check_work(const BackgroundTree<3>& tree, const std::vector<double>
                         const PartitionCells<3>& cells) {
   const std::vector<std::int64_t> work = octree::leaf_work(tree, d);
   std::vector<std::int64_t> sum(index(cells.count()), 0);
-  std::vector<double> largest(index(cells.count()), 0);
+  std::vector<double> max(index(cells.count()), 0);
   std::vector<int> leaves(index(cells.count()), 0);
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const std::size_t c = index(cells.at(tree.cell_centre(tree.leaf_cell(leaf))));
     sum[c] += work[index(leaf)];
-    largest[c] = std::max(largest[c], d[index(leaf)]);
+    max[c] = std::max(max[c], d[index(leaf)]);
     ++leaves[c];
   }
   const std::int64_t total = std::accumulate(work.begin(), work.end(), std::int64_t{0}),
@@ -88,7 +88,7 @@ std::int64_t check_work(const BackgroundTree<3>& tree, const std::vector<double>
   std::int64_t joined = 0;
   for (std::int32_t c = 0; c < cells.count(); ++c) {
     expect(cells.work(c) == sum[index(c)], "a cell's work is that of its leaves");
-    expect(cells.largest_spacing(c) == largest[index(c)], "a cell's largest d");
+    expect(cells.max_spacing(c) == max[index(c)], "a cell's largest d");
     expect(leaves[index(c)] == 1 || cells.work(c) <= share, "a cell has no more than its share");
     joined += leaves[index(c)] > 1;
   }
@@ -165,14 +165,13 @@ std::int64_t cut_of(const pnpbs::CellGraph& graph, const std::vector<std::int32_
 // The Morton order gives a cell to the part in which the middle of its work lies, so a part sticks
 // out of its equal share by half a cell at either end: its imbalance is at most 1 + ranks * largest
 // / total. What METIS does is taken if it is at most 1.1 times as bad.
-void check_cut(const PartitionCells<3>& cells, const pnpbs::CellGraph& graph,
-               std::int64_t largest) {
+void check_cut(const PartitionCells<3>& cells, const pnpbs::CellGraph& graph, std::int64_t max) {
   const int ranks = comm->size();
   const std::vector<std::int32_t> owner = pnpbs::cut_by_metis(cells, ranks, 1),
                                   plain = pnpbs::cut_morton_order(cells.work(), ranks);
   const std::int64_t total =
       std::accumulate(cells.work().begin(), cells.work().end(), std::int64_t{0});
-  const double bound = 1 + static_cast<double>(ranks * largest) / static_cast<double>(total);
+  const double bound = 1 + static_cast<double>(ranks * max) / static_cast<double>(total);
   const double imbalance = pnpbs::imbalance(owner, cells.work(), ranks);
   expect(pnpbs::imbalance(plain, cells.work(), ranks) <= bound, "balance of the Morton order");
   expect(imbalance <= 1.1 * bound, "balance of what METIS cuts");
@@ -187,15 +186,15 @@ void check_cut(const PartitionCells<3>& cells, const pnpbs::CellGraph& graph,
 
 void check_partition() {
   const BackgroundTree<3> tree = octree::refined_to(leaf_width);
-  const std::vector<double> d = octree::largest_spacings(tree, spacing);
+  const std::vector<double> d = octree::max_spacings(tree, spacing);
   const std::vector<PartitionCell<3>> list = octree::equal_cells(*comm, tree, d);
   expect(comm->same_on_all(hash_of_cells(list)), "the same cells on all ranks");
   const PartitionCells<3> cells({{0, 0, 0}, {1, 1, 1}}, list);
   check_tiling(list, cells);
-  const std::int64_t largest = check_work(tree, d, cells);
+  const std::int64_t max = check_work(tree, d, cells);
   const pnpbs::CellGraph graph = pnpbs::cell_graph(cells);
   check_graph(cells, graph);
-  check_cut(cells, graph, largest);
+  check_cut(cells, graph, max);
 }
 
 }  // namespace

@@ -15,19 +15,19 @@ namespace {
 
 // Least sine, about, of the angle between two neighbours next to each other: their cross product,
 // in which rounding loses 2^-51 of the terms, is then right to 1e-10.
-constexpr double kLeastTurn = 1e-5;
+constexpr double kMinTurn = 1e-5;
 // Least turn of three inverted points, relative to the terms of the determinant. Rounding loses
 // less than 2^-49 of them.
-constexpr double kLeastBend = 1e-13;
+constexpr double kMinBend = 1e-13;
 // Circles must lie within reach by this margin, in squares, against the errors of cross products
 // here and of circle_diameter, whose area is right to 1e-10 if no neighbour is nearer than that.
 constexpr double kCircleMargin = 1 - 1e-8;
-constexpr double kLeastGap = 1e-4;  // in units of the reach
+constexpr double kMinGap = 1e-4;  // in units of the reach
 // Reaches for which the products of six lengths neither overflow nor lose bits.
-constexpr double kLeastReach = 1e-30, kLargestReach = 1e30;
+constexpr double kMinReach = 1e-30, kMaxReach = 1e30;
 
 constexpr std::int32_t kNoKey = 0x7ffffff0;  // comes last, whatever place it names
-constexpr std::int32_t kKeyIndex = kMostListed - 1;
+constexpr std::int32_t kKeyIndex = kMaxListed - 1;
 constexpr double kQuarterTurn = 1 << 24;
 constexpr std::int32_t kTurnMask = (1 << 26) - 1;
 
@@ -41,9 +41,9 @@ class BlockHull {
       : entries_(list.entries), listed_(list.length) {
     gather(pad, x, y, self);
     for (int lane = 0; lane < kLanes; ++lane) {
-      const double least_gap = kLeastGap * reach[lane];
-      sure_[lane] = reach[lane] > kLeastReach && reach[lane] < kLargestReach &&
-                    nearest_[lane] > least_gap * least_gap && left_[lane] >= 3;
+      const double min_gap = kMinGap * reach[lane];
+      sure_[lane] = reach[lane] > kMinReach && reach[lane] < kMaxReach &&
+                    nearest_[lane] > min_gap * min_gap && left_[lane] >= 3;
     }
     key_by_angle();
   }
@@ -84,9 +84,9 @@ class BlockHull {
         const std::int32_t j = entries_[k * kLanes + lane];
         const double dx = x[j] - own_x[lane], dy = y[j] - own_y[lane];
         const double square = j != pad ? dx * dx + dy * dy : 1e300;
-        const double least = nearest_[lane];
-        const std::int32_t nearer = square < least ? -1 : 0;
-        nearest_[lane] = square < least ? square : least;
+        const double min = nearest_[lane];
+        const std::int32_t nearer = square < min ? -1 : 0;
+        nearest_[lane] = square < min ? square : min;
         nearest_place_[lane] = (nearest_place_[lane] & ~nearer) | (k & nearer);
         left_[lane] += j != pad ? 1 : 0;
         dx_[k][lane] = dx;
@@ -114,7 +114,7 @@ class BlockHull {
 #pragma omp simd
       for (int lane = 0; lane < kLanes; ++lane) {
         const std::int32_t turn = (angle(dx_[k][lane], dy_[k][lane]) - first[lane]) & kTurnMask;
-        key_[k][lane] = k < left_[lane] ? turn * kMostListed + k : kNoKey;
+        key_[k][lane] = k < left_[lane] ? turn * kMaxListed + k : kNoKey;
       }
     }
   }
@@ -133,9 +133,9 @@ class BlockHull {
   }
 
   int longest() const {
-    std::int32_t most = 0;
-    for (int lane = 0; lane < kLanes; ++lane) most = left_[lane] > most ? left_[lane] : most;
-    return most;
+    std::int32_t max = 0;
+    for (int lane = 0; lane < kLanes; ++lane) max = left_[lane] > max ? left_[lane] : max;
+    return max;
   }
 
   // Positions in order; after the last come the first and the second again.
@@ -160,7 +160,7 @@ class BlockHull {
         const double left = x_[k][lane] * y_[k + 1][lane];
         const double right = y_[k][lane] * x_[k + 1][lane];
         const double size = std::fabs(left) + std::fabs(right);
-        const bool fine = left - right > kLeastTurn * size || k >= left_[lane];
+        const bool fine = left - right > kMinTurn * size || k >= left_[lane];
         cross_[k][lane] = left - right;
         cross_size_[k][lane] = size;
         sure_[lane] &= fine ? 1 : 0;
@@ -184,8 +184,8 @@ class BlockHull {
         const double size = after * cross_size_[k - 1][lane] + before * cross_size_[k][lane] +
                             at * (std::fabs(left) + std::fabs(right));
         const std::int32_t here = k <= left_[lane] ? 1 : 0;
-        const std::int32_t inside = bend > kLeastBend * size ? 1 : 0;
-        const std::int32_t outside = bend < -kLeastBend * size ? 1 : 0;
+        const std::int32_t inside = bend > kMinBend * size ? 1 : 0;
+        const std::int32_t outside = bend < -kMinBend * size ? 1 : 0;
         sure_[lane] &= (inside | outside) | (1 - here);
         const std::int32_t drop = outside & here & sure_[lane];
         // The nearest, which comes last here and first in the keys, always belongs.
@@ -209,8 +209,8 @@ class BlockHull {
         const double sx = x_[k + 1][lane] - x_[k][lane], sy = y_[k + 1][lane] - y_[k][lane];
         // The diameter is the product of the three sides over twice the area.
         const double sides = square_[k][lane] * square_[k + 1][lane] * (sx * sx + sy * sy);
-        const double most = reach[lane] * cross_[k][lane];
-        const bool fine = sides <= kCircleMargin * most * most || k >= left_[lane];
+        const double max = reach[lane] * cross_[k][lane];
+        const bool fine = sides <= kCircleMargin * max * max || k >= left_[lane];
         sure_[lane] &= fine ? 1 : 0;
       }
     }
@@ -223,10 +223,10 @@ class BlockHull {
   Integers sure_;   // 0: given up
   Lanes nearest_;   // squared distance
   Integers nearest_place_;
-  Lanes dx_[kMostListed], dy_[kMostListed];  // as listed
-  Integers key_[kMostListed];
-  Lanes x_[kMostListed + 2], y_[kMostListed + 2], square_[kMostListed + 2];  // as sorted
-  Lanes cross_[kMostListed + 1], cross_size_[kMostListed + 1];               // of one and the next
+  Lanes dx_[kMaxListed], dy_[kMaxListed];  // as listed
+  Integers key_[kMaxListed];
+  Lanes x_[kMaxListed + 2], y_[kMaxListed + 2], square_[kMaxListed + 2];  // as sorted
+  Lanes cross_[kMaxListed + 1], cross_size_[kMaxListed + 1];              // of one and the next
 };
 
 }  // namespace
@@ -234,7 +234,7 @@ class BlockHull {
 void find_block_hull_stars(const ListBlock& list, std::int32_t pad, const double* x,
                            const double* y, const std::int64_t (&self)[kLanes],
                            const double (&reach)[kLanes], BlockHullStars& stars) {
-  if (list.length < 3 || list.length > kMostListed) {
+  if (list.length < 3 || list.length > kMaxListed) {
     for (bool& found : stars.found) found = false;
     return;
   }

@@ -9,13 +9,13 @@
 
 namespace pnpbs {
 
-inline constexpr int kMostListed = 16;  // longer lists are left to hull_star
+inline constexpr int kMaxListed = 16;  // longer lists are left to hull_star
 
 struct BlockHullStars {
   bool found[kLanes];
   std::int32_t size[kLanes];  // of those found
   // Counter-clockwise from the nearest neighbour (of several, the one with the smallest id).
-  std::int32_t node[kMostListed][kLanes];
+  std::int32_t node[kMaxListed][kLanes];
 };
 
 // x, y: positions of all nodes; entry `pad` of a list is none. `reach` is how far from each node

@@ -129,13 +129,13 @@ class GiftWrap {
 
   int nearest_visible() {
     int nearest = -1;
-    double least = kInfinity;
+    double min = kInfinity;
     for (int k = 0; k < static_cast<int>(around_.size()); ++k) {
       const double gap = squared_distance<2>(centre_.position, around_[index(k)].position);
       const bool nearer =
-          gap < least || (gap == least && around_[index(k)].id < around_[index(nearest)].id);
+          gap < min || (gap == min && around_[index(k)].id < around_[index(nearest)].id);
       if (!nearer || !sees_centre(k)) continue;
-      least = gap;
+      min = gap;
       nearest = k;
     }
     return nearest;

@@ -79,15 +79,15 @@ bool belongs(const StarPoint& centre, const StarPoint& left, const StarPoint& mi
 bool hull_star(const StarPoint& centre, double reach, std::vector<StarPoint>& around) {
   if (around.size() < 3) return false;
   std::size_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < around.size(); ++k) {
     const double gap = squared_distance<2>(centre.position, around[k].position);
-    if (gap < least || (gap == least && around[k].id < around[nearest].id)) {
-      least = gap;
+    if (gap < min || (gap == min && around[k].id < around[nearest].id)) {
+      min = gap;
       nearest = k;
     }
   }
-  if (least == 0) return false;
+  if (min == 0) return false;
   std::swap(around[0], around[nearest]);
   static thread_local std::vector<char> halves;
   sort_by_angle(centre, around, halves);

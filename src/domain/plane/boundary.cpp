@@ -16,7 +16,7 @@ namespace pnpbs {
 
 namespace {
 
-constexpr int kMostRounds = 64;    // of halving
+constexpr int kMaxRounds = 64;     // of halving
 constexpr std::size_t kNamed = 3;  // of the worst, in warnings
 
 // An edge by its place: from node `step` of the curve to the next one.
@@ -27,10 +27,10 @@ struct EdgePlace {
 
 class Layer {
  public:
-  Layer(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing, std::int64_t most_nodes)
+  Layer(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing, std::int64_t max_nodes)
       : domain_(domain), spacing_(spacing) {
     for (const BoundaryCurve& curve : domain.curves()) tracks_.emplace_back(curve);
-    stations_ = lay_equal_steps(tracks_, spacing, most_nodes);
+    stations_ = lay_equal_steps(tracks_, spacing, max_nodes);
     inner_points_.resize(tracks_.size());
     for (std::size_t c = 0; c < tracks_.size(); ++c) inner_points_[c] = points_between(c);
     halved_.assign(tracks_.size(), 0);
@@ -41,7 +41,7 @@ class Layer {
       assemble();
       const std::vector<std::int32_t> bad = edges_that_mislead();
       if (bad.empty()) break;
-      if (round == kMostRounds || !halve(bad)) reject(bad);
+      if (round == kMaxRounds || !halve(bad)) reject(bad);
     }
     warn_of_halved_edges();
     ask_spacing();
@@ -232,7 +232,7 @@ class Layer {
   // What nodes inside see of edges far shorter than d grows with this sum: beyond it a run would
   // take more than about a minute, or more memory than there may be.
   void refuse_far_too_fine() const {
-    constexpr double kFine = 32, kMost = 3e7;
+    constexpr double kFine = 32, kMax = 3e7;
     // Without inner nodes each boundary node is tested against all, often exactly.
     constexpr double kNothingWithin = 20;
     const double size = size_of(domain_.bounds());  // farther nobody sees, however large d is
@@ -246,7 +246,7 @@ class Layer {
       work += d > 0.4 * size ? kNothingWithin * ratio : ratio;
       ++fine;
     }
-    if (work <= kMost) return;
+    if (work <= kMax) return;
     throw Error(ErrorKind::spacing,
                 "the boundary is far finer than the spacing: " + std::to_string(fine) +
                     " of its edges are " + rounded_text(sum / static_cast<double>(fine)) +
@@ -348,8 +348,8 @@ std::vector<double> bubbles_on_boundary(const Boundary& boundary) {
 }
 
 Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing,
-                             std::int64_t most_nodes) {
-  return Layer(domain, spacing, most_nodes).run();
+                             std::int64_t max_nodes) {
+  return Layer(domain, spacing, max_nodes).run();
 }
 
 }  // namespace pnpbs

@@ -28,9 +28,9 @@ struct Boundary : BoundaryMesh<2> {
 // (section 2.1) has the same result. d is asked on the curves only. Warns where d is larger than
 // the feature (edges shorter than half of d: the worst few are named, with the number of them),
 // and where a fixed node is closer than 0.4 d to an edge or to another fixed node.
-// Throws Error(ErrorKind::spacing) if there would be more than `most_nodes`.
+// Throws Error(ErrorKind::spacing) if there would be more than `max_nodes`.
 Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing,
-                             std::int64_t most_nodes = (std::int64_t{1} << 31) - 2);
+                             std::int64_t max_nodes = (std::int64_t{1} << 31) - 2);
 
 // How large the bubble of each boundary node may be. Where a boundary is far finer than d, as a
 // circle of thousands of segments, bubbles of diameter d would hold thousands of each other: there

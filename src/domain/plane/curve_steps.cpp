@@ -11,11 +11,11 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kLargestStep = 0.25;     // between samples, in units of d
-constexpr double kLargestRatio = 2;       // of d at neighbouring samples ...
+constexpr double kMaxStep = 0.25;         // between samples, in units of d
+constexpr double kMaxRatio = 2;           // of d at neighbouring samples ...
 constexpr double kSmallestStep = 1e-3;    // ... but where d jumps
-constexpr int kLeastIntervals = 8;        // on a curve, however large d is
-constexpr double kMostParts = 64;         // of an interval in one round
+constexpr int kMinIntervals = 8;          // on a curve, however large d is
+constexpr double kMaxParts = 64;          // of an interval in one round
 constexpr std::int64_t kBatch = 1 << 16;  // points asked in one call
 
 // d along one curve.
@@ -40,8 +40,8 @@ double inverse(double fraction, double a, double b) {
 class Profiles {
  public:
   Profiles(const std::vector<CurveTrack>& tracks, const SpacingEvaluator<2>& spacing,
-           std::int64_t most_nodes)
-      : tracks_(tracks), spacing_(spacing), most_nodes_(static_cast<double>(most_nodes)) {}
+           std::int64_t max_nodes)
+      : tracks_(tracks), spacing_(spacing), max_nodes_(static_cast<double>(max_nodes)) {}
 
   const std::vector<Profile>& run() {
     for (const CurveTrack& track : tracks_) profiles_.push_back(first_profile(track));
@@ -59,7 +59,7 @@ class Profiles {
   static Profile first_profile(const CurveTrack& track) {
     const std::vector<double>& vertices = track.vertex_stations();
     const auto segments = static_cast<int>(std::min<std::size_t>(vertices.size() - 1, 1 << 20));
-    const int parts = (kLeastIntervals + segments - 1) / segments;
+    const int parts = (kMinIntervals + segments - 1) / segments;
     Profile profile;
     for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
       for (int k = 0; k < parts; ++k) {
@@ -102,9 +102,9 @@ class Profiles {
                                               point_text(points_[next]) +
                                               ", expected a positive number");
         }
-        if (d < least_) {
-          least_ = d;
-          least_point_ = points_[next];
+        if (d < min_) {
+          min_ = d;
+          min_point_ = points_[next];
         }
         ++next;
       }
@@ -119,18 +119,18 @@ class Profiles {
             integral(profile.stations[i + 1] - profile.stations[i], profile.d[i], profile.d[i + 1]);
       }
     }
-    if (nodes <= most_nodes_) return;
+    if (nodes <= max_nodes_) return;
     throw Error(ErrorKind::spacing, "the boundary would need about " + rounded_text(nodes) +
-                                        " nodes, more than " + number_text(most_nodes_) +
-                                        ": the spacing is " + number_text(least_) + " at " +
-                                        point_text(least_point_));
+                                        " nodes, more than " + number_text(max_nodes_) +
+                                        ": the spacing is " + number_text(min_) + " at " +
+                                        point_text(min_point_));
   }
 
   static int parts(double h, double a, double b) {
-    const double least = std::min(a, b), most = std::max(a, b);
-    const double wanted = std::ceil(h / (kLargestStep * least));
-    if (wanted > 1) return static_cast<int>(std::clamp(wanted, 2.0, kMostParts));
-    return most > kLargestRatio * least && h > kSmallestStep * least ? 2 : 1;
+    const double min = std::min(a, b), max = std::max(a, b);
+    const double wanted = std::ceil(h / (kMaxStep * min));
+    if (wanted > 1) return static_cast<int>(std::clamp(wanted, 2.0, kMaxParts));
+    return max > kMaxRatio * min && h > kSmallestStep * min ? 2 : 1;
   }
 
   // False if all intervals are short enough.
@@ -159,11 +159,11 @@ class Profiles {
 
   const std::vector<CurveTrack>& tracks_;
   const SpacingEvaluator<2>& spacing_;
-  double most_nodes_;
+  double max_nodes_;
   std::vector<Profile> profiles_;
   std::vector<Point<2>> points_;  // asked in this round
-  double least_ = HUGE_VAL;       // value of d so far
-  Point<2> least_point_{};
+  double min_ = HUGE_VAL;         // value of d so far
+  Point<2> min_point_{};
 };
 
 std::vector<double> equal_steps(const Profile& profile, bool closed) {
@@ -191,8 +191,8 @@ std::vector<double> equal_steps(const Profile& profile, bool closed) {
 
 std::vector<std::vector<double>> lay_equal_steps(const std::vector<CurveTrack>& tracks,
                                                  const SpacingEvaluator<2>& spacing,
-                                                 std::int64_t most_nodes) {
-  Profiles profiles(tracks, spacing, most_nodes);
+                                                 std::int64_t max_nodes) {
+  Profiles profiles(tracks, spacing, max_nodes);
   const std::vector<Profile>& resolved = profiles.run();
   std::vector<std::vector<double>> stations;
   for (std::size_t c = 0; c < tracks.size(); ++c) {

@@ -13,9 +13,9 @@ namespace pnpbs {
 // The stations of each curve's nodes, its two ends included: n = max(1, round(integral)) steps
 // (3 at least on closed curves). d is asked in large batches, for all curves together, at points
 // less than a quarter of d apart; it is taken to be linear between them. Throws
-// Error(ErrorKind::spacing) if that makes more than `most_nodes` nodes.
+// Error(ErrorKind::spacing) if that makes more than `max_nodes` nodes.
 std::vector<std::vector<double>> lay_equal_steps(const std::vector<CurveTrack>& tracks,
                                                  const SpacingEvaluator<2>& spacing,
-                                                 std::int64_t most_nodes);
+                                                 std::int64_t max_nodes);
 
 }  // namespace pnpbs

@@ -53,15 +53,15 @@ bool CurveTrack::is_straight(double begin, double end) const {
 
 double CurveTrack::deviation(double begin, double end) const {
   const std::vector<Point<2>> ends = points_at({begin, end});
-  double largest = 0;
+  double max = 0;
   for (std::size_t i = segment_at(begin) + 1; vertex_stations_[i] < end; ++i) {
-    largest = std::max(largest, distance_to_segment(ends[0], ends[1], curve_->points[i]));
+    max = std::max(max, distance_to_segment(ends[0], ends[1], curve_->points[i]));
   }
   if (curve_->evaluate) {
     const Point<2> middle = points_at({0.5 * (begin + end)})[0];
-    largest = 1.5 * std::max(largest, distance_to_segment(ends[0], ends[1], middle));
+    max = 1.5 * std::max(max, distance_to_segment(ends[0], ends[1], middle));
   }
-  return largest;
+  return max;
 }
 
 }  // namespace pnpbs

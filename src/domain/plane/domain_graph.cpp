@@ -167,13 +167,13 @@ class Joiner {
     }
   }
 
-  void add_to_vertex(GraphVertex& vertex, std::int32_t point, int& largest_weight) {
+  void add_to_vertex(GraphVertex& vertex, std::int32_t point, int& max_weight) {
     const GivenPoint& given = given_[point];
     vertex.corner = true;  // curves meet here
     if (vertex.fixed < 0) vertex.fixed = given.fixed;
     if (given.fixed >= 0 || vertex.tag == 0) vertex.tag = given.tag;
-    if (weight(point) <= largest_weight) return;
-    largest_weight = weight(point);
+    if (weight(point) <= max_weight) return;
+    max_weight = weight(point);
     vertex.position = positions_[point];
   }
 

@@ -31,10 +31,10 @@ void require_array(const char* name, const void* array, std::int64_t n) {
   if (n > 0 && array == nullptr) reject(std::string(name) + " is NULL");
 }
 
-void require_count(const char* name, std::int64_t value, std::int64_t least) {
-  if (value >= least && value < (std::int64_t{1} << 31) - 1) return;
+void require_count(const char* name, std::int64_t value, std::int64_t min) {
+  if (value >= min && value < (std::int64_t{1} << 31) - 1) return;
   reject(std::string(name) + " is " + std::to_string(value) + ", expected at least " +
-         std::to_string(least) + " and less than 2^31 - 1");
+         std::to_string(min) + " and less than 2^31 - 1");
 }
 
 void require_tag(const std::string& name, std::int32_t tag) {

@@ -40,14 +40,14 @@ std::int64_t read_count(TextFields& fields, const std::string& what) {
 }
 
 // A count that may be left out at the end of its line.
-std::int64_t read_optional(TextFields& fields, const std::string& what, std::int64_t most,
+std::int64_t read_optional(TextFields& fields, const std::string& what, std::int64_t max,
                            std::int64_t if_missing = 0) {
   TextFields ahead = fields;
   if (!ahead.next()) return if_missing;
   const std::int64_t value = fields.integer(what);
-  if (value < 0 || value > most) {
+  if (value < 0 || value > max) {
     fields.fail("found " + std::to_string(value) + ", expected " + what + " (0 to " +
-                std::to_string(most) + ")");
+                std::to_string(max) + ")");
   }
   return value;
 }

@@ -12,7 +12,7 @@ namespace pnpbs {
 
 namespace {
 
-constexpr std::size_t kMostSamples = std::size_t{1} << 20;
+constexpr std::size_t kMaxSamples = std::size_t{1} << 20;
 
 double extent(const std::vector<Point<2>>& points) {
   Box<2> box{points[0], points[0]};
@@ -66,7 +66,7 @@ std::vector<Point<2>> curve_points(const CurveFunction& curve,
 CurveSamples sample_curve(const CurveFunction& curve, double begin, double end,
                           const std::string& name) {
   CurveSamples samples;
-  samples.parameters = equal_steps(begin, end, kLeastSamples);
+  samples.parameters = equal_steps(begin, end, kMinSamples);
   samples.points = curve_points(curve, samples.parameters, name);
   const double whole = extent(samples.points);
   if (!(whole > 0)) {
@@ -101,9 +101,9 @@ CurveSamples sample_curve(const CurveFunction& curve, double begin, double end,
     }
     samples = std::move(finer);
     open = std::move(still_open);
-    if (samples.points.size() > kMostSamples) {
+    if (samples.points.size() > kMaxSamples) {
       throw Error(ErrorKind::argument, name + " turns too often to be followed: more than " +
-                                           std::to_string(kMostSamples) +
+                                           std::to_string(kMaxSamples) +
                                            " samples do not resolve it");
     }
   }
@@ -114,7 +114,7 @@ CurveSamples sample_arc(const CurveFunction& curve, double begin, double end) {
   const double wanted = std::ceil(std::fabs(end - begin) / kSampleTurn);
   CurveSamples samples;
   samples.parameters =
-      equal_steps(begin, end, std::max(kLeastSamples, static_cast<std::int64_t>(wanted)));
+      equal_steps(begin, end, std::max(kMinSamples, static_cast<std::int64_t>(wanted)));
   samples.points.resize(samples.parameters.size());
   curve(static_cast<std::int64_t>(samples.points.size()), samples.parameters.data(),
         samples.points.data());

@@ -15,7 +15,7 @@ struct CurveSamples {
 
 // Largest turn from chord to chord, in radians: a chord then keeps within 8e-5 radii of its arc.
 inline constexpr double kSampleTurn = 0.025;
-inline constexpr std::int64_t kLeastSamples = 64;
+inline constexpr std::int64_t kMinSamples = 64;
 
 // The curve's points; throws Error(ErrorKind::argument) if one is not finite. `name` is for
 // messages, here and below.

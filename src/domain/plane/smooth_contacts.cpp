@@ -66,13 +66,13 @@ std::vector<Attachable> attachables(const std::vector<CurveSource>& sources,
 
 // A chord keeps closer to its curve than this, in units of its length (but at kinks, where chords
 // are tiny).
-constexpr double kLargestSag = 0.02;
+constexpr double kMaxSag = 0.02;
 
 void attach(CurveSource& curve, const std::vector<Attachable>& all, const PointTree& tree) {
   NewSamples added;
   for (std::int64_t i = 0; i + 1 < static_cast<std::int64_t>(curve.points.size()); ++i) {
     const Point<2>&a = curve.points[i], &b = curve.points[i + 1];
-    tree.for_each_near(a, b, kLargestSag * distance<2>(a, b), [&](std::int32_t which, double) {
+    tree.for_each_near(a, b, kMaxSag * distance<2>(a, b), [&](std::int32_t which, double) {
       const auto& [point, same] = all[which];
       if (distance<2>(point, a) <= same || distance<2>(point, b) <= same) return;
       const double t =

@@ -196,9 +196,9 @@ class Trial {
 
   // Where the others are now; relaxed, they make room.
   bool has_room(const Point<2>& place) const {
-    constexpr double kLeastGap = 0.4;  // spacings
+    constexpr double kMinGap = 0.4;  // spacings
     const double d = in_.nodes.d(defect_.node);
-    return patch_.mesh().gap_at(place) >= kLeastGap * d && in_.fits(place, d);
+    return patch_.mesh().gap_at(place) >= kMinGap * d && in_.fits(place, d);
   }
 
   void try_with_one_more(std::int32_t triangle) {
@@ -217,7 +217,7 @@ class Trial {
     mesh.relax();
     const MeshQuality repaired = mesh.quality();
     const double gain = unrepaired_.loss - repaired.loss;
-    return gain > kPays && repaired.least >= unrepaired_.least ? gain : 0;
+    return gain > kPays && repaired.min >= unrepaired_.min ? gain : 0;
   }
 
   const DefectInput& in_;

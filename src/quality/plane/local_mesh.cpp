@@ -43,7 +43,7 @@ MeshQuality LocalMesh::quality() const {
   for (const Triangle& t : triangles_) {
     const double q = quality_of(t.corner);
     all.loss += (1 - q) * (1 - q);
-    all.least = std::min(all.least, q);
+    all.min = std::min(all.min, q);
   }
   return all;
 }
@@ -103,12 +103,12 @@ std::int32_t LocalMesh::largest_triangle_at(std::int32_t place) const {
 
 std::int32_t LocalMesh::largest_triangle_at(std::int32_t place, std::int32_t other) const {
   std::int32_t largest = -1;
-  double most = 0;
+  double max_area = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     if (!triangles_[t].has(place) || !triangles_[t].has(other)) continue;
     const double area = twice_area(triangles_[t]);
-    if (area <= most) continue;
-    most = area;
+    if (area <= max_area) continue;
+    max_area = area;
     largest = static_cast<std::int32_t>(t);
   }
   return largest;
@@ -228,9 +228,9 @@ void LocalMesh::step_to_means() {
 }
 
 void LocalMesh::make_delaunay() {
-  constexpr int kMostPasses = 20;
+  constexpr int kMaxPasses = 20;
   bool flipped = true;
-  for (int pass = 0; pass < kMostPasses && flipped; ++pass) {
+  for (int pass = 0; pass < kMaxPasses && flipped; ++pass) {
     flipped = false;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(triangles_.size()); ++t)
       for (int side = 0; side < 3; ++side)

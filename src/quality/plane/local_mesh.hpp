@@ -15,7 +15,7 @@ namespace pnpbs {
 // How good its triangles are, by 2 r_in / R.
 struct MeshQuality {
   double loss;  // what they lack of 1: the sum of the squares
-  double least;
+  double min;
 };
 
 class LocalMesh {

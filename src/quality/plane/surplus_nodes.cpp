@@ -40,16 +40,16 @@ double quality_of(const Nodes<2>& nodes, std::int64_t i, std::int64_t j, std::in
   return triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k));
 }
 
-double least_quality_around(const Nodes<2>& nodes, std::int64_t i, const Ring& ring) {
-  double least = 1;
+double min_quality_around(const Nodes<2>& nodes, std::int64_t i, const Ring& ring) {
+  double min = 1;
   for (std::int32_t k = 0; k < ring.size; ++k)
-    least = std::min(least, quality_of(nodes, i, ring.node[k], ring.node[(k + 1) % ring.size]));
-  return least;
+    min = std::min(min, quality_of(nodes, i, ring.node[k], ring.node[(k + 1) % ring.size]));
+  return min;
 }
 
 // What a hole becomes: one triangle, or two with an edge from ring.node[edge] to the one opposite.
 struct Filling {
-  double least_quality;
+  double min_quality;
   std::int32_t edge;  // -1: none
 };
 
@@ -59,7 +59,7 @@ Filling best_filling(const Nodes<2>& nodes, const Ring& ring) {
   const Filling even{
       std::min(quality_of(nodes, n[0], n[1], n[2]), quality_of(nodes, n[0], n[2], n[3])), 0},
       odd{std::min(quality_of(nodes, n[1], n[2], n[3]), quality_of(nodes, n[1], n[3], n[0])), 1};
-  return odd.least_quality > even.least_quality ? odd : even;
+  return odd.min_quality > even.min_quality ? odd : even;
 }
 
 // How the hole would be filled; none if the node should stay.
@@ -70,7 +70,7 @@ std::optional<Filling> better_without(const Nodes<2>& nodes, const DelaunayStars
   for (std::int32_t k = 0; k < ring.size; ++k)
     if (has_few_neighbours(nodes, stars, ring.node[k])) return std::nullopt;
   const Filling filling = best_filling(nodes, ring);
-  if (filling.least_quality < least_quality_around(nodes, i, ring) + kPays) return std::nullopt;
+  if (filling.min_quality < min_quality_around(nodes, i, ring) + kPays) return std::nullopt;
   return filling;
 }
 
