@@ -26,9 +26,9 @@ class StarWriter {
   using Entry = DelaunayStars::Entry;
 
  public:
-  // sight_is_fresh: were the lists, and the edges near nodes, made for where the nodes are?
-  StarWriter(const StarInput& input, bool sight_is_fresh, std::vector<double>& needs)
-      : in_(input), sight_is_fresh_(sight_is_fresh), needs_(needs) {}
+  // visibility_is_fresh: were the lists, and the edges near nodes, made for where the nodes are?
+  StarWriter(const StarInput& input, bool visibility_is_fresh, std::vector<double>& needs)
+      : in_(input), visibility_is_fresh_(visibility_is_fresh), needs_(needs) {}
 
   void operator()(std::int64_t block, std::vector<Entry>& out) {
     const std::int64_t count = in_.nodes.count;
@@ -89,8 +89,9 @@ class StarWriter {
   void add_other_star(std::int64_t i, double listed_reach) {
     const bool near_edges = in_.near_edges.any(i);
     if (!near_edges && listed_reach > 0 && add_hull_star(i, listed_reach)) return;
-    const double needs = constrained_star(in_, i, near_edges && sight_is_fresh_ ? listed_reach : 0,
-                                          std::max(min_reach(i), in_.nodes.d(i)), others_);
+    const double needs =
+        constrained_star(in_, i, near_edges && visibility_is_fresh_ ? listed_reach : 0,
+                         std::max(min_reach(i), in_.nodes.d(i)), others_);
     if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
   }
 
@@ -158,7 +159,7 @@ class StarWriter {
   }
 
   const StarInput& in_;
-  bool sight_is_fresh_;
+  bool visibility_is_fresh_;
   std::vector<double>& needs_;
   std::vector<StarPoint> around_;
   BlockHullStars hulls_;
@@ -174,9 +175,9 @@ class StarWriter {
 void DelaunayStars::build(const StarInput& input) {
   count_ = input.nodes.count;
   needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(count_), 0);
-  const bool sight_is_fresh = input.near_edges.built_where_nodes_are(input.nodes);
+  const bool visibility_is_fresh = input.near_edges.built_where_nodes_are(input.nodes);
   blocks_.build("pnpbs::DelaunayStars::build", block_count(),
-                [&] { return StarWriter(input, sight_is_fresh, needs_); });
+                [&] { return StarWriter(input, visibility_is_fresh, needs_); });
 }
 
 DelaunayStars::Column DelaunayStars::column(std::int64_t i) {

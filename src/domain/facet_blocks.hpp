@@ -29,7 +29,7 @@ class FacetBlocks {
 
   // Of a row of facets from place k on: how many make up a block that surely does not meet the way
   // from x to y? Usually none.
-  std::size_t facets_off_the_way(std::span<const std::int32_t> row, std::size_t k,
+  std::size_t facets_off_segment(std::span<const std::int32_t> row, std::size_t k,
                                  const Point<Dim>& x, const Point<Dim>& y) const {
     for (std::size_t l = 0; l < kSizes.size(); ++l) {
       const auto first = static_cast<std::size_t>(row[k]);

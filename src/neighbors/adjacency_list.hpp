@@ -27,11 +27,12 @@ template <int Dim>
 class AdjacencyList {
  public:
   // Lists the pairs within the radius that see each other; nodes must be sorted by bucket.
-  // Sight has may_hide(i), does anything near i hide others from it, and visible(i, j), which must
-  // be symmetric and is asked for pairs within the radius of whose nodes one may_hide.
-  template <class Sight>
+  // Visibility has may_occlude(i), does anything near i hide others from it, and visible(i, j),
+  // which must be symmetric and is asked for pairs within the radius of whose nodes one
+  // may_occlude.
+  template <class Visibility>
   void build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
-             const Sight& sight);
+             const Visibility& visibility);
 
   double radius() const { return radius_; }
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
@@ -54,12 +55,12 @@ class AdjacencyList {
 
  private:
   // Writes the lists of the nodes of one block after the other.
-  template <class Sight>
+  template <class Visibility>
   struct BlockWriter {
     const Nodes<Dim>& nodes;
     const Buckets<Dim>& buckets;
     double radius;
-    const Sight& sight;
+    const Visibility& visibility;
     Candidates<Dim> candidates{};
 
     void operator()(std::int64_t block, std::vector<std::int32_t>& out);
@@ -73,24 +74,24 @@ class AdjacencyList {
 };
 
 template <int Dim>
-template <class Sight>
-void AdjacencyList<Dim>::BlockWriter<Sight>::look_at_bucket(std::int32_t bucket) {
+template <class Visibility>
+void AdjacencyList<Dim>::BlockWriter<Visibility>::look_at_bucket(std::int32_t bucket) {
   candidates.gather(nodes, buckets, radius, bucket);
-  candidates.keep_pairs([&](std::int64_t i) { return sight.may_hide(i); },
-                        [&](std::int64_t i, std::int64_t j) { return sight.visible(i, j); });
+  candidates.keep_pairs([&](std::int64_t i) { return visibility.may_occlude(i); },
+                        [&](std::int64_t i, std::int64_t j) { return visibility.visible(i, j); });
 }
 
 template <int Dim>
-template <class Sight>
-std::int32_t AdjacencyList<Dim>::BlockWriter<Sight>::find_neighbours(std::int64_t i) {
+template <class Visibility>
+std::int32_t AdjacencyList<Dim>::BlockWriter<Visibility>::find_neighbours(std::int64_t i) {
   if (buckets.bucket_of(i) != candidates.bucket()) look_at_bucket(buckets.bucket_of(i));
   return candidates.neighbour_count(i);
 }
 
 template <int Dim>
-template <class Sight>
-void AdjacencyList<Dim>::BlockWriter<Sight>::operator()(std::int64_t block,
-                                                        std::vector<std::int32_t>& out) {
+template <class Visibility>
+void AdjacencyList<Dim>::BlockWriter<Visibility>::operator()(std::int64_t block,
+                                                             std::vector<std::int32_t>& out) {
   const std::int32_t pad = static_cast<std::int32_t>(nodes.count);
   const std::size_t first = out.size();
   const auto end_of = [&](std::int32_t rows) {
@@ -113,13 +114,13 @@ void AdjacencyList<Dim>::BlockWriter<Sight>::operator()(std::int64_t block,
 }
 
 template <int Dim>
-template <class Sight>
+template <class Visibility>
 void AdjacencyList<Dim>::build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
-                               const Sight& sight) {
+                               const Visibility& visibility) {
   count_ = nodes.count;
   radius_ = radius;
   blocks_.build("pnpbs::AdjacencyList::build", block_count(), [&] {
-    return BlockWriter<Sight>{nodes, buckets, radius, sight};
+    return BlockWriter<Visibility>{nodes, buckets, radius, visibility};
   });
 }
 

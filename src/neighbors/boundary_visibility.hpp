@@ -42,7 +42,7 @@ struct VisibilityPastEdges {
   const DomainMap<2>& map;
   const IncidentSectors& sectors;
 
-  bool may_hide(std::int64_t i) const { return near_edges.any(i); }
+  bool may_occlude(std::int64_t i) const { return near_edges.any(i); }
 
   // Does no boundary edge separate nodes i and j? For pairs within radius * (d_i + d_j) / 2.
   bool visible(std::int64_t i, std::int64_t j) const {
@@ -51,7 +51,7 @@ struct VisibilityPastEdges {
     const bool i_wide = nodes.d(i) >= nodes.d(j);
     const std::int64_t wide = i_wide ? i : j;
     // Which of the first two holds cannot be guessed, that one does can: both are tested.
-    const bool surely = !near_edges.any(wide) | near_edges.off_the_way(i, j);
+    const bool surely = !near_edges.any(wide) | near_edges.surely_visible(i, j);
     return surely || sees_past_edges(wide, i_wide ? j : i);
   }
 

@@ -68,19 +68,19 @@ class Candidates {
   }
 
   // Drops the pairs for which keep(i, j), which must be symmetric, does not hold; asked for once if
-  // both nodes are of the bucket, and only where may_hide(i) or may_hide(j).
-  template <class MayHide, class Keep>
-  void keep_pairs(const MayHide& may_hide, const Keep& keep) {
+  // both nodes are of the bucket, and only where may_occlude(i) or may_occlude(j).
+  template <class MayOcclude, class Keep>
+  void keep_pairs(const MayOcclude& may_occlude, const Keep& keep) {
     hiding_.assign(index(words_), 0);
     std::uint64_t any = 0;
     for (std::int32_t c = 0; c < count_; ++c) {
-      const std::uint64_t hides = may_hide(node(c));
+      const std::uint64_t hides = may_occlude(node(c));
       hiding_[index(c / kTestWord)] |= hides << (c % kTestWord);
       any |= hides;
     }
     if (any == 0) return;  // nearly always
     for (std::int32_t o = 0; o < last_ - first_; ++o) {
-      const std::uint64_t all = may_hide(first_ + o) ? ~std::uint64_t{0} : 0;
+      const std::uint64_t all = may_occlude(first_ + o) ? ~std::uint64_t{0} : 0;
       for (std::int32_t w = 0; w < words_; ++w)
         for (std::uint64_t left = row(o)[w] & (hiding_[index(w)] | all); left != 0;
              left &= left - 1) {

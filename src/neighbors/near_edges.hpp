@@ -63,7 +63,7 @@ class NearEdges {
 
   // Is no edge near enough to the two nodes to meet the way between them? Whatever meets it has
   // distances from the two that add up to no more than its length.
-  bool off_the_way(std::int64_t i, std::int64_t j) const {
+  bool surely_visible(std::int64_t i, std::int64_t j) const {
     return shorter_than(i, j, gap_(i) + gap_(j));
   }
 
@@ -147,7 +147,7 @@ bool visible_between(const DomainMap<2>& map, const IncidentSectors& sectors, co
   };
   const std::span<const std::int32_t> row(edges);
   for (std::size_t k = 0; k < row.size(); ++k) {
-    if (const std::size_t off = map.facet_blocks().facets_off_the_way(row, k, x, y)) {
+    if (const std::size_t off = map.facet_blocks().facets_off_segment(row, k, x, y)) {
       k += off - 1;
       continue;
     }

@@ -206,12 +206,12 @@ const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
     halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
   }
   // A leaf that is not ours alone disturbs itself and those around it.
-  halo.quiet_.assign(static_cast<std::size_t>(leaves), 1);
+  halo.interior_.assign(static_cast<std::size_t>(leaves), 1);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const auto at = static_cast<std::size_t>(leaf);
     if (holder(leaf) < 0 || (holds(leaf) && halo.offset_[at] == halo.offset_[at + 1])) continue;
     links_->graph.for_neighbours(
-        leaf, [&](std::int32_t other) { halo.quiet_[static_cast<std::size_t>(other)] = 0; });
+        leaf, [&](std::int32_t other) { halo.interior_[static_cast<std::size_t>(other)] = 0; });
   }
   needs.spread();
   std::set<int> neighbours;

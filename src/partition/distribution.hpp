@@ -28,7 +28,7 @@ class Halo {
   }
   // Are the leaf and those it interacts with ours, or empty, and needed by no other rank? Then its
   // nodes have nothing to do with an exchange, wherever they drift.
-  bool quiet(std::int32_t leaf) const { return quiet_[static_cast<std::size_t>(leaf)] != 0; }
+  bool interior(std::int32_t leaf) const { return interior_[static_cast<std::size_t>(leaf)] != 0; }
   // Ranks to exchange messages with. Symmetric: who is our neighbour has us as one. One hop more
   // than the depth, because nodes drift out of their leaves between exchanges.
   const std::vector<int>& neighbours() const { return neighbours_; }
@@ -37,7 +37,7 @@ class Halo {
   template <int Dim>
   friend class Distribution;
   std::vector<std::int32_t> offset_, ranks_;  // the owner is not among them
-  std::vector<char> quiet_;
+  std::vector<char> interior_;
   std::vector<int> neighbours_;
 };
 

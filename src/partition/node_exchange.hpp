@@ -45,7 +45,7 @@ std::int64_t NodeExchange<Dim>::pack_leaving(Nodes<Dim>& nodes, const KnownLeaf&
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!nodes.owned(i)) continue;
     const std::int32_t known = known_leaf(i);
-    if (known >= 0 && halo.quiet(known)) {
+    if (known >= 0 && halo.interior(known)) {
       stay(kept++) = static_cast<std::int32_t>(i);
       continue;
     }

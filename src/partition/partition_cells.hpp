@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells that the partition deals out whole: disjoint cells of the background tree that cover
+// The cells that the partition distributes whole: disjoint cells of the background tree that cover
 // it, some hundreds per rank, the same on every rank. Which ones they are depends on the number of
 // ranks; no node does.
 #pragma once

@@ -61,7 +61,7 @@ Settings Placement::settings_for_new_level() const {
   return settings;
 }
 
-// A level without inner nodes yet, dealt out to the ranks like another one if that is given.
+// A level without inner nodes yet, partitioned like another one if that is given.
 std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> spacing,
                                               const Settings& settings, const Level* like) {
   std::unique_ptr<Level> level;

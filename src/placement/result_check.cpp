@@ -119,7 +119,7 @@ std::int64_t ResultCheck::owned_node(std::int64_t id) const {
   return nodes_.id(i) == id ? i : -1;
 }
 
-// The nodes of all ranks, dealt out by their keys: those with the same key come to the same rank.
+// The nodes of all ranks, distributed by their keys: those with the same key come to the same rank.
 std::vector<PlacedId> ResultCheck::gathered_by(std::uint64_t (*key)(const PlacedId&)) const {
   std::vector<PlacedId> mine;
   mine.reserve(static_cast<std::size_t>(owned_));

@@ -111,7 +111,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "imbalance", [](P p) { return p.has_nodes() ? imbalance_of(p.level()) : 1.0; },
           "largest over mean of that, over the ranks"),
       integer(
-          "rebalances", [](P p) { return p.rebalances(); }, "times the work was dealt out anew"),
+          "rebalances", [](P p) { return p.rebalances(); }, "times the work was partitioned anew"),
       real("seconds.boundary", seconds<Phase::boundary>, "laying the boundary nodes"),
       real("seconds.tree", seconds<Phase::tree>, "background tree and samples of d"),
       real("seconds.partition", seconds<Phase::partition>, "leaves to ranks"),

@@ -82,7 +82,7 @@ const std::vector<OptionRow>& option_table() {
       {"exchange_interval", T::integer, "5", nullptr, nullptr, 1, 64, nullptr,
        "steps between exchanges of ghosts between ranks"},
       {"rebalance_above", T::real, "1.1", nullptr, nullptr, 1, 1e6, nullptr,
-       "the work is dealt out anew at an event when its largest share passes the mean by this "
+       "the work is partitioned anew at an event when its largest share passes the mean by this "
        "factor"},
       {"metis_seed", T::integer, "1", nullptr, nullptr, 0, 2e9, nullptr,
        "seed of the partition; the nodes do not depend on it"},

@@ -43,7 +43,7 @@ class CallbackSpacing : public Spacing<Dim> {
 };
 
 // Values on a rectangular grid, x fastest; linear in each direction between the grid points,
-// constant beyond the rim.
+// constant beyond the border.
 template <int Dim>
 class GridSpacing : public Spacing<Dim> {
  public:

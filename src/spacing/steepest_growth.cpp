@@ -10,7 +10,7 @@ namespace pnpbs {
 
 namespace {
 
-// In units of a leaf's side, from its middle: there, west, east, south, north. On the rim a jump
+// In units of a leaf's side, from its middle: there, west, east, south, north. On its sides a jump
 // between two leaves shows in one of them.
 constexpr std::array<Point<2>, 5> kSamples{
     {{0.0, 0.0}, {-0.5, 0.0}, {0.5, 0.0}, {0.0, -0.5}, {0.0, 0.5}}};

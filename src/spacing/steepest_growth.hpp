@@ -16,7 +16,7 @@ struct SteepestGrowth {
   Point<2> at{};      // the finest of the places where it is at least half of that
 };
 
-// By samples in the middle and on the rim of the leaves that this rank owns, and at the boundary
+// By samples in the middle and on the sides of the leaves that this rank owns, and at the boundary
 // nodes in them: of each pair with one inside the domain and no boundary between. The same on any
 // number of ranks. Collective.
 SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap<2>& map,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report: what was asked, what came of it, as JSON.
+// The report: what was asked, and the results, as JSON.
 #pragma once
 
 #include <string>

@@ -103,7 +103,7 @@ class BackgroundTree {
     return centre;
   }
 
-  // The leaf that holds x; points beyond the root belong to the leaf at its rim.
+  // The leaf that holds x; points beyond the root belong to the leaf at its border.
   std::int32_t leaf_at(const Point<Dim>& x) const { return cell(cell_at(x, kMaxDepth)).leaf; }
 
   // The same, quickly if it is the leaf guessed (-1: none).

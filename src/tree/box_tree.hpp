@@ -53,7 +53,7 @@ class BoxTree {
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) split(cell);
   }
 
-  // Calls visit(box) for every box that holds x, its rim included.
+  // Calls visit(box) for every box that holds x, its border included.
   template <class Visit>
   void for_holding(const Point<Dim>& x, const Visit& visit) const {
     walk([&](const Box<Dim>& box) { return in_closed_box(box, x); }, visit);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * How a placement is dealt out to the ranks of MPI_COMM_WORLD: initialises it, takes no step, and
+ * How a placement is distributed to the ranks of MPI_COMM_WORLD: initialises it, takes no step, and
  * prints one line of names and values, the mean and the largest over the ranks; so many more ranks
- * than cores do. With `rebalance` it deals out once more, by the work counted, and `imbalance` is
+ * than cores do. With `rebalance` it partitions once more, by the work counted, and `imbalance` is
  * that of the work; with `run` it places the nodes, which tells the time of a step and the memory.
  * Messages, bytes and collective calls are those of initialising or placing.
  * usage: decomposition CASE SCALE [run|rebalance] [key=value]...  with the cases of place_on_ranks

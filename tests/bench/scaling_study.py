@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A scaling study that needs no big machine: deals placements out to many ranks, oversubscribed,
+"""A scaling study that needs no big machine: distributes placements over many ranks, oversubscribed,
 and takes no step; tells what each rank holds and sends, against what a law of surface to volume
 predicts, and what a model of the time per step makes of it on a cluster. Small whole runs, coarser
 levels included, tell what a rank sends in all, and a second model what a large one would take.

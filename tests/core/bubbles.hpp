@@ -64,15 +64,15 @@ struct Bubbles {
 
   // Any node may hide others.
   template <class Visible>
-  struct Sight {
+  struct Visibility {
     const Visible& visible;
-    bool may_hide(std::int64_t) const { return true; }
+    bool may_occlude(std::int64_t) const { return true; }
   };
 
   template <class Visible>
   void list(double radius, const Visible& visible) {
     buckets.sort(tree, nodes, radius);
-    lists.build(nodes, buckets, radius, Sight<Visible>{visible});
+    lists.build(nodes, buckets, radius, Visibility<Visible>{visible});
     pad(nodes.x);
     nodes.d(nodes.count) = 1;
   }

@@ -7,10 +7,10 @@
 #include "random.hpp"
 #include "spacing/nodal_patch.hpp"
 
-// Simplices and facets dealt out to several patches, in another order.
+// Simplices and facets distributed over several patches, in another order.
 template <int Dim>
-std::vector<pnpbs::NodalPatch<Dim>> dealt_out(const pnpbs::Patch<Dim>& whole, std::size_t many,
-                                              Random& random) {
+std::vector<pnpbs::NodalPatch<Dim>> distributed(const pnpbs::Patch<Dim>& whole, std::size_t many,
+                                                Random& random) {
   std::vector<pnpbs::Patch<Dim>> parts(many);
   const auto deal = [&](const auto& rows, auto member) {
     auto shuffled = rows;

@@ -173,7 +173,7 @@ START_TEST(steep_spacings_are_met_from_band_to_band) {
 END_TEST
 
 // Lattices of which nodes lie, but for the last digits, on borders of leaves: each node is made by
-// the leaf that leaf_at says, by which nodes are numbered and dealt to ranks, and by no other.
+// the leaf that leaf_at says, by which nodes are numbered and distributed, and by no other.
 START_TEST(each_leaf_makes_its_own) {
   for (const double d : {0.05, 0.0625, 0.0697, 0.07, 0.0714, 0.08, 0.1}) {
     const Filled filled([](PlaneDomain& p) { add_loop(p, rectangle(-1, -1, 1, 1)); }, constant(d));

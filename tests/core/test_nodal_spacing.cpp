@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A spacing from values at nodes: linear on triangles, extended from the border, and the same
-// however the triangles are dealt out; against plain loops over all of them.
+// however the triangles are distributed; against plain loops over all of them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -173,19 +173,19 @@ START_TEST(extends_from_the_nearest_point_of_the_border) {
 END_TEST
 
 // On edges, on nodes, inside and outside: to the bit.
-START_TEST(the_same_however_dealt_out) {
+START_TEST(the_same_however_distributed) {
   Random random(4);
   const Patch patch = shaken_grid(random, waves);
   std::vector<P> points;
   for (const pnpbs::PatchNode<2>& node : patch.nodes) points.push_back(node.x);
   for (int k = 0; k <= 8 * kCells; ++k) points.push_back({k / (8.0 * kCells), 0});
   for (int n = 0; n < 2000; ++n) points.push_back(random.point<2>({{-0.1, -0.1}, {1.1, 1.1}}));
-  const std::vector<NodalPatch> whole = dealt_out<2>(patch, 1, random);
+  const std::vector<NodalPatch> whole = distributed<2>(patch, 1, random);
   const pnpbs::NodalSpacing<2> spacing(pnpbs::serial_communicator(), patch);
   std::vector<double> d(points.size());
   spacing.evaluate(static_cast<std::int64_t>(points.size()), points.data(), d.data());
   for (const std::size_t many : {2u, 3u, 7u}) {
-    const std::vector<NodalPatch> parts = dealt_out<2>(patch, many, random);
+    const std::vector<NodalPatch> parts = distributed<2>(patch, many, random);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const PatchAnswer a = ask<2>(whole, points[i]), b = ask<2>(parts, points[i]);
       quick_assert(a.ids == b.ids && a.gap == b.gap && a.value == b.value && d[i] == a.value);
@@ -208,8 +208,8 @@ START_TEST(nodes_have_their_values) {
 END_TEST
 
 int main() {
-  return run_kernel_suite("nodal_spacing",
-                          {linear_functions_are_exact, interpolates_in_the_right_triangle,
-                           extends_from_the_nearest_point_of_the_border, the_same_however_dealt_out,
-                           nodes_have_their_values});
+  return run_kernel_suite(
+      "nodal_spacing", {linear_functions_are_exact, interpolates_in_the_right_triangle,
+                        extends_from_the_nearest_point_of_the_border, the_same_however_distributed,
+                        nodes_have_their_values});
 }

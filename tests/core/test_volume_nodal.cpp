@@ -273,19 +273,19 @@ START_TEST(extends_from_the_nearest_point_of_the_border) {
 END_TEST
 
 // On sides, on nodes, inside and outside: to the bit.
-START_TEST(the_same_however_dealt_out) {
+START_TEST(the_same_however_distributed) {
   Random random(4);
   const ShakenGrid grid(random, waves);
   std::vector<P> points;
   for (const Place& x : places_in(grid, random)) points.push_back(point_of(x));
   for (int n = 0; n < 1000; ++n)
     points.push_back(random.point<3>({{-50, -50, -50}, {350, 350, 350}}));
-  const auto whole = dealt_out<3>(grid.patch, 1, random);
+  const auto whole = distributed<3>(grid.patch, 1, random);
   const pnpbs::NodalSpacing<3> spacing(pnpbs::serial_communicator(), grid.patch);
   std::vector<double> d(points.size());
   spacing.evaluate(std::ssize(points), points.data(), d.data());
   for (const std::size_t many : {2u, 3u, 7u}) {
-    const auto dealt = dealt_out<3>(grid.patch, many, random);
+    const auto dealt = distributed<3>(grid.patch, many, random);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Answer a = ask<3>(whole, points[i]), b = ask<3>(dealt, points[i]);
       quick_assert(a.ids == b.ids && a.gap == b.gap && a.value == b.value && d[i] == a.value);
@@ -308,8 +308,8 @@ START_TEST(nodes_have_their_values) {
 END_TEST
 
 int main() {
-  return run_kernel_suite("volume_nodal",
-                          {linear_functions_are_exact, interpolates_in_the_tetrahedron_of_min_ids,
-                           extends_from_the_nearest_point_of_the_border, the_same_however_dealt_out,
-                           nodes_have_their_values});
+  return run_kernel_suite(
+      "volume_nodal", {linear_functions_are_exact, interpolates_in_the_tetrahedron_of_min_ids,
+                       extends_from_the_nearest_point_of_the_border, the_same_however_distributed,
+                       nodes_have_their_values});
 }

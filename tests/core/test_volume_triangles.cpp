@@ -261,7 +261,7 @@ START_TEST(blocks_off_the_way) {
     for (std::int32_t f = 0; f < std::ssize(facets); ++f)
       if (f % 700 != trial) row.push_back(f);
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const std::size_t off = blocks.facets_off_the_way(row, k, x, y);
+      const std::size_t off = blocks.facets_off_segment(row, k, x, y);
       for (std::size_t f = k; f < k + off; ++f)
         quick_assert(!pnpbs::may_touch(x, y, facets[static_cast<std::size_t>(row[f])]));
       passed += off;

@@ -19,7 +19,7 @@
 
 // Nothing hides bubbles from each other.
 struct OpenSight {
-  bool may_hide(std::int64_t) const { return false; }
+  bool may_occlude(std::int64_t) const { return false; }
   bool visible(std::int64_t, std::int64_t) const { return true; }
 };
 

@@ -183,9 +183,9 @@ void check_halo(Distribution<3>& distribution, BruteForce& brute, std::int32_t l
   }
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const std::vector<std::int32_t>& near = brute.near(index(leaf));
-    const bool quiet = std::none_of(near.begin(), near.end(),
-                                    [&](std::int32_t other) { return exchanged[index(other)]; });
-    expect(halo.quiet(leaf) == quiet, what + "leaves that no exchange disturbs");
+    const bool interior = std::none_of(near.begin(), near.end(),
+                                       [&](std::int32_t other) { return exchanged[index(other)]; });
+    expect(halo.interior(leaf) == interior, what + "leaves that no exchange disturbs");
   }
   std::vector<int> wanted;
   for (int r = 0; r < comm->size(); ++r)

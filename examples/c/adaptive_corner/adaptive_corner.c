@@ -11,7 +11,7 @@
  * A round: the error on each triangle is estimated as the distance of the solution's gradient from
  * a smoother one, averaged over the stars (Zienkiewicz and Zhu 1987), without knowing u; from it
  * comes the d that spreads the error evenly over twice as many nodes; the next run starts from the
- * nodes there are, and if the ranks then have unequal work, it is dealt out anew. No rank ever
+ * nodes there are, and if the ranks then have unequal work, it is partitioned anew. No rank ever
  * holds all nodes. With a folder, which must be there, every rank writes its piece of the last
  * round.
  *
@@ -414,7 +414,7 @@ static void balance(pnpbs_placement p, pnpbs_context context, int rank) {
   if (before < 1.05) return;
   check(pnpbs_placement_rebalance(p), context);
   check(pnpbs_placement_get_double(p, "imbalance", &after), context);
-  if (rank == 0) printf("  largest work over mean: %.2f, dealt out anew: %.2f\n", before, after);
+  if (rank == 0) printf("  largest work over mean: %.2f, partitioned anew: %.2f\n", before, after);
 }
 
 static double least_spacing(const mesh *m) {
@@ -495,7 +495,7 @@ static void adapted_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   int round, rank;
   MPI_Comm_rank(comm, &rank);
   check(pnpbs_placement_create(context, domain, &p), context);
-  /* Smooth where the estimate is not; and this program says itself when to deal out anew. */
+  /* Smooth where the estimate is not; and this program says itself when to partition anew. */
   check(pnpbs_placement_set_double(p, "growth_limit", 0.4), context);
   check(pnpbs_placement_set_double(p, "rebalance_above", 1e6), context);
   check(pnpbs_placement_set_spacing_constant(p, uniform_spacing(FIRST_NODES)), context);

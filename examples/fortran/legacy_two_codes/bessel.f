@@ -19,7 +19,7 @@ C     J0 is positive at 2 and negative at 3.
       END
 
 C J0(X) = 1/pi times the integral of cos(X sin t), t from 0 to pi, by
-C the middle of each of N intervals, which are dealt out to the ranks.
+C the middle of each of N intervals, which are distributed over the ranks.
 C The rule converges faster than any power of N, for the function under
 C the integral is smooth and periodic.
       DOUBLE PRECISION FUNCTION BESJ0R(ICOMM, X)
