@@ -14,8 +14,8 @@ struct Lattice<2> {
   static constexpr double kDensity = 1.1547005383792515;  // nodes per d^2: 2 / sqrt(3)
   static constexpr int kNeighbours = 6;                   // by edges of the Delaunay triangulation
   static constexpr double kIdealOverlap = 6;              // overlap ratio of a node
-  // Overlap ratios of bubbles that are one too many and one too few (paper, 2.4).
-  static constexpr double kDeleteAbove = 9, kInsertBelow = 5;
+  // Overlap ratios of bubbles that are one too many and one too few; the paper (2.4) has 9 and 5.
+  static constexpr double kDeleteAbove = 8.5, kInsertBelow = 4.4;
   static constexpr int kOverlapEnd = 16;  // larger overlap ratios are not told apart
 };
 

@@ -22,7 +22,7 @@ struct PopulationRule {
   double delete_above = Lattice<Dim>::kDeleteAbove;  // overlap ratios: whatever the mean
   double insert_below = Lattice<Dim>::kInsertBelow;
   double ideal = Lattice<Dim>::kIdealOverlap;  // of a bubble among neighbours at its d
-  double mean_distance = 0;  // of touching bubbles, in desired distances; 0: not aimed at
+  double mean_distance = 1;  // of touching bubbles, in desired distances; 0: not aimed at
   // A new bubble comes no nearer to others than this many spacings. Lattice nodes at their d leave
   // 0.577 in the middle of three, 0.605 in that of four: a bubble more there brings the mean down.
   double min_gap = 0.75;

@@ -18,6 +18,18 @@ using pnpbs::PopulationRule;
 template <int Dim>
 using Set = std::vector<Bubble<Dim>>;
 
+// By thresholds alone, nothing is aimed at; in the plane those of the paper (2.4).
+template <int Dim>
+PopulationRule<Dim> by_thresholds() {
+  PopulationRule<Dim> rule;
+  rule.mean_distance = 0;
+  if (Dim == 2) {
+    rule.delete_above = 9;
+    rule.insert_below = 5;
+  }
+  return rule;
+}
+
 // A change in terms of ids, without an order.
 template <int Dim>
 struct Change {

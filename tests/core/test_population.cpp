@@ -22,7 +22,7 @@ Set<2> lattice(double stretch) {
 
 START_TEST(perfect_lattices_stay) {
   for (const double stretch : {0.95, 1.0, 1.04}) {
-    const Change<2> change = choose<2>(lattice(stretch), {});
+    const Change<2> change = choose<2>(lattice(stretch), by_thresholds<2>());
     quick_assert(change.deleted.empty() && change.born.empty());
   }
 }
@@ -39,7 +39,7 @@ START_TEST(a_hole_is_filled_once) {
       for (Bubble<2>& b : set)
         for (double& x : b.x) x += random.between(-0.01, 0.01) * kSpacing;
       set.erase(set.begin() + static_cast<std::ptrdiff_t>(middle));
-      const Change<2> change = choose<2>(set, {}, {}, radius);
+      const Change<2> change = choose<2>(set, by_thresholds<2>(), {}, radius);
       quick_assert(change.deleted.empty());
       ck_assert_uint_eq(change.born.size(), 1);
       ck_assert_double_lt(pnpbs::distance<2>(change.born.begin()->second, hole), 0.1 * kSpacing);
@@ -54,7 +54,7 @@ START_TEST(one_too_many_is_deleted) {
   set.push_back(doubled);
   set.back().x[0] += 0.05 * kSpacing;
   set.back().id = 1'000'000;
-  const Change<2> change = choose<2>(set, {});
+  const Change<2> change = choose<2>(set, by_thresholds<2>());
   quick_assert(change.born.empty());
   ck_assert_uint_eq(change.deleted.size(), 1);
   quick_assert(change.deleted.count(doubled.id) + change.deleted.count(1'000'000) == 1);
@@ -66,14 +66,14 @@ START_TEST(boundary_nodes_neither_go_nor_give_birth) {
   for (Bubble<2>& b : set) b.moves = false;
   Freedom freedom;
   for (const Bubble<2>& b : set) freedom.must_go.insert(b.id);
-  Change<2> change = choose<2>(set, {}, freedom);
+  Change<2> change = choose<2>(set, by_thresholds<2>(), freedom);
   quick_assert(change.deleted.empty() && change.born.empty());
   set.resize(1);
   set[0].x = {0.5, 0.5};
-  change = choose<2>(set, {});
+  change = choose<2>(set, by_thresholds<2>());
   quick_assert(change.deleted.empty() && change.born.empty());
   set[0].moves = true;
-  change = choose<2>(set, {});
+  change = choose<2>(set, by_thresholds<2>());
   ck_assert_uint_eq(change.born.size(), 1);
   ck_assert_double_eq_tol(pnpbs::distance<2>(change.born.begin()->second, set[0].x), set[0].d,
                           1e-15);
@@ -89,7 +89,7 @@ START_TEST(nodes_without_room_go_first) {
   const std::int64_t beside = set[nearest_to<2>(set, {x[0] + kSpacing, x[1]})].id;
   Freedom freedom;
   freedom.must_go = {beside};
-  const Change<2> change = choose<2>(set, {}, freedom);
+  const Change<2> change = choose<2>(set, by_thresholds<2>(), freedom);
   quick_assert(change.deleted == freedom.must_go);
   for (const auto& [parent, place] : change.born) {
     ck_assert_double_gt(pnpbs::distance<2>(set[nearest_to<2>(set, x)].x, x), 0);
@@ -97,7 +97,7 @@ START_TEST(nodes_without_room_go_first) {
   }
   // Two side by side: one now, the other the next time.
   freedom.must_go.insert(set[nearest_to<2>(set, {x[0] + 2 * kSpacing, x[1]})].id);
-  const Change<2> first = choose<2>(set, {}, freedom);
+  const Change<2> first = choose<2>(set, by_thresholds<2>(), freedom);
   ck_assert_uint_eq(first.deleted.size(), 1);
   quick_assert(*first.deleted.begin() == *freedom.must_go.rbegin());
 }
@@ -109,7 +109,7 @@ START_TEST(nothing_is_born_where_it_does_not_fit) {
   set.erase(set.begin() + static_cast<std::ptrdiff_t>(hole));
   Freedom freedom;
   freedom.fits = [](double, double) { return false; };
-  quick_assert(choose<2>(set, {}, freedom).born.empty());
+  quick_assert(choose<2>(set, by_thresholds<2>(), freedom).born.empty());
 }
 END_TEST
 
@@ -125,9 +125,9 @@ START_TEST(nothing_is_born_on_neighbours_of_neighbours) {
              fixed(-0.78, -1.2, 2),
              fixed(-1.2, 0, 3),
              fixed(1.58, 0, 4)};
-  quick_assert(choose<2>(set, {}).born.empty());
+  quick_assert(choose<2>(set, by_thresholds<2>()).born.empty());
   set.pop_back();
-  const Change<2> change = choose<2>(set, {});
+  const Change<2> change = choose<2>(set, by_thresholds<2>());
   ck_assert_uint_eq(change.born.size(), 1);
   ck_assert_double_lt(pnpbs::distance<2>(change.born.begin()->second, {d, 0}), 1e-15);
 }
@@ -143,7 +143,7 @@ START_TEST(nothing_is_born_that_would_have_to_go) {
     const double angle = (-75 + k * 150 / 7.0) * degree;
     set.push_back({{d + 0.7 * d * std::cos(angle), 0.7 * d * std::sin(angle)}, d, 3 + k, false});
   }
-  PopulationRule<2> rule;
+  PopulationRule<2> rule = by_thresholds<2>();
   rule.min_gap = 0.65;
   quick_assert(choose<2>(set, rule).born.empty());
   set.erase(set.begin() + 4, set.begin() + 10);
@@ -156,7 +156,6 @@ END_TEST
 START_TEST(thresholds_follow_the_mean_distance) {
   Random random(64);
   PopulationRule<2> rule;
-  rule.mean_distance = 1;
   const double stretch[] = {1.04, 0.96};
   Set<2> set;
   for (int half = 0; half < 2; ++half) {
@@ -211,7 +210,7 @@ END_TEST
 // Many equal candidates: nobody within three hops of a winner wins as well.
 START_TEST(winners_are_far_apart) {
   Set<2> set = lattice(1.2);  // every bubble is too lonely
-  PopulationRule<2> rule;
+  PopulationRule<2> rule = by_thresholds<2>();
   rule.min_gap = 0;
   const Change<2> change = choose<2>(set, rule);
   ck_assert_uint_gt(change.born.size(), 5);

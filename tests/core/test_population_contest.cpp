@@ -155,7 +155,7 @@ START_TEST(contests_are_won_as_by_search) {
   Random random(63);
   const SpacingFunction<2> plane = [](const Point<2>& x) { return 0.05 + 0.06 * x[0]; };
   const SpacingFunction<3> volume = [](const Point<3>&) { return 0.16; };
-  PopulationRule<3> in_volume;
+  PopulationRule<3> in_volume = by_thresholds<3>();
   in_volume.delete_above = 20;
   in_volume.insert_below = 11;
   in_volume.ideal = 14;

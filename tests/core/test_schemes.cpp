@@ -223,7 +223,8 @@ START_TEST(fine_and_coarse_bubbles_move_alike) {
                   {{0.5 + 0.3 * d, 0.5}, d, 1},
                   {{0.5 + d, 0.5}, d, 2, false}},
                  1.7);
-      for (int step = 0; step < 20; ++step) run.step(scheme, pnpbs::CubicLaw{}, Motion{});
+      for (int step = 0; step < 20; ++step)
+        run.step(scheme, pnpbs::CubicLaw{}, Motion{0.8, 0.4, 0.2});
       scaled[fine] = (run.bubbles.nodes.x[0](run.node(1)) - 0.5) / d;
     }
     ck_assert_double_eq_tol(scaled[0], scaled[1], 1e-11);

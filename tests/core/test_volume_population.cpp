@@ -80,7 +80,7 @@ Set<3> shuffled(Set<3> set) {
 
 START_TEST(perfect_lattices_stay) {
   for (const double stretch : {0.95, 1.0, 1.05}) {
-    const Change<3> change = choose<3>(lattice(stretch), {});
+    const Change<3> change = choose<3>(lattice(stretch), by_thresholds<3>());
     quick_assert(change.deleted.empty() && change.born.empty());
   }
 }
@@ -90,7 +90,7 @@ END_TEST
 // it: what remains to each is 13 of 14.
 START_TEST(a_vacancy_is_filled_once) {
   Random random(96);
-  PopulationRule<3> rule;
+  PopulationRule<3> rule = by_thresholds<3>();
   quick_assert(choose<3>(
                    [] {
                      Set<3> set = lattice();
@@ -122,7 +122,7 @@ START_TEST(a_hole_is_filled) {
   const Set<3> perfect = lattice(1, kTen);
   Set<3> set = perfect;
   ck_assert_uint_eq(dig(set, 1.6).size(), 27);
-  PopulationRule<3> rule;
+  PopulationRule<3> rule = by_thresholds<3>();
   quick_assert(choose<3>(set, rule).born.empty());
   rule.mean_distance = mean_distance(perfect);
   std::int64_t next_id = 1'000'000;
@@ -155,11 +155,11 @@ START_TEST(a_surplus_node_is_deleted) {
   set.push_back(doubled);
   set.back().x[0] += 0.07;
   set.back().id = 1'000'000;
-  const Change<3> change = choose<3>(set, {});
+  const Change<3> change = choose<3>(set, by_thresholds<3>());
   quick_assert(change.born.empty());
   ck_assert_uint_eq(change.deleted.size(), 1);
   quick_assert(change.deleted.count(doubled.id) + change.deleted.count(1'000'000) == 1);
-  quick_assert(choose<3>(shuffled(set), {}) == change);
+  quick_assert(choose<3>(shuffled(set), by_thresholds<3>()) == change);
 }
 END_TEST
 
@@ -169,7 +169,7 @@ START_TEST(actors_are_far_apart) {
   for (const double stretch : {1.25, 0.8}) {
     Set<3> set = lattice(stretch, {12});
     jitter(random, set, 0.1);
-    PopulationRule<3> rule;
+    PopulationRule<3> rule = by_thresholds<3>();
     rule.min_gap = 0;
     const Change<3> change = choose<3>(set, rule);
     ck_assert_uint_ge(change.born.size() + change.deleted.size(), 2);
@@ -184,7 +184,6 @@ END_TEST
 START_TEST(thresholds_follow_the_mean_distance) {
   Random random(98);
   PopulationRule<3> rule;
-  rule.mean_distance = 1;
   for (const double stretch : {1.04, 0.96}) {
     Set<3> set = lattice(stretch);
     jitter(random, set, 0.02);
