@@ -24,7 +24,7 @@ void exchange_for_steps(Level& level, std::exception_ptr& failure) {
     exchange(level, hops);
   } else {
     update_ghosts(level);
-    level.neighbourhood.measure_displacement(level.nodes);
+    attempt(failure, [&] { level.neighbourhood.measure_displacement(level.nodes); });
   }
 }
 
@@ -52,16 +52,6 @@ void scatter_to_owners(const Level& level, GivenNodes& given) {
   given.resize(kept);
   const std::vector<GivenNode> arrived = redistribute<GivenNode>(*level.comm, leaving, owner_of);
   given.insert(given.end(), arrived.begin(), arrived.end());
-}
-
-GivenNodes owned_nodes(const Level& level) {
-  const Nodes<2>& nodes = level.nodes;
-  GivenNodes owned;
-  owned.reserve(static_cast<std::size_t>(level.owned_count()));
-  for (std::int64_t i = 0; i < nodes.count; ++i)
-    if (nodes.owned(i))
-      owned.push_back({nodes.position(i), nodes.id(i), nodes.moves(i), -1, nodes.d(i)});
-  return owned;
 }
 
 }  // namespace pnpbs

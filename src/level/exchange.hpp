@@ -22,6 +22,5 @@ void update_ghosts(Level& level);
 
 // Every node to the rank that owns its place, from wherever it is; most are there already.
 void scatter_to_owners(const Level& level, GivenNodes& given);
-GivenNodes owned_nodes(const Level& level);
 
 }  // namespace pnpbs

@@ -98,6 +98,7 @@ FinishResults sweep_and_repair(Level& level, std::int64_t sweeps) {
     if (last) results.edge_bands = edge_bands(level);  // while there are stars
     for (std::int32_t i : surplus) results.counts.deleted += level.nodes.owned(i);
     if (!surplus.empty()) delete_nodes(level, surplus);
+    if (repairs) level.ghosts.choose_anew();  // on all ranks, as some may be gone
   }
   if (sweeps == 0 && !repairs) {
     if (!prepared_for_finish(level)) prepare_finish(level);

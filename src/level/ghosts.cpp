@@ -4,6 +4,7 @@
 #include <exception>
 #include <set>
 #include <unordered_set>
+#include <utility>
 
 #include "comm/records.hpp"
 #include "level/reach.hpp"
@@ -80,6 +81,7 @@ void Ghosts::migrate(const Communicator& comm, const LevelTree& tree, Nodes<2>& 
 
 void Ghosts::fetch(const Communicator& comm, const LevelTree& tree,
                    const std::vector<Box<2>>& boxes, Nodes<2>& nodes, const Buckets<2>& buckets) {
+  const int hops = std::exchange(hops_, 0);  // until all is well
   Outbox questions;
   for (const Box<2>& box : boxes) {
     std::set<int> ranks;
@@ -103,6 +105,7 @@ void Ghosts::fetch(const Communicator& comm, const LevelTree& tree,
     }
     halo_.build(nodes);
   });
+  hops_ = hops;
 }
 
 // Our nodes in the boxes that a rank asks about, if it does not have them yet; from now on it has.

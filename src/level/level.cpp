@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/level.hpp"
 
+#include <utility>
+
 #include "level/reach.hpp"
 
 namespace pnpbs {
@@ -18,12 +20,14 @@ Level::Level(std::shared_ptr<const Communicator> communicator,
 void Level::grow_tree(const Level* like) {
   const PhaseTimer timer(timers, distributed() ? Phase::partition : Phase::tree);
   tree = LevelTree::grow(*comm, ground, settings, like ? like->tree.get() : nullptr);
-  neighbourhood.prepare(*tree, edge_radius(settings));
+  neighbourhood.adopt(*tree, Neighbourhood::edges_near_leaves(*tree, edge_radius(settings)));
 }
 
 void Level::adopt_partition(Distribution<2> next) {
   std::unique_ptr<LevelTree> grown = LevelTree::grow(*comm, ground, settings, std::move(next));
-  neighbourhood.prepare(*grown, edge_radius(settings));
+  NearEdges edges;
+  agreed(*comm, [&] { edges = Neighbourhood::edges_near_leaves(*grown, edge_radius(settings)); });
+  neighbourhood.adopt(*grown, std::move(edges));
   ghosts = Ghosts();
   tree = std::move(grown);
 }
@@ -39,8 +43,8 @@ void Level::change_settings(const Settings& next) {
   // Nodes count as far from the boundary by the steps that were left since their reference
   // positions.
   if (meeting_radius(settings) != meeting_radius(before)) nodes.set_reference_positions();
-  if (edge_radius(settings) != edge_radius(before))
-    neighbourhood.prepare(*tree, edge_radius(settings));
+  if (edge_radius(settings) != neighbourhood.near_edges().radius())
+    neighbourhood.adopt(*tree, Neighbourhood::edges_near_leaves(*tree, edge_radius(settings)));
 }
 
 std::int64_t Level::owned_count() const {

@@ -84,19 +84,23 @@ std::vector<Box<2>> unknown_around_stars(const Level& level, int rings) {
   return boxes;
 }
 
+void sort_nodes(Level& level) {
+  if (level.neighbourhood.sort_nodes(level.nodes, *level.tree, level.settings))
+    level.ghosts.permute(level.neighbourhood.buckets().order(), level.nodes.count);
+}
+
 }  // namespace
 
 void rebuild_lists_for_steps(Level& level) {
   const PhaseTimer timer(level.timers, Phase::lists);
-  if (level.neighbourhood.rebuild_for_steps(level.nodes, level.ground, *level.tree, level.settings))
-    level.ghosts.permute(level.neighbourhood.buckets().order(), level.nodes.count);
+  sort_nodes(level);
+  level.neighbourhood.rebuild_for_steps(level.nodes, level.ground, *level.tree, level.settings);
 }
 
 void rebuild_lists(Level& level, double radius) {
   const PhaseTimer timer(level.timers, Phase::lists);
-  if (level.neighbourhood.rebuild_here(level.nodes, level.ground, *level.tree, level.settings,
-                                       radius))
-    level.ghosts.permute(level.neighbourhood.buckets().order(), level.nodes.count);
+  sort_nodes(level);
+  level.neighbourhood.rebuild_here(level.nodes, level.ground, *level.tree, radius);
 }
 
 void rebuild_stars(Level& level) { build_stars(level, KnownRegion<2>()); }

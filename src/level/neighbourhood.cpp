@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "level/reach.hpp"
 
@@ -15,41 +16,46 @@ constexpr std::int64_t kNodeWork = 8;
 
 }  // namespace
 
-void Neighbourhood::prepare(const LevelTree& tree, double edge_radius) {
-  NearEdges near_edges;
-  near_edges.prepare(tree.map(), *tree.links(), edge_radius);
-  near_edges_ = std::move(near_edges);
+NearEdges Neighbourhood::edges_near_leaves(const LevelTree& tree, double radius) {
+  NearEdges edges;
+  edges.prepare(tree.map(), *tree.links(), radius);
+  return edges;
+}
+
+void Neighbourhood::adopt(const LevelTree& tree, NearEdges edges_near_leaves) {
+  near_edges_ = std::move(edges_near_leaves);
   arrangement_ = -1;
   if (prepared_for_ == &tree) return;
   prepared_for_ = &tree;
   buckets_.reset(tree.links());
 }
 
-bool Neighbourhood::rebuild_for_steps(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
+bool Neighbourhood::sort_nodes(Nodes<2>& nodes, const LevelTree& tree, const Settings& settings) {
+  return buckets_.sort(tree.tree(), nodes, widest_radius(settings));
+}
+
+void Neighbourhood::rebuild_for_steps(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
                                       const Settings& settings) {
-  const bool reordered =
-      rebuild(nodes, ground, tree, settings, settings.list_radius, nodes.reference);
+  rebuild(nodes, ground, tree, settings.list_radius, nodes.reference);
   reserve_field<2>(listed_, "pnpbs::Neighbourhood::listed", nodes.capacity());
   for_each("pnpbs::Neighbourhood::listed", nodes.count, [&](std::int64_t i) {
     for (int k = 0; k < 2; ++k) listed_[k](i) = nodes.x[k](i);
   });
   max_displacement_ = 0;
   for_steps_ = true;
-  return reordered;
 }
 
-bool Neighbourhood::rebuild_here(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
-                                 const Settings& settings, double radius) {
+void Neighbourhood::rebuild_here(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
+                                 double radius) {
   listed_ = {};
-  return rebuild(nodes, ground, tree, settings, radius, nodes.x);
+  rebuild(nodes, ground, tree, radius, nodes.x);
 }
 
-bool Neighbourhood::rebuild(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
-                            const Settings& settings, double radius, const Field<2>& seen_from) {
+void Neighbourhood::rebuild(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
+                            double radius, const Field<2>& seen_from) {
   for_steps_ = false;
   arrangement_ = -1;
   const DomainMap<2>& map = tree.map();
-  const bool reordered = buckets_.sort(map.tree(), nodes, widest_radius(settings));
   near_edges_.build(nodes, seen_from, buckets_, map);
   boundary_visibility_.look(nodes, near_edges_, map, ground.sectors());
   lists_.build(
@@ -61,7 +67,6 @@ bool Neighbourhood::rebuild(Nodes<2>& nodes, const Ground& ground, const LevelTr
   positions_ = nodes.positions();
   references_ = nodes.references();
   if (work_counted_ != nodes.references()) count_work(nodes);
-  return reordered;
 }
 
 // A pair that was not listed, farther apart than radius times its desired distance, must not have

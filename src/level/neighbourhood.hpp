@@ -19,24 +19,27 @@ class Neighbourhood {
  public:
   // A new boundary of so many nodes.
   void reset_boundary(std::size_t nodes) { boundary_visibility_.reset(nodes); }
-  // A new tree, or another radius: the edges near its leaves. What fails changes nothing.
-  void prepare(const LevelTree& tree, double edge_radius);
+  // For another tree, or another radius of the edges near nodes: what was found by this.
+  static NearEdges edges_near_leaves(const LevelTree& tree, double radius);
+  void adopt(const LevelTree& tree, NearEdges edges_near_leaves);
 
+  // Sorts the nodes in memory by bucket; returns whether they changed their places. First of all
+  // before lists are made.
+  bool sort_nodes(Nodes<2>& nodes, const LevelTree& tree, const Settings& settings);
   // Lists for the time loop: visibility is judged from the reference positions, so that it does not
-  // matter when they are made. Like the next, returns whether nodes changed their places.
-  bool rebuild_for_steps(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
+  // matter when they are made.
+  void rebuild_for_steps(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
                          const Settings& settings);
   // Lists of that radius for where the nodes are. The next step makes its own again; until then
   // there are stars, and no need to know where nodes were: the two take their memory in turn.
-  bool rebuild_here(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
-                    const Settings& settings, double radius);
+  void rebuild_here(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree, double radius);
   // Might the lists for steps lack a pair within the range of the force?
   bool needs_rebuild(const Nodes<2>& nodes, const Settings& settings) const;
 
   // Were the lists made with that radius for where the nodes are?
   bool made_here(const Nodes<2>& nodes, double radius) const {
     return !for_steps_ && arrangement_ == nodes.arrangement() && positions_ == nodes.positions() &&
-           lists_.radius() == radius;
+           references_ == nodes.references() && lists_.radius() == radius;
   }
 
   // The largest displacement since the lists for steps were made, in units of d, of the nodes from
@@ -68,8 +71,8 @@ class Neighbourhood {
   std::int64_t work_of(std::int64_t i) const;
 
  private:
-  bool rebuild(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
-               const Settings& settings, double radius, const Field<2>& seen_from);
+  void rebuild(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree, double radius,
+               const Field<2>& seen_from);
   void count_work(const Nodes<2>& nodes);
 
   const LevelTree* prepared_for_ = nullptr;

@@ -105,13 +105,16 @@ std::vector<LeafNode> own_boundary_nodes(const Level& level) {
   return own;
 }
 
-// An id larger than all there are.
+// An id larger than all there are, on all ranks. In two parts: not every id is a double.
 std::int64_t next_id_after(const Level& level, const GivenNodes& inner) {
-  const double max_id = max_of("pnpbs::max_id", static_cast<std::int64_t>(inner.size()),
-                               static_cast<double>(level.next_id - 1), [&](std::int64_t k) {
-                                 return static_cast<double>(inner[static_cast<std::size_t>(k)].id);
-                               });
-  return static_cast<std::int64_t>(level.comm->allreduce_max(max_id)) + 1;
+  constexpr std::int64_t kPart = std::int64_t{1} << 32;
+  std::int64_t next = level.next_id;
+  for (const GivenNode& node : inner) next = std::max(next, node.id + 1);
+  const auto high =
+      static_cast<std::int64_t>(level.comm->allreduce_max(static_cast<double>(next / kPart)));
+  const auto low = static_cast<std::int64_t>(
+      level.comm->allreduce_max(next / kPart == high ? static_cast<double>(next % kPart) : 0.0));
+  return high * kPart + low;
 }
 
 // By leaf: the ids for those without one. Moves level.next_id on.

@@ -26,8 +26,11 @@ std::int64_t ghost_life(const Settings& settings) {
   return std::max(kGhostLife, settings.exchange_interval);
 }
 
-// What an evaluation brings in comes from no farther than the range of the force and the ways of
-// both nodes; a hop spans a list radius. Both nodes drift while the ghosts stay the same ones.
+namespace {
+
+// For so many force evaluations. What an evaluation brings in comes from no farther than the range
+// of the force and the ways of both nodes; a hop spans a list radius. Both nodes drift while the
+// ghosts stay the same ones.
 int hops_for(const Settings& settings, std::int64_t evaluations) {
   const double max = settings.motion.max_move;
   const auto n = static_cast<double>(evaluations);
@@ -36,6 +39,8 @@ int hops_for(const Settings& settings, std::int64_t evaluations) {
   const int hops = static_cast<int>(std::ceil(needed / settings.list_radius));
   return std::max(0, hops - static_cast<int>(settings.halo_deficit));
 }
+
+}  // namespace
 
 int step_hops(const Settings& settings) {
   return hops_for(settings, settings.exchange_interval * settings.evaluations_per_step());

@@ -27,10 +27,9 @@ double edge_radius(const Settings& settings);
 
 // Steps after which ghosts are chosen anew, because nodes drift.
 std::int64_t ghost_life(const Settings& settings);
-// How many hops ghosts must reach for owned nodes to stay exact over so many force evaluations.
-int hops_for(const Settings& settings, std::int64_t evaluations);
-int step_hops(const Settings& settings);         // for the steps until the next exchange
-int runge_kutta_hops(const Settings& settings);  // for the stages of one step
-int deepest_hops(const Settings& settings);      // for anything; the tree is refined so far
+// How many hops ghosts must reach for owned nodes to stay exact:
+int step_hops(const Settings& settings);         // over the steps until the next exchange
+int runge_kutta_hops(const Settings& settings);  // over the stages of one step
+int deepest_hops(const Settings& settings);      // over anything; the tree is refined so far
 
 }  // namespace pnpbs

@@ -66,6 +66,7 @@ std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> 
                                               const Settings& settings, const Level* like) {
   std::unique_ptr<Level> level;
   agreed(*comm_, [&] {
+    const PhaseTimer timer(timers_, Phase::boundary);
     // A copy: the caller may go on to change the domain.
     level = std::make_unique<Level>(comm_, std::make_shared<PlaneDomain>(*domain_),
                                     std::move(spacing), settings, timers_);
@@ -138,7 +139,7 @@ void Placement::adopt_level(std::unique_ptr<Level> next) {
   }
   level_ = std::move(next);
   edge_bands_.clear();
-  order_version_ = lists_version_ = stars_version_ = quality_version_ = -1;
+  forget_results();
 }
 
 }  // namespace pnpbs

@@ -35,10 +35,15 @@ Outcome Placement::initialise() {
   const PhaseTimer timer(timers_, Phase::total);
   require_same_options();
   std::unique_ptr<Level> before = std::move(level_);
+  const Schedule schedule = schedule_;
+  const int coarser_levels = coarser_levels_;
   try {
     return make_level();
   } catch (...) {
     level_ = std::move(before);
+    schedule_ = schedule;
+    coarser_levels_ = coarser_levels;
+    forget_results();
     throw;
   }
 }
@@ -94,7 +99,10 @@ void Placement::rebalance() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   prepare_level();
-  rebalance_now();
+  while_moving([this] {
+    rebalance_now();
+    return true;
+  });
 }
 
 PopulationCounts Placement::adjust_population() {

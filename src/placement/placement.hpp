@@ -146,6 +146,9 @@ class Placement {
   std::unique_ptr<Level> empty_level(std::shared_ptr<const Spacing<2>> spacing,
                                      const Settings& settings, const Level* like = nullptr);
   void adopt_level(std::unique_ptr<Level> next);
+  void forget_results() {
+    order_version_ = lists_version_ = stars_version_ = quality_version_ = -1;
+  }
   int coarser_levels_that_pay(const Level& finest,
                               const std::shared_ptr<const Spacing<2>>& spacing) const;
   bool boundary_leaves_room(const Spacing<2>& coarser, double boundary_nodes, double nodes) const;

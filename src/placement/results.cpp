@@ -73,7 +73,7 @@ void Placement::prepare_lists() {
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
   if (lists_version_ == level_->version()) return;
   pnpbs::prepare_lists(*level_);
-  prepare_order();
+  agreed(*comm_, [this] { prepare_order(); });
   lists_version_ = level_->version();
   if (level_->distributed()) stars_version_ = lists_version_;
 }

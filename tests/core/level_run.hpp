@@ -54,8 +54,9 @@ using OptionList = std::vector<std::pair<const char*, const char*>>;
 // The inner nodes, as nodes to start from (placed for a spacing that take() does not know).
 inline pnpbs::GivenNodes inner_nodes_of(const pnpbs::Level& level) {
   pnpbs::GivenNodes inner;
-  for (const pnpbs::GivenNode& node : pnpbs::owned_nodes(level))
-    if (node.inner) inner.push_back({node.position, node.id});
+  const pnpbs::Nodes<2>& nodes = level.nodes;
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (nodes.moves(i)) inner.push_back({nodes.position(i), nodes.id(i)});
   return inner;
 }
 

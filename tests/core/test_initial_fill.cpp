@@ -224,6 +224,19 @@ START_TEST(levels_number_their_nodes) {
 }
 END_TEST
 
+// Ids beyond those that are doubles: the new ones still come after them.
+START_TEST(large_ids_stay_unique) {
+  constexpr std::int64_t kLarge = (std::int64_t{1} << 53) + 1;
+  for (const std::int64_t id : {kLarge, kLarge + 1, std::int64_t{1} << 62}) {
+    LevelRun run([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); }, constant(0.1));
+    pnpbs::take(*run.level, {{{0.5, 0.5}, id}, {{0.2, 0.3}, id - 1}}, 0);
+    const pnpbs::Nodes<2>& nodes = run.level->nodes;
+    for (std::int64_t i = 0; i < nodes.count; ++i)
+      if (!nodes.moves(i)) ck_assert_int_gt(nodes.id(i), id);
+  }
+}
+END_TEST
+
 // Given nodes keep their ids; new ones come after them; what does not fit is left out.
 START_TEST(levels_take_given_nodes) {
   LevelRun run([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); }, constant(0.1));
@@ -252,8 +265,9 @@ START_TEST(levels_take_given_nodes) {
 END_TEST
 
 int main() {
-  return run_kernel_suite("initial_fill",
-                          {hexagonal_where_d_is_constant, exactly_hexagonal, as_many_as_d_means,
-                           steep_spacings_are_met_from_band_to_band, each_leaf_makes_its_own,
-                           no_room_for_any, levels_number_their_nodes, levels_take_given_nodes});
+  return run_kernel_suite(
+      "initial_fill",
+      {hexagonal_where_d_is_constant, exactly_hexagonal, as_many_as_d_means,
+       steep_spacings_are_met_from_band_to_band, each_leaf_makes_its_own, no_room_for_any,
+       levels_number_their_nodes, large_ids_stay_unique, levels_take_given_nodes});
 }
