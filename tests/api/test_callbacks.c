@@ -8,7 +8,7 @@
 /* ---------------------------------------------------------------- spacing callbacks ----- */
 
 typedef struct {
-  double d;            /* the answer, but for */
+  double d, growth;    /* the answer, d (1 + growth x), but for */
   double bad;          /* this one, */
   int32_t answer;      /* returning this, */
   int64_t bad_from;    /* from this call on, counted from 0, */
@@ -33,7 +33,7 @@ static int32_t probing_spacing(int64_t n, int32_t dim, const double* xyz, double
   for (i = 0; i < n; ++i) {
     const int is_near =
         it->radius == 0 || hypot(xyz[2 * i] - it->x, xyz[2 * i + 1] - it->y) < it->radius;
-    d[i] = is_bad && is_near ? it->bad : it->d;
+    d[i] = is_bad && is_near ? it->bad : it->d * (1 + it->growth * xyz[2 * i]);
   }
   ++it->calls;
   it->points += n;
@@ -171,6 +171,41 @@ END_TEST
 START_TEST(answers_with_nan) { fail_at_every_call(NAN, 0, PNPBS_ERROR_SPACING, 0); }
 END_TEST
 START_TEST(answers_with_nothing_but_zeros) { fail_at_every_call(0, 0, PNPBS_ERROR_SPACING, 1); }
+END_TEST
+
+/* A run, an initialise that fails at its call number k unless k < 0, and steps. Returns whether it
+ * failed. */
+static int steps_after_failure(int64_t k, hash_text* hash) {
+  probe asked = good_probe(0.012);
+  job it;
+  pnpbs_status status = 0;
+  asked.growth = 2;
+  it = probed_square(&asked);
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_gt(integer_of(it.placement, "levels"), 0);
+  if (k >= 0) {
+    asked.answer = 5;
+    asked.bad_from = asked.calls + k;
+    status = pnpbs_placement_initialise(it.placement);
+    asked.bad_from = INT64_MAX;
+  }
+  if (k < 0 || status < 0) MUST_COMPUTE(pnpbs_placement_step(it.placement, 25));
+  *hash = hash_of(it.placement);
+  job_end(&it);
+  return status < 0;
+}
+
+/* As if it had not been tried, wherever it fails: on coarser levels, too. */
+START_TEST(a_failed_initialise_leaves_all_as_it_was) {
+  hash_text expected, hash;
+  int64_t k = 0;
+  steps_after_failure(-1, &expected);
+  while (steps_after_failure(k, &hash)) {
+    ck_assert_msg(strcmp(hash.text, expected.text) == 0, "other nodes after call %d", (int)k);
+    k += 1 + k / 4;
+  }
+  ck_assert_int_gt(k, 10);
+}
 END_TEST
 
 START_TEST(the_error_is_passed_on) {
@@ -795,6 +830,7 @@ int main(void) {
   tcase_add_test(spacing, answers_with_an_error_and_nonsense);
   tcase_add_test(spacing, answers_with_nan);
   tcase_add_test(spacing, answers_with_nothing_but_zeros);
+  tcase_add_test(spacing, a_failed_initialise_leaves_all_as_it_was);
   tcase_add_test(spacing, the_error_is_passed_on);
   tcase_add_loop_test(spacing, a_failure_on_a_live_placement, 0, 4);
   tcase_add_test(spacing, asked_inside_a_disc);

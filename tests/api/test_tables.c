@@ -325,6 +325,7 @@ START_TEST(statistics_mean_what_they_say) {
     }
   }
   ck_assert(parts > 0);
+  ck_assert(real_of(it.placement, "seconds.boundary") > 0);
   result_free(&nodes);
   MUST(pnpbs_placement_set(it.placement, "tolerance_mean", "1"));
   MUST(pnpbs_placement_set(it.placement, "tolerance_max", "10"));
