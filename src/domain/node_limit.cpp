@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <string>
 
 #include "base/error.hpp"
 
@@ -22,6 +21,13 @@ std::string bytes_text(double bytes) {
 }
 
 }  // namespace
+
+void NodeLimit::report_too_many(double nodes, double d, const std::string& place) const {
+  throw Error(ErrorKind::spacing,
+              "spacing d = " + number_text(d) + " near " + place + " would mean about " +
+                  number_text(std::round(nodes)) + " nodes or more; the option max_nodes allows " +
+                  std::to_string(max_nodes) + ": use a larger spacing or a larger max_nodes");
+}
 
 void NodeLimit::require_memory_for(double nodes) const {
   const double bytes = kBytesPerNode * nodes;

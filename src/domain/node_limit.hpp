@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 
 namespace pnpbs {
 
@@ -11,6 +12,8 @@ struct NodeLimit {
   NodeLimit(std::int64_t nodes, double bytes = std::numeric_limits<double>::infinity())
       : max_nodes(nodes), max_bytes(bytes) {}
 
+  // Throws Error(ErrorKind::spacing): there would be so many, and d is least near that place.
+  [[noreturn]] void report_too_many(double nodes, double d, const std::string& place) const;
   // Throws Error(ErrorKind::memory) if so many nodes, and all that is kept of them, would not fit.
   void require_memory_for(double nodes) const;
 

@@ -187,12 +187,7 @@ void DomainMap<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::i
     if (facets_->outside(finest) || state(c).min < state(finest).min) finest = c;
   }
   if (nodes <= static_cast<double>(limit_.max_nodes)) return limit_.require_memory_for(nodes);
-  throw Error(ErrorKind::spacing, "spacing d = " + number_text(state(finest).min) + " near " +
-                                      point_text(tree.cell_centre(finest)) + " would mean about " +
-                                      number_text(std::round(nodes)) +
-                                      " nodes or more; the option max_nodes allows " +
-                                      std::to_string(limit_.max_nodes) +
-                                      ": use a larger spacing or a larger max_nodes");
+  limit_.report_too_many(nodes, state(finest).min, point_text(tree.cell_centre(finest)));
 }
 
 template <int Dim>

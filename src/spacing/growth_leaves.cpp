@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
 #include <tuple>
 
-#include "base/error.hpp"
 #include "base/lattice.hpp"
 #include "base/point_text.hpp"
 #include "tree/cell_samples.hpp"
@@ -89,7 +87,7 @@ void GrowthLeaves<Dim>::look_at_domain(GrowthLeaf<Dim>& leaf) const {
     leaf.has_nodes = false;
     for_nodes_in(leaf.cell, [&](std::int64_t) { leaf.has_nodes = true; });
   }
-  leaf.place = point_in<Dim>(box_of(leaf.cell), cell_samples<Dim>()[0]);
+  leaf.place = middle_of<Dim>(box_of(leaf.cell));
   leaf.placed = true;
   if (leaf.side == Side::inside || ways_.inside(leaf.place)) return;
   std::vector<Point<Dim>> points;
@@ -145,7 +143,7 @@ bool GrowthLeaves<Dim>::any_open() const {
 }
 
 template <int Dim>
-void GrowthLeaves<Dim>::refine(const Evaluator& raw) {
+void GrowthLeaves<Dim>::refine(const SpacingEvaluator<Dim>& raw) {
   while (any_open()) {
     spread_evenly(comm_, leaves_);
     Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; });
@@ -159,7 +157,7 @@ void GrowthLeaves<Dim>::refine(const Evaluator& raw) {
 }
 
 template <int Dim>
-bool GrowthLeaves<Dim>::fit(const Evaluator& limited) {
+bool GrowthLeaves<Dim>::fit(const SpacingEvaluator<Dim>& limited) {
   bool any = false;
   for (GrowthLeaf<Dim>& leaf : leaves_) leaf.open = !leaf.outside();
   while (any_open()) {
@@ -173,7 +171,7 @@ bool GrowthLeaves<Dim>::fit(const Evaluator& limited) {
 }
 
 template <int Dim>
-void GrowthLeaves<Dim>::look_into_new(const Evaluator& raw) {
+void GrowthLeaves<Dim>::look_into_new(const SpacingEvaluator<Dim>& raw) {
   Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.fresh; });
   raw(std::ssize(samples.x), samples.x.data(), samples.d.data());
   take_sources(samples);
@@ -255,19 +253,12 @@ void GrowthLeaves<Dim>::report_too_many(double nodes) const {
   Finest finest{std::numeric_limits<double>::infinity(), {}};
   for (const GrowthLeaf<Dim>& leaf : leaves_)
     if (!leaf.outside())
-      finest = std::min(finest,
-                        Finest{leaf.min, point_in<Dim>(box_of(leaf.cell), cell_samples<Dim>()[0])},
-                        before);
+      finest = std::min(finest, Finest{leaf.min, middle_of<Dim>(box_of(leaf.cell))}, before);
   Bytes mine;
   pack(mine, finest);
   for_records<Finest>({comm_.allgather(mine)},
                       [&](const Finest& found) { finest = std::min(finest, found, before); });
-  throw Error(ErrorKind::spacing, "spacing d = " + number_text(finest.d) + " near " +
-                                      point_text(finest.x) + " would mean about " +
-                                      number_text(std::round(nodes)) +
-                                      " nodes or more; the option max_nodes allows " +
-                                      std::to_string(limit_.max_nodes) +
-                                      ": use a larger spacing or a larger max_nodes");
+  limit_.report_too_many(nodes, finest.d, point_text(finest.x));
 }
 
 template class GrowthLeaves<2>;

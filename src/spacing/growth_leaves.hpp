@@ -9,6 +9,7 @@
 
 #include "comm/communicator.hpp"
 #include "domain/node_limit.hpp"
+#include "domain/spacing_evaluator.hpp"
 #include "spacing/growth_source.hpp"
 #include "spacing/open_ways.hpp"
 #include "tree/leaf_cells.hpp"
@@ -35,8 +36,6 @@ struct GrowthLeaf {
 template <int Dim>
 class GrowthLeaves {
  public:
-  using Evaluator = std::function<void(std::int64_t n, const Point<Dim>* x, double* d)>;
-
   // All of the domain in one leaf.
   GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways, double growth,
                const NodeLimit& limit);
@@ -44,12 +43,12 @@ class GrowthLeaves {
   // Splits leaves wider than some d, and those over which d grows faster than the limit, so that
   // the tips of steep funnels are found: down to a third of their least d. Keeps sources of d.
   // Leaves change their ranks. Collective, as all that follows.
-  void refine(const Evaluator& raw);
+  void refine(const SpacingEvaluator<Dim>& raw);
   // Splits leaves wider than some of the limited d, which is asked in this rank's leaves alone.
   // Was there any on any rank?
-  bool fit(const Evaluator& limited);
+  bool fit(const SpacingEvaluator<Dim>& limited);
   // Looks for sources where fit() has split, and spreads the leaves evenly again.
-  void look_into_new(const Evaluator& raw);
+  void look_into_new(const SpacingEvaluator<Dim>& raw);
 
   const std::vector<GrowthLeaf<Dim>>& own() const { return leaves_; }
 

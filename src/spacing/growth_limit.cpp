@@ -34,7 +34,7 @@ GrowthLimitedSpacing<Dim>::GrowthLimitedSpacing(std::shared_ptr<const Communicat
                                                 double growth, const NodeLimit& limit,
                                                 const Beat& beat)
     : comm_(std::move(comm)), raw_(std::move(raw)), growth_(growth), ways_(std::move(ways)) {
-  const Evaluator checked = [&](std::int64_t n, const Point<Dim>* x, double* d) {
+  const SpacingEvaluator<Dim> checked = [&](std::int64_t n, const Point<Dim>* x, double* d) {
     beat();
     evaluate_spacing<Dim>(*raw_, ways_->measure(), n, x, d);
   };
@@ -45,10 +45,10 @@ GrowthLimitedSpacing<Dim>::GrowthLimitedSpacing(std::shared_ptr<const Communicat
 // next to a jump that is too coarse, and what is fine in a corner of a leaf was not sampled. With
 // leaves by the limited d it is not.
 template <int Dim>
-void GrowthLimitedSpacing<Dim>::find_labels(const Evaluator& raw, const NodeLimit& limit,
-                                            const Beat& beat) {
+void GrowthLimitedSpacing<Dim>::find_labels(const SpacingEvaluator<Dim>& raw,
+                                            const NodeLimit& limit, const Beat& beat) {
   constexpr int kMaxPasses = 6;
-  const Evaluator limited = [&](std::int64_t n, const Point<Dim>* x, double* d) {
+  const SpacingEvaluator<Dim> limited = [&](std::int64_t n, const Point<Dim>* x, double* d) {
     beat();
     for_each("pnpbs::GrowthLimitedSpacing::fit", n,
              [&](std::int64_t i) { d[i] = labels_.limit_at(*ways_, x[i]); });

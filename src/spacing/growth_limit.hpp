@@ -40,9 +40,7 @@ class GrowthLimitedSpacing : public Spacing<Dim> {
   std::int64_t leaves_held() const { return labels_.tree().count(); }
 
  private:
-  using Evaluator = typename GrowthLeaves<Dim>::Evaluator;
-
-  void find_labels(const Evaluator& raw, const NodeLimit& limit, const Beat& beat);
+  void find_labels(const SpacingEvaluator<Dim>& raw, const NodeLimit& limit, const Beat& beat);
   std::vector<double> limits(std::int64_t n, const Point<Dim>* x) const;
   void take_answers_of_all(std::int64_t n, const Point<Dim>* x, std::vector<double>& limits) const;
   void ask_owners(std::int64_t n, const Point<Dim>* x, std::vector<double>& limits) const;

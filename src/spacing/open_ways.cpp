@@ -7,17 +7,11 @@
 
 #include "domain/plane/edges.hpp"
 #include "domain/volume/triangles.hpp"
+#include "tree/cell_samples.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-template <int Dim>
-Point<Dim> middle_of(const Box<Dim>& box) {
-  Point<Dim> middle;
-  for (int k = 0; k < Dim; ++k) middle[k] = 0.5 * (box.low[k] + box.high[k]);
-  return middle;
-}
 
 template <int Dim>
 Box<Dim> box_of(const Point<Dim>& a, const Point<Dim>& b) {
@@ -52,7 +46,7 @@ typename OpenWays<Dim>::Side OpenWays<Dim>::side_of(const Box<Dim>& box) const {
           crossed = crossed || may_meet_box(map_.corners(f), box);
       });
   if (crossed) return Side::crossed;
-  return map_.inside(middle_of(box)) ? Side::inside : Side::outside;
+  return map_.inside(middle_of<Dim>(box)) ? Side::inside : Side::outside;
 }
 
 template <int Dim>

@@ -27,4 +27,9 @@ Point<Dim> point_in(const Box<Dim>& box, const Point<Dim>& fraction) {
   return x;
 }
 
+template <int Dim>
+Point<Dim> middle_of(const Box<Dim>& box) {
+  return point_in<Dim>(box, cell_samples<Dim>()[0]);
+}
+
 }  // namespace pnpbs
