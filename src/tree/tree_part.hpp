@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "base/chunked_rows.hpp"
 #include "comm/exchange_pattern.hpp"
+#include "comm/records.hpp"
 #include "tree/leaf_cells.hpp"
 
 namespace pnpbs {
@@ -56,43 +58,40 @@ class TreePart {
 
   // An own leaf goes to all ranks that have something in one of the cells of its size around it.
   void exchange_borders(const Communicator& comm, const std::vector<char>& live) {
-    const auto ranks = static_cast<std::size_t>(comm.size());
-    if (ranks == 1) return;
-    std::vector<std::vector<std::int64_t>> sent(ranks);
+    if (comm.size() == 1) return;
+    std::map<std::int32_t, std::vector<std::int64_t>> sent;  // by rank
     for (std::int64_t leaf = 0; leaf < own_; ++leaf) {
       if (!live[static_cast<std::size_t>(leaf)]) continue;
       for_ranks_around(cells_[static_cast<std::size_t>(leaf)], [&](std::int32_t rank) {
-        std::vector<std::int64_t>& row = sent[static_cast<std::size_t>(rank)];
-        if (rank != comm.rank() && (row.empty() || row.back() != leaf)) row.push_back(leaf);
+        if (rank == comm.rank()) return;
+        std::vector<std::int64_t>& row = sent[rank];
+        if (row.empty() || row.back() != leaf) row.push_back(leaf);
       });
     }
-    std::vector<Message> messages;
-    for (std::size_t r = 0; r < ranks; ++r) {
-      if (sent[r].empty()) continue;
-      messages.push_back({static_cast<int>(r), {}});
-      for (const std::int64_t leaf : sent[r])
-        pack(messages.back().bytes, cells_[static_cast<std::size_t>(leaf)]);
-    }
-    std::vector<std::int64_t> received(ranks, 0);
-    for (const Message& message : comm.sparse_all_to_all(messages))
+    Outbox outgoing;
+    for (const auto& [rank, leaves] : sent)
+      for (const std::int64_t leaf : leaves)
+        pack(outgoing.to(rank), cells_[static_cast<std::size_t>(leaf)]);
+    std::map<std::int32_t, std::int64_t> received;
+    for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
       for_records<LeafCell<Dim>>({message.bytes}, [&](const LeafCell<Dim>& cell) {
         cells_.push_back(cell);
-        ++received[static_cast<std::size_t>(message.rank)];
+        ++received[message.rank];
         before_ += message.rank < comm.rank();
       });
-    keep_pattern(sent, received);
+    keep_pattern(std::move(sent), std::move(received));
   }
 
-  void keep_pattern(const std::vector<std::vector<std::int64_t>>& sent,
-                    const std::vector<std::int64_t>& received) {
+  void keep_pattern(std::map<std::int32_t, std::vector<std::int64_t>> sent,
+                    std::map<std::int32_t, std::int64_t> received) {
+    for (const auto& [rank, count] : received) sent[rank];  // of some there are copies only
     border_.send_offsets.assign(1, 0);
     border_.receive_offsets.assign(1, 0);
     std::int64_t next = own_;
-    for (std::size_t r = 0; r < sent.size(); ++r) {
-      if (sent[r].empty() && received[r] == 0) continue;
-      border_.ranks.push_back(static_cast<std::int32_t>(r));
-      border_.send_nodes.insert(border_.send_nodes.end(), sent[r].begin(), sent[r].end());
-      for (std::int64_t k = 0; k < received[r]; ++k) border_.receive_nodes.push_back(next++);
+    for (const auto& [rank, leaves] : sent) {
+      border_.ranks.push_back(rank);
+      border_.send_nodes.insert(border_.send_nodes.end(), leaves.begin(), leaves.end());
+      for (std::int64_t k = received[rank]; k > 0; --k) border_.receive_nodes.push_back(next++);
       border_.send_offsets.push_back(std::ssize(border_.send_nodes));
       border_.receive_offsets.push_back(std::ssize(border_.receive_nodes));
     }
