@@ -17,9 +17,6 @@ namespace predicates {
 
 // Exact, slow, for every finite input.
 int turn_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d);
-inline int orientation_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-  return turn_exact(c, a, c, b);
-}
 int in_circle_exact(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d);
 int break_tie(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d,
               std::int64_t id_a, std::int64_t id_b, std::int64_t id_c, std::int64_t id_d);
@@ -28,18 +25,6 @@ constexpr double kOrientationBound = (3 + 16 * kHalfUlp) * kHalfUlp;
 constexpr double kInCircleBound = (10 + 96 * kHalfUlp) * kHalfUlp;
 
 }  // namespace predicates
-
-// > 0 if a, b, c turn counter-clockwise, < 0 clockwise, 0 exactly on a line.
-inline int orientation(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-  const double left = (a[0] - c[0]) * (b[1] - c[1]);
-  const double right = (a[1] - c[1]) * (b[0] - c[0]);
-  const double determinant = left - right;
-  const double error = predicates::kOrientationBound * (std::fabs(left) + std::fabs(right)) +
-                       predicates::kUnderflowGuard;
-  if (determinant > error) return 1;
-  if (-determinant > error) return -1;
-  return predicates::orientation_exact(a, b, c);
-}
 
 // > 0 if the way from c to d leads to the left of that from a to b, < 0 to its right, 0 if the two
 // are parallel or one of them has no length.
@@ -52,6 +37,11 @@ inline int turn(const Point<2>& a, const Point<2>& b, const Point<2>& c, const P
   if (determinant > error) return 1;
   if (-determinant > error) return -1;
   return predicates::turn_exact(a, b, c, d);
+}
+
+// > 0 if a, b, c turn counter-clockwise, < 0 clockwise, 0 exactly on a line.
+inline int orientation(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
+  return turn(c, a, c, b);
 }
 
 // For a, b, c counter-clockwise: > 0 if d lies inside their circumcircle, < 0 outside, 0 exactly
