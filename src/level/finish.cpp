@@ -28,6 +28,12 @@ bool prepared_for_finish(const Level& level) {
          (!level.distributed() || level.ghosts.are_exact(level.nodes, kRepairHops));
 }
 
+// From fresh lists, of the owned nodes and so many rings around them.
+void make_finish_stars(Level& level, int rings) {
+  if (!prepared_for_finish(level)) prepare_finish(level);
+  make_stars(level, kRepairHops, level.settings.list_radius, rings);
+}
+
 void sweep_over_stars(Level& level, std::int64_t times) {
   View<char> allowed;
   agreed(*level.comm, [&] {
@@ -85,8 +91,7 @@ FinishResults sweep_and_repair(Level& level, std::int64_t sweeps) {
   FinishResults results;
   for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
        done += kBlock) {
-    if (!prepared_for_finish(level)) prepare_finish(level);
-    make_stars(level, kRepairHops, level.settings.list_radius, rings);
+    make_finish_stars(level, rings);
     const PhaseTimer timer(level.timers, Phase::sweeps);
     std::vector<std::int32_t> surplus;
     agreed(*level.comm, [&] {
@@ -101,8 +106,7 @@ FinishResults sweep_and_repair(Level& level, std::int64_t sweeps) {
     if (repairs) level.ghosts.choose_anew();  // on all ranks, as some may be gone
   }
   if (sweeps == 0 && !repairs) {
-    if (!prepared_for_finish(level)) prepare_finish(level);
-    make_stars(level, kRepairHops, level.settings.list_radius, 0);
+    make_finish_stars(level, 0);
     results.edge_bands = edge_bands(level);
   }
   return results;

@@ -12,17 +12,10 @@
 #include "neighbors/buckets.hpp"
 #include "random.hpp"
 #include "tree/background_tree.hpp"
+#include "unit_box.hpp"
 
 using pnpbs::Box;
 using pnpbs::Point;
-
-template <int Dim>
-Box<Dim> unit_box() {
-  Box<Dim> box;
-  box.low.fill(0);
-  box.high.fill(1);
-  return box;
-}
 
 template <int Dim>
 using SpacingFunction = std::function<double(const Point<Dim>&)>;

@@ -2,25 +2,30 @@
 // A triangulation with values at its nodes as several ranks have it, without the ranks.
 #pragma once
 
+#include <cstddef>
+#include <iterator>
 #include <vector>
 
+#include "comm/communicator.hpp"
+#include "quick_assert.hpp"
 #include "random.hpp"
 #include "spacing/nodal_patch.hpp"
+#include "spacing/nodal_spacing.hpp"
 
 // Simplices and facets distributed over several patches, in another order.
 template <int Dim>
 std::vector<pnpbs::NodalPatch<Dim>> distributed(const pnpbs::Patch<Dim>& whole, std::size_t many,
                                                 Random& random) {
   std::vector<pnpbs::Patch<Dim>> parts(many);
-  const auto deal = [&](const auto& rows, auto member) {
+  const auto spread = [&](const auto& rows, auto member) {
     auto shuffled = rows;
     random.shuffle(shuffled);
     for (const auto& row : shuffled)
       (parts[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(many)))].*member)
           .push_back(row);
   };
-  deal(whole.simplices, &pnpbs::Patch<Dim>::simplices);
-  deal(whole.border, &pnpbs::Patch<Dim>::border);
+  spread(whole.simplices, &pnpbs::Patch<Dim>::simplices);
+  spread(whole.border, &pnpbs::Patch<Dim>::border);
   std::vector<pnpbs::NodalPatch<Dim>> patches;
   for (pnpbs::Patch<Dim>& part : parts) {
     part.nodes = whole.nodes;
@@ -45,4 +50,22 @@ pnpbs::PatchAnswer<Dim> ask(const std::vector<pnpbs::NodalPatch<Dim>>& patches,
     if (answer < best) best = answer;
   }
   return best;
+}
+
+// One patch, several, and the spacing made of it answer alike, to the bit.
+template <int Dim>
+void expect_the_same_however_distributed(const pnpbs::Patch<Dim>& patch,
+                                         const std::vector<pnpbs::Point<Dim>>& points,
+                                         Random& random) {
+  const std::vector<pnpbs::NodalPatch<Dim>> whole = distributed<Dim>(patch, 1, random);
+  const pnpbs::NodalSpacing<Dim> spacing(pnpbs::serial_communicator(), patch);
+  std::vector<double> d(points.size());
+  spacing.evaluate(std::ssize(points), points.data(), d.data());
+  for (const std::size_t many : {2u, 3u, 7u}) {
+    const std::vector<pnpbs::NodalPatch<Dim>> parts = distributed<Dim>(patch, many, random);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const pnpbs::PatchAnswer<Dim> a = ask<Dim>(whole, points[i]), b = ask<Dim>(parts, points[i]);
+      quick_assert(a.ids == b.ids && a.gap == b.gap && a.value == b.value && d[i] == a.value);
+    }
+  }
 }

@@ -180,17 +180,7 @@ START_TEST(the_same_however_distributed) {
   for (const pnpbs::PatchNode<2>& node : patch.nodes) points.push_back(node.x);
   for (int k = 0; k <= 8 * kCells; ++k) points.push_back({k / (8.0 * kCells), 0});
   for (int n = 0; n < 2000; ++n) points.push_back(random.point<2>({{-0.1, -0.1}, {1.1, 1.1}}));
-  const std::vector<NodalPatch> whole = distributed<2>(patch, 1, random);
-  const pnpbs::NodalSpacing<2> spacing(pnpbs::serial_communicator(), patch);
-  std::vector<double> d(points.size());
-  spacing.evaluate(static_cast<std::int64_t>(points.size()), points.data(), d.data());
-  for (const std::size_t many : {2u, 3u, 7u}) {
-    const std::vector<NodalPatch> parts = distributed<2>(patch, many, random);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const PatchAnswer a = ask<2>(whole, points[i]), b = ask<2>(parts, points[i]);
-      quick_assert(a.ids == b.ids && a.gap == b.gap && a.value == b.value && d[i] == a.value);
-    }
-  }
+  expect_the_same_however_distributed<2>(patch, points, random);
 }
 END_TEST
 

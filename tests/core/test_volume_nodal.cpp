@@ -280,17 +280,7 @@ START_TEST(the_same_however_distributed) {
   for (const Place& x : places_in(grid, random)) points.push_back(point_of(x));
   for (int n = 0; n < 1000; ++n)
     points.push_back(random.point<3>({{-50, -50, -50}, {350, 350, 350}}));
-  const auto whole = distributed<3>(grid.patch, 1, random);
-  const pnpbs::NodalSpacing<3> spacing(pnpbs::serial_communicator(), grid.patch);
-  std::vector<double> d(points.size());
-  spacing.evaluate(std::ssize(points), points.data(), d.data());
-  for (const std::size_t many : {2u, 3u, 7u}) {
-    const auto dealt = distributed<3>(grid.patch, many, random);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Answer a = ask<3>(whole, points[i]), b = ask<3>(dealt, points[i]);
-      quick_assert(a.ids == b.ids && a.gap == b.gap && a.value == b.value && d[i] == a.value);
-    }
-  }
+  expect_the_same_however_distributed<3>(grid.patch, points, random);
 }
 END_TEST
 

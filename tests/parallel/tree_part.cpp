@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "core/unit_box.hpp"
 #include "rank_checks.hpp"
 
 namespace {
@@ -22,14 +23,6 @@ using pnpbs::LeafCell;
 using pnpbs::Point;
 using rank_checks::comm;
 using rank_checks::expect;
-
-template <int Dim>
-Box<Dim> unit_box() {
-  Box<Dim> box;
-  box.low.fill(0);
-  box.high.fill(1);
-  return box;
-}
 
 template <int Dim>
 using Width = std::function<double(const Point<Dim>& x)>;
