@@ -3,6 +3,8 @@
 // formula would otherwise say with a 2 or a 6 of the plane.
 #pragma once
 
+#include <cmath>
+
 namespace pnpbs {
 
 template <int Dim>
@@ -39,6 +41,13 @@ constexpr double power(double t) {
   double product = t;
   for (int k = 1; k < N; ++k) product *= t;
   return product;
+}
+
+// The N-th root of t, N = 2 or 3.
+template <int N>
+double root(double t) {
+  static_assert(N == 2 || N == 3);
+  return N == 2 ? std::sqrt(t) : std::cbrt(t);
 }
 
 }  // namespace pnpbs

@@ -13,19 +13,20 @@
 
 namespace pnpbs {
 
+template <int Dim>
 class GradedFill {
  public:
-  // Of the leaves that hexagonal_fill leaves out, as d varies too much in them, and for which
+  // Of the leaves that lattice_fill leaves out, as d varies too much in them, and for which
   // wanted(leaf) holds.
-  GradedFill(const DomainMap<2>& map, const std::function<bool(std::int32_t)>& wanted);
+  GradedFill(const DomainMap<Dim>& map, const std::function<bool(std::int32_t)>& wanted);
 
   // The centres of the cells in the domain, and d there, which is asked by the caller.
-  const std::vector<Point<2>>& centres() const { return centres_; }
+  const std::vector<Point<Dim>>& centres() const { return centres_; }
   // Nodes wanted in each leaf of the tree, in units of 2^-32: sums of these that come out the same
   // in any order. Their sums over the leaves before a leaf are what `place` begins with.
   std::vector<std::int64_t> wanted_nodes(const std::vector<double>& d) const;
-  std::vector<Point<2>> place(const std::vector<double>& d,
-                              const std::vector<std::int64_t>& before) const;
+  std::vector<Point<Dim>> place(const std::vector<double>& d,
+                                const std::vector<std::int64_t>& before) const;
 
  private:
   struct Leaf {
@@ -34,9 +35,12 @@ class GradedFill {
     std::size_t first, end;  // its cells
   };
 
-  const DomainMap<2>& map_;
+  const DomainMap<Dim>& map_;
   std::vector<Leaf> leaves_;
-  std::vector<Point<2>> centres_;
+  std::vector<Point<Dim>> centres_;
 };
+
+extern template class GradedFill<2>;
+extern template class GradedFill<3>;
 
 }  // namespace pnpbs

@@ -2,139 +2,146 @@
 #include "initial/initial_fill.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
+#include <type_traits>
+
+#include "initial/plane/hexagonal_rows.hpp"
+#include "initial/volume/cubic_lattice.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-struct Lattice {
-  double step;  // between nodes of a row
-  double row;   // between rows
-};
+template <int Dim>
+using FillLattice = std::conditional_t<Dim == 2, HexagonalRows, CubicLattice>;
 
-bool nearly_constant(const SpacingSummary& cell) { return cell.max <= kPatchVariation * cell.min; }
+template <int Dim>
+bool nearly_constant(const SpacingSummary<Dim>& cell) {
+  return cell.max <= kPatchVariation * cell.min;
+}
 
-SpacingSummary summary_of_leaf(const DomainMap<2>& map, std::int32_t c) {
+template <int Dim>
+SpacingSummary<Dim> summary_of_leaf(const DomainMap<Dim>& map, std::int32_t c) {
   const std::int32_t leaf = map.tree().cell(c).leaf;
-  SpacingSummary own;
+  SpacingSummary<Dim> own;
   if (map.leaf_outside(leaf)) return own;
-  const double d = map.leaf_spacing(leaf);
-  own.area = map.tree().cell_side(c) * map.tree().cell_side(c);
+  own.measure = power<Dim>(map.tree().cell_side(c));
   own.min = map.leaf_min_spacing(leaf);
   own.max = map.leaf_max_spacing(leaf);
-  own.nodes = own.area / (d * d);
+  own.nodes = own.measure / power<Dim>(map.leaf_spacing(leaf));
   return own;
 }
 
+template <int Dim>
 class Fill {
  public:
-  Fill(const DomainMap<2>& map, const Box<2>& bounds,
-       const std::function<bool(std::int32_t)>& wanted, const std::vector<LeafSummary>& unrefined)
+  Fill(const DomainMap<Dim>& map, const Box<Dim>& bounds,
+       const std::function<bool(std::int32_t)>& wanted,
+       const std::vector<LeafSummary<Dim>>& unrefined)
       : map_(map), bounds_(bounds), wanted_(wanted), cells_(spacing_summaries(map, unrefined)) {}
 
-  std::vector<Point<2>> make() {
-    const SpacingSummary& root = cells_[0];
-    if (root.area > 0) descend(0, nullptr);
+  std::vector<Point<Dim>> make() {
+    descend(0, nullptr);
     return std::move(points_);
   }
 
  private:
   // Children in Morton order; `patch` is the lattice of the patch we are in, if any.
-  void descend(std::int32_t c, const Lattice* patch) {
-    const BackgroundTree<2>& tree = map_.tree();
-    const SpacingSummary& own = cells_[static_cast<std::size_t>(c)];
-    if (own.area == 0) return;
+  void descend(std::int32_t c, const FillLattice<Dim>* patch) {
+    const BackgroundTree<Dim>& tree = map_.tree();
+    const SpacingSummary<Dim>& own = cells_[static_cast<std::size_t>(c)];
+    if (own.measure == 0) return;
     const bool leaf = tree.cell(c).first_child < 0;
-    Lattice lattice;
-    if (!patch && nearly_constant(own)) {
-      lattice = lattice_of(own.spacing(), c == 0);
-      patch = &lattice;
-    }
+    std::optional<FillLattice<Dim>> lattice;
+    if (!patch && nearly_constant(own)) patch = &lattice.emplace(own.spacing(), bounds_, c == 0);
     if (leaf) {
       const std::int32_t here = tree.cell(c).leaf;
       if (patch && wanted_(here)) fill_leaf(here, *patch);  // others are graded_fill's
     } else {
-      for (int k = 0; k < 4; ++k) descend(tree.cell(c).first_child + k, patch);
+      for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k)
+        descend(tree.cell(c).first_child + k, patch);
     }
-  }
-
-  // One lattice for the whole domain is stretched a little so that rows end on its box.
-  Lattice lattice_of(double d, bool whole) const {
-    Lattice lattice{d, d * std::sqrt(0.75)};
-    if (!whole) return lattice;
-    lattice.step = fitted(lattice.step, bounds_.high[0] - bounds_.low[0]);
-    lattice.row = fitted(lattice.row, bounds_.high[1] - bounds_.low[1]);
-    return lattice;
-  }
-
-  static double fitted(double step, double extent) {
-    const double steps = std::round(extent / step);
-    return steps >= 8 ? extent / steps : step;
   }
 
   // Whose a node on the border of two leaves is, leaf_holds alone decides: by the arithmetic of
   // leaf_at, which numbers the nodes and gives them their ranks. The box differs in last digits.
-  void fill_leaf(std::int32_t leaf, const Lattice& lattice) {
-    const BackgroundTree<2>& tree = map_.tree();
-    const Box<2> box = tree.cell_box(tree.leaf_cell(leaf));
-    const double d = map_.leaf_spacing(leaf);
-    const auto first_row =
-        static_cast<std::int64_t>(std::ceil((box.low[1] - bounds_.low[1]) / lattice.row)) - 1;
-    for (std::int64_t row = first_row;; ++row) {
-      const double y = bounds_.low[1] + lattice.row * static_cast<double>(row);
-      if (y >= box.high[1] + 0.5 * lattice.row) break;
-      const double shift = bounds_.low[0] + (row % 2 != 0 ? 0.5 * lattice.step : 0.0);
-      auto column = static_cast<std::int64_t>(std::ceil((box.low[0] - shift) / lattice.step)) - 1;
-      for (;; ++column) {
-        const Point<2> x{shift + lattice.step * static_cast<double>(column), y};
-        if (x[0] >= box.high[0] + 0.5 * lattice.step) break;
-        if (!tree.leaf_holds(leaf, x)) continue;
-        if (!map_.inside_in_leaf(leaf, x)) continue;
-        if (map_.clearance(x, kFillClearance * d) < kFillClearance * d) continue;
-        points_.push_back(x);
-      }
-    }
+  void fill_leaf(std::int32_t leaf, const FillLattice<Dim>& lattice) {
+    const BackgroundTree<Dim>& tree = map_.tree();
+    const Box<Dim> fine_box = tree.fine_box(leaf);
+    const double clearance = kFillClearance * map_.leaf_spacing(leaf);
+    const bool near_facets = facets_near(leaf, clearance);
+    lattice.for_nodes(tree.cell_box(tree.leaf_cell(leaf)), [&](const Point<Dim>& x) {
+      if (!tree.fine_box_holds(fine_box, x)) return;
+      if (!map_.inside_in_leaf(leaf, x)) return;
+      if (near_facets && map_.clearance(x, clearance) < clearance) return;
+      points_.push_back(x);
+    });
   }
 
-  const DomainMap<2>& map_;
-  const Box<2>& bounds_;
+  // May a facet come that near to a point of the leaf?
+  bool facets_near(std::int32_t leaf, double reach) const {
+    constexpr double kRoom = 1 + 1e-6;
+    const std::int32_t c = map_.tree().leaf_cell(leaf);
+    bool any = false;
+    map_.for_facets_near(map_.tree().cell_centre(c),
+                         kRoom * (0.5 * map_.tree().cell_side(c) + reach),
+                         [&](std::int32_t) { any = true; });
+    return any;
+  }
+
+  const DomainMap<Dim>& map_;
+  const Box<Dim>& bounds_;
   const std::function<bool(std::int32_t)>& wanted_;
-  std::vector<SpacingSummary> cells_;
-  std::vector<Point<2>> points_;
+  std::vector<SpacingSummary<Dim>> cells_;
+  std::vector<Point<Dim>> points_;
 };
 
 }  // namespace
 
-void SpacingSummary::add(const SpacingSummary& part) {
+template <int Dim>
+void SpacingSummary<Dim>::add(const SpacingSummary& part) {
   min = std::min(min, part.min);
   max = std::max(max, part.max);
-  area += part.area;
+  measure += part.measure;
   nodes += part.nodes;
 }
 
-std::vector<SpacingSummary> spacing_summaries(const DomainMap<2>& map,
-                                              const std::vector<LeafSummary>& unrefined) {
-  const BackgroundTree<2>& tree = map.tree();
-  std::vector<SpacingSummary> cells(static_cast<std::size_t>(tree.cell_count()));
-  const auto of = [&](std::int32_t c) -> SpacingSummary& {
+template <int Dim>
+std::vector<SpacingSummary<Dim>> spacing_summaries(const DomainMap<Dim>& map,
+                                                   const std::vector<LeafSummary<Dim>>& unrefined) {
+  const BackgroundTree<Dim>& tree = map.tree();
+  std::vector<SpacingSummary<Dim>> cells(static_cast<std::size_t>(tree.cell_count()));
+  const auto of = [&](std::int32_t c) -> SpacingSummary<Dim>& {
     return cells[static_cast<std::size_t>(c)];
   };
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
     of(tree.leaf_cell(leaf)) = summary_of_leaf(map, tree.leaf_cell(leaf));
-  for (const LeafSummary& known : unrefined) of(tree.leaf_cell(known.leaf)) = known.spacing;
+  for (const LeafSummary<Dim>& known : unrefined) of(tree.leaf_cell(known.leaf)) = known.spacing;
   for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c)
     if (tree.cell(c).first_child >= 0)
-      for (int k = 0; k < BackgroundTree<2>::kChildren; ++k)
+      for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k)
         of(c).add(of(tree.cell(c).first_child + k));
   return cells;
 }
 
-std::vector<Point<2>> hexagonal_fill(const DomainMap<2>& map, const Box<2>& bounds,
+template <int Dim>
+std::vector<Point<Dim>> lattice_fill(const DomainMap<Dim>& map, const Box<Dim>& bounds,
                                      const std::function<bool(std::int32_t)>& wanted,
-                                     const std::vector<LeafSummary>& unrefined) {
-  return Fill(map, bounds, wanted, unrefined).make();
+                                     const std::vector<LeafSummary<Dim>>& unrefined) {
+  return Fill<Dim>(map, bounds, wanted, unrefined).make();
 }
+
+template struct SpacingSummary<2>;
+template struct SpacingSummary<3>;
+template std::vector<SpacingSummary<2>> spacing_summaries(const DomainMap<2>&,
+                                                          const std::vector<LeafSummary<2>>&);
+template std::vector<SpacingSummary<3>> spacing_summaries(const DomainMap<3>&,
+                                                          const std::vector<LeafSummary<3>>&);
+template std::vector<Point<2>> lattice_fill<2>(const DomainMap<2>&, const Box<2>&,
+                                               const std::function<bool(std::int32_t)>&,
+                                               const std::vector<LeafSummary<2>>&);
+template std::vector<Point<3>> lattice_fill<3>(const DomainMap<3>&, const Box<3>&,
+                                               const std::function<bool(std::int32_t)>&,
+                                               const std::vector<LeafSummary<3>>&);
 
 }  // namespace pnpbs

@@ -2,7 +2,6 @@
 #include "spacing/domain_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "base/error.hpp"
@@ -19,9 +18,6 @@ namespace {
 // each, in space two triangles.
 constexpr std::size_t kMaxBoundaryNodes = 48;
 constexpr int kMaxDepthByNodes = 26;
-
-double root(double square, std::integral_constant<int, 2>) { return std::sqrt(square); }
-double root(double cube, std::integral_constant<int, 3>) { return std::cbrt(cube); }
 
 }  // namespace
 
@@ -246,8 +242,7 @@ void DomainMap<Dim>::keep_leaves(BackgroundTree<Dim> tree, const Growth& growth)
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const auto& cell = growth.state(tree.leaf_cell(leaf));
     const double density = cell.mean_density;
-    leaf_spacing_.push_back(density > 0 ? 1 / root(density, std::integral_constant<int, Dim>())
-                                        : 0);
+    leaf_spacing_.push_back(density > 0 ? 1 / root<Dim>(density) : 0);
     leaf_min_.push_back(cell.min);
     leaf_max_.push_back(cell.max);
   }

@@ -32,11 +32,11 @@ struct Filled {
     boundary = pnpbs::discretize_boundary(domain, evaluator_of(d));
     map.build(domain.bounds(), boundary, evaluator_of(d), 1'000'000'000);
     const auto all = [](std::int32_t) { return true; };
-    nodes = pnpbs::hexagonal_fill(map, domain.bounds(), all);
-    fill_steep_leaves(pnpbs::GradedFill(map, all), d);
+    nodes = pnpbs::lattice_fill<2>(map, domain.bounds(), all);
+    fill_steep_leaves(pnpbs::GradedFill<2>(map, all), d);
   }
 
-  void fill_steep_leaves(const pnpbs::GradedFill& fill, const Plane& d) {
+  void fill_steep_leaves(const pnpbs::GradedFill<2>& fill, const Plane& d) {
     std::vector<double> values;
     for (const P& x : fill.centres()) values.push_back(d(x[0], x[1]));
     std::vector<std::int64_t> before = fill.wanted_nodes(values);
@@ -179,7 +179,7 @@ START_TEST(each_leaf_makes_its_own) {
     const Filled filled([](PlaneDomain& p) { add_loop(p, rectangle(-1, -1, 1, 1)); }, constant(d));
     std::size_t made = 0;
     for (std::int32_t leaf = 0; leaf < filled.map.tree().leaf_count(); ++leaf) {
-      const std::vector<P> own = pnpbs::hexagonal_fill(
+      const std::vector<P> own = pnpbs::lattice_fill<2>(
           filled.map, filled.domain.bounds(), [leaf](std::int32_t other) { return other == leaf; });
       for (const P& x : own) ck_assert_int_eq(filled.map.tree().leaf_at(x), leaf);
       made += own.size();

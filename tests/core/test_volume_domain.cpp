@@ -4,58 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <vector>
 
 #include "domain/clearance.hpp"
 #include "geometry/expect_error.hpp"
+#include "mapped_volume.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
-#include "spacing/domain_map.hpp"
-#include "surfaces.hpp"
 
 using surfaces::Place;
 using surfaces::Surface;
 using P = pnpbs::Point<3>;
-using Spacing = std::function<double(const P&)>;
+using Spacing = VolumeSpacing;
 
 namespace {
-
-pnpbs::SpacingEvaluator<3> evaluator_of(const Spacing& d) {
-  return [d](std::int64_t n, const P* x, double* values) {
-    for (std::int64_t i = 0; i < n; ++i) values[i] = d(x[i]);
-  };
-}
-
-Spacing constant(double d) {
-  return [d](const P&) { return d; };
-}
-
-struct Mapped {
-  Surface surface;
-  pnpbs::BoundaryMesh<3> mesh;
-  pnpbs::DomainMap<3> map;
-
-  Mapped(Surface s, const Spacing& d, std::int64_t max_nodes = 1'000'000'000)
-      : surface(std::move(s)) {
-    surface.add_to(mesh, pnpbs::SurfaceRole::boundary);
-    map.build(surface.bounds(), mesh, evaluator_of(d), max_nodes);
-  }
-  Mapped(const Mapped&) = delete;
-
-  double size() const {
-    const pnpbs::Box<3> box = surface.bounds();
-    return std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
-  }
-  std::size_t count() const { return surface.triangles.size(); }
-};
-
-Surface scaled(Surface s, double unit) {
-  s.unit = unit;
-  return s;
-}
 
 Surface fine_sphere() { return scaled(surfaces::sphere(4, 900), 0x1p-10); }
 // Its triangles in no order, so that of equally near ones any may be met first.

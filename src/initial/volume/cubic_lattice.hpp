@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lattices that fill space. A15, of eight nodes in a cubic cell with 12 and 14 neighbours, has
+// the better tetrahedra, if it is one over the whole domain. Where patches of different d meet,
+// body-centred cubic settles better.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "base/lattice.hpp"
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+class CubicLattice {
+ public:
+  static constexpr double kA15Density = 1.52;  // nodes per d^3 that rest at a mean distance of d
+
+  // One lattice for the whole domain is stretched a little to end at all sides of its box alike.
+  CubicLattice(double d, const Box<3>& bounds, bool whole)
+      : sites_(whole ? std::span<const Point<3>>(kA15) : kBodyCentred), low_(bounds.low) {
+    const double first = d * (whole ? kFirstA15Layer : kFirstBodyCentredLayer);
+    for (std::size_t k = 0; k < 3; ++k) {
+      low_[k] += first;
+      const double between = bounds.high[k] - bounds.low[k] - 2 * first;
+      cell_[k] = whole ? fitted(d * std::cbrt(8 / kA15Density), between) : d * Lattice<3>::kCell;
+    }
+  }
+
+  // Calls visit(x) for all nodes in the box, and some next to it.
+  template <class Visit>
+  void for_nodes(const Box<3>& box, const Visit& visit) const {
+    for (const Point<3>& site : sites_) {
+      std::array<std::int64_t, 3> first, end;
+      for (std::size_t k = 0; k < 3; ++k) {
+        first[k] = static_cast<std::int64_t>(std::ceil(cells(k, box.low[k]) - site[k] - kRoom));
+        end[k] = static_cast<std::int64_t>(std::ceil(cells(k, box.high[k]) - site[k] + kRoom));
+      }
+      for (std::int64_t i2 = first[2]; i2 < end[2]; ++i2)
+        for (std::int64_t i1 = first[1]; i1 < end[1]; ++i1)
+          for (std::int64_t i0 = first[0]; i0 < end[0]; ++i0)
+            visit(Point<3>{along(0, i0, site), along(1, i1, site), along(2, i2, site)});
+    }
+  }
+
+ private:
+  // Nodes of a cell, in units of its sides. Half a cell apart along each axis A15 has layers of
+  // three nodes, and a single one halfway between two of them.
+  static constexpr std::array<Point<3>, 2> kBodyCentred{{{0, 0, 0}, {0.5, 0.5, 0.5}}};
+  static constexpr std::array<Point<3>, 8> kA15{{{0, 0, 0},
+                                                 {0.5, 0.5, 0.5},
+                                                 {0.25, 0, 0.5},
+                                                 {0.75, 0, 0.5},
+                                                 {0.5, 0.25, 0},
+                                                 {0.5, 0.75, 0},
+                                                 {0, 0.5, 0.25},
+                                                 {0, 0.5, 0.75}}};
+  // How far off the side of the box the first full layer is, in d. The nodes of a flat side, 2 /
+  // sqrt(3) per d^2, are half a layer and stand for the first 0.38 d. A lattice stands for all that
+  // is behind a depth of 0.33 d (A15) or 0.27 d (half the way between layers) less than the depth
+  // of its first full layer. So no node is too many, and none missing.
+  static constexpr double kFirstA15Layer = 0.7, kFirstBodyCentredLayer = 0.65;
+  static constexpr double kRoom = 1e-3;  // for rounding, in cells
+
+  static double fitted(double cell, double between) {
+    const double half_cells = std::round(between / (0.5 * cell));
+    return half_cells >= 8 ? 2 * between / half_cells : cell;
+  }
+
+  double cells(std::size_t k, double x) const { return (x - low_[k]) / cell_[k]; }
+  double along(std::size_t k, std::int64_t i, const Point<3>& site) const {
+    return low_[k] + cell_[k] * (static_cast<double>(i) + site[k]);
+  }
+
+  std::span<const Point<3>> sites_;
+  Point<3> low_;   // of the cell with index 0
+  Point<3> cell_;  // its sides
+};
+
+}  // namespace pnpbs
