@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A binary file of numbers, one after the other.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/limits.hpp"
+
+namespace pnpbs {
+
+class ByteFields {
+ public:
+  // From byte `begin` on. `name` stands for the file in messages. Keeps a reference to the bytes.
+  ByteFields(std::string_view bytes, std::size_t begin, std::endian order, std::string name)
+      : bytes_(bytes), at_(begin), order_(order), name_(std::move(name)) {}
+
+  std::size_t remaining() const { return bytes_.size() - at_; }
+
+  // The next number. `what` is what it should be, for the message if it is not: Error with
+  // "name: at byte 84: found ..., expected what".
+  template <class Number>
+  Number next(std::string_view what) {
+    if (remaining() < sizeof(Number)) fail("the file ends, expected " + std::string(what));
+    std::array<char, sizeof(Number)> field;
+    std::memcpy(field.data(), bytes_.data() + at_, sizeof(Number));
+    at_ += sizeof(Number);
+    if (order_ != std::endian::native) std::reverse(field.begin(), field.end());
+    return std::bit_cast<Number>(field);
+  }
+
+  template <class Number>
+  double coordinate(std::string_view what) {
+    const auto value = static_cast<double>(next<Number>(what));
+    if (!is_usable(value)) {
+      at_ -= sizeof(Number);
+      fail("found " + number_text(value) + ", expected " + std::string(what) +
+           " (a number between -1e60 and 1e60)");
+    }
+    return value;
+  }
+
+  void skip(std::size_t count) { at_ += std::min(count, remaining()); }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error(ErrorKind::file, name_ + ": at byte " + std::to_string(at_) + ": " + message);
+  }
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_;
+  std::endian order_;
+  std::string name_;
+};
+
+}  // namespace pnpbs

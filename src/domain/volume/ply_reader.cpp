@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PLY. Of vertices x, y and z are read, of faces their list of vertices; everything else is passed
+// over.
+#include <algorithm>
+#include <optional>
+
+#include "domain/text_fields.hpp"
+#include "domain/volume/byte_fields.hpp"
+#include "domain/volume/ply_header.hpp"
+#include "domain/volume/polygons.hpp"
+#include "domain/volume/surface_formats.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+class TextSource {
+ public:
+  explicit TextSource(TextFields& fields) : fields_(fields) {}
+
+  bool next_row() { return fields_.next_line(); }
+  double coordinate(PlyType, std::string_view what) { return fields_.coordinate(what); }
+  std::int64_t integer(PlyType, std::string_view what) { return fields_.integer(what); }
+  void skip(PlyType, std::string_view what) { fields_.required(what); }
+  bool at_end() { return !fields_.next_line(); }
+  [[noreturn]] void fail(const std::string& message) const { fields_.fail(message); }
+
+ private:
+  TextFields& fields_;
+};
+
+class BinarySource {
+ public:
+  explicit BinarySource(const ByteFields& fields) : fields_(fields) {}
+
+  bool next_row() const { return fields_.remaining() > 0; }
+  bool at_end() const { return fields_.remaining() == 0; }
+  [[noreturn]] void fail(const std::string& message) const { fields_.fail(message); }
+
+  double coordinate(PlyType type, std::string_view what) {
+    if (type == PlyType::float32) return fields_.coordinate<float>(what);
+    if (type == PlyType::float64) return fields_.coordinate<double>(what);
+    return static_cast<double>(integer(type, what));
+  }
+
+  std::int64_t integer(PlyType type, std::string_view what) {
+    switch (type) {
+      case PlyType::int8:
+        return fields_.next<std::int8_t>(what);
+      case PlyType::uint8:
+        return fields_.next<std::uint8_t>(what);
+      case PlyType::int16:
+        return fields_.next<std::int16_t>(what);
+      case PlyType::uint16:
+        return fields_.next<std::uint16_t>(what);
+      case PlyType::int32:
+        return fields_.next<std::int32_t>(what);
+      case PlyType::uint32:
+        return fields_.next<std::uint32_t>(what);
+      case PlyType::float32:
+      case PlyType::float64:
+        break;
+    }
+    fail("found no integer type, expected one for " + std::string(what));
+  }
+
+  void skip(PlyType type, std::string_view what) {
+    if (type == PlyType::float32) {
+      fields_.next<float>(what);
+    } else if (type == PlyType::float64) {
+      fields_.next<double>(what);
+    } else {
+      integer(type, what);
+    }
+  }
+
+ private:
+  ByteFields fields_;
+};
+
+template <class Source>
+class Body {
+ public:
+  explicit Body(Source source) : source_(source) {}
+
+  SurfaceTriangles parse(const PlyHeader& header) {
+    for (const PlyElement& element : header.elements) {
+      if (element.name == "vertex") {
+        read_vertices(element);
+      } else if (element.name == "face") {
+        read_faces(element);
+      } else if (!element.properties.empty()) {
+        read_rows(element, [this](const PlyProperty& property, std::size_t) { skip(property); });
+      }
+    }
+    if (!source_.at_end()) source_.fail("found more than the header tells of");
+    return std::move(surface_);
+  }
+
+ private:
+  // `read` is called for each property of each row, with the property's place.
+  template <class Read, class EndRow>
+  void read_rows(const PlyElement& element, const Read& read, const EndRow& end_row) {
+    for (std::int64_t i = 0; i < element.count; ++i) {
+      if (!source_.next_row())
+        source_.fail("the file ends after " + part_of(i, element.count, element.name));
+      for (std::size_t k = 0; k < element.properties.size(); ++k) read(element.properties[k], k);
+      end_row();
+    }
+  }
+  template <class Read>
+  void read_rows(const PlyElement& element, const Read& read) {
+    read_rows(element, read, [] {});
+  }
+
+  void read_vertices(const PlyElement& element) {
+    if (element.count > kMaxVertices) source_.fail(kTooManyVertices);
+    constexpr std::array kAxes{"x", "y", "z"};
+    std::vector<std::size_t> axis_of(element.properties.size(), kAxes.size());
+    for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
+      const std::size_t place = element.place_of(kAxes[axis]);
+      if (place == axis_of.size() || element.properties[place].is_list)
+        source_.fail(std::string("the header has no property ") + kAxes[axis] + " of vertices");
+      axis_of[place] = axis;
+    }
+    Point<3> vertex;
+    read_rows(
+        element,
+        [&](const PlyProperty& property, std::size_t place) {
+          const std::size_t axis = axis_of[place];
+          if (axis == kAxes.size()) return skip(property);
+          vertex[axis] = source_.coordinate(property.type, kAxes[axis]);
+        },
+        [&] { surface_.vertices.push_back(vertex); });
+  }
+
+  void read_faces(const PlyElement& element) {
+    std::size_t list = element.place_of("vertex_indices");
+    if (list == element.properties.size()) list = element.place_of("vertex_index");
+    if (list == element.properties.size() || !element.properties[list].is_list ||
+        !is_integer(element.properties[list].type)) {
+      source_.fail("the header has no list of integers 'vertex_indices' of faces");
+    }
+    if (surface_.vertices.empty()) source_.fail("found no vertices before the faces");
+    read_rows(
+        element,
+        [&](const PlyProperty& property, std::size_t place) {
+          if (place != list) return skip(property);
+          read_corners(property);
+        },
+        [this] {
+          if (const auto problem = add_polygon(surface_, corners_, 1); !problem.empty())
+            source_.fail(problem);
+        });
+  }
+
+  void read_corners(const PlyProperty& property) {
+    const auto vertices = static_cast<std::int64_t>(surface_.vertices.size());
+    corners_.clear();
+    for (std::int64_t left = read_length(property); left > 0; --left) {
+      const std::int64_t number = source_.integer(property.type, "a vertex number");
+      if (number < 0 || number >= vertices) source_.fail(no_such_vertex(number, vertices));
+      corners_.push_back(static_cast<std::int32_t>(number));
+    }
+  }
+
+  void skip(const PlyProperty& property) {
+    const std::int64_t count = property.is_list ? read_length(property) : 1;
+    for (std::int64_t left = count; left > 0; --left) source_.skip(property.type, property.name);
+  }
+
+  std::int64_t read_length(const PlyProperty& property) {
+    const std::int64_t length = source_.integer(property.count_type, "the length of a list");
+    if (length < 0) source_.fail("the length of " + property.name + " is negative");
+    return length;
+  }
+
+  Source source_;
+  SurfaceTriangles surface_;
+  std::vector<std::int32_t> corners_;
+};
+
+}  // namespace
+
+SurfaceTriangles parse_ply(std::string_view bytes, const std::string& name) {
+  TextFields fields(bytes, name, Comments::whole_lines);
+  const PlyHeader header = parse_ply_header(fields);
+  if (header.encoding == PlyEncoding::text) {
+    expect_text(bytes, name, "PLY");
+    return Body<TextSource>(TextSource(fields)).parse(header);
+  }
+  const std::endian order =
+      header.encoding == PlyEncoding::little_endian ? std::endian::little : std::endian::big;
+  const std::size_t begin = bytes.size() - fields.rest().size();
+  return Body<BinarySource>(BinarySource({bytes, begin, order, name})).parse(header);
+}
+
+}  // namespace pnpbs

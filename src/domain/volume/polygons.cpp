@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/polygons.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "domain/volume/polygon_triangles.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+bool repeats_a_vertex(std::span<const std::int32_t> corners) {
+  if (corners.size() == 3)
+    return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+  std::vector<std::int32_t> sorted(corners.begin(), corners.end());
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
+// Twice the area, along the normal.
+Point<3> area_vector(const std::vector<Point<3>>& x, std::span<const std::int32_t> corners) {
+  const Point<3>& origin = x[static_cast<std::size_t>(corners[0])];
+  Point<3> sum{};
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    Point<3> a = x[static_cast<std::size_t>(corners[i])];
+    Point<3> b = x[static_cast<std::size_t>(corners[i + 1])];
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[k] -= origin[k];
+      b[k] -= origin[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+      sum[k] += a[l] * b[m] - a[m] * b[l];
+    }
+  }
+  return sum;
+}
+
+// Along the axis nearest to the normal, so that the polygon is counter-clockwise.
+std::vector<Point<2>> projected(const std::vector<Point<3>>& x,
+                                std::span<const std::int32_t> corners, const Point<3>& normal) {
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (std::fabs(normal[k]) > std::fabs(normal[axis])) axis = k;
+  std::size_t first = (axis + 1) % 3, second = (axis + 2) % 3;
+  if (normal[axis] < 0) std::swap(first, second);
+  std::vector<Point<2>> points;
+  points.reserve(corners.size());
+  for (const std::int32_t corner : corners) {
+    const Point<3>& p = x[static_cast<std::size_t>(corner)];
+    points.push_back({p[first], p[second]});
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string add_polygon(SurfaceTriangles& surface, std::span<const std::int32_t> corners,
+                        std::int32_t tag) {
+  const auto problem = [&corners](const std::string& what) {
+    return "a polygon of " + std::to_string(corners.size()) + " corners " + what;
+  };
+  if (corners.size() < 3) return problem("is none, expected 3 or more");
+  if (repeats_a_vertex(corners)) return problem("has a vertex twice");
+  if (corners.size() == 3) {
+    surface.triangles.push_back({corners[0], corners[1], corners[2]});
+    surface.tags.push_back(tag);
+    return "";
+  }
+  const Point<3> normal = area_vector(surface.vertices, corners);
+  if (normal == Point<3>{}) return problem("has no area");
+  const auto triangles = polygon_triangles(projected(surface.vertices, corners, normal));
+  if (triangles.empty()) return problem("crosses or touches itself, or is too intricate");
+  for (const auto& [a, b, c] : triangles) {
+    surface.triangles.push_back({corners[static_cast<std::size_t>(a)],
+                                 corners[static_cast<std::size_t>(b)],
+                                 corners[static_cast<std::size_t>(c)]});
+    surface.tags.push_back(tag);
+  }
+  return "";
+}
+
+}  // namespace pnpbs

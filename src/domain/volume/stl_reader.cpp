@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// STL: 3D Systems, "StereoLithography Interface Specification" (1988). Text may hold several
+// solids, each with a name. Binary: 80 bytes of anything, the number of triangles, 50 bytes each.
+#include <algorithm>
+#include <initializer_list>
+
+#include "base/error.hpp"
+#include "domain/text_fields.hpp"
+#include "domain/volume/byte_fields.hpp"
+#include "domain/volume/surface_formats.hpp"
+#include "domain/volume/tag_names.hpp"
+#include "domain/volume/vertex_table.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::size_t kHeader = 80;
+constexpr std::size_t kBeforeTriangles = kHeader + 4;
+constexpr std::size_t kTriangle = 50;
+constexpr std::size_t kNormal = 12;
+
+// All their corners can be numbered.
+constexpr std::size_t kMaxTriangles = kMaxVertices / 3;
+constexpr const char* kTooManyTriangles = "more than 715827882 triangles";
+
+// Keywords are in capitals in some files.
+bool is_word(std::string_view field, std::string_view word) {
+  return std::equal(field.begin(), field.end(), word.begin(), word.end(), [](char a, char b) {
+    return a == b || (a >= 'A' && a <= 'Z' && a - 'A' + 'a' == b);
+  });
+}
+
+class TextParser {
+ public:
+  TextParser(std::string_view text, const std::string& name)
+      : fields_(text, name, Comments::whole_lines) {}
+
+  SurfaceTriangles parse() {
+    while (fields_.next_line()) {
+      expect({"solid"});
+      read_solid(std::string(fields_.rest_of_line()));
+    }
+    surface_.vertices = vertices_.take_points();
+    surface_.tag_names = tags_.take_names();
+    return std::move(surface_);
+  }
+
+ private:
+  void expect(std::initializer_list<const char*> words) {
+    for (const char* word : words) {
+      const std::string_view field = fields_.required(quoted(word));
+      if (!is_word(field, word)) fields_.fail_found(field, quoted(word));
+    }
+  }
+
+  void expect_line(std::initializer_list<const char*> words) {
+    if (!fields_.next_line()) fields_.fail("the file ends, expected " + quoted(*words.begin()));
+    expect(words);
+  }
+
+  static std::string quoted(const std::string& word) { return "'" + word + "'"; }
+
+  void read_solid(const std::string& name) {
+    const std::string expected = "'facet' or 'endsolid'";
+    for (;;) {
+      if (!fields_.next_line()) fields_.fail("the file ends, expected " + expected);
+      const std::string_view field = fields_.required(expected);
+      if (is_word(field, "endsolid")) return;
+      if (!is_word(field, "facet")) fields_.fail_found(field, expected);
+      read_triangle();  // its normal follows from its corners, and is nonsense in some files
+      surface_.tags.push_back(tags_.tag_of(name));
+    }
+  }
+
+  void read_triangle() {
+    if (surface_.triangles.size() == kMaxTriangles) fields_.fail(kTooManyTriangles);
+    expect_line({"outer", "loop"});
+    std::array<std::int32_t, 3> triangle;
+    for (std::int32_t& corner : triangle) {
+      expect_line({"vertex"});
+      const double x = fields_.coordinate("x"), y = fields_.coordinate("y");
+      corner = vertices_.index_of({x, y, fields_.coordinate("z")});
+    }
+    expect_line({"endloop"});
+    expect_line({"endfacet"});
+    surface_.triangles.push_back(triangle);
+  }
+
+  TextFields fields_;
+  VertexTable vertices_;
+  TagNames tags_;
+  SurfaceTriangles surface_;
+};
+
+SurfaceTriangles parse_binary(ByteFields fields, std::size_t count) {
+  if (count > kMaxTriangles) fields.fail(kTooManyTriangles);
+  VertexTable vertices;
+  SurfaceTriangles surface;
+  surface.triangles.reserve(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    fields.skip(kNormal);
+    std::array<std::int32_t, 3> triangle;
+    for (std::int32_t& corner : triangle) {
+      const double x = fields.coordinate<float>("x"), y = fields.coordinate<float>("y");
+      corner = vertices.index_of({x, y, fields.coordinate<float>("z")});
+    }
+    surface.triangles.push_back(triangle);
+    fields.skip(kTriangle - kNormal - 9 * sizeof(float));
+  }
+  surface.vertices = vertices.take_points();
+  surface.tags.assign(count, 1);
+  return surface;
+}
+
+bool begins_as_text(std::string_view bytes) {
+  TextFields fields(bytes.substr(0, kHeader), "");
+  if (!fields.next_line()) return false;
+  return is_word(fields.required("a word"), "solid");
+}
+
+}  // namespace
+
+// A binary file may begin with "solid", too, but has the size that it says.
+SurfaceTriangles parse_stl(std::string_view bytes, const std::string& name) {
+  const bool has_header = bytes.size() >= kBeforeTriangles;
+  ByteFields fields(bytes, has_header ? kHeader : 0, std::endian::little, name);
+  const std::size_t count = has_header ? fields.next<std::uint32_t>("a count") : 0;
+  const std::size_t expected = kBeforeTriangles + kTriangle * count;
+  if (has_header && bytes.size() == expected) return parse_binary(fields, count);
+  if (begins_as_text(bytes) && bytes.find('\0') == std::string_view::npos)
+    return TextParser(bytes, name).parse();
+  const std::string binary = ": does not begin with 'solid' as text does, and as a binary file ";
+  if (!has_header) {
+    throw Error(ErrorKind::file,
+                name + binary + "it is too short: " + std::to_string(bytes.size()) +
+                    " bytes, expected " + std::to_string(kBeforeTriangles) + " or more");
+  }
+  throw Error(ErrorKind::file, name + binary + "it has " + std::to_string(bytes.size()) +
+                                   " bytes, expected " + std::to_string(expected) + " for " +
+                                   std::to_string(count) + " triangles");
+}
+
+}  // namespace pnpbs

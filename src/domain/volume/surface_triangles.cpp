@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/surface_triangles.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "base/error.hpp"
+#include "domain/volume/surface_formats.hpp"
+#include "domain/whole_file.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, SurfaceFormat>, 6> kEndings{
+    {{".stl", SurfaceFormat::stl},
+     {".off", SurfaceFormat::off},
+     {".obj", SurfaceFormat::obj},
+     {".ply", SurfaceFormat::ply},
+     {".poly", SurfaceFormat::poly},
+     {".smesh", SurfaceFormat::smesh}}};
+
+// From the last point of the file's name on.
+std::string ending_of(const std::string& path) {
+  const std::size_t name = path.find_last_of('/') + 1;  // 0 if there is none
+  const std::size_t point = path.find_last_of('.');
+  if (point == std::string::npos || point < name) return "";
+  return path.substr(point);
+}
+
+SurfaceTriangles parse_format(std::string_view bytes, const std::string& name, SurfaceFormat format,
+                              const std::function<NodeFile()>& node_file) {
+  switch (format) {
+    case SurfaceFormat::stl:
+      return parse_stl(bytes, name);
+    case SurfaceFormat::off:
+      return parse_off(bytes, name);
+    case SurfaceFormat::obj:
+      return parse_obj(bytes, name);
+    case SurfaceFormat::ply:
+      return parse_ply(bytes, name);
+    case SurfaceFormat::poly:
+      return parse_tetgen(bytes, name, TetGenFormat::poly, node_file);
+    case SurfaceFormat::smesh:
+      return parse_tetgen(bytes, name, TetGenFormat::smesh, node_file);
+  }
+  throw Error(ErrorKind::internal, "there is no such format of surfaces");
+}
+
+SurfaceTriangles parse(std::string_view bytes, const std::string& name, SurfaceFormat format,
+                       const std::function<NodeFile()>& node_file) {
+  SurfaceTriangles surface = parse_format(bytes, name, format, node_file);
+  if (surface.triangles.empty()) throw Error(ErrorKind::file, name + ": holds no triangles");
+  return surface;
+}
+
+}  // namespace
+
+SurfaceFormat surface_format(const std::string& path) {
+  std::string ending = ending_of(path);
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const auto known = std::find_if(kEndings.begin(), kEndings.end(),
+                                  [&ending](const auto& each) { return each.first == ending; });
+  if (known == kEndings.end()) {
+    throw Error(ErrorKind::file,
+                path +
+                    ": not known by its ending, expected .stl, .off, .obj, .ply, .poly or "
+                    ".smesh");
+  }
+  return known->second;
+}
+
+SurfaceTriangles read_surface(const std::string& path) {
+  const SurfaceFormat format = surface_format(path);
+  return parse(read_whole_file(path), path, format, [&path] {
+    const std::string beside = path.substr(0, path.size() - ending_of(path).size()) + ".node";
+    return NodeFile{read_whole_file(beside), beside};
+  });
+}
+
+SurfaceTriangles parse_surface(std::string_view bytes, const std::string& name,
+                               SurfaceFormat format) {
+  return parse(bytes, name, format, nullptr);
+}
+
+}  // namespace pnpbs

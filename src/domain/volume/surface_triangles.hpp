@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangulated surfaces as files hold them: STL (text, binary), OFF, OBJ, PLY (text, binary),
+// TetGen's .poly and .smesh. Nothing is mended here but what the format itself asks for: polygons
+// become triangles, and equal corners of an STL's triangles one vertex.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+struct SurfaceTriangles {
+  std::vector<Point<3>> vertices;
+  // Vertices, from 0. In those from an STL two may be the same, or all.
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> tags;  // of triangles; 1 where the file has none
+  // Where the file names what it tags: solids of an STL, groups, objects and materials of an OBJ.
+  std::vector<std::pair<std::int32_t, std::string>> tag_names;
+  std::vector<Point<3>> holes;  // a point in each cavity, from TetGen's files
+};
+
+enum class SurfaceFormat { stl, off, obj, ply, poly, smesh };
+
+// By the ending of the file's name, in capitals or not. Throws Error(ErrorKind::file) for others.
+SurfaceFormat surface_format(const std::string& path);
+
+// Throws Error(ErrorKind::file, "path:line: ...") or, from binary files, "path: at byte 84: ...".
+// A .poly or .smesh that holds no vertices ("0 3 0 0") has them in the .node file beside it.
+SurfaceTriangles read_surface(const std::string& path);
+
+// The same from memory. `name` stands for the file in messages.
+SurfaceTriangles parse_surface(std::string_view bytes, const std::string& name,
+                               SurfaceFormat format);
+
+}  // namespace pnpbs

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TetGen's .poly and .smesh (https://wias-berlin.de/software/tetgen/fformats.html): vertices,
+// facets, holes; regional attributes are skipped. A facet is one polygon or more that do not lie in
+// each other.
+#include "domain/volume/polygons.hpp"
+#include "domain/volume/surface_formats.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+class FacetParser {
+ public:
+  FacetParser(TextFields& fields, const VertexSection<3>& vertices, SurfaceTriangles& surface)
+      : fields_(fields), vertices_(vertices), surface_(surface) {}
+
+  void parse(TetGenFormat format) {
+    begin_section(fields_, "facets");
+    const std::int64_t count = read_count(fields_, "facets");
+    has_markers_ = read_optional(fields_, "the number of boundary markers", 1) > 0;
+    read_lines(fields_, count, "facets", [&] {
+      if (format == TetGenFormat::poly) {
+        read_facet();
+      } else {
+        read_corners();
+        add(read_tag());
+      }
+    });
+  }
+
+ private:
+  void read_facet() {
+    const std::int64_t polygons = read_count(fields_, "polygons");
+    if (polygons == 0) fields_.fail("the facet has no polygon");
+    if (read_optional(fields_, "the number of holes", kMaxHoles) > 0)
+      fields_.fail("the facet has holes: expected polygons without any, into which to divide it");
+    const std::int32_t tag = read_tag();
+    read_lines(fields_, polygons, "polygons", [&] {
+      read_corners();
+      add(tag);
+    });
+  }
+
+  // They may go on in further lines.
+  void read_corners() {
+    corners_.clear();
+    const std::int64_t count = read_count(fields_, "corners");
+    for (std::int64_t i = 0; i < count; ++i) {
+      if (fields_.rest_of_line().empty() && !fields_.next_line())
+        fields_.fail("the file ends after " + part_of(i, count, "corners"));
+      corners_.push_back(static_cast<std::int32_t>(read_vertex(fields_, vertices_)));
+    }
+  }
+
+  // 0 is no marker.
+  std::int32_t read_tag() {
+    const std::int32_t marker = has_markers_ ? fields_.tag("a boundary marker") : 0;
+    return marker == 0 ? 1 : marker;
+  }
+
+  void add(std::int32_t tag) {
+    if (const auto problem = add_polygon(surface_, corners_, tag); !problem.empty())
+      fields_.fail(problem);
+  }
+
+  static constexpr std::int64_t kMaxHoles = 1'000'000;
+
+  TextFields& fields_;
+  const VertexSection<3>& vertices_;
+  SurfaceTriangles& surface_;
+  bool has_markers_ = false;
+  std::vector<std::int32_t> corners_;
+};
+
+std::vector<Point<3>> points(const std::vector<double>& coordinates) {
+  std::vector<Point<3>> result;
+  for (std::size_t i = 0; i < coordinates.size(); i += 3)
+    result.push_back({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
+  return result;
+}
+
+}  // namespace
+
+SurfaceTriangles parse_tetgen(std::string_view text, const std::string& name, TetGenFormat format,
+                              const std::function<NodeFile()>& node_file) {
+  expect_text(text, name, format == TetGenFormat::poly ? ".poly" : ".smesh");
+  TextFields fields(text, name);
+  const VertexSection<3> vertices = read_vertices<3>(fields, node_file);
+  if (vertices.count() > kMaxVertices) fields.fail(kTooManyVertices);
+  SurfaceTriangles surface;
+  surface.vertices = points(vertices.coordinates);
+  FacetParser(fields, vertices, surface).parse(format);
+  surface.holes = points(read_holes<3>(fields));
+  skip_regions(fields);
+  return surface;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/vertex_table.hpp"
+
+#include <bit>
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::int32_t kFree = -1;
+
+// S. Vigna's splitmix64.
+std::uint64_t mixed(std::uint64_t z) {
+  z += 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+  return z ^ (z >> 31);
+}
+
+std::uint64_t hash_of(const Point<3>& x) {
+  std::uint64_t hash = 0;
+  for (const double coordinate : x) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(coordinate));
+  return hash;
+}
+
+}  // namespace
+
+// The slot that has the point, or the free one where it belongs.
+std::size_t VertexTable::slot_of(const Point<3>& x) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash_of(x) & mask;
+  while (slots_[slot] != kFree && points_[static_cast<std::size_t>(slots_[slot])] != x)
+    slot = (slot + 1) & mask;
+  return slot;
+}
+
+void VertexTable::grow() {
+  slots_.assign(slots_.empty() ? 64 : 4 * slots_.size(), kFree);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    slots_[slot_of(points_[i])] = static_cast<std::int32_t>(i);
+}
+
+std::int32_t VertexTable::index_of(Point<3> x) {
+  for (double& coordinate : x) coordinate += 0.0;  // -0 is 0
+  if (2 * points_.size() >= slots_.size()) grow();
+  std::int32_t& slot = slots_[slot_of(x)];
+  if (slot == kFree) {
+    slot = static_cast<std::int32_t>(points_.size());
+    points_.push_back(x);
+  }
+  return slot;
+}
+
+}  // namespace pnpbs
