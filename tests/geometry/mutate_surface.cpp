@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Damaged surfaces by the thousand. Whatever a file holds, reading it must answer with triangles of
+// its vertices or with a message; never with a crash, a hang or memory for what is not there.
+//
+// The bytes under test lie in mutate_surface.bytes in the working folder, for the case of a crash.
+// More by hand, of each format or of files: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 mutate_surface
+// [file]...
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/limits.hpp"
+#include "damage.hpp"
+#include "surface_files.hpp"
+
+namespace {
+
+std::size_t largest_request = 0;
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  largest_request = std::max(largest_request, size);
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace {
+
+using pnpbs::SurfaceFormat;
+using pnpbs::SurfaceTriangles;
+
+struct Sample {
+  std::string name;
+  SurfaceFormat format;
+  std::string bytes;
+};
+
+// Polygons that are not convex, names, markers, a hole.
+const char* const prism_off = R"(OFF
+12 8 0
+0 0 0
+2 0 0
+2 1 0
+1 1 0
+1 2 0
+0 2 0
+0 0 1
+2 0 1
+2 1 1
+1 1 1
+1 2 1
+0 2 1
+6 0 5 4 3 2 1
+6 6 7 8 9 10 11 255 0 0
+4 0 1 7 6
+4 1 2 8 7
+4 2 3 9 8
+4 3 4 10 9
+4 4 5 11 10
+4 5 0 6 11
+)";
+
+const char* const pyramid_obj = R"(mtllib pyramid.mtl
+o pyramid
+v 0 0 0
+v 1 0 0
+v 1 1 0 1.0
+v 0 1 0
+v 0.5 0.5 1
+g base
+usemtl stone
+f 4/1 3/2 2/3 1/4
+g sides
+f 1//1 2//1 5//1
+f 2/1/1 3/2/1 5/3/1
+f -3 -2 -1
+usemtl sand
+f 4 1 \
+ 5
+)";
+
+const char* const tetrahedra_poly = R"(# one in the other
+8 3 1 1
+1 0 0 0 7.5 0
+2 9 0 0 1.5 0
+3 0 9 0 0 0
+4 0 0 9 0 0
+5 1 1 1 0 0
+6 2 1 1 0 0
+7 1 2 1 0 0
+8 1 1 2 0 0
+7 1
+1 0 5
+3 1 3 2
+1 0 0
+3 1 2 4
+1 0 -6
+3 2 3 4
+1 0 7
+3 3 1
+  4
+2 0 8
+3 5 6 7
+3 5 8 6
+1 0 8
+3 6 8 7
+1 0 8
+3 7 8 5
+1
+1 1.1 1.2 1.3
+1
+1 5 5 5 17 0.1
+)";
+
+const char* const triangle_ply = R"(ply
+format ascii 1.0
+comment all that there may be
+element material 2
+property list uchar double v
+property float e
+element vertex 4
+property uchar red
+property double z
+property float y
+property list ushort char names
+property float x
+element face 2
+property float area
+property list int uint vertex_index
+end_header
+2 0.5 0.25 1
+0 7
+255 -1 0 0 0
+255 -1 0 2 65 66 2.5
+0 300 0.5 0 0
+0 300 0.5 1 67 0.5
+0.1 3 2 1 0
+0.2 4 0 1 3 2
+)";
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+std::vector<Sample> samples(int count, char** paths) {
+  std::vector<Sample> result;
+  for (int i = 0; i < count; ++i) {
+    std::ifstream file(paths[i], std::ios::binary);
+    result.push_back(
+        {paths[i], pnpbs::surface_format(paths[i]), {std::istreambuf_iterator<char>(file), {}}});
+  }
+  if (!result.empty()) return result;
+  for (auto& [format, bytes] : surface_files::all(surface_files::box()))
+    result.push_back({"box", format, std::move(bytes)});
+  result.push_back({"prism.off", SurfaceFormat::off, prism_off});
+  result.push_back({"pyramid.obj", SurfaceFormat::obj, pyramid_obj});
+  result.push_back({"tetrahedra.poly", SurfaceFormat::poly, tetrahedra_poly});
+  result.push_back({"triangle.ply", SurfaceFormat::ply, triangle_ply});
+  return result;
+}
+
+// What is wrong with a surface that was read.
+const char* fault_of(const SurfaceTriangles& surface) {
+  const auto count = static_cast<std::int32_t>(surface.vertices.size());
+  if (surface.triangles.empty()) return "no triangles";
+  if (surface.tags.size() != surface.triangles.size()) return "tags of other triangles";
+  for (const auto& triangle : surface.triangles)
+    for (const std::int32_t i : triangle)
+      if (i < 0 || i >= count) return "a corner that is no vertex";
+  for (const auto* points : {&surface.vertices, &surface.holes})
+    for (const auto& point : *points)
+      for (const double x : point)
+        if (!pnpbs::is_usable(x)) return "an unusable coordinate";
+  for (const auto& [tag, name] : surface.tag_names)
+    if (tag < 1 || name.empty()) return "a name that is none";
+  return nullptr;
+}
+
+struct Tally {
+  std::uint64_t read = 0, refused = 0;
+  double slowest = 0;
+};
+
+// False after telling what is wrong.
+bool examine(const Sample& sample, const std::string& bytes, Tally& tally) {
+  const auto begin = std::chrono::steady_clock::now();
+  largest_request = 0;
+  const char* fault = nullptr;
+  std::string message;
+  try {
+    fault = fault_of(pnpbs::parse_surface(bytes, "mutated", sample.format));
+    ++tally.read;
+  } catch (const pnpbs::Error& error) {
+    message = error.what();
+    if (error.kind() != pnpbs::ErrorKind::file || !message.starts_with("mutated:"))
+      fault = "not a file's error";
+    ++tally.refused;
+  } catch (const std::exception& error) {
+    message = error.what();
+    fault = "not an error of ours";
+  }
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  tally.slowest = std::max(tally.slowest, time.count());
+  if (largest_request > 100 * bytes.size() + 10000) fault = "more memory than bytes account for";
+  if (time.count() > 20) fault = "too slow";
+  if (fault) std::printf("%s: %s: %s\n", sample.name.c_str(), fault, message.c_str());
+  return fault == nullptr;
+}
+
+bool examine_mutations(const Sample& sample, std::uint64_t mutations, std::uint64_t seed) {
+  Damage damage(seed);
+  Tally tally;
+  if (!examine(sample, sample.bytes, tally) || tally.read != 1) {
+    std::printf("%s: not read undamaged\n", sample.name.c_str());
+    return false;
+  }
+  for (std::uint64_t i = 0; i < mutations; ++i) {
+    const std::string bytes = i % 2 == 0 ? damage.to(sample.bytes) : damage.to_bytes(sample.bytes);
+    std::ofstream(PNPBS_TEST_WORK_DIR "/mutate_surface.bytes", std::ios::binary) << bytes;
+    if (!examine(sample, bytes, tally)) return false;
+  }
+  std::printf("%s: %llu read, %llu refused, at most %.3f s\n", sample.name.c_str(),
+              static_cast<unsigned long long>(tally.read),
+              static_cast<unsigned long long>(tally.refused), tally.slowest);
+  // The damage must leave something and break something, or the test tests nothing.
+  return mutations < 50 || (tally.read > mutations / 50 && tally.refused > mutations / 50);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<Sample> all = samples(argc - 1, argv + 1);
+  const std::uint64_t mutations = from_environment("PNPBS_MUTATIONS", 100);
+  std::uint64_t seed = from_environment("PNPBS_SEED", 0);
+  bool good = true;
+  for (const Sample& sample : all) good = examine_mutations(sample, mutations, ++seed) && good;
+  return good ? EXIT_SUCCESS : EXIT_FAILURE;
+}
