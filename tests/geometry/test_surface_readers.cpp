@@ -78,6 +78,10 @@ START_TEST(real_files) {
   ck_assert_uint_eq(kleopatra.vertices.size(), 2048);
   ck_assert_uint_eq(kleopatra.triangles.size(), 4092);
   ck_assert(kleopatra.triangles[0] == (std::array{835, 1513, 2}));
+  const SurfaceTriangles bracket = pnpbs::read_surface(data + "bracket.stl");
+  ck_assert_uint_eq(bracket.vertices.size(), 2672);
+  ck_assert_uint_eq(bracket.triangles.size(), 5360);
+  ck_assert_double_eq_tol(volume6(bracket) / 6, 86523.7868, 1e-3);
 }
 END_TEST
 
