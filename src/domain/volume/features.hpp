@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The features of triangulated surfaces: sharp edges and what they divide. An edge is a feature
 // where the normals on its two sides turn by more than an angle, where tags meet, where other than
-// two triangles meet, and at a border. A corner is where other than two feature edges meet, or
-// where they turn sharply. What lies between feature edges is a patch.
+// two triangles meet, at a border, and where an inner curve runs. A corner is where other than two
+// feature edges meet, where they turn sharply, and at a fixed node. What lies between feature edges
+// is a patch.
 #pragma once
 
 #include <array>
@@ -13,27 +14,37 @@
 
 namespace pnpbs {
 
-// Feature edges in a row, from corner to corner, or closed and without a corner.
+// Feature edges in a row, from corner to corner, or closed and without a corner. On either side of
+// it lies the same patch all along.
 struct FeatureCurve {
-  std::vector<std::int32_t> nodes;   // of the mesh; of a closed one the first is also the last
-  std::vector<std::int32_t> facets;  // of each edge, one that has it
-  std::int32_t tag;
+  std::vector<std::int32_t> nodes;  // of the mesh; of a closed one the first is also the last
+  std::vector<std::vector<std::int32_t>> facets;  // of each edge, those that have it, ascending
+  std::int32_t first_edge;  // feature edges are numbered along the curves, one after the other
+  std::int32_t tag;         // of the inner curve there, or else of the first of all its facets
 
   bool closed() const { return nodes.front() == nodes.back(); }
+  std::size_t edge_count() const { return facets.size(); }
 };
 
 struct Features {
   // Across edge k of a facet, from its corner k to the next one, lies this facet; -1 at a feature.
+  // (Facets that are no triangles, but parts of inner curves, have -1 all around.)
   std::vector<std::array<std::int32_t, 3>> across;
-  std::vector<std::int32_t> patch;  // of each facet
+  std::vector<std::int32_t> patch;  // of each facet; -1 if it is no triangle
   std::int32_t patches = 0;
   std::vector<FeatureCurve> curves;
   std::vector<std::int32_t> corners;  // nodes of the mesh, in their order
   // Patches that meet in a node of the mesh which lies on features, ascending; else empty.
   std::vector<std::vector<std::int32_t>> patches_at;
+
+  bool is_corner(std::int32_t mesh_node) const;
 };
 
-// Angles in degrees.
+// Angles in degrees. What is found depends on the order of facets and nodes alone; the time taken
+// is linear in their number.
 Features find_features(const BoundaryMesh<3>& mesh, double feature_angle);
+
+// The unit normal of a facet; 0 if it has no area.
+Point<3> facet_normal(const BoundaryMesh<3>& mesh, const BoundaryTriangle& facet);
 
 }  // namespace pnpbs

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "domain/volume/vectors.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {
@@ -21,16 +22,6 @@ bool all_on_one_side(std::initializer_list<int> sides) {
     right = right || side < 0;
   }
   return !(left && right);
-}
-
-Point<3> difference(const Point<3>& a, const Point<3>& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Point<3>& a, const Point<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point<3> cross(const Point<3>& a, const Point<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 struct SegmentPoint {
