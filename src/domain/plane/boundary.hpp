@@ -8,7 +8,7 @@
 
 #include "base/types.hpp"
 #include "domain/boundary_mesh.hpp"
-#include "domain/plane/curve_steps.hpp"
+#include "domain/curve_steps.hpp"
 #include "domain/plane/plane_domain.hpp"
 
 namespace pnpbs {

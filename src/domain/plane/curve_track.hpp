@@ -5,20 +5,16 @@
 #include <vector>
 
 #include "domain/plane/plane_domain.hpp"
+#include "domain/polyline_track.hpp"
 
 namespace pnpbs {
 
-class CurveTrack {
+class CurveTrack : public PolylineTrack<2> {
  public:
   // Keeps a reference to the curve.
   explicit CurveTrack(const BoundaryCurve& curve);
 
   const BoundaryCurve& curve() const { return *curve_; }
-  double length() const { return vertex_stations_.back(); }
-  bool is_closed() const { return curve_->corner_begin == curve_->corner_end; }
-
-  // Of the points of the polyline.
-  const std::vector<double>& vertex_stations() const { return vertex_stations_; }
 
   // The points of the (true) curve at rising stations.
   std::vector<Point<2>> points_at(const std::vector<double>& stations) const;
@@ -30,10 +26,7 @@ class CurveTrack {
   double deviation(double begin, double end) const;
 
  private:
-  std::size_t segment_at(double station) const;
-
   const BoundaryCurve* curve_;
-  std::vector<double> vertex_stations_;
 };
 
 }  // namespace pnpbs

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/plane/curve_track.hpp"
 #include "domain/spacing_evaluator.hpp"
 
 namespace pnpbs {
@@ -13,9 +12,11 @@ namespace pnpbs {
 // The stations of each curve's nodes, its two ends included: n = max(1, round(integral)) steps
 // (3 at least on closed curves). d is asked in large batches, for all curves together, at points
 // less than a quarter of d apart; it is taken to be linear between them. Throws
-// Error(ErrorKind::spacing) if that makes more than `max_nodes` nodes.
-std::vector<std::vector<double>> lay_equal_steps(const std::vector<CurveTrack>& tracks,
-                                                 const SpacingEvaluator<2>& spacing,
+// Error(ErrorKind::spacing) if that makes more than `max_nodes` nodes. A track is a CurveTrack of
+// the plane or a PolylineTrack<3>.
+template <class Track>
+std::vector<std::vector<double>> lay_equal_steps(const std::vector<Track>& tracks,
+                                                 const SpacingEvaluator<Track::kDim>& spacing,
                                                  std::int64_t max_nodes);
 
 }  // namespace pnpbs

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/plane/curve_steps.hpp"
+#include "domain/curve_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/point_text.hpp"
+#include "domain/plane/curve_track.hpp"
+#include "domain/polyline_track.hpp"
 
 namespace pnpbs {
 
@@ -37,14 +39,17 @@ double inverse(double fraction, double a, double b) {
   return x == 0 ? fraction : std::expm1(fraction * std::log1p(x)) / x;
 }
 
+template <class Track>
 class Profiles {
+  static constexpr int kDim = Track::kDim;
+
  public:
-  Profiles(const std::vector<CurveTrack>& tracks, const SpacingEvaluator<2>& spacing,
+  Profiles(const std::vector<Track>& tracks, const SpacingEvaluator<kDim>& spacing,
            std::int64_t max_nodes)
       : tracks_(tracks), spacing_(spacing), max_nodes_(static_cast<double>(max_nodes)) {}
 
   const std::vector<Profile>& run() {
-    for (const CurveTrack& track : tracks_) profiles_.push_back(first_profile(track));
+    for (const Track& track : tracks_) profiles_.push_back(first_profile(track));
     for (;;) {
       ask();
       require_bearable();
@@ -56,7 +61,7 @@ class Profiles {
 
  private:
   // Unknown values of d are 0.
-  static Profile first_profile(const CurveTrack& track) {
+  static Profile first_profile(const Track& track) {
     const std::vector<double>& vertices = track.vertex_stations();
     const auto segments = static_cast<int>(std::min<std::size_t>(vertices.size() - 1, 1 << 20));
     const int parts = (kMinIntervals + segments - 1) / segments;
@@ -80,7 +85,7 @@ class Profiles {
       for (std::size_t i = 0; i < profiles_[c].d.size(); ++i) {
         if (profiles_[c].d[i] == 0) unknown.push_back(profiles_[c].stations[i]);
       }
-      const std::vector<Point<2>> points = tracks_[c].points_at(unknown);
+      const std::vector<Point<kDim>> points = tracks_[c].points_at(unknown);
       points_.insert(points_.end(), points.begin(), points.end());
     }
     std::vector<double> values(points_.size());
@@ -157,13 +162,13 @@ class Profiles {
     return divided;
   }
 
-  const std::vector<CurveTrack>& tracks_;
-  const SpacingEvaluator<2>& spacing_;
+  const std::vector<Track>& tracks_;
+  const SpacingEvaluator<kDim>& spacing_;
   double max_nodes_;
   std::vector<Profile> profiles_;
-  std::vector<Point<2>> points_;  // asked in this round
-  double min_ = HUGE_VAL;         // value of d so far
-  Point<2> min_point_{};
+  std::vector<Point<kDim>> points_;  // asked in this round
+  double min_ = HUGE_VAL;            // value of d so far
+  Point<kDim> min_point_{};
 };
 
 std::vector<double> equal_steps(const Profile& profile, bool closed) {
@@ -189,16 +194,21 @@ std::vector<double> equal_steps(const Profile& profile, bool closed) {
 
 }  // namespace
 
-std::vector<std::vector<double>> lay_equal_steps(const std::vector<CurveTrack>& tracks,
-                                                 const SpacingEvaluator<2>& spacing,
+template <class Track>
+std::vector<std::vector<double>> lay_equal_steps(const std::vector<Track>& tracks,
+                                                 const SpacingEvaluator<Track::kDim>& spacing,
                                                  std::int64_t max_nodes) {
   Profiles profiles(tracks, spacing, max_nodes);
   const std::vector<Profile>& resolved = profiles.run();
   std::vector<std::vector<double>> stations;
-  for (std::size_t c = 0; c < tracks.size(); ++c) {
+  for (std::size_t c = 0; c < tracks.size(); ++c)
     stations.push_back(equal_steps(resolved[c], tracks[c].is_closed()));
-  }
   return stations;
 }
+
+template std::vector<std::vector<double>> lay_equal_steps(const std::vector<CurveTrack>&,
+                                                          const SpacingEvaluator<2>&, std::int64_t);
+template std::vector<std::vector<double>> lay_equal_steps(const std::vector<PolylineTrack<3>>&,
+                                                          const SpacingEvaluator<3>&, std::int64_t);
 
 }  // namespace pnpbs

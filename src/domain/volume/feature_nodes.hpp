@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nodes on the features of surfaces: a node on each corner, and between corners equal steps of the
+// integral of ds/d along the polyline through the mesh's nodes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/types.hpp"
+#include "domain/boundary_mesh.hpp"
+#include "domain/spacing_evaluator.hpp"
+#include "domain/volume/features.hpp"
+
+namespace pnpbs {
+
+struct FeatureNode {
+  Point<3> position;
+  std::int32_t tag;
+  std::int32_t corner;  // index into Features::corners, or -1
+  std::int32_t curve;   // index into Features::curves, or -1
+  std::int32_t edge;    // the feature edge of that curve on which it lies, or -1
+};
+
+struct FeatureNodes {
+  std::vector<FeatureNode> nodes;  // corners first, in their order, then curve by curve
+  // Of each curve its nodes in a row, the corners at its ends included; of a closed one the last is
+  // the first again.
+  std::vector<std::vector<std::int32_t>> along;
+};
+
+// n = max(1, round(integral)) steps on each curve, 3 at least on closed ones. d is asked on the
+// curves only. Throws Error(ErrorKind::spacing) if there would be more than `max_nodes` nodes.
+FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
+                               const SpacingEvaluator<3>& spacing,
+                               std::int64_t max_nodes = (std::int64_t{1} << 31) - 2);
+
+}  // namespace pnpbs
