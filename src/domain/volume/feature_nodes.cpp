@@ -50,6 +50,19 @@ void add_curve(const Features& features, std::size_t c, const PolylineTrack<3>& 
 
 }  // namespace
 
+std::int32_t FeatureNodes::next(std::int32_t node, const CurveDirection& way) const {
+  const std::vector<std::int32_t>& row = along[static_cast<std::size_t>(way.curve)];
+  const auto last = static_cast<std::int32_t>(row.size()) - 1;
+  std::int32_t step = way.forward ? 0 : last;  // of a corner
+  if (nodes[static_cast<std::size_t>(node)].corner < 0) {
+    // Nodes between corners have consecutive numbers.
+    const bool from_corner = nodes[static_cast<std::size_t>(row[0])].corner >= 0;
+    step = from_corner ? node - row[1] + 1 : node - row[0];
+    if (step == 0 && !way.forward) step = last;
+  }
+  return row[static_cast<std::size_t>(way.forward ? step + 1 : step - 1)];
+}
+
 FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
                                const SpacingEvaluator<3>& spacing, std::int64_t max_nodes) {
   const std::vector<std::vector<Point<3>>> lines = polylines(mesh, features);

@@ -26,6 +26,9 @@ struct FeatureNodes {
   // Of each curve its nodes in a row, the corners at its ends included; of a closed one the last is
   // the first again.
   std::vector<std::vector<std::int32_t>> along;
+
+  // The one after a node in a direction of its curve, or of one that ends at its corner.
+  std::int32_t next(std::int32_t node, const CurveDirection& way) const;
 };
 
 // n = max(1, round(integral)) steps on each curve, 3 at least on closed ones. d is asked on the

@@ -26,6 +26,14 @@ struct FeatureCurve {
   std::size_t edge_count() const { return facets.size(); }
 };
 
+// One of the two directions in which a curve runs; curve -1: none.
+struct CurveDirection {
+  std::int32_t curve = -1;
+  bool forward = true;
+
+  bool operator==(const CurveDirection&) const = default;
+};
+
 struct Features {
   // Across edge k of a facet, from its corner k to the next one, lies this facet; -1 at a feature.
   // (Facets that are no triangles, but parts of inner curves, have -1 all around.)
