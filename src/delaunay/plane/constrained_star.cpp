@@ -171,23 +171,9 @@ class GiftWrap {
     return best;
   }
 
-  // How far from the centre a node could lie that would spoil triangle (centre, a, b). Beyond a
-  // boundary edge nothing is seen. In the part of the circle cut off by a side that the circle's
-  // middle is not beyond, nothing is farther than the ends of that side.
-  double needed_reach(const StarPoint& a, const StarPoint& b) const {
-    const Point<2>&i = centre_.position, &p = a.position, &q = b.position;
-    const double to_a = distance<2>(i, p), to_b = distance<2>(i, q);
-    const double diameter = circle_diameter(i, p, q);
-    const auto angle_is_acute = [](const Point<2>& at, const Point<2>& u, const Point<2>& w) {
-      return (u[0] - at[0]) * (w[0] - at[0]) + (u[1] - at[1]) * (w[1] - at[1]) > 0;
-    };
-    const bool acute_i = angle_is_acute(i, p, q), acute_a = angle_is_acute(p, q, i),
-               acute_b = angle_is_acute(q, i, p);
-    double need = std::max(to_a, to_b);
-    if (!is_edge(a, b) && (!acute_i || (acute_a && acute_b))) need = std::max(need, diameter);
-    if (!is_edge(centre_, a) && !acute_b) need = std::max(need, diameter);
-    if (!is_edge(centre_, b) && !acute_a) need = std::max(need, diameter);
-    return need;
+  double reach_needed_for(const StarPoint& a, const StarPoint& b) const {
+    return needed_reach(centre_.position, a.position, b.position,
+                        {is_edge(centre_, a), is_edge(centre_, b), is_edge(a, b)});
   }
 
   // Wraps from neighbour `first` on until node `last` has come; appends all but the last.
@@ -197,7 +183,7 @@ class GiftWrap {
       const int k = next_after(a);
       if (k < 0) return false;
       const StarPoint b = around_[index(k)];
-      if (!everything_ && needed_reach(a, b) > reach_) return false;
+      if (!everything_ && reach_needed_for(a, b) > reach_) return false;
       star.push_back({a.node, true});
       if (b.node == last) return true;
       a = b;

@@ -74,10 +74,21 @@ bool belongs(const StarPoint& centre, const StarPoint& left, const StarPoint& mi
                              centre.id, left.id, right.id, middle.id) > 0;
 }
 
-}  // namespace
+// Graham scan of points sorted by angle, from the first, which is in the star, to `last`. (Of a
+// whole star that is the first again.)
+void keep_star(const StarPoint& centre, const StarPoint& last, std::vector<StarPoint>& around) {
+  const std::size_t n = around.size();
+  std::size_t top = 0;
+  for (std::size_t k = 1; k <= n; ++k) {
+    const StarPoint p = k < n ? around[k] : last;
+    while (top >= 1 && !belongs(centre, around[top - 1], around[top], p)) --top;
+    if (k < n) around[++top] = p;
+  }
+  around.resize(top + 1);
+}
 
-bool hull_star(const StarPoint& centre, double reach, std::vector<StarPoint>& around) {
-  if (around.size() < 3) return false;
+// False if there is none, or if it is where the centre is.
+bool put_nearest_first(const StarPoint& centre, std::vector<StarPoint>& around) {
   std::size_t nearest = 0;
   double min = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < around.size(); ++k) {
@@ -87,21 +98,22 @@ bool hull_star(const StarPoint& centre, double reach, std::vector<StarPoint>& ar
       nearest = k;
     }
   }
-  if (min == 0) return false;
+  if (around.empty() || min == 0) return false;
   std::swap(around[0], around[nearest]);
+  return true;
+}
+
+void sort_by_angle(const StarPoint& centre, std::vector<StarPoint>& around) {
   static thread_local std::vector<char> halves;
   sort_by_angle(centre, around, halves);
+}
 
-  // Graham scan; the nearest neighbour is always in the star, so it starts and ends there.
-  const std::size_t n = around.size();
-  std::size_t top = 0;
-  for (std::size_t k = 1; k <= n; ++k) {
-    const StarPoint p = k < n ? around[k] : around[0];
-    while (top >= 1 && !belongs(centre, around[top - 1], around[top], p)) --top;
-    if (k < n) around[++top] = p;
-  }
-  around.resize(top + 1);
+}  // namespace
 
+bool hull_star(const StarPoint& centre, double reach, std::vector<StarPoint>& around) {
+  if (around.size() < 3 || !put_nearest_first(centre, around)) return false;
+  sort_by_angle(centre, around);
+  keep_star(centre, around[0], around);  // the nearest neighbour is always in the star
   if (around.size() < 3) return false;
   for (std::size_t k = 0; k < around.size(); ++k) {
     const StarPoint &a = around[k], &b = around[(k + 1) % around.size()];
@@ -109,6 +121,45 @@ bool hull_star(const StarPoint& centre, double reach, std::vector<StarPoint>& ar
     if (circle_diameter(centre.position, a.position, b.position) > reach) return false;
   }
   return true;
+}
+
+bool sector_star(const StarPoint& centre, std::int32_t first, std::int32_t last,
+                 std::vector<StarPoint>& around) {
+  const auto is = [](std::int32_t node) {
+    return [node](const StarPoint& p) { return p.node == node; };
+  };
+  if (first < 0) {
+    if (!put_nearest_first(centre, around)) return false;
+    first = last = around[0].node;
+  }
+  const auto begin = std::find_if(around.begin(), around.end(), is(first));
+  if (begin == around.end()) return false;
+  std::swap(*begin, around[0]);
+  sort_by_angle(centre, around);
+  const auto end = std::find_if(around.begin(), around.end(), is(last));
+  if (end == around.end()) return false;
+  const StarPoint behind = *end;
+  if (last != first) around.erase(end, around.end());
+  keep_star(centre, behind, around);
+  around.push_back(behind);
+  for (std::size_t k = 0; k + 1 < around.size(); ++k)
+    if (orientation(centre.position, around[k].position, around[k + 1].position) <= 0) return false;
+  return true;
+}
+
+double needed_reach(const Point<2>& centre, const Point<2>& a, const Point<2>& b,
+                    const FixedSides& fixed) {
+  const auto angle_is_acute = [](const Point<2>& at, const Point<2>& u, const Point<2>& w) {
+    return (u[0] - at[0]) * (w[0] - at[0]) + (u[1] - at[1]) * (w[1] - at[1]) > 0;
+  };
+  const double diameter = circle_diameter(centre, a, b);
+  const bool acute_centre = angle_is_acute(centre, a, b), acute_a = angle_is_acute(a, b, centre),
+             acute_b = angle_is_acute(b, centre, a);
+  double need = std::max(distance<2>(centre, a), distance<2>(centre, b));
+  if (!fixed.ab && (!acute_centre || (acute_a && acute_b))) need = std::max(need, diameter);
+  if (!fixed.to_a && !acute_b) need = std::max(need, diameter);
+  if (!fixed.to_b && !acute_a) need = std::max(need, diameter);
+  return need;
 }
 
 }  // namespace pnpbs

@@ -73,13 +73,17 @@ std::span<const SurfaceSide> Surface::feature_sides(const SurfacePlace& place) c
 }
 
 bool Surface::sees(const SurfacePlace& a, const SurfacePlace& b) const {
-  bool sees = false;
-  for_sides(a, [&](const SurfaceSide& own) {
-    for_sides(b, [&](const SurfaceSide& other) {
-      sees = sees || (own.patch == other.patch && dot(own.normal, other.normal) > 0);
-    });
+  bool seen = false;
+  for_sides(a, [&](const SurfaceSide& side) { seen = seen || sees(side, b); });
+  return seen;
+}
+
+bool Surface::sees(const SurfaceSide& side, const SurfacePlace& b) const {
+  bool seen = false;
+  for_sides(b, [&](const SurfaceSide& other) {
+    seen = seen || (side.patch == other.patch && dot(side.normal, other.normal) > 0);
   });
-  return sees;
+  return seen;
 }
 
 void Surface::build_rims() {

@@ -60,6 +60,8 @@ class Surface {
   // less than 90 degrees: so far the patch can be seen as a graph over its tangent plane, while the
   // two sheets of a thin body that one patch goes around look apart.
   bool sees(const SurfacePlace& a, const SurfacePlace& b) const;
+  // The same of one side of a place alone.
+  bool sees(const SurfaceSide& side, const SurfacePlace& b) const;
 
   // The distance to the nearest feature of the patch if it is less than `reach`, else `reach`.
   double feature_clearance(const SurfacePoint& at, double reach) const;
