@@ -46,6 +46,9 @@ class Surface {
   const Point<3>& normal(std::int32_t f) const { return normals_[index(f)]; }
   bool is_flat(std::int32_t patch) const { return flat_[index(patch)] != 0; }
 
+  // Does any feature bound the patch, or lie in it?
+  bool has_features(std::int32_t patch) const { return !rims_[index(patch)].ends.empty(); }
+
   // Calls visit(side) for the sides around a place.
   template <class Visit>
   void for_sides(const SurfacePlace& place, const Visit& visit) const {
