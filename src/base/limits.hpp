@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "base/types.hpp"
 
@@ -18,24 +19,41 @@ inline constexpr double kSmallestDomain = 1e-60;
 // from the origin, in units of its largest coordinate.
 inline constexpr double kSmallestRelativeSize = 1e-10;
 
-// In units of the domain's size, which is the longer side of its bounding box.
+// In units of the domain's size, which is the longest side of its bounding box.
 inline constexpr double kSamePlace = 1e-12;    // vertices; a vertex and a segment
 inline constexpr double kSameCurveEnd = 1e-9;  // where one of them is the end of a curve
+inline constexpr double kSameVertex = 1e-9;    // vertices of surfaces, in space
 
 inline bool is_usable(double coordinate) {
   return std::fabs(coordinate) <= kMaxCoordinate;  // false for NaN
 }
-inline bool is_usable(const Point<2>& point) { return is_usable(point[0]) && is_usable(point[1]); }
+template <std::size_t Dim>
+bool is_usable(const std::array<double, Dim>& point) {
+  return std::all_of(point.begin(), point.end(), [](double x) { return is_usable(x); });
+}
 
-inline void include(Box<2>& box, const Point<2>& point) {
-  for (const int k : {0, 1}) {
+template <int Dim>
+void include(Box<Dim>& box, const std::type_identity_t<Point<Dim>>& point) {
+  for (int k = 0; k < Dim; ++k) {
     box.low[k] = std::min(box.low[k], point[k]);
     box.high[k] = std::max(box.high[k], point[k]);
   }
 }
 
-inline double size_of(const Box<2>& box) {
-  return std::max(box.high[0] - box.low[0], box.high[1] - box.low[1]);
+// Holds no point yet.
+template <int Dim>
+Box<Dim> empty_box() {
+  Box<Dim> box;
+  box.low.fill(HUGE_VAL);
+  box.high.fill(-HUGE_VAL);
+  return box;
+}
+
+template <int Dim>
+double size_of(const Box<Dim>& box) {
+  double size = box.high[0] - box.low[0];
+  for (int k = 1; k < Dim; ++k) size = std::max(size, box.high[k] - box.low[k]);
+  return size;
 }
 
 }  // namespace pnpbs

@@ -23,7 +23,7 @@ std::vector<Point<2>> middles(const BoundaryCurve& curve) {
 }  // namespace
 
 Extent extent_of(const std::vector<BoundaryCurve>& curves) {
-  Box<2> box{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+  Box<2> box = empty_box<2>();
   for (const BoundaryCurve& curve : curves) {
     for (const Point<2>& point : curve.points) include(box, point);
   }

@@ -273,7 +273,7 @@ class Joiner {
 }  // namespace
 
 double domain_size(const std::vector<CurveSource>& sources) {
-  Box<2> box{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+  Box<2> box = empty_box<2>();
   for (const CurveSource& source : sources) {
     for (const Point<2>& point : source.points) include(box, point);
   }

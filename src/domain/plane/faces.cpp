@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/union_find.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {
@@ -59,25 +60,6 @@ class Rings {
   std::vector<Leaving> leaving_;
 };
 
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), Side{0});
-  }
-  Side root(Side x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void join(Side a, Side b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Side> parent_;
-};
-
 }  // namespace
 
 Side side_left_of(std::int32_t vertex, const std::vector<Point<2>>& vertices,
@@ -108,7 +90,7 @@ void for_each_contact(
 Faces find_faces(const std::vector<Point<2>>& vertices, const std::vector<VertexPair>& edges,
                  const SweepResult& sweep) {
   const std::size_t sides = 2 * edges.size() + 1;
-  UnionFind same(sides);
+  UnionFind<Side> same(sides);
   for_each_contact(vertices, edges, sweep,
                    [&same](std::int32_t, Side side, Side other) { same.join(side, other); });
   Faces faces;

@@ -9,68 +9,17 @@
 
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "domain/given_values.hpp"
 #include "domain/plane/domain_resolver.hpp"
 #include "domain/plane/sampling.hpp"
 
 namespace pnpbs {
 
+using given_values::read_points, given_values::read_tags, given_values::reject;
+using given_values::require_array, given_values::require_count, given_values::require_number;
+using given_values::require_tag;
+
 namespace {
-
-[[noreturn]] void reject(const std::string& message) { throw Error(ErrorKind::argument, message); }
-
-std::string indexed(const char* name, std::int64_t index) {
-  return std::string(name) + "[" + std::to_string(index) + "]";
-}
-
-void require_number(const std::string& name, double value) {
-  if (is_usable(value)) return;
-  reject(name + " is " + number_text(value) + ", expected a number between -1e60 and 1e60");
-}
-
-void require_array(const char* name, const void* array, std::int64_t n) {
-  if (n > 0 && array == nullptr) reject(std::string(name) + " is NULL");
-}
-
-void require_count(const char* name, std::int64_t value, std::int64_t min) {
-  if (value >= min && value < (std::int64_t{1} << 31) - 1) return;
-  reject(std::string(name) + " is " + std::to_string(value) + ", expected at least " +
-         std::to_string(min) + " and less than 2^31 - 1");
-}
-
-void require_tag(const std::string& name, std::int32_t tag) {
-  if (tag == 0) reject(name + " is 0, expected a nonzero tag (0 marks inner nodes)");
-}
-
-std::vector<Point<2>> read_points(const char* name, std::int64_t n, const double* xy) {
-  require_array(name, xy, n);
-  std::vector<Point<2>> points(static_cast<std::size_t>(n));
-  for (std::int64_t i = 0; i < n; ++i) {
-    for (const int k : {0, 1}) {
-      require_number(indexed(name, i) + "[" + std::to_string(k) + "]", xy[2 * i + k]);
-    }
-    points[static_cast<std::size_t>(i)] = {xy[2 * i], xy[2 * i + 1]};
-  }
-  return points;
-}
-
-std::vector<std::int32_t> read_tags(const char* name, std::int64_t n, const std::int32_t* tags) {
-  if (tags == nullptr) return std::vector<std::int32_t>(static_cast<std::size_t>(n), 1);
-  for (std::int64_t i = 0; i < n; ++i) require_tag(indexed(name, i), tags[i]);
-  return {tags, tags + n};
-}
-
-void require_distinct_neighbours(const std::vector<Point<2>>& points, bool closed) {
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    if (points[i] == points[i + 1]) {
-      reject("vertices " + std::to_string(i) + " and " + std::to_string(i + 1) + " are both " +
-             point_text(points[i]) + ": the segment between them has no length");
-    }
-  }
-  if (closed && points.front() == points.back()) {
-    reject("the first vertex of a closed curve is repeated as the last, vertex " +
-           std::to_string(points.size() - 1) + " " + point_text(points.back()) + ": leave it out");
-  }
-}
 
 void require_interval(double begin, double end) {
   require_number("begin", begin);
@@ -124,27 +73,22 @@ void PlaneDomain::add_source(CurveSource source) {
 void PlaneDomain::add_polyline(CurveRole role, bool closed, std::int64_t n, const double* xy,
                                const std::int32_t* tags, double corner_angle) {
   require_count("n", n, closed ? 3 : 2);
-  if (!(corner_angle >= 0 && corner_angle <= 180)) {
-    reject("corner_angle is " + number_text(corner_angle) + ", expected 0 to 180 degrees");
-  }
+  given_values::require_angle("corner_angle", corner_angle);
   CurveSource source;
   source.kind = CurveSource::Kind::polyline;
   source.role = role;
   source.closed = closed;
-  source.points = read_points("coordinates", n, xy);
+  source.points = read_points<2>("coordinates", n, xy);
   source.tags = read_tags("tags", closed ? n : n - 1, tags);
   source.corner_angle = corner_angle;
-  require_distinct_neighbours(source.points, closed);
+  given_values::require_distinct_neighbours<2>(source.points, closed);
   add_source(std::move(source));
 }
 
 void PlaneDomain::add_arc(CurveRole role, const Point<2>& centre, double radius, double begin,
                           double end, std::int32_t tag) {
-  require_number("centre[0]", centre[0]);
-  require_number("centre[1]", centre[1]);
-  if (!(radius > 0 && is_usable(radius))) {
-    reject("radius is " + number_text(radius) + ", expected a positive number up to 1e60");
-  }
+  given_values::require_point<2>("centre", centre);
+  given_values::require_radius(radius);
   require_interval(begin, end);
   require_tag("tag", tag);
   end = snap_to_full_turn(begin, end);
@@ -194,10 +138,10 @@ void PlaneDomain::add_pslg(std::int64_t vertices, const double* xy, const std::i
   CurveSource graph;
   graph.kind = CurveSource::Kind::graph;
   graph.first_number = first_number;
-  graph.points = read_points("coordinates", vertices, xy);
+  graph.points = read_points<2>("coordinates", vertices, xy);
   if (vertex_tags != nullptr) graph.point_tags.assign(vertex_tags, vertex_tags + vertices);
   read_segments(graph, segments, segment_ends, segment_tags);
-  const std::vector<Point<2>> points = read_points("hole_points", holes, hole_points);
+  const std::vector<Point<2>> points = read_points<2>("hole_points", holes, hole_points);
   add_source(std::move(graph));
   for (std::int64_t h = 0; h < holes; ++h) {
     holes_.push_back(
@@ -206,15 +150,14 @@ void PlaneDomain::add_pslg(std::int64_t vertices, const double* xy, const std::i
 }
 
 void PlaneDomain::add_hole(const Point<2>& point) {
-  require_number("point[0]", point[0]);
-  require_number("point[1]", point[1]);
+  given_values::require_point<2>("point", point);
   holes_.push_back({point, "hole " + std::to_string(holes_given_++)});
   checked_ = false;
 }
 
 void PlaneDomain::add_fixed_nodes(std::int64_t n, const double* xy, const std::int32_t* tags) {
   require_count("n", n, 0);
-  const std::vector<Point<2>> points = read_points("coordinates", n, xy);
+  const std::vector<Point<2>> points = read_points<2>("coordinates", n, xy);
   const std::vector<std::int32_t> values = read_tags("tags", n, tags);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::string name = "fixed node " + std::to_string(given_nodes_.size());
