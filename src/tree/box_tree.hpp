@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes sorted into nested boxes, to find those that hold a point or lie near it. What is visited
-// depends on the boxes only; in which order does not matter to who asks.
+// Boxes sorted into nested boxes, to find those that hold a point, lie near it or meet a box. What
+// is visited depends on the boxes only; in which order does not matter to who asks.
 #pragma once
 
 #include <algorithm>
@@ -33,6 +33,13 @@ bool in_closed_box(const Box<Dim>& box, const std::type_identity_t<Point<Dim>>& 
 }
 
 template <int Dim>
+bool boxes_meet(const Box<Dim>& a, const std::type_identity_t<Box<Dim>>& b) {
+  for (int k = 0; k < Dim; ++k)
+    if (a.low[k] > b.high[k] || b.low[k] > a.high[k]) return false;
+  return true;
+}
+
+template <int Dim>
 Box<Dim> joined(const Box<Dim>& a, const std::type_identity_t<Box<Dim>>& b) {
   Box<Dim> box;
   for (int k = 0; k < Dim; ++k) {
@@ -57,6 +64,12 @@ class BoxTree {
   template <class Visit>
   void for_holding(const Point<Dim>& x, const Visit& visit) const {
     walk([&](const Box<Dim>& box) { return in_closed_box(box, x); }, visit);
+  }
+
+  // Calls visit(box) for every box that has a point in common with this one, borders included.
+  template <class Visit>
+  void for_meeting(const Box<Dim>& other, const Visit& visit) const {
+    walk([&](const Box<Dim>& box) { return boxes_meet(box, other); }, visit);
   }
 
   // Calls visit(box) for every box with a squared distance to x of at most limit(), which may
