@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The regions into which surfaces divide space, and which of them lie on either side of each
+// triangle, by exact decisions. Which way the triangles are turned does not matter.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "domain/volume/surface_edges.hpp"
+#include "tree/box_tree.hpp"
+
+namespace pnpbs {
+
+class SurfaceRegions {
+ public:
+  // The arguments must outlive it. Triangles meet in common vertices and edges only.
+  SurfaceRegions(const Triangulation& surface, const SurfaceEdges& edges, const BoxTree<3>& tree);
+
+  // Region 0 is the unbounded one.
+  std::int32_t count() const { return count_; }
+  std::int32_t front(std::int32_t t) const { return region_[class_of_side_[2 * std::size_t(t)]]; }
+  std::int32_t back(std::int32_t t) const {
+    return region_[class_of_side_[2 * std::size_t(t) + 1]];
+  }
+  // Of a point on no triangle.
+  std::int32_t around(const Point<3>& x) const { return region_around(x, -1); }
+
+  // Surfaces that are connected by edges.
+  std::int32_t components() const { return components_; }
+  std::int32_t component(std::int32_t t) const { return component_[t]; }
+  // The region in which a component lies.
+  std::int32_t outside(std::int32_t component) const { return outside_[component]; }
+
+ private:
+  void find_components(const SurfaceEdges& edges);
+  void find_classes(const SurfaceEdges& edges);
+  std::vector<double> enclosed_volumes(std::int32_t classes) const;
+  void number_regions(const std::vector<double>& volumes);
+  Point<3> point_of(std::int32_t component, const std::vector<std::int32_t>& component_at) const;
+  std::int32_t region_around(const Point<3>& x, std::int32_t without_component) const;
+
+  const Triangulation& surface_;
+  const BoxTree<3>& tree_;
+  Box<3> bounds_;
+  std::int32_t count_ = 1, components_ = 0;
+  std::vector<std::int32_t> component_;       // of each triangle
+  std::vector<std::int32_t> first_triangle_;  // of each component
+  std::vector<std::int32_t> outside_;
+  // The sides of triangles (front and back) between which one can go across edges make a class.
+  // One class of each component sees it from outside; what is inside the others are regions.
+  std::vector<std::int32_t> class_of_side_;
+  std::vector<double> volume_;        // within each class; 0 for that which is seen from outside
+  std::vector<std::int32_t> region_;  // of each class
+};
+
+// Of each region, is it inside? Each boundary triangle leads from outside in or from inside out.
+std::vector<char> inside_by_parity(const Triangulation& surface, const SurfaceRegions& regions);
+
+}  // namespace pnpbs

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/surface_checks.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/union_find.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+[[noreturn]] void reject(const std::string& message) { throw Error(ErrorKind::domain, message); }
+
+// "from vertex 1 of surface 0 (0, 0, 0) to vertex 2 of surface 0 (1, 0, 0)"
+std::string edge_name(const Triangulation& surface, const std::array<std::int32_t, 2>& ends) {
+  return "from " + surface.vertex_name(ends[0]) + " to " + surface.vertex_name(ends[1]);
+}
+
+std::string others_text(std::int64_t count, const char* what) {
+  if (count <= 1) return "";
+  return "; there are " + std::to_string(count) + " such " + what;
+}
+
+// The edges where other than two boundary triangles meet: how many, and that which the first
+// triangle has.
+struct FaultyEdges {
+  std::int64_t count = 0;
+  std::size_t first = 0;
+};
+
+template <class Faulty>
+FaultyEdges find_faulty(const SurfaceEdges& edges, const Faulty& faulty) {
+  FaultyEdges found;
+  for (std::size_t e = 0; e < edges.count(); ++e) {
+    const auto sides = edges.boundary_sides(e);
+    if (!faulty(sides.size())) continue;
+    if (found.count++ == 0 || sides[0].corner() < edges.boundary_sides(found.first)[0].corner())
+      found.first = e;
+  }
+  return found;
+}
+
+}  // namespace
+
+void require_closed_boundary(const Triangulation& surface, const SurfaceEdges& edges) {
+  const FaultyEdges open = find_faulty(edges, [](std::size_t sides) { return sides == 1; });
+  if (open.count > 0)
+    reject("the boundary is not closed: no other triangle joins " +
+           surface.triangle_name(edges.boundary_sides(open.first)[0].triangle) + " at its edge " +
+           edge_name(surface, edges.ends(open.first)) + others_text(open.count, "edges"));
+  const FaultyEdges many = find_faulty(edges, [](std::size_t sides) { return sides > 2; });
+  if (many.count == 0) return;
+  const auto sides = edges.boundary_sides(many.first);
+  reject(std::to_string(sides.size()) + " boundary triangles meet in the edge " +
+         edge_name(surface, edges.ends(many.first)) + ", such as " +
+         surface.triangle_name(sides[0].triangle) + " and " +
+         surface.triangle_name(sides.back().triangle) + others_text(many.count, "edges") +
+         ": two bodies that touch there must be joined or moved apart");
+}
+
+void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges& edges,
+                               std::vector<std::string>& warnings) {
+  UnionFind<std::int64_t> fans(3 * surface.triangles.size());  // of corners of triangles
+  const auto corner_at = [&](std::int32_t t, std::int32_t vertex) {
+    const auto& vertices = surface.triangles[t].vertices;
+    return 3 * std::int64_t{t} +
+           (std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin());
+  };
+  for (std::size_t e = 0; e < edges.count(); ++e) {
+    const auto sides = edges.boundary_sides(e);
+    for (std::size_t s = 1; s < sides.size(); ++s)
+      for (const std::int32_t end : edges.ends(e))
+        fans.join(corner_at(sides[0].triangle, end), corner_at(sides[s].triangle, end));
+  }
+  std::vector<std::int64_t> fan(surface.vertices.size(), -1);
+  std::vector<char> touching(surface.vertices.size(), 0);
+  std::int64_t count = 0;
+  std::string first;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (surface.triangles[t].inner) continue;
+    for (const std::int32_t v : surface.triangles[t].vertices) {
+      const std::int64_t root = fans.root(corner_at(static_cast<std::int32_t>(t), v));
+      if (fan[v] < 0) fan[v] = root;
+      if (fan[v] == root || touching[v]) continue;
+      touching[v] = 1;
+      if (count++ == 0)
+        first = surface.vertex_name(v) + ", as " +
+                surface.triangle_name(static_cast<std::int32_t>(fan[v] / 3)) + " and " +
+                surface.triangle_name(static_cast<std::int32_t>(t)) + " do";
+    }
+  }
+  if (count == 0) return;
+  warnings.push_back("boundary surfaces touch in " + first + others_text(count, "vertices"));
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Is the boundary closed, and does it have two sides everywhere?
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "domain/volume/surface_edges.hpp"
+
+namespace pnpbs {
+
+// In every edge of a boundary surface two of its triangles must meet. Throws
+// Error(ErrorKind::domain) naming the first where it is otherwise.
+void require_closed_boundary(const Triangulation& surface, const SurfaceEdges& edges);
+
+// Warns of vertices in which boundary surfaces touch: where triangles around it are not all joined
+// by edges.
+void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges& edges,
+                               std::vector<std::string>& warnings);
+
+}  // namespace pnpbs

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/thin_triangles.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/point_text.hpp"
+#include "domain/volume/vectors.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+bool is_collapsed(const SurfaceTriangle& triangle) {
+  const auto& [a, b, c] = triangle.vertices;
+  return a == b || b == c || c == a;
+}
+
+// The corner opposite the longest edge, of several the first.
+int apex_of(const FacetCorners<3>& corners) {
+  int apex = 0;
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double edge = distance<3>(corners[(k + 1) % 3], corners[(k + 2) % 3]);
+    if (edge > longest) apex = k, longest = edge;
+  }
+  return apex;
+}
+
+double longest_edge(const FacetCorners<3>& corners) {
+  const int apex = apex_of(corners);
+  return distance<3>(corners[(apex + 1) % 3], corners[(apex + 2) % 3]);
+}
+
+// Its height over the longest edge.
+double thickness(const FacetCorners<3>& corners) {
+  const double longest = longest_edge(corners);
+  return longest == 0 ? 0
+                      : length(cross(difference(corners[1], corners[0]),
+                                     difference(corners[2], corners[0]))) /
+                            longest;
+}
+
+class Thinner {
+ public:
+  Thinner(Triangulation& surface, double tolerance)
+      : surface_(surface), triangles_(surface.triangles), tolerance_(tolerance) {}
+
+  // How many were taken out, and the first of them.
+  std::pair<std::int64_t, std::string> run() {
+    const std::size_t given = triangles_.size();
+    for (std::size_t t = 0; t < given; ++t) look_at(static_cast<std::int32_t>(t));
+    if (removed_ == 0 && thin_.empty()) return {};
+    list_triangles_at_vertices();
+    // The longest first: what is cut along its long edge has shorter ones then, so this ends.
+    while (!thin_.empty()) {
+      const std::int32_t t = std::get<1>(thin_.top());
+      thin_.pop();
+      if (!gone_[t]) cut_out(t);
+    }
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      if (!gone_[t]) triangles_[kept++] = triangles_[t];
+    triangles_.resize(kept);
+    return {removed_, first_name_};
+  }
+
+ private:
+  void look_at(std::int32_t t) {
+    gone_.resize(triangles_.size(), 0);
+    if (is_collapsed(triangles_[t])) {
+      remove(t);
+    } else if (thickness(surface_.corners(t)) <= tolerance_) {
+      thin_.push({longest_edge(surface_.corners(t)), t});
+    }
+  }
+
+  void remove(std::int32_t t) {
+    gone_[t] = 1;
+    ++removed_;
+    const auto first = std::pair(triangles_[t].source, triangles_[t].number);
+    if (!first_name_.empty() && first > first_) return;
+    first_ = first;
+    first_name_ = surface_.triangle_name(t) + " at " +
+                  point_text(surface_.vertices[triangles_[t].vertices[0]]);
+  }
+
+  void list_triangles_at_vertices() {
+    at_vertex_.resize(surface_.vertices.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      if (!gone_[t]) list(static_cast<std::int32_t>(t));
+  }
+  void list(std::int32_t t) {
+    for (const std::int32_t v : triangles_[t].vertices) at_vertex_[v].push_back(t);
+  }
+
+  void cut_out(std::int32_t t) {
+    const int k = apex_of(surface_.corners(t));
+    const auto& corners = triangles_[t].vertices;
+    const std::int32_t apex = corners[k], a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+    remove(t);
+    const std::vector<std::int32_t> at_a = at_vertex_[a];
+    for (const std::int32_t other : at_a) {
+      if (gone_[other] || !triangles_[other].has(b)) continue;
+      gone_[other] = 1;
+      for (const std::int32_t end : {b, a}) {
+        SurfaceTriangle piece = triangles_[other];
+        std::replace(piece.vertices.begin(), piece.vertices.end(), end, apex);
+        if (is_collapsed(piece)) continue;
+        triangles_.push_back(piece);
+        const auto added = static_cast<std::int32_t>(triangles_.size()) - 1;
+        look_at(added);
+        list(added);
+      }
+    }
+  }
+
+  Triangulation& surface_;
+  std::vector<SurfaceTriangle>& triangles_;
+  double tolerance_;
+  std::vector<char> gone_;
+  std::priority_queue<std::pair<double, std::int32_t>> thin_;
+  std::vector<std::vector<std::int32_t>> at_vertex_;
+  std::int64_t removed_ = 0;
+  std::pair<std::int32_t, std::int32_t> first_{};
+  std::string first_name_;
+};
+
+}  // namespace
+
+void remove_thin_triangles(Triangulation& surface, double tolerance,
+                           std::vector<std::string>& warnings) {
+  const auto [count, first] = Thinner(surface, tolerance).run();
+  if (count == 0) return;
+  warnings.push_back(std::to_string(count) + (count == 1 ? " triangle has" : " triangles have") +
+                     " no area and " + (count == 1 ? "is" : "are") + " left out; the first is " +
+                     first);
+}
+
+void remove_duplicate_triangles(Triangulation& surface, std::vector<std::string>& warnings) {
+  std::vector<SurfaceTriangle>& triangles = surface.triangles;
+  const auto sorted = [&](std::int32_t t) {
+    std::array<std::int32_t, 3> vertices = triangles[t].vertices;
+    std::sort(vertices.begin(), vertices.end());
+    return vertices;
+  };
+  std::vector<std::pair<std::array<std::int32_t, 3>, std::int32_t>> order;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(triangles.size()); ++t)
+    order.push_back({sorted(t), t});
+  std::sort(order.begin(), order.end());
+  // (the later one, the one that stays)
+  std::vector<std::pair<std::int32_t, std::int32_t>> doubles;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (order[i].first != order[i - 1].first) continue;
+    const bool third = !doubles.empty() && doubles.back().first == order[i - 1].second;
+    doubles.push_back({order[i].second, third ? doubles.back().second : order[i - 1].second});
+  }
+  if (doubles.empty()) return;
+  std::sort(doubles.begin(), doubles.end());
+  for (const auto& [later, first] : doubles)
+    if (triangles[later].source != triangles[first].source)
+      throw Error(ErrorKind::domain,
+                  surface.triangle_name(first) + " and " + surface.triangle_name(later) +
+                      " lie on each other at " +
+                      point_text(surface.vertices[triangles[first].vertices[0]]));
+  const auto& [later, first] = doubles.front();
+  warnings.push_back(
+      std::to_string(doubles.size()) + (doubles.size() == 1 ? " triangle is" : " triangles are") +
+      " given twice and left out; the first is " + surface.triangle_name(later) +
+      ", which has the corners of triangle " + std::to_string(triangles[first].number));
+  std::vector<char> gone(triangles.size(), 0);
+  for (const auto& [t, stays] : doubles) gone[t] = 1;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (!gone[t]) triangles[kept++] = triangles[t];
+  triangles.resize(kept);
+}
+
+}  // namespace pnpbs

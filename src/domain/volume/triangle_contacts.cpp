@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/triangle_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "domain/volume/triangles.hpp"
+#include "domain/volume/vectors.hpp"
+#include "predicates/plane.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Without coordinate k, the others in cyclic order.
+Point<2> shadow(int k, const Point<3>& x) { return {x[(k + 1) % 3], x[(k + 2) % 3]}; }
+
+struct FlatTriangle {
+  std::array<Point<2>, 3> corners;  // counter-clockwise
+};
+
+// The axis along which a triangle's shadow has an area.
+int shadow_axis(const FacetCorners<3>& triangle) {
+  for (int k = 0; k < 2; ++k)
+    if (orientation(shadow(k, triangle[0]), shadow(k, triangle[1]), shadow(k, triangle[2])) != 0)
+      return k;
+  return 2;
+}
+
+FlatTriangle flat(int k, const FacetCorners<3>& triangle) {
+  FlatTriangle shadows{{shadow(k, triangle[0]), shadow(k, triangle[1]), shadow(k, triangle[2])}};
+  auto& [a, b, c] = shadows.corners;
+  if (orientation(a, b, c) < 0) std::swap(b, c);
+  return shadows;
+}
+
+bool holds(const FlatTriangle& triangle, const Point<2>& x) {
+  const auto& [a, b, c] = triangle.corners;
+  return orientation(a, b, x) >= 0 && orientation(b, c, x) >= 0 && orientation(c, a, x) >= 0;
+}
+
+bool flat_segments_meet(const Point<2>& p, const Point<2>& q, const Point<2>& a,
+                        const Point<2>& b) {
+  for (int k = 0; k < 2; ++k)
+    if (std::max(p[k], q[k]) < std::min(a[k], b[k]) || std::max(a[k], b[k]) < std::min(p[k], q[k]))
+      return false;
+  return orientation(p, q, a) * orientation(p, q, b) <= 0 &&
+         orientation(a, b, p) * orientation(a, b, q) <= 0;
+}
+
+bool flat_segment_meets(const Point<2>& p, const Point<2>& q, const FlatTriangle& triangle) {
+  if (holds(triangle, p)) return true;
+  const auto& [a, b, c] = triangle.corners;
+  return flat_segments_meet(p, q, a, b) || flat_segments_meet(p, q, b, c) ||
+         flat_segments_meet(p, q, c, a);
+}
+
+bool on_one_side(int a, int b, int c) {
+  return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
+}
+
+// The side of d, as orientation() has it. Often all are in a plane across an axis.
+int side_of_plane(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
+  for (int k = 0; k < 3; ++k)
+    if (a[k] == b[k] && a[k] == c[k] && a[k] == d[k]) return 0;
+  return orientation(a, b, c, d);
+}
+
+// The triangles have the edge ab: do c and d lie on the same side of it in one plane?
+bool folded_over(const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d) {
+  if (side_of_plane(a, b, c, d) != 0) return false;
+  const int k = shadow_axis({a, b, c});
+  const Point<2> u = shadow(k, a), v = shadow(k, b);
+  return orientation(u, v, shadow(k, c)) == orientation(u, v, shadow(k, d));
+}
+
+// Seen along an axis, does a line through the common corner and along an edge of one triangle
+// divide the two? Quickly found, and so for most neighbours.
+bool a_line_divides(const FacetCorners<3>& a, const FacetCorners<3>& b) {
+  const Point<3> normal = cross(difference(a[1], a[0]), difference(a[2], a[0]));
+  int k = 0;
+  for (int other = 1; other < 3; ++other)
+    if (std::fabs(normal[other]) > std::fabs(normal[k])) k = other;
+  const Point<2> common = shadow(k, a[0]);
+  const auto divides = [&](const Point<2>& along, const Point<2>& own, const Point<2>& x,
+                           const Point<2>& y) {
+    const int side = orientation(common, along, own);
+    return side * orientation(common, along, x) < 0 && side * orientation(common, along, y) < 0;
+  };
+  const Point<2> u = shadow(k, a[1]), v = shadow(k, a[2]), x = shadow(k, b[1]), y = shadow(k, b[2]);
+  return divides(u, v, x, y) || divides(v, u, x, y) || divides(x, y, u, v) || divides(y, x, u, v);
+}
+
+// Are all corners that are not common strictly on one side of the other's plane?
+bool plane_divides(const FacetCorners<3>& a, const FacetCorners<3>& b, int common) {
+  int side = 0;
+  for (int k = common; k < 3; ++k) {
+    const int here = side_of_plane(a[0], a[1], a[2], b[k]);
+    if (here == 0 || here == -side) return false;
+    side = here;
+  }
+  return true;
+}
+
+// Common corners first, in the same order in both.
+int bring_common_first(FacetCorners<3>& a, std::array<std::int32_t, 3> vertices_a,
+                       FacetCorners<3>& b, std::array<std::int32_t, 3> vertices_b) {
+  int common = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = common; j < 3; ++j) {
+      if (vertices_a[i] != vertices_b[j]) continue;
+      std::swap(a[i], a[common]);
+      std::swap(vertices_a[i], vertices_a[common]);
+      std::swap(b[j], b[common]);
+      std::swap(vertices_b[j], vertices_b[common]);
+      ++common;
+      break;
+    }
+  return common;
+}
+
+// Strictly on different sides of the triangle's plane?
+bool ends_are_apart(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  return orientation(a, b, c, p) * orientation(a, b, c, q) < 0;
+}
+
+Point<3> crossing_point(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  const Point<3> normal = cross(difference(b, a), difference(c, a));
+  const double from = std::fabs(dot(normal, difference(p, a)));
+  const double to = std::fabs(dot(normal, difference(q, a)));
+  return shifted(p, from + to > 0 ? from / (from + to) : 0.5, difference(q, p));
+}
+
+// A corner of one that is on the other, unless both have it.
+std::optional<Point<3>> corner_in_contact(const FacetCorners<3>& a, const FacetCorners<3>& b) {
+  for (const auto& [own, other] : {std::pair(a, b), std::pair(b, a)})
+    for (const Point<3>& x : own)
+      if (std::find(other.begin(), other.end(), x) == other.end() && on_facet(other, x)) return x;
+  return {};
+}
+
+constexpr double kTouching = 1e-9;  // in lengths of the edge: rounding, not a gap
+
+// A corner of one only, or where edges that have no corner in common meet; else a common corner.
+Point<3> place_of_contact(const FacetCorners<3>& a, const FacetCorners<3>& b) {
+  if (const auto corner = corner_in_contact(a, b)) return *corner;
+  const auto common = std::find_first_of(a.begin(), a.end(), b.begin(), b.end());
+  Point<3> place = common != a.end() ? *common : a[0];
+  double least = common != a.end() ? kTouching : HUGE_VAL;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const SegmentEnds s{a[i], a[(i + 1) % 3]}, t{b[j], b[(j + 1) % 3]};
+      if (std::find_first_of(s.begin(), s.end(), t.begin(), t.end()) != s.end()) continue;
+      const Point<3> x = nearest_to_segment(s, t);
+      const double gap = distance<3>(x, nearest_on_segment(t, x));
+      if (gap < least * distance<3>(s[0], s[1])) {
+        place = x;
+        least = gap / distance<3>(s[0], s[1]);
+      }
+    }
+  return place;
+}
+
+}  // namespace
+
+bool segment_meets(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& triangle) {
+  if (boxes_are_apart(p, q, triangle)) return false;
+  const auto& [a, b, c] = triangle;
+  const int side_p = side_of_plane(a, b, c, p), side_q = side_of_plane(a, b, c, q);
+  if (side_p * side_q > 0) return false;
+  if (side_p == 0 && side_q == 0) {
+    const int k = shadow_axis(triangle);
+    return flat_segment_meets(shadow(k, p), shadow(k, q), flat(k, triangle));
+  }
+  return on_one_side(orientation(p, q, a, b), orientation(p, q, b, c), orientation(p, q, c, a));
+}
+
+bool segment_runs_into(const Point<3>& q, const FacetCorners<3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  if (orientation(a, b, c, q) != 0) return false;
+  const int k = shadow_axis(triangle);
+  return holds(flat(k, triangle), shadow(k, q)) ||
+         flat_segments_meet(shadow(k, a), shadow(k, q), shadow(k, b), shadow(k, c));
+}
+
+// What two triangles with a common corner have in common is convex: if it is more than the corner,
+// the opposite edge of one of them meets the other.
+bool triangles_meet(const FacetCorners<3>& given_a, const std::array<std::int32_t, 3>& vertices_a,
+                    const FacetCorners<3>& given_b, const std::array<std::int32_t, 3>& vertices_b) {
+  FacetCorners<3> a = given_a, b = given_b;
+  const int common = bring_common_first(a, vertices_a, b, vertices_b);
+  if (common == 2) return folded_over(a[0], a[1], a[2], b[2]);
+  if (common == 1 && a_line_divides(a, b)) return false;
+  if (plane_divides(a, b, common) || plane_divides(b, a, common)) return false;
+  if (common == 1) return segment_meets(a[1], a[2], b) || segment_meets(b[1], b[2], a);
+  for (int k = 0; k < 3; ++k)
+    if (segment_meets(a[k], a[(k + 1) % 3], b) || segment_meets(b[k], b[(k + 1) % 3], a))
+      return true;
+  return false;
+}
+
+Point<3> nearest_on_segment(const SegmentEnds& segment, const Point<3>& x) {
+  return nearest_on({segment[0], segment[1], segment[1]}, x);
+}
+
+// Where lines that are not parallel are nearest, if that is on both, or else an end of one.
+Point<3> nearest_to_segment(const SegmentEnds& s, const SegmentEnds& t) {
+  const auto gap = [&](const Point<3>& x) {
+    return squared_distance<3>(x, nearest_on_segment(t, x));
+  };
+  Point<3> nearest = s[0];
+  const auto offer = [&](const Point<3>& x) {
+    if (gap(x) < gap(nearest)) nearest = x;
+  };
+  offer(s[1]);
+  for (const Point<3>& end : t) offer(nearest_on_segment(s, end));
+  const Point<3> u = difference(s[1], s[0]), v = difference(t[1], t[0]);
+  const Point<3> normal = cross(u, v);
+  const double square = dot(normal, normal);
+  if (square > 0) {
+    const double along = dot(cross(difference(t[0], s[0]), v), normal) / square;
+    offer(shifted(s[0], std::clamp(along, 0.0, 1.0), u));
+  }
+  return nearest;
+}
+
+Contact contact_of(const FacetCorners<3>& a, const FacetCorners<3>& b) {
+  for (const auto& [from, into] : {std::pair(a, b), std::pair(b, a)})
+    for (int k = 0; k < 3; ++k) {
+      const Point<3>&p = from[k], &q = from[(k + 1) % 3];
+      if (ends_are_apart(p, q, into) && segment_meets(p, q, into))
+        return {Contact::Kind::cross, crossing_point(p, q, into)};
+    }
+  const bool flat = std::all_of(
+      b.begin(), b.end(), [&](const Point<3>& x) { return orientation(a[0], a[1], a[2], x) == 0; });
+  return {flat ? Contact::Kind::overlap : Contact::Kind::touch, place_of_contact(a, b)};
+}
+
+Point<3> meeting_point(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& triangle) {
+  if (ends_are_apart(p, q, triangle)) return crossing_point(p, q, triangle);
+  return place_of_contact({p, q, q}, triangle);
+}
+
+}  // namespace pnpbs

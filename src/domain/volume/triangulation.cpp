@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/triangulation.hpp"
+
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+
+namespace pnpbs {
+
+FacetCorners<3> Triangulation::corners(std::int32_t t) const {
+  const auto& [a, b, c] = triangles[t].vertices;
+  return {vertices[a], vertices[b], vertices[c]};
+}
+
+Box<3> Triangulation::box(std::int32_t t) const {
+  Box<3> box = empty_box<3>();
+  for (const Point<3>& x : corners(t)) include(box, x);
+  return box;
+}
+
+std::string Triangulation::vertex_name(std::int32_t v) const {
+  const GivenVertex& first = given[v];
+  return "vertex " + std::to_string(first.number) + " of " + sources[first.source] + " " +
+         point_text(vertices[v]);
+}
+
+std::string Triangulation::triangle_name(std::int32_t t) const {
+  return "triangle " + std::to_string(triangles[t].number) + " of " + sources[triangles[t].source];
+}
+
+Triangulation join_surfaces(const std::vector<SurfaceSource>& surfaces) {
+  Triangulation all;
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    const SurfaceSource& surface = surfaces[s];
+    const auto source = static_cast<std::int32_t>(s);
+    const auto first = static_cast<std::int32_t>(all.vertices.size());
+    all.sources.push_back(surface.name);
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+      all.vertices.push_back(surface.vertices[v]);
+      all.given.push_back({source, static_cast<std::int32_t>(v)});
+    }
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      const auto& [a, b, c] = surface.triangles[t];
+      all.triangles.push_back({{first + a, first + b, first + c},
+                               surface.tags[t],
+                               source,
+                               static_cast<std::int32_t>(t),
+                               surface.role == SurfaceRole::inner});
+    }
+  }
+  return all;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The triangles of all surfaces as given, over common vertices: what the checks of a volume's
+// domain look at and mend.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "domain/boundary_mesh.hpp"
+#include "domain/volume/surfaces.hpp"
+
+namespace pnpbs {
+
+// One surface as it was added.
+struct SurfaceSource {
+  std::string name;  // for messages: "surface 0", "ball 1"
+  SurfaceRole role = SurfaceRole::boundary;
+  std::vector<Point<3>> vertices;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> tags;  // of the triangles
+};
+
+struct SurfaceTriangle {
+  std::array<std::int32_t, 3> vertices;
+  std::int32_t tag;
+  std::int32_t source;
+  std::int32_t number;  // in its source
+  bool inner;
+
+  void turn_around() { std::swap(vertices[1], vertices[2]); }
+  bool has(std::int32_t vertex) const {
+    return vertices[0] == vertex || vertices[1] == vertex || vertices[2] == vertex;
+  }
+};
+
+struct Triangulation {
+  struct GivenVertex {
+    std::int32_t source, number;
+  };
+
+  std::vector<std::string> sources;  // their names
+  std::vector<Point<3>> vertices;
+  std::vector<GivenVertex> given;  // the first that was given where the vertex is
+  std::vector<SurfaceTriangle> triangles;
+
+  FacetCorners<3> corners(std::int32_t t) const;
+  Box<3> box(std::int32_t t) const;
+
+  std::string vertex_name(std::int32_t v) const;    // "vertex 5 of surface 0 (1, 2, 3)"
+  std::string triangle_name(std::int32_t t) const;  // "triangle 5 of surface 0"
+};
+
+// The triangles of all surfaces, with their vertices one after the other.
+Triangulation join_surfaces(const std::vector<SurfaceSource>& surfaces);
+
+}  // namespace pnpbs

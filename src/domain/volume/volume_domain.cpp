@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the user gives is looked at argument by argument here, and kept as it is; how it fits
+// together is for check().
+#include "domain/volume/volume_domain.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/limits.hpp"
+#include "domain/given_values.hpp"
+#include "domain/volume/primitives.hpp"
+#include "domain/volume/volume_resolver.hpp"
+
+namespace pnpbs {
+
+using namespace given_values;
+
+namespace {
+
+std::vector<std::array<std::int32_t, 3>> read_triangles(std::int64_t triangles,
+                                                        const std::int64_t* corners,
+                                                        std::int64_t vertices) {
+  require_array("corners", corners, triangles);
+  std::vector<std::array<std::int32_t, 3>> read(static_cast<std::size_t>(triangles));
+  for (std::int64_t t = 0; t < triangles; ++t)
+    for (std::int64_t k = 0; k < 3; ++k) {
+      const std::int64_t corner = corners[3 * t + k];
+      if (corner < 0 || corner >= vertices)
+        reject(indexed(indexed("corners", t), k) + " is " + std::to_string(corner) +
+               ", expected a vertex from 0 to " + std::to_string(vertices - 1));
+      read[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)] =
+          static_cast<std::int32_t>(corner);
+    }
+  return read;
+}
+
+}  // namespace
+
+// Names it by its kind and how many of these there are, and counts it.
+void VolumeDomain::add_source(SurfaceSource source, const char* kind, std::int64_t& given,
+                              double feature_angle) {
+  source.name = std::string(kind) + " " + std::to_string(given);
+  for (const Point<3>& x : source.vertices)
+    if (!is_usable(x))
+      reject("the " + std::string(kind) + " reaches " + point_text(x) + ", beyond 1e60");
+  surfaces_.push_back(std::move(source));
+  feature_angles_.push_back(feature_angle);
+  ++given;
+  checked_ = false;
+}
+
+void VolumeDomain::add_surface(SurfaceRole role, std::int64_t vertices, const double* xyz,
+                               std::int64_t triangles, const std::int64_t* corners,
+                               const std::int32_t* tags, double feature_angle) {
+  require_count("vertices", vertices, 3);
+  require_count("triangles", triangles, 1);
+  require_angle("feature_angle", feature_angle);
+  SurfaceSource source;
+  source.role = role;
+  source.vertices = read_points<3>("coordinates", vertices, xyz);
+  source.triangles = read_triangles(triangles, corners, vertices);
+  source.tags = read_tags("tags", triangles, tags);
+  add_source(std::move(source), "surface", surfaces_given_, feature_angle);
+}
+
+void VolumeDomain::add_box(const Point<3>& low, const Point<3>& high,
+                           const std::array<std::int32_t, 6>& tags) {
+  require_point<3>("low", low);
+  require_point<3>("high", high);
+  for (int k = 0; k < 3; ++k)
+    if (!(low[k] < high[k]))
+      reject(indexed("high", k) + " is " + number_text(high[k]) + ", expected more than " +
+             indexed("low", k) + ", which is " + number_text(low[k]));
+  read_tags("tags", 6, tags.data());
+  add_source(box_surface(low, high, tags), "box", boxes_given_, kFeatureAngle);
+}
+
+void VolumeDomain::add_box(const Point<3>& low, const Point<3>& high, std::int32_t tag) {
+  require_tag("tag", tag);
+  add_box(low, high, {tag, tag, tag, tag, tag, tag});
+}
+
+void VolumeDomain::add_ball(const Point<3>& centre, double radius, std::int32_t tag) {
+  require_point<3>("centre", centre);
+  require_radius(radius);
+  require_tag("tag", tag);
+  add_source(ball_surface(centre, radius, tag), "ball", balls_given_, kFeatureAngle);
+}
+
+void VolumeDomain::add_cylinder(const Point<3>& begin, const Point<3>& end, double radius,
+                                std::int32_t tag) {
+  require_point<3>("begin", begin);
+  require_point<3>("end", end);
+  if (begin == end) reject("begin and end are both " + point_text(begin));
+  require_radius(radius);
+  require_tag("tag", tag);
+  add_source(cylinder_surface(begin, end, radius, tag), "cylinder", cylinders_given_,
+             kFeatureAngle);
+}
+
+void VolumeDomain::add_polyline(bool closed, std::int64_t n, const double* xyz,
+                                const std::int32_t* tags) {
+  require_count("n", n, closed ? 3 : 2);
+  InnerPolyline curve{"polyline " + std::to_string(polylines_.size()), closed,
+                      read_points<3>("coordinates", n, xyz),
+                      read_tags("tags", closed ? n : n - 1, tags)};
+  require_distinct_neighbours<3>(curve.points, closed);
+  polylines_.push_back(std::move(curve));
+  checked_ = false;
+}
+
+void VolumeDomain::add_fixed_nodes(std::int64_t n, const double* xyz, const std::int32_t* tags) {
+  require_count("n", n, 0);
+  const std::vector<Point<3>> points = read_points<3>("coordinates", n, xyz);
+  const std::vector<std::int32_t> values = read_tags("tags", n, tags);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    given_nodes_.push_back(
+        {points[i], values[i], "fixed node " + std::to_string(given_nodes_.size())});
+  checked_ = false;
+}
+
+void VolumeDomain::add_hole(const Point<3>& point) {
+  require_point<3>("point", point);
+  holes_.push_back({point, "hole " + std::to_string(holes_.size())});
+  checked_ = false;
+}
+
+void VolumeDomain::check() {
+  if (checked_) return;
+  resolved_ = resolve_volume(surfaces_, feature_angles_, polylines_, holes_, given_nodes_);
+  checked_ = true;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A volume's domain as the user describes it: boundary and inner surfaces, inner curves, holes,
+// fixed nodes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "domain/volume/features.hpp"
+#include "domain/volume/inner_curves.hpp"
+#include "domain/volume/triangulation.hpp"
+
+namespace pnpbs {
+
+struct FixedNode3 {
+  Point<3> position;
+  std::int32_t tag;
+  std::string name;             // for messages: "fixed node 3"
+  std::int32_t mesh_node = -1;  // after check(): the node of the mesh that it is
+};
+
+// A point whose surroundings are taken out.
+struct VolumeHole {
+  Point<3> point;
+  std::string name;
+};
+
+// What a domain comes to, in numbers.
+struct VolumeSummary {
+  Box<3> bounds{};
+  double volume = 0;
+  double area = 0;  // of what bounds it
+  std::int64_t triangles = 0;
+  std::int64_t components = 0;  // surfaces that are connected by edges
+  std::int64_t patches = 0;
+  std::int64_t feature_edges = 0;
+  std::int64_t corners = 0;
+};
+
+// What check() finds out.
+struct ResolvedVolume {
+  BoundaryMesh<3> mesh;
+  Features features;
+  std::vector<FixedNode3> fixed_nodes;
+  std::vector<std::string> warnings;
+  VolumeSummary summary;
+};
+
+inline constexpr double kFeatureAngle = 40;  // degrees
+
+class VolumeDomain {
+ public:
+  // They throw Error(ErrorKind::argument) naming the argument and its value, and leave the domain
+  // as it was. Without tags (null), all are 1. Of several feature angles the smallest holds.
+  void add_surface(SurfaceRole role, std::int64_t vertices, const double* xyz,
+                   std::int64_t triangles, const std::int64_t* corners, const std::int32_t* tags,
+                   double feature_angle = kFeatureAngle);
+  // Tags of the sides at low x, high x, low y, high y, low z, high z.
+  void add_box(const Point<3>& low, const Point<3>& high, const std::array<std::int32_t, 6>& tags);
+  void add_box(const Point<3>& low, const Point<3>& high, std::int32_t tag);
+  // Of triangles within 1e-4 of the radius from the true surface.
+  void add_ball(const Point<3>& centre, double radius, std::int32_t tag);
+  void add_cylinder(const Point<3>& begin, const Point<3>& end, double radius, std::int32_t tag);
+  // A curve inside, with a tag for each segment.
+  void add_polyline(bool closed, std::int64_t n, const double* xyz, const std::int32_t* tags);
+  void add_fixed_nodes(std::int64_t n, const double* xyz, const std::int32_t* tags);
+  // Takes out what lies around the point, up to the next surfaces.
+  void add_hole(const Point<3>& point);
+
+  // Checks everything and finds inside, orientation and features; does nothing if nothing changed
+  // since the last time. Throws Error(ErrorKind::domain).
+  void check();
+  bool is_checked() const { return checked_; }
+
+  // Valid after check(). First the triangles of the surfaces, in the order in which they were
+  // given, with the domain behind those that bound it; then the segments (a, b, b) of inner curves,
+  // and (a, a, a) for each fixed node. All nodes are used.
+  const BoundaryMesh<3>& mesh() const { return resolved_.mesh; }
+  const Features& features() const { return resolved_.features; }
+  const std::vector<FixedNode3>& fixed_nodes() const { return resolved_.fixed_nodes; }
+  const std::vector<std::string>& warnings() const { return resolved_.warnings; }
+  const VolumeSummary& summary() const { return resolved_.summary; }
+  const Box<3>& bounds() const { return resolved_.summary.bounds; }
+  double volume() const { return resolved_.summary.volume; }
+  double area() const { return resolved_.summary.area; }
+
+ private:
+  void add_source(SurfaceSource source, const char* kind, std::int64_t& given,
+                  double feature_angle);
+
+  std::vector<SurfaceSource> surfaces_;
+  std::vector<double> feature_angles_;  // of the surfaces
+  std::vector<InnerPolyline> polylines_;
+  std::vector<VolumeHole> holes_;
+  std::vector<FixedNode3> given_nodes_;
+  std::int64_t surfaces_given_ = 0, boxes_given_ = 0, balls_given_ = 0, cylinders_given_ = 0;
+  bool checked_ = false;
+  ResolvedVolume resolved_;
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/volume_resolver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "domain/volume/nesting.hpp"
+#include "domain/volume/self_intersections.hpp"
+#include "domain/volume/surface_checks.hpp"
+#include "domain/volume/surface_extent.hpp"
+#include "domain/volume/surface_orientation.hpp"
+#include "domain/volume/thin_triangles.hpp"
+#include "domain/volume/triangles.hpp"
+#include "domain/volume/welding.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+[[noreturn]] void reject(const std::string& message) { throw Error(ErrorKind::domain, message); }
+
+class Resolver {
+ public:
+  Resolver(const std::vector<SurfaceSource>& surfaces, const std::vector<InnerPolyline>& polylines,
+           const std::vector<VolumeHole>& holes, const std::vector<FixedNode3>& fixed_nodes)
+      : surfaces_(surfaces), polylines_(polylines), holes_(holes), fixed_nodes_(fixed_nodes) {}
+
+  ResolvedVolume run(const std::vector<double>& feature_angles) {
+    require_surfaces();
+    surface_ = join_surfaces(surfaces_);
+    measure();
+    weld();
+    remove_thin_triangles(surface_, kSameVertex * size_, result_.warnings);
+    remove_duplicate_triangles(surface_, result_.warnings);
+    require_triangles_of_all();
+    SurfaceEdges edges(surface_);
+    require_closed_boundary(surface_, edges);
+    warn_of_touching_vertices(surface_, edges, result_.warnings);
+    orient_surfaces(surface_, edges, result_.warnings);
+    tree_ = tree_of(surface_);
+    reject_crossings(surface_, tree_);
+    segments_ = make_segments(polylines_, curve_vertices_, surface_.vertices);
+    check_segments(segments_, surface_, tree_, kSamePlace * size_);
+    regions_.emplace(surface_, edges, tree_);
+    inside_ = inside_by_parity(surface_, *regions_);
+    turn_outwards();
+    remove_holes();
+    make_mesh();
+    find_features_of(feature_angles);
+    return std::move(result_);
+  }
+
+ private:
+  // ------------------------------------------------------------ what is given
+  void require_surfaces() const {
+    if (surfaces_.empty()) reject("the domain has no surfaces");
+    if (std::none_of(surfaces_.begin(), surfaces_.end(), [](const SurfaceSource& surface) {
+          return surface.role == SurfaceRole::boundary;
+        }))
+      reject("the domain has no boundary surface, only inner ones");
+    std::size_t vertices = fixed_nodes_.size(), triangles = 0;
+    for (const SurfaceSource& surface : surfaces_) {
+      vertices += surface.vertices.size();
+      triangles += surface.triangles.size();
+    }
+    for (const InnerPolyline& curve : polylines_) vertices += curve.points.size();
+    if (vertices >= std::size_t{1} << 31) reject("the domain has 2^31 vertices or more");
+    if (triangles >= std::size_t{1} << 30) reject("the domain has 2^30 triangles or more");
+  }
+
+  void measure() {
+    Box<3> box = empty_box<3>();
+    for (const SurfaceTriangle& triangle : surface_.triangles)
+      for (const std::int32_t v : triangle.vertices) include(box, surface_.vertices[v]);
+    size_ = size_of(box);
+    if (size_ < kSmallestDomain)
+      reject("the domain's size is " + number_text(size_) + ", less than " +
+             number_text(kSmallestDomain));
+    for (const Point<3>& x : {box.low, box.high})
+      for (const double coordinate : x)
+        if (size_ < kSmallestRelativeSize * std::fabs(coordinate))
+          reject("the domain's size is " + number_text(size_) + ", less than " +
+                 number_text(kSmallestRelativeSize) + " of its distance from the origin, as at " +
+                 point_text(x) + ": move it nearer");
+  }
+
+  // ------------------------------------------------------------ what is at the same place
+  // Surfaces first, then curves, then fixed nodes: these take the places of those.
+  void weld() {
+    const std::size_t vertices = surface_.vertices.size();
+    std::vector<Point<3>>& points = surface_.vertices;
+    for (const InnerPolyline& curve : polylines_)
+      points.insert(points.end(), curve.points.begin(), curve.points.end());
+    const std::size_t curve_points = points.size() - vertices;
+    for (const FixedNode3& node : fixed_nodes_) points.push_back(node.position);
+    const std::vector<std::int32_t> joined = weld_points(points, kSameVertex * size_);
+    for (SurfaceTriangle& triangle : surface_.triangles)
+      for (std::int32_t& v : triangle.vertices) v = joined[v];
+    warn_of_near_vertices(joined, vertices);
+    const auto first = joined.begin() + static_cast<std::ptrdiff_t>(vertices);
+    curve_vertices_.assign(first, first + static_cast<std::ptrdiff_t>(curve_points));
+    fixed_vertices_.assign(first + static_cast<std::ptrdiff_t>(curve_points), joined.end());
+    require_distinct_fixed_nodes();
+  }
+
+  void warn_of_near_vertices(const std::vector<std::int32_t>& joined, std::size_t vertices) {
+    std::int64_t count = 0;
+    std::string first;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      if (surface_.vertices[v] == surface_.vertices[joined[v]]) continue;
+      if (count++ == 0)
+        first = surface_.vertex_name(static_cast<std::int32_t>(v)) + " and " +
+                surface_.vertex_name(joined[v]);
+    }
+    if (count == 0) return;
+    result_.warnings.push_back(
+        std::to_string(count) + (count == 1 ? " vertex lies" : " vertices lie") + " within " +
+        rounded_text(kSameVertex * size_) + " of another and " + (count == 1 ? "is" : "are") +
+        " taken for it; the first are " + first);
+  }
+
+  void require_distinct_fixed_nodes() const {
+    std::map<std::int32_t, std::size_t> node_at;
+    for (std::size_t i = 0; i < fixed_nodes_.size(); ++i) {
+      const auto [entry, is_new] = node_at.try_emplace(fixed_vertices_[i], i);
+      if (is_new) continue;
+      const FixedNode3 &a = fixed_nodes_[entry->second], &b = fixed_nodes_[i];
+      reject(a.name + " and " + b.name +
+             (a.position == b.position ? " are both at " + point_text(a.position)
+                                       : " are too close, at " + point_text(a.position) + " and " +
+                                             point_text(b.position)));
+    }
+  }
+
+  void require_triangles_of_all() const {
+    std::vector<char> has_any(surfaces_.size(), 0);
+    for (const SurfaceTriangle& triangle : surface_.triangles) has_any[triangle.source] = 1;
+    for (std::size_t s = 0; s < surfaces_.size(); ++s)
+      if (!has_any[s])
+        reject("all triangles of " + surfaces_[s].name + " are smaller than " +
+               rounded_text(kSameVertex * size_) + ", which is nothing in a domain of size " +
+               number_text(size_));
+  }
+
+  // ------------------------------------------------------------ the inside
+  // With the domain behind them. A cavity may be given either way, a body that is inside out is
+  // told of.
+  void turn_outwards() {
+    std::vector<std::int64_t> turned(surfaces_.size(), 0);
+    std::vector<std::string> names;
+    for (std::int32_t t = 0; t < triangle_count(); ++t) {
+      SurfaceTriangle& triangle = surface_.triangles[t];
+      front_.push_back(regions_->front(t));
+      back_.push_back(regions_->back(t));
+      if (triangle.inner || !inside_[front_[t]]) continue;
+      triangle.turn_around();
+      std::swap(front_[t], back_[t]);
+      const bool cavity = inside_[regions_->outside(regions_->component(t))];
+      if (!cavity && turned[triangle.source]++ == 0)
+        names.push_back(surface_.sources[triangle.source]);
+    }
+    if (names.empty()) return;
+    result_.warnings.push_back("inside out and turned around: " + list_text(names, 5));
+  }
+
+  void remove_holes() {
+    std::vector<std::int32_t> hole_in(regions_->count(), -1);
+    for (std::size_t h = 0; h < holes_.size(); ++h) {
+      const std::string name = holes_[h].name + " at " + point_text(holes_[h].point);
+      const std::int32_t on = triangle_at(holes_[h].point);
+      if (on >= 0)
+        reject(name + " lies on " + surface_.triangle_name(on) +
+               ": move it into the region it stands for");
+      const std::int32_t region = regions_->around(holes_[h].point);
+      if (!inside_[region]) reject(name + " lies outside the domain");
+      if (hole_in[region] < 0) {
+        hole_in[region] = static_cast<std::int32_t>(h);
+      } else {
+        result_.warnings.push_back(name + " lies in the same region as " +
+                                   holes_[hole_in[region]].name);
+      }
+    }
+    for (std::size_t region = 0; region < inside_.size(); ++region)
+      if (hole_in[region] >= 0) inside_[region] = 0;
+    if (std::find(inside_.begin(), inside_.end(), 1) == inside_.end())
+      reject("the holes leave nothing of the domain");
+  }
+
+  // The first triangle on which the point lies, as near as places are told apart, or -1.
+  std::int32_t triangle_at(const Point<3>& x) const {
+    const double reach = kSamePlace * size_;
+    std::int32_t found = -1;
+    tree_.for_near(
+        x, [&] { return reach * reach; },
+        [&](std::int32_t t) {
+          if (found >= 0 && found < t) return;
+          if (distance<3>(nearest_on(surface_.corners(t), x), x) <= reach) found = t;
+        });
+    return found;
+  }
+
+  // ------------------------------------------------------------ the mesh
+  void make_mesh() {
+    number_.assign(surface_.vertices.size(), -1);
+    on_surface_.assign(surface_.vertices.size(), 0);
+    add_triangles();
+    add_segments();
+    add_fixed_nodes();
+    const VolumeExtent extent = extent_of(result_.mesh);
+    result_.summary.bounds = extent.bounds;
+    result_.summary.volume = extent.volume;
+    result_.summary.area = extent.area;
+    result_.summary.triangles = triangles_kept_;
+  }
+
+  std::int32_t node_at(std::int32_t vertex, std::int32_t tag) {
+    if (number_[vertex] < 0) {
+      number_[vertex] = static_cast<std::int32_t>(result_.mesh.nodes.size());
+      result_.mesh.nodes.push_back({surface_.vertices[vertex], tag});
+    }
+    return number_[vertex];
+  }
+
+  void add_triangles() {
+    std::vector<char> component_kept(regions_->components(), 0);
+    std::vector<std::int64_t> left_out(surfaces_.size(), 0);
+    kept_.assign(triangle_count(), 0);
+    for (std::int32_t t = 0; t < triangle_count(); ++t) {
+      SurfaceTriangle& triangle = surface_.triangles[t];
+      for (const std::int32_t v : triangle.vertices) on_surface_[v] = 1;
+      bool front = inside_[front_[t]], back = inside_[back_[t]];
+      if (!front && !back) {
+        ++left_out[triangle.source];
+        continue;
+      }
+      if (front && !back) {
+        triangle.turn_around();
+        std::swap(front, back);
+      }
+      kept_[t] = 1;
+      component_kept[regions_->component(t)] = 1;
+      BoundaryTriangle facet{{}, triangle.tag, front, back};
+      for (int k = 0; k < 3; ++k) facet.nodes[k] = node_at(triangle.vertices[k], triangle.tag);
+      result_.mesh.facets.push_back(facet);
+    }
+    triangles_kept_ = static_cast<std::int64_t>(result_.mesh.facets.size());
+    result_.summary.components = std::count(component_kept.begin(), component_kept.end(), 1);
+    std::vector<std::string> names;
+    for (std::size_t s = 0; s < surfaces_.size(); ++s)
+      if (left_out[s] > 0)
+        names.push_back(std::to_string(left_out[s]) + " triangles of " + surfaces_[s].name);
+    warn_of_left_out(names);
+  }
+
+  void warn_of_left_out(const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    result_.warnings.push_back("outside the domain and left out: " + list_text(names, 5));
+  }
+
+  void add_segments() {
+    std::vector<std::string> left_out;
+    for (const CurveSegment& segment : segments_) {
+      const auto& [a, b] = segment.ends;
+      for (const std::int32_t end : segment.ends)
+        if (!on_surface_[end]) reject_on_triangle(surface_.vertices[end], segment.name);
+      bool inside = segment.along >= 0 && kept_[segment.along];
+      if (segment.along < 0) {
+        Point<3> middle;
+        for (int k = 0; k < 3; ++k)
+          middle[k] = 0.5 * (surface_.vertices[a][k] + surface_.vertices[b][k]);
+        inside = inside_[regions_->around(middle)];
+      }
+      if (!inside) {
+        left_out.push_back(segment.name);
+        continue;
+      }
+      const std::int32_t begin = node_at(a, segment.tag), end = node_at(b, segment.tag);
+      result_.mesh.facets.push_back({{begin, end, end}, segment.tag, true, true});
+    }
+    warn_of_left_out(left_out);
+  }
+
+  void reject_on_triangle(const Point<3>& x, const std::string& name) const {
+    const std::int32_t t = triangle_at(x);
+    if (t < 0) return;
+    reject(name + " lies on " + surface_.triangle_name(t) + " at " + point_text(x) +
+           ": it must be a vertex of the surface there");
+  }
+
+  void add_fixed_nodes() {
+    const BoxTree<3> segments = tree_of(segments_, surface_.vertices);
+    for (std::size_t i = 0; i < fixed_nodes_.size(); ++i) {
+      FixedNode3 node = fixed_nodes_[i];
+      const std::int32_t vertex = fixed_vertices_[i];
+      if (number_[vertex] < 0) {
+        if (!on_surface_[vertex]) reject_on_triangle(node.position, node.name);
+        if (on_surface_[vertex] || !inside_[regions_->around(node.position)])
+          reject(node.name + " at " + point_text(node.position) + " lies outside the domain");
+        reject_on_segment(node, segments);
+      }
+      node.mesh_node = node_at(vertex, node.tag);
+      result_.mesh.nodes[node.mesh_node].tag = node.tag;
+      const std::int32_t n = node.mesh_node;
+      result_.mesh.facets.push_back({{n, n, n}, node.tag, true, true});
+      result_.fixed_nodes.push_back(std::move(node));
+    }
+  }
+
+  void reject_on_segment(const FixedNode3& node, const BoxTree<3>& segments) const {
+    const double reach = kSamePlace * size_;
+    segments.for_near(
+        node.position, [&] { return reach * reach; },
+        [&](std::int32_t s) {
+          const auto& [a, b] = segments_[s].ends;
+          const FacetCorners<3> line{surface_.vertices[a], surface_.vertices[b],
+                                     surface_.vertices[b]};
+          if (distance<3>(nearest_on(line, node.position), node.position) > reach) return;
+          reject(node.name + " at " + point_text(node.position) + " lies on " + segments_[s].name +
+                 ": make it a vertex there");
+        });
+  }
+
+  // ------------------------------------------------------------ features
+  void find_features_of(const std::vector<double>& angles) {
+    const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
+    if (*smallest < *largest)
+      result_.warnings.push_back("the smallest feature_angle, " + number_text(*smallest) +
+                                 " degrees, holds for all surfaces");
+    result_.features = find_features(result_.mesh, *smallest);
+    const Features& features = result_.features;
+    result_.summary.patches = features.patches;
+    for (const FeatureCurve& curve : features.curves)
+      result_.summary.feature_edges += static_cast<std::int64_t>(curve.nodes.size()) - 1;
+    result_.summary.corners = static_cast<std::int64_t>(features.corners.size());
+  }
+
+  std::int32_t triangle_count() const {
+    return static_cast<std::int32_t>(surface_.triangles.size());
+  }
+
+  const std::vector<SurfaceSource>& surfaces_;
+  const std::vector<InnerPolyline>& polylines_;
+  const std::vector<VolumeHole>& holes_;
+  const std::vector<FixedNode3>& fixed_nodes_;
+  Triangulation surface_;
+  double size_ = 0;
+  std::vector<std::int32_t> curve_vertices_, fixed_vertices_;  // of points as given
+  std::vector<CurveSegment> segments_;
+  BoxTree<3> tree_;  // of the triangles
+  std::optional<SurfaceRegions> regions_;
+  std::vector<char> inside_;                // of each region
+  std::vector<std::int32_t> front_, back_;  // the regions on both sides of each triangle
+  std::vector<char> kept_;                  // of each triangle: is it part of the domain?
+  std::vector<char> on_surface_;            // of each vertex: is it one of a triangle?
+  std::vector<std::int32_t> number_;        // of each vertex: its node of the mesh, or -1
+  std::int64_t triangles_kept_ = 0;
+  ResolvedVolume result_;
+};
+
+}  // namespace
+
+ResolvedVolume resolve_volume(const std::vector<SurfaceSource>& surfaces,
+                              const std::vector<double>& feature_angles,
+                              const std::vector<InnerPolyline>& polylines,
+                              const std::vector<VolumeHole>& holes,
+                              const std::vector<FixedNode3>& fixed_nodes) {
+  return Resolver(surfaces, polylines, holes, fixed_nodes).run(feature_angles);
+}
+
+}  // namespace pnpbs
