@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sphere through the corners of a tetrahedron.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "base/space_vectors.hpp"
+
+namespace pnpbs {
+
+using TetrahedronCorners = std::array<Point<3>, 4>;
+
+inline double longest_edge(const TetrahedronCorners& x) {
+  double square = 0;
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < a; ++b) square = std::max(square, squared_distance<3>(x[a], x[b]));
+  return std::sqrt(square);
+}
+
+struct Circumsphere {
+  Point<3> centre;
+  double radius;
+  bool flat;  // too flat to tell its volume from rounding: centre and radius say nothing
+};
+
+// The same bits for the same order of the corners, whatever their orientation.
+inline Circumsphere circumsphere(const TetrahedronCorners& x) {
+  const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
+  const Point<3> vw = cross_product(v, w), wu = cross_product(w, u), uv = cross_product(u, v);
+  const double uu = dot_product(u, u), vv = dot_product(v, v), ww = dot_product(w, w);
+  const double volume = dot_product(u, vw);  // six times
+  // Far above the error of a determinant, in the differences of its rows and in itself, and far
+  // below that of any tetrahedron worth the name.
+  constexpr double kFlat = 0x1p-40;
+  const bool flat = !(std::fabs(volume) > kFlat * std::sqrt(uu * vv) * std::sqrt(ww));
+  Point<3> to_centre{};
+  for (std::size_t k = 0; k < 3 && !flat; ++k)
+    to_centre[k] = (uu * vw[k] + vv * wu[k] + ww * uv[k]) / (2 * volume);
+  return {{x[0][0] + to_centre[0], x[0][1] + to_centre[1], x[0][2] + to_centre[2]},
+          std::sqrt(dot_product(to_centre, to_centre)),
+          flat};
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "delaunay/volume/element_rule.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "predicates/expansion.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Numbers of 106 bits; errors are relative to the terms that go into a sum.
+TwoTerms operator+(const TwoTerms& a, const TwoTerms& b) {
+  const TwoTerms sum = two_sum(a.high, b.high);
+  return fast_two_sum(sum.high, sum.low + (a.low + b.low));
+}
+
+TwoTerms operator-(const TwoTerms& a, const TwoTerms& b) { return a + TwoTerms{-b.high, -b.low}; }
+
+TwoTerms operator*(const TwoTerms& a, const TwoTerms& b) {
+  const TwoTerms product = two_product(a.high, b.high);
+  return fast_two_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
+}
+
+using Vector = std::array<TwoTerms, 3>;
+
+Vector from_to(const Point<3>& p, const Point<3>& q) {
+  return {two_sum(q[0], -p[0]), two_sum(q[1], -p[1]), two_sum(q[2], -p[2])};
+}
+
+TwoTerms dot(const Vector& p, const Vector& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+
+Vector cross(const Vector& p, const Vector& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
+
+}  // namespace
+
+Tetrahedron ordered_by_id(Tetrahedron corners) {
+  std::sort(corners.begin(), corners.end(),
+            [](const VolumeNode& a, const VolumeNode& b) { return a.id < b.id; });
+  return corners;
+}
+
+bool is_element(const Tetrahedron& ordered) {
+  const auto& [a, b, c, d] = ordered;
+  const Vector u = from_to(a.x, b.x), v = from_to(a.x, c.x), w = from_to(a.x, d.x);
+  const Vector vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
+  const TwoTerms uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+  double square = 0;  // of the vector to the centre, times
+  const double twelve_volumes = 2 * dot(u, vw).high;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double along = (uu * vw[k] + vv * wu[k] + ww * uv[k]).high;
+    square += along * along;
+  }
+  const double limit = kMaxRadius * std::min({a.d, b.d, c.d, d.d}) * twelve_volumes;
+  return square <= limit * limit;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "delaunay/volume/volume_star.hpp"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "predicates/space.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kGroup = 8, kWord = 64;
+
+// Inverted positions are at most 1 long, and each is wrong by at most 10 half ulps. Then products
+// of three of them, or of their differences, with their own rounding, are wrong by less than 400.
+constexpr double kRounding = 0x1p-43;
+
+// Bits of those among the first n numbers for which test(k) holds, a word at a time.
+template <class Test>
+std::uint64_t bits_where(std::size_t first, std::size_t n, const Test& test) {
+  const std::size_t tests = std::min(kWord, n - first);
+  std::uint64_t bits = 0;
+#pragma omp simd reduction(| : bits)
+  for (std::size_t k = 0; k < tests; ++k) bits |= static_cast<std::uint64_t>(test(first + k)) << k;
+  return bits;
+}
+
+std::uint64_t bit_in_word(std::int32_t k, std::size_t first) {
+  const std::size_t at = static_cast<std::size_t>(k) - first;
+  return at < kWord ? std::uint64_t{1} << at : 0;
+}
+
+bool share_a_coordinate(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a[k] == 0 && b[k] == 0 && c[k] == 0) return true;
+  return false;
+}
+
+}  // namespace
+
+void VolumeStar::start(const VolumeNode& centre) {
+  centre_ = centre;
+  candidates_.clear();
+  relative_.clear();
+}
+
+void VolumeStar::add(const VolumeNode& candidate) {
+  candidates_.push_back(candidate);
+  relative_.push_back(difference(candidate.x, centre_.x));
+}
+
+bool VolumeStar::wrap(double reach) {
+  facets_.clear();
+  planes_.clear();
+  open_.clear();
+  unproven_.clear();
+  search_reach_ = 0;
+  nothing_found_ = true;
+  if (count() >= 3) {
+    invert();
+    start_walk(nearest());
+    nothing_found_ = facets_.empty();
+    walk(reach);
+  }
+  if (reach >= max_reach()) return true;
+  if (nothing_found_ || !open_.empty()) search_reach_ = max_reach();
+  return search_reach_ == 0;
+}
+
+void VolumeStar::invert() {
+  const std::size_t n = candidates_.size(), padded = (n + kGroup - 1) / kGroup * kGroup;
+  for (std::vector<double>& along : y_)
+    if (along.size() < padded) along.resize(2 * padded);
+  if (slopes_.size() < padded) slopes_.resize(2 * padded);
+  double least = kInfinity;
+  for (std::size_t k = 0; k < n; ++k) {
+    slopes_[k] = dot_product(relative_[k], relative_[k]);
+    least = std::min(least, slopes_[k]);
+  }
+  unit_ = std::sqrt(least);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double scale = unit_ / slopes_[k];
+    for (std::size_t along = 0; along < 3; ++along) y_[along][k] = scale * relative_[k][along];
+  }
+  for (std::size_t k = n; k < padded; ++k)
+    for (std::size_t along = 0; along < 3; ++along) y_[along][k] = 0;
+  done_.assign(n * ((n + kWord - 1) / kWord), 0);
+  waiting_.clear();
+}
+
+std::int32_t VolumeStar::nearest() const {
+  const auto first = slopes_.begin();
+  return static_cast<std::int32_t>(
+      std::min_element(first, first + static_cast<std::ptrdiff_t>(count())) - first);
+}
+
+bool VolumeStar::is_done(const Edge& edge) const {
+  const std::size_t words = (candidates_.size() + kWord - 1) / kWord, to = index(edge.to);
+  return (done_[index(edge.from) * words + to / kWord] >> (to % kWord) & 1) != 0;
+}
+
+void VolumeStar::set_done(const Edge& edge) {
+  const std::size_t words = (candidates_.size() + kWord - 1) / kWord, to = index(edge.to);
+  done_[index(edge.from) * words + to / kWord] |= std::uint64_t{1} << (to % kWord);
+}
+
+// ------------------------------------------------------------------ where the walk begins ------
+
+// The nearest node is a neighbour. Of all circles through it and the centre, the smallest one is
+// the equator of an empty sphere: a node in there would make a smaller one, as it is farther away
+// than the nearest. After inversion, circles are lines, and the smallest one is the farthest line.
+void VolumeStar::start_walk(std::int32_t first) {
+  const std::size_t n = candidates_.size();
+  const Point<3> a = inverse(first);
+  const double *x = y_[0].data(), *y = y_[1].data(), *z = y_[2].data();
+  static thread_local std::vector<double> gaps;  // of the lines, squared
+  gaps.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Point<3> b{x[k], y[k], z[k]}, along = difference(b, a), area = cross_product(a, b);
+    const double length2 = dot_product(along, along);
+    gaps[k] = length2 > 0 ? dot_product(area, area) / length2 : -1;
+  }
+  gaps[index(first)] = -1;
+  const auto farthest = std::max_element(gaps.begin(), gaps.end());
+  const auto second = static_cast<std::int32_t>(farthest - gaps.begin());
+  const Point<3> b = inverse(second), along = difference(b, a);
+  const double t = -dot_product(a, along) / dot_product(along, along);
+  const Point<3> foot{a[0] + t * along[0], a[1] + t * along[1], a[2] + t * along[2]};
+  if (*farthest > 0.01 && all_surely_below({foot, *farthest}, {first, second, second})) {
+    waiting_.push_back({first, second});
+    waiting_.push_back({second, first});
+  } else {
+    start_walk_exactly(first, gaps);
+  }
+}
+
+// With ties: some facet with the nearest node for a corner.
+void VolumeStar::start_walk_exactly(std::int32_t first, const std::vector<double>& gaps) {
+  std::vector<std::int32_t> order(candidates_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::int32_t k, std::int32_t l) { return gaps[index(k)] > gaps[index(l)]; });
+  for (const std::int32_t second : order) {
+    if (second == first) continue;
+    const std::int32_t third = next_corner_exactly({first, second});
+    if (third < 0) continue;
+    const Corners facet{first, second, third};
+    const Plane plane = plane_of(first, second, third);
+    bool lowest = true;
+    for (std::int32_t k = 0; k < count() && lowest; ++k)
+      lowest = k == first || k == second || k == third || !beyond(plane, facet, k);
+    if (!lowest) continue;
+    waiting_.push_back({first, second});
+    return;
+  }
+}
+
+// ------------------------------------------------------------------ the walk -------------------
+
+void VolumeStar::walk(double reach) {
+  while (!waiting_.empty()) {
+    const Edge edge = waiting_.back();
+    waiting_.pop_back();
+    if (is_done(edge)) continue;
+    const std::int32_t corner = next_corner(edge);
+    if (corner >= 0) {
+      add_facet({edge.from, edge.to, corner}, reach);
+    } else {
+      set_done(edge);
+      open_.push_back(edge);
+    }
+  }
+  nothing_found_ = facets_.empty();
+}
+
+void VolumeStar::add_facet(const Corners& facet, double reach) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t from = facet[k], to = facet[(k + 1) % 3];
+    set_done({from, to});
+    if (!is_done({to, from})) waiting_.push_back({to, from});
+  }
+  // Rounding the offset down makes the sphere larger.
+  Plane plane = plane_of(facet[0], facet[1], facet[2]);
+  plane.offset -= kRounding;
+  constexpr double kMargin = 1 - 1e-9;
+  const double diameter_times_offset = unit_ * std::sqrt(dot_product(plane.normal, plane.normal));
+  if (!(kMargin * reach * plane.offset >= diameter_times_offset)) {
+    unproven_.push_back(static_cast<std::int32_t>(facets_.size()));
+    const double diameter =
+        plane.offset > 0 ? diameter_times_offset / (kMargin * plane.offset) : kInfinity;
+    search_reach_ = std::max(search_reach_, std::min(diameter, max_reach()));
+  }
+  facets_.push_back(facet);
+  planes_.push_back(plane);
+}
+
+VolumeStar::Plane VolumeStar::plane_of(std::int32_t a, std::int32_t b, std::int32_t c) const {
+  const Point<3> from = inverse(a);
+  const Point<3> normal = cross_product(difference(inverse(b), from), difference(inverse(c), from));
+  return {normal, dot_product(normal, from)};
+}
+
+bool VolumeStar::all_surely_below(const Plane& plane, const Corners& facet) const {
+  const double *x = y_[0].data(), *y = y_[1].data(), *z = y_[2].data();
+  const double limit = plane.offset - kRounding;
+  const auto [nx, ny, nz] = plane.normal;
+  for (std::size_t first = 0; first < candidates_.size(); first += kWord) {
+    std::uint64_t bits = bits_where(first, candidates_.size(), [=](std::size_t k) {
+      return nx * x[k] + ny * y[k] + nz * z[k] > limit;
+    });
+    for (const std::int32_t corner : facet) bits &= ~bit_in_word(corner, first);
+    if (bits != 0) return false;
+  }
+  return true;
+}
+
+// The third corner of the facet with this edge, or -1: face (centre, from, to) is open. Seen along
+// the edge, it is the steepest candidate on the right side of the face, and when all others are
+// surely below, the exact arithmetic has nothing to add.
+std::int32_t VolumeStar::next_corner(const Edge& edge) const {
+  const Point<3> a = inverse(edge.from), b = inverse(edge.to), along = difference(b, a);
+  const Point<3> normal = cross_product(a, b), up = cross_product(along, normal);
+  const double height = dot_product(up, a);
+  const double *x = y_[0].data(), *y = y_[1].data(), *z = y_[2].data();
+  double* const slopes = slopes_.data();
+  const std::size_t n = candidates_.size();
+  const auto [nx, ny, nz] = normal;
+  const auto [ux, uy, uz] = up;
+  double steepest = -kInfinity, side = -kInfinity;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double out = nx * x[k] + ny * y[k] + nz * z[k];
+    const double rise = ux * x[k] + uy * y[k] + uz * z[k] - height;
+    slopes[k] = out > kRounding ? rise / out : -kInfinity;
+  }
+#pragma omp simd reduction(max : steepest)
+  for (std::size_t k = 0; k < n; ++k) steepest = std::max(steepest, slopes[k]);
+  static_cast<void>(side);
+  if (steepest > -kInfinity) {
+    std::size_t first = 0;
+    std::uint64_t bits = 0;
+    for (; first < n && bits == 0; first += kWord)
+      bits = bits_where(first, n, [=](std::size_t k) { return slopes[k] == steepest; });
+    const auto corner = static_cast<std::int32_t>(first - kWord) +
+                        static_cast<std::int32_t>(std::countr_zero(bits));
+    const Plane plane = plane_of(edge.from, edge.to, corner);
+    if (all_surely_below(plane, {edge.from, edge.to, corner})) return corner;
+  }
+  return next_corner_exactly(edge);
+}
+
+// On which side of the face (centre, a, b) is c? `normal` is the face's after inversion.
+int VolumeStar::side(const Point<3>& normal, std::int32_t a, std::int32_t b, std::int32_t c) const {
+  const double out = dot_product(normal, inverse(c));
+  if (out > kRounding) return 1;
+  if (out < -kRounding) return -1;
+  const Point<3>&xa = relative_[index(a)], &xb = relative_[index(b)], &xc = relative_[index(c)];
+  if (share_a_coordinate(xa, xb, xc)) return 0;
+  return orientation(centre_.x, candidates_[index(a)].x, candidates_[index(b)].x,
+                     candidates_[index(c)].x);
+}
+
+// Is a candidate in the sphere of the facet?
+bool VolumeStar::beyond(const Plane& plane, const Corners& facet, std::int32_t other) const {
+  const double above = dot_product(plane.normal, inverse(other)) - plane.offset;
+  if (above > kRounding) return true;
+  if (above < -kRounding) return false;
+  const VolumeNode &a = candidates_[index(facet[0])], &b = candidates_[index(facet[1])],
+                   &c = candidates_[index(facet[2])], &p = candidates_[index(other)];
+  return in_sphere_perturbed(centre_.x, a.x, b.x, c.x, p.x, centre_.id, a.id, b.id, c.id, p.id) > 0;
+}
+
+std::int32_t VolumeStar::next_corner_exactly(const Edge& edge) const {
+  const Point<3> normal = cross_product(inverse(edge.from), inverse(edge.to));
+  std::int32_t best = -1;
+  Plane plane{};
+  for (std::int32_t k = 0; k < count(); ++k) {
+    if (k == edge.from || k == edge.to) continue;
+    if (best >= 0) {
+      const double above = dot_product(plane.normal, inverse(k)) - plane.offset;
+      if (above < -kRounding) continue;
+    }
+    if (side(normal, edge.from, edge.to, k) <= 0) continue;
+    if (best >= 0 && !beyond(plane, {edge.from, edge.to, best}, k)) continue;
+    best = k;
+    plane = plane_of(edge.from, edge.to, best);
+  }
+  return best;
+}
+
+// ------------------------------------------------------------------ what may yet come ----------
+
+// A place in the plane of an open face, between its edges and not as far out as its corners are
+// after inversion, is nothing that a sphere of an element can reach which holds none of these.
+bool VolumeStar::covered_by_open_face(const Point<3>& y) const {
+  constexpr double kThin = 1e-3, kSlack = 1e-9, kMargin = 1e-6;
+  if (unit_ < 0.01 * max_reach()) return false;
+  for (const Edge& edge : open_) {
+    const Point<3> a = inverse(edge.from), b = inverse(edge.to), normal = cross_product(a, b);
+    const double square = dot_product(normal, normal);
+    if (square < kThin * kThin || std::fabs(dot_product(normal, y)) > kRounding) continue;
+    const double of_a = dot_product(cross_product(y, b), normal) / square;
+    const double of_b = dot_product(cross_product(a, y), normal) / square;
+    if (of_a > -kSlack && of_b > -kSlack && of_a + of_b < 1 - kMargin) return true;
+  }
+  return false;
+}
+
+bool VolumeStar::may_matter(const Point<3>& x) const {
+  const Point<3> away = difference(x, centre_.x);
+  const double square = dot_product(away, away), farthest = search_reach_ * (1 + 1e-9);
+  if (square == 0 || square > farthest * farthest) return false;
+  if (nothing_found_) return true;
+  const double scale = unit_ / square;
+  const Point<3> y{scale * away[0], scale * away[1], scale * away[2]};
+  bool may = std::any_of(unproven_.begin(), unproven_.end(), [&](std::int32_t f) {
+    return dot_product(planes_[index(f)].normal, y) > planes_[index(f)].offset;
+  });
+  for (const Edge& edge : open_) {
+    if (may) break;
+    const Point<3> normal = cross_product(inverse(edge.from), inverse(edge.to));
+    const double out = dot_product(normal, y);
+    may = out > kRounding || (out > -kRounding && !covered_by_open_face(y) &&
+                              orientation(centre_.x, candidates_[index(edge.from)].x,
+                                          candidates_[index(edge.to)].x, x) > 0);
+  }
+  return may;
+}
+
+bool VolumeStar::may_matter_in(const Box<3>& box) const {
+  if (nothing_found_) return true;
+  Point<3> low = difference(box.low, centre_.x), high = difference(box.high, centre_.x);
+  double square = 0, farthest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double gap = std::max({low[k], -high[k], 0.0});
+    square += gap * gap;
+    farthest += std::max(low[k] * low[k], high[k] * high[k]);
+  }
+  if (square > search_reach_ * search_reach_ * (1 + 1e-9)) return false;
+  // In the unit of length of the planes, normal * x > offset * |x|^2, for the best x in the box.
+  const double slack = 1e-9 * farthest / unit_;
+  const auto reaches = [&](const Point<3>& normal, double offset) {
+    double sum = slack;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double peak = offset > 0 ? 0.5 * normal[k] * unit_ / offset : kInfinity;
+      const double x = normal[k] > 0 ? std::clamp(peak, low[k], high[k])
+                                     : std::clamp(offset > 0 ? peak : -kInfinity, low[k], high[k]);
+      sum += normal[k] * x - offset * x * x / unit_;
+    }
+    return sum > 0;
+  };
+  for (const std::int32_t f : unproven_)
+    if (reaches(planes_[index(f)].normal, std::max(planes_[index(f)].offset, 0.0))) return true;
+  for (const Edge& edge : open_)
+    if (reaches(cross_product(inverse(edge.from), inverse(edge.to)), 0)) return true;
+  return false;
+}
+
+// ------------------------------------------------------------------ the elements ---------------
+
+bool VolumeStar::is_element(std::size_t facet) const {
+  const auto& [a, b, c] = facets_[facet];
+  const VolumeNode &p = candidates_[index(a)], &q = candidates_[index(b)],
+                   &r = candidates_[index(c)];
+  // What is far from the limit, and not flat, needs no common order of the corners.
+  constexpr double kSurelyNotFlat = 1e-4, kMargin = 1e-3;
+  const Plane& plane = planes_[facet];
+  if (plane.offset > kSurelyNotFlat) {
+    const double limit = 2 * kMaxRadius * std::min({centre_.d, p.d, q.d, r.d}) * plane.offset;
+    const double diameter = unit_ * std::sqrt(dot_product(plane.normal, plane.normal));
+    if (diameter < (1 - kMargin) * limit) return true;
+    if (diameter > (1 + kMargin) * limit) return false;
+  }
+  return pnpbs::is_element(ordered_by_id({centre_, p, q, r}));
+}
+
+void VolumeStar::number_corners() {
+  neighbours_.clear();
+  place_.assign(candidates_.size(), -1);
+  for (const Corners& triangle : triangles_)
+    for (const std::int32_t k : triangle) {
+      if (place_[index(k)] < 0) neighbours_.push_back(k);
+      place_[index(k)] = 0;
+    }
+  std::sort(neighbours_.begin(), neighbours_.end(), [this](std::int32_t k, std::int32_t l) {
+    return candidates_[index(k)].id < candidates_[index(l)].id;
+  });
+  for (std::size_t n = 0; n < neighbours_.size(); ++n)
+    place_[index(neighbours_[n])] = static_cast<std::int32_t>(n);
+  for (Corners& triangle : triangles_) {
+    for (std::int32_t& k : triangle) k = place_[index(k)];
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                triangle.end());
+  }
+  std::sort(triangles_.begin(), triangles_.end());
+}
+
+}  // namespace pnpbs

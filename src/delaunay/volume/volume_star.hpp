@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The star of a node in the Delaunay triangulation of all nodes of a volume. Inversion
+// x -> x / |x|^2 about the node makes it the part of a convex hull that does not see the node: of
+// the nodes nearby, walked facet by facet in plain doubles. What rounding could change is decided
+// exactly, ties by id, so that the stars of all nodes are together one triangulation, whatever
+// nodes besides those that matter were looked at, and in whatever order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/space_vectors.hpp"
+#include "delaunay/volume/element_rule.hpp"
+
+namespace pnpbs {
+
+class VolumeStar {
+ public:
+  using Corners = std::array<std::int32_t, 3>;
+
+  // Begins with the node itself, and no candidates.
+  void start(const VolumeNode& centre);
+  // A candidate, once. Its number is how many there were.
+  void add(const VolumeNode& candidate);
+
+  const VolumeNode& centre() const { return centre_; }
+  const std::vector<VolumeNode>& candidates() const { return candidates_; }
+
+  // Finds the tetrahedra that the candidates make with the centre. All nodes nearer to it than
+  // `reach` must be among them. Returns whether that is proof: then no other node can change the
+  // elements. If not, it still is if there is none that may_matter.
+  bool wrap(double reach);
+
+  // Elements reach no farther than this from their corners.
+  double max_reach() const { return 2 * kMaxRadius * centre_.d; }
+  // No node farther away than this may matter.
+  double search_reach() const { return search_reach_; }
+  // Can a node that is no candidate change the elements?
+  bool may_matter(const Point<3>& x) const;
+  // The same for any node in the box: false only if surely not.
+  bool may_matter_in(const Box<3>& box) const;
+
+  // Takes the elements for which keep(corners), three candidates, holds, and numbers their corners.
+  template <class Keep>
+  void finish(const Keep& keep);
+  void finish() {
+    finish([](const Corners&) { return true; });
+  }
+
+  // --- then ---
+  // The candidates that are corners of elements taken, by id.
+  const std::vector<std::int32_t>& neighbours() const { return neighbours_; }
+  // Three places among the neighbours for each element taken, so that the centre and these are of
+  // positive orientation; the least one first, and in order.
+  const std::vector<Corners>& triangles() const { return triangles_; }
+  // Are the elements taken all around the centre?
+  bool closed() const { return closed_; }
+
+ private:
+  // The plane of a facet of the hull is normal * y = offset; of the places y with a larger product
+  // come the nodes that would change it.
+  struct Plane {
+    Point<3> normal;
+    double offset;
+  };
+  struct Edge {
+    std::int32_t from, to;
+  };
+
+  static std::size_t index(std::int32_t k) { return static_cast<std::size_t>(k); }
+  std::int32_t count() const { return static_cast<std::int32_t>(candidates_.size()); }
+  Point<3> inverse(std::int32_t k) const {
+    return {y_[0][index(k)], y_[1][index(k)], y_[2][index(k)]};
+  }
+
+  void invert();
+  std::int32_t nearest() const;
+  void start_walk(std::int32_t first);
+  void start_walk_exactly(std::int32_t first, const std::vector<double>& gaps);
+  void walk(double reach);
+
+  Plane plane_of(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  int side(const Point<3>& normal, std::int32_t a, std::int32_t b, std::int32_t c) const;
+  bool beyond(const Plane& plane, const Corners& facet, std::int32_t other) const;
+  bool all_surely_below(const Plane& plane, const Corners& facet) const;
+  std::int32_t next_corner(const Edge& edge) const;
+  std::int32_t next_corner_exactly(const Edge& edge) const;
+  void add_facet(const Corners& facet, double reach);
+  bool is_done(const Edge& edge) const;
+  void set_done(const Edge& edge);
+  bool covered_by_open_face(const Point<3>& y) const;
+  bool is_element(std::size_t facet) const;
+  void number_corners();
+
+  VolumeNode centre_{};
+  std::vector<VolumeNode> candidates_;
+  std::vector<Point<3>> relative_;        // to the centre
+  std::array<std::vector<double>, 3> y_;  // inverted; filled up with the origin
+  mutable std::vector<double> slopes_;    // of as many
+  double unit_ = 1;                       // distance of the nearest candidate: 1 after inversion
+  double max_square_gap_ = 0;
+  std::vector<Edge> waiting_;        // edges of facets, with the other facet to be found
+  std::vector<std::uint64_t> done_;  // for each candidate: edges from it that have a facet
+  std::vector<Corners> facets_;
+  std::vector<Plane> planes_;           // of the facets
+  std::vector<Edge> open_;              // faces (centre, from, to) with nothing behind
+  std::vector<std::int32_t> unproven_;  // facets
+  bool nothing_found_ = false;
+  double search_reach_ = 0;
+  std::vector<std::int32_t> neighbours_, place_;
+  std::vector<Corners> triangles_;
+  bool closed_ = false;
+};
+
+template <class Keep>
+void VolumeStar::finish(const Keep& keep) {
+  triangles_.clear();
+  for (std::size_t f = 0; f < facets_.size(); ++f)
+    if (is_element(f) && keep(facets_[f])) triangles_.push_back(facets_[f]);
+  closed_ = open_.empty() && !facets_.empty() && triangles_.size() == facets_.size();
+  number_corners();
+}
+
+}  // namespace pnpbs
