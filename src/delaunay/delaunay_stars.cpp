@@ -2,9 +2,8 @@
 #include "delaunay/delaunay_stars.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
+#include "delaunay/listed_reach.hpp"
 #include "delaunay/plane/block_hull_stars.hpp"
 #include "delaunay/plane/constrained_star.hpp"
 #include "delaunay/plane/hull_star.hpp"
@@ -14,13 +13,6 @@ namespace pnpbs {
 
 namespace {
 
-double min_spacing_around(const Buckets<2>& buckets, std::int32_t bucket) {
-  double min = std::numeric_limits<double>::infinity();
-  buckets.for_neighbours(bucket,
-                         [&](std::int32_t b) { min = std::min(min, buckets.min_spacing(b)); });
-  return min;
-}
-
 // Finds the stars of consecutive blocks of nodes.
 class StarWriter {
   using Entry = DelaunayStars::Entry;
@@ -28,7 +20,10 @@ class StarWriter {
  public:
   // visibility_is_fresh: were the lists, and the edges near nodes, made for where the nodes are?
   StarWriter(const StarInput& input, bool visibility_is_fresh, std::vector<double>& needs)
-      : in_(input), visibility_is_fresh_(visibility_is_fresh), needs_(needs) {}
+      : in_(input),
+        visibility_is_fresh_(visibility_is_fresh),
+        needs_(needs),
+        reach_(input.nodes, input.map.tree(), input.buckets, input.lists, input.known) {}
 
   void operator()(std::int64_t block, std::vector<Entry>& out) {
     const std::int64_t count = in_.nodes.count;
@@ -37,7 +32,7 @@ class StarWriter {
     block_nodes(block, count, self);
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::int64_t i = self[lane];
-      listed_reach[lane] = i < count ? reach_of_list(i) : 0;
+      listed_reach[lane] = i < count ? reach_.of(i) : 0;
       hull_reach[lane] = i < count && !in_.near_edges.any(i) ? listed_reach[lane] : 0;
     }
     find_block_hull_stars(in_.lists.block(block), static_cast<std::int32_t>(count),
@@ -57,31 +52,6 @@ class StarWriter {
   }
 
  private:
-  // The list of node i holds all nodes that it sees and that are nearer than this; 0 if not all are
-  // known there.
-  double reach_of_list(std::int64_t i) {
-    const Nodes<2>& nodes = in_.nodes;
-    const double reach = min_reach(i);
-    const bool known =
-        !rim_ || in_.known.covers(in_.map.tree(), box_around<2>(nodes.position(i), reach));
-    return known ? reach : 0;
-  }
-
-  void look_at_bucket(std::int32_t bucket) {
-    bucket_ = bucket;
-    min_ = min_spacing_around(in_.buckets, bucket);
-    double max = 0;
-    for (std::int32_t i = in_.buckets.begin(bucket); i < in_.buckets.end(bucket); ++i)
-      max = std::max(max, in_.nodes.d(i));
-    const double reach = in_.lists.radius() * max;
-    Box<2> around = in_.map.tree().cell_box(in_.map.tree().leaf_cell(bucket));
-    for (int k = 0; k < 2; ++k) {
-      around.low[k] -= reach;
-      around.high[k] += reach;
-    }
-    rim_ = !in_.known.covers(in_.map.tree(), around);
-  }
-
   StarPoint point(std::int64_t j) const {
     return {in_.nodes.position(j), in_.nodes.id(j), static_cast<std::int32_t>(j)};
   }
@@ -91,43 +61,8 @@ class StarWriter {
     if (!near_edges && listed_reach > 0 && add_hull_star(i, listed_reach)) return;
     const double needs =
         constrained_star(in_, i, near_edges && visibility_is_fresh_ ? listed_reach : 0,
-                         std::max(min_reach(i), in_.nodes.d(i)), others_);
+                         std::max(reach_.whatever_is_known(i), in_.nodes.d(i)), others_);
     if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
-  }
-
-  // Of the list of node i, whatever is around it.
-  double min_reach(std::int64_t i) {
-    if (in_.buckets.bucket_of(i) != bucket_) look_at_bucket(in_.buckets.bucket_of(i));
-    constexpr double kSteep = 0.9;
-    const double d = in_.nodes.d(i);
-    return min_ < kSteep * d ? reach_to_unlisted(i)
-                             : 0.5 * in_.lists.radius() * (in_.nodes.d(i) + min_);
-  }
-
-  // Up to the nearest node that the list does not hold, or as far as stars mostly need. The
-  // neighbour buckets hold all nodes within radius * d.
-  double reach_to_unlisted(std::int64_t i) const {
-    constexpr double kNeeded = 1.5, kRounding = 1 - 1e-9;
-    const Nodes<2>& nodes = in_.nodes;
-    const Point<2> at = nodes.position(i);
-    const double own = nodes.d(i), radius = in_.lists.radius();
-    const double needed = std::min(kNeeded, radius) * own, half = 0.5 * kRounding * radius;
-    const Box<2> box = box_around<2>(at, needed);
-    const double *x = nodes.x[0].data(), *y = nodes.x[1].data(), *d = nodes.d.data();
-    double nearest = needed * needed;
-    in_.buckets.for_neighbours(bucket_, [&](std::int32_t b) {
-      const Box<2> cell = in_.map.tree().cell_box_with_room(in_.map.tree().leaf_cell(b));
-      for (int k = 0; k < 2; ++k)
-        if (cell.high[k] < box.low[k] || cell.low[k] > box.high[k]) return;
-#pragma omp simd reduction(min : nearest)
-      for (std::int32_t j = in_.buckets.begin(b); j < in_.buckets.end(b); ++j) {
-        const double dx = x[j] - at[0], dy = y[j] - at[1], listed = half * (own + d[j]);
-        const double square = dx * dx + dy * dy;
-        const double unlisted = square < listed * listed ? nearest : square;
-        nearest = unlisted < nearest ? unlisted : nearest;
-      }
-    });
-    return kRounding * std::sqrt(nearest);
   }
 
   bool add_hull_star(std::int64_t i, double reach) {
@@ -161,13 +96,11 @@ class StarWriter {
   const StarInput& in_;
   bool visibility_is_fresh_;
   std::vector<double>& needs_;
+  ListedReach<2> reach_;
   std::vector<StarPoint> around_;
   BlockHullStars hulls_;
   std::vector<Entry> others_;  // stars of the block that are not among the hulls
   std::array<std::size_t, kLanes> first_other_{}, size_{};
-  std::int32_t bucket_ = -1;
-  double min_ = 0;    // spacing in the buckets around
-  bool rim_ = false;  // do the lists of some nodes in the bucket reach into the unknown?
 };
 
 }  // namespace

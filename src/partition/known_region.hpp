@@ -23,13 +23,18 @@ class KnownRegion {
 
   // Is all of the box known?
   bool covers(const BackgroundTree<Dim>& tree, const Box<Dim>& box) const {
+    return covers(tree, box, [](std::int32_t) { return true; });
+  }
+  // Or all of it that lies in cells of the tree for which matters(cell) holds?
+  template <class Matters>
+  bool covers(const BackgroundTree<Dim>& tree, const Box<Dim>& box, const Matters& matters) const {
     if (is_everywhere()) return true;
     if (std::any_of(boxes_.begin(), boxes_.end(),
                     [&](const Box<Dim>& known) { return contains(known, box); }))
       return true;
     bool all = true;
     const auto look = [&](std::int32_t cell) {
-      return all && unknown_in_[static_cast<std::size_t>(cell)] != 0;
+      return all && unknown_in_[static_cast<std::size_t>(cell)] != 0 && matters(cell);
     };
     tree.for_leaves_in(box, look, [&](std::int32_t) { all = false; });
     return all;

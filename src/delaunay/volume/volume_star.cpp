@@ -13,6 +13,7 @@ namespace pnpbs {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoSlope = -std::numeric_limits<double>::max();
 constexpr std::size_t kGroup = 8, kWord = 64;
 
 // Inverted positions are at most 1 long, and each is wrong by at most 10 half ulps. Then products
@@ -55,17 +56,15 @@ void VolumeStar::add(const VolumeNode& candidate) {
 
 bool VolumeStar::wrap(double reach) {
   facets_.clear();
-  planes_.clear();
   open_.clear();
   unproven_.clear();
   search_reach_ = 0;
-  nothing_found_ = true;
   if (count() >= 3) {
     invert();
     start_walk(nearest());
-    nothing_found_ = facets_.empty();
     walk(reach);
   }
+  nothing_found_ = facets_.empty();
   if (reach >= max_reach()) return true;
   if (nothing_found_ || !open_.empty()) search_reach_ = max_reach();
   return search_reach_ == 0;
@@ -144,15 +143,13 @@ void VolumeStar::start_walk_exactly(std::int32_t first, const std::vector<double
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](std::int32_t k, std::int32_t l) { return gaps[index(k)] > gaps[index(l)]; });
+  Facet facet;
   for (const std::int32_t second : order) {
     if (second == first) continue;
-    const std::int32_t third = next_corner_exactly({first, second});
-    if (third < 0) continue;
-    const Corners facet{first, second, third};
-    const Plane plane = plane_of(first, second, third);
+    if (!find_facet_exactly({first, second}, facet)) continue;
     bool lowest = true;
     for (std::int32_t k = 0; k < count() && lowest; ++k)
-      lowest = k == first || k == second || k == third || !beyond(plane, facet, k);
+      lowest = std::count(facet.corners.begin(), facet.corners.end(), k) > 0 || !beyond(facet, k);
     if (!lowest) continue;
     waiting_.push_back({first, second});
     return;
@@ -162,46 +159,45 @@ void VolumeStar::start_walk_exactly(std::int32_t first, const std::vector<double
 // ------------------------------------------------------------------ the walk -------------------
 
 void VolumeStar::walk(double reach) {
+  Facet facet;
   while (!waiting_.empty()) {
     const Edge edge = waiting_.back();
     waiting_.pop_back();
     if (is_done(edge)) continue;
-    const std::int32_t corner = next_corner(edge);
-    if (corner >= 0) {
-      add_facet({edge.from, edge.to, corner}, reach);
+    if (find_facet(edge, facet)) {
+      add_facet(facet, reach);
     } else {
       set_done(edge);
       open_.push_back(edge);
     }
   }
-  nothing_found_ = facets_.empty();
 }
 
-void VolumeStar::add_facet(const Corners& facet, double reach) {
+void VolumeStar::add_facet(const Facet& facet, double reach) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::int32_t from = facet[k], to = facet[(k + 1) % 3];
-    set_done({from, to});
-    if (!is_done({to, from})) waiting_.push_back({to, from});
-  }
-  // Rounding the offset down makes the sphere larger.
-  Plane plane = plane_of(facet[0], facet[1], facet[2]);
-  plane.offset -= kRounding;
-  constexpr double kMargin = 1 - 1e-9;
-  const double diameter_times_offset = unit_ * std::sqrt(dot_product(plane.normal, plane.normal));
-  if (!(kMargin * reach * plane.offset >= diameter_times_offset)) {
-    unproven_.push_back(static_cast<std::int32_t>(facets_.size()));
-    const double diameter =
-        plane.offset > 0 ? diameter_times_offset / (kMargin * plane.offset) : kInfinity;
-    search_reach_ = std::max(search_reach_, std::min(diameter, max_reach()));
+    const Edge edge{facet.corners[k], facet.corners[(k + 1) % 3]}, back{edge.to, edge.from};
+    set_done(edge);
+    if (!is_done(back)) waiting_.push_back(back);
   }
   facets_.push_back(facet);
-  planes_.push_back(plane);
+  // The offset rounded down makes the sphere larger.
+  Plane& plane = facets_.back().plane;
+  plane.offset -= kRounding;
+  constexpr double kMargin = 1 - 1e-9;
+  const double proven = kMargin * reach * plane.offset;
+  const double square = unit_ * unit_ * dot_product(plane.normal, plane.normal);
+  if (proven > 0 && proven * proven >= square) return;
+  unproven_.push_back(plane);
+  const double diameter =
+      plane.offset > 0 ? std::sqrt(square) / (kMargin * plane.offset) : kInfinity;
+  search_reach_ = std::max(search_reach_, std::min(diameter, max_reach()));
 }
 
-VolumeStar::Plane VolumeStar::plane_of(std::int32_t a, std::int32_t b, std::int32_t c) const {
-  const Point<3> from = inverse(a);
-  const Point<3> normal = cross_product(difference(inverse(b), from), difference(inverse(c), from));
-  return {normal, dot_product(normal, from)};
+VolumeStar::Facet VolumeStar::facet_of(const Edge& edge, std::int32_t corner) const {
+  const Point<3> a = inverse(edge.from);
+  const Point<3> normal =
+      cross_product(difference(inverse(edge.to), a), difference(inverse(corner), a));
+  return {{edge.from, edge.to, corner}, {normal, dot_product(normal, a)}};
 }
 
 bool VolumeStar::all_surely_below(const Plane& plane, const Corners& facet) const {
@@ -218,38 +214,37 @@ bool VolumeStar::all_surely_below(const Plane& plane, const Corners& facet) cons
   return true;
 }
 
-// The third corner of the facet with this edge, or -1: face (centre, from, to) is open. Seen along
-// the edge, it is the steepest candidate on the right side of the face, and when all others are
-// surely below, the exact arithmetic has nothing to add.
-std::int32_t VolumeStar::next_corner(const Edge& edge) const {
+// The facet with this edge, if there is one; if not, face (centre, from, to) is open. Seen along
+// the edge, its third corner is the steepest candidate on the right side of the face, and when all
+// others are surely below, the exact arithmetic has nothing to add.
+bool VolumeStar::find_facet(const Edge& edge, Facet& facet) const {
   const Point<3> a = inverse(edge.from), b = inverse(edge.to), along = difference(b, a);
   const Point<3> normal = cross_product(a, b), up = cross_product(along, normal);
   const double height = dot_product(up, a);
   const double *x = y_[0].data(), *y = y_[1].data(), *z = y_[2].data();
   double* const slopes = slopes_.data();
-  const std::size_t n = candidates_.size();
+  const std::size_t n = candidates_.size(), padded = (n + kGroup - 1) & ~(kGroup - 1);
   const auto [nx, ny, nz] = normal;
   const auto [ux, uy, uz] = up;
-  double steepest = -kInfinity, side = -kInfinity;
-  for (std::size_t k = 0; k < n; ++k) {
+  double steepest = kNoSlope;
+#pragma omp simd reduction(max : steepest)
+  for (std::size_t k = 0; k < padded; ++k) {
     const double out = nx * x[k] + ny * y[k] + nz * z[k];
     const double rise = ux * x[k] + uy * y[k] + uz * z[k] - height;
-    slopes[k] = out > kRounding ? rise / out : -kInfinity;
+    const double slope = out > kRounding ? rise / out : kNoSlope;
+    slopes[k] = slope;
+    steepest = slope > steepest ? slope : steepest;
   }
-#pragma omp simd reduction(max : steepest)
-  for (std::size_t k = 0; k < n; ++k) steepest = std::max(steepest, slopes[k]);
-  static_cast<void>(side);
-  if (steepest > -kInfinity) {
+  if (steepest > kNoSlope) {
     std::size_t first = 0;
     std::uint64_t bits = 0;
-    for (; first < n && bits == 0; first += kWord)
+    for (; bits == 0; first += kWord)
       bits = bits_where(first, n, [=](std::size_t k) { return slopes[k] == steepest; });
-    const auto corner = static_cast<std::int32_t>(first - kWord) +
-                        static_cast<std::int32_t>(std::countr_zero(bits));
-    const Plane plane = plane_of(edge.from, edge.to, corner);
-    if (all_surely_below(plane, {edge.from, edge.to, corner})) return corner;
+    const std::size_t corner = first - kWord + static_cast<std::size_t>(std::countr_zero(bits));
+    facet = facet_of(edge, static_cast<std::int32_t>(corner));
+    if (all_surely_below(facet.plane, facet.corners)) return true;
   }
-  return next_corner_exactly(edge);
+  return find_facet_exactly(edge, facet);
 }
 
 // On which side of the face (centre, a, b) is c? `normal` is the face's after inversion.
@@ -263,32 +258,32 @@ int VolumeStar::side(const Point<3>& normal, std::int32_t a, std::int32_t b, std
                      candidates_[index(c)].x);
 }
 
+bool VolumeStar::surely_below(const Plane& plane, std::int32_t k) const {
+  return dot_product(plane.normal, inverse(k)) - plane.offset < -kRounding;
+}
+
 // Is a candidate in the sphere of the facet?
-bool VolumeStar::beyond(const Plane& plane, const Corners& facet, std::int32_t other) const {
-  const double above = dot_product(plane.normal, inverse(other)) - plane.offset;
-  if (above > kRounding) return true;
-  if (above < -kRounding) return false;
-  const VolumeNode &a = candidates_[index(facet[0])], &b = candidates_[index(facet[1])],
-                   &c = candidates_[index(facet[2])], &p = candidates_[index(other)];
+bool VolumeStar::beyond(const Facet& facet, std::int32_t k) const {
+  if (surely_below(facet.plane, k)) return false;
+  if (dot_product(facet.plane.normal, inverse(k)) - facet.plane.offset > kRounding) return true;
+  const VolumeNode &a = candidates_[index(facet.corners[0])],
+                   &b = candidates_[index(facet.corners[1])],
+                   &c = candidates_[index(facet.corners[2])], &p = candidates_[index(k)];
   return in_sphere_perturbed(centre_.x, a.x, b.x, c.x, p.x, centre_.id, a.id, b.id, c.id, p.id) > 0;
 }
 
-std::int32_t VolumeStar::next_corner_exactly(const Edge& edge) const {
+bool VolumeStar::find_facet_exactly(const Edge& edge, Facet& facet) const {
   const Point<3> normal = cross_product(inverse(edge.from), inverse(edge.to));
-  std::int32_t best = -1;
-  Plane plane{};
+  bool found = false;
   for (std::int32_t k = 0; k < count(); ++k) {
     if (k == edge.from || k == edge.to) continue;
-    if (best >= 0) {
-      const double above = dot_product(plane.normal, inverse(k)) - plane.offset;
-      if (above < -kRounding) continue;
-    }
+    if (found && surely_below(facet.plane, k)) continue;
     if (side(normal, edge.from, edge.to, k) <= 0) continue;
-    if (best >= 0 && !beyond(plane, {edge.from, edge.to, best}, k)) continue;
-    best = k;
-    plane = plane_of(edge.from, edge.to, best);
+    if (found && !beyond(facet, k)) continue;
+    facet = facet_of(edge, k);
+    found = true;
   }
-  return best;
+  return found;
 }
 
 // ------------------------------------------------------------------ what may yet come ----------
@@ -316,8 +311,8 @@ bool VolumeStar::may_matter(const Point<3>& x) const {
   if (nothing_found_) return true;
   const double scale = unit_ / square;
   const Point<3> y{scale * away[0], scale * away[1], scale * away[2]};
-  bool may = std::any_of(unproven_.begin(), unproven_.end(), [&](std::int32_t f) {
-    return dot_product(planes_[index(f)].normal, y) > planes_[index(f)].offset;
+  bool may = std::any_of(unproven_.begin(), unproven_.end(), [&](const Plane& plane) {
+    return dot_product(plane.normal, y) > plane.offset;
   });
   for (const Edge& edge : open_) {
     if (may) break;
@@ -352,8 +347,8 @@ bool VolumeStar::may_matter_in(const Box<3>& box) const {
     }
     return sum > 0;
   };
-  for (const std::int32_t f : unproven_)
-    if (reaches(planes_[index(f)].normal, std::max(planes_[index(f)].offset, 0.0))) return true;
+  for (const Plane& plane : unproven_)
+    if (reaches(plane.normal, std::max(plane.offset, 0.0))) return true;
   for (const Edge& edge : open_)
     if (reaches(cross_product(inverse(edge.from), inverse(edge.to)), 0)) return true;
   return false;
@@ -361,13 +356,13 @@ bool VolumeStar::may_matter_in(const Box<3>& box) const {
 
 // ------------------------------------------------------------------ the elements ---------------
 
-bool VolumeStar::is_element(std::size_t facet) const {
-  const auto& [a, b, c] = facets_[facet];
+bool VolumeStar::is_element(const Facet& facet) const {
+  const auto& [a, b, c] = facet.corners;
   const VolumeNode &p = candidates_[index(a)], &q = candidates_[index(b)],
                    &r = candidates_[index(c)];
   // What is far from the limit, and not flat, needs no common order of the corners.
   constexpr double kSurelyNotFlat = 1e-4, kMargin = 1e-3;
-  const Plane& plane = planes_[facet];
+  const Plane& plane = facet.plane;
   if (plane.offset > kSurelyNotFlat) {
     const double limit = 2 * kMaxRadius * std::min({centre_.d, p.d, q.d, r.d}) * plane.offset;
     const double diameter = unit_ * std::sqrt(dot_product(plane.normal, plane.normal));

@@ -65,6 +65,10 @@ class VolumeStar {
     Point<3> normal;
     double offset;
   };
+  struct Facet {
+    Corners corners;
+    Plane plane;
+  };
   struct Edge {
     std::int32_t from, to;
   };
@@ -81,32 +85,31 @@ class VolumeStar {
   void start_walk_exactly(std::int32_t first, const std::vector<double>& gaps);
   void walk(double reach);
 
-  Plane plane_of(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  Facet facet_of(const Edge& edge, std::int32_t corner) const;
   int side(const Point<3>& normal, std::int32_t a, std::int32_t b, std::int32_t c) const;
-  bool beyond(const Plane& plane, const Corners& facet, std::int32_t other) const;
+  bool surely_below(const Plane& plane, std::int32_t k) const;
+  bool beyond(const Facet& facet, std::int32_t k) const;
   bool all_surely_below(const Plane& plane, const Corners& facet) const;
-  std::int32_t next_corner(const Edge& edge) const;
-  std::int32_t next_corner_exactly(const Edge& edge) const;
-  void add_facet(const Corners& facet, double reach);
+  bool find_facet(const Edge& edge, Facet& facet) const;
+  bool find_facet_exactly(const Edge& edge, Facet& facet) const;
+  void add_facet(const Facet& facet, double reach);
   bool is_done(const Edge& edge) const;
   void set_done(const Edge& edge);
   bool covered_by_open_face(const Point<3>& y) const;
-  bool is_element(std::size_t facet) const;
+  bool is_element(const Facet& facet) const;
   void number_corners();
 
   VolumeNode centre_{};
   std::vector<VolumeNode> candidates_;
   std::vector<Point<3>> relative_;        // to the centre
-  std::array<std::vector<double>, 3> y_;  // inverted; filled up with the origin
+  std::array<std::vector<double>, 3> y_;  // inverted, in whole groups filled up with the origin
   mutable std::vector<double> slopes_;    // of as many
   double unit_ = 1;                       // distance of the nearest candidate: 1 after inversion
-  double max_square_gap_ = 0;
-  std::vector<Edge> waiting_;        // edges of facets, with the other facet to be found
-  std::vector<std::uint64_t> done_;  // for each candidate: edges from it that have a facet
-  std::vector<Corners> facets_;
-  std::vector<Plane> planes_;           // of the facets
-  std::vector<Edge> open_;              // faces (centre, from, to) with nothing behind
-  std::vector<std::int32_t> unproven_;  // facets
+  std::vector<Edge> waiting_;             // edges of facets whose other facet is to be found
+  std::vector<std::uint64_t> done_;       // for each candidate: edges from it that have a facet
+  std::vector<Facet> facets_;
+  std::vector<Edge> open_;       // faces (centre, from, to) with nothing behind
+  std::vector<Plane> unproven_;  // of facets
   bool nothing_found_ = false;
   double search_reach_ = 0;
   std::vector<std::int32_t> neighbours_, place_;
@@ -117,8 +120,8 @@ class VolumeStar {
 template <class Keep>
 void VolumeStar::finish(const Keep& keep) {
   triangles_.clear();
-  for (std::size_t f = 0; f < facets_.size(); ++f)
-    if (is_element(f) && keep(facets_[f])) triangles_.push_back(facets_[f]);
+  for (const Facet& facet : facets_)
+    if (is_element(facet) && keep(facet.corners)) triangles_.push_back(facet.corners);
   closed_ = open_.empty() && !facets_.empty() && triangles_.size() == facets_.size();
   number_corners();
 }

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every node's star in the Delaunay triangulation of a volume's nodes, from its adjacency list and,
+// where that is not enough, the nodes farther away; so that each rank finds its own: ties are
+// broken by id, and all agree. A tetrahedron belongs to the domain by its centroid.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/chunked_rows.hpp"
+#include "base/nodes.hpp"
+#include "domain/facet_index.hpp"
+#include "neighbors/adjacency_list.hpp"
+#include "neighbors/buckets.hpp"
+#include "partition/known_region.hpp"
+
+namespace pnpbs {
+
+// What the stars are found from; all for the same positions.
+struct VolumeStarInput {
+  const Nodes<3>& nodes;
+  const BackgroundTree<3>& tree;
+  const Buckets<3>& buckets;
+  const AdjacencyList<3>& lists;
+  const KnownRegion<3>& known;
+  const FacetIndex<3>* facets = nullptr;  // of the boundary; none: everything is inside
+  // Does the list of node i hold all pairs within its radius, as the boundary hides none? Not set:
+  // that of every node does.
+  std::function<bool(std::int64_t)> complete = {};
+};
+
+class VolumeStars {
+ public:
+  using Corners = std::array<std::int32_t, 3>;
+
+  void build(const VolumeStarInput& input);
+
+  // Calls visit(j) for the neighbours of node i, the other corners of tetrahedra of the domain
+  // around it, by increasing id.
+  template <class Visit>
+  void for_neighbours(std::int64_t i, const Visit& visit) const {
+    const Star star = star_of(i);
+    for (std::int32_t k = 0; k < star.neighbours; ++k)
+      visit(static_cast<std::int64_t>(star.first[k]));
+  }
+
+  // Calls visit(corners) for the tetrahedra of the domain around node i: their other corners, so
+  // that node i and these are of positive orientation; in an order that only ids decide.
+  template <class Visit>
+  void for_simplices(std::int64_t i, const Visit& visit) const {
+    const Star star = star_of(i);
+    for (const std::int32_t* t = star.first + star.neighbours; t < star.last;
+         t += star.wide ? 3 : 1)
+      visit(star.wide ? Corners{t[0], t[1], t[2]} : unpack(star, *t));
+  }
+
+  // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
+  double needs(std::int64_t i) const {
+    return needs_.empty() ? 0 : needs_[static_cast<std::size_t>(i)];
+  }
+
+  std::int32_t size(std::int64_t i) const { return star_of(i).neighbours; }
+  // Are there tetrahedra of the domain all around the node?
+  bool closed(std::int64_t i) const { return star_of(i).closed; }
+
+  // --- how a star is written down: a header, the neighbours, the triangles ---
+  // Three places among the first neighbours fit into one number; of a larger star, triangles are
+  // written as three nodes.
+  static constexpr int kPlaceBits = 10;
+  static constexpr std::int32_t kMaxPlaces = 1 << kPlaceBits;
+  static std::int32_t header(std::size_t neighbours, bool closed) {
+    return static_cast<std::int32_t>(2 * neighbours + (closed ? 1 : 0));
+  }
+  static std::int32_t pack(const Corners& places) {
+    return places[0] | places[1] << kPlaceBits | places[2] << 2 * kPlaceBits;
+  }
+
+ private:
+  struct Star {
+    std::int32_t neighbours;
+    bool closed, wide;
+    const std::int32_t *first, *last;  // behind the header
+  };
+  Star star_of(std::int64_t i) const {
+    const std::span<const std::int32_t> row = rows_.row(i);
+    const std::int32_t n = row[0] / 2;
+    return {n, row[0] % 2 != 0, n > kMaxPlaces, row.data() + 1, row.data() + row.size()};
+  }
+  static Corners unpack(const Star& star, std::int32_t packed) {
+    constexpr std::int32_t kMask = kMaxPlaces - 1;
+    return {star.first[packed & kMask], star.first[packed >> kPlaceBits & kMask],
+            star.first[packed >> 2 * kPlaceBits]};
+  }
+
+  ChunkedRows<std::int32_t, 256> rows_;
+  std::vector<double> needs_;  // of the nodes; empty where everything is known
+};
+
+}  // namespace pnpbs
