@@ -209,7 +209,7 @@ typedef int32_t (*pnpbs_curve_fn)(int64_t n, int32_t dim, const double *t, doubl
                                   void *user);
 
 /** An empty domain. Local.
- *  @param[in] dim  2 (3 comes later: PNPBS_ERROR_UNSUPPORTED) */
+ *  @param[in] dim  2: in the plane, 3: in space */
 PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
                                            pnpbs_domain *domain);
 
@@ -229,6 +229,46 @@ PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
 PNPBS_API pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed,
                                                  int64_t n, const double *coordinates,
                                                  const int32_t *tags, double corner_angle);
+
+/** Adds a triangulated surface to a domain in space. Closed ones with the role PNPBS_BOUNDARY bound
+ *  it: the inside is what lies behind an odd number of them. PNPBS_INNER: nodes follow the surface,
+ *  closed or open, inside the domain. Vertices that coincide are one; what the triangles enclose
+ *  decides their orientation. Local.
+ *  @param[in] role           PNPBS_BOUNDARY or PNPBS_INNER
+ *  @param[in] coordinates    [vertices][3]
+ *  @param[in] corners        [triangles][3], 0-based vertex indices
+ *  @param[in] tags           [triangles], nonzero, or NULL for 1
+ *  @param[in] feature_angle  degrees, 0 .. 180: where the normals of two triangles differ by more,
+ *                            or their tags do, nodes lie on the edge between them. Between such
+ *                            edges the triangles are the shape alone, whatever their size. 40 suits
+ *                            most */
+PNPBS_API pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t role, int64_t vertices,
+                                                const double *coordinates, int64_t triangles,
+                                                const int64_t *corners, const int32_t *tags,
+                                                double feature_angle);
+
+/** The same from a file: .stl (text or binary), .off, .obj, .ply, or .poly and .smesh as TetGen has
+ *  them. Groups, materials and facet markers become tags. Local. Errors: PNPBS_ERROR_FILE with
+ *  file, line and what was expected. */
+PNPBS_API pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role,
+                                                 const char *path, double feature_angle);
+
+/** Adds a box to a domain in space; its sides bound the domain. Local.
+ *  @param[in] low,high  [3] */
+PNPBS_API pnpbs_status pnpbs_domain_add_box(pnpbs_domain domain, const double *low,
+                                            const double *high, int32_t tag);
+
+/** Adds a ball to a domain in space, as triangles within 1e-4 of the radius. Local.
+ *  @param[in] centre  [3]
+ *  @param[in] radius  > 0 */
+PNPBS_API pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double *centre,
+                                             double radius, int32_t tag);
+
+/** Adds a round cylinder to a domain in space, as triangles within 1e-4 of the radius. Local.
+ *  @param[in] begin,end  [3], the middles of its two circles
+ *  @param[in] radius     > 0 */
+PNPBS_API pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double *begin,
+                                                 const double *end, double radius, int32_t tag);
 
 /** Adds a circular arc; its ends join curves that end at the same point (within 1e-9 of the
  *  domain's size). Local.
@@ -523,6 +563,25 @@ PNPBS_API pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int6
  *  capacity 0 for the count. @param[out] triangles  [count][3] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t capacity,
                                                      int64_t *count, int64_t *triangles);
+
+/** Tetrahedra of the stars of a placement in space, each once: seen from the fourth corner, the
+ *  first three turn clockwise (the volume by the right hand's rule is positive). Over several ranks
+ *  a tetrahedron is the rank's that owns its node with the least id; other corners may be ghosts,
+ *  and the tetrahedra of all ranks together are one conforming triangulation of the domain.
+ *  Collective. Ask with capacity 0 for the count.
+ *  @param[out] tetrahedra  [count][4] local indices, or NULL */
+PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
+                                                      int64_t *count, int64_t *tetrahedra);
+
+/** Triangles of the boundary of a placement in space: the faces of tetrahedra that have no other
+ *  tetrahedron behind them, counter-clockwise as seen from outside. Over several ranks a triangle
+ *  is the rank's that owns its node with the least id. Collective. Ask with capacity 0 for the
+ *  count.
+ *  @param[out] triangles  [count][3] local indices, or NULL
+ *  @param[out] tags       [count] of the surface there, or NULL */
+PNPBS_API pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement,
+                                                              int64_t capacity, int64_t *count,
+                                                              int64_t *triangles, int32_t *tags);
 
 /** Boundary edges: consecutive nodes on boundary and inner curves. Over several ranks an edge is
  *  the rank's that owns the node it begins with; the other end may be a ghost. Local. Ask with

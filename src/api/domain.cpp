@@ -1,35 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Domains of the C interface.
+#include <algorithm>
 #include <string_view>
 
 #include "api/guard.hpp"
 #include "domain/plane/poly_reader.hpp"
+#include "domain/volume/surface_triangles.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
 
 namespace {
 
-// A change of the domain's description.
+PlaneDomain& plane_of(const DomainObject& object) {
+  if (!object.plane)
+    throw Error(ErrorKind::argument,
+                "argument domain has three dimensions; this function is for domains in the plane");
+  return *object.plane;
+}
+
+VolumeDomain& volume_of(const DomainObject& object) {
+  if (!object.volume)
+    throw Error(ErrorKind::argument,
+                "argument domain has two dimensions; this function is for domains in space");
+  return *object.volume;
+}
+
+// Calls work(domain) with it as what it is.
+template <class Work>
+auto in_its_dimension(const DomainObject& object, const Work& work) {
+  return object.plane ? work(*object.plane) : work(*object.volume);
+}
+
+// A change of the domain's description, whatever its dimension.
 template <class Change>
 pnpbs_status change_domain(pnpbs_domain domain, const Change& change) {
-  return guarded(domain, [&](Domain& object) {
+  return guarded(domain, [&](DomainObject& object) {
     const Computing computing(*object.context);
-    change(*object.plane);
+    change(object);
     return PNPBS_OK;
   });
+}
+
+template <class Change>
+pnpbs_status change_plane(pnpbs_domain domain, const Change& change) {
+  return change_domain(domain, [&](DomainObject& object) { change(plane_of(object)); });
+}
+
+template <class Change>
+pnpbs_status change_volume(pnpbs_domain domain, const Change& change) {
+  return change_domain(domain, [&](DomainObject& object) { change(volume_of(object)); });
 }
 
 // A question that needs the checked domain. Checking may ask curve callbacks, so from inside a
 // callback it must have been done before.
 template <class Question>
 pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
-  return guarded(domain, [&](Domain& object) {
-    if (!object.plane->is_checked()) {
-      const Computing computing(*object.context);
-      object.plane->check();
-    }
-    return question(*object.plane);
+  return guarded(domain, [&](DomainObject& object) {
+    return in_its_dimension(object, [&](auto& checked) {
+      if (!checked.is_checked()) {
+        const Computing computing(*object.context);
+        checked.check();
+      }
+      return question(checked);
+    });
   });
 }
 
@@ -41,6 +75,18 @@ CurveRole role_from(int32_t role) {
 }
 
 Point<2> point_from(const double* x) { return {x[0], x[1]}; }
+Point<3> space_point_from(const double* x) { return {x[0], x[1], x[2]}; }
+
+SurfaceRole surface_role_from(int32_t role) {
+  return role_from(role) == CurveRole::boundary ? SurfaceRole::boundary : SurfaceRole::inner;
+}
+
+std::vector<std::int64_t> flat_corners(const SurfaceTriangles& surface) {
+  std::vector<std::int64_t> flat;
+  for (const std::array<std::int32_t, 3>& triangle : surface.triangles)
+    flat.insert(flat.end(), triangle.begin(), triangle.end());
+  return flat;
+}
 
 }  // namespace
 
@@ -49,14 +95,14 @@ pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim, pnpbs_domai
     require_pointer(domain, "domain");
     *domain = nullptr;
     require_not_in_callback(owner);
-    if (dim == 3)
-      throw Error(ErrorKind::unsupported,
-                  "argument dim = 3: this version places nodes in the "
-                  "plane only; use 2");
-    if (dim != 2)
-      throw Error(ErrorKind::argument, "argument dim = " + std::to_string(dim) + " must be 2");
-    auto object = std::make_shared<Domain>();
+    if (dim != 2 && dim != 3)
+      throw Error(ErrorKind::argument, "argument dim = " + std::to_string(dim) + " must be 2 or 3");
+    auto object = std::make_shared<DomainObject>();
     object->context = require(context);
+    if (dim == 2)
+      object->plane = std::make_shared<PlaneDomain>();
+    else
+      object->volume = std::make_shared<VolumeDomain>();
     *domain = domains().add(std::move(object));
     return PNPBS_OK;
   });
@@ -64,7 +110,7 @@ pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim, pnpbs_domai
 
 pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) {
   if (!domain || !*domain) return PNPBS_OK;
-  return guarded(*domain, [&](Domain& object) {
+  return guarded(*domain, [&](DomainObject& object) {
     require_not_in_callback(*object.context);
     domains().remove(*domain);
     *domain = nullptr;
@@ -75,16 +121,79 @@ pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) {
 pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed, int64_t n,
                                        const double* coordinates, const int32_t* tags,
                                        double corner_angle) {
-  return change_domain(domain, [&](PlaneDomain& plane) {
+  return change_domain(domain, [&](DomainObject& object) {
     require_count(n, "n");
     require_pointer(coordinates, "coordinates");
-    plane.add_polyline(role_from(role), closed != 0, n, coordinates, tags, corner_angle);
+    const CurveRole as = role_from(role);
+    if (object.plane) {
+      object.plane->add_polyline(as, closed != 0, n, coordinates, tags, corner_angle);
+      return;
+    }
+    if (as != CurveRole::inner)
+      throw Error(
+          ErrorKind::argument,
+          "argument role = 0: curves do not bound a domain in space; PNPBS_INNER (1) is for "
+          "curves inside that nodes follow");
+    object.volume->add_polyline(closed != 0, n, coordinates, tags);
+  });
+}
+
+pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t role, int64_t vertices,
+                                      const double* coordinates, int64_t triangles,
+                                      const int64_t* corners, const int32_t* tags,
+                                      double feature_angle) {
+  return change_volume(domain, [&](VolumeDomain& volume) {
+    require_count(vertices, "vertices");
+    require_count(triangles, "triangles");
+    if (vertices > 0) require_pointer(coordinates, "coordinates");
+    if (triangles > 0) require_pointer(corners, "corners");
+    volume.add_surface(surface_role_from(role), vertices, coordinates, triangles, corners, tags,
+                       feature_angle);
+  });
+}
+
+pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role, const char* path,
+                                       double feature_angle) {
+  return change_volume(domain, [&](VolumeDomain& volume) {
+    require_pointer(path, "path");
+    const SurfaceRole as = surface_role_from(role);
+    const SurfaceTriangles read = read_surface(path);
+    const std::vector<std::int64_t> corners = flat_corners(read);
+    volume.add_surface(as, std::ssize(read.vertices), read.vertices.data()->data(),
+                       std::ssize(read.triangles), corners.data(), read.tags.data(), feature_angle);
+    for (const Point<3>& hole : read.holes) volume.add_hole(hole);
+  });
+}
+
+pnpbs_status pnpbs_domain_add_box(pnpbs_domain domain, const double* low, const double* high,
+                                  int32_t tag) {
+  return change_volume(domain, [&](VolumeDomain& volume) {
+    require_pointer(low, "low");
+    require_pointer(high, "high");
+    volume.add_box(space_point_from(low), space_point_from(high), tag);
+  });
+}
+
+pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double* centre, double radius,
+                                   int32_t tag) {
+  return change_volume(domain, [&](VolumeDomain& volume) {
+    require_pointer(centre, "centre");
+    volume.add_ball(space_point_from(centre), radius, tag);
+  });
+}
+
+pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double* begin, const double* end,
+                                       double radius, int32_t tag) {
+  return change_volume(domain, [&](VolumeDomain& volume) {
+    require_pointer(begin, "begin");
+    require_pointer(end, "end");
+    volume.add_cylinder(space_point_from(begin), space_point_from(end), radius, tag);
   });
 }
 
 pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const double* centre,
                                   double radius, double begin, double end, int32_t tag) {
-  return change_domain(domain, [&](PlaneDomain& plane) {
+  return change_plane(domain, [&](PlaneDomain& plane) {
     require_pointer(centre, "centre");
     plane.add_arc(role_from(role), point_from(centre), radius, begin, end, tag);
   });
@@ -92,7 +201,7 @@ pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const doubl
 
 pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role, pnpbs_curve_fn curve,
                                     void* user, double begin, double end, int32_t tag) {
-  return change_domain(domain, [&](PlaneDomain& plane) {
+  return change_plane(domain, [&](PlaneDomain& plane) {
     if (!curve) throw Error(ErrorKind::argument, "argument curve is NULL");
     const CurveFunction function = [curve, user](std::int64_t n, const double* t,
                                                  Point<2>* coordinates) {
@@ -112,7 +221,7 @@ pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices, const 
                                    const int32_t* vertex_tags, int64_t segments,
                                    const int64_t* segment_ends, const int32_t* segment_tags,
                                    int64_t holes, const double* hole_points) {
-  return change_domain(domain, [&](PlaneDomain& plane) {
+  return change_plane(domain, [&](PlaneDomain& plane) {
     require_count(vertices, "vertices");
     require_count(segments, "segments");
     require_count(holes, "holes");
@@ -125,23 +234,26 @@ pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices, const 
 }
 
 pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double* point) {
-  return change_domain(domain, [&](PlaneDomain& plane) {
+  return change_domain(domain, [&](DomainObject& object) {
     require_pointer(point, "point");
-    plane.add_hole(point_from(point));
+    if (object.plane)
+      object.plane->add_hole(point_from(point));
+    else
+      object.volume->add_hole({point[0], point[1], point[2]});
   });
 }
 
 pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n, const double* coordinates,
                                           const int32_t* tags) {
-  return change_domain(domain, [&](PlaneDomain& plane) {
+  return change_domain(domain, [&](DomainObject& object) {
     require_count(n, "n");
     if (n > 0) require_pointer(coordinates, "coordinates");
-    plane.add_fixed_nodes(n, coordinates, tags);
+    in_its_dimension(object, [&](auto& d) { d.add_fixed_nodes(n, coordinates, tags); });
   });
 }
 
 pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char* path) {
-  return change_domain(domain, [&](PlaneDomain& plane) {
+  return change_plane(domain, [&](PlaneDomain& plane) {
     require_pointer(path, "path");
     read_poly_file(plane, path);
   });
@@ -149,7 +261,7 @@ pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char* path) {
 
 pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char* text, int64_t length,
                                      const char* name) {
-  return change_domain(domain, [&](PlaneDomain& plane) {
+  return change_plane(domain, [&](PlaneDomain& plane) {
     require_pointer(text, "text");
     require_count(length, "length");
     parse_poly(plane, std::string_view(text, static_cast<std::size_t>(length)),
@@ -158,32 +270,36 @@ pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char* text, int6
 }
 
 pnpbs_status pnpbs_domain_check(pnpbs_domain domain) {
-  return ask_domain(domain, [](PlaneDomain&) { return PNPBS_OK; });
+  return ask_domain(domain, [](const auto&) { return PNPBS_OK; });
 }
 
 pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double* low, double* high) {
-  return ask_domain(domain, [&](PlaneDomain& plane) {
+  return ask_domain(domain, [&](const auto& checked) {
     require_pointer(low, "low");
     require_pointer(high, "high");
-    for (int k = 0; k < 2; ++k) {
-      low[k] = plane.bounds().low[k];
-      high[k] = plane.bounds().high[k];
-    }
+    const auto& box = checked.bounds();
+    std::copy(box.low.begin(), box.low.end(), low);
+    std::copy(box.high.begin(), box.high.end(), high);
     return PNPBS_OK;
   });
 }
 
 pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double* measure) {
-  return ask_domain(domain, [&](PlaneDomain& plane) {
+  return ask_domain(domain, [&](const auto& checked) {
     require_pointer(measure, "measure");
-    *measure = plane.area();
+    *measure = measure_of(checked);
     return PNPBS_OK;
   });
 }
 
 pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity, int64_t* count,
                                        double* segments, int32_t* tags) {
-  return ask_domain(domain, [&](PlaneDomain& plane) {
+  return guarded(domain, [&](DomainObject& object) {
+    PlaneDomain& plane = plane_of(object);
+    if (!plane.is_checked()) {
+      const Computing computing(*object.context);
+      plane.check();
+    }
     require_pointer(count, "count");
     require_count(capacity, "capacity");
     int64_t needed = 0;

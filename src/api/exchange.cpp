@@ -51,11 +51,11 @@ pnpbs_status pnpbs_placement_get_numbering(pnpbs_placement placement, int64_t ca
   return collective(placement, [&](Placement& p) {
     const ExchangePattern pattern = p.exchange_pattern();
     const std::int64_t owned = p.count(), begin = p.nodes_on_ranks_before();
-    std::vector<std::int64_t> number(static_cast<std::size_t>(p.level().nodes.count));
+    std::vector<std::int64_t> number(static_cast<std::size_t>(p.nodes().count));
     for (std::int64_t i = 0; i < owned; ++i) number[static_cast<std::size_t>(i)] = begin + i;
     fill_ghosts(p.communicator(), pattern, number);
     if (ghost_numbers) {
-      require_capacity(capacity, p.level().nodes.count - owned);
+      require_capacity(capacity, p.nodes().count - owned);
       std::copy(number.begin() + owned, number.end(), ghost_numbers);
     }
     if (first) *first = begin;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nodes, ghosts, lists, stars and boundary edges, handed out through the C interface.
+#include <algorithm>
+
 #include "api/placement_calls.hpp"
 #include "placement/result_check.hpp"
 
@@ -8,8 +10,9 @@ using namespace pnpbs::api;
 
 namespace {
 
-std::int64_t adjacency_entries(const Placement& placement) {
-  const Level& level = placement.level();
+template <int Dim>
+std::int64_t adjacency_entries(const PlacementOf<Dim>& placement) {
+  const Level<Dim>& level = placement.level();
   return static_cast<std::int64_t>(
       sum_of("pnpbs::adjacency_entries", level.nodes.count, [&](std::int64_t i) {
         std::int64_t n = 0;
@@ -19,21 +22,35 @@ std::int64_t adjacency_entries(const Placement& placement) {
       }));
 }
 
-std::int64_t star_entries(const Placement& placement) {
-  const Level& level = placement.level();
+template <int Dim>
+std::int64_t star_entries(const PlacementOf<Dim>& placement) {
+  const Level<Dim>& level = placement.level();
   return static_cast<std::int64_t>(
       sum_of("pnpbs::star_entries", level.nodes.count,
              [&](std::int64_t i) { return level.nodes.owned(i) ? level.stars.size(i) : 0; }));
 }
 
+// Calls visit(j, triangle) for the neighbours in the star of node i; in space they have no order,
+// and no triangle follows a neighbour.
+template <class Visit>
+void for_star(const PlacementOf<2>& placement, std::int64_t i, const Visit& visit) {
+  placement.level().stars.for_neighbours_in_order(i, visit);
+}
+template <class Visit>
+void for_star(const PlacementOf<3>& placement, std::int64_t i, const Visit& visit) {
+  placement.level().stars.for_neighbours(i, [&](std::int64_t j) { visit(j, false); });
+}
+
 // Copies nodes with places first .. first + n - 1 out; arrays may be NULL.
 void copy_nodes(const Placement& p, std::int64_t first, std::int64_t n, double* coordinates,
                 std::int64_t* ids, std::int32_t* tags, double* spacing) {
-  const Nodes<2>& nodes = p.level().nodes;
+  const NodeColumns nodes = p.nodes();
+  const int dim = p.dimension();
   for_each("pnpbs::copy_nodes", n, [&](std::int64_t k) {
     const std::int64_t i = p.node_at(first + k);
     if (coordinates)
-      for (int c = 0; c < 2; ++c) coordinates[2 * k + c] = nodes.x[c](i);
+      for (int c = 0; c < dim; ++c)
+        coordinates[dim * k + c] = nodes.x[static_cast<std::size_t>(c)](i);
     if (ids) ids[k] = nodes.id(i);
     if (tags) tags[k] = nodes.tag(i);
     if (spacing) spacing[k] = nodes.d(i);
@@ -45,7 +62,7 @@ void copy_nodes(const Placement& p, std::int64_t first, std::int64_t n, double* 
 pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t* nodes) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(nodes, "nodes");
-    *nodes = object.placement.count();
+    *nodes = object.placement->count();
     return PNPBS_OK;
   });
 }
@@ -54,7 +71,7 @@ pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capaci
                                        double* coordinates, int64_t* ids, int32_t* tags,
                                        double* spacing) {
   return guarded(placement, [&](PlacementObject& object) {
-    Placement& p = object.placement;
+    Placement& p = *object.placement;
     require_capacity(capacity, p.count());
     if (p.count() == 0) return PNPBS_OK;
     p.prepare_order();
@@ -67,7 +84,7 @@ pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t* gho
   return collective(placement, [&](Placement& p) {
     require_pointer(ghosts, "ghosts");
     p.prepare_lists();
-    *ghosts = p.level().nodes.count - p.count();
+    *ghosts = p.nodes().count - p.count();
     return PNPBS_OK;
   });
 }
@@ -77,12 +94,13 @@ pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capac
                                         double* spacing, int32_t* owners) {
   return collective(placement, [&](Placement& p) {
     p.prepare_lists();
-    const Nodes<2>& nodes = p.level().nodes;
-    const std::int64_t owned = p.count(), ghosts = nodes.count - owned;
+    const std::int64_t owned = p.count(), ghosts = p.nodes().count - owned;
     require_capacity(capacity, ghosts);
     copy_nodes(p, owned, ghosts, coordinates, ids, tags, spacing);
-    for (std::int64_t g = 0; owners && g < ghosts; ++g)
-      owners[g] = p.level().tree->owner_at(nodes.position(p.node_at(owned + g)));
+    in_its_dimension(p, [&](const auto& in) {
+      for (std::int64_t g = 0; owners && g < ghosts; ++g)
+        owners[g] = in.owner_of(p.node_at(owned + g));
+    });
     return PNPBS_OK;
   });
 }
@@ -91,7 +109,7 @@ pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t* 
   return collective(placement, [&](Placement& p) {
     require_pointer(entries, "entries");
     p.prepare_lists();
-    *entries = adjacency_entries(p);
+    *entries = in_its_dimension(p, [](const auto& in) { return adjacency_entries(in); });
     return PNPBS_OK;
   });
 }
@@ -101,17 +119,19 @@ pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t ca
   return collective(placement, [&](Placement& p) {
     require_pointer(offsets, "offsets");
     p.prepare_lists();
-    require_capacity(capacity, adjacency_entries(p));
-    if (capacity > 0) require_pointer(neighbours, "neighbours");
-    std::int64_t at = 0;
-    const std::int64_t owned = p.count();
-    for (std::int64_t place = 0; place < owned; ++place) {
-      offsets[place] = at;
-      p.level().lists().for_neighbours(p.node_at(place),
-                                       [&](std::int64_t j) { neighbours[at++] = p.place_of(j); });
-    }
-    offsets[owned] = at;
-    return PNPBS_OK;
+    return in_its_dimension(p, [&](const auto& in) {
+      require_capacity(capacity, adjacency_entries(in));
+      if (capacity > 0) require_pointer(neighbours, "neighbours");
+      std::int64_t at = 0;
+      const std::int64_t owned = p.count();
+      for (std::int64_t place = 0; place < owned; ++place) {
+        offsets[place] = at;
+        in.level().lists().for_neighbours(
+            p.node_at(place), [&](std::int64_t j) { neighbours[at++] = p.place_of(j); });
+      }
+      offsets[owned] = at;
+      return PNPBS_OK;
+    });
   });
 }
 
@@ -119,7 +139,7 @@ pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int64_t* entri
   return collective(placement, [&](Placement& p) {
     require_pointer(entries, "entries");
     p.prepare_stars();
-    *entries = star_entries(p);
+    *entries = in_its_dimension(p, [](const auto& in) { return star_entries(in); });
     return PNPBS_OK;
   });
 }
@@ -129,67 +149,102 @@ pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int64_t capaci
   return collective(placement, [&](Placement& p) {
     require_pointer(offsets, "offsets");
     p.prepare_stars();
-    require_capacity(capacity, star_entries(p));
-    if (capacity > 0) require_pointer(neighbours, "neighbours");
-    std::int64_t at = 0;
-    const std::int64_t owned = p.count();
-    for (std::int64_t place = 0; place < owned; ++place) {
-      offsets[place] = at;
-      p.level().stars.for_neighbours_in_order(p.node_at(place),
-                                              [&](std::int64_t j, bool is_triangle) {
-                                                if (triangle) triangle[at] = is_triangle;
-                                                neighbours[at++] = p.place_of(j);
-                                              });
-    }
-    offsets[owned] = at;
+    return in_its_dimension(p, [&](const auto& in) {
+      require_capacity(capacity, star_entries(in));
+      if (capacity > 0) require_pointer(neighbours, "neighbours");
+      std::int64_t at = 0;
+      const std::int64_t owned = p.count();
+      for (std::int64_t place = 0; place < owned; ++place) {
+        offsets[place] = at;
+        for_star(in, p.node_at(place), [&](std::int64_t j, bool is_triangle) {
+          if (triangle) triangle[at] = is_triangle;
+          neighbours[at++] = p.place_of(j);
+        });
+      }
+      offsets[owned] = at;
+      return PNPBS_OK;
+    });
+  });
+}
+
+namespace {
+
+// Places of the corners of all elements, one after the other. Collective.
+template <int Dim>
+pnpbs_status get_elements(pnpbs_placement placement, std::int64_t capacity, std::int64_t* count,
+                          std::int64_t* elements) {
+  return collective(placement, [&](Placement& p) {
+    require_pointer(count, "count");
+    const PlacementOf<Dim>& in = require_dimension<Dim>(p);
+    p.prepare_stars();
+    *count = 0;
+    in.for_elements([&](const auto&) { ++*count; });
+    if (capacity == 0 && !elements) return PNPBS_OK;
+    require_capacity(capacity, *count);
+    if (!elements) return PNPBS_OK;
+    std::int64_t* next = elements;
+    in.for_elements(
+        [&](const auto& places) { next = std::copy(places.begin(), places.end(), next); });
     return PNPBS_OK;
   });
 }
 
+template <int Dim>
+pnpbs_status copy_boundary_facets(const PlacementOf<Dim>& in, std::int64_t capacity,
+                                  std::int64_t* count, std::int64_t* facets, std::int32_t* tags) {
+  *count = 0;
+  in.for_boundary_facets([&](const auto&, std::int32_t) { ++*count; });
+  if (capacity == 0 && !facets && !tags) return PNPBS_OK;
+  require_capacity(capacity, *count);
+  std::int64_t at = 0;
+  in.for_boundary_facets([&](const auto& places, std::int32_t tag) {
+    if (facets) std::copy(places.begin(), places.end(), facets + Dim * at);
+    if (tags) tags[at] = tag;
+    ++at;
+  });
+  return PNPBS_OK;
+}
+
+}  // namespace
+
 pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t capacity,
                                            int64_t* count, int64_t* triangles) {
-  return collective(placement, [&](Placement& p) {
-    require_pointer(count, "count");
-    p.prepare_stars();
-    *count = 0;
-    p.for_triangles([&](std::int64_t, std::int64_t, std::int64_t) { ++*count; });
-    if (capacity == 0 && !triangles) return PNPBS_OK;
-    require_capacity(capacity, *count);
-    std::int64_t at = 0;
-    p.for_triangles([&](std::int64_t a, std::int64_t b, std::int64_t c) {
-      if (!triangles) return;
-      triangles[at++] = a;
-      triangles[at++] = b;
-      triangles[at++] = c;
-    });
-    return PNPBS_OK;
-  });
+  return get_elements<2>(placement, capacity, count, triangles);
+}
+
+pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
+                                            int64_t* count, int64_t* tetrahedra) {
+  return get_elements<3>(placement, capacity, count, tetrahedra);
 }
 
 pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64_t capacity,
                                                 int64_t* count, int64_t* edges, int32_t* tags) {
   return guarded(placement, [&](PlacementObject& object) {
-    Placement& p = object.placement;
     require_pointer(count, "count");
     *count = 0;
+    Placement& p = *object.placement;
+    const PlacementOf<2>& in = require_dimension<2>(p);
     if (!p.has_nodes()) return PNPBS_OK;
     p.prepare_order();
-    p.for_boundary_edges([&](std::int64_t, std::int64_t, std::int32_t) { ++*count; });
-    if (capacity == 0 && !edges && !tags) return PNPBS_OK;
-    require_capacity(capacity, *count);
-    std::int64_t at = 0;
-    p.for_boundary_edges([&](std::int64_t begin, std::int64_t end, std::int32_t tag) {
-      if (edges) edges[2 * at] = begin, edges[2 * at + 1] = end;
-      if (tags) tags[at] = tag;
-      ++at;
-    });
-    return PNPBS_OK;
+    return copy_boundary_facets(in, capacity, count, edges, tags);
+  });
+}
+
+pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, int64_t capacity,
+                                                    int64_t* count, int64_t* triangles,
+                                                    int32_t* tags) {
+  return collective(placement, [&](Placement& p) {
+    require_pointer(count, "count");
+    *count = 0;
+    const PlacementOf<3>& in = require_dimension<3>(p);
+    p.prepare_stars();
+    return copy_boundary_facets(in, capacity, count, triangles, tags);
   });
 }
 
 pnpbs_status pnpbs_placement_check(pnpbs_placement placement) {
   return collective(placement, [](Placement& p) {
-    check_results(p);
+    in_its_dimension(p, [](auto& in) { check_results(in); });
     return PNPBS_OK;
   });
 }

@@ -44,11 +44,11 @@ pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
                                          const int32_t* elements) {
   return guarded(placement, [&](PlacementObject& object) {
     const Computing computing(*object.context);
-    const Communicator& comm = object.placement.communicator();
+    const Communicator& comm = object.placement->communicator();
     std::vector<io::FileWish> wishes;
     agreed(comm, [&] { wishes = wishes_of(n, paths, formats, elements); });
     require_same_wishes(comm, wishes);
-    io::write_files(object.placement, wishes);
+    io::write_files(*object.placement, wishes);
     return PNPBS_OK;
   });
 }

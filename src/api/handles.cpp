@@ -17,8 +17,8 @@ Registry<Context, pnpbs_context>& contexts() {
   static auto* registry = new Registry<Context, pnpbs_context>;
   return *registry;
 }
-Registry<Domain, pnpbs_domain>& domains() {
-  static auto* registry = new Registry<Domain, pnpbs_domain>;
+Registry<DomainObject, pnpbs_domain>& domains() {
+  static auto* registry = new Registry<DomainObject, pnpbs_domain>;
   return *registry;
 }
 Registry<PlacementObject, pnpbs_placement>& placements() {
@@ -42,7 +42,7 @@ std::shared_ptr<Object> require_live(std::shared_ptr<Object> object, const char*
 std::shared_ptr<Context> require(pnpbs_context handle) {
   return require_live(contexts().find(handle), "context");
 }
-std::shared_ptr<Domain> require(pnpbs_domain handle) {
+std::shared_ptr<DomainObject> require(pnpbs_domain handle) {
   return require_live(domains().find(handle), "domain");
 }
 std::shared_ptr<PlacementObject> require(pnpbs_placement handle) {

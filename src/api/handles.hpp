@@ -11,8 +11,8 @@
 
 #include "base/error.hpp"
 #include "comm/communicator.hpp"
-#include "domain/plane/plane_domain.hpp"
-#include "placement/placement.hpp"
+#include "domain/domain.hpp"
+#include "placement/placement_of.hpp"
 #include "pnpbs/pnpbs.h"
 #include "settings/options.hpp"
 
@@ -26,14 +26,16 @@ struct Context {
   bool computing = false;     // a call that may run callbacks is in progress
 };
 
-struct Domain {
+// One of the two.
+struct DomainObject {
   std::shared_ptr<Context> context;
-  std::shared_ptr<PlaneDomain> plane = std::make_shared<PlaneDomain>();
+  std::shared_ptr<PlaneDomain> plane;
+  std::shared_ptr<VolumeDomain> volume;
 };
 
 struct PlacementObject {
   std::shared_ptr<Context> context;
-  Placement placement;
+  std::unique_ptr<Placement> placement;
 };
 
 // One for each kind of object. All keys of the process come from one counter, so that a handle of
@@ -74,11 +76,11 @@ class Registry {
 };
 
 Registry<Context, pnpbs_context>& contexts();
-Registry<Domain, pnpbs_domain>& domains();
+Registry<DomainObject, pnpbs_domain>& domains();
 Registry<PlacementObject, pnpbs_placement>& placements();
 
 std::shared_ptr<Context> require(pnpbs_context handle);
-std::shared_ptr<Domain> require(pnpbs_domain handle);
+std::shared_ptr<DomainObject> require(pnpbs_domain handle);
 std::shared_ptr<PlacementObject> require(pnpbs_placement handle);
 
 }  // namespace pnpbs::api

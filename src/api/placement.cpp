@@ -6,6 +6,7 @@
 #include "api/placement_calls.hpp"
 #include "base/kokkos_runtime.hpp"
 #include "base/mixed_hash.hpp"
+#include "base/point_text.hpp"
 #include "placement/statistics.hpp"
 
 using namespace pnpbs;
@@ -27,8 +28,15 @@ pnpbs_status status_of(Outcome outcome) {
   return PNPBS_NOT_CONVERGED;
 }
 
+std::unique_ptr<Placement> placement_in(const DomainObject& domain,
+                                        std::shared_ptr<const Communicator> comm,
+                                        const Options& options) {
+  if (domain.plane) return std::make_unique<PlacementOf<2>>(std::move(comm), domain.plane, options);
+  return std::make_unique<PlacementOf<3>>(std::move(comm), domain.volume, options);
+}
+
 void forget_all_nodes() {
-  placements().for_each([](PlacementObject& object) { object.placement.forget_nodes(); });
+  placements().for_each([](PlacementObject& object) { object.placement->forget_nodes(); });
 }
 
 void set_placement_option(Placement& placement, const char* key, const auto& assign) {
@@ -57,7 +65,7 @@ pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
       start_kokkos(object.options.integer("threads"), object.communicator->ranks_on_node(),
                    forget_all_nodes);
       made = std::make_shared<PlacementObject>(PlacementObject{
-          require(context), Placement(object.communicator, of->plane, object.options)});
+          require(context), placement_in(*of, object.communicator, object.options)});
     });
     *placement = placements().add(std::move(made));
     return PNPBS_OK;
@@ -113,21 +121,23 @@ pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monito
 
 namespace {
 
-GivenNodes checked_nodes(std::int64_t n, const double* coordinates, const std::int64_t* ids) {
+template <int Dim>
+GivenNodes<Dim> checked_nodes(std::int64_t n, const double* coordinates, const std::int64_t* ids) {
   require_count(n, "n");
   if (n > 0) require_pointer(coordinates, "coordinates");
   constexpr std::int64_t kMaxId = std::int64_t{1} << 62;  // leaves numbers for new nodes
-  GivenNodes nodes;
+  GivenNodes<Dim> nodes;
   for (std::int64_t i = 0; i < n; ++i) {
-    if (!std::isfinite(coordinates[2 * i]) || !std::isfinite(coordinates[2 * i + 1]))
-      throw Error(ErrorKind::argument, "argument coordinates[" + std::to_string(i) + "] = (" +
-                                           number_text(coordinates[2 * i]) + ", " +
-                                           number_text(coordinates[2 * i + 1]) +
-                                           ") must be finite");
+    Point<Dim> x;
+    std::copy_n(coordinates + Dim * i, Dim, x.begin());
+    if (!std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); }))
+      throw Error(ErrorKind::argument, "argument coordinates[" + std::to_string(i) +
+                                           "] = " + point_text(x) + " must be finite");
     if (ids && (ids[i] < 0 || ids[i] > kMaxId))
       throw Error(ErrorKind::argument, "argument ids[" + std::to_string(i) + "] = " +
                                            std::to_string(ids[i]) + " must be in 0 .. 2^62");
-    nodes.push_back({{coordinates[2 * i], coordinates[2 * i + 1]}, ids ? ids[i] : -1});
+    GivenNode<Dim> node{x, ids ? ids[i] : -1};
+    nodes.push_back(node);
   }
   if (ids) {
     std::vector<std::int64_t> sorted(ids, ids + n);
@@ -145,10 +155,12 @@ GivenNodes checked_nodes(std::int64_t n, const double* coordinates, const std::i
 pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
                                        const double* coordinates, const int64_t* ids) {
   return local_change(placement, [&](Placement& p) {
-    GivenNodes nodes;
-    agreed(p.communicator(), [&] { nodes = checked_nodes(n, coordinates, ids); });
-    p.set_nodes(std::move(nodes));  // on all ranks or none
-    return PNPBS_OK;
+    return in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& placement_of) {
+      GivenNodes<Dim> nodes;
+      agreed(p.communicator(), [&] { nodes = checked_nodes<Dim>(n, coordinates, ids); });
+      placement_of.set_nodes(std::move(nodes));  // on all ranks or none
+      return PNPBS_OK;
+    });
   });
 }
 
@@ -213,13 +225,13 @@ pnpbs_status get_statistic(pnpbs_placement placement, const char* key, Value* va
                                         row->type() + ", not " + type +
                                         ": use the get function of that type");
     };
-    const auto get = [&] { *value = (row->*getter)(object.placement); };
+    const auto get = [&] { *value = (row->*getter)(*object.placement); };
     if (object.context->computing) {
       find();
       get();
       return PNPBS_OK;
     }
-    const Communicator& comm = object.placement.communicator();
+    const Communicator& comm = object.placement->communicator();
     agreed(comm, find);
     require_same_key(comm, key);
     agreed(comm, get);
@@ -253,7 +265,7 @@ pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, const char* k
 pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t* count) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(count, "count");
-    *count = static_cast<int32_t>(object.placement.warnings().size());
+    *count = static_cast<int32_t>(object.placement->warnings().size());
     return PNPBS_OK;
   });
 }
@@ -262,7 +274,7 @@ pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t inde
                                          const char** text) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(text, "text");
-    const std::vector<std::string>& warnings = object.placement.warnings();
+    const std::vector<std::string>& warnings = object.placement->warnings();
     if (index < 0 || static_cast<std::size_t>(index) >= warnings.size())
       throw Error(ErrorKind::argument, "argument index = " + std::to_string(index) +
                                            "; there are " + std::to_string(warnings.size()) +

@@ -11,7 +11,7 @@ template <class Body>
 pnpbs_status local_change(pnpbs_placement placement, const Body& body) {
   return guarded(placement, [&](PlacementObject& object) {
     const Computing computing(*object.context);
-    return body(object.placement);
+    return body(*object.placement);
   });
 }
 
@@ -32,6 +32,16 @@ inline void require_capacity(std::int64_t capacity, std::int64_t needed,
   if (capacity < needed)
     throw Error(ErrorKind::capacity, "argument " + argument + " = " + std::to_string(capacity) +
                                          "; " + std::to_string(needed) + " are needed");
+}
+
+// Throws unless the placement is one in that dimension.
+template <int Dim>
+PlacementOf<Dim>& require_dimension(Placement& placement) {
+  if (placement.dimension() != Dim)
+    throw Error(ErrorKind::argument,
+                "argument placement has " + std::to_string(placement.dimension()) +
+                    " dimensions; this function is for " + std::to_string(Dim));
+  return static_cast<PlacementOf<Dim>&>(placement);
 }
 
 }  // namespace pnpbs::api

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The spacing of a placement, set through the C interface.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "api/placement_calls.hpp"
 
@@ -9,36 +11,77 @@ using namespace pnpbs::api;
 
 namespace {
 
-// Collective: make(p) is the spacing, which is replaced only if all ranks could make theirs.
+// Collective: make(p) is the spacing of p, a placement in its dimension; it is replaced only if all
+// ranks could make theirs.
 template <class Make>
 pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
   return local_change(placement, [&](Placement& p) {
-    std::shared_ptr<const Spacing<2>> spacing;
-    agreed(p.communicator(), [&] { spacing = make(p); });
-    p.set_spacing(std::move(spacing));
+    in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {
+      std::shared_ptr<const Spacing<Dim>> spacing;
+      agreed(p.communicator(), [&] { spacing = make(in); });
+      in.set_spacing(std::move(spacing));
+    });
     return PNPBS_OK;
   });
+}
+
+void require_spacing(double d, const std::string& what) {
+  if (!std::isfinite(d) || d <= 0)
+    throw Error(ErrorKind::spacing, "argument " + what + " = " + number_text(d) +
+                                        ": the spacing must be finite and greater than 0");
+}
+
+// "[y][x]" of the i-th value on a grid, the direction that varies fastest last.
+template <int Dim>
+std::string grid_index(std::int64_t i, const std::int64_t* size) {
+  std::string text;
+  for (int k = 0; k < Dim; ++k) {
+    text.insert(0, "[" + std::to_string(i % size[k]) + "]");
+    i /= size[k];
+  }
+  return text;
+}
+
+// The number of values of a grid.
+template <int Dim>
+std::int64_t check_grid(const std::int64_t* size, const double* origin, const double* step) {
+  constexpr std::int64_t kMax = std::int64_t{1} << 31;
+  std::int64_t n = 1;
+  for (int k = 0; k < Dim; ++k) {
+    const std::string at = "[" + std::to_string(k) + "] = ";
+    if (size[k] < 1 || size[k] > kMax)
+      throw Error(ErrorKind::argument,
+                  "argument size" + at + std::to_string(size[k]) + " must be in 1 .. 2^31");
+    if (!std::isfinite(origin[k]))
+      throw Error(ErrorKind::argument,
+                  "argument origin" + at + number_text(origin[k]) + " must be finite");
+    if (!std::isfinite(step[k]) || step[k] <= 0)
+      throw Error(ErrorKind::argument,
+                  "argument step" + at + number_text(step[k]) + " must be greater than 0");
+    if (n > std::numeric_limits<std::int64_t>::max() / size[k])
+      throw Error(ErrorKind::argument, "argument size: more values than can be counted");
+    n *= size[k];
+  }
+  return n;
 }
 
 }  // namespace
 
 pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d) {
-  return replace_spacing(placement, [&](Placement&) {
-    if (!std::isfinite(d) || d <= 0)
-      throw Error(ErrorKind::spacing, "argument d = " + number_text(d) +
-                                          ": the spacing must be finite and greater than 0");
-    return std::make_shared<ConstantSpacing<2>>(d);
+  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>&) {
+    require_spacing(d, "d");
+    return std::make_shared<ConstantSpacing<Dim>>(d);
   });
 }
 
 pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
                                                   pnpbs_spacing_fn spacing, void* user) {
-  return replace_spacing(placement, [&](Placement&) {
+  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>&) {
     if (!spacing) throw Error(ErrorKind::argument, "argument spacing is NULL");
-    return std::make_shared<CallbackSpacing<2>>(
+    return std::make_shared<CallbackSpacing<Dim>>(
         [spacing, user](std::int64_t n, const double* x, double* d) {
           const HostArithmetic arithmetic;
-          return spacing(n, 2, x, d, user);
+          return spacing(n, Dim, x, d, user);
         });
   });
 }
@@ -46,40 +89,28 @@ pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
 pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const int64_t* size,
                                               const double* origin, const double* step,
                                               const double* values) {
-  return replace_spacing(placement, [&](Placement&) {
+  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>&) {
     require_pointer(size, "size");
     require_pointer(origin, "origin");
     require_pointer(step, "step");
     require_pointer(values, "values");
-    constexpr std::int64_t kMax = std::int64_t{1} << 31;
-    for (int k = 0; k < 2; ++k) {
-      const std::string at = "[" + std::to_string(k) + "] = ";
-      if (size[k] < 1 || size[k] > kMax)
-        throw Error(ErrorKind::argument,
-                    "argument size" + at + std::to_string(size[k]) + " must be in 1 .. 2^31");
-      if (!std::isfinite(origin[k]))
-        throw Error(ErrorKind::argument,
-                    "argument origin" + at + number_text(origin[k]) + " must be finite");
-      if (!std::isfinite(step[k]) || step[k] <= 0)
-        throw Error(ErrorKind::argument,
-                    "argument step" + at + number_text(step[k]) + " must be greater than 0");
-    }
-    const std::int64_t n = size[0] * size[1];
+    const std::int64_t n = check_grid<Dim>(size, origin, step);
     for (std::int64_t i = 0; i < n; ++i)
       if (!std::isfinite(values[i]) || values[i] <= 0)
-        throw Error(ErrorKind::spacing, "argument values[" + std::to_string(i / size[0]) + "][" +
-                                            std::to_string(i % size[0]) +
-                                            "] = " + number_text(values[i]) +
-                                            ": the spacing must be finite and greater than 0");
-    return std::make_shared<GridSpacing<2>>(
-        std::array<std::int64_t, 2>{size[0], size[1]}, Point<2>{origin[0], origin[1]},
-        Point<2>{step[0], step[1]}, std::vector<double>(values, values + n));
+        require_spacing(values[i], "values" + grid_index<Dim>(i, size));
+    std::array<std::int64_t, Dim> counts;
+    Point<Dim> from, by;
+    std::copy_n(size, Dim, counts.begin());
+    std::copy_n(origin, Dim, from.begin());
+    std::copy_n(step, Dim, by.begin());
+    return std::make_shared<GridSpacing<Dim>>(counts, from, by,
+                                              std::vector<double>(values, values + n));
   });
 }
 
 pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
                                                   const double* d) {
-  return replace_spacing(placement, [&](Placement& p) {
+  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& p) {
     p.prepare_order();
     if (n != p.count())
       throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +

@@ -22,8 +22,8 @@ Point<Dim> point_at(const std::array<View<double>, Dim>& x, std::int64_t i) {
   return p;
 }
 
-// What holds a node, and with that, how it may move.
-enum class Carrier : std::int8_t { free, fixed };
+// What holds a node, and with that, how it may move: nothing, a place, a curve or a surface.
+enum class Carrier : std::int8_t { free, fixed, curve, surface };
 
 template <int Dim>
 struct Nodes {
@@ -36,8 +36,11 @@ struct Nodes {
   View<std::int64_t> id;                    // global id
   View<std::int32_t> tag;                   // 0 inside
   View<Carrier> carrier;
-  View<std::int32_t> boundary_node;  // index into Boundary::nodes, -1 for an inner node
+  View<std::int32_t> boundary_node;  // in the plane: index into Boundary::nodes, -1 for an inner
+                                     // node; in space: see Ground<3>
+  View<std::int32_t> reference_on;   // in space: boundary_node at the last event
   View<char> owned;                  // 0: a ghost, another rank's node
+  Carrier moving = Carrier::free;    // those that move now; all others stay
 
   std::int64_t capacity() const { return static_cast<std::int64_t>(d.extent(0)) - 1; }
 
@@ -57,6 +60,7 @@ struct Nodes {
   void set_reference_positions() {
     for_each("pnpbs::Nodes::set_reference_positions", count, [this](std::int64_t i) {
       for (int k = 0; k < Dim; ++k) reference[k](i) = x[k](i);
+      if constexpr (Dim == 3) reference_on(i) = boundary_node(i);
     });
     ++references_;
     referenced_at_ = positions_;
@@ -92,6 +96,7 @@ struct Nodes {
     grow_labelled(carrier, "pnpbs::Nodes::carrier", n);
     grow_labelled(boundary_node, "pnpbs::Nodes::boundary_node", n);
     grow_labelled(owned, "pnpbs::Nodes::owned", n);
+    if constexpr (Dim == 3) grow_labelled(reference_on, "pnpbs::Nodes::reference_on", n);
     spare_ = Spare();
   }
 
@@ -126,6 +131,7 @@ struct Nodes {
     tag(i) = node_tag;
     carrier(i) = node_carrier;
     boundary_node(i) = on_boundary;
+    if constexpr (Dim == 3) reference_on(i) = on_boundary;
     owned(i) = 1;
   }
 
@@ -133,7 +139,7 @@ struct Nodes {
   void set_position(std::int64_t i, const Point<Dim>& p) {
     for (int k = 0; k < Dim; ++k) x[k](i) = p[k];
   }
-  bool moves(std::int64_t i) const { return carrier(i) == Carrier::free; }
+  bool moves(std::int64_t i) const { return carrier(i) == moving; }
 
   // Puts the nodes into the order given: new place i holds what was at from(i). Array by array,
   // into spare ones that are kept: nothing is allocated from one rebuild of the lists to the next.
@@ -149,6 +155,7 @@ struct Nodes {
     permute_array(carrier, spare_.carrier, from);
     permute_array(boundary_node, spare_.integer, from);
     permute_array(owned, spare_.flag, from);
+    if constexpr (Dim == 3) permute_array(reference_on, spare_.integer, from);
     ++arrangement_;
   }
 
@@ -163,13 +170,14 @@ struct Nodes {
       real[2 * Dim + k] = reference[k];
     }
     real[3 * Dim] = d;
-    for_each("pnpbs::Nodes::keep", kReal + 5, [&](std::int64_t array) {
+    for_each("pnpbs::Nodes::keep", kReal + (Dim == 3 ? 6 : 5), [&](std::int64_t array) {
       if (array < kReal) keep_in_array(real[static_cast<std::size_t>(array)], places, kept);
       if (array == kReal) keep_in_array(id, places, kept);
       if (array == kReal + 1) keep_in_array(tag, places, kept);
       if (array == kReal + 2) keep_in_array(boundary_node, places, kept);
       if (array == kReal + 3) keep_in_array(owned, places, kept);
       if (array == kReal + 4) keep_in_array(carrier, places, kept);
+      if (array == kReal + 5) keep_in_array(reference_on, places, kept);
     });
     count = kept;
     ++arrangement_;

@@ -28,6 +28,13 @@ inline std::string rounded_text(double value) {
   return std::string(text, end);
 }
 
+template <int Dim>
+std::string rounded_point_text(const Point<Dim>& point) {
+  std::string text = "(";
+  for (int k = 0; k < Dim; ++k) text += (k > 0 ? ", " : "") + rounded_text(point[k]);
+  return text + ")";
+}
+
 // The first few names, and how many more there are: "a, b, c and 4 more".
 inline std::string list_text(const std::vector<std::string>& names, std::size_t at_most = 3) {
   std::string text;

@@ -94,6 +94,21 @@ struct SmoothPush {
   }
 };
 
+// A law for bubbles that fill a surface in space, as it is in the plane.
+template <class Law>
+struct OnSurface {
+  Law law;
+
+  template <int Dim>
+  double per_length(double distance, double desired) const {
+    return law.template per_length<Dim - 1>(distance, desired);
+  }
+  template <int Dim>
+  static double acceleration_scale(double d) {
+    return Law::template acceleration_scale<Dim - 1>(d);
+  }
+};
+
 template <int Dim>
 using DefaultLaw = std::conditional_t<Dim == 2, LinearPush, SmoothPush>;
 

@@ -47,14 +47,15 @@ inline void clamp_move(std::array<double, Dim>& move, double max_length) {
 template <int Dim, class Law>
 inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std::int64_t first,
                         int n, const Positions<Dim>& x, const double* d, const Carrier* carrier,
-                        const std::array<double*, Dim>& v, const std::array<double*, Dim>& next) {
+                        Carrier moving, const std::array<double*, Dim>& v,
+                        const std::array<double*, Dim>& next) {
   const double slow = 1 / (1 + motion.damping * motion.dt);
   BlockVector<Dim> move;
   double too_far = 0;
 #pragma omp simd reduction(max : too_far)
   for (int lane = 0; lane < n; ++lane) {
     const std::int64_t i = first + lane;
-    const double mobile = carrier[i] == Carrier::free ? slow : 0.0;
+    const double mobile = carrier[i] == moving ? slow : 0.0;
     const double scale = Law::template acceleration_scale<Dim>(d[i]);
     double sum = 0;
     for (int k = 0; k < Dim; ++k) {
@@ -99,7 +100,7 @@ void damped_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& 
     block_force<Dim>(lists.block(b), law, x, d, self, force);
     const std::int64_t first = b * kLanes;
     const int n = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
-    damped_move<Dim, Law>(force, motion, first, n, x, d, nodes.carrier.data(), v, to);
+    damped_move<Dim, Law>(force, motion, first, n, x, d, nodes.carrier.data(), nodes.moving, v, to);
   });
 }
 

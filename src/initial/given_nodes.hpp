@@ -7,17 +7,36 @@
 #include <utility>
 #include <vector>
 
-#include "base/types.hpp"
+#include "base/nodes.hpp"
 
 namespace pnpbs {
 
 // A node as it comes from outside or from an earlier level.
-struct GivenNode {
+template <int Dim>
+struct GivenNode;
+
+template <>
+struct GivenNode<2> {
   Point<2> position;
   std::int64_t id;         // -1: give it one
   bool inner = true;       // a boundary node is laid afresh; one that was there keeps its id
   std::int32_t leaf = -1;  // of the level it is given to, once found
   double d = 0;            // spacing it was placed for; 0 if not known
+
+  bool is_inner() const { return inner; }
+};
+
+template <>
+struct GivenNode<3> {
+  Point<3> position;
+  std::int64_t id;
+  Carrier carrier = Carrier::free;
+  std::int32_t boundary_node = -1;  // see Ground<3>
+  std::int32_t tag = 0;
+  std::int32_t leaf = -1;
+  double d = 0;
+
+  bool is_inner() const { return carrier == Carrier::free; }
 };
 
 // Leaves the entries of a vector of a given size as they are: all threads write them, and so share
@@ -39,6 +58,7 @@ struct UnsetAllocator : std::allocator<T> {
   }
 };
 
-using GivenNodes = std::vector<GivenNode, UnsetAllocator<GivenNode>>;
+template <int Dim>
+using GivenNodes = std::vector<GivenNode<Dim>, UnsetAllocator<GivenNode<Dim>>>;
 
 }  // namespace pnpbs

@@ -70,14 +70,14 @@ EdgeRows sorted_edges(std::vector<EdgeRow> rows) {
 
 }  // namespace
 
-NodesById::NodesById(Placement& placement, bool elements)
+NodesById::NodesById(PlacementOf<2>& placement, bool elements)
     : placement_(placement), comm_(placement.communicator()) {
   prepare(placement, elements);
   contents_.elements = elements;
   std::vector<std::int64_t> counts{placement.count(), 0, 0};
   if (elements) {
-    placement.for_triangles([&](auto, auto, auto) { ++counts[1]; });
-    placement.for_boundary_edges([&](auto, auto, auto) { ++counts[2]; });
+    placement.for_elements([&](const auto&) { ++counts[1]; });
+    placement.for_boundary_facets([&](const auto&, std::int32_t) { ++counts[2]; });
   }
   comm_.allreduce_sum(counts);
   contents_.nodes = counts[0];
@@ -156,8 +156,9 @@ void NodesById::for_triangles(const std::function<void(const TriangleRows&)>& vi
   std::int64_t before = 0;
   for_windows([&](const Window& window) {
     std::vector<TriangleRow> own;
-    placement_.for_triangles(
-        window.begin, window.end, [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    placement_.for_elements(
+        window.begin, window.end, [&](const std::array<std::int64_t, 3>& places) {
+          const auto [a, b, c] = places;
           own.push_back(
               {{label(a), label(b), label(c)}, quality_of(position(a), position(b), position(c))});
         });
@@ -174,7 +175,8 @@ void NodesById::for_triangles(const std::function<void(const TriangleRows&)>& vi
 // All at once: the boundary is in every rank's memory anyway.
 void NodesById::for_edges(const std::function<void(const EdgeRows&)>& visit) const {
   std::vector<EdgeRow> own;
-  placement_.for_boundary_edges([&](std::int64_t a, std::int64_t b, std::int32_t tag) {
+  placement_.for_boundary_facets([&](const std::array<std::int64_t, 2>& places, std::int32_t tag) {
+    const auto [a, b] = places;
     own.push_back({{label(a), label(b)}, tag});
   });
   if (blocks_)

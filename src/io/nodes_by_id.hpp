@@ -7,14 +7,14 @@
 
 #include "comm/id_blocks.hpp"
 #include "io/node_source.hpp"
-#include "placement/placement.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs::io {
 
 class NodesById : public NodeSource {
  public:
   // Collective.
-  NodesById(Placement& placement, bool elements);
+  NodesById(PlacementOf<2>& placement, bool elements);
 
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
   void for_triangles(const std::function<void(const TriangleRows&)>& visit) const override;
@@ -34,7 +34,7 @@ class NodesById : public NodeSource {
   std::int64_t label(std::int64_t place) const;
   void label_by_numbers(std::vector<std::int64_t>& labels) const;
 
-  const Placement& placement_;
+  const PlacementOf<2>& placement_;
   const Communicator& comm_;
   // More ranks than one know nodes of others by their ids; one alone by their places, which are
   // the numbers.

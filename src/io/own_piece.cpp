@@ -7,16 +7,16 @@
 
 namespace pnpbs::io {
 
-OwnPiece::OwnPiece(const Placement& placement, bool elements)
+OwnPiece::OwnPiece(const PlacementOf<2>& placement, bool elements)
     : placement_(placement),
       owned_(placement.count()),
       number_(static_cast<std::size_t>(placement.level().nodes.count - owned_), -1) {
   contents_.is_piece = true;
   contents_.elements = elements;
   if (elements) {
-    placement.for_triangles([&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    placement.for_elements([&](const std::array<std::int64_t, 3>& places) {
       ++contents_.triangles;
-      for (const std::int64_t place : {a, b, c}) {
+      for (const std::int64_t place : places) {
         if (place < owned_) continue;
         std::int64_t& number = number_[static_cast<std::size_t>(place - owned_)];
         if (number >= 0) continue;
@@ -56,10 +56,10 @@ void OwnPiece::for_triangles(const std::function<void(const TriangleRows&)>& vis
   for (std::int64_t begin = 0; begin < owned_; begin += kWindow) {
     TriangleRows rows;
     rows.first = before;
-    placement_.for_triangles(
-        begin, std::min(begin + kWindow, owned_),
-        [&](std::int64_t a, std::int64_t b, std::int64_t c) {
-          for (const std::int64_t place : {a, b, c})
+    placement_.for_elements(
+        begin, std::min(begin + kWindow, owned_), [&](const std::array<std::int64_t, 3>& places) {
+          const auto [a, b, c] = places;
+          for (const std::int64_t place : places)
             rows.corners.push_back(
                 place < owned_ ? place : number_[static_cast<std::size_t>(place - owned_)]);
           rows.quality.push_back(quality_of(position(a), position(b), position(c)));

@@ -3,14 +3,14 @@
 #pragma once
 
 #include "io/node_source.hpp"
-#include "placement/placement.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs::io {
 
 class OwnPiece : public NodeSource {
  public:
   // Local, after rows.hpp's prepare.
-  OwnPiece(const Placement& placement, bool elements);
+  OwnPiece(const PlacementOf<2>& placement, bool elements);
 
   // Local.
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
@@ -18,7 +18,7 @@ class OwnPiece : public NodeSource {
   void for_edges(const std::function<void(const EdgeRows&)>&) const override {}  // has none
 
  private:
-  const Placement& placement_;
+  const PlacementOf<2>& placement_;
   std::int64_t owned_;
   // Ghosts in the order in which triangles ask for them.
   std::vector<std::int64_t> ghosts_;  // places

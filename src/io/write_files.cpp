@@ -32,7 +32,7 @@ std::string with_extension(const std::string& path, const char* extension) {
 // The files of one call.
 class Writing {
  public:
-  Writing(Placement& placement, std::size_t files) : placement_(placement), expected_(files) {}
+  Writing(PlacementOf<2>& placement, std::size_t files) : placement_(placement), expected_(files) {}
 
   void add(const FileWish& wish) {
     if (wish.format->write) {
@@ -95,7 +95,7 @@ class Writing {
       throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
   }
 
-  Placement& placement_;
+  PlacementOf<2>& placement_;
   const std::int64_t nodes_ = placement_.global_count();
   std::size_t expected_, done_ = 0;
   std::optional<NodesById> with_elements_, nodes_only_;
@@ -130,7 +130,9 @@ std::string piece_path(const std::string& path, int rank) {
 void write_files(Placement& placement, const std::vector<FileWish>& wishes) {
   // What one rank cannot do at any step of it, all give up.
   agreed(placement.communicator(), [&] {
-    Writing writing(placement, wishes.size());
+    if (placement.dimension() != 2)
+      throw Error(ErrorKind::unsupported, "files of placements in space are not written yet");
+    Writing writing(static_cast<PlacementOf<2>&>(placement), wishes.size());
     for (const FileWish& wish : wishes) writing.add(wish);
     writing.publish();
   });

@@ -6,7 +6,8 @@
 
 namespace pnpbs {
 
-void exchange(Level& level, int hops) {
+template <int Dim>
+void exchange(Level<Dim>& level, int hops) {
   if (!level.distributed()) return;
   // Deeper than was asked for so far.
   if (hops + 2 > level.tree->hops())
@@ -16,7 +17,8 @@ void exchange(Level& level, int hops) {
                         level.neighbourhood);
 }
 
-void exchange_for_steps(Level& level, std::exception_ptr& failure) {
+template <int Dim>
+void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure) {
   if (!level.distributed()) return;
   const int hops = step_hops(level.settings);
   if (!level.ghosts.can_stay(level.settings, hops)) {
@@ -28,20 +30,24 @@ void exchange_for_steps(Level& level, std::exception_ptr& failure) {
   }
 }
 
-void update_ghosts(Level& level) {
+template <int Dim>
+void update_ghosts(Level<Dim>& level) {
   if (!level.distributed()) return;
   const PhaseTimer timer(level.timers, Phase::exchange);
   level.ghosts.update(*level.comm, level.nodes);
 }
 
-void scatter_to_owners(const Level& level, GivenNodes& given) {
+template <int Dim>
+void scatter_to_owners(const Level<Dim>& level, GivenNodes<Dim>& given) {
   if (!level.distributed()) return;
-  const auto owner_of = [&](const GivenNode& node) { return level.tree->owner_at(node.position); };
+  const auto owner_of = [&](const GivenNode<Dim>& node) {
+    return level.tree->owner_at(node.position);
+  };
   const View<std::int32_t> owner =
       make_view<std::int32_t>("pnpbs::owner", static_cast<std::int64_t>(given.size()));
   for_each("pnpbs::find_owners", static_cast<std::int64_t>(given.size()),
            [&](std::int64_t k) { owner(k) = owner_of(given[static_cast<std::size_t>(k)]); });
-  std::vector<GivenNode> leaving;
+  std::vector<GivenNode<Dim>> leaving;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < given.size(); ++k) {
     if (owner(k) == level.comm->rank())
@@ -50,8 +56,18 @@ void scatter_to_owners(const Level& level, GivenNodes& given) {
       leaving.push_back(given[k]);
   }
   given.resize(kept);
-  const std::vector<GivenNode> arrived = redistribute<GivenNode>(*level.comm, leaving, owner_of);
+  const std::vector<GivenNode<Dim>> arrived =
+      redistribute<GivenNode<Dim>>(*level.comm, leaving, owner_of);
   given.insert(given.end(), arrived.begin(), arrived.end());
 }
+
+template void exchange(Level<2>&, int);
+template void exchange(Level<3>&, int);
+template void exchange_for_steps(Level<2>&, std::exception_ptr&);
+template void exchange_for_steps(Level<3>&, std::exception_ptr&);
+template void update_ghosts(Level<2>&);
+template void update_ghosts(Level<3>&);
+template void scatter_to_owners(const Level<2>&, GivenNodes<2>&);
+template void scatter_to_owners(const Level<3>&, GivenNodes<3>&);
 
 }  // namespace pnpbs

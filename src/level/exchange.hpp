@@ -11,16 +11,20 @@ namespace pnpbs {
 
 // Owned nodes to their owners, and ghosts chosen anew, so many hops deep. Where ranks can agree: on
 // the halo before it, which a first use has to find, and that it went well.
-void exchange(Level& level, int hops);
+template <int Dim>
+void exchange(Level<Dim>& level, int hops);
 // For the steps until the next exchange: at the beginning of a row of steps, and once in a while
 // within it. Between agreements only positions and velocities travel, in buffers that are there: a
 // rank that has failed meanwhile sends what it has. Where ranks agree a failure of this rank so far
 // is reported.
-void exchange_for_steps(Level& level, std::exception_ptr& failure);
+template <int Dim>
+void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure);
 // The ghosts there are become exact again.
-void update_ghosts(Level& level);
+template <int Dim>
+void update_ghosts(Level<Dim>& level);
 
 // Every node to the rank that owns its place, from wherever it is; most are there already.
-void scatter_to_owners(const Level& level, GivenNodes& given);
+template <int Dim>
+void scatter_to_owners(const Level<Dim>& level, GivenNodes<Dim>& given);
 
 }  // namespace pnpbs

@@ -8,41 +8,44 @@
 
 namespace pnpbs {
 
-// Of the leaves that the boundary crosses we know only what the domain's area leaves for all of
-// them.
-std::vector<double> wanted_nodes(const Level& level) {
-  const DomainMap<2>& map = level.map();
-  const BackgroundTree<2>& tree = map.tree();
-  std::uint64_t inside = 0, crossed = 0;  // areas
+// Of the leaves that the boundary crosses we know only what the domain's area (volume) leaves for
+// all of them.
+template <int Dim>
+std::vector<double> wanted_nodes(const Level<Dim>& level) {
+  const DomainMap<Dim>& map = level.map();
+  const BackgroundTree<Dim>& tree = map.tree();
+  std::uint64_t inside = 0, crossed = 0;  // areas or volumes
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
     if (level.tree->owns(leaf) && !map.leaf_outside(leaf))
       (map.leaf_has_facets(leaf) ? crossed : inside) += map.leaf_size(leaf);
-  const double unit = std::pow(std::ldexp(tree.side(), -DomainMap<2>::kMaxDepth), 2);
+  const double unit = power<Dim>(std::ldexp(tree.side(), -DomainMap<Dim>::kSizeDepth));
   const double area_inside = unit * static_cast<double>(level.comm->allreduce_sum(inside)),
                area_crossed = unit * static_cast<double>(level.comm->allreduce_sum(crossed));
   const double share =
-      area_crossed > 0
-          ? std::clamp((level.ground.domain().area() - area_inside) / area_crossed, 0.0, 1.0)
-          : 0;
+      area_crossed > 0 ? std::clamp((level.ground.measure() - area_inside) / area_crossed, 0.0, 1.0)
+                       : 0;
   std::vector<double> wanted;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const double d = map.leaf_spacing(leaf), side = tree.cell_side(tree.leaf_cell(leaf));
     const double part = !level.tree->owns(leaf) || map.leaf_outside(leaf) ? 0
                         : map.leaf_has_facets(leaf)                       ? share
                                                                           : 1;
-    wanted.push_back(part > 0 ? part * Lattice<2>::kDensity * side * side / (d * d) : 0);
+    wanted.push_back(part > 0 ? part * Lattice<Dim>::kDensity * power<Dim>(side) / power<Dim>(d)
+                              : 0);
   }
   return wanted;
 }
 
-double expected_nodes(const Level& level) {
+template <int Dim>
+double expected_nodes(const Level<Dim>& level) {
   std::int64_t nodes = 0;
   for (double wanted : wanted_nodes(level)) nodes += fixed_point(wanted);
   return from_fixed_point(level.comm->allreduce_sum(static_cast<std::uint64_t>(nodes)));
 }
 
-SpacingVariation spacing_variation(const Level& level) {
-  const DomainMap<2>& map = level.map();
+template <int Dim>
+SpacingVariation spacing_variation(const Level<Dim>& level) {
+  const DomainMap<Dim>& map = level.map();
   constexpr double kBetweenSamples = 0.7;  // the farthest of a leaf, in units of its side
   SpacingVariation own;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
@@ -55,8 +58,15 @@ SpacingVariation spacing_variation(const Level& level) {
     own.max = std::max(own.max, max);
     own.steepest = std::max(own.steepest, (max - min) / way);
   }
-  return {-level.comm->allreduce_max(-own.min), level.comm->allreduce_max(own.max),
-          level.comm->allreduce_max(own.steepest)};
+  return SpacingVariation{-level.comm->allreduce_max(-own.min), level.comm->allreduce_max(own.max),
+                          level.comm->allreduce_max(own.steepest)};
 }
+
+template std::vector<double> wanted_nodes(const Level<2>&);
+template std::vector<double> wanted_nodes(const Level<3>&);
+template double expected_nodes(const Level<2>&);
+template double expected_nodes(const Level<3>&);
+template SpacingVariation spacing_variation(const Level<2>&);
+template SpacingVariation spacing_variation(const Level<3>&);
 
 }  // namespace pnpbs

@@ -10,9 +10,11 @@
 namespace pnpbs {
 
 // Nodes that d asks for in each leaf of ours. Collective.
-std::vector<double> wanted_nodes(const Level& level);
+template <int Dim>
+std::vector<double> wanted_nodes(const Level<Dim>& level);
 // In all. Collective.
-double expected_nodes(const Level& level);
+template <int Dim>
+double expected_nodes(const Level<Dim>& level);
 
 struct SpacingVariation {
   double min = kFarAway, max = 0;
@@ -20,6 +22,7 @@ struct SpacingVariation {
 };
 
 // Collective.
-SpacingVariation spacing_variation(const Level& level);
+template <int Dim>
+SpacingVariation spacing_variation(const Level<Dim>& level);
 
 }  // namespace pnpbs

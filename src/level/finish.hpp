@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finishing a level on the Delaunay stars: sweeps, and the repair of bad triangles.
+// Finishing a level on the Delaunay stars: sweeps, and the repair of bad triangles or tetrahedra.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,15 @@ struct FinishResults {
   std::vector<EdgeBand> edge_bands;  // edge length over d, of all ranks, with d from before
 };
 
-// So many sweeps, and the repair of bad triangles if the settings ask for it. Collective.
-FinishResults sweep_and_repair(Level& level, std::int64_t sweeps);
+// So many sweeps, and the repair of bad ones if the settings ask for it. Collective.
+FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps);
+FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps);
 
 // Lists for that, of the present positions. Collective.
-void prepare_finish(Level& level);
+template <int Dim>
+void prepare_finish(Level<Dim>& level);
+// From fresh lists, the stars of the owned nodes and so many rings around them. Collective.
+template <int Dim>
+void make_finish_stars(Level<Dim>& level, int rings);
 
 }  // namespace pnpbs

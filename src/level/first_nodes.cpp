@@ -13,15 +13,16 @@ namespace pnpbs {
 namespace {
 
 // Where the tree is not refined here, the owners of the cells tell what is in them.
-std::vector<LeafSummary<2>> summaries_of_unrefined_leaves(const Level& level) {
+template <int Dim>
+std::vector<LeafSummary<Dim>> summaries_of_unrefined_leaves(const Level<Dim>& level) {
   if (!level.distributed()) return {};
-  const Distribution<2>& distribution = level.tree->distribution();
-  const PartitionCells<2>& cells = distribution.cells();
-  const BackgroundTree<2>& tree = level.tree->tree();
-  const std::vector<SpacingSummary<2>> own = spacing_summaries<2>(level.map(), {});
+  const Distribution<Dim>& distribution = level.tree->distribution();
+  const PartitionCells<Dim>& cells = distribution.cells();
+  const BackgroundTree<Dim>& tree = level.tree->tree();
+  const std::vector<SpacingSummary<Dim>> own = spacing_summaries(level.map(), {});
   struct CellSummary {
     std::int32_t cell;
-    SpacingSummary<2> spacing;
+    SpacingSummary<Dim> spacing;
   };
   Bytes mine;
   for (std::int32_t c = 0; c < cells.count(); ++c) {
@@ -31,11 +32,11 @@ std::vector<LeafSummary<2>> summaries_of_unrefined_leaves(const Level& level) {
         tree.cell_at(cells.tree().cell_centre(cell), cells.tree().cell(cell).depth);
     pack(mine, CellSummary{c, own[static_cast<std::size_t>(here)]});
   }
-  std::vector<SpacingSummary<2>> summaries(static_cast<std::size_t>(cells.count()));
+  std::vector<SpacingSummary<Dim>> summaries(static_cast<std::size_t>(cells.count()));
   for_records<CellSummary>({level.comm->allgather(mine)}, [&](const CellSummary& summary) {
     summaries[static_cast<std::size_t>(summary.cell)] = summary.spacing;
   });
-  std::vector<LeafSummary<2>> unrefined;
+  std::vector<LeafSummary<Dim>> unrefined;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
     if (!distribution.refined(leaf))
       unrefined.push_back({leaf, summaries[static_cast<std::size_t>(distribution.cell_of(leaf))]});
@@ -43,9 +44,10 @@ std::vector<LeafSummary<2>> summaries_of_unrefined_leaves(const Level& level) {
 }
 
 // Of our steep leaves. Collective.
-std::vector<Point<2>> graded_fill(const Level& level,
-                                  const std::function<bool(std::int32_t)>& owned) {
-  std::optional<GradedFill<2>> fill;
+template <int Dim>
+std::vector<Point<Dim>> graded_fill(const Level<Dim>& level,
+                                    const std::function<bool(std::int32_t)>& owned) {
+  std::optional<GradedFill<Dim>> fill;
   std::vector<double> d;
   agreed(*level.comm, [&] {
     fill.emplace(level.map(), owned);
@@ -55,34 +57,38 @@ std::vector<Point<2>> graded_fill(const Level& level,
   std::int64_t end = 0;
   const std::vector<std::int64_t> before =
       level.tree->distribution().prefix_sums(*level.comm, fill->wanted_nodes(d), end);
-  std::vector<Point<2>> nodes;
+  std::vector<Point<Dim>> nodes;
   agreed(*level.comm, [&] { nodes = fill->place(d, before); });
   return nodes;
 }
 
 }  // namespace
 
-void fill(Level& level, const std::function<void()>& beat) {
+template <int Dim>
+void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& beat) {
   const PhaseTimer timer(level.timers, Phase::fill);
-  GivenNodes inner;
-  const std::vector<LeafSummary<2>> unrefined = summaries_of_unrefined_leaves(level);
+  GivenNodes<Dim> inner;
+  const std::vector<LeafSummary<Dim>> unrefined = summaries_of_unrefined_leaves(level);
   const auto owned = [&](std::int32_t leaf) {
     beat();
     return level.tree->owns(leaf);
   };
   agreed(*level.comm, [&] {
-    for (const Point<2>& x :
-         lattice_fill<2>(level.map(), level.ground.domain().bounds(), owned, unrefined))
+    for (const Point<Dim>& x :
+         lattice_fill<Dim>(level.map(), level.ground.bounds(), owned, unrefined))
       inner.push_back({x, -1});
   });
-  for (const Point<2>& x : graded_fill(level, owned)) inner.push_back({x, -1});
+  for (const Point<Dim>& x : graded_fill(level, owned)) inner.push_back({x, -1});
   agreed(*level.comm, [&] {
     beat();
     find_leaves(level, inner);
     beat();
     sort_by_place(level, inner);
   });
-  number_and_store(level, std::move(inner), {});
+  number_and_store(level, std::move(inner), std::move(laid));
 }
+
+template void fill(Level<2>&, LaidNodes<2>, const std::function<void()>&);
+template void fill(Level<3>&, LaidNodes<3>, const std::function<void()>&);
 
 }  // namespace pnpbs

@@ -4,12 +4,15 @@
 
 #include <functional>
 
+#include "level/laid_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
 
-// Calls beat() again and again: if it throws on one rank, all throw. Collective.
+// Beside those of the boundary. Calls beat() again and again: if it throws on one rank, all throw.
+// Collective.
+template <int Dim>
 void fill(
-    Level& level, const std::function<void()>& beat = [] {});
+    Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& beat = [] {});
 
 }  // namespace pnpbs

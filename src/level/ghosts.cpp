@@ -13,11 +13,13 @@
 
 namespace pnpbs {
 
-bool Ghosts::can_stay(const Settings& settings, int hops) const {
+template <int Dim>
+bool Ghosts<Dim>::can_stay(const Settings& settings, int hops) const {
   return hops_ >= hops && steps_since_choice_ + settings.exchange_interval <= ghost_life(settings);
 }
 
-void Ghosts::update(const Communicator& comm, Nodes<2>& nodes) {
+template <int Dim>
+void Ghosts<Dim>::update(const Communicator& comm, Nodes<Dim>& nodes) {
   if (exact_at_ == nodes.positions()) return;
   halo_.update(comm, nodes);
   nodes.moved();
@@ -25,8 +27,9 @@ void Ghosts::update(const Communicator& comm, Nodes<2>& nodes) {
 }
 
 // A rank that fails within has its messages come and go, but empty: its neighbours must not wait.
-void Ghosts::exchange(const Communicator& comm, LevelTree& tree, const Settings& settings, int hops,
-                      Nodes<2>& nodes, Neighbourhood& neighbourhood) {
+template <int Dim>
+void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const Settings& settings,
+                           int hops, Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood) {
   hops_ = 0;
   std::vector<Bytes> outgoing, incoming;
   agreed(comm, [&] {
@@ -36,9 +39,9 @@ void Ghosts::exchange(const Communicator& comm, LevelTree& tree, const Settings&
   });
   const Halo& halo = tree.halo(hops, settings);
   std::exception_ptr failure;
-  const NodeExchange<2> travel{tree.tree(), tree.distribution(), halo, comm.rank(), halo_};
+  const NodeExchange<Dim> travel{tree.tree(), tree.distribution(), halo, comm.rank(), halo_};
   attempt(failure, [&] {
-    const Buckets<2>& buckets = neighbourhood.buckets();
+    const Buckets<Dim>& buckets = neighbourhood.buckets();
     const auto known_leaf = [&](std::int64_t i) {
       return buckets.knows(i) ? buckets.bucket_of(i) : -1;
     };
@@ -59,9 +62,10 @@ void Ghosts::exchange(const Communicator& comm, LevelTree& tree, const Settings&
   steps_since_choice_ = 0;
 }
 
-void Ghosts::migrate(const Communicator& comm, const LevelTree& tree, Nodes<2>& nodes,
-                     Neighbourhood& neighbourhood) {
-  std::vector<PackedNode<2>> leaving;
+template <int Dim>
+void Ghosts<Dim>::migrate(const Communicator& comm, const LevelTree<Dim>& tree, Nodes<Dim>& nodes,
+                          Neighbourhood<Dim>& neighbourhood) {
+  std::vector<PackedNode<Dim>> leaving;
   const View<std::int32_t> stay = nodes.order_scratch();
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
@@ -71,19 +75,21 @@ void Ghosts::migrate(const Communicator& comm, const LevelTree& tree, Nodes<2>& 
     else
       leaving.push_back(packed(nodes, i));
   }
-  const std::vector<PackedNode<2>> arriving =
-      redistribute(comm, leaving, [&](const PackedNode<2>& node) { return tree.owner_at(node.x); });
+  const std::vector<PackedNode<Dim>> arriving = redistribute(
+      comm, leaving, [&](const PackedNode<Dim>& node) { return tree.owner_at(node.x); });
   agreed(comm, [&] { nodes.reserve_with_room(kept + static_cast<std::int64_t>(arriving.size())); });
   neighbourhood.keep_nodes(nodes, stay, kept);
-  for (const PackedNode<2>& node : arriving) append(nodes, node, true);
+  for (const PackedNode<Dim>& node : arriving) append(nodes, node, true);
   hops_ = 0;
 }
 
-void Ghosts::fetch(const Communicator& comm, const LevelTree& tree,
-                   const std::vector<Box<2>>& boxes, Nodes<2>& nodes, const Buckets<2>& buckets) {
+template <int Dim>
+void Ghosts<Dim>::fetch(const Communicator& comm, const LevelTree<Dim>& tree,
+                        const std::vector<Box<Dim>>& boxes, Nodes<Dim>& nodes,
+                        const Buckets<Dim>& buckets) {
   const int hops = std::exchange(hops_, 0);  // until all is well
   Outbox questions;
-  for (const Box<2>& box : boxes) {
+  for (const Box<Dim>& box : boxes) {
     std::set<int> ranks;
     tree.distribution().for_owners_in(box, [&](int r) { ranks.insert(r); });
     ranks.erase(comm.rank());
@@ -98,7 +104,7 @@ void Ghosts::fetch(const Communicator& comm, const LevelTree& tree,
   agreed(comm, [&] {
     for (const Message& theirs : found) {
       halo_.add_neighbour(theirs.rank);
-      for_records<PackedNode<2>>({theirs.bytes}, [&](const PackedNode<2>& node) {
+      for_records<PackedNode<Dim>>({theirs.bytes}, [&](const PackedNode<Dim>& node) {
         halo_.receive(theirs.rank, static_cast<std::int32_t>(nodes.count));
         append(nodes, node, false);
       });
@@ -109,15 +115,16 @@ void Ghosts::fetch(const Communicator& comm, const LevelTree& tree,
 }
 
 // Our nodes in the boxes that a rank asks about, if it does not have them yet; from now on it has.
-Bytes Ghosts::nodes_for(const Message& asked, const LevelTree& tree, const Nodes<2>& nodes,
-                        const Buckets<2>& buckets) {
+template <int Dim>
+Bytes Ghosts<Dim>::nodes_for(const Message& asked, const LevelTree<Dim>& tree,
+                             const Nodes<Dim>& nodes, const Buckets<Dim>& buckets) {
   std::unordered_set<std::int32_t> has;
   if (halo_.knows(asked.rank)) {
     const std::vector<std::int32_t>& sent = halo_.sent_to(asked.rank);
     has.insert(sent.begin(), sent.end());
   }
   Bytes answer;
-  for_records<Box<2>>({asked.bytes}, [&](const Box<2>& box) {
+  for_records<Box<Dim>>({asked.bytes}, [&](const Box<Dim>& box) {
     tree.tree().for_leaves_in(box, [&](std::int32_t leaf) {
       for (std::int32_t i = buckets.begin(leaf); i < buckets.end(leaf); ++i) {
         if (!nodes.owned(i) || !has.insert(i).second) continue;
@@ -129,5 +136,8 @@ Bytes Ghosts::nodes_for(const Message& asked, const LevelTree& tree, const Nodes
   });
   return answer;
 }
+
+template class Ghosts<2>;
+template class Ghosts<3>;
 
 }  // namespace pnpbs

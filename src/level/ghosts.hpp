@@ -15,22 +15,23 @@
 
 namespace pnpbs {
 
+template <int Dim>
 class Ghosts {
  public:
   // Owned nodes go to the ranks that own their leaves by now, and ghosts are chosen anew, so many
   // hops deep. Collective; it fails on all ranks or on none.
-  void exchange(const Communicator& comm, LevelTree& tree, const Settings& settings, int hops,
-                Nodes<2>& nodes, Neighbourhood& neighbourhood);
+  void exchange(const Communicator& comm, LevelTree<Dim>& tree, const Settings& settings, int hops,
+                Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood);
   // Owned nodes go to their owners by a new partition, however far; there are no ghosts until the
   // next exchange. Collective.
-  void migrate(const Communicator& comm, const LevelTree& tree, Nodes<2>& nodes,
-               Neighbourhood& neighbourhood);
+  void migrate(const Communicator& comm, const LevelTree<Dim>& tree, Nodes<Dim>& nodes,
+               Neighbourhood<Dim>& neighbourhood);
   // The same ghosts, exact again. All neighbours at the same time; no ranks agree on anything.
-  void update(const Communicator& comm, Nodes<2>& nodes);
+  void update(const Communicator& comm, Nodes<Dim>& nodes);
   // All nodes in these boxes become ghosts of ours, until the next exchange. Each is with the rank
   // that owns its place, so nobody else is asked. Collective.
-  void fetch(const Communicator& comm, const LevelTree& tree, const std::vector<Box<2>>& boxes,
-             Nodes<2>& nodes, const Buckets<2>& buckets);
+  void fetch(const Communicator& comm, const LevelTree<Dim>& tree,
+             const std::vector<Box<Dim>>& boxes, Nodes<Dim>& nodes, const Buckets<Dim>& buckets);
 
   // The next exchange must choose them.
   void choose_anew() { hops_ = 0; }
@@ -41,21 +42,21 @@ class Ghosts {
   // Do they reach so far, for steps until the next exchange, too?
   bool can_stay(const Settings& settings, int hops) const;
   // Do they, and are they where their owners have them?
-  bool are_exact(const Nodes<2>& nodes, int hops) const {
+  bool are_exact(const Nodes<Dim>& nodes, int hops) const {
     return hops_ >= hops && exact_at_ == nodes.positions();
   }
 
   std::int64_t neighbour_ranks() const { return halo_.neighbour_count(); }
   // That this rank sends at an update.
   std::int64_t update_bytes() const {
-    return halo_.nodes_sent() * static_cast<std::int64_t>(HaloExchange<2>::kRecordSize);
+    return halo_.nodes_sent() * static_cast<std::int64_t>(HaloExchange<Dim>::kRecordSize);
   }
 
  private:
-  Bytes nodes_for(const Message& asked, const LevelTree& tree, const Nodes<2>& nodes,
-                  const Buckets<2>& buckets);
+  Bytes nodes_for(const Message& asked, const LevelTree<Dim>& tree, const Nodes<Dim>& nodes,
+                  const Buckets<Dim>& buckets);
 
-  HaloExchange<2> halo_;
+  HaloExchange<Dim> halo_;
   int hops_ = 0;  // they reach so far; 0: they must be chosen anew
   std::int64_t steps_since_choice_ = 0;
   std::int64_t exact_at_ = -1;  // stamp of the positions

@@ -1,57 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a level stands on: the domain, the spacing, and the boundary discretized at that spacing. It
-// never changes.
+// What a level stands on: the domain and the spacing; in the plane the boundary discretized at that
+// spacing, too, in space the surfaces and the nodes on their feature edges. It never changes.
+//
+// Ground<2> and Ground<3> have in common: bounds(), measure() (area or volume), spacing(),
+// evaluator(), and boundary(), the facets that the background tree sorts.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <vector>
-
-#include "base/nodes.hpp"
-#include "domain/plane/boundary.hpp"
-#include "domain/plane/incident_sectors.hpp"
-#include "domain/plane/plane_domain.hpp"
-#include "spacing/spacing.hpp"
-
-namespace pnpbs {
-
-class Ground {
- public:
-  // Throws Error(ErrorKind::spacing) if the boundary had more than `max_nodes`.
-  Ground(std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const Spacing<2>> spacing,
-         std::int64_t max_nodes);
-  Ground(const Ground&) = delete;  // the tree points to the boundary
-  Ground& operator=(const Ground&) = delete;
-
-  const PlaneDomain& domain() const { return *domain_; }
-  const Spacing<2>& spacing() const { return *spacing_; }
-  SpacingEvaluator<2> evaluator() const;  // d, checked; while this ground is there
-  const Boundary& boundary() const { return boundary_; }
-  const IncidentSectors& sectors() const { return sectors_; }
-  std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }
-
-  // Of a boundary node: d there, and how large its bubble may be (see bubbles_on_boundary).
-  double boundary_spacing(std::int64_t b) const { return boundary_spacing_[index(b)]; }
-  double bubble_bound(std::int64_t b) const { return bubble_bound_[index(b)]; }
-
-  // d at node i as it is asked for: a bubble on a fine boundary is smaller.
-  double spacing_at(const Nodes<2>& nodes, std::int64_t i) const {
-    return nodes.moves(i) ? nodes.d(i) : boundary_spacing(nodes.boundary_node(i));
-  }
-  // Are these the ends of a boundary edge?
-  bool on_one_edge(const Nodes<2>& nodes, std::int64_t i, std::int64_t j) const {
-    return !nodes.moves(i) && !nodes.moves(j) &&
-           sectors_.joined(nodes.boundary_node(i), nodes.boundary_node(j));
-  }
-
- private:
-  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-  std::shared_ptr<const PlaneDomain> domain_;
-  std::shared_ptr<const Spacing<2>> spacing_;
-  Boundary boundary_;
-  IncidentSectors sectors_;
-  std::vector<double> bubble_bound_, boundary_spacing_;
-};
-
-}  // namespace pnpbs
+#include "level/plane/ground.hpp"
+#include "level/volume/ground.hpp"

@@ -7,32 +7,37 @@
 
 namespace pnpbs {
 
-Level::Level(std::shared_ptr<const Communicator> communicator,
-             std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const Spacing<2>> spacing,
-             const Settings& with, Timers& into)
+template <int Dim>
+Level<Dim>::Level(std::shared_ptr<const Communicator> communicator,
+                  std::shared_ptr<const Domain<Dim>> domain,
+                  std::shared_ptr<const Spacing<Dim>> spacing, const Settings& with, Timers& into)
     : comm(std::move(communicator)),
       settings(with),
       timers(into),
       ground(std::move(domain), std::move(spacing), settings.max_nodes) {
-  neighbourhood.reset_boundary(ground.boundary().nodes.size());
+  neighbourhood.reset_boundary(ground);
 }
 
-void Level::grow_tree(const Level* like) {
+template <int Dim>
+void Level<Dim>::grow_tree(const Level<Dim>* like) {
   const PhaseTimer timer(timers, distributed() ? Phase::partition : Phase::tree);
-  tree = LevelTree::grow(*comm, ground, settings, like ? like->tree.get() : nullptr);
-  neighbourhood.adopt(*tree, Neighbourhood::edges_near_leaves(*tree, edge_radius(settings)));
+  tree = LevelTree<Dim>::grow(*comm, ground, settings, like ? like->tree.get() : nullptr);
+  neighbourhood.adopt(*tree, NearBoundary<Dim>::near_leaves(*tree, edge_radius(settings)));
 }
 
-void Level::adopt_partition(Distribution<2> next) {
-  std::unique_ptr<LevelTree> grown = LevelTree::grow(*comm, ground, settings, std::move(next));
-  NearEdges edges;
-  agreed(*comm, [&] { edges = Neighbourhood::edges_near_leaves(*grown, edge_radius(settings)); });
-  neighbourhood.adopt(*grown, std::move(edges));
-  ghosts = Ghosts();
+template <int Dim>
+void Level<Dim>::adopt_partition(Distribution<Dim> next) {
+  std::unique_ptr<LevelTree<Dim>> grown =
+      LevelTree<Dim>::grow(*comm, ground, settings, std::move(next));
+  typename NearBoundary<Dim>::NearLeaves near;
+  agreed(*comm, [&] { near = NearBoundary<Dim>::near_leaves(*grown, edge_radius(settings)); });
+  neighbourhood.adopt(*grown, std::move(near));
+  ghosts = Ghosts<Dim>();
   tree = std::move(grown);
 }
 
-void Level::change_settings(const Settings& next) {
+template <int Dim>
+void Level<Dim>::change_settings(const Settings& next) {
   const Settings before = settings;
   settings = next;
   ++settings_version;
@@ -43,13 +48,27 @@ void Level::change_settings(const Settings& next) {
   // Nodes count as far from the boundary by the steps that were left since their reference
   // positions.
   if (meeting_radius(settings) != meeting_radius(before)) nodes.set_reference_positions();
-  if (edge_radius(settings) != neighbourhood.near_edges().radius())
-    neighbourhood.adopt(*tree, Neighbourhood::edges_near_leaves(*tree, edge_radius(settings)));
+  if (edge_radius(settings) != neighbourhood.near_boundary().radius())
+    neighbourhood.adopt(*tree, NearBoundary<Dim>::near_leaves(*tree, edge_radius(settings)));
 }
 
-std::int64_t Level::owned_count() const {
+template <int Dim>
+std::int64_t Level<Dim>::owned_count() const {
   return static_cast<std::int64_t>(sum_of("pnpbs::Level::owned_count", nodes.count,
                                           [this](std::int64_t i) { return nodes.owned(i); }));
 }
+
+std::int64_t boundary_nodes(const Level<2>& level) { return level.ground.boundary_nodes(); }
+
+std::int64_t boundary_nodes(const Level<3>& level) {
+  const Nodes<3>& nodes = level.nodes;
+  const std::uint64_t own = sum_of("pnpbs::boundary_nodes", nodes.count, [&](std::int64_t i) {
+    return nodes.owned(i) != 0 && nodes.carrier(i) != Carrier::free;
+  });
+  return static_cast<std::int64_t>(level.comm->allreduce_sum(own));
+}
+
+template struct Level<2>;
+template struct Level<3>;
 
 }  // namespace pnpbs

@@ -11,7 +11,8 @@
 #include "base/nodes.hpp"
 #include "base/timers.hpp"
 #include "comm/communicator.hpp"
-#include "delaunay/delaunay_stars.hpp"
+#include "delaunay/stars.hpp"
+#include "domain/domain.hpp"
 #include "level/ghosts.hpp"
 #include "level/ground.hpp"
 #include "level/level_tree.hpp"
@@ -21,21 +22,22 @@
 
 namespace pnpbs {
 
+template <int Dim>
 struct Level {
   // Discretizes the boundary. The tree is yet to be grown, the nodes are yet to come.
-  Level(std::shared_ptr<const Communicator> comm, std::shared_ptr<const PlaneDomain> domain,
-        std::shared_ptr<const Spacing<2>> spacing, const Settings& settings, Timers& timers);
+  Level(std::shared_ptr<const Communicator> comm, std::shared_ptr<const Domain<Dim>> domain,
+        std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings, Timers& timers);
 
   // And partitions it: as another level, if that is given and balances the work. Collective.
-  void grow_tree(const Level* like = nullptr);
+  void grow_tree(const Level<Dim>* like = nullptr);
   // Another partition; the nodes are yet to migrate. If it fails, all stays as it was. Collective.
-  void adopt_partition(Distribution<2> next);
+  void adopt_partition(Distribution<Dim> next);
   // For the steps to come; the growth limit belongs to the spacing and is not among them.
   void change_settings(const Settings& next);
 
   bool distributed() const { return comm->size() > 1; }
-  const DomainMap<2>& map() const { return tree->map(); }
-  const AdjacencyList<2>& lists() const { return neighbourhood.lists(); }
+  const DomainMap<Dim>& map() const { return tree->map(); }
+  const AdjacencyList<Dim>& lists() const { return neighbourhood.lists(); }
   // Changes with the nodes and with the lists.
   std::int64_t version() const {
     return nodes.version() + neighbourhood.rebuilds() + settings_version;
@@ -46,16 +48,20 @@ struct Level {
   Settings settings;
   Timers& timers;
 
-  Ground ground;
-  std::unique_ptr<LevelTree> tree;
-  Nodes<2> nodes;
+  Ground<Dim> ground;
+  std::unique_ptr<LevelTree<Dim>> tree;
+  Nodes<Dim> nodes;
   std::int64_t next_id = 0;  // no node has had it or a larger one
-  Ghosts ghosts;
-  Neighbourhood neighbourhood;
-  DelaunayStars stars;
-  TimeIntegration time_integration;
+  Ghosts<Dim> ghosts;
+  Neighbourhood<Dim> neighbourhood;
+  Stars<Dim> stars;
+  TimeIntegration<Dim> time_integration;
 
   std::int64_t settings_version = 0, rebalances = 0;
 };
+
+// Of all ranks. Collective in space.
+std::int64_t boundary_nodes(const Level<2>& level);
+std::int64_t boundary_nodes(const Level<3>& level);
 
 }  // namespace pnpbs

@@ -16,26 +16,28 @@
 
 namespace pnpbs {
 
+template <int Dim>
 class LevelTree {
  public:
   // Partitioned by the work that d asks for or, where that balances it, as another level is whose
   // spacing is a multiple of this one's. Collective.
-  static std::unique_ptr<LevelTree> grow(const Communicator& comm, const Ground& ground,
-                                         const Settings& settings, const LevelTree* like);
+  static std::unique_ptr<LevelTree<Dim>> grow(const Communicator& comm, const Ground<Dim>& ground,
+                                              const Settings& settings, const LevelTree<Dim>* like);
   // For these cells and owners. Collective.
-  static std::unique_ptr<LevelTree> grow(const Communicator& comm, const Ground& ground,
-                                         const Settings& settings, Distribution<2> distribution);
-  LevelTree(const LevelTree&) = delete;  // the distribution points to the tree
-  LevelTree& operator=(const LevelTree&) = delete;
+  static std::unique_ptr<LevelTree<Dim>> grow(const Communicator& comm, const Ground<Dim>& ground,
+                                              const Settings& settings,
+                                              Distribution<Dim> distribution);
+  LevelTree(const LevelTree<Dim>&) = delete;  // the distribution points to the tree
+  LevelTree<Dim>& operator=(const LevelTree<Dim>&) = delete;
 
-  const DomainMap<2>& map() const { return map_; }
-  const BackgroundTree<2>& tree() const { return map_.tree(); }
+  const DomainMap<Dim>& map() const { return map_; }
+  const BackgroundTree<Dim>& tree() const { return map_.tree(); }
   // Leaves of which one reaches the other.
-  const std::shared_ptr<const LeafLinks<2>>& links() const { return links_; }
-  const Distribution<2>& distribution() const { return distribution_; }
+  const std::shared_ptr<const LeafLinks<Dim>>& links() const { return links_; }
+  const Distribution<Dim>& distribution() const { return distribution_; }
   bool owns(std::int32_t leaf) const { return distribution_.owns(leaf); }
   // Rank that owns what is there.
-  int owner_at(const Point<2>& x) const { return distributed() ? distribution_.owner_at(x) : 0; }
+  int owner_at(const Point<Dim>& x) const { return distributed() ? distribution_.owner_at(x) : 0; }
   // Refined so far around the leaves that this rank owns.
   int hops() const { return hops_; }
   void forget_hops() { hops_ = 0; }  // the next exchange grows another tree
@@ -44,40 +46,40 @@ class LevelTree {
 
   // Another partition, by the work counted in each leaf of ours; most of it stays where it is.
   // Collective.
-  Distribution<2> redistributed(const Settings& settings,
-                                const std::vector<std::int64_t>& work) const;
+  Distribution<Dim> redistributed(const Settings& settings,
+                                  const std::vector<std::int64_t>& work) const;
 
  private:
-  LevelTree(const Communicator& comm, const Ground& ground) : comm_(comm), ground_(ground) {}
+  LevelTree(const Communicator& comm, const Ground<Dim>& ground) : comm_(comm), ground_(ground) {}
   bool distributed() const { return comm_.size() > 1; }
 
   // --- growing ---
   void grow_whole(const Settings& settings);
-  void grow_part(const Settings& settings, const LevelTree* like);
+  void grow_part(const Settings& settings, const LevelTree<Dim>* like);
   void refine(const Settings& settings, const std::vector<char>& refined);
   void link_leaves(const Settings& settings);
   void grow_own_part(const Settings& settings);
 
   // --- the partition ---
   void take_rough_cells(const Settings& settings);
-  std::vector<PartitionCell<2>> rough_cells(const Settings& settings);
+  std::vector<PartitionCell<Dim>> rough_cells(const Settings& settings);
   std::vector<std::int64_t> expected_work() const;
-  PartitionCells<2> cells_of_equal_work(const std::vector<std::int64_t>& work) const;
+  PartitionCells<Dim> cells_of_equal_work(const std::vector<std::int64_t>& work) const;
   std::vector<std::int32_t> cut_on_first_rank(const Settings& settings,
-                                              const PartitionCells<2>& cells) const;
-  std::vector<std::int32_t> cut_like(const Settings& settings, const Distribution<2>& other,
-                                     const PartitionCells<2>& cells) const;
-  std::vector<std::int32_t> keep_numbers(const PartitionCells<2>& cells,
+                                              const PartitionCells<Dim>& cells) const;
+  std::vector<std::int32_t> cut_like(const Settings& settings, const Distribution<Dim>& other,
+                                     const PartitionCells<Dim>& cells) const;
+  std::vector<std::int32_t> keep_numbers(const PartitionCells<Dim>& cells,
                                          std::vector<std::int32_t> part,
                                          const std::vector<std::int64_t>& work) const;
   void require_same_ground() const;
   void require_same_leaves() const;
 
   const Communicator& comm_;
-  const Ground& ground_;
-  DomainMap<2> map_;
-  std::shared_ptr<const LeafLinks<2>> links_;
-  Distribution<2> distribution_;
+  const Ground<Dim>& ground_;
+  DomainMap<Dim> map_;
+  std::shared_ptr<const LeafLinks<Dim>> links_;
+  Distribution<Dim> distribution_;
   int hops_ = 0;
 };
 

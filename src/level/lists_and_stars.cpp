@@ -11,17 +11,19 @@ namespace pnpbs {
 
 namespace {
 
-void widen(Box<2>& box, const Box<2>& by) {
-  for (int k = 0; k < 2; ++k) {
+template <int Dim>
+void widen(Box<Dim>& box, const Box<Dim>& by) {
+  for (int k = 0; k < Dim; ++k) {
     box.low[k] = std::min(box.low[k], by.low[k]);
     box.high[k] = std::max(box.high[k], by.high[k]);
   }
 }
 
 // Where all nodes are known after an exchange that deep.
-KnownRegion<2> known_after_exchange(Level& level, int hops) {
+template <int Dim>
+KnownRegion<Dim> known_after_exchange(Level<Dim>& level, int hops) {
   if (!level.distributed()) return {};
-  const LevelTree& tree = *level.tree;
+  const LevelTree<Dim>& tree = *level.tree;
   const Halo& halo = level.tree->halo(hops, level.settings);
   std::vector<char> known(static_cast<std::size_t>(tree.tree().leaf_count()), 0);
   for (std::int32_t leaf = 0; leaf < tree.tree().leaf_count(); ++leaf) {
@@ -31,19 +33,46 @@ KnownRegion<2> known_after_exchange(Level& level, int hops) {
         if (r == level.comm->rank()) known[static_cast<std::size_t>(leaf)] = 1;
       });
   }
-  return KnownRegion<2>(tree.tree(), known);
+  return KnownRegion<Dim>(tree.tree(), known);
 }
 
-void build_stars(Level& level, const KnownRegion<2>& known) {
+StarInput star_input(const Level<2>& level, const KnownRegion<2>& known) {
+  const Neighbourhood<2>& neighbourhood = level.neighbourhood;
+  return {level.nodes,
+          level.map(),
+          level.ground.sectors(),
+          neighbourhood.buckets(),
+          neighbourhood.lists(),
+          neighbourhood.near_boundary().edges(),
+          known};
+}
+
+VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
+  const Neighbourhood<3>& neighbourhood = level.neighbourhood;
+  // The boundary hides no neighbour of a free node that is far from it.
+  const auto complete = [&level](std::int64_t i) {
+    const NearBoundary<3>& near_boundary = level.neighbourhood.near_boundary();
+    return level.nodes.carrier(i) == Carrier::free &&
+           !near_boundary.within(i, level.lists().radius() * level.nodes.d(i));
+  };
+  return {level.nodes,
+          level.tree->tree(),
+          neighbourhood.buckets(),
+          neighbourhood.lists(),
+          known,
+          &level.map(),
+          complete};
+}
+
+template <int Dim>
+void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known) {
   const PhaseTimer timer(level.timers, Phase::stars);
-  const Neighbourhood& neighbourhood = level.neighbourhood;
-  level.stars.build({level.nodes, level.map(), level.ground.sectors(), neighbourhood.buckets(),
-                     neighbourhood.lists(), neighbourhood.near_edges(), known});
+  level.stars.build(star_input(level, known));
 }
 
 // Those not reached yet.
-std::vector<std::int64_t> neighbours_of(const DelaunayStars& stars,
-                                        const std::vector<std::int64_t>& front,
+template <class Graph>
+std::vector<std::int64_t> neighbours_of(const Graph& stars, const std::vector<std::int64_t>& front,
                                         std::vector<char>& reached) {
   std::vector<std::int64_t> next;
   for (const std::int64_t i : front)
@@ -56,13 +85,14 @@ std::vector<std::int64_t> neighbours_of(const DelaunayStars& stars,
 }
 
 // What must be known for the stars that are needed: one box for the nodes of each leaf.
-std::vector<Box<2>> unknown_around_stars(const Level& level, int rings) {
-  const Nodes<2>& nodes = level.nodes;
-  const DelaunayStars& stars = level.stars;
-  std::map<std::int32_t, Box<2>> box_of;
+template <int Dim>
+std::vector<Box<Dim>> unknown_around_stars(const Level<Dim>& level, int rings) {
+  const Nodes<Dim>& nodes = level.nodes;
+  const Stars<Dim>& stars = level.stars;
+  std::map<std::int32_t, Box<Dim>> box_of;
   const auto ask_around = [&](std::int64_t i) {
     if (stars.needs(i) == 0) return;
-    const Box<2> box = box_around<2>(nodes.position(i), stars.needs(i));
+    const Box<Dim> box = box_around<Dim>(nodes.position(i), stars.needs(i));
     widen(box_of.try_emplace(level.neighbourhood.buckets().bucket_of(i), box).first->second, box);
   };
   std::vector<std::int64_t> front;
@@ -79,41 +109,49 @@ std::vector<Box<2>> unknown_around_stars(const Level& level, int rings) {
     front = neighbours_of(stars, front, reached);
     for (const std::int64_t i : front) ask_around(i);
   }
-  std::vector<Box<2>> boxes;
+  std::vector<Box<Dim>> boxes;
   for (const auto& [leaf, box] : box_of) boxes.push_back(box);
   return boxes;
 }
 
-void sort_nodes(Level& level) {
+template <int Dim>
+void sort_nodes(Level<Dim>& level) {
   if (level.neighbourhood.sort_nodes(level.nodes, *level.tree, level.settings))
     level.ghosts.permute(level.neighbourhood.buckets().order(), level.nodes.count);
 }
 
 }  // namespace
 
-void rebuild_lists_for_steps(Level& level) {
+template <int Dim>
+void rebuild_lists_for_steps(Level<Dim>& level) {
   const PhaseTimer timer(level.timers, Phase::lists);
   sort_nodes(level);
   level.neighbourhood.rebuild_for_steps(level.nodes, level.ground, *level.tree, level.settings);
 }
 
-void rebuild_lists(Level& level, double radius) {
+template <int Dim>
+void rebuild_lists(Level<Dim>& level, double radius) {
   const PhaseTimer timer(level.timers, Phase::lists);
   sort_nodes(level);
   level.neighbourhood.rebuild_here(level.nodes, level.ground, *level.tree, radius);
 }
 
-void rebuild_stars(Level& level) { build_stars(level, KnownRegion<2>()); }
+template <int Dim>
+void rebuild_stars(Level<Dim>& level) {
+  build_stars(level, KnownRegion<Dim>());
+}
 
-void make_lists_and_stars(Level& level, int hops, double radius, int rings) {
+template <int Dim>
+void make_lists_and_stars(Level<Dim>& level, int hops, double radius, int rings) {
   agreed(*level.comm, [&] { rebuild_lists(level, radius); });
   make_stars(level, hops, radius, rings);
 }
 
-void make_stars(Level& level, int hops, double radius, int rings) {
-  KnownRegion<2> known = known_after_exchange(level, hops);
+template <int Dim>
+void make_stars(Level<Dim>& level, int hops, double radius, int rings) {
+  KnownRegion<Dim> known = known_after_exchange(level, hops);
   while (true) {
-    std::vector<Box<2>> unknown;
+    std::vector<Box<Dim>> unknown;
     agreed(*level.comm, [&] {
       build_stars(level, known);
       if (!known.is_everywhere()) unknown = unknown_around_stars(level, rings);
@@ -124,17 +162,31 @@ void make_stars(Level& level, int hops, double radius, int rings) {
       level.ghosts.fetch(*level.comm, *level.tree, unknown, level.nodes,
                          level.neighbourhood.buckets());
     }
-    for (const Box<2>& box : unknown) known.add(box);
+    for (const Box<Dim>& box : unknown) known.add(box);
     agreed(*level.comm, [&] { rebuild_lists(level, radius); });
   }
 }
 
-void prepare_lists(Level& level) {
+template <int Dim>
+void prepare_lists(Level<Dim>& level) {
   if (!level.ghosts.are_exact(level.nodes, kStarHops)) exchange(level, kStarHops);
   if (level.distributed())
     make_lists_and_stars(level, kStarHops, level.settings.adjacency_radius, 0);
   else
     rebuild_lists(level, level.settings.adjacency_radius);
 }
+
+template void rebuild_lists_for_steps(Level<2>&);
+template void rebuild_lists_for_steps(Level<3>&);
+template void rebuild_lists(Level<2>&, double);
+template void rebuild_lists(Level<3>&, double);
+template void rebuild_stars(Level<2>&);
+template void rebuild_stars(Level<3>&);
+template void make_lists_and_stars(Level<2>&, int, double, int);
+template void make_lists_and_stars(Level<3>&, int, double, int);
+template void make_stars(Level<2>&, int, double, int);
+template void make_stars(Level<3>&, int, double, int);
+template void prepare_lists(Level<2>&);
+template void prepare_lists(Level<3>&);
 
 }  // namespace pnpbs

@@ -9,20 +9,26 @@
 
 namespace pnpbs {
 
-void rebuild_lists_for_steps(Level& level);
+template <int Dim>
+void rebuild_lists_for_steps(Level<Dim>& level);
 // At the present positions.
-void rebuild_lists(Level& level, double radius);
+template <int Dim>
+void rebuild_lists(Level<Dim>& level, double radius);
 // From these, on one rank.
-void rebuild_stars(Level& level);
+template <int Dim>
+void rebuild_stars(Level<Dim>& level);
 
 // Right after an exchange that deep: lists, and the stars of the owned nodes and of the ghosts
 // around them, up to so many neighbours away. Collective.
-void make_lists_and_stars(Level& level, int hops, double radius, int rings);
+template <int Dim>
+void make_lists_and_stars(Level<Dim>& level, int hops, double radius, int rings);
 // The same where the lists are there. Collective.
-void make_stars(Level& level, int hops, double radius, int rings);
+template <int Dim>
+void make_stars(Level<Dim>& level, int hops, double radius, int rings);
 
 // The lists handed out. Over several ranks with the ghosts that the stars need, and the stars.
 // Collective.
-void prepare_lists(Level& level);
+template <int Dim>
+void prepare_lists(Level<Dim>& level);
 
 }  // namespace pnpbs

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "dynamics/bubble_force.hpp"
 #include "level/reach.hpp"
 
 namespace pnpbs {
@@ -16,51 +17,50 @@ constexpr std::int64_t kNodeWork = 8;
 
 }  // namespace
 
-NearEdges Neighbourhood::edges_near_leaves(const LevelTree& tree, double radius) {
-  NearEdges edges;
-  edges.prepare(tree.map(), *tree.links(), radius);
-  return edges;
-}
-
-void Neighbourhood::adopt(const LevelTree& tree, NearEdges edges_near_leaves) {
-  near_edges_ = std::move(edges_near_leaves);
+template <int Dim>
+void Neighbourhood<Dim>::adopt(const LevelTree<Dim>& tree,
+                               typename NearBoundary<Dim>::NearLeaves near_leaves) {
+  near_boundary_.adopt(std::move(near_leaves));
   arrangement_ = -1;
   if (prepared_for_ == &tree) return;
   prepared_for_ = &tree;
   buckets_.reset(tree.links());
 }
 
-bool Neighbourhood::sort_nodes(Nodes<2>& nodes, const LevelTree& tree, const Settings& settings) {
+template <int Dim>
+bool Neighbourhood<Dim>::sort_nodes(Nodes<Dim>& nodes, const LevelTree<Dim>& tree,
+                                    const Settings& settings) {
   return buckets_.sort(tree.tree(), nodes, widest_radius(settings));
 }
 
-void Neighbourhood::rebuild_for_steps(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
-                                      const Settings& settings) {
+template <int Dim>
+void Neighbourhood<Dim>::rebuild_for_steps(Nodes<Dim>& nodes, const Ground<Dim>& ground,
+                                           const LevelTree<Dim>& tree, const Settings& settings) {
   rebuild(nodes, ground, tree, settings.list_radius, nodes.reference);
-  reserve_field<2>(listed_, "pnpbs::Neighbourhood::listed", nodes.capacity());
+  reserve_field<Dim>(listed_, "pnpbs::Neighbourhood::listed", nodes.capacity());
   for_each("pnpbs::Neighbourhood::listed", nodes.count, [&](std::int64_t i) {
-    for (int k = 0; k < 2; ++k) listed_[k](i) = nodes.x[k](i);
+    for (int k = 0; k < Dim; ++k) listed_[k](i) = nodes.x[k](i);
   });
   max_displacement_ = 0;
   for_steps_ = true;
 }
 
-void Neighbourhood::rebuild_here(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
-                                 double radius) {
+template <int Dim>
+void Neighbourhood<Dim>::rebuild_here(Nodes<Dim>& nodes, const Ground<Dim>& ground,
+                                      const LevelTree<Dim>& tree, double radius) {
   listed_ = {};
   rebuild(nodes, ground, tree, radius, nodes.x);
 }
 
-void Neighbourhood::rebuild(Nodes<2>& nodes, const Ground& ground, const LevelTree& tree,
-                            double radius, const Field<2>& seen_from) {
+template <int Dim>
+void Neighbourhood<Dim>::rebuild(Nodes<Dim>& nodes, const Ground<Dim>& ground,
+                                 const LevelTree<Dim>& tree, double radius,
+                                 const Field<Dim>& seen_from) {
   for_steps_ = false;
   arrangement_ = -1;
-  const DomainMap<2>& map = tree.map();
-  near_edges_.build(nodes, seen_from, buckets_, map);
-  boundary_visibility_.look(nodes, near_edges_, map, ground.sectors());
-  lists_.build(
-      nodes, buckets_, radius,
-      VisibilityPastEdges{nodes, near_edges_, boundary_visibility_, map, ground.sectors()});
+  const DomainMap<Dim>& map = tree.map();
+  near_boundary_.build(nodes, seen_from, buckets_, map, ground);
+  lists_.build(nodes, buckets_, radius, near_boundary_.visibility(nodes, map, ground));
   nodes.set_padding();
   ++rebuilds_;
   arrangement_ = nodes.arrangement();
@@ -72,27 +72,31 @@ void Neighbourhood::rebuild(Nodes<2>& nodes, const Ground& ground, const LevelTr
 // A pair that was not listed, farther apart than radius times its desired distance, must not have
 // come within the range of the force: each node may travel half of the difference, and a scheme
 // with stages looks one move ahead. d does not change between rebuilds.
-bool Neighbourhood::needs_rebuild(const Nodes<2>& nodes, const Settings& settings) const {
+template <int Dim>
+bool Neighbourhood<Dim>::needs_rebuild(const Nodes<Dim>& nodes, const Settings& settings) const {
   if (!for_steps_ || arrangement_ != nodes.arrangement() || references_ != nodes.references())
     return true;
   const double ahead = settings.predictor_corrector ? settings.motion.max_move : 0;
   return max_displacement_ + ahead > 0.5 * (lists_.radius() - settings.force_range());
 }
 
-double Neighbourhood::squared_displacement(const Nodes<2>& nodes, const Field<2>& at,
-                                           std::int64_t first, std::int64_t last) const {
-  const double *const x = at[0].data(), *const y = at[1].data(), *const d = nodes.d.data(),
-                      *const listed_x = listed_[0].data(), *const listed_y = listed_[1].data();
+template <int Dim>
+double Neighbourhood<Dim>::squared_displacement(const Nodes<Dim>& nodes, const Field<Dim>& at,
+                                                std::int64_t first, std::int64_t last) const {
+  const Positions<Dim> x = positions_of<Dim>(at), listed = positions_of<Dim>(listed_);
+  const double* const d = nodes.d.data();
   double max = 0;
 #pragma omp simd reduction(max : max)
   for (std::int64_t i = first; i < last; ++i) {
-    const double dx = x[i] - listed_x[i], dy = y[i] - listed_y[i];
-    max = std::max(max, (dx * dx + dy * dy) / (d[i] * d[i]));
+    double square = 0;
+    for (int k = 0; k < Dim; ++k) square += (x[k][i] - listed[k][i]) * (x[k][i] - listed[k][i]);
+    max = std::max(max, square / (d[i] * d[i]));
   }
   return max;
 }
 
-void Neighbourhood::measure_displacement(const Nodes<2>& nodes) {
+template <int Dim>
+void Neighbourhood<Dim>::measure_displacement(const Nodes<Dim>& nodes) {
   if (!for_steps_ || arrangement_ != nodes.arrangement()) return;
   constexpr std::int64_t kChunk = 1024;
   max_displacement_ =
@@ -103,19 +107,22 @@ void Neighbourhood::measure_displacement(const Nodes<2>& nodes) {
                        }));
 }
 
-void Neighbourhood::keep_nodes(Nodes<2>& nodes, const View<std::int32_t>& places,
-                               std::int64_t kept) {
+template <int Dim>
+void Neighbourhood<Dim>::keep_nodes(Nodes<Dim>& nodes, const View<std::int32_t>& places,
+                                    std::int64_t kept) {
   nodes.keep(places, kept);
   buckets_.keep(places, kept);
 }
 
-std::int64_t Neighbourhood::work_of(std::int64_t i) const {
+template <int Dim>
+std::int64_t Neighbourhood<Dim>::work_of(std::int64_t i) const {
   std::int64_t pairs = 0;
   lists_.for_neighbours(i, [&](std::int64_t) { ++pairs; });
   return kNodeWork + pairs;
 }
 
-void Neighbourhood::count_work(const Nodes<2>& nodes) {
+template <int Dim>
+void Neighbourhood<Dim>::count_work(const Nodes<Dim>& nodes) {
   const auto none = static_cast<std::int32_t>(nodes.count);  // what short lists are filled with
   owned_work_ = static_cast<std::int64_t>(
       sum_of("pnpbs::Neighbourhood::count_work", lists_.block_count(), [&](std::int64_t b) {
@@ -131,5 +138,8 @@ void Neighbourhood::count_work(const Nodes<2>& nodes) {
       }));
   work_counted_ = nodes.references();
 }
+
+template class Neighbourhood<2>;
+template class Neighbourhood<3>;
 
 }  // namespace pnpbs

@@ -6,8 +6,9 @@
 namespace pnpbs {
 
 // The spacing is evaluated equally often on all ranks: it may live distributed over them.
-View<double> spacing_at_owned_nodes(const Level& level, const Spacing<2>& spacing) {
-  const Nodes<2>& nodes = level.nodes;
+template <int Dim>
+View<double> spacing_at_owned_nodes(const Level<Dim>& level, const Spacing<Dim>& spacing) {
+  const Nodes<Dim>& nodes = level.nodes;
   constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points handed out
   const std::int64_t last =
       static_cast<std::int64_t>(level.comm->allreduce_max(static_cast<double>(nodes.count)));
@@ -15,7 +16,7 @@ View<double> spacing_at_owned_nodes(const Level& level, const Spacing<2>& spacin
   agreed(*level.comm, [&] {
     all = make_view<double>("pnpbs::spacings", nodes.count);
     std::vector<std::int32_t> owned;
-    std::vector<Point<2>> x;
+    std::vector<Point<Dim>> x;
     std::vector<double> d;
     const auto max = static_cast<std::size_t>(std::min(kBatch, nodes.count));
     owned.reserve(max);
@@ -32,7 +33,7 @@ View<double> spacing_at_owned_nodes(const Level& level, const Spacing<2>& spacin
         const auto at = static_cast<std::size_t>(k);
         x[at] = nodes.position(owned[at]);
       });
-      evaluate_spacing<2>(spacing, level.ground.domain().area(), n, x.data(), d.data());
+      evaluate_spacing<Dim>(spacing, level.ground.measure(), n, x.data(), d.data());
       for_each("pnpbs::take_spacing", n, [&](std::int64_t k) {
         const auto at = static_cast<std::size_t>(k);
         all(owned[at]) = d[at];
@@ -43,18 +44,22 @@ View<double> spacing_at_owned_nodes(const Level& level, const Spacing<2>& spacin
 }
 
 // If the callback fails, all stays as it is.
-void refresh_spacing(Level& level) {
+template <int Dim>
+void refresh_spacing(Level<Dim>& level) {
   const PhaseTimer timer(level.timers, Phase::spacing);
-  Nodes<2>& nodes = level.nodes;
+  Nodes<Dim>& nodes = level.nodes;
   const View<double> d = spacing_at_owned_nodes(level, level.ground.spacing());
   for_each("pnpbs::refresh_spacing", nodes.count, [&](std::int64_t i) {
     if (!nodes.owned(i)) return;
-    nodes.d(i) = d(i);
-    if (nodes.moves(i)) return;
-    nodes.d(i) = std::min(d(i), level.ground.bubble_bound(nodes.boundary_node(i)));
+    nodes.d(i) = level.ground.bubble_at(nodes, i, d(i));
   });
   nodes.set_reference_positions();
   level.ghosts.choose_anew();
 }
+
+template View<double> spacing_at_owned_nodes(const Level<2>&, const Spacing<2>&);
+template View<double> spacing_at_owned_nodes(const Level<3>&, const Spacing<3>&);
+template void refresh_spacing(Level<2>&);
+template void refresh_spacing(Level<3>&);
 
 }  // namespace pnpbs

@@ -7,10 +7,12 @@
 namespace pnpbs {
 
 // Of any spacing, at the places of the nodes; what is at those of ghosts means nothing. Collective.
-View<double> spacing_at_owned_nodes(const Level& level, const Spacing<2>& spacing);
+template <int Dim>
+View<double> spacing_at_owned_nodes(const Level<Dim>& level, const Spacing<Dim>& spacing);
 
 // An event: d at the owned nodes becomes what the spacing is there, and visibility is judged from
 // where nodes are now. Ghosts get theirs with the next exchange. Collective.
-void refresh_spacing(Level& level);
+template <int Dim>
+void refresh_spacing(Level<Dim>& level);
 
 }  // namespace pnpbs

@@ -11,19 +11,32 @@
 
 namespace pnpbs {
 
-void find_leaves(const Level& level, GivenNodes& given) {
+namespace {
+
+// Places are sorted by their last coordinate first.
+template <int Dim>
+Point<Dim> reversed(Point<Dim> x) {
+  std::reverse(x.begin(), x.end());
+  return x;
+}
+
+}  // namespace
+
+template <int Dim>
+void find_leaves(const Level<Dim>& level, GivenNodes<Dim>& given) {
   for_each("pnpbs::find_leaves", static_cast<std::int64_t>(given.size()), [&](std::int64_t k) {
-    GivenNode& node = given[static_cast<std::size_t>(k)];
-    node.leaf = node.inner ? level.tree->tree().leaf_at(node.position) : -1;
+    GivenNode<Dim>& node = given[static_cast<std::size_t>(k)];
+    node.leaf = node.is_inner() ? level.tree->tree().leaf_at(node.position) : -1;
   });
 }
 
-std::vector<std::int32_t> sort_by_place(const Level& level, GivenNodes& given) {
+template <int Dim>
+std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, GivenNodes<Dim>& given) {
   const std::int32_t leaves = level.tree->tree().leaf_count();
   const auto leaf_of = [&](std::int64_t k) { return given[static_cast<std::size_t>(k)].leaf; };
   CountingSort by_leaf(static_cast<std::int64_t>(given.size()), leaves, leaf_of);
   std::vector<std::int32_t> begin = by_leaf.start();
-  GivenNodes sorted(static_cast<std::size_t>(begin.back()));
+  GivenNodes<Dim> sorted(static_cast<std::size_t>(begin.back()));
   by_leaf.for_places(leaf_of, [&](std::int64_t k, std::int32_t place) {
     sorted[static_cast<std::size_t>(place)] = given[static_cast<std::size_t>(k)];
   });
@@ -31,9 +44,9 @@ std::vector<std::int32_t> sort_by_place(const Level& level, GivenNodes& given) {
   for_each("pnpbs::sort_by_place", leaves, [&](std::int64_t leaf) {
     const auto at = static_cast<std::size_t>(leaf);
     std::sort(given.begin() + begin[at], given.begin() + begin[at + 1],
-              [](const GivenNode& a, const GivenNode& b) {
-                return std::tie(a.position[1], a.position[0], a.id, a.d) <
-                       std::tie(b.position[1], b.position[0], b.id, b.d);
+              [](const GivenNode<Dim>& a, const GivenNode<Dim>& b) {
+                const auto x = reversed<Dim>(a.position), y = reversed<Dim>(b.position);
+                return std::tie(x, a.id, a.d) < std::tie(y, b.id, b.d);
               });
   });
   return begin;
@@ -47,9 +60,11 @@ struct LeafNode {
 
 // Boundary and inner nodes, both sorted by leaf, as they follow each other: leaf by leaf, boundary
 // nodes first. All threads walk along them, each in its own blocks of leaves.
+template <int Dim>
 class LeafBlocks {
  public:
-  LeafBlocks(std::int32_t leaves, const std::vector<LeafNode>& boundary, const GivenNodes& inner)
+  LeafBlocks(std::int32_t leaves, const std::vector<LeafNode>& boundary,
+             const GivenNodes<Dim>& inner)
       : leaves_(leaves), boundary_(boundary), inner_(inner) {}
 
   // Calls of_boundary(place, node) or of_inner(place, node) for every node.
@@ -75,12 +90,13 @@ class LeafBlocks {
  private:
   std::int32_t leaves_;
   const std::vector<LeafNode>& boundary_;
-  const GivenNodes& inner_;
+  const GivenNodes<Dim>& inner_;
 };
 
 // Nodes in one place would never part: the first of them counts. They are sorted by place.
-void leave_out_coinciding(GivenNodes& inner) {
-  const auto same_place = [](const GivenNode& a, const GivenNode& b) {
+template <int Dim>
+void leave_out_coinciding(GivenNodes<Dim>& inner) {
+  const auto same_place = [](const GivenNode<Dim>& a, const GivenNode<Dim>& b) {
     return a.position == b.position;
   };
   const std::int64_t pairs = std::max<std::int64_t>(1, static_cast<std::int64_t>(inner.size())) - 1;
@@ -92,11 +108,11 @@ void leave_out_coinciding(GivenNodes& inner) {
 }
 
 // Those that this rank owns, by leaf.
-std::vector<LeafNode> own_boundary_nodes(const Level& level) {
+template <int Dim>
+std::vector<LeafNode> own_boundary_nodes(const Level<Dim>& level, const LaidNodes<Dim>& laid) {
   std::vector<LeafNode> own;
-  const std::vector<BoundaryNode<2>>& laid = level.ground.boundary().nodes;
   for (std::size_t b = 0; b < laid.size(); ++b) {
-    const std::int32_t leaf = level.tree->tree().leaf_at(laid[b].position);
+    const std::int32_t leaf = level.tree->tree().leaf_at(laid.position(b));
     if (level.tree->owns(leaf)) own.push_back({leaf, static_cast<std::int32_t>(b)});
   }
   std::sort(own.begin(), own.end(), [](const LeafNode& a, const LeafNode& b) {
@@ -106,10 +122,13 @@ std::vector<LeafNode> own_boundary_nodes(const Level& level) {
 }
 
 // An id larger than all there are, on all ranks. In two parts: not every id is a double.
-std::int64_t next_id_after(const Level& level, const GivenNodes& inner) {
+template <int Dim>
+std::int64_t next_id_after(const Level<Dim>& level, const GivenNodes<Dim>& inner,
+                           const LaidNodes<Dim>& laid) {
   constexpr std::int64_t kPart = std::int64_t{1} << 32;
   std::int64_t next = level.next_id;
-  for (const GivenNode& node : inner) next = std::max(next, node.id + 1);
+  for (const GivenNode<Dim>& node : inner) next = std::max(next, node.id + 1);
+  for (std::size_t b = 0; b < laid.size(); ++b) next = std::max(next, laid.id(b) + 1);
   const auto high =
       static_cast<std::int64_t>(level.comm->allreduce_max(static_cast<double>(next / kPart)));
   const auto low = static_cast<std::int64_t>(
@@ -118,15 +137,15 @@ std::int64_t next_id_after(const Level& level, const GivenNodes& inner) {
 }
 
 // By leaf: the ids for those without one. Moves level.next_id on.
-template <class BoundaryId>
-std::vector<std::int64_t> new_ids(Level& level, const LeafBlocks& blocks,
+template <int Dim, class BoundaryId>
+std::vector<std::int64_t> new_ids(Level<Dim>& level, const LeafBlocks<Dim>& blocks,
                                   const BoundaryId& boundary_id) {
   std::vector<std::int64_t> next(static_cast<std::size_t>(level.tree->tree().leaf_count()), 0);
   blocks.for_each_node(
       [&](std::size_t, const LeafNode& node) {
         next[static_cast<std::size_t>(node.leaf)] += boundary_id(node) < 0;
       },
-      [&](std::size_t, const GivenNode& node) {
+      [&](std::size_t, const GivenNode<Dim>& node) {
         next[static_cast<std::size_t>(node.leaf)] += node.id < 0;
       });
   return level.tree->distribution().prefix_sums(*level.comm, std::move(next), level.next_id);
@@ -136,34 +155,32 @@ std::vector<std::int64_t> new_ids(Level& level, const LeafBlocks& blocks,
 
 // New ids go by bucket in Morton order, boundary nodes first, then by place, so that the order of
 // ids is nearly the order in memory.
-void number_and_store(Level& level, GivenNodes inner, std::vector<std::int64_t> boundary_ids) {
-  const std::vector<BoundaryNode<2>>& laid = level.ground.boundary().nodes;
-  boundary_ids.resize(laid.size(), -1);
-  leave_out_coinciding(inner);
-  level.next_id = next_id_after(level, inner);
-  const std::vector<LeafNode> own_boundary = own_boundary_nodes(level);
-  const LeafBlocks blocks(level.tree->tree().leaf_count(), own_boundary, inner);
+template <int Dim>
+void number_and_store(Level<Dim>& level, GivenNodes<Dim> inner, LaidNodes<Dim> laid) {
+  leave_out_coinciding<Dim>(inner);
+  level.next_id = next_id_after(level, inner, laid);
+  const std::vector<LeafNode> own_boundary = own_boundary_nodes(level, laid);
+  const LeafBlocks<Dim> blocks(level.tree->tree().leaf_count(), own_boundary, inner);
   const auto boundary_id = [&](const LeafNode& node) {
-    return boundary_ids[static_cast<std::size_t>(node.node)];
+    return laid.id(static_cast<std::size_t>(node.node));
   };
   std::vector<std::int64_t> next = new_ids(level, blocks, boundary_id);
   const auto number = [&](std::int64_t id, std::int32_t leaf) {
     return id >= 0 ? id : next[static_cast<std::size_t>(leaf)]++;
   };
   const auto count = static_cast<std::int64_t>(own_boundary.size() + inner.size());
-  Nodes<2>& nodes = level.nodes;
+  Nodes<Dim>& nodes = level.nodes;
   // Room for births and, over several ranks, for ghosts.
   nodes.reset(count, count + count / (level.distributed() ? 16 : 64) + 64);
   const View<std::int32_t> bucket = level.neighbourhood.buckets_of_new(nodes);
   blocks.for_each_node(
       [&](std::size_t place, const LeafNode& node) {
         const auto i = static_cast<std::int64_t>(place);
-        const BoundaryNode<2>& at = laid[static_cast<std::size_t>(node.node)];
-        nodes.put(i, at.position, 1, number(boundary_id(node), node.leaf), at.tag, Carrier::fixed,
-                  node.node);
+        laid.put(nodes, i, static_cast<std::size_t>(node.node),
+                 number(boundary_id(node), node.leaf));
         bucket(i) = node.leaf;
       },
-      [&](std::size_t place, const GivenNode& node) {
+      [&](std::size_t place, const GivenNode<Dim>& node) {
         const auto i = static_cast<std::int64_t>(place);
         nodes.put(i, node.position, 1, number(node.id, node.leaf), 0, Carrier::free, -1);
         bucket(i) = node.leaf;
@@ -171,5 +188,12 @@ void number_and_store(Level& level, GivenNodes inner, std::vector<std::int64_t> 
   refresh_spacing(level);
   exchange(level, step_hops(level.settings));
 }
+
+template void find_leaves(const Level<2>&, GivenNodes<2>&);
+template void find_leaves(const Level<3>&, GivenNodes<3>&);
+template std::vector<std::int32_t> sort_by_place(const Level<2>&, GivenNodes<2>&);
+template std::vector<std::int32_t> sort_by_place(const Level<3>&, GivenNodes<3>&);
+template void number_and_store(Level<2>&, GivenNodes<2>, LaidNodes<2>);
+template void number_and_store(Level<3>&, GivenNodes<3>, LaidNodes<3>);
 
 }  // namespace pnpbs

@@ -6,18 +6,21 @@
 #include <vector>
 
 #include "initial/given_nodes.hpp"
+#include "level/laid_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
 
 // Of inner nodes; a boundary node has none, it is laid afresh.
-void find_leaves(const Level& level, GivenNodes& given);
+template <int Dim>
+void find_leaves(const Level<Dim>& level, GivenNodes<Dim>& given);
 // By leaf, in Morton order, and by place within it, so that nothing depends on where nodes came
 // from; those that have no leaf are left out. Returns the first place of each leaf.
-std::vector<std::int32_t> sort_by_place(const Level& level, GivenNodes& given);
-// The boundary nodes of this rank and these, sorted by place, become the nodes of the level. Those
-// without an id get new ones; `boundary_ids` are those that boundary nodes keep, -1 for none; if
-// empty, all are new. Collective.
-void number_and_store(Level& level, GivenNodes inner, std::vector<std::int64_t> boundary_ids);
+template <int Dim>
+std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, GivenNodes<Dim>& given);
+// The boundary nodes of this rank and these inner ones, sorted by place, become the nodes of the
+// level. Those without an id get new ones. Collective.
+template <int Dim>
+void number_and_store(Level<Dim>& level, GivenNodes<Dim> inner, LaidNodes<Dim> laid);
 
 }  // namespace pnpbs

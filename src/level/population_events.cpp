@@ -8,12 +8,15 @@
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
 #include "level/room.hpp"
+#include "level/volume/surface_level.hpp"
+#include "population/free_place.hpp"
 #include "quality/plane/defects.hpp"
 
 namespace pnpbs {
 
-void delete_nodes(Level& level, const std::vector<std::int32_t>& deleted) {
-  Nodes<2>& nodes = level.nodes;
+template <int Dim>
+void delete_nodes(Level<Dim>& level, const std::vector<std::int32_t>& deleted) {
+  Nodes<Dim>& nodes = level.nodes;
   constexpr std::int64_t kChunk = 4096;
   const View<std::int32_t> stay = nodes.order_scratch();
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
@@ -32,33 +35,59 @@ void delete_nodes(Level& level, const std::vector<std::int32_t>& deleted) {
 
 namespace {
 
+// Where a new bubble would come beside node i.
+Point<2> place_beside(const Level<2>& level, std::int64_t i) {
+  return free_place<2>(level.nodes, level.lists(), i);
+}
+Point<3> place_beside(const Level<3>& level, std::int64_t i) {
+  return level.nodes.moving == Carrier::surface ? free_place_on_surface(level, i)
+                                                : free_place<3>(level.nodes, level.lists(), i);
+}
+
+// What new bubbles lie on, while their parents are at hand.
+void find_carriers(const Level<2>&, PopulationChange<2>&) {}
+void find_carriers(const Level<3>& level, PopulationChange<3>& change) {
+  if (level.nodes.moving != Carrier::surface) return;
+  for (std::size_t k = 0; k < change.born.size(); ++k)
+    change.born[k].boundary_node = facet_at(level, change.parents[k], change.born[k].position);
+}
+
+std::int32_t tag_of_birth(const Level<2>&, const Birth<2>&) { return 0; }
+std::int32_t tag_of_birth(const Level<3>& level, const Birth<3>& birth) {
+  if (birth.boundary_node < 0) return 0;
+  return level.ground.boundary().facets[static_cast<std::size_t>(birth.boundary_node)].tag;
+}
+
 // The owner of the leaf a node is born in numbers it: ids by bucket in Morton order, then by
 // parent, so that no order of threads or ranks comes in.
-void number_births(Level& level, std::vector<Birth<2>> born) {
-  const BackgroundTree<2>& tree = level.tree->tree();
+template <int Dim>
+void number_births(Level<Dim>& level, std::vector<Birth<Dim>> born) {
+  const BackgroundTree<Dim>& tree = level.tree->tree();
   if (level.distributed())
-    born = redistribute<Birth<2>>(*level.comm, born, [&](const Birth<2>& birth) {
+    born = redistribute<Birth<Dim>>(*level.comm, born, [&](const Birth<Dim>& birth) {
       return level.tree->owner_at(birth.position);
     });
   std::vector<std::int64_t> new_ids(static_cast<std::size_t>(tree.leaf_count()), 0);
-  for (const Birth<2>& birth : born)
+  for (const Birth<Dim>& birth : born)
     ++new_ids[static_cast<std::size_t>(tree.leaf_at(birth.position))];
   std::vector<std::int64_t> next =
       level.tree->distribution().prefix_sums(*level.comm, std::move(new_ids), level.next_id);
   std::sort(born.begin(), born.end(),
-            [](const Birth<2>& a, const Birth<2>& b) { return a.parent < b.parent; });
-  for (const Birth<2>& birth : born)
+            [](const Birth<Dim>& a, const Birth<Dim>& b) { return a.parent < b.parent; });
+  for (const Birth<Dim>& birth : born)
     level.nodes.append(birth.position, birth.d,
-                       next[static_cast<std::size_t>(tree.leaf_at(birth.position))]++, 0,
-                       Carrier::free, -1);
+                       next[static_cast<std::size_t>(tree.leaf_at(birth.position))]++,
+                       tag_of_birth(level, birth), level.nodes.moving, birth.boundary_node);
 }
 
-PopulationCounts carry_out(Level& level, PopulationChange<2> change) {
-  Nodes<2>& nodes = level.nodes;
+template <int Dim>
+PopulationCounts carry_out(Level<Dim>& level, PopulationChange<Dim> change) {
+  Nodes<Dim>& nodes = level.nodes;
   const PhaseTimer timer(level.timers, Phase::population);
+  find_carriers(level, change);
   // Each is its owner's to count and to number, a birth the parent's owner's.
   PopulationCounts counts;
-  std::vector<Birth<2>> born;
+  std::vector<Birth<Dim>> born;
   for (std::size_t k = 0; k < change.born.size(); ++k)
     if (nodes.owned(change.parents[k])) born.push_back(change.born[k]);
   for (std::int32_t i : change.deleted) counts.deleted += nodes.owned(i);
@@ -77,32 +106,34 @@ PopulationCounts carry_out(Level& level, PopulationChange<2> change) {
 
 }  // namespace
 
-PopulationCounts adjust_population(Level& level, double tolerance) {
-  const Nodes<2>& nodes = level.nodes;
+template <int Dim>
+PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
+  const Nodes<Dim>& nodes = level.nodes;
   level.nodes.set_reference_positions();
   exchange(level, kPopulationHops);
-  PopulationChange<2> change;
-  const PopulationRule<2>& rule = level.settings.population;
+  PopulationChange<Dim> change;
+  const PopulationRule& rule = level.settings.population;
   View<double> ratios;
   agreed(*level.comm, [&] {
     rebuild_lists_for_steps(level);
     const PhaseTimer timer(level.timers, Phase::population);
-    ratios = overlap_ratios<2>(nodes, level.lists());
+    ratios = overlap_ratios<Dim>(nodes, level.lists());
   });
   const PopulationThresholds thresholds =
-      choose_thresholds<2>(*level.comm, nodes, level.lists(), ratios, rule, tolerance);
+      choose_thresholds<Dim>(*level.comm, nodes, level.lists(), ratios, rule, tolerance);
   agreed(*level.comm, [&] {
     const PhaseTimer timer(level.timers, Phase::population);
     const View<char> no_room = nodes_without_room(level);
-    change = choose_population_change<2>(
+    change = choose_population_change<Dim>(
         nodes, level.lists(), ratios, rule, thresholds,
         [&](std::int64_t i) { return no_room(i) != 0; },
-        [&](const Point<2>& x, double d) { return has_clearance(level, x, d); });
+        [&](std::int64_t i) { return place_beside(level, i); },
+        [&](const Point<Dim>& x, double d) { return has_clearance(level, x, d); });
   });
   return carry_out(level, std::move(change));
 }
 
-PopulationCounts repair_defects(Level& level) {
+PopulationCounts repair_defects(Level<2>& level) {
   level.nodes.set_reference_positions();
   exchange(level, kPopulationHops);
   make_lists_and_stars(level, kPopulationHops, level.settings.list_radius, kDefectRings);
@@ -115,5 +146,13 @@ PopulationCounts repair_defects(Level& level) {
   });
   return carry_out(level, std::move(change));
 }
+
+// Its stars have no cyclic order to tell defects by.
+PopulationCounts repair_defects(Level<3>&) { return {}; }
+
+template void delete_nodes(Level<2>&, const std::vector<std::int32_t>&);
+template void delete_nodes(Level<3>&, const std::vector<std::int32_t>&);
+template PopulationCounts adjust_population(Level<2>&, double);
+template PopulationCounts adjust_population(Level<3>&, double);
 
 }  // namespace pnpbs

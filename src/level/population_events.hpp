@@ -17,11 +17,14 @@ struct PopulationCounts {
 
 // By the thresholds of the settings and, where the mean distance is off by more than the tolerance,
 // by those that it asks for. Counts are of this rank. Collective.
-PopulationCounts adjust_population(Level& level, double tolerance = kMeanTolerance);
+template <int Dim>
+PopulationCounts adjust_population(Level<Dim>& level, double tolerance = kMeanTolerance);
 // Deletes and inserts where defects of the Delaunay stars are repaired by it. Collective.
-PopulationCounts repair_defects(Level& level);
+PopulationCounts repair_defects(Level<2>& level);
+PopulationCounts repair_defects(Level<3>& level);
 
 // Of this rank, ghosts among them; in the order of memory.
-void delete_nodes(Level& level, const std::vector<std::int32_t>& deleted);
+template <int Dim>
+void delete_nodes(Level<Dim>& level, const std::vector<std::int32_t>& deleted);
 
 }  // namespace pnpbs

@@ -13,7 +13,7 @@ double widest_radius(const Settings& settings) {
 }
 
 double meeting_radius(const Settings& settings) {
-  return kBoundaryClearance +
+  return (settings.dimension == 3 ? kVolumeClearance : kBoundaryClearance) +
          settings.motion.max_move * static_cast<double>(settings.event_interval);
 }
 

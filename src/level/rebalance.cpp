@@ -9,9 +9,10 @@ namespace pnpbs {
 
 namespace {
 
-std::vector<std::int64_t> counted_work(const Level& level) {
-  const BackgroundTree<2>& tree = level.tree->tree();
-  const Nodes<2>& nodes = level.nodes;
+template <int Dim>
+std::vector<std::int64_t> counted_work(const Level<Dim>& level) {
+  const BackgroundTree<Dim>& tree = level.tree->tree();
+  const Nodes<Dim>& nodes = level.nodes;
   std::vector<std::int64_t> work(static_cast<std::size_t>(tree.leaf_count()), 0);
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (nodes.owned(i))
@@ -20,21 +21,24 @@ std::vector<std::int64_t> counted_work(const Level& level) {
   return work;
 }
 
-void migrate(Level& level) {
+template <int Dim>
+void migrate(Level<Dim>& level) {
   const PhaseTimer timer(level.timers, Phase::exchange);
   level.ghosts.migrate(*level.comm, *level.tree, level.nodes, level.neighbourhood);
 }
 
 }  // namespace
 
-double imbalance_of(const Level& level) {
+template <int Dim>
+double imbalance_of(const Level<Dim>& level) {
   const std::int64_t own = level.neighbourhood.owned_work();
   const auto all = static_cast<double>(level.comm->allreduce_sum(static_cast<std::uint64_t>(own)));
   return all > 0 ? level.comm->allreduce_max(static_cast<double>(own)) * level.comm->size() / all
                  : 1;
 }
 
-void rebalance(Level& level) {
+template <int Dim>
+void rebalance(Level<Dim>& level) {
   if (!level.distributed()) return;
   const int hops = step_hops(level.settings);
   exchange(level, hops);
@@ -47,5 +51,10 @@ void rebalance(Level& level) {
   agreed(*level.comm, [&] { rebuild_lists_for_steps(level); });
   ++level.rebalances;
 }
+
+template double imbalance_of(const Level<2>&);
+template double imbalance_of(const Level<3>&);
+template void rebalance(Level<2>&);
+template void rebalance(Level<3>&);
 
 }  // namespace pnpbs

@@ -7,9 +7,11 @@
 namespace pnpbs {
 
 // Largest over mean of the work that ranks own, as it was counted after the last event. Collective.
-double imbalance_of(const Level& level);
+template <int Dim>
+double imbalance_of(const Level<Dim>& level);
 
 // Another partition, by the work counted; the nodes migrate. Collective.
-void rebalance(Level& level);
+template <int Dim>
+void rebalance(Level<Dim>& level);
 
 }  // namespace pnpbs

@@ -9,6 +9,7 @@
 #include "level/lists_and_stars.hpp"
 #include "level/node_spacing.hpp"
 #include "level/reach.hpp"
+#include "level/volume/surface_level.hpp"
 
 namespace pnpbs {
 
@@ -22,12 +23,14 @@ int pieces_of(double length, double d) {
 
 // Calls visit(place) for the new nodes on the edge from x to y, cut into equal pieces: so many
 // where it is long enough.
-template <class Visit>
-void cut_edge(const Point<2>& x, const Point<2>& y, double d, int max, const Visit& visit) {
-  const int pieces = std::min(max, pieces_of(distance<2>(x, y), d));
+template <int Dim, class Visit>
+void cut_edge(const Point<Dim>& x, const Point<Dim>& y, double d, int max, const Visit& visit) {
+  const int pieces = std::min(max, pieces_of(distance<Dim>(x, y), d));
   for (int k = 1; k < pieces; ++k) {
     const double a = static_cast<double>(k) / pieces;
-    visit(Point<2>{x[0] + a * (y[0] - x[0]), x[1] + a * (y[1] - x[1])});
+    Point<Dim> place;
+    for (int c = 0; c < Dim; ++c) place[c] = x[c] + a * (y[c] - x[c]);
+    visit(place);
   }
 }
 
@@ -45,39 +48,71 @@ void fill_triangle(const std::array<Point<2>, 3>& x, double d, int max, const Vi
     }
 }
 
-// Calls visit(place) for the new nodes of an owned node, where the spacing will be d. Edges and
-// triangles are their node's with the least id.
+// Triangles are their node's with the least id.
 template <class Visit>
-void for_new_nodes(const Level& level, std::int64_t i, double d, const Visit& visit) {
+void for_new_nodes_in_triangles(const Level<2>& level, std::int64_t i, double d, int pieces,
+                                const Visit& visit) {
   const Nodes<2>& nodes = level.nodes;
-  // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
-  const int pieces = pieces_of(level.ground.spacing_at(nodes, i), d);
-  if (pieces < 2) return;
-  const Point<2> x = nodes.position(i);
-  level.stars.for_neighbours(i, [&](std::int64_t j) {
-    if (nodes.id(i) < nodes.id(j) && !level.ground.on_one_edge(nodes, i, j))
-      cut_edge(x, nodes.position(j), d, pieces, visit);
-  });
-  if (pieces < 3) return;
   level.stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
     const std::int64_t j = others[0], k = others[1];
     if (nodes.id(i) < nodes.id(j) && nodes.id(i) < nodes.id(k))
-      fill_triangle({x, nodes.position(j), nodes.position(k)}, d, pieces, visit);
+      fill_triangle({nodes.position(i), nodes.position(j), nodes.position(k)}, d, pieces, visit);
   });
+}
+
+// Nodes on the boundary of a volume are refined with it. What comes on top of it has no room.
+bool on_one_edge(const Ground<2>& ground, const Nodes<2>& nodes, std::int64_t i, std::int64_t j) {
+  return ground.on_one_edge(nodes, i, j);
+}
+bool on_one_edge(const Ground<3>&, const Nodes<3>&, std::int64_t, std::int64_t) { return false; }
+
+// Calls visit(place) for the new nodes of an owned node, where the spacing will be d. Edges are
+// their node's with the least id.
+template <int Dim, class Visit>
+void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visit& visit) {
+  const Nodes<Dim>& nodes = level.nodes;
+  // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
+  const int pieces = pieces_of(level.ground.spacing_at(nodes, i), d);
+  if (pieces < 2) return;
+  const Point<Dim> x = nodes.position(i);
+  level.stars.for_neighbours(i, [&](std::int64_t j) {
+    if (nodes.id(i) < nodes.id(j) && !on_one_edge(level.ground, nodes, i, j))
+      cut_edge<Dim>(x, nodes.position(j), d, pieces, visit);
+  });
+  if constexpr (Dim == 2)
+    if (pieces >= 3) for_new_nodes_in_triangles(level, i, d, pieces, visit);
+}
+
+void append_surface_midpoints(const Level<2>&, const View<double>&, GivenNodes<2>&) {}
+
+GivenNode<2> kept_node(const Nodes<2>& nodes, std::int64_t i) {
+  return {nodes.position(i), nodes.id(i), nodes.moves(i), -1, nodes.d(i)};
+}
+GivenNode<3> kept_node(const Nodes<3>& nodes, std::int64_t i) {
+  return {nodes.position(i), nodes.id(i), nodes.carrier(i), nodes.boundary_node(i),
+          nodes.tag(i),      -1,          nodes.d(i)};
+}
+
+template <int Dim>
+GivenNode<Dim> new_node(const Point<Dim>& x, double d) {
+  GivenNode<Dim> node{x, -1};
+  node.d = d;
+  return node;
 }
 
 }  // namespace
 
 // Counted first, then written, in chunks of nodes: so that all threads can do it, and nothing has
 // to grow.
-GivenNodes refined(Level& level, const Spacing<2>& next) {
+template <int Dim>
+GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   constexpr std::int64_t kChunk = 512;
   level.nodes.set_reference_positions();
   exchange(level, kStarHops);
   make_lists_and_stars(level, kStarHops, level.settings.list_radius, 0);
   const View<double> spacing = spacing_at_owned_nodes(level, next);
-  const Nodes<2>& nodes = level.nodes;
-  GivenNodes refined;
+  const Nodes<Dim>& nodes = level.nodes;
+  GivenNodes<Dim> refined;
   agreed(*level.comm, [&] {
     const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
     std::vector<std::size_t> begin(static_cast<std::size_t>(chunks) + 1, 0);
@@ -89,7 +124,7 @@ GivenNodes refined(Level& level, const Spacing<2>& next) {
       std::size_t count = 0;
       for_owned_in(chunk, [&](std::int64_t i) {
         ++count;
-        for_new_nodes(level, i, spacing(i), [&](const Point<2>&) { ++count; });
+        for_new_nodes(level, i, spacing(i), [&](const Point<Dim>&) { ++count; });
       });
       begin[static_cast<std::size_t>(chunk) + 1] = count;
     });
@@ -99,14 +134,18 @@ GivenNodes refined(Level& level, const Spacing<2>& next) {
     for_each("pnpbs::write_refined", chunks, [&](std::int64_t chunk) {
       std::size_t place = begin[static_cast<std::size_t>(chunk)];
       for_owned_in(chunk, [&](std::int64_t i) {
-        refined[place++] = {nodes.position(i), nodes.id(i), nodes.moves(i), -1, nodes.d(i)};
-        for_new_nodes(level, i, spacing(i), [&](const Point<2>& x) {
-          refined[place++] = {x, -1, true, -1, spacing(i)};
+        refined[place++] = kept_node(nodes, i);
+        for_new_nodes(level, i, spacing(i), [&](const Point<Dim>& x) {
+          refined[place++] = new_node<Dim>(x, spacing(i));
         });
       });
     });
+    append_surface_midpoints(level, spacing, refined);
   });
   return refined;
 }
+
+template GivenNodes<2> refined(Level<2>&, const Spacing<2>&);
+template GivenNodes<3> refined(Level<3>&, const Spacing<3>&);
 
 }  // namespace pnpbs

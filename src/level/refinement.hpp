@@ -10,6 +10,7 @@ namespace pnpbs {
 // What a level of another spacing begins with: the nodes of this rank and, where that is finer, new
 // ones on the edges of their stars and in their triangles: where it is half of the present one, in
 // the middle of every edge. Collective.
-GivenNodes refined(Level& level, const Spacing<2>& next);
+template <int Dim>
+GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next);
 
 }  // namespace pnpbs

@@ -14,14 +14,15 @@ namespace {
 constexpr double kNearlyCoincide = 0.2;  // in units of d
 
 // Has any node of block b a listed neighbour within so many of its d?
-bool any_neighbour_within(const Nodes<2>& nodes, const AdjacencyList<2>& lists, double reach,
+template <int Dim>
+bool any_neighbour_within(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double reach,
                           std::int64_t b) {
-  const Positions<2> x = positions_of<2>(nodes.x);
+  const Positions<Dim> x = positions_of<Dim>(nodes.x);
   std::int64_t self[kLanes];
   block_nodes(b, nodes.count, self);
-  double own[2][kLanes], square_reach[kLanes];
+  double own[Dim][kLanes], square_reach[kLanes];
   for (int lane = 0; lane < kLanes; ++lane) {
-    for (int k = 0; k < 2; ++k) own[k][lane] = x[k][self[lane]];
+    for (int k = 0; k < Dim; ++k) own[k][lane] = x[k][self[lane]];
     square_reach[lane] = reach * reach * nodes.d(self[lane]) * nodes.d(self[lane]);
   }
   const ListBlock list = lists.block(b);
@@ -31,43 +32,48 @@ bool any_neighbour_within(const Nodes<2>& nodes, const AdjacencyList<2>& lists, 
 #pragma omp simd reduction(max : within)
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::int32_t j = entries[lane];
-      const double dx = own[0][lane] - x[0][j], dy = own[1][lane] - x[1][j];
-      within = std::max(within, square_reach[lane] - (dx * dx + dy * dy));
+      double square = 0;
+      for (int k = 0; k < Dim; ++k) square += (own[k][lane] - x[k][j]) * (own[k][lane] - x[k][j]);
+      within = std::max(within, square_reach[lane] - square);
     }
   }
   return within >= 0;
 }
 
 // The nodes with smaller ids that node i nearly coincides with: those push it no more.
-template <class Visit>
-void for_coinciding(const Nodes<2>& nodes, const AdjacencyList<2>& lists, std::int64_t i,
+template <int Dim, class Visit>
+void for_coinciding(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int64_t i,
                     const Visit& visit) {
-  const Point<2> x = nodes.position(i);
+  const Point<Dim> x = nodes.position(i);
   lists.for_neighbours(i, [&](std::int64_t j) {
     if (nodes.moves(j) && nodes.id(j) < nodes.id(i) &&
-        distance<2>(x, nodes.position(j)) < kNearlyCoincide * nodes.d(i))
+        distance<Dim>(x, nodes.position(j)) < kNearlyCoincide * nodes.d(i))
       visit(j);
   });
 }
 
-// As the edges were found where the nodes are.
-bool between_edges(const Level& level, std::int64_t i) {
-  return level.neighbourhood.near_edges().edge_within(i, kMinClearance * level.nodes.d(i));
+// As the boundary was found where the nodes are.
+template <int Dim>
+bool pressed_to_boundary(const Level<Dim>& level, std::int64_t i) {
+  return level.neighbourhood.near_boundary().within(i, kMinClearance * level.nodes.d(i));
 }
 
 }  // namespace
 
-bool has_clearance(const Level& level, const Point<2>& x, double d) {
-  const Box<2>& box = level.ground.domain().bounds();
-  for (int k = 0; k < 2; ++k)
+template <int Dim>
+bool has_clearance(const Level<Dim>& level, const std::type_identity_t<Point<Dim>>& x, double d) {
+  if (level.nodes.moving == Carrier::surface) return true;  // it was walked to
+  const Box<Dim>& box = level.ground.bounds();
+  for (int k = 0; k < Dim; ++k)
     if (!(x[k] > box.low[k] && x[k] < box.high[k])) return false;
-  return level.map().inside(x) &&
-         level.map().clearance(x, kBoundaryClearance * d) >= kBoundaryClearance * d;
+  const double clearance = (Dim == 2 ? kBoundaryClearance : kNewNodeClearance) * d;
+  return level.map().inside(x) && level.map().clearance(x, clearance) >= clearance;
 }
 
-View<char> nodes_without_room(const Level& level) {
-  const Nodes<2>& nodes = level.nodes;
-  const AdjacencyList<2>& lists = level.lists();
+template <int Dim>
+View<char> nodes_without_room(const Level<Dim>& level) {
+  const Nodes<Dim>& nodes = level.nodes;
+  const AdjacencyList<Dim>& lists = level.lists();
   constexpr double kALittleMore = 1.001;  // so that rounding decides nothing here
   const View<char> no_room = make_view<char>("pnpbs::no_room", nodes.count);
   for_each("pnpbs::no_room", lists.block_count(), [&](std::int64_t b) {
@@ -75,7 +81,7 @@ View<char> nodes_without_room(const Level& level) {
     for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes.count); ++i) {
       no_room(i) = 0;
       if (!nodes.moves(i)) continue;
-      no_room(i) = between_edges(level, i);
+      no_room(i) = pressed_to_boundary(level, i);
       if (look) for_coinciding(nodes, lists, i, [&](std::int64_t) { no_room(i) = 1; });
     }
   });
@@ -84,14 +90,15 @@ View<char> nodes_without_room(const Level& level) {
 
 namespace {
 
-std::vector<std::int32_t> crowded_nodes(const Level& level) {
-  const Nodes<2>& nodes = level.nodes;
+template <int Dim>
+std::vector<std::int32_t> crowded_nodes(const Level<Dim>& level) {
+  const Nodes<Dim>& nodes = level.nodes;
   const PhaseTimer timer(level.timers, Phase::population);
   const View<char> no_room = nodes_without_room(level);
   std::vector<std::int32_t> crowded;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!no_room(i)) continue;
-    bool goes = between_edges(level, i);
+    bool goes = pressed_to_boundary(level, i);
     for_coinciding(nodes, level.lists(), i, [&](std::int64_t j) { goes = goes || !no_room(j); });
     if (goes) crowded.push_back(static_cast<std::int32_t>(i));
   }
@@ -103,7 +110,8 @@ std::vector<std::int32_t> crowded_nodes(const Level& level) {
 // After the last population event nodes may still be pressed into a corner until they coincide.
 // Here nothing is born, so there is no contest: of many in one place all go at once but the first.
 // One that only coincides with nodes that may go themselves waits for the next round.
-PopulationCounts remove_crowded(Level& level) {
+template <int Dim>
+PopulationCounts remove_crowded(Level<Dim>& level) {
   PopulationCounts counts;
   while (true) {
     prepare_finish(level);
@@ -116,5 +124,12 @@ PopulationCounts remove_crowded(Level& level) {
     delete_nodes(level, crowded);
   }
 }
+
+template bool has_clearance(const Level<2>&, const Point<2>&, double);
+template bool has_clearance(const Level<3>&, const Point<3>&, double);
+template View<char> nodes_without_room(const Level<2>&);
+template View<char> nodes_without_room(const Level<3>&);
+template PopulationCounts remove_crowded(Level<2>&);
+template PopulationCounts remove_crowded(Level<3>&);
 
 }  // namespace pnpbs

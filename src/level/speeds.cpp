@@ -6,11 +6,14 @@
 
 namespace pnpbs {
 
-Speeds speeds_of(const Level& level) {
+template <int Dim>
+Speeds speeds_of(const Level<Dim>& level) {
   const Communicator& comm = *level.comm;
-  const Nodes<2>& nodes = level.nodes;
+  const Nodes<Dim>& nodes = level.nodes;
   const auto scaled = [&](std::int64_t i) {
-    return std::sqrt(nodes.v[0](i) * nodes.v[0](i) + nodes.v[1](i) * nodes.v[1](i)) / nodes.d(i);
+    double square = 0;
+    for (int k = 0; k < Dim; ++k) square += nodes.v[k](i) * nodes.v[k](i);
+    return std::sqrt(square) / nodes.d(i);
   };
   Speeds speeds;
   speeds.max =
@@ -19,11 +22,16 @@ Speeds speeds_of(const Level& level) {
   const std::uint64_t sum = sum_of("pnpbs::mean_speed", nodes.count, [&](std::int64_t i) {
     return nodes.owned(i) ? fixed_point(scaled(i)) : 0;
   });
-  const auto all = static_cast<std::int64_t>(
-      comm.allreduce_sum(static_cast<std::uint64_t>(level.owned_count())));
-  const std::int64_t moving = std::max<std::int64_t>(1, all - level.ground.boundary_nodes());
-  speeds.mean = from_fixed_point(comm.allreduce_sum(sum)) / static_cast<double>(moving);
+  const std::uint64_t moving =
+      comm.allreduce_sum(sum_of("pnpbs::moving_nodes", nodes.count, [&](std::int64_t i) {
+        return nodes.owned(i) != 0 && nodes.moves(i);
+      }));
+  speeds.mean = from_fixed_point(comm.allreduce_sum(sum)) /
+                static_cast<double>(std::max<std::uint64_t>(1, moving));
   return speeds;
 }
+
+template Speeds speeds_of(const Level<2>&);
+template Speeds speeds_of(const Level<3>&);
 
 }  // namespace pnpbs

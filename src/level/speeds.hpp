@@ -11,6 +11,7 @@ struct Speeds {
 };
 
 // Of the nodes of all ranks; the mean, of those that move. Collective.
-Speeds speeds_of(const Level& level);
+template <int Dim>
+Speeds speeds_of(const Level<Dim>& level);
 
 }  // namespace pnpbs

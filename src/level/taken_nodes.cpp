@@ -11,31 +11,42 @@
 
 namespace pnpbs {
 
-namespace {
-
 // Boundary nodes keep their ids where they stay in place.
-std::vector<std::int64_t> boundary_ids(const Boundary& boundary, const GivenNodes& given) {
+LaidNodes<2> laid_nodes(const Ground<2>& ground, const GivenNodes<2>& given) {
+  const Boundary& boundary = ground.boundary();
   std::vector<std::int64_t> ids(boundary.nodes.size(), -1);
   std::map<Point<2>, std::int64_t> id_at;
-  for (const GivenNode& node : given)
+  for (const GivenNode<2>& node : given)
     if (!node.inner && node.id >= 0) id_at[node.position] = node.id;
   for (std::size_t b = 0; b < boundary.nodes.size() && !id_at.empty(); ++b) {
     const auto found = id_at.find(boundary.nodes[b].position);
     if (found != id_at.end()) ids[b] = found->second;
   }
-  return ids;
+  return LaidNodes<2>(boundary, std::move(ids));
 }
 
+// In space they come with the others.
+LaidNodes<3> laid_nodes(const Ground<3>&, const GivenNodes<3>& given) {
+  GivenNodes<3> laid;
+  for (const GivenNode<3>& node : given)
+    if (!node.is_inner()) laid.push_back(node);
+  return LaidNodes<3>(std::move(laid));
+}
+
+namespace {
+
 // In the domain, and not too close to its boundary.
-bool has_room(const Level& level, const GivenNode& node) {
-  if (level.neighbourhood.near_edges().leaf_is_clear(node.leaf))
+template <int Dim>
+bool has_room(const Level<Dim>& level, const GivenNode<Dim>& node) {
+  if (level.neighbourhood.near_boundary().leaf_is_clear(node.leaf))
     return !level.map().leaf_outside(node.leaf);
   return has_clearance(level, node.position, level.map().leaf_spacing(node.leaf));
 }
 
-void leave_out_those_without_room(const Level& level, GivenNodes& given) {
+template <int Dim>
+void leave_out_those_without_room(const Level<Dim>& level, GivenNodes<Dim>& given) {
   for_each("pnpbs::has_room", static_cast<std::int64_t>(given.size()), [&](std::int64_t k) {
-    GivenNode& node = given[static_cast<std::size_t>(k)];
+    GivenNode<Dim>& node = given[static_cast<std::size_t>(k)];
     if (node.leaf >= 0 && !has_room(level, node)) node.leaf = -1;
   });
 }
@@ -44,16 +55,17 @@ void leave_out_those_without_room(const Level& level, GivenNodes& given) {
 // they were given so, contests would take long to delete them. Each then counts for the share that
 // should stay, and along the Morton order of the leaves a node stays whenever the sum of the shares
 // passes a whole number. The nodes are sorted by place, and `begin` is each leaf's first.
-void thin(const Level& level, GivenNodes& inner, const std::vector<std::int32_t>& begin) {
+template <int Dim>
+void thin(const Level<Dim>& level, GivenNodes<Dim>& inner, const std::vector<std::int32_t>& begin) {
   constexpr double kCrowded = 1.5;  // times the nodes that d asks for in a leaf, and a few
   constexpr std::int64_t kOne = std::int64_t{1} << 32;
   const std::vector<double> wanted = wanted_nodes(level);
   const std::int32_t leaves = level.map().tree().leaf_count();
-  const auto share_of = [&](const GivenNode& node) {
+  const auto share_of = [&](const GivenNode<Dim>& node) {
     const auto leaf = static_cast<std::size_t>(node.leaf);
     const double d = level.map().leaf_spacing(node.leaf), given = begin[leaf + 1] - begin[leaf];
     double share = 1;
-    if (node.d > 0 && d > 1.02 * node.d) share = (node.d / d) * (node.d / d);
+    if (node.d > 0 && d > 1.02 * node.d) share = power<Dim>(node.d / d);
     if (given > kCrowded * wanted[leaf] + 4) share = std::min(share, wanted[leaf] / given);
     return static_cast<std::int64_t>(share * static_cast<double>(kOne));
   };
@@ -64,7 +76,7 @@ void thin(const Level& level, GivenNodes& inner, const std::vector<std::int32_t>
   };
   std::vector<std::int64_t> sums(static_cast<std::size_t>(leaves), 0);
   for_each("pnpbs::sum_shares", leaves, [&](std::int64_t leaf) {
-    for_nodes_in(leaf, [&](const GivenNode& node) {
+    for_nodes_in(leaf, [&](const GivenNode<Dim>& node) {
       sums[static_cast<std::size_t>(leaf)] += share_of(node);
     });
   });
@@ -74,7 +86,7 @@ void thin(const Level& level, GivenNodes& inner, const std::vector<std::int32_t>
   for_each("pnpbs::thin", leaves, [&](std::int64_t leaf) {
     const auto at = static_cast<std::size_t>(leaf);
     std::int64_t sum = sums[at];
-    for_nodes_in(leaf, [&](GivenNode& node) {
+    for_nodes_in(leaf, [&](GivenNode<Dim>& node) {
       const std::int64_t whole = sum / kOne;
       sum += share_of(node);
       if (sum / kOne != whole) return;
@@ -83,12 +95,13 @@ void thin(const Level& level, GivenNodes& inner, const std::vector<std::int32_t>
     });
   });
   if (std::find(some_go.begin(), some_go.end(), 1) != some_go.end())
-    std::erase_if(inner, [](const GivenNode& node) { return node.leaf < 0; });
+    std::erase_if(inner, [](const GivenNode<Dim>& node) { return node.leaf < 0; });
 }
 
 }  // namespace
 
-TakenNodes take(Level& level, GivenNodes given, std::int64_t next_id) {
+template <int Dim>
+TakenNodes take(Level<Dim>& level, GivenNodes<Dim> given, std::int64_t next_id) {
   const PhaseTimer timer(level.timers, Phase::fill);
   const auto count_if = [&](const auto& counts) {
     return sum_of("pnpbs::take", static_cast<std::int64_t>(given.size()),
@@ -96,19 +109,22 @@ TakenNodes take(Level& level, GivenNodes given, std::int64_t next_id) {
   };
   level.next_id = next_id;
   scatter_to_owners(level, given);
-  std::vector<std::int64_t> kept_ids = boundary_ids(level.ground.boundary(), given);
-  const std::uint64_t all = count_if([](const GivenNode& node) { return node.inner; });
+  LaidNodes<Dim> laid = laid_nodes(level.ground, given);
+  const std::uint64_t all = count_if([](const GivenNode<Dim>& node) { return node.is_inner(); });
   find_leaves(level, given);
   leave_out_those_without_room(level, given);
   const std::vector<std::int32_t> begin = sort_by_place(level, given);
   const std::uint64_t fitting = given.size();
   thin(level, given, begin);
   const std::uint64_t taken = given.size(),
-                      numbered = count_if([](const GivenNode&node) { return node.id < 0; });
-  number_and_store(level, std::move(given), std::move(kept_ids));
+                      numbered = count_if([](const GivenNode<Dim>&node) { return node.id < 0; });
+  number_and_store(level, std::move(given), std::move(laid));
   return {static_cast<std::int64_t>(level.comm->allreduce_sum(all - fitting)),
           static_cast<std::int64_t>(level.comm->allreduce_sum(fitting - taken)),
           static_cast<std::int64_t>(level.comm->allreduce_sum(numbered))};
 }
+
+template TakenNodes take(Level<2>&, GivenNodes<2>, std::int64_t);
+template TakenNodes take(Level<3>&, GivenNodes<3>, std::int64_t);
 
 }  // namespace pnpbs

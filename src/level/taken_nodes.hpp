@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "initial/given_nodes.hpp"
+#include "level/laid_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
@@ -17,7 +18,12 @@ struct TakenNodes {
   std::int64_t numbered = 0;  // those that came without an id
 };
 
+// Of the nodes given, those that are on the boundary of a level.
+LaidNodes<2> laid_nodes(const Ground<2>& ground, const GivenNodes<2>& given);
+LaidNodes<3> laid_nodes(const Ground<3>& ground, const GivenNodes<3>& given);
+
 // Ids from next_id on are free. Collective.
-TakenNodes take(Level& level, GivenNodes given, std::int64_t next_id);
+template <int Dim>
+TakenNodes take(Level<Dim>& level, GivenNodes<Dim> given, std::int64_t next_id);
 
 }  // namespace pnpbs

@@ -11,60 +11,74 @@
 
 namespace pnpbs {
 
-const Field<2>& TimeIntegration::scratch(const Nodes<2>& nodes) {
-  reserve_field<2>(next_, "pnpbs::TimeIntegration::next", nodes.capacity());
-  for (int k = 0; k < 2; ++k) next_[k](nodes.count) = kFarAway;
+template <int Dim>
+const Field<Dim>& TimeIntegration<Dim>::scratch(const Nodes<Dim>& nodes) {
+  reserve_field<Dim>(next_, "pnpbs::TimeIntegration::next", nodes.capacity());
+  for (int k = 0; k < Dim; ++k) next_[k](nodes.count) = kFarAway;
   return next_;
 }
 
-void TimeIntegration::step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
-                           const Settings& settings) {
+template <int Dim>
+void TimeIntegration<Dim>::step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
+                                const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                const Settings& settings) {
   step(settings.predictor_corrector ? Scheme::predictor_corrector : Scheme::damped, nodes,
-       neighbourhood, map, settings);
+       neighbourhood, map, ground, settings);
 }
 
-void TimeIntegration::runge_kutta_step(Nodes<2>& nodes, Neighbourhood& neighbourhood,
-                                       const DomainMap<2>& map, const Settings& settings) {
-  step(Scheme::runge_kutta, nodes, neighbourhood, map, settings);
+template <int Dim>
+void TimeIntegration<Dim>::runge_kutta_step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
+                                            const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                            const Settings& settings) {
+  step(Scheme::runge_kutta, nodes, neighbourhood, map, ground, settings);
 }
 
-void TimeIntegration::step(Scheme scheme, Nodes<2>& nodes, Neighbourhood& neighbourhood,
-                           const DomainMap<2>& map, const Settings& settings) {
+template <int Dim>
+void TimeIntegration<Dim>::step(Scheme scheme, Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
+                                const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                const Settings& settings) {
   scratch(nodes);
   if (settings.cubic_law)
     move_by(CubicLaw{}, scheme, nodes, neighbourhood.lists(), settings);
+  else if (settings.dimension < Dim)
+    move_by(OnSurface<LinearPush>{{1, settings.rest_length}}, scheme, nodes, neighbourhood.lists(),
+            settings);
   else
-    move_by(LinearPush{1, settings.rest_length}, scheme, nodes, neighbourhood.lists(), settings);
-  accept(nodes, neighbourhood, map, settings);
+    move_by(DefaultLaw<Dim>{1, settings.rest_length}, scheme, nodes, neighbourhood.lists(),
+            settings);
+  accept(nodes, neighbourhood, map, ground, settings);
 }
 
+template <int Dim>
 template <class Law>
-void TimeIntegration::move_by(const Law& law, Scheme scheme, Nodes<2>& nodes,
-                              const AdjacencyList<2>& lists, const Settings& settings) {
+void TimeIntegration<Dim>::move_by(const Law& law, Scheme scheme, Nodes<Dim>& nodes,
+                                   const AdjacencyList<Dim>& lists, const Settings& settings) {
   switch (scheme) {
     case Scheme::damped:
-      return damped_step<2>(nodes, lists, law, settings.motion, next_);
+      return damped_step<Dim>(nodes, lists, law, settings.motion, next_);
     case Scheme::predictor_corrector:
-      return predictor_corrector_step<2>(nodes, lists, law, settings.motion, stages_, next_);
+      return predictor_corrector_step<Dim>(nodes, lists, law, settings.motion, stages_, next_);
     case Scheme::runge_kutta:
-      return pnpbs::runge_kutta_step<2>(nodes, lists, law, settings.motion, stages_, next_);
+      return pnpbs::runge_kutta_step<Dim>(nodes, lists, law, settings.motion, stages_, next_);
   }
 }
 
 // Inner nodes near the boundary are held off it; then the new positions become the positions.
-void TimeIntegration::accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
-                             const Settings& settings) {
+template <int Dim>
+void TimeIntegration<Dim>::accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
+                                  const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                  const Settings& settings) {
   constexpr std::int64_t kChunk = 64;
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
   const double meeting = meeting_radius(settings);
-  const NearEdges& near_edges = neighbourhood.near_edges();
+  const NearBoundary<Dim>& near_boundary = neighbourhood.near_boundary();
   if (static_cast<std::int64_t>(squares_.extent(0)) < chunks)
     squares_ = make_view<double>("pnpbs::TimeIntegration::squares", chunks);
   for_each("pnpbs::TimeIntegration::accept", chunks, [&](std::int64_t c) {
     const std::int64_t first = c * kChunk, last = std::min(first + kChunk, nodes.count);
     for (std::int64_t i = first; i < last; ++i)
-      if (near_edges.edge_within(i, meeting * nodes.d(i)) && nodes.moves(i))
-        hold_off_boundary(i, nodes, near_edges, map, settings);
+      if (nodes.moves(i) && near_boundary.constrains(nodes, i, meeting * nodes.d(i)))
+        hold_off_boundary(i, nodes, near_boundary, map, ground, settings);
     squares_(c) = neighbourhood.squared_displacement(nodes, next_, first, last);
   });
   neighbourhood.set_max_displacement(
@@ -73,17 +87,20 @@ void TimeIntegration::accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, cons
   std::swap(nodes.x, next_);
 }
 
-void TimeIntegration::hold_off_boundary(std::int64_t i, const Nodes<2>& nodes,
-                                        const NearEdges& near_edges, const DomainMap<2>& map,
-                                        const Settings& settings) const {
-  const Point<2> from = nodes.position(i), to = point_at<2>(next_, i);
-  if (near_edges.stays_clear(i, from, to, kBoundaryClearance * nodes.d(i))) return;
-  const ClearPosition<2> kept = clear_position(map, near_edges.edges_of(i), from, to, nodes.d(i));
-  for (int k = 0; k < 2; ++k) {
-    if (kept.position[k] != to[k])
-      nodes.v[k](i) = (kept.position[k] - from[k]) / settings.motion.dt;
-    next_[k](i) = kept.position[k];
+template <int Dim>
+void TimeIntegration<Dim>::hold_off_boundary(std::int64_t i, const Nodes<Dim>& nodes,
+                                             const NearBoundary<Dim>& near_boundary,
+                                             const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                                             const Settings& settings) const {
+  const Point<Dim> from = nodes.position(i), to = point_at<Dim>(next_, i),
+                   kept = near_boundary.hold_off(i, nodes, map, ground, to);
+  for (int k = 0; k < Dim; ++k) {
+    if (kept[k] != to[k]) nodes.v[k](i) = (kept[k] - from[k]) / settings.motion.dt;
+    next_[k](i) = kept[k];
   }
 }
+
+template class TimeIntegration<2>;
+template class TimeIntegration<3>;
 
 }  // namespace pnpbs

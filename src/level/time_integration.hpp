@@ -10,32 +10,35 @@
 
 namespace pnpbs {
 
+template <int Dim>
 class TimeIntegration {
  public:
   // By the scheme of the settings. Lists must be made for it.
-  void step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
-            const Settings& settings);
+  void step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood, const DomainMap<Dim>& map,
+            const Ground<Dim>& ground, const Settings& settings);
   // One of the classical fourth order, the paper's last.
-  void runge_kutta_step(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
+  void runge_kutta_step(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
+                        const DomainMap<Dim>& map, const Ground<Dim>& ground,
                         const Settings& settings);
 
   // Room for other positions of the nodes, padded as theirs are.
-  const Field<2>& scratch(const Nodes<2>& nodes);
+  const Field<Dim>& scratch(const Nodes<Dim>& nodes);
 
  private:
   enum class Scheme { damped, predictor_corrector, runge_kutta };
-  void step(Scheme scheme, Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
-            const Settings& settings);
+  void step(Scheme scheme, Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood,
+            const DomainMap<Dim>& map, const Ground<Dim>& ground, const Settings& settings);
   template <class Law>
-  void move_by(const Law& law, Scheme scheme, Nodes<2>& nodes, const AdjacencyList<2>& lists,
+  void move_by(const Law& law, Scheme scheme, Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
                const Settings& settings);
-  void accept(Nodes<2>& nodes, Neighbourhood& neighbourhood, const DomainMap<2>& map,
-              const Settings& settings);
-  void hold_off_boundary(std::int64_t i, const Nodes<2>& nodes, const NearEdges& near_edges,
-                         const DomainMap<2>& map, const Settings& settings) const;
+  void accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood, const DomainMap<Dim>& map,
+              const Ground<Dim>& ground, const Settings& settings);
+  void hold_off_boundary(std::int64_t i, const Nodes<Dim>& nodes,
+                         const NearBoundary<Dim>& near_boundary, const DomainMap<Dim>& map,
+                         const Ground<Dim>& ground, const Settings& settings) const;
 
-  Field<2> next_;  // positions after the step in progress
-  Stages<2> stages_;
+  Field<Dim> next_;  // positions after the step in progress
+  Stages<Dim> stages_;
   View<double> squares_;  // of the largest displacement in each chunk of nodes
 };
 

@@ -9,32 +9,41 @@ namespace pnpbs {
 
 namespace {
 
-void count_step(Level& level) {
+template <int Dim>
+void count_step(Level<Dim>& level) {
   level.nodes.moved();
   level.ghosts.count_step();
 }
 
 }  // namespace
 
-void step(Level& level, std::exception_ptr& failure) {
+template <int Dim>
+void step(Level<Dim>& level, std::exception_ptr& failure) {
   attempt(failure, [&] {
     if (level.neighbourhood.needs_rebuild(level.nodes, level.settings))
       rebuild_lists_for_steps(level);
     const PhaseTimer timer(level.timers, Phase::motion);
-    level.time_integration.step(level.nodes, level.neighbourhood, level.map(), level.settings);
+    level.time_integration.step(level.nodes, level.neighbourhood, level.map(), level.ground,
+                                level.settings);
   });
   count_step(level);
 }
 
-void finish_by_runge_kutta(Level& level) {
+template <int Dim>
+void finish_by_runge_kutta(Level<Dim>& level) {
   exchange(level, runge_kutta_hops(level.settings));
   agreed(*level.comm, [&] {
     rebuild_lists_for_steps(level);
     const PhaseTimer timer(level.timers, Phase::motion);
     level.time_integration.runge_kutta_step(level.nodes, level.neighbourhood, level.map(),
-                                            level.settings);
+                                            level.ground, level.settings);
   });
   count_step(level);
 }
+
+template void step(Level<2>&, std::exception_ptr&);
+template void step(Level<3>&, std::exception_ptr&);
+template void finish_by_runge_kutta(Level<2>&);
+template void finish_by_runge_kutta(Level<3>&);
 
 }  // namespace pnpbs

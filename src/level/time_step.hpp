@@ -10,9 +10,11 @@ namespace pnpbs {
 
 // On this rank; its failure waits in `failure` until ranks agree, and until then nothing more is
 // done. The step counts, done or not: all ranks must count alike.
-void step(Level& level, std::exception_ptr& failure);
+template <int Dim>
+void step(Level<Dim>& level, std::exception_ptr& failure);
 // The last one by the classical Runge-Kutta scheme, whose stages look ahead: exchange, lists and
 // step. Collective.
-void finish_by_runge_kutta(Level& level);
+template <int Dim>
+void finish_by_runge_kutta(Level<Dim>& level);
 
 }  // namespace pnpbs

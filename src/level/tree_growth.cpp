@@ -9,9 +9,12 @@
 
 namespace pnpbs {
 
-std::unique_ptr<LevelTree> LevelTree::grow(const Communicator& comm, const Ground& ground,
-                                           const Settings& settings, const LevelTree* like) {
-  std::unique_ptr<LevelTree> tree(new LevelTree(comm, ground));
+template <int Dim>
+std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
+                                                     const Ground<Dim>& ground,
+                                                     const Settings& settings,
+                                                     const LevelTree<Dim>* like) {
+  std::unique_ptr<LevelTree<Dim>> tree(new LevelTree(comm, ground));
   if (comm.size() == 1)
     tree->grow_whole(settings);
   else
@@ -19,22 +22,26 @@ std::unique_ptr<LevelTree> LevelTree::grow(const Communicator& comm, const Groun
   return tree;
 }
 
-std::unique_ptr<LevelTree> LevelTree::grow(const Communicator& comm, const Ground& ground,
-                                           const Settings& settings, Distribution<2> distribution) {
-  std::unique_ptr<LevelTree> tree(new LevelTree(comm, ground));
+template <int Dim>
+std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
+                                                     const Ground<Dim>& ground,
+                                                     const Settings& settings,
+                                                     Distribution<Dim> distribution) {
+  std::unique_ptr<LevelTree<Dim>> tree(new LevelTree(comm, ground));
   tree->distribution_ = std::move(distribution);
   tree->grow_own_part(settings);
   return tree;
 }
 
-void LevelTree::grow_whole(const Settings& settings) {
-  map_.build(ground_.domain().bounds(), ground_.boundary(), ground_.evaluator(),
-             settings.node_limit());
+template <int Dim>
+void LevelTree<Dim>::grow_whole(const Settings& settings) {
+  map_.build(ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit());
   link_leaves(settings);
 }
 
 // First roughly; then what lies in each part is known, and is cut again.
-void LevelTree::grow_part(const Settings& settings, const LevelTree* like) {
+template <int Dim>
+void LevelTree<Dim>::grow_part(const Settings& settings, const LevelTree<Dim>* like) {
   if (like)
     distribution_ = like->distribution_.without_leaves();
   else
@@ -44,27 +51,29 @@ void LevelTree::grow_part(const Settings& settings, const LevelTree* like) {
   for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
     own.push_back(distribution_.owner_of_cell(c) == comm_.rank());
   refine(settings, own);
-  PartitionCells<2> cells = cells_of_equal_work(expected_work());
+  PartitionCells<Dim> cells = cells_of_equal_work(expected_work());
   std::vector<std::int32_t> owner =
       like ? cut_like(settings, like->distribution_, cells) : cut_on_first_rank(settings, cells);
-  distribution_ = Distribution<2>(std::move(cells), std::move(owner), comm_.rank());
+  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_.rank());
   grow_own_part(settings);
 }
 
 // The tree in full in the cells marked.
-void LevelTree::refine(const Settings& settings, const std::vector<char>& refined) {
-  const BackgroundTree<2>& cells = distribution_.cells().tree();
-  map_.build_part(comm_, ground_.domain().bounds(), ground_.boundary(), ground_.evaluator(),
+template <int Dim>
+void LevelTree<Dim>::refine(const Settings& settings, const std::vector<char>& refined) {
+  const BackgroundTree<Dim>& cells = distribution_.cells().tree();
+  map_.build_part(comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(),
                   settings.node_limit(),
-                  [&](const BackgroundTree<2>& tree, std::int32_t c, double) {
-                    const BackgroundTree<2>::Cell& in =
+                  [&](const BackgroundTree<Dim>& tree, std::int32_t c, double) {
+                    const typename BackgroundTree<Dim>::Cell& in =
                         cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
                     return in.first_child >= 0 || refined[static_cast<std::size_t>(in.leaf)];
                   });
   distribution_.take_leaves(&map_.tree(), refined);
 }
 
-void LevelTree::link_leaves(const Settings& settings) {
+template <int Dim>
+void LevelTree<Dim>::link_leaves(const Settings& settings) {
   std::vector<double> reach;
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
     const double d = !distributed() || distribution_.refined(leaf)
@@ -72,12 +81,13 @@ void LevelTree::link_leaves(const Settings& settings) {
                          : distribution_.cells().max_spacing(distribution_.cell_of(leaf));
     reach.push_back(map_.leaf_outside(leaf) ? 0 : kRoomForGrowth * widest_radius(settings) * d);
   }
-  links_ = std::make_shared<const LeafLinks<2>>(map_.tree(), std::move(reach));
+  links_ = std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach));
 }
 
 // In full wherever own nodes and ghosts can be. What is within the hops is known only once it is
 // there: more is refined until nothing is missing.
-void LevelTree::grow_own_part(const Settings& settings) {
+template <int Dim>
+void LevelTree<Dim>::grow_own_part(const Settings& settings) {
   const int hops = deepest_hops(settings);
   std::vector<char> refined =
       distribution_.cells_near_own(hops, kRoomForGrowth * widest_radius(settings));
@@ -102,10 +112,11 @@ constexpr const char* kSpacingsDiffer =
 }  // namespace
 
 // Ranks whose callbacks tell different things would wait for each other for ever.
-void LevelTree::require_same_ground() const {
-  const PartitionCells<2>& cells = distribution_.cells();
+template <int Dim>
+void LevelTree<Dim>::require_same_ground() const {
+  const PartitionCells<Dim>& cells = distribution_.cells();
   std::uint64_t fingerprint = 0;
-  for (const BoundaryNode<2>& node : ground_.boundary().nodes)
+  for (const BoundaryNode<Dim>& node : ground_.boundary().nodes)
     for (double coordinate : node.position) fingerprint = mixed_with(fingerprint, coordinate);
   for (std::int32_t c = 0; c < cells.count(); ++c)
     fingerprint = mixed_with(fingerprint, cells.max_spacing(c));
@@ -114,7 +125,8 @@ void LevelTree::require_same_ground() const {
 
 // The same, once the leaves are there: what each rank finds in cells of others must be what their
 // owners find.
-void LevelTree::require_same_leaves() const {
+template <int Dim>
+void LevelTree<Dim>::require_same_leaves() const {
   std::vector<std::uint64_t> found(static_cast<std::size_t>(distribution_.cells().count()), 0);
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
     std::uint64_t& cell = found[static_cast<std::size_t>(distribution_.cell_of(leaf))];
@@ -137,9 +149,13 @@ void LevelTree::require_same_leaves() const {
   if (comm_.allreduce_max(!same) > 0) throw Error(ErrorKind::spacing, kSpacingsDiffer);
 }
 
-const Halo& LevelTree::halo(int hops, const Settings& settings) {
+template <int Dim>
+const Halo& LevelTree<Dim>::halo(int hops, const Settings& settings) {
   return distribution_.halo(hops,
                             settings.list_radius / (kRoomForGrowth * widest_radius(settings)));
 }
+
+template class LevelTree<2>;
+template class LevelTree<3>;
 
 }  // namespace pnpbs

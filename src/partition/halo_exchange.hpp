@@ -50,8 +50,9 @@ class HaloExchange {
     for (const std::vector<std::int32_t>& list : send_) nodes += list.size();
     return static_cast<std::int64_t>(nodes);
   }
-  // Of a node's position and velocity.
-  static constexpr std::size_t kRecordSize = 2 * Dim * sizeof(double);
+  // Of a node's position and velocity; in space also of the facet that it may have moved to.
+  static constexpr std::size_t kRecordSize =
+      2 * Dim * sizeof(double) + (Dim == 3 ? sizeof(std::int32_t) : 0);
 
   // Both sides put their lists into the order of ids, so that they match, and make the buffers.
   void build(const Nodes<Dim>& nodes) {
@@ -80,29 +81,35 @@ class HaloExchange {
   void update(const Communicator& comm, Nodes<Dim>& nodes) {
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
       char* out = outgoing_[k].data();
-      for (std::int32_t i : send_[k])
+      for (std::int32_t i : send_[k]) {
         for (int d = 0; d < Dim; ++d) {
           put(out, nodes.x[d](i));
           put(out, nodes.v[d](i));
         }
+        if constexpr (Dim == 3) put(out, nodes.boundary_node(i));
+      }
     }
     comm.exchange_known(neighbours_, outgoing_, incoming_);
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
       const char* in = incoming_[k].data();
-      for (std::int32_t i : receive_[k])
+      for (std::int32_t i : receive_[k]) {
         for (int d = 0; d < Dim; ++d) {
           take(in, nodes.x[d](i));
           take(in, nodes.v[d](i));
         }
+        if constexpr (Dim == 3) take(in, nodes.boundary_node(i));
+      }
     }
   }
 
  private:
-  static void put(char*& out, double value) {
+  template <class T>
+  static void put(char*& out, T value) {
     std::memcpy(out, &value, sizeof value);
     out += sizeof value;
   }
-  static void take(const char*& in, double& value) {
+  template <class T>
+  static void take(const char*& in, T& value) {
     std::memcpy(&value, in, sizeof value);
     in += sizeof value;
   }

@@ -13,15 +13,21 @@ struct PackedNode {
   std::int64_t id;
   Point<Dim> x, v, reference;
   double d;
-  std::int32_t tag, boundary_node;
+  std::int32_t tag, boundary_node, reference_on;
   Carrier carrier;
 };
 
 template <int Dim>
 PackedNode<Dim> packed(const Nodes<Dim>& nodes, std::int64_t i) {
-  return {
-      nodes.id(i), nodes.position(i), point_at<Dim>(nodes.v, i), point_at<Dim>(nodes.reference, i),
-      nodes.d(i),  nodes.tag(i),      nodes.boundary_node(i),    nodes.carrier(i)};
+  return {nodes.id(i),
+          nodes.position(i),
+          point_at<Dim>(nodes.v, i),
+          point_at<Dim>(nodes.reference, i),
+          nodes.d(i),
+          nodes.tag(i),
+          nodes.boundary_node(i),
+          Dim == 3 ? nodes.reference_on(i) : -1,
+          nodes.carrier(i)};
 }
 
 template <int Dim>
@@ -32,6 +38,7 @@ void append(Nodes<Dim>& nodes, const PackedNode<Dim>& packed, bool owned) {
     nodes.v[k](i) = packed.v[k];
     nodes.reference[k](i) = packed.reference[k];
   }
+  if constexpr (Dim == 3) nodes.reference_on(i) = packed.reference_on;
   nodes.owned(i) = owned;
 }
 

@@ -8,37 +8,41 @@
 #include "initial/initial_fill.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/refinement.hpp"
-#include "placement/placement.hpp"
+#include "level/taken_nodes.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-class MultipliedSpacing : public Spacing<2> {
+template <int Dim>
+class MultipliedSpacing : public Spacing<Dim> {
  public:
-  MultipliedSpacing(std::shared_ptr<const Spacing<2>> spacing, double factor)
+  MultipliedSpacing(std::shared_ptr<const Spacing<Dim>> spacing, double factor)
       : spacing_(std::move(spacing)), factor_(factor) {}
 
-  void evaluate(std::int64_t n, const Point<2>* x, double* d) const override {
+  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override {
     spacing_->evaluate(n, x, d);
     for (std::int64_t i = 0; i < n; ++i) d[i] *= factor_;
   }
 
  private:
-  std::shared_ptr<const Spacing<2>> spacing_;
+  std::shared_ptr<const Spacing<Dim>> spacing_;
   double factor_;
 };
 
 double coarser_by(int level) { return std::ldexp(1.0, level); }
 
-std::shared_ptr<const Spacing<2>> spacing_of_level(const std::shared_ptr<const Spacing<2>>& spacing,
-                                                   int level) {
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> spacing_of_level(
+    const std::shared_ptr<const Spacing<Dim>>& spacing, int level) {
   if (level == 0) return spacing;
-  return std::make_shared<MultipliedSpacing>(spacing, coarser_by(level));
+  return std::make_shared<MultipliedSpacing<Dim>>(spacing, coarser_by(level));
 }
 
 // All nodes of a level are numbered anew.
-GivenNodes new_nodes(GivenNodes nodes) {
+template <int Dim>
+GivenNodes<Dim> new_nodes(GivenNodes<Dim> nodes) {
   for_each("pnpbs::new_nodes", static_cast<std::int64_t>(nodes.size()),
            [&](std::int64_t k) { nodes[static_cast<std::size_t>(k)].id = -1; });
   return nodes;
@@ -60,23 +64,22 @@ Settings settings_of_level(Settings settings, bool coarsest) {
 
 }  // namespace
 
-// None where d is nearly the same everywhere: then one hexagonal lattice fills the domain. A level
-// of few nodes has nothing to settle over long distances, and bubbles of a spacing that varies from
-// one to the next have no rest. Collective, as the spacing is asked.
-int Placement::coarser_levels_that_pay(const Level& finest,
-                                       const std::shared_ptr<const Spacing<2>>& spacing) const {
+// None where d is nearly the same everywhere: then one lattice fills the domain. A level of few
+// nodes has nothing to settle over long distances, and bubbles of a spacing that varies from one to
+// the next have no rest. Collective, as the spacing is asked.
+template <int Dim>
+int PlacementOf<Dim>::coarser_levels_that_pay(
+    const Level<Dim>& finest, const std::shared_ptr<const Spacing<Dim>>& spacing) const {
   constexpr double kMinNodes = 500;   // of the coarsest
   constexpr double kSteepest = 0.27;  // growth of d per unit of length
   const SpacingVariation d = spacing_variation(finest);
   const double nodes = expected_nodes(finest);
   int levels = 0;
   while (levels < finest.settings.levels && d.max > kPatchVariation * d.min &&
-         nodes >= kMinNodes * std::pow(coarser_by(levels + 1), 2) &&
+         nodes >= kMinNodes * std::pow(coarser_by(levels + 1), Dim) &&
          d.steepest * coarser_by(levels + 1) <= kSteepest &&
-         boundary_leaves_room(
-             *spacing_of_level(spacing, levels + 1),
-             static_cast<double>(finest.ground.boundary_nodes()) / coarser_by(levels + 1),
-             nodes / std::pow(coarser_by(levels + 1), 2)))
+         boundary_leaves_room(finest, *spacing_of_level(spacing, levels + 1),
+                              coarser_by(levels + 1), nodes))
     ++levels;
   return levels;
 }
@@ -84,42 +87,47 @@ int Placement::coarser_levels_that_pay(const Level& finest,
 // Corners, the few nodes that a small hole needs, and fixed nodes are on every level, however
 // coarse: where they are many among a level's nodes, it settles nothing, bubbles come and go
 // between them, and each has dozens of edges near it. Of a coarser level with this spacing, is what
-// its boundary has beyond its share of the finest one's little beside all of its nodes?
-bool Placement::boundary_leaves_room(const Spacing<2>& coarser, double boundary_nodes,
-                                     double nodes) const {
-  constexpr double kMaxForced = 0.2;
-  double laid = 0;
-  agreed(*comm_, [&] {
-    const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
-      evaluate_spacing<2>(coarser, domain_->area(), n, x, d);
-    };
-    laid = static_cast<double>(discretize_boundary(*domain_, checked).nodes.size());
-  });
-  return laid - boundary_nodes <= kMaxForced * nodes;
+// its boundary has beyond its share of the finest one's little beside all of its nodes? (In space
+// it is a matter of the surfaces, which settle before.)
+template <int Dim>
+bool PlacementOf<Dim>::boundary_leaves_room(const Level<Dim>& finest, const Spacing<Dim>& coarser,
+                                            double factor, double nodes) const {
+  if constexpr (Dim == 2) {
+    constexpr double kMaxForced = 0.2;
+    double laid = 0;
+    agreed(*comm_, [&] {
+      const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+        evaluate_spacing<2>(coarser, measure_of(*domain_), n, x, d);
+      };
+      laid = static_cast<double>(discretize_boundary(*domain_, checked).nodes.size());
+    });
+    return laid - static_cast<double>(finest.ground.boundary_nodes()) / factor <=
+           kMaxForced * (nodes / std::pow(factor, 2));
+  }
+  return true;
 }
 
 // From the coarsest level down to twice the spacing. If the monitor stops them, refined nodes are
 // returned nevertheless, as they are.
-GivenNodes Placement::nodes_from_coarser_levels(const Level& finest,
-                                                const std::shared_ptr<const Spacing<2>>& spacing,
-                                                const Settings& settings, Outcome& outcome) {
-  GivenNodes nodes;
+template <int Dim>
+GivenNodes<Dim> PlacementOf<Dim>::nodes_from_coarser_levels(
+    const Level<Dim>& finest, const std::shared_ptr<const Spacing<Dim>>& spacing,
+    const Settings& settings, Outcome& outcome) {
+  GivenNodes<Dim> nodes;
   try {
     for (int l = coarser_levels_; l > 0; --l) {
-      std::unique_ptr<Level> level = empty_level(
+      std::unique_ptr<Level<Dim>> level = empty_level(
           spacing_of_level(spacing, l), settings_of_level(settings, l == coarser_levels_), &finest);
-      if (l == coarser_levels_)
-        fill(*level);
-      else
-        take(*level, std::move(nodes), 0);
+      put_first_nodes(level, nodes, l);
       adopt_level(std::move(level));
       begin_schedule(false);
       schedule_.coarser = true;
       const ProgressPart part{kCoarseShare * (coarser_levels_ - l) / coarser_levels_,
                               kCoarseShare * (coarser_levels_ - l + 1) / coarser_levels_};
-      if (outcome != Outcome::stopped) outcome = advance(level_->settings.steps, part);
-      if (outcome != Outcome::stopped) repair_defects();
-      nodes = new_nodes(refined(*level_, *spacing_of_level(spacing, l - 1)));
+      if (outcome != Outcome::stopped && l <= filled_level_)
+        outcome = advance(level_->settings.steps, part);
+      if (outcome != Outcome::stopped && l <= filled_level_) repair_defects();
+      nodes = new_nodes<Dim>(refined(*level_, *spacing_of_level(spacing, l - 1)));
     }
     if (outcome != Outcome::stopped) outcome = Outcome::converged;
     adopt_level(nullptr);
@@ -129,5 +137,27 @@ GivenNodes Placement::nodes_from_coarser_levels(const Level& finest,
   }
   return nodes;
 }
+
+// The nodes that one of several levels begins with: those of the level before, refined, or on the
+// first one a fill.
+template <int Dim>
+TakenNodes PlacementOf<Dim>::put_first_nodes(std::unique_ptr<Level<Dim>>& level,
+                                             GivenNodes<Dim>& from_coarser, int which) {
+  if constexpr (Dim == 3) {
+    settle_surfaces(level, from_coarser);
+    from_coarser = new_nodes<Dim>(std::move(from_coarser));
+    level->next_id = 0;
+  }
+  if (which > filled_level_) return {};  // surfaces alone
+  if (which == filled_level_) {
+    fill(*level, laid_nodes(level->ground, from_coarser));
+    return {};
+  }
+  return take(*level, std::move(from_coarser), 0);
+}
+
+// Of the members defined here.
+template class PlacementOf<2>;
+template class PlacementOf<3>;
 
 }  // namespace pnpbs

@@ -6,7 +6,7 @@
 
 #include "base/available_memory.hpp"
 #include "base/kokkos_runtime.hpp"
-#include "placement/placement.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -24,7 +24,8 @@ double nodes_per_second(const Options& options) {
 
 }  // namespace
 
-Estimate Placement::estimate() {
+template <int Dim>
+Estimate PlacementOf<Dim>::estimate() {
   require_kokkos();
   require_same_options();
   const Settings settings = settings_for_new_level();
@@ -39,13 +40,14 @@ Estimate Placement::estimate() {
 
 // With the growth of d limited as the run limits it, which takes a tree as the run does; so it is
 // refused where that would be.
-double Placement::estimated_nodes(const Settings& settings) const {
-  const auto estimate_with = [&](const Spacing<2>& d) {
-    return estimate_nodes(*comm_, *domain_, d, settings.max_nodes);
+template <int Dim>
+double PlacementOf<Dim>::estimated_nodes(const Settings& settings) const {
+  const auto estimate_with = [&](const Spacing<Dim>& d) {
+    return estimate_nodes<Dim>(*comm_, *domain_, d, settings.max_nodes);
   };
-  const std::shared_ptr<const Spacing<2>> spacing = bounded_spacing();
+  const std::shared_ptr<const Spacing<Dim>> spacing = bounded_spacing();
   if (!settings.user_limits_growth()) {
-    const NodeEstimate estimate = estimate_with(*spacing);
+    const NodeEstimate<Dim> estimate = estimate_with(*spacing);
     if (settings.growth_limit == 0 || !too_steep(estimate.steepest)) return estimate.nodes;
   }
   return estimate_with(*growth_limited(spacing, settings, [] {})).nodes;
@@ -59,5 +61,9 @@ double Placement::bytes_allowed() const {
   const double mine = available_memory() / comm_->ranks_on_node();
   return share * -comm_->allreduce_max(-mine) * comm_->size();
 }
+
+// Of the members defined here.
+template class PlacementOf<2>;
+template class PlacementOf<3>;
 
 }  // namespace pnpbs

@@ -3,7 +3,8 @@
 // because the user wants it so or because nodes could not follow d as given.
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
-#include "placement/placement.hpp"
+#include "domain/facets_for_tree.hpp"
+#include "placement/placement_of.hpp"
 #include "spacing/growth_limit.hpp"
 
 namespace pnpbs {
@@ -19,16 +20,19 @@ constexpr double kMaxFollowed = 0.3, kTooSteep = 1.05 * kMaxFollowed;
 
 }  // namespace
 
-std::shared_ptr<const Spacing<2>> Placement::bounded_spacing() const {
-  std::shared_ptr<const Spacing<2>> spacing;
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::bounded_spacing() const {
+  std::shared_ptr<const Spacing<Dim>> spacing;
   agreed(*comm_, [&] {
-    spacing = std::make_shared<BoundedSpacing<2>>(spacing_, kMaxSizes * size_of(domain_->bounds()));
+    spacing =
+        std::make_shared<BoundedSpacing<Dim>>(spacing_, kMaxSizes * size_of(domain_->bounds()));
   });
   return spacing;
 }
 
-std::shared_ptr<const Spacing<2>> Placement::growth_limited(
-    std::shared_ptr<const Spacing<2>> spacing, const Settings& settings) {
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::growth_limited(
+    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) {
   while_monitored("the growth of the spacing was limited", [&](const std::function<void()>& beat) {
     const PhaseTimer timer(timers_, Phase::spacing);
     spacing = growth_limited(std::move(spacing), settings, beat);
@@ -36,8 +40,9 @@ std::shared_ptr<const Spacing<2>> Placement::growth_limited(
   return spacing;
 }
 
-std::shared_ptr<const Spacing<2>> Placement::growth_limited(
-    std::shared_ptr<const Spacing<2>> spacing, const Settings& settings,
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::growth_limited(
+    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings,
     const std::function<void()>& beat) const {
   const auto explained = [&](const Error& error) {
     return std::string(error.what()) + " (where d grows by at most " +
@@ -48,16 +53,16 @@ std::shared_ptr<const Spacing<2>> Placement::growth_limited(
   };
   agreed(*comm_, [&] {
     try {
-      const SpacingEvaluator<2> unlimited = [&](std::int64_t n, const Point<2>* x, double* d) {
+      const SpacingEvaluator<Dim> unlimited = [&](std::int64_t n, const Point<Dim>* x, double* d) {
         beat();
-        evaluate_spacing<2>(*spacing, domain_->area(), n, x, d);
+        evaluate_spacing<Dim>(*spacing, measure_of(*domain_), n, x, d);
       };
-      auto ways = std::make_unique<const OpenWays<2>>(
-          domain_->bounds(), domain_->area(),
-          discretize_boundary(*domain_, unlimited, settings.max_nodes));
-      spacing = std::make_shared<GrowthLimitedSpacing<2>>(comm_, std::move(ways),
-                                                          std::move(spacing), settings.growth_limit,
-                                                          settings.node_limit(), beat);
+      auto ways = std::make_unique<const OpenWays<Dim>>(
+          domain_->bounds(), measure_of(*domain_),
+          facets_for_tree(*domain_, unlimited, settings.max_nodes));
+      spacing = std::make_shared<GrowthLimitedSpacing<Dim>>(
+          comm_, std::move(ways), std::move(spacing), settings.growth_limit, settings.node_limit(),
+          beat);
     } catch (const AgreedError& error) {
       if (!by_spacing(error)) throw;
       throw AgreedError(error.kind(), explained(error));
@@ -69,17 +74,26 @@ std::shared_ptr<const Spacing<2>> Placement::growth_limited(
   return spacing;
 }
 
-bool Placement::too_steep(const SteepestGrowth& steepest) { return steepest.growth > kTooSteep; }
+template <int Dim>
+bool PlacementOf<Dim>::too_steep(const SteepestGrowth<Dim>& steepest) {
+  return steepest.growth > kTooSteep;
+}
 
-std::string Placement::warning_of_growth(const SteepestGrowth& steepest, double growth_limit) {
+template <int Dim>
+std::string PlacementOf<Dim>::warning_of_growth(const SteepestGrowth<Dim>& steepest,
+                                                double growth_limit) {
   const std::string found = "the spacing grows by " + rounded_text(steepest.growth) +
-                            " per unit of length near (" + rounded_text(steepest.at[0]) + ", " +
-                            rounded_text(steepest.at[1]) + "), faster than nodes can follow: ";
+                            " per unit of length near " + rounded_point_text<Dim>(steepest.at) +
+                            ", faster than nodes can follow: ";
   if (growth_limit == 0)
     return found + "limit its growth (option growth_limit, " + number_text(kMaxFollowed) +
            " or less)";
   return found + "its growth is limited to " + number_text(growth_limit) +
          "; set the option growth_limit to choose another limit, or 0 to have it as given";
 }
+
+// Of the members defined here.
+template class PlacementOf<2>;
+template class PlacementOf<3>;
 
 }  // namespace pnpbs

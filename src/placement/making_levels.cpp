@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Making a level: checks, boundary, tree, growth limit, and the nodes it begins with.
+#include <algorithm>
+
 #include "base/error.hpp"
-#include "base/mixed_hash.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/first_nodes.hpp"
 #include "level/refinement.hpp"
-#include "placement/placement.hpp"
+#include "placement/domain_fingerprint.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
 // A level for the present spacing, with the present options. Stopped if the monitor has stopped
 // what leads to it.
-Outcome Placement::prepare_level() {
-  const Settings settings(options_);
+template <int Dim>
+Outcome PlacementOf<Dim>::prepare_level() {
+  const Settings settings(options_, Dim);
   require_same_options();
   const bool make = !level_ || spacing_replaced_ ||
                     settings.growth_limit != level_->settings.growth_limit ||
@@ -29,32 +32,20 @@ void Placement::require_same_options() const {
                 "the options differ between ranks: set the same ones on all of them");
 }
 
-void Placement::require_same_domain() const {
-  std::uint64_t fingerprint = 0;
-  const auto add = [&](double value) { fingerprint = mixed_with(fingerprint, value); };
-  for (const BoundaryCurve& curve : domain_->curves()) {
-    add(curve.tag);
-    add(curve.left_inside);  // the role, and holes
-    add(curve.right_inside);
-    for (const Point<2>& x : curve.points)
-      for (double coordinate : x) add(coordinate);
-  }
-  for (const Corner& corner : domain_->corners()) add(corner.tag);
-  for (const FixedNode& node : domain_->fixed_nodes()) {
-    add(node.tag);
-    for (double coordinate : node.position) add(coordinate);
-  }
-  if (!comm_->same_on_all(fingerprint))
+template <int Dim>
+void PlacementOf<Dim>::require_same_domain() const {
+  if (!comm_->same_on_all(fingerprint_of(*domain_)))
     throw Error(ErrorKind::domain,
                 "the domains differ between ranks: every rank describes the whole domain");
 }
 
 // Once spacing and domain are there, right, and the same on all ranks. Collective.
-Settings Placement::settings_for_new_level() const {
+template <int Dim>
+Settings PlacementOf<Dim>::settings_for_new_level() const {
   if (!spacing_)
     throw Error(ErrorKind::state,
                 "the placement has no spacing yet: call one of the set_spacing functions first");
-  Settings settings(options_);
+  Settings settings(options_, Dim);
   settings.max_bytes = bytes_allowed();
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain();
@@ -62,14 +53,15 @@ Settings Placement::settings_for_new_level() const {
 }
 
 // A level without inner nodes yet, partitioned like another one if that is given.
-std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> spacing,
-                                              const Settings& settings, const Level* like) {
-  std::unique_ptr<Level> level;
+template <int Dim>
+std::unique_ptr<Level<Dim>> PlacementOf<Dim>::empty_level(
+    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings, const Level<Dim>* like) {
+  std::unique_ptr<Level<Dim>> level;
   agreed(*comm_, [&] {
     const PhaseTimer timer(timers_, Phase::boundary);
     // A copy: the caller may go on to change the domain.
-    level = std::make_unique<Level>(comm_, std::make_shared<PlaneDomain>(*domain_),
-                                    std::move(spacing), settings, timers_);
+    level = std::make_unique<Level<Dim>>(comm_, std::make_shared<Domain<Dim>>(*domain_),
+                                         std::move(spacing), settings, timers_);
   });
   level->grow_tree(like);
   return level;
@@ -77,15 +69,16 @@ std::unique_ptr<Level> Placement::empty_level(std::shared_ptr<const Spacing<2>> 
 
 // Lays the boundary at the present spacing and puts in the inner nodes: those of the level before,
 // refined where it was coarser, those given, those that coarser levels lead to, or a fill.
-Outcome Placement::make_level() {
+template <int Dim>
+Outcome PlacementOf<Dim>::make_level() {
   const Settings settings = settings_for_new_level();
-  std::shared_ptr<const Spacing<2>> spacing = bounded_spacing();
+  std::shared_ptr<const Spacing<Dim>> spacing = bounded_spacing();
   if (settings.user_limits_growth()) spacing = growth_limited(std::move(spacing), settings);
-  std::unique_ptr<Level> next = empty_level(spacing, settings);
-  SteepestGrowth steepest;  // none where the user limits it
+  std::unique_ptr<Level<Dim>> next = empty_level(spacing, settings);
+  SteepestGrowth<Dim> steepest;  // none where the user limits it
   if (!settings.user_limits_growth()) {
     const PhaseTimer timer(timers_, Phase::spacing);
-    steepest = steepest_growth(
+    steepest = steepest_growth<Dim>(
         *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
         next->ground.evaluator());
   }
@@ -99,18 +92,25 @@ Outcome Placement::make_level() {
   std::int64_t inserted = 0;
   Outcome outcome = Outcome::converged;
   coarser_levels_ = 0;
+  filled_level_ = 0;
   if (level_) {
-    taken = take(*next, refined(*level_, *spacing), level_->next_id);
+    GivenNodes<Dim> kept = refined(*level_, *spacing);
+    next->next_id = level_->next_id;
+    if constexpr (Dim == 3) settle_surfaces(next, kept);
+    taken = take(*next, std::move(kept), next->next_id);
     taken.left_out = 0;  // not the user's
     inserted = taken.numbered;
   } else if (start_from_given_) {
-    taken = take(*next, given_, 0);
+    GivenNodes<Dim> given = given_;
+    if constexpr (Dim == 3) settle_surfaces(next, given);
+    taken = take(*next, std::move(given), next->next_id);
   } else {
-    coarser_levels_ = coarser_levels_that_pay(*next, spacing);
-    if (coarser_levels_ > 0)
-      take(*next, nodes_from_coarser_levels(*next, spacing, settings, outcome), 0);
-    else
-      fill(*next);
+    filled_level_ = coarser_levels_ = coarser_levels_that_pay(*next, spacing);
+    if constexpr (Dim == 3)
+      coarser_levels_ = std::max(coarser_levels_, surface_levels_that_pay(*next));
+    GivenNodes<Dim> nodes;
+    if (coarser_levels_ > 0) nodes = nodes_from_coarser_levels(*next, spacing, settings, outcome);
+    put_first_nodes(next, nodes, 0);
   }
   // Nothing has failed: from here on the new level counts.
   adopt_level(std::move(next));
@@ -118,21 +118,24 @@ Outcome Placement::make_level() {
   inserted_ += inserted;
   deleted_ += taken.thinned;
   warnings_ = domain_->warnings();
-  warnings_.insert(warnings_.end(), level_->ground.boundary().warnings.begin(),
-                   level_->ground.boundary().warnings.end());
+  warnings_.insert(warnings_.end(), level_->ground.warnings().begin(),
+                   level_->ground.warnings().end());
   if (too_steep(steepest)) warnings_.push_back(warning_of_growth(steepest, settings.growth_limit));
   warnings_of_level_ = warnings_.size();
   spacing_replaced_ = false;
-  begin_schedule(coarser_levels_ > 0);
+  begin_schedule(filled_level_ > 0);
   return outcome;
 }
 
-void Placement::fill(Level& level) {
-  while_monitored("the first nodes were laid",
-                  [&](const std::function<void()>& beat) { pnpbs::fill(level, beat); });
+template <int Dim>
+void PlacementOf<Dim>::fill(Level<Dim>& level, LaidNodes<Dim> laid) {
+  while_monitored("the first nodes were laid", [&](const std::function<void()>& beat) {
+    pnpbs::fill(level, std::move(laid), beat);
+  });
 }
 
-void Placement::adopt_level(std::unique_ptr<Level> next) {
+template <int Dim>
+void PlacementOf<Dim>::adopt_level(std::unique_ptr<Level<Dim>> next) {
   if (level_) {
     rebuilds_before_ += level_->neighbourhood.rebuilds();
     rebalances_before_ += level_->rebalances;
@@ -141,5 +144,9 @@ void Placement::adopt_level(std::unique_ptr<Level> next) {
   edge_bands_.clear();
   forget_results();
 }
+
+// Of the members defined here.
+template class PlacementOf<2>;
+template class PlacementOf<3>;
 
 }  // namespace pnpbs

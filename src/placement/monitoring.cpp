@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When the monitor is asked, and that all ranks stop if one is told to.
 #include "base/error.hpp"
-#include "placement/placement.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -28,7 +28,8 @@ bool Placement::monitor_stops_by_clock(double fraction) {
 
 // The steps between two events of ten million nodes take some seconds. Several ranks have fewer
 // nodes each, and would have to agree every time: they are asked at events.
-bool Placement::stops_between_events(double fraction) {
+template <int Dim>
+bool PlacementOf<Dim>::stops_between_events(double fraction) {
   return !level_->distributed() && monitor_is_due() && monitor_stops(fraction);
 }
 
@@ -51,5 +52,8 @@ void Placement::while_monitored(const std::string& what,
     throw;
   }
 }
+
+template bool PlacementOf<2>::stops_between_events(double);
+template bool PlacementOf<3>::stops_between_events(double);
 
 }  // namespace pnpbs

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "comm/communicator.hpp"
-#include "domain/plane/plane_domain.hpp"
+#include "domain/domain.hpp"
 #include "spacing/spacing.hpp"
 #include "spacing/steepest_growth.hpp"
 
@@ -18,13 +18,15 @@ struct Estimate {
   double seconds = 0;      // roughly
 };
 
+template <int Dim>
 struct NodeEstimate {
   double nodes = 0;
-  SteepestGrowth steepest;
+  SteepestGrowth<Dim> steepest;
 };
 
 // By samples of d in some thousand cells, more of them where there would be more nodes. Collective.
-NodeEstimate estimate_nodes(const Communicator& comm, const PlaneDomain& domain,
-                            const Spacing<2>& spacing, std::int64_t max_boundary_nodes);
+template <int Dim>
+NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& domain,
+                                 const Spacing<Dim>& spacing, std::int64_t max_boundary_nodes);
 
 }  // namespace pnpbs

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "placement/placement.hpp"
-
 #include <limits>
 #include <new>
 
@@ -8,6 +6,7 @@
 #include "base/kokkos_runtime.hpp"
 #include "level/exchange.hpp"
 #include "level/reach.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -17,24 +16,25 @@ constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
-void Placement::set_spacing(std::shared_ptr<const Spacing<2>> spacing) {
+template <int Dim>
+void PlacementOf<Dim>::set_spacing(std::shared_ptr<const Spacing<Dim>> spacing) {
   spacing_ = std::move(spacing);
   spacing_replaced_ = true;
 }
 
-void Placement::set_nodes(GivenNodes nodes) {
+template <int Dim>
+void PlacementOf<Dim>::set_nodes(GivenNodes<Dim> nodes) {
   given_ = std::move(nodes);
   start_from_given_ = true;
   level_.reset();
 }
 
-void Placement::forget_nodes() { level_.reset(); }
-
-Outcome Placement::initialise() {
+template <int Dim>
+Outcome PlacementOf<Dim>::initialise() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   require_same_options();
-  std::unique_ptr<Level> before = std::move(level_);
+  std::unique_ptr<Level<Dim>> before = std::move(level_);
   const Schedule schedule = schedule_;
   const int coarser_levels = coarser_levels_;
   try {
@@ -51,8 +51,9 @@ Outcome Placement::initialise() {
 // Changes the nodes there are. Afterwards every node is with the rank that owns its place, so that
 // none changes its rank when it is asked for. A rank that ran out of memory may have lost some:
 // then all let go of theirs.
+template <int Dim>
 template <class Work>
-auto Placement::while_moving(const Work& work) {
+auto PlacementOf<Dim>::while_moving(const Work& work) {
   try {
     const auto result = work();
     exchange(*level_, kStarHops);
@@ -66,7 +67,8 @@ auto Placement::while_moving(const Work& work) {
   }
 }
 
-Outcome Placement::run() {
+template <int Dim>
+Outcome PlacementOf<Dim>::run() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   if (prepare_level() == Outcome::stopped) return Outcome::stopped;
@@ -82,7 +84,8 @@ Outcome Placement::run() {
   });
 }
 
-Outcome Placement::step(std::int64_t n) {
+template <int Dim>
+Outcome PlacementOf<Dim>::step(std::int64_t n) {
   require_kokkos();
   if (!comm_->same_on_all(static_cast<std::uint64_t>(n)))
     throw Error(ErrorKind::argument, "argument n differs between ranks");
@@ -95,7 +98,8 @@ Outcome Placement::step(std::int64_t n) {
   });
 }
 
-void Placement::rebalance() {
+template <int Dim>
+void PlacementOf<Dim>::rebalance() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   prepare_level();
@@ -105,7 +109,8 @@ void Placement::rebalance() {
   });
 }
 
-PopulationCounts Placement::adjust_population() {
+template <int Dim>
+PopulationCounts PlacementOf<Dim>::adjust_population() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   const PopulationCounts before{inserted_, deleted_};
@@ -123,5 +128,9 @@ PopulationCounts Placement::count_population_change(PopulationCounts change) {
   deleted_ += change.deleted;
   return change;
 }
+
+// Of the members defined here.
+template class PlacementOf<2>;
+template class PlacementOf<3>;
 
 }  // namespace pnpbs

@@ -2,7 +2,7 @@
 // What a placement tells of its elements, and whether its nodes follow d.
 #include <charconv>
 
-#include "placement/placement.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -36,13 +36,17 @@ bool Placement::spacing_missed() {
   return worst != nullptr;
 }
 
-const ElementQuality& Placement::element_quality() {
+template <int Dim>
+const ElementQuality& PlacementOf<Dim>::element_quality() {
   prepare_stars();
   if (quality_version_ != level_->version()) {
-    quality_ = measure_elements(*comm_, level_->nodes, level_->stars);
+    quality_ = measure_elements<Dim>(*comm_, level_->nodes, level_->stars);
     quality_version_ = level_->version();
   }
   return quality_;
 }
+
+template const ElementQuality& PlacementOf<2>::element_quality();
+template const ElementQuality& PlacementOf<3>::element_quality();
 
 }  // namespace pnpbs

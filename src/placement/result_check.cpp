@@ -42,7 +42,7 @@ struct StarTriangle {
 
 class ResultCheck {
  public:
-  explicit ResultCheck(Placement& placement)
+  explicit ResultCheck(PlacementOf<2>& placement)
       : p_(placement),
         comm_(placement.communicator()),
         level_(placement.level()),
@@ -93,9 +93,9 @@ class ResultCheck {
   double area_of_triangles(double unit) const;
   void check_area() const;
 
-  Placement& p_;
+  PlacementOf<2>& p_;
   const Communicator& comm_;
-  const Level& level_;
+  const Level<2>& level_;
   const Nodes<2>& nodes_;
   const Boundary& boundary_;
   IncidentSectors sectors_;
@@ -320,7 +320,8 @@ void ResultCheck::check_boundary_edges_of(std::int64_t i) const {
 // A sum with no order: in 2^-40 of the unit.
 double ResultCheck::area_of_triangles(double unit) const {
   double mine = 0;
-  p_.for_triangles([&](std::int64_t a, std::int64_t b, std::int64_t c) {
+  p_.for_elements([&](const std::array<std::int64_t, 3>& places) {
+    const auto [a, b, c] = places;
     const Point<2> x = position(p_.node_at(a)), y = position(p_.node_at(b)),
                    z = position(p_.node_at(c));
     mine += 0.5 * ((y[0] - x[0]) * (z[1] - x[1]) - (y[1] - x[1]) * (z[0] - x[0]));
@@ -353,7 +354,7 @@ Enclosed enclosed_by(const Boundary& boundary, const Box<2>& bounds) {
 
 void ResultCheck::check_area() const {
   constexpr double kTolerance = 1e-9;
-  const Enclosed enclosed = enclosed_by(boundary_, level_.ground.domain().bounds());
+  const Enclosed enclosed = enclosed_by(boundary_, level_.ground.bounds());
   if (!(enclosed.area > enclosed.rounding)) return;  // too thin to be measured
   const double area = area_of_triangles(enclosed.area);
   if (std::fabs(area - enclosed.area) <= kTolerance * enclosed.area + enclosed.rounding) return;
@@ -363,9 +364,13 @@ void ResultCheck::check_area() const {
 
 }  // namespace
 
-void check_results(Placement& placement) {
+void check_results(PlacementOf<2>& placement) {
   placement.prepare_stars();
   ResultCheck(placement).check();
+}
+
+void check_results(PlacementOf<3>&) {
+  throw Error(ErrorKind::unsupported, "results in space are not checked yet");
 }
 
 }  // namespace pnpbs

@@ -3,7 +3,7 @@
 // out: nodes, lists and stars, over all ranks.
 #pragma once
 
-#include "placement/placement.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -16,6 +16,8 @@ namespace pnpbs {
 //   triangles are one conforming triangulation, which holds all edges of the boundary,
 // - the triangles' areas add up to the domain's.
 // No rank learns more than what its own nodes and ghosts are. Collective.
-void check_results(Placement& placement);
+void check_results(PlacementOf<2>& placement);
+// The same of tetrahedra: each face is that of another one or on the boundary. Collective.
+void check_results(PlacementOf<3>& placement);
 
 }  // namespace pnpbs

@@ -8,7 +8,7 @@
 #include "base/kokkos_runtime.hpp"
 #include "base/mixed_hash.hpp"
 #include "level/lists_and_stars.hpp"
-#include "placement/placement.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -16,7 +16,8 @@ namespace {
 
 // The nodes that are owned, or those that are not, in the order of their ids. These are nearly
 // dense where a rank has them all; then no sort is needed.
-void append_by_id(const Nodes<2>& nodes, bool owned, std::vector<std::int32_t>& order) {
+template <int Dim>
+void append_by_id(const Nodes<Dim>& nodes, bool owned, std::vector<std::int32_t>& order) {
   constexpr std::int64_t kDense = 4;  // ids to a node
   const auto first = static_cast<std::ptrdiff_t>(order.size());
   std::int64_t min = std::numeric_limits<std::int64_t>::max(), max = -1;
@@ -46,18 +47,17 @@ void append_by_id(const Nodes<2>& nodes, bool owned, std::vector<std::int32_t>& 
 
 }  // namespace
 
-std::int64_t Placement::count() const { return level_ ? level_->owned_count() : 0; }
-
 std::int64_t Placement::global_count() const {
   return static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(count())));
 }
 
-void Placement::prepare_order() {
+template <int Dim>
+void PlacementOf<Dim>::prepare_order() {
   require_kokkos();
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
   if (order_version_ == level_->version()) return;
   // Owned nodes first, then ghosts, each by id.
-  const Nodes<2>& nodes = level_->nodes;
+  const Nodes<Dim>& nodes = level_->nodes;
   by_id_.clear();
   by_id_.reserve(static_cast<std::size_t>(nodes.count));
   append_by_id(nodes, true, by_id_);
@@ -68,7 +68,8 @@ void Placement::prepare_order() {
   order_version_ = level_->version();
 }
 
-void Placement::prepare_lists() {
+template <int Dim>
+void PlacementOf<Dim>::prepare_lists() {
   require_kokkos();
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
   if (lists_version_ == level_->version()) return;
@@ -78,16 +79,18 @@ void Placement::prepare_lists() {
   if (level_->distributed()) stars_version_ = lists_version_;
 }
 
-void Placement::prepare_stars() {
+template <int Dim>
+void PlacementOf<Dim>::prepare_stars() {
   prepare_lists();
   if (stars_version_ == level_->version()) return;
   rebuild_stars(*level_);
   stars_version_ = level_->version();
 }
 
-ExchangePattern Placement::exchange_pattern() {
+template <int Dim>
+ExchangePattern PlacementOf<Dim>::exchange_pattern() {
   prepare_lists();
-  const Nodes<2>& nodes = level_->nodes;
+  const Nodes<Dim>& nodes = level_->nodes;
   const std::int64_t owned = count();
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> owners;
@@ -100,17 +103,39 @@ ExchangePattern Placement::exchange_pattern() {
 
 std::int64_t Placement::nodes_on_ranks_before() const { return comm_->sum_before(count()); }
 
+template <int Dim>
+NodeColumns PlacementOf<Dim>::nodes() const {
+  if (!level_) return {};
+  const Nodes<Dim>& nodes = level_->nodes;
+  NodeColumns columns{nodes.count, {}, nodes.d, nodes.id, nodes.tag, nodes.owned};
+  for (std::size_t k = 0; k < Dim; ++k) columns.x[k] = nodes.x[k];
+  return columns;
+}
+
 // ------------------------------------------------------------------ statistics -----------------
 
-NearestNeighbourError Placement::spacing_error() {
+template <int Dim>
+LevelFigures PlacementOf<Dim>::level_figures() const {
+  if (!level_) return {};
+  return {level_->ghosts.neighbour_ranks(), level_->ghosts.update_bytes(),
+          level_->neighbourhood.owned_work()};
+}
+
+template <int Dim>
+std::int64_t PlacementOf<Dim>::boundary_nodes() const {
+  return level_ ? pnpbs::boundary_nodes(*level_) : 0;
+}
+
+template <int Dim>
+NearestNeighbourError PlacementOf<Dim>::spacing_error() {
   prepare_lists();
-  const Nodes<2>& nodes = level_->nodes;
-  const AdjacencyList<2>& lists = level_->lists();
+  const Nodes<Dim>& nodes = level_->nodes;
+  const AdjacencyList<Dim>& lists = level_->lists();
   // Nodes with no listed neighbour count as far as the lists reach.
   const auto ratio = [&](std::int64_t i) {
     double nearest = lists.radius() * nodes.d(i);
     lists.for_neighbours(i, [&](std::int64_t j) {
-      nearest = std::min(nearest, distance<2>(nodes.position(i), nodes.position(j)));
+      nearest = std::min(nearest, distance<Dim>(nodes.position(i), nodes.position(j)));
     });
     return nearest / nodes.d(i);
   };
@@ -132,16 +157,21 @@ NearestNeighbourError Placement::spacing_error() {
 }
 
 // A sum over the nodes, so that it has no order.
-std::uint64_t Placement::hash() const {
+template <int Dim>
+std::uint64_t PlacementOf<Dim>::hash() const {
   if (!level_) return 0;
-  const Nodes<2>& nodes = level_->nodes;
+  const Nodes<Dim>& nodes = level_->nodes;
   return comm_->allreduce_sum(
       sum_of("pnpbs::hash", nodes.count, [&](std::int64_t i) -> std::uint64_t {
         if (!nodes.owned(i)) return 0;
         std::uint64_t h = mixed(static_cast<std::uint64_t>(nodes.id(i)));
-        for (int k = 0; k < 2; ++k) h = mixed_with(h, nodes.x[k](i));
+        for (int k = 0; k < Dim; ++k) h = mixed_with(h, nodes.x[k](i));
         return mixed(h ^ static_cast<std::uint64_t>(static_cast<std::uint32_t>(nodes.tag(i))));
       }));
 }
+
+// Of the members defined here.
+template class PlacementOf<2>;
+template class PlacementOf<3>;
 
 }  // namespace pnpbs

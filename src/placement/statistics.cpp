@@ -7,7 +7,6 @@
 #include "base/build_config.hpp"
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
-#include "level/rebalance.hpp"
 
 namespace pnpbs {
 
@@ -62,8 +61,7 @@ const std::vector<StatisticRow>& statistic_table() {
       integer(
           "nodes", [](P p) { return p.global_count(); }, "nodes of all kinds"),
       integer(
-          "boundary_nodes",
-          [](P p) { return p.has_nodes() ? p.level().ground.boundary_nodes() : std::int64_t{0}; },
+          "boundary_nodes", [](P p) { return p.boundary_nodes(); },
           "nodes on boundary and inner curves, and fixed nodes"),
       integer(
           "steps", [](P p) { return p.steps_done(); }, "time steps done, on coarser levels, too"),
@@ -84,31 +82,25 @@ const std::vector<StatisticRow>& statistic_table() {
       integer(
           "nodes_held",
           [](P p) {
-            const std::int64_t held = p.has_nodes() ? p.level().nodes.count : std::int64_t{0};
+            const std::int64_t held = p.nodes().count;
             return static_cast<std::int64_t>(
                 p.communicator().allreduce_max(static_cast<double>(held)));
           },
           "most nodes that any rank holds, its ghosts included"),
       integer(
-          "ghosts",
-          [](P p) { return p.has_nodes() ? p.level().nodes.count - p.count() : std::int64_t{0}; },
+          "ghosts", [](P p) { return p.nodes().count - p.count(); },
           "nodes of other ranks that this rank holds now"),
       integer(
-          "neighbours",
-          [](P p) { return p.has_nodes() ? p.level().ghosts.neighbour_ranks() : std::int64_t{0}; },
+          "neighbours", [](P p) { return p.level_figures().neighbour_ranks; },
           "ranks that this rank exchanges ghosts with"),
       integer(
-          "exchange.bytes",
-          [](P p) { return p.has_nodes() ? p.level().ghosts.update_bytes() : std::int64_t{0}; },
+          "exchange.bytes", [](P p) { return p.level_figures().exchange_bytes; },
           "bytes that this rank sends every exchange_interval steps"),
       integer(
-          "work.owned",
-          [](P p) {
-            return p.has_nodes() ? p.level().neighbourhood.owned_work() : std::int64_t{0};
-          },
+          "work.owned", [](P p) { return p.level_figures().owned_work; },
           "cost of a step to this rank: listed pairs of its own nodes, and 8 for each node"),
       real(
-          "imbalance", [](P p) { return p.has_nodes() ? imbalance_of(p.level()) : 1.0; },
+          "imbalance", [](P p) { return p.imbalance(); },
           "largest over mean of that, over the ranks"),
       integer(
           "rebalances", [](P p) { return p.rebalances(); }, "times the work was partitioned anew"),
@@ -145,16 +137,16 @@ const std::vector<StatisticRow>& statistic_table() {
           "d_error.least", [](P p) { return p.spacing_error().min; },
           "nearest-neighbour distance over d: least")),
       computed(real(
-          "quality.mean", [](P p) { return p.element_quality().triangle.mean; },
+          "quality.mean", [](P p) { return p.element_quality().simplex.mean; },
           "quality of the triangles, 2 r_in / R: mean")),
       computed(real(
-          "quality.one_percent", [](P p) { return p.element_quality().triangle.one_percent; },
+          "quality.one_percent", [](P p) { return p.element_quality().simplex.one_percent; },
           "quality of the triangles: 99 % lie above this, a multiple of 2^-16")),
       computed(real(
-          "quality.min", [](P p) { return p.element_quality().triangle.min; },
+          "quality.min", [](P p) { return p.element_quality().simplex.min; },
           "quality of the triangles: the worst")),
       computed(real(
-          "quality.min_angle", [](P p) { return p.element_quality().triangle.min_angle; },
+          "quality.min_angle", [](P p) { return p.element_quality().simplex.min_angle; },
           "smallest angle of the triangles, degrees")),
       computed(real(
           "quality.irregular", [](P p) { return p.element_quality().irregular; },

@@ -14,7 +14,7 @@
 #include "level/room.hpp"
 #include "level/speeds.hpp"
 #include "level/time_step.hpp"
-#include "placement/placement.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -25,7 +25,8 @@ void Placement::begin_schedule(bool refined) {
 
 // Steps on to step number `until` of the schedule, or until the bubbles rest. Events happen at
 // step numbers fixed in advance. `part` is the part of the call's work that this is.
-Outcome Placement::advance(std::int64_t until, ProgressPart part) {
+template <int Dim>
+Outcome PlacementOf<Dim>::advance(std::int64_t until, ProgressPart part) {
   const Settings& settings = level_->settings;
   const double first = static_cast<double>(schedule_.step);
   Outcome outcome = Outcome::not_converged;
@@ -62,7 +63,8 @@ Outcome Placement::advance(std::int64_t until, ProgressPart part) {
 }
 
 // What happens at an event, in this order.
-void Placement::event() {
+template <int Dim>
+void PlacementOf<Dim>::event() {
   const Settings& settings = level_->settings;
   last_speeds_ = speeds_of(*level_);
   refresh_spacing(*level_);
@@ -76,7 +78,8 @@ void Placement::event() {
 }
 
 // Deals the work out anew where it has become unequal, unless it was no better after the last time.
-void Placement::keep_balance() {
+template <int Dim>
+void PlacementOf<Dim>::keep_balance() {
   if (!level_->distributed()) return;
   constexpr double kNoBetter = 1.02;
   const double imbalance = imbalance_of(*level_);
@@ -86,20 +89,24 @@ void Placement::keep_balance() {
   rebalance_now();
 }
 
-void Placement::rebalance_now() {
+template <int Dim>
+void PlacementOf<Dim>::rebalance_now() {
   pnpbs::rebalance(*level_);
   schedule_.imbalance_reached = imbalance_of(*level_);
 }
 
 // Nodes given from outside may be so few that they take longer to multiply.
-bool Placement::far_too_few() const {
+template <int Dim>
+bool PlacementOf<Dim>::far_too_few() const {
+  if (level_->settings.dimension < Dim) return false;  // of surfaces it is not known
   return static_cast<double>(global_count()) < 0.85 * expected_nodes(*level_);
 }
 
 // Adjusts the population while it pays, the first time aimed at the mean distance. A new spacing
 // may ask for many times the nodes there are, and one contest lets at most one act within three
 // hops: so there are more rounds at once while they change much.
-void Placement::control_population() {
+template <int Dim>
+void PlacementOf<Dim>::control_population() {
   constexpr int kMaxRounds = 20;
   constexpr double kMuch = 0.002;     // share of the nodes
   constexpr double kRefinedPays = 5;  // times the option's share
@@ -126,14 +133,16 @@ void Placement::control_population() {
 }
 
 // While the population still changes, rest means nothing.
-bool Placement::bubbles_rest() const {
+template <int Dim>
+bool PlacementOf<Dim>::bubbles_rest() const {
   const Settings& settings = level_->settings;
   return schedule_.population_settled && last_speeds_.mean < settings.tolerance_mean &&
          last_speeds_.max < settings.tolerance_max;
 }
 
 // Each part of it leaves valid nodes.
-Outcome Placement::finish() {
+template <int Dim>
+Outcome PlacementOf<Dim>::finish() {
   const Settings& settings = level_->settings;
   const auto stops = [this] {
     if (!monitor_stops_by_clock(kStepsShare)) return false;
@@ -160,7 +169,8 @@ Outcome Placement::finish() {
 // Where a node is one too many or one is missing that the overlap ratios do not tell. Nodes that
 // coincide would have no star, so they go first. Rounds must do less and less: where d jumps, what
 // one brings another may take away, for ever.
-void Placement::repair_defects() {
+template <int Dim>
+void PlacementOf<Dim>::repair_defects() {
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
   for (std::int64_t round = 0; round < level_->settings.defects.rounds && max > 1; ++round) {
     count_population_change(remove_crowded(*level_));
@@ -171,5 +181,9 @@ void Placement::repair_defects() {
     max = changes;
   }
 }
+
+// Of the members defined here.
+template class PlacementOf<2>;
+template class PlacementOf<3>;
 
 }  // namespace pnpbs

@@ -20,6 +20,7 @@ struct Birth {
   Point<Dim> position;
   std::int64_t parent;  // id
   double d;             // the parent's
+  std::int32_t boundary_node = -1;
 };
 
 template <int Dim>
@@ -29,13 +30,15 @@ struct PopulationChange {
   std::vector<std::int32_t> parents;  // of those born: nodes
 };
 
-// must_go(i): node i has no room and goes whatever its ratio. fits(x, d): is a new bubble allowed
+// must_go(i): node i has no room and goes whatever its ratio. free_place(i): where a new bubble
+// would come beside node i. fits(x, d): is a new bubble allowed
 // at x by the domain? Lists must be fresh, with a radius of at least 1.5.
 template <int Dim>
 PopulationChange<Dim> choose_population_change(
     const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<double>& ratios,
-    const PopulationRule<Dim>& rule, const PopulationThresholds& thresholds,
+    const PopulationRule& rule, const PopulationThresholds& thresholds,
     const std::function<bool(std::int64_t)>& must_go,
+    const std::function<Point<Dim>(std::int64_t)>& free_place,
     const std::function<bool(const Point<Dim>&, double)>& fits);
 
 }  // namespace pnpbs

@@ -41,7 +41,7 @@ int octave_of(double d) { return std::ilogb(d); }
 // the density.
 template <int Dim>
 bool is_squeezed(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double ratio,
-                 const PopulationRule<Dim>& rule, std::int64_t i) {
+                 const PopulationRule& rule, std::int64_t i) {
   constexpr double kSqueezed = 7.0 / 6;  // of the ideal ratio
   if (ratio <= kSqueezed * rule.ideal) return false;
   bool at_boundary = false;
@@ -75,7 +75,7 @@ int bins_of(double bubbles, const Bin& bin) {
 
 template <int Dim>
 PopulationThresholds::Pair thresholds_of_octave(const std::int64_t* counts,
-                                                const PopulationRule<Dim>& rule, double tolerance) {
+                                                const PopulationRule& rule, double tolerance) {
   PopulationThresholds::Pair pair{0, rule.delete_above};
   if (counts[kPairs<Dim>] == 0) return pair;
   double bubbles = 0;
@@ -84,7 +84,8 @@ PopulationThresholds::Pair thresholds_of_octave(const std::int64_t* counts,
                       static_cast<double>(counts[kPairs<Dim>]);
   if (std::fabs(mean - rule.mean_distance) <= tolerance) return pair;
   // A bubble's share of the domain goes with the square (cube) of the distance.
-  const double missing = bubbles * (power<Dim>(mean / rule.mean_distance) - 1);
+  const double t = mean / rule.mean_distance,
+               missing = bubbles * ((rule.dimension == 2 ? power<2>(t) : power<3>(t)) - 1);
   const int act = bins_of<Dim>(std::fabs(missing), [&](int k) {
     return missing > 0 ? counts[k] : counts[kBins<Dim> - 1 - k];
   });
@@ -117,7 +118,7 @@ View<double> overlap_ratios(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& l
 template <int Dim>
 PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim>& nodes,
                                        const AdjacencyList<Dim>& lists, const View<double>& ratios,
-                                       const PopulationRule<Dim>& rule, double tolerance) {
+                                       const PopulationRule& rule, double tolerance) {
   PopulationThresholds thresholds(rule);
   if (rule.mean_distance == 0 || std::isinf(tolerance)) return thresholds;
   const SpacingRange d = spacing_range<Dim>(comm, nodes);
@@ -147,9 +148,9 @@ template View<double> overlap_ratios<2>(const Nodes<2>&, const AdjacencyList<2>&
 template View<double> overlap_ratios<3>(const Nodes<3>&, const AdjacencyList<3>&);
 template PopulationThresholds choose_thresholds<2>(const Communicator&, const Nodes<2>&,
                                                    const AdjacencyList<2>&, const View<double>&,
-                                                   const PopulationRule<2>&, double);
+                                                   const PopulationRule&, double);
 template PopulationThresholds choose_thresholds<3>(const Communicator&, const Nodes<3>&,
                                                    const AdjacencyList<3>&, const View<double>&,
-                                                   const PopulationRule<3>&, double);
+                                                   const PopulationRule&, double);
 
 }  // namespace pnpbs

@@ -17,16 +17,26 @@
 
 namespace pnpbs {
 
-template <int Dim>
 struct PopulationRule {
-  double delete_above = Lattice<Dim>::kDeleteAbove;  // overlap ratios: whatever the mean
-  double insert_below = Lattice<Dim>::kInsertBelow;
-  double ideal = Lattice<Dim>::kIdealOverlap;  // of a bubble among neighbours at its d
+  int dimension = 2;                               // of what the bubbles fill: area or volume
+  double delete_above = Lattice<2>::kDeleteAbove;  // overlap ratios: whatever the mean
+  double insert_below = Lattice<2>::kInsertBelow;
+  double ideal = Lattice<2>::kIdealOverlap;  // of a bubble among neighbours at its d
   double mean_distance = 1;  // of touching bubbles, in desired distances; 0: not aimed at
   // A new bubble comes no nearer to others than this many spacings. Lattice nodes at their d leave
   // 0.577 in the middle of three, 0.605 in that of four: a bubble more there brings the mean down.
   double min_gap = 0.75;
   double min_gap_to_aim = 0.55;
+
+  template <int Dim>
+  static PopulationRule of_lattice() {
+    PopulationRule rule;
+    rule.dimension = Dim;
+    rule.delete_above = Lattice<Dim>::kDeleteAbove;
+    rule.insert_below = Lattice<Dim>::kInsertBelow;
+    rule.ideal = Lattice<Dim>::kIdealOverlap;
+    return rule;
+  }
 };
 
 // Above which overlap ratio a bubble of this d goes, and below which it gets company to bring the
@@ -38,9 +48,7 @@ struct PopulationThresholds {
   int first_octave = 0;
   std::vector<Pair> octaves;  // from that one on; beyond them the nearest one's
 
-  template <int Dim>
-  explicit PopulationThresholds(const PopulationRule<Dim>& rule)
-      : octaves{{0, rule.delete_above}} {}
+  explicit PopulationThresholds(const PopulationRule& rule) : octaves{{0, rule.delete_above}} {}
   const Pair& at(double d) const;
 };
 
@@ -54,6 +62,6 @@ inline constexpr double kMeanTolerance = 0.001;
 template <int Dim>
 PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim>& nodes,
                                        const AdjacencyList<Dim>& lists, const View<double>& ratios,
-                                       const PopulationRule<Dim>& rule, double tolerance);
+                                       const PopulationRule& rule, double tolerance);
 
 }  // namespace pnpbs

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/lattice.hpp"
 #include "quality/triangle_quality.hpp"
+#include "quality/volume/tetrahedron_quality.hpp"
 #include "spacing/spacing_bands.hpp"
 #include "spacing/spacing_range.hpp"
 
@@ -17,7 +19,7 @@ constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 // ------------------------------------------------------------------ edges ----------------------
 
-// Calls visit(j) for the edges (i, j) of triangles of the domain around an owned node, each once
+// Calls visit(j) for the edges (i, j) of elements of the domain around an owned node, each once
 // over all nodes: at its end with the lesser id.
 template <class Visit>
 void for_edges(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i,
@@ -28,6 +30,15 @@ void for_edges(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i
   stars.for_neighbours_in_order(i, [&](std::int64_t j, bool triangle) {
     if ((before || triangle) && nodes.id(i) < nodes.id(j)) visit(j);
     before = triangle;
+  });
+}
+
+// In space there are no neighbours but by tetrahedra of the domain.
+template <class Visit>
+void for_edges(const Nodes<3>& nodes, const VolumeStars& stars, std::int64_t i,
+               const Visit& visit) {
+  stars.for_neighbours(i, [&](std::int64_t j) {
+    if (nodes.id(i) < nodes.id(j)) visit(j);
   });
 }
 
@@ -70,20 +81,22 @@ EdgeRatio ratio_of(const RatioSums& sums) {
   return {sums.edges, 1 + excess, std::sqrt(std::max(0.0, squares - excess * excess))};
 }
 
-SpacingBands bands_of_nodes(const Communicator& comm, const Nodes<2>& nodes) {
-  const SpacingRange d = spacing_range(comm, nodes);
+template <int Dim>
+SpacingBands bands_of_nodes(const Communicator& comm, const Nodes<Dim>& nodes) {
+  const SpacingRange d = spacing_range<Dim>(comm, nodes);
   return {d.min, d.max};
 }
 
-EdgeSums local_edge_sums(const Nodes<2>& nodes, const DelaunayStars& stars,
+template <int Dim>
+EdgeSums local_edge_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
                          const SpacingBands& bands) {
   return sums_over(
       "pnpbs::edge_sums", nodes.count, EdgeSums(), [&](std::int64_t i, EdgeSums& sums) {
         if (!nodes.owned(i)) return;
         for_edges(nodes, stars, i, [&](std::int64_t j) {
           const double d = 0.5 * (nodes.d(i) + nodes.d(j));
-          const double ratio = distance<2>(nodes.position(i), nodes.position(j)) / d;
-          const bool free = nodes.moves(i) || nodes.moves(j);
+          const double ratio = distance<Dim>(nodes.position(i), nodes.position(j)) / d;
+          const bool free = nodes.carrier(i) == Carrier::free || nodes.carrier(j) == Carrier::free;
           sums.of[static_cast<std::size_t>(free ? bands.band_of(d) : SpacingBands::kMaxBands)].add(
               ratio);
         });
@@ -91,9 +104,10 @@ EdgeSums local_edge_sums(const Nodes<2>& nodes, const DelaunayStars& stars,
 }
 
 // Over all ranks.
-EdgeSums edge_sums(const Communicator& comm, const Nodes<2>& nodes, const DelaunayStars& stars,
+template <int Dim>
+EdgeSums edge_sums(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars,
                    const SpacingBands& bands) {
-  EdgeSums sums = local_edge_sums(nodes, stars, bands);
+  EdgeSums sums = local_edge_sums<Dim>(nodes, stars, bands);
   std::vector<std::int64_t> values;
   for (const RatioSums& part : sums.of)
     values.insert(values.end(), {part.edges, part.excess, part.squares});
@@ -113,27 +127,37 @@ std::vector<EdgeBand> bands_with_edges(const SpacingBands& bands, const EdgeSums
   return found;
 }
 
-// ------------------------------------------------------------------ triangles ------------------
+// ------------------------------------------------------------------ elements -------------------
 
-// The quality of a triangle in steps of 2^-16.
+// The quality of an element in steps of 2^-16.
 constexpr std::int64_t kQualitySteps = 1 << 16;
 
-// Calls visit(j, k) for the triangles (i, j, k) whose node with the least id is i.
-template <class Visit>
-void for_triangles_of(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i,
-                      const Visit& visit) {
+template <int Dim>
+using ElementCorners = std::array<Point<Dim>, Dim + 1>;
+
+// Calls visit(corners) for the elements whose node with the least id is i.
+template <int Dim, class Visit>
+void for_elements_of(const Nodes<Dim>& nodes, const Stars<Dim>& stars, std::int64_t i,
+                     const Visit& visit) {
   if (!nodes.owned(i)) return;
-  stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
-    const std::int64_t j = others[0], k = others[1];
-    if (nodes.id(i) < nodes.id(j) && nodes.id(i) < nodes.id(k)) visit(j, k);
+  stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {
+    ElementCorners<Dim> corners{nodes.position(i)};
+    for (std::size_t k = 0; k < Dim; ++k) {
+      if (nodes.id(others[k]) < nodes.id(i)) return;
+      corners[k + 1] = nodes.position(others[k]);
+    }
+    visit(corners);
   });
 }
 
+double quality_of(const ElementCorners<2>& x) { return triangle_quality(x[0], x[1], x[2]); }
+double quality_of(const ElementCorners<3>& x) { return tetrahedron_quality(x); }
+
 struct QualitySums {
-  std::int64_t triangles = 0, quality = 0;  // in fixed point
+  std::int64_t elements = 0, quality = 0;  // in fixed point
 
   void add(const QualitySums& other) {
-    triangles += other.triangles;
+    elements += other.elements;
     quality += other.quality;
   }
 };
@@ -144,109 +168,114 @@ double cosine(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
   return product / (distance<2>(a, b) * distance<2>(a, c));
 }
 
-// Of the least angle of a triangle.
-double max_cosine(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-  return std::max({cosine(a, b, c), cosine(b, c, a), cosine(c, a, b)});
+// Of the least angle of a triangle; of the least angle between faces of a tetrahedron.
+double max_cosine(const ElementCorners<2>& x) {
+  return std::max({cosine(x[0], x[1], x[2]), cosine(x[1], x[2], x[0]), cosine(x[2], x[0], x[1])});
 }
+double max_cosine(const ElementCorners<3>& x) { return std::cos(min_dihedral_angle(x) / kDegrees); }
 
-// The largest of value(a, b, c) of the triangles, over all ranks; at least `floor`.
-template <class Value>
-double max_of_triangles(const Communicator& comm, const Nodes<2>& nodes, const DelaunayStars& stars,
-                        double floor, const Value& value) {
+// The largest of value(corners) of the elements, over all ranks; at least `floor`.
+template <int Dim, class Value>
+double max_of_elements(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars,
+                       double floor, const Value& value) {
   return comm.allreduce_max(
-      max_of("pnpbs::largest_of_triangles", nodes.count, floor, [&](std::int64_t i) {
+      max_of("pnpbs::largest_of_elements", nodes.count, floor, [&](std::int64_t i) {
         double max = floor;
-        for_triangles_of(nodes, stars, i, [&](std::int64_t j, std::int64_t k) {
-          max = std::max(max, value(nodes.position(i), nodes.position(j), nodes.position(k)));
+        for_elements_of<Dim>(nodes, stars, i, [&](const ElementCorners<Dim>& corners) {
+          max = std::max(max, value(corners));
         });
         return max;
       }));
 }
 
-// The step below which less than 1 % of the triangles are.
-double one_percent_of(const std::vector<std::int64_t>& histogram, std::int64_t triangles) {
+// The step below which less than 1 % of the elements are.
+double one_percent_of(const std::vector<std::int64_t>& histogram, std::int64_t elements) {
   std::int64_t below = 0;
   std::size_t step = 0;
-  while (step + 1 < histogram.size() && below + histogram[step] <= triangles / 100)
+  while (step + 1 < histogram.size() && below + histogram[step] <= elements / 100)
     below += histogram[step++];
   return static_cast<double>(step) / static_cast<double>(kQualitySteps);
 }
 
-// How many triangles there are of each step of quality, on this rank.
-std::vector<std::int64_t> histogram_of(const Nodes<2>& nodes, const DelaunayStars& stars) {
+// How many elements there are of each step of quality, on this rank.
+template <int Dim>
+std::vector<std::int64_t> histogram_of(const Nodes<Dim>& nodes, const Stars<Dim>& stars) {
   const View<std::int64_t> steps = make_view<std::int64_t>("pnpbs::quality", kQualitySteps);
   Kokkos::deep_copy(steps, 0);
   for_each("pnpbs::quality_histogram", nodes.count, [&](std::int64_t i) {
-    for_triangles_of(nodes, stars, i, [&](std::int64_t j, std::int64_t k) {
-      const auto step = static_cast<std::int64_t>(
-          kQualitySteps *
-          triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k)));
+    for_elements_of<Dim>(nodes, stars, i, [&](const ElementCorners<Dim>& corners) {
+      const auto step = static_cast<std::int64_t>(kQualitySteps * quality_of(corners));
       Kokkos::atomic_inc(&steps(std::clamp<std::int64_t>(step, 0, kQualitySteps - 1)));
     });
   });
   return {steps.data(), steps.data() + kQualitySteps};
 }
 
-TriangleQuality measure_triangles(const Communicator& comm, const Nodes<2>& nodes,
-                                  const DelaunayStars& stars) {
+template <int Dim>
+SimplexQuality measure_simplices(const Communicator& comm, const Nodes<Dim>& nodes,
+                                 const Stars<Dim>& stars) {
   const QualitySums sums = sums_over(
       "pnpbs::quality_sums", nodes.count, QualitySums(), [&](std::int64_t i, QualitySums& sum) {
-        for_triangles_of(nodes, stars, i, [&](std::int64_t j, std::int64_t k) {
-          ++sum.triangles;
-          sum.quality += fixed_point(
-              triangle_quality(nodes.position(i), nodes.position(j), nodes.position(k)));
+        for_elements_of<Dim>(nodes, stars, i, [&](const ElementCorners<Dim>& corners) {
+          ++sum.elements;
+          sum.quality += fixed_point(quality_of(corners));
         });
       });
-  std::vector<std::int64_t> histogram = histogram_of(nodes, stars);
-  TriangleQuality found;
-  found.triangles =
-      static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(sums.triangles)));
+  std::vector<std::int64_t> histogram = histogram_of<Dim>(nodes, stars);
+  SimplexQuality found;
+  found.elements =
+      static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(sums.elements)));
   const double quality =
       from_fixed_point(comm.allreduce_sum(static_cast<std::uint64_t>(sums.quality)));
   comm.allreduce_sum(histogram);
-  if (found.triangles == 0) return found;
-  found.mean = quality / static_cast<double>(found.triangles);
-  found.one_percent = one_percent_of(histogram, found.triangles);
-  found.min = -max_of_triangles(comm, nodes, stars, -1,
-                                [](const auto&... corner) { return -triangle_quality(corner...); });
-  const double cosine_of_min = max_of_triangles(
-      comm, nodes, stars, 0.5, [](const auto&... corner) { return max_cosine(corner...); });
+  if (found.elements == 0) return found;
+  found.mean = quality / static_cast<double>(found.elements);
+  found.one_percent = one_percent_of(histogram, found.elements);
+  found.min = -max_of_elements<Dim>(comm, nodes, stars, -1,
+                                    [](const ElementCorners<Dim>& x) { return -quality_of(x); });
+  constexpr double kOfLargestMin = Dim == 2 ? 0.5 : 1.0 / 3;  // 60 degrees, 70.5 degrees
+  const double cosine_of_min =
+      max_of_elements<Dim>(comm, nodes, stars, kOfLargestMin,
+                           [](const ElementCorners<Dim>& x) { return max_cosine(x); });
   found.min_angle = kDegrees * std::acos(std::min(1.0, cosine_of_min));
   return found;
 }
 
 // ------------------------------------------------------------------ nodes ----------------------
 
-double irregular_share(const Communicator& comm, const Nodes<2>& nodes,
-                       const DelaunayStars& stars) {
+template <int Dim>
+double irregular_share(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars) {
   const auto count = [&](const char* label, const auto& counts) {
     return static_cast<double>(comm.allreduce_sum(sum_of(label, nodes.count, [&](std::int64_t i) {
-      return nodes.owned(i) && nodes.moves(i) && counts(i) ? 1 : 0;
+      return nodes.owned(i) && nodes.carrier(i) == Carrier::free && counts(i) ? 1 : 0;
     })));
   };
   const double inner = count("pnpbs::inner_nodes", [](std::int64_t) { return true; });
-  const double irregular =
-      count("pnpbs::irregular_nodes", [&](std::int64_t i) { return stars.size(i) != 6; });
+  const double irregular = count("pnpbs::irregular_nodes", [&](std::int64_t i) {
+    return stars.size(i) != Lattice<Dim>::kNeighbours;
+  });
   return inner > 0 ? irregular / inner : 0;
 }
 
 }  // namespace
 
-std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<2>& nodes,
-                                         const DelaunayStars& stars) {
-  const SpacingBands bands = bands_of_nodes(comm, nodes);
-  return bands_with_edges(bands, edge_sums(comm, nodes, stars, bands));
+template <int Dim>
+std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<Dim>& nodes,
+                                         const Stars<Dim>& stars) {
+  const SpacingBands bands = bands_of_nodes<Dim>(comm, nodes);
+  return bands_with_edges(bands, edge_sums<Dim>(comm, nodes, stars, bands));
 }
 
-ElementQuality measure_elements(const Communicator& comm, const Nodes<2>& nodes,
-                                const DelaunayStars& stars) {
-  const SpacingBands bands = bands_of_nodes(comm, nodes);
-  const EdgeSums edges = edge_sums(comm, nodes, stars, bands);
+template <int Dim>
+ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& nodes,
+                                const Stars<Dim>& stars) {
+  const SpacingBands bands = bands_of_nodes<Dim>(comm, nodes);
+  const EdgeSums edges = edge_sums<Dim>(comm, nodes, stars, bands);
   ElementQuality found;
-  found.triangle = measure_triangles(comm, nodes, stars);
+  found.simplex = measure_simplices<Dim>(comm, nodes, stars);
   found.edge = ratio_of(edges.all());
   found.bands = bands_with_edges(bands, edges);
-  found.irregular = irregular_share(comm, nodes, stars);
+  found.irregular = irregular_share<Dim>(comm, nodes, stars);
   return found;
 }
 
@@ -260,5 +289,12 @@ const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands) {
       worst = &band;
   return worst;
 }
+
+template std::vector<EdgeBand> measure_edge_bands<2>(const Communicator&, const Nodes<2>&,
+                                                     const Stars<2>&);
+template std::vector<EdgeBand> measure_edge_bands<3>(const Communicator&, const Nodes<3>&,
+                                                     const Stars<3>&);
+template ElementQuality measure_elements<2>(const Communicator&, const Nodes<2>&, const Stars<2>&);
+template ElementQuality measure_elements<3>(const Communicator&, const Nodes<3>&, const Stars<3>&);
 
 }  // namespace pnpbs

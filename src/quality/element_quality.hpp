@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How good the triangles are and how well their edges follow d, over all ranks: the same bits for
+// How good the elements are and how well their edges follow d, over all ranks: the same bits for
 // any number of ranks and threads, as all sums are of integers.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
-#include "delaunay/delaunay_stars.hpp"
+#include "delaunay/stars.hpp"
 
 namespace pnpbs {
 
@@ -25,27 +25,30 @@ struct EdgeBand {
   EdgeRatio ratio;
 };
 
-struct TriangleQuality {
-  std::int64_t triangles = 0;
-  double mean = 0, min = 0;  // 2 r_in / R
+// Of triangles in the plane, of tetrahedra in space.
+struct SimplexQuality {
+  std::int64_t elements = 0;
+  double mean = 0, min = 0;  // 2 r_in / R, 3 r_in / R
   double one_percent = 0;    // 99 % lie above; in steps of 2^-16, downwards
-  double min_angle = 0;      // degrees
+  double min_angle = 0;      // degrees; of tetrahedra, between faces
 };
 
 struct ElementQuality {
-  TriangleQuality triangle;
+  SimplexQuality simplex;
   EdgeRatio edge;  // of all edges
   std::vector<EdgeBand> bands;
-  double irregular = 0;  // share of the inner nodes without six neighbours
+  double irregular = 0;  // share of the inner nodes without six (14) neighbours
 };
 
 // From stars that are right for the owned nodes, and exact ghosts around these. Collective.
-ElementQuality measure_elements(const Communicator& comm, const Nodes<2>& nodes,
-                                const DelaunayStars& stars);
+template <int Dim>
+ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& nodes,
+                                const Stars<Dim>& stars);
 
 // The bands alone, without those that have no edge. Collective.
-std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<2>& nodes,
-                                         const DelaunayStars& stars);
+template <int Dim>
+std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<Dim>& nodes,
+                                         const Stars<Dim>& stars);
 
 // The band in which edges are most off d, by more than 10 % in the mean, of those with enough edges
 // for a mean; nullptr if there is none.

@@ -49,7 +49,7 @@ const std::vector<OptionRow>& option_table() {
        "... and until two events in a row change no more than this share of the nodes"},
       {"delete_above", T::real, "8.5", "9", nullptr, 6, 100, nullptr,
        "bubbles with a larger overlap ratio are deleted"},
-      {"insert_below", T::real, "4.4", "5", nullptr, 0, 6, nullptr,
+      {"insert_below", T::real, "4.4", "5", nullptr, 0, 14, nullptr,
        "beside bubbles with a smaller overlap ratio new ones are inserted"},
       {"mean_distance", T::real, "1", "0", nullptr, 0, 1.2, nullptr,
        "mean distance of touching bubbles, in desired distances, that inserting and deleting aim "
@@ -108,6 +108,18 @@ const std::vector<OptionRow>& hidden_table() {
   };
   return table;
 }
+
+// What volumes need instead (volumes: docs/method.md).
+struct VolumeDefault {
+  const char* name;
+  const char* value;
+};
+constexpr VolumeDefault kVolumeDefaults[] = {
+    {"rest_length", "1.2"}, {"time_step", "0.6"},      {"max_move", "0.05"},
+    {"steps", "60"},        {"coarsest_steps", "400"}, {"refined_steps", "100"},
+    {"delete_above", "19"}, {"insert_below", "9"},     {"sweeps", "3"},
+    {"sweep_weight", "1"},  {"list_radius", "1.5"},    {"exchange_interval", "2"},
+};
 
 struct RenamedOption {
   const char* before;
@@ -231,9 +243,18 @@ std::string Options::text(const char* key) const {
   const auto found = values_.find(key);
   if (found != values_.end()) return found->second;
   const OptionRow& row = find_row(key);
+  if (dimension_ == 3)
+    for (const VolumeDefault& in_space : kVolumeDefaults)
+      if (std::string_view(in_space.name) == key) return in_space.value;
   if (row.paper_value && chosen("method", "paper")) return row.paper_value;
   if (row.best_value && chosen("effort", "best")) return row.best_value;
   return row.default_value;
+}
+
+Options Options::in(int dimension) const {
+  Options copy = *this;
+  copy.dimension_ = dimension;
+  return copy;
 }
 
 bool Options::chosen(const char* preset, const char* value) const {

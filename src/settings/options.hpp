@@ -37,6 +37,9 @@ class Options {
   void set_real(const std::string& key, double value);
 
   // The value set, or else the default of the method chosen. Keys are literals of ours.
+  // With the defaults for that dimension.
+  Options in(int dimension) const;
+  int dimension() const { return dimension_; }
   std::int64_t integer(const char* key) const;
   double real(const char* key) const;
   std::string choice(const char* key) const;
@@ -48,6 +51,7 @@ class Options {
   std::string text(const char* key) const;
   bool chosen(const char* preset, const char* value) const;
   std::map<std::string, std::string, std::less<>> values_;  // checked texts
+  int dimension_ = 2;
 };
 
 }  // namespace pnpbs

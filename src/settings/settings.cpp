@@ -3,8 +3,11 @@
 
 namespace pnpbs {
 
+Settings::Settings(const Options& options, int dim) : Settings(options.in(dim)) {}
+
 Settings::Settings(const Options& o)
-    : cubic_law(o.choice("law") == "cubic"),
+    : dimension(o.dimension()),
+      cubic_law(o.choice("law") == "cubic"),
       predictor_corrector(o.choice("scheme") == "predictor_corrector"),
       runge_kutta_finish(o.choice("finish") == "runge_kutta"),
       rest_length(o.real("rest_length")),
@@ -28,6 +31,7 @@ Settings::Settings(const Options& o)
       metis_seed(o.integer("metis_seed")),
       rebalance_above(o.real("rebalance_above")),
       halo_deficit(o.integer("halo_deficit")) {
+  if (dimension == 3) population = PopulationRule::of_lattice<3>();
   motion.dt = o.real("time_step");
   motion.damping = o.real("damping");
   motion.max_move = o.real("max_move");

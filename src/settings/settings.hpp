@@ -17,8 +17,11 @@
 namespace pnpbs {
 
 struct Settings {
+  // The defaults of some depend on the dimension.
+  Settings(const Options& options, int dimension);
   explicit Settings(const Options& options);
 
+  int dimension = 2;         // of what the bubbles fill: 3 inside a volume, 2 on a surface
   bool cubic_law;            // equation (2) of the paper; otherwise the linear push
   bool predictor_corrector;  // otherwise one force evaluation per step
   bool runge_kutta_finish;
@@ -31,7 +34,7 @@ struct Settings {
   std::int64_t event_interval;
   double population_share;      // of the steps
   double population_tolerance;  // share of the nodes
-  PopulationRule<2> population;
+  PopulationRule population;
   double tolerance_mean, tolerance_max;  // scaled speeds
   std::int64_t sweeps;
   SweepRule sweep;

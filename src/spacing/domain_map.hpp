@@ -38,11 +38,14 @@ class DomainMap : public FacetIndex<Dim> {
 
   static constexpr double kLeafSpacings = 4;
 
-  // Its area in units of the smallest cell there can be. (Volumes have too many of these.)
+  // Its area (volume) in units of a cell of depth kSizeDepth: the smallest there can be in the
+  // plane; in space, where these are too many, smaller ones count as nothing.
   static constexpr int kMaxDepth = BackgroundTree<Dim>::kMaxDepth;
-  std::uint64_t leaf_size(std::int32_t leaf) const requires(Dim* kMaxDepth < 64) {
+  static constexpr int kSizeDepth = Dim * kMaxDepth < 64 ? kMaxDepth : 60 / Dim;
+  std::uint64_t leaf_size(std::int32_t leaf) const {
     const BackgroundTree<Dim>& tree = this->tree();
-    return std::uint64_t{1} << (Dim * (kMaxDepth - tree.cell(tree.leaf_cell(leaf)).depth));
+    const int above = kSizeDepth - tree.cell(tree.leaf_cell(leaf)).depth;
+    return above < 0 ? 0 : std::uint64_t{1} << (Dim * above);
   }
   // d that holds the right number of nodes in the leaf, and the least and largest of its samples.
   double leaf_spacing(std::int32_t leaf) const { return at(leaf_spacing_, leaf); }

@@ -11,16 +11,18 @@
 
 namespace pnpbs {
 
+template <int Dim>
 struct SteepestGrowth {
   double growth = 0;  // of d, per unit of length
-  Point<2> at{};      // the finest of the places where it is at least half of that
+  Point<Dim> at{};    // the finest of the places where it is at least half of that
 };
 
 // By samples in the middle and on the sides of the leaves that this rank owns, and at the boundary
 // nodes in them: of each pair with one inside the domain and no boundary between. The same on any
 // number of ranks. Collective.
-SteepestGrowth steepest_growth(const Communicator& comm, const DomainMap<2>& map,
-                               const std::function<bool(std::int32_t)>& owns_leaf,
-                               const SpacingEvaluator<2>& spacing);
+template <int Dim>
+SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Dim>& map,
+                                    const std::function<bool(std::int32_t)>& owns_leaf,
+                                    const SpacingEvaluator<Dim>& spacing);
 
 }  // namespace pnpbs

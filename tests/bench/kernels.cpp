@@ -25,7 +25,7 @@ using pnpbs::AdjacencyList;
 using pnpbs::CubicLaw;
 using pnpbs::Field;
 using pnpbs::kLanes;
-using pnpbs::Level;
+using Level = pnpbs::Level<2>;
 using pnpbs::LinearPush;
 using pnpbs::Nodes;
 using pnpbs::Phase;
@@ -116,12 +116,12 @@ void fill_square(pnpbs::PlaneDomain& domain) {
   shapes::add_loop(domain, shapes::rectangle(0, 0, 1, 1));
 }
 
-pnpbs::GivenNodes moved_lattice(double d, double max) {
+pnpbs::GivenNodes<2> moved_lattice(double d, double max) {
   LevelRun lattice(fill_square, constant(d));
   pnpbs::fill(*lattice.level);
-  pnpbs::GivenNodes nodes = inner_nodes_of(*lattice.level);
+  pnpbs::GivenNodes<2> nodes = inner_nodes_of(*lattice.level);
   Random random(1);
-  for (pnpbs::GivenNode& node : nodes)
+  for (pnpbs::GivenNode<2>& node : nodes)
     for (double& x : node.position) x += random.between(-max * d, max * d);
   return nodes;
 }
@@ -131,7 +131,7 @@ struct Scratch {
   pnpbs::Stages<2> stages;
 };
 
-void measure_forces(const Level& level, const Scratch& scratch, Rows& rows) {
+void measure_forces(const Level<2>& level, const Scratch& scratch, Rows& rows) {
   const Nodes<2>& nodes = level.nodes;
   const LinearPush push{1, level.settings.rest_length};
   rows.measure("force, push", [&] { evaluate_forces(nodes, level.lists(), push, scratch.there); });
@@ -140,7 +140,7 @@ void measure_forces(const Level& level, const Scratch& scratch, Rows& rows) {
 }
 
 // Velocities change, positions do not: so all steps begin at the same ones.
-void measure_steps(Level& level, Scratch& scratch, Rows& rows) {
+void measure_steps(Level<2>& level, Scratch& scratch, Rows& rows) {
   Nodes<2>& nodes = level.nodes;
   const AdjacencyList<2>& lists = level.lists();
   const pnpbs::Motion& motion = level.settings.motion;
@@ -170,9 +170,9 @@ void measure_phase(const std::string& name, const pnpbs::Timers& timers, Phase p
 void run(const Arguments& arguments, const char* list_radius) {
   constexpr int kSweeps = 5;  // a block, within which the stars stay
   const double d = std::sqrt(2 / std::sqrt(3.0) / arguments.nodes);
-  const pnpbs::GivenNodes lattice = moved_lattice(d, arguments.moved);
+  const pnpbs::GivenNodes<2> lattice = moved_lattice(d, arguments.moved);
   LevelRun run(fill_square, constant(d), {{"list_radius", list_radius}, {"smoothing_rounds", "0"}});
-  Level& level = *run.level;
+  Level<2>& level = *run.level;
   Scratch scratch;
   Rows times;
   double listed = 0, rows = 0;

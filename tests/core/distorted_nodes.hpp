@@ -26,14 +26,14 @@ inline double quality(const pnpbs::Point<2>& a, const pnpbs::Point<2>& b,
 
 // Triangles by the ids of their corners, counter-clockwise, and where the nodes are.
 using Places = std::map<std::int64_t, pnpbs::Point<2>>;
-inline Places places_by_id(const pnpbs::Level& level) {
+inline Places places_by_id(const pnpbs::Level<2>& level) {
   Places places;
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
     places[level.nodes.id(i)] = level.nodes.position(i);
   return places;
 }
 
-inline std::vector<Triangle> triangles_by_id(const pnpbs::Level& level) {
+inline std::vector<Triangle> triangles_by_id(const pnpbs::Level<2>& level) {
   std::vector<Triangle> triangles;
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
     level.stars.for_simplices(i, [&](const pnpbs::DelaunayStars::Corners& others) {
@@ -53,9 +53,9 @@ inline LevelRun distorted(const Build& build, const Plane& d, std::uint64_t seed
                           const std::function<void(pnpbs::Settings&)>& adapt) {
   LevelRun fill(build, d);
   pnpbs::fill(*fill.level);
-  pnpbs::GivenNodes nodes = inner_nodes_of(*fill.level);
+  pnpbs::GivenNodes<2> nodes = inner_nodes_of(*fill.level);
   Random random(seed);
-  for (pnpbs::GivenNode& node : nodes)
+  for (pnpbs::GivenNode<2>& node : nodes)
     for (double& x : node.position)
       x += random.between(-0.4, 0.4) * d(node.position[0], node.position[1]);
   LevelRun run(build, d, {}, adapt);

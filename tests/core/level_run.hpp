@@ -52,8 +52,8 @@ using Build = std::function<void(pnpbs::PlaneDomain&)>;
 using OptionList = std::vector<std::pair<const char*, const char*>>;
 
 // The inner nodes, as nodes to start from (placed for a spacing that take() does not know).
-inline pnpbs::GivenNodes inner_nodes_of(const pnpbs::Level& level) {
-  pnpbs::GivenNodes inner;
+inline pnpbs::GivenNodes<2> inner_nodes_of(const pnpbs::Level<2>& level) {
+  pnpbs::GivenNodes<2> inner;
   const pnpbs::Nodes<2>& nodes = level.nodes;
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (nodes.moves(i)) inner.push_back({nodes.position(i), nodes.id(i)});
@@ -63,7 +63,7 @@ inline pnpbs::GivenNodes inner_nodes_of(const pnpbs::Level& level) {
 struct LevelRun {
   std::shared_ptr<pnpbs::PlaneDomain> domain = std::make_shared<pnpbs::PlaneDomain>();
   std::unique_ptr<pnpbs::Timers> timers = std::make_unique<pnpbs::Timers>();
-  std::unique_ptr<pnpbs::Level> level;
+  std::unique_ptr<pnpbs::Level<2>> level;
   std::int64_t event_interval = 20;
   std::int64_t steps_done = 0;
 
@@ -77,7 +77,7 @@ struct LevelRun {
     pnpbs::Settings settings(chosen);
     if (adapt) adapt(settings);
     event_interval = settings.event_interval;
-    level = std::make_unique<pnpbs::Level>(pnpbs::serial_communicator(), domain, spacing_of(d),
+    level = std::make_unique<pnpbs::Level<2>>(pnpbs::serial_communicator(), domain, spacing_of(d),
                                            settings, *timers);
     level->grow_tree();
   }

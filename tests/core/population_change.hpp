@@ -20,8 +20,8 @@ using Set = std::vector<Bubble<Dim>>;
 
 // By thresholds alone, nothing is aimed at; in the plane those of the paper (2.4).
 template <int Dim>
-PopulationRule<Dim> by_thresholds() {
-  PopulationRule<Dim> rule;
+PopulationRule by_thresholds() {
+  PopulationRule rule = PopulationRule::of_lattice<Dim>();
   rule.mean_distance = 0;
   if (Dim == 2) {
     rule.delete_above = 9;
@@ -44,8 +44,8 @@ struct Freedom {
 };
 
 template <int Dim>
-Change<Dim> choose(const Set<Dim>& set, const PopulationRule<Dim>& rule,
-                   const Freedom& freedom = {}, double radius = 1.5) {
+Change<Dim> choose(const Set<Dim>& set, const PopulationRule& rule, const Freedom& freedom = {},
+                   double radius = 1.5) {
   Bubbles<Dim> b;
   b.box = {set[0].x, set[0].x};
   for (const Bubble<Dim>& bubble : set)

@@ -21,7 +21,7 @@ inline Triangle sorted(Triangle t) {
 }
 
 // Memory index of each boundary node.
-inline std::vector<std::int64_t> boundary_places(const pnpbs::Level& level) {
+inline std::vector<std::int64_t> boundary_places(const pnpbs::Level<2>& level) {
   std::vector<std::int64_t> places(level.ground.boundary().nodes.size(), -1);
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
     if (!level.nodes.moves(i)) places[static_cast<std::size_t>(level.nodes.boundary_node(i))] = i;
@@ -30,7 +30,7 @@ inline std::vector<std::int64_t> boundary_places(const pnpbs::Level& level) {
 
 // The triangles, each found in the stars of all its three corners; all counter-clockwise; and
 // every boundary edge is in the stars of its ends.
-inline std::vector<Triangle> star_triangles(const pnpbs::Level& level) {
+inline std::vector<Triangle> star_triangles(const pnpbs::Level<2>& level) {
   const pnpbs::Nodes<2>& nodes = level.nodes;
   std::map<Triangle, int> found;
   for (std::int64_t i = 0; i < nodes.count; ++i)

@@ -8,9 +8,9 @@
 #include "quality/plane/defects.hpp"
 #include "run_kernel_suite.hpp"
 
-using pnpbs::GivenNode;
-using pnpbs::GivenNodes;
-using pnpbs::Level;
+using GivenNode = pnpbs::GivenNode<2>;
+using GivenNodes = pnpbs::GivenNodes<2>;
+using Level = pnpbs::Level<2>;
 using pnpbs::PopulationCounts;
 using P = pnpbs::Point<2>;
 
@@ -71,7 +71,7 @@ double min_quality(LevelRun& run) {
 }
 
 // How far from a point is the nearest node?
-double gap_at(const Level& level, const P& x) {
+double gap_at(const Level<2>& level, const P& x) {
   double gap = 1;
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
     gap = std::min(gap, pnpbs::distance<2>(level.nodes.position(i), x));

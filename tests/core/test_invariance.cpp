@@ -9,7 +9,7 @@
 #include "random.hpp"
 #include "run_kernel_suite.hpp"
 
-using pnpbs::Level;
+using Level = pnpbs::Level<2>;
 using pnpbs::PlaneDomain;
 using shapes::add_chain;
 using shapes::add_circle;
@@ -22,7 +22,7 @@ namespace {
 // Position and velocity of each node.
 using State = std::map<std::int64_t, std::array<double, 4>>;
 
-State state_of(const Level& level) {
+State state_of(const Level<2>& level) {
   const pnpbs::Nodes<2>& nodes = level.nodes;
   State state;
   for (std::int64_t i = 0; i < nodes.count; ++i)
@@ -78,24 +78,24 @@ std::vector<Case> cases() {
 }
 
 // A fill, shaken so that there is something to do.
-pnpbs::GivenNodes shaken(const Case& c, std::uint64_t seed) {
+pnpbs::GivenNodes<2> shaken(const Case& c, std::uint64_t seed) {
   LevelRun fill(c.build, c.d);
   pnpbs::fill(*fill.level);
-  pnpbs::GivenNodes nodes = inner_nodes_of(*fill.level);
+  pnpbs::GivenNodes<2> nodes = inner_nodes_of(*fill.level);
   Random random(seed);
-  for (pnpbs::GivenNode& node : nodes)
+  for (pnpbs::GivenNode<2>& node : nodes)
     for (double& x : node.position)
       x += random.between(-0.3, 0.3) * c.d(node.position[0], node.position[1]);
   return nodes;
 }
 
-void finish(Level& level) {
+void finish(Level<2>& level) {
   pnpbs::finish_by_runge_kutta(level);
   pnpbs::sweep_and_repair(level, 6);
 }
 
 void expect_rebuilds_do_not_matter(const Case& c) {
-  const pnpbs::GivenNodes start = shaken(c, 140);
+  const pnpbs::GivenNodes<2> start = shaken(c, 140);
   LevelRun seldom(c.build, c.d, c.options), always(c.build, c.d, c.options);
   pnpbs::take(*seldom.level, start, 0);
   pnpbs::take(*always.level, start, 0);
@@ -131,7 +131,7 @@ END_TEST
 
 START_TEST(order_in_memory_does_not_matter) {
   for (const Case& c : cases()) {
-    pnpbs::GivenNodes start = shaken(c, 150);
+    pnpbs::GivenNodes<2> start = shaken(c, 150);
     LevelRun straight(c.build, c.d, c.options), mixed(c.build, c.d, c.options);
     pnpbs::take(*straight.level, start, 0);
     Random(151).shuffle(start);
@@ -139,7 +139,7 @@ START_TEST(order_in_memory_does_not_matter) {
     straight.steps(45);
     mixed.steps(45);
     expect_same(state_of(*straight.level), state_of(*mixed.level), c.name, 45);
-    for (Level* level : {straight.level.get(), mixed.level.get()}) {
+    for (Level<2>* level : {straight.level.get(), mixed.level.get()}) {
       finish(*level);
     }
     expect_same(state_of(*straight.level), state_of(*mixed.level), c.name + ", finished", 46);

@@ -143,7 +143,7 @@ START_TEST(nothing_is_born_that_would_have_to_go) {
     const double angle = (-75 + k * 150 / 7.0) * degree;
     set.push_back({{d + 0.7 * d * std::cos(angle), 0.7 * d * std::sin(angle)}, d, 3 + k, false});
   }
-  PopulationRule<2> rule = by_thresholds<2>();
+  PopulationRule rule = by_thresholds<2>();
   rule.min_gap = 0.65;
   quick_assert(choose<2>(set, rule).born.empty());
   set.erase(set.begin() + 4, set.begin() + 10);
@@ -155,7 +155,7 @@ END_TEST
 // in each, so many are below or above its threshold as are missing or too many.
 START_TEST(thresholds_follow_the_mean_distance) {
   Random random(64);
-  PopulationRule<2> rule;
+  PopulationRule rule;
   const double stretch[] = {1.04, 0.96};
   Set<2> set;
   for (int half = 0; half < 2; ++half) {
@@ -210,7 +210,7 @@ END_TEST
 // Many equal candidates: nobody within three hops of a winner wins as well.
 START_TEST(winners_are_far_apart) {
   Set<2> set = lattice(1.2);  // every bubble is too lonely
-  PopulationRule<2> rule = by_thresholds<2>();
+  PopulationRule rule = by_thresholds<2>();
   rule.min_gap = 0;
   const Change<2> change = choose<2>(set, rule);
   ck_assert_uint_gt(change.born.size(), 5);

@@ -74,7 +74,7 @@ bool hole_by_search(const Set<Dim>& set, std::size_t i, double radius, Point<Dim
 }
 
 template <int Dim>
-Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRule<Dim>& rule,
+Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRule& rule,
                          const Freedom& freedom, double radius) {
   Candidate<Dim> result;
   const Bubble<Dim>& own = set[i];
@@ -116,8 +116,8 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
 constexpr int kHops = 3;
 
 template <int Dim>
-void expect_as_by_search(const Set<Dim>& set, const PopulationRule<Dim>& rule,
-                         const Freedom& freedom, double radius, std::size_t min_actors) {
+void expect_as_by_search(const Set<Dim>& set, const PopulationRule& rule, const Freedom& freedom,
+                         double radius, std::size_t min_actors) {
   std::vector<Candidate<Dim>> candidates;
   for (std::size_t i = 0; i < set.size(); ++i)
     candidates.push_back(candidate<Dim>(set, i, rule, freedom, radius));
@@ -155,7 +155,7 @@ START_TEST(contests_are_won_as_by_search) {
   Random random(63);
   const SpacingFunction<2> plane = [](const Point<2>& x) { return 0.05 + 0.06 * x[0]; };
   const SpacingFunction<3> volume = [](const Point<3>&) { return 0.16; };
-  PopulationRule<3> in_volume = by_thresholds<3>();
+  PopulationRule in_volume = by_thresholds<3>();
   in_volume.delete_above = 20;
   in_volume.insert_below = 11;
   in_volume.ideal = 14;

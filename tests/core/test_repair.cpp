@@ -11,9 +11,9 @@
 #include "run_kernel_suite.hpp"
 
 using pnpbs::DelaunayStars;
-using pnpbs::GivenNode;
-using pnpbs::GivenNodes;
-using pnpbs::Level;
+using GivenNode = pnpbs::GivenNode<2>;
+using GivenNodes = pnpbs::GivenNodes<2>;
+using Level = pnpbs::Level<2>;
 using shapes::add_loop;
 using shapes::rectangle;
 using P = pnpbs::Point<2>;
@@ -28,7 +28,7 @@ constexpr std::int64_t kMore = 100000, kBoundary = 200000;
 LevelRun lattice_with(const std::vector<P>& more) {
   LevelRun fill(kSquare, constant(kD));
   pnpbs::fill(*fill.level);
-  GivenNodes nodes = inner_nodes_of(*fill.level);
+  GivenNodes<2> nodes = inner_nodes_of(*fill.level);
   std::int64_t id = kMore;
   for (const P& x : more) nodes.push_back({x, id++});
   LevelRun run(kSquare, constant(kD));
@@ -53,7 +53,7 @@ P middle_of_edge(const P& near, double angle) {
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
 }
 
-std::int64_t nodes_added(const Level& level) {
+std::int64_t nodes_added(const Level<2>& level) {
   std::int64_t count = 0;
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
     count += level.nodes.id(i) >= kMore && level.nodes.id(i) < kBoundary;
@@ -92,7 +92,7 @@ START_TEST(stars_close_over_the_hole) {
   DelaunayStars stars = run.level->stars;
   const std::vector<std::int32_t> surplus = pnpbs::take_out_surplus_nodes(run.level->nodes, stars);
   ck_assert_uint_eq(surplus.size(), 2);
-  const auto triangles = [](const Level& level, const DelaunayStars& of) {
+  const auto triangles = [](const Level<2>& level, const DelaunayStars& of) {
     std::multiset<std::array<std::int64_t, 3>> all;  // from each corner
     for (std::int64_t i = 0; i < level.nodes.count; ++i)
       of.for_simplices(i, [&](const DelaunayStars::Corners& others) {
@@ -123,7 +123,7 @@ END_TEST
 
 // In the middle of four nodes on a square a node has four good triangles: it stays.
 START_TEST(good_node_with_four_neighbours_stays) {
-  GivenNodes nodes;
+  GivenNodes<2> nodes;
   const double d = 0.25;
   for (int i = 1; i < 4; ++i)
     for (int j = 1; j < 4; ++j) nodes.push_back({{d * i, d * j}, 3 * i + j});

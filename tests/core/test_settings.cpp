@@ -9,7 +9,7 @@ START_TEST(rules_and_options_agree) {
   ck_assert_double_eq(settings.motion.dt, motion.dt);
   ck_assert_double_eq(settings.motion.damping, motion.damping);
   ck_assert_double_eq(settings.motion.max_move, motion.max_move);
-  const pnpbs::PopulationRule<2> population;
+  const pnpbs::PopulationRule population;
   ck_assert_double_eq(settings.population.delete_above, population.delete_above);
   ck_assert_double_eq(settings.population.insert_below, population.insert_below);
   ck_assert_double_eq(settings.population.mean_distance, population.mean_distance);

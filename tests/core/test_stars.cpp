@@ -16,7 +16,7 @@ using hard_shapes::graded;
 using hard_shapes::jump;
 using hard_shapes::Shape;
 using hard_shapes::small_shapes;
-using pnpbs::Level;
+using Level = pnpbs::Level<2>;
 using pnpbs::PlaneDomain;
 using shapes::add_loop;
 using shapes::rectangle;
@@ -24,7 +24,7 @@ using P = pnpbs::Point<2>;
 
 namespace {
 
-std::vector<Triangle> reference(const Level& level) {
+std::vector<Triangle> reference(const Level<2>& level) {
   pnpbs_bench::NodeSet set;
   for (std::int64_t i = 0; i < level.nodes.count; ++i) {
     set.x.push_back(level.nodes.position(i));
@@ -40,7 +40,7 @@ std::vector<Triangle> reference(const Level& level) {
   return pnpbs_bench::reference_triangles(set);
 }
 
-int place_in_circle(const Level& level, const Triangle& t, std::int64_t d) {
+int place_in_circle(const Level<2>& level, const Triangle& t, std::int64_t d) {
   const auto x = [&](std::int64_t i) { return level.nodes.position(i); };
   const int turn = pnpbs::orientation(x(t[0]), x(t[1]), x(t[2]));
   return turn * pnpbs::in_circle(x(t[0]), x(t[1]), x(t[2]), x(d));
@@ -48,7 +48,7 @@ int place_in_circle(const Level& level, const Triangle& t, std::int64_t d) {
 
 // Of the triangles beside t among `others`: does a corner lie exactly on the circle of t, and none
 // inside?
-bool tied(const Level& level, const Triangle& t, const std::vector<Triangle>& others) {
+bool tied(const Level<2>& level, const Triangle& t, const std::vector<Triangle>& others) {
   const auto in_t = [&](std::int64_t d) { return std::count(t.begin(), t.end(), d) > 0; };
   bool on_circle = false;
   for (const Triangle& other : others) {
@@ -64,7 +64,7 @@ bool tied(const Level& level, const Triangle& t, const std::vector<Triangle>& ot
 }
 
 // The same triangles; where four or more nodes lie exactly on a circle, as many, on that circle.
-void expect_reference(const Level& level, const std::string& what) {
+void expect_reference(const Level<2>& level, const std::string& what) {
   const std::vector<Triangle> ours = star_triangles(level), theirs = reference(level);
   std::vector<Triangle> ours_only, theirs_only;
   std::set_difference(ours.begin(), ours.end(), theirs.begin(), theirs.end(),
@@ -99,14 +99,14 @@ void expect_stars(const std::string& what, const Build& build, const Plane& d,
   expect_reference(*run.level, what + " after sweeps");
 }
 
-pnpbs::GivenNodes scattered(const LevelRun& run, std::uint64_t seed, std::int64_t n) {
+pnpbs::GivenNodes<2> scattered(const LevelRun& run, std::uint64_t seed, std::int64_t n) {
   Random random(seed);
-  pnpbs::GivenNodes nodes;
+  pnpbs::GivenNodes<2> nodes;
   for (std::int64_t i = 0; i < n; ++i) nodes.push_back({random.point<2>(run.domain->bounds()), -1});
   return nodes;
 }
 
-void take_all(const LevelRun& run, const pnpbs::GivenNodes& nodes) {
+void take_all(const LevelRun& run, const pnpbs::GivenNodes<2>& nodes) {
   const pnpbs::TakenNodes taken = pnpbs::take(*run.level, nodes, 0);
   quick_assert_msg(taken.left_out == 0 && taken.thinned == 0, "%lld nodes left out, %lld thinned",
                    static_cast<long long>(taken.left_out), static_cast<long long>(taken.thinned));
@@ -198,7 +198,7 @@ END_TEST
 // small for the list of the coarse one opposite, but within the circle of its triangle.
 START_TEST(fine_node_beyond_empty_buckets) {
   LevelRun run(add_square, [](double x, double) { return x < 0.5 ? 0.06 : 0.004; });
-  pnpbs::GivenNodes nodes;
+  pnpbs::GivenNodes<2> nodes;
   const P coarse[] = {{0.49875, 0.4}, {0.49995, 0.41025}, {0.49995, 0.38975},
                       {0.48, 0.43},   {0.46, 0.4},        {0.48, 0.37}};
   for (const P& x : coarse) nodes.push_back({x, -1});
@@ -223,7 +223,7 @@ START_TEST(exact_grids) {
     }
     for (const double spacing : spacings) {
       LevelRun run(add_square, constant(spacing), {{"list_radius", "1.5"}});
-      pnpbs::GivenNodes grid;
+      pnpbs::GivenNodes<2> grid;
       for (int i = 2; i < 14; ++i)
         for (int j = 2; j < 14; ++j) grid.push_back({{(i + 0.5) * h, (j + 0.5) * h}, -1});
       Random(71).shuffle(grid);
@@ -241,7 +241,7 @@ START_TEST(many_nodes_on_one_circle) {
   Random random(72);
   for (int trial = 0; trial < 20; ++trial) {
     LevelRun run(add_square, constant(0.04));
-    pnpbs::GivenNodes nodes;
+    pnpbs::GivenNodes<2> nodes;
     for (int x = -65; x <= 65; ++x)
       for (int y = -65; y <= 65; ++y)
         if (x * x + y * y == 65 * 65) nodes.push_back({{0.5 + x / 256.0, 0.5 + y / 256.0}, -1});
@@ -262,7 +262,7 @@ START_TEST(nodes_an_ulp_apart) {
   Random random(73);
   for (const double factor : {1.0, 25.0}) {
     LevelRun run(add_square, [&](double x, double) { return x < 0.52 ? factor * 0.012 : 0.012; });
-    pnpbs::GivenNodes nodes;
+    pnpbs::GivenNodes<2> nodes;
     for (int pair = 0; pair < 60; ++pair) {
       // With 25, close to the clearance of the coarse nodes, 0.12.
       const P x{0.12 + (pair % 2) * random.between(0, 0.3), 0.12 + 0.01 * pair};

@@ -7,7 +7,7 @@
 #include "distorted_nodes.hpp"
 #include "run_kernel_suite.hpp"
 
-using pnpbs::Level;
+using Level = pnpbs::Level<2>;
 using pnpbs::PlaneDomain;
 using shapes::add_loop;
 using shapes::rectangle;
@@ -65,14 +65,14 @@ START_TEST(nodes_go_towards_the_mean) {
   const Build square = [](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
   LevelRun fill(square, d);
   pnpbs::fill(*fill.level);
-  pnpbs::GivenNodes nodes = inner_nodes_of(*fill.level);
+  pnpbs::GivenNodes<2> nodes = inner_nodes_of(*fill.level);
   Random random(110);
-  for (pnpbs::GivenNode& node : nodes)
+  for (pnpbs::GivenNode<2>& node : nodes)
     for (double& x : node.position) x += random.between(-0.04, 0.04) * 0.05;
   LevelRun run(square, d, {{"smoothing_rounds", "0"}});
   pnpbs::take(*run.level, nodes, 0);
   run.renew_stars();
-  const Level& level = *run.level;
+  const Level<2>& level = *run.level;
   std::map<std::int64_t, P> expected;
   for (std::int64_t i = 0; i < level.nodes.count; ++i) {
     const P x = level.nodes.position(i);

@@ -13,7 +13,7 @@
 using hard_shapes::Shape;
 using hard_shapes::small_shapes;
 using pnpbs::BoundaryEdge;
-using pnpbs::Level;
+using Level = pnpbs::Level<2>;
 using pnpbs::PlaneDomain;
 using P = pnpbs::Point<2>;
 
@@ -23,7 +23,7 @@ enum class Way { free, blocked, unclear };
 
 class Walls {
  public:
-  explicit Walls(const Level& level) : level_(level) {
+  explicit Walls(const Level<2>& level) : level_(level) {
     const pnpbs::Box<2>& box = level.map().tree().cell_box(0);
     close_ = 1e-9 * (box.high[0] - box.low[0]);
   }
@@ -81,7 +81,7 @@ class Walls {
     return inside;
   }
 
-  const Level& level_;
+  const Level<2>& level_;
   double close_;
   std::vector<BoundaryEdge> near_;
 };
@@ -92,7 +92,7 @@ struct Pairs {
 
 void expect_lists(LevelRun& run, double radius, const std::string& what, Pairs& pairs) {
   pnpbs::rebuild_lists(*run.level, radius);
-  const Level& level = *run.level;
+  const Level<2>& level = *run.level;
   const pnpbs::Nodes<2>& nodes = level.nodes;
   Walls walls(level);
   std::vector<char> listed(static_cast<std::size_t>(nodes.count));

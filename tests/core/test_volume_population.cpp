@@ -90,7 +90,7 @@ END_TEST
 // it: what remains to each is 13 of 14.
 START_TEST(a_vacancy_is_filled_once) {
   Random random(96);
-  PopulationRule<3> rule = by_thresholds<3>();
+  PopulationRule rule = by_thresholds<3>();
   quick_assert(choose<3>(
                    [] {
                      Set<3> set = lattice();
@@ -122,7 +122,7 @@ START_TEST(a_hole_is_filled) {
   const Set<3> perfect = lattice(1, kTen);
   Set<3> set = perfect;
   ck_assert_uint_eq(dig(set, 1.6).size(), 27);
-  PopulationRule<3> rule = by_thresholds<3>();
+  PopulationRule rule = by_thresholds<3>();
   quick_assert(choose<3>(set, rule).born.empty());
   rule.mean_distance = mean_distance(perfect);
   std::int64_t next_id = 1'000'000;
@@ -169,7 +169,7 @@ START_TEST(actors_are_far_apart) {
   for (const double stretch : {1.25, 0.8}) {
     Set<3> set = lattice(stretch, {12});
     jitter(random, set, 0.1);
-    PopulationRule<3> rule = by_thresholds<3>();
+    PopulationRule rule = by_thresholds<3>();
     rule.min_gap = 0;
     const Change<3> change = choose<3>(set, rule);
     ck_assert_uint_ge(change.born.size() + change.deleted.size(), 2);
@@ -183,7 +183,7 @@ END_TEST
 // as are missing or too many by the cube of that.
 START_TEST(thresholds_follow_the_mean_distance) {
   Random random(98);
-  PopulationRule<3> rule;
+  PopulationRule rule = PopulationRule::of_lattice<3>();
   for (const double stretch : {1.04, 0.96}) {
     Set<3> set = lattice(stretch);
     jitter(random, set, 0.02);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "domain/volume/polygons.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -15,9 +15,7 @@ namespace {
 bool repeats_a_vertex(std::span<const std::int32_t> corners) {
   if (corners.size() == 3)
     return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
-  std::vector<std::int32_t> sorted(corners.begin(), corners.end());
-  std::sort(sorted.begin(), sorted.end());
-  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+  return std::set<std::int32_t>(corners.begin(), corners.end()).size() < corners.size();
 }
 
 // Twice the area, along the normal.

@@ -20,8 +20,8 @@ double wanted_nodes(const SurfacePiece& piece) {
   return Lattice<2>::kDensity * piece.area / (piece.d * piece.d);
 }
 
-SpacingSummary summary(const std::vector<SurfacePiece>& pieces) {
-  SpacingSummary whole;
+SpacingSummary<2> summary(const std::vector<SurfacePiece>& pieces) {
+  SpacingSummary<2> whole;
   for (const SurfacePiece& piece : pieces)
     whole.add({piece.d, piece.d, piece.area, piece.area / (piece.d * piece.d)});
   return whole;
@@ -56,7 +56,7 @@ std::vector<SurfacePoint> surface_fill(const Surface& surface, const SpacingEval
   std::vector<SurfacePoint> nodes;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const auto patch = static_cast<std::int32_t>(p);
-    const SpacingSummary whole = summary(pieces[p]);
+    const SpacingSummary<2> whole = summary(pieces[p]);
     if (surface.is_flat(patch) && whole.max <= kPatchVariation * whole.min) {
       const std::vector<SurfacePoint> lattice =
           flat_lattice(surface, patch, facets[p], whole.spacing(), kFillClearance);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "level/ground.hpp"
+#include "level/plane/ground.hpp"
 
 #include <iterator>
 
 namespace pnpbs {
 
-Ground::Ground(std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const Spacing<2>> spacing,
-               std::int64_t max_nodes)
+Ground<2>::Ground(std::shared_ptr<const PlaneDomain> domain,
+                  std::shared_ptr<const Spacing<2>> spacing, std::int64_t max_nodes)
     : domain_(std::move(domain)), spacing_(std::move(spacing)) {
   boundary_ = discretize_boundary(*domain_, evaluator(), max_nodes);
   // Fixed nodes off the curves act as edges of no length: inner nodes keep off them, too.
@@ -23,7 +23,7 @@ Ground::Ground(std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const 
   evaluator()(std::ssize(positions), positions.data(), boundary_spacing_.data());
 }
 
-SpacingEvaluator<2> Ground::evaluator() const {
+SpacingEvaluator<2> Ground<2>::evaluator() const {
   return [this](std::int64_t n, const Point<2>* x, double* d) {
     evaluate_spacing<2>(*spacing_, domain_->area(), n, x, d);
   };

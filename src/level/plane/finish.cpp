@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/finish.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "level/exchange.hpp"
+#include "level/lists_and_stars.hpp"
+#include "level/reach.hpp"
+#include "quality/plane/bad_triangles.hpp"
+#include "quality/plane/surplus_nodes.hpp"
+#include "quality/sweep.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+void sweep_over_stars(Level<2>& level, std::int64_t times) {
+  View<char> allowed;
+  agreed(*level.comm, [&] {
+    allowed = make_view<char>("pnpbs::allowed", level.nodes.count);
+    level.time_integration.scratch(level.nodes);
+  });
+  for (std::int64_t s = 0; s < times; ++s) {
+    update_ghosts(level);
+    sweep(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(), level.map(),
+          level.settings.sweep, level.time_integration.scratch(level.nodes), allowed);
+  }
+}
+
+void repair_triangles_below(Level<2>& level, double shape) {
+  update_ghosts(level);
+  std::optional<BadTriangleRepair> repair;
+  agreed(*level.comm, [&] {
+    repair.emplace(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(),
+                   level.map(), shape);
+  });
+  for (std::int64_t round = 0; round < level.settings.repair.rounds; ++round) {
+    update_ghosts(level);
+    std::int64_t moved = 0;
+    agreed(*level.comm, [&] { moved = repair->round(); });
+    if (level.comm->allreduce_sum(static_cast<std::uint64_t>(moved)) == 0) break;
+  }
+}
+
+// The worst first: what bars a triangle from getting better may itself be only just good enough.
+void repair_bad_triangles(Level<2>& level) {
+  const RepairRule& rule = level.settings.repair;
+  repair_triangles_below(level, std::min(rule.worst_below, rule.bad_below));
+  if (rule.worst_below < rule.bad_below) repair_triangles_below(level, rule.bad_below);
+}
+
+// Whether the nodes follow d is asked after every run, so it must cost next to nothing: the stars
+// of the last sweeps will do, though a few edges have other nodes by now.
+std::vector<EdgeBand> edge_bands(Level<2>& level) {
+  std::vector<EdgeBand> bands;
+  update_ghosts(level);
+  agreed(*level.comm, [&] { bands = measure_edge_bands<2>(*level.comm, level.nodes, level.stars); });
+  return bands;
+}
+
+}  // namespace
+
+// In blocks of a few sweeps, within which the stars stay as they are. Surplus nodes leave the stars
+// before the first sweep, so that the others can fill their places, and the level after the block.
+FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps) {
+  constexpr std::int64_t kBlock = 5;
+  const bool repairs = level.settings.repair.rounds > 0;
+  // The guard of a node asks where its neighbours want to go, which their stars tell. Without a
+  // surplus node in between a node of the second ring may be a neighbour, too; its star changes
+  // with a surplus node in the third, and whether that goes hangs on the ring around it.
+  const int rings = repairs ? 4 : 1;
+  FinishResults results;
+  for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
+       done += kBlock) {
+    make_finish_stars(level, rings);
+    const PhaseTimer timer(level.timers, Phase::sweeps);
+    std::vector<std::int32_t> surplus;
+    agreed(*level.comm, [&] {
+      if (done == 0 && repairs) surplus = take_out_surplus_nodes(level.nodes, level.stars);
+    });
+    sweep_over_stars(level, std::min(kBlock, sweeps - done));
+    const bool last = done + kBlock >= sweeps;
+    if (last && repairs) repair_bad_triangles(level);
+    if (last) results.edge_bands = edge_bands(level);  // while there are stars
+    for (std::int32_t i : surplus) results.counts.deleted += level.nodes.owned(i);
+    if (!surplus.empty()) delete_nodes(level, surplus);
+    if (repairs) level.ghosts.choose_anew();  // on all ranks, as some may be gone
+  }
+  if (sweeps == 0 && !repairs) {
+    make_finish_stars(level, 0);
+    results.edge_bands = edge_bands(level);
+  }
+  return results;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/plane/near_boundary.hpp"
+
+#include "domain/clearance.hpp"
+
+namespace pnpbs {
+
+NearEdges NearBoundary<2>::near_leaves(const LevelTree<2>& tree, double radius) {
+  NearEdges edges;
+  edges.prepare(tree.map(), *tree.links(), radius);
+  return edges;
+}
+
+void NearBoundary<2>::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
+                            const Buckets<2>& buckets, const DomainMap<2>& map,
+                            const Ground<2>& ground) {
+  edges_.build(nodes, at, buckets, map);
+  visibility_.look(nodes, edges_, map, ground.sectors());
+}
+
+Point<2> NearBoundary<2>::hold_off(std::int64_t i, const Nodes<2>& nodes, const DomainMap<2>& map,
+                                   const Ground<2>&, const Point<2>& to) const {
+  const Point<2> from = nodes.position(i);
+  if (edges_.stays_clear(i, from, to, kBoundaryClearance * nodes.d(i))) return to;
+  return clear_position(map, edges_.edges_of(i), from, to, nodes.d(i)).position;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The boundary near the nodes of a plane level: edges, and what they hide.
+#pragma once
+
+#include <utility>
+
+#include "level/ground.hpp"
+#include "level/level_tree.hpp"
+#include "neighbors/boundary_visibility.hpp"
+#include "neighbors/near_edges.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class NearBoundary;
+
+template <>
+class NearBoundary<2> {
+ public:
+  using NearLeaves = NearEdges;
+  static NearLeaves near_leaves(const LevelTree<2>& tree, double radius);
+  void adopt(NearLeaves edges) { edges_ = std::move(edges); }
+  void reset(const Ground<2>& ground) { visibility_.reset(ground.boundary().nodes.size()); }
+
+  void build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
+             const Buckets<2>& buckets, const DomainMap<2>& map, const Ground<2>& ground);
+  VisibilityPastEdges visibility(const Nodes<2>& nodes, const DomainMap<2>& map,
+                                 const Ground<2>& ground) const {
+    return {nodes, edges_, visibility_, map, ground.sectors()};
+  }
+
+  double radius() const { return edges_.radius(); }
+  bool leaf_is_clear(std::int32_t leaf) const { return edges_.leaf_is_clear(leaf); }
+  bool within(std::int64_t i, double reach) const { return edges_.edge_within(i, reach); }
+  // May it be in the way of node i within the next steps, which lead no farther than reach?
+  bool constrains(const Nodes<2>&, std::int64_t i, double reach) const { return within(i, reach); }
+  Point<2> hold_off(std::int64_t i, const Nodes<2>& nodes, const DomainMap<2>& map,
+                    const Ground<2>& ground, const Point<2>& to) const;
+
+  const NearEdges& edges() const { return edges_; }
+
+ private:
+  NearEdges edges_;
+  BoundaryVisibility visibility_;
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/ground.hpp"
+
+#include <utility>
+
+namespace pnpbs {
+
+Ground<3>::Ground(std::shared_ptr<const VolumeDomain> domain,
+                  std::shared_ptr<const Spacing<3>> spacing, std::int64_t max_nodes)
+    : domain_(std::move(domain)),
+      spacing_(std::move(spacing)),
+      surface_(domain_->mesh(), domain_->features()) {
+  features_ = lay_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), max_nodes);
+  const Features& features = domain_->features();
+  patch_bounds_.assign(index(features.patches), 0);
+  for (std::size_t f = 0; f < features.patch.size(); ++f)
+    if (features.patch[f] >= 0)
+      patch_bounds_[index(features.patch[f])] = boundary().facets[f].bounds();
+}
+
+SpacingEvaluator<3> Ground<3>::evaluator() const {
+  return [this](std::int64_t n, const Point<3>* x, double* d) {
+    evaluate_spacing<3>(*spacing_, domain_->volume(), n, x, d);
+  };
+}
+
+SurfacePlace Ground<3>::place(Carrier carrier, std::int32_t on) const {
+  if (carrier == Carrier::surface) return {SurfacePlace::On::facet, on};
+  const FeatureNode& node = features_.nodes[index(on)];
+  if (node.corner >= 0) return {SurfacePlace::On::corner, node.corner};
+  return {SurfacePlace::On::edge, node.edge};
+}
+
+GivenNodes<3> Ground<3>::feature_nodes() const {
+  GivenNodes<3> given;
+  for (std::size_t n = 0; n < features_.nodes.size(); ++n) {
+    const FeatureNode& node = features_.nodes[n];
+    GivenNode<3> at{node.position, -1};
+    at.carrier = node.corner >= 0 ? Carrier::fixed : Carrier::curve;
+    at.boundary_node = static_cast<std::int32_t>(n);
+    at.tag = node.tag;
+    given.push_back(at);
+  }
+  return given;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/near_boundary.hpp"
+
+#include "domain/clearance.hpp"
+#include "domain/volume/surface_walk.hpp"
+#include "domain/volume/vectors.hpp"
+
+namespace pnpbs {
+
+// ------------------------------------------------------------------ who sees whom --------------
+
+bool VisibilityInSpace::visible(std::int64_t i, std::int64_t j) const {
+  const bool i_free = nodes_.carrier(i) == Carrier::free,
+             j_free = nodes_.carrier(j) == Carrier::free;
+  if (i_free || j_free) return i_free ? looks_at(j, i) : looks_at(i, j);
+  if (ground_.surface().sees(place(i), place(j))) return true;
+  return !bubbles_on_surfaces() && see_through_inside(i, j);
+}
+
+// Is the inner node in front of a surface there? Inner nodes keep so far off the boundary that
+// between two that are near enough to push each other there is nothing.
+bool VisibilityInSpace::looks_at(std::int64_t on_boundary, std::int64_t inner) const {
+  const Point<3> way = difference(point_at<3>(at_, inner), point_at<3>(at_, on_boundary));
+  bool any = false, in_front = false;
+  ground_.surface().for_sides(place(on_boundary), [&](const SurfaceSide& side) {
+    any = true;
+    in_front = in_front || !ground_.patch_bounds_domain(side.patch) || dot(way, side.normal) < 0;
+  });
+  return in_front || !any;  // around a fixed node or an inner curve there is no surface
+}
+
+// Two nodes of different surfaces, or across an edge.
+bool VisibilityInSpace::see_through_inside(std::int64_t i, std::int64_t j) const {
+  const Point<3> a = point_at<3>(at_, i), b = point_at<3>(at_, j);
+  Point<3> middle;
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * (a[k] + b[k]);
+  return map_.inside(middle);
+}
+
+// ------------------------------------------------------------------ what is near ---------------
+
+NearBoundary<3>::NearLeaves NearBoundary<3>::near_leaves(const LevelTree<3>& level_tree,
+                                                         double radius) {
+  const DomainMap<3>& map = level_tree.map();
+  const LeafLinks<3>& links = *level_tree.links();
+  const auto leaves = static_cast<std::size_t>(map.tree().leaf_count());
+  NearLeaves near{radius, std::vector<double>(leaves), std::vector<char>(leaves)};
+  for (std::size_t l = 0; l < leaves; ++l) {
+    const auto leaf = static_cast<std::int32_t>(l);
+    const double reach = kRoomForGrowth * radius * map.leaf_max_spacing(leaf);
+    bool clear = true;
+    if (reach <= links.reach[l]) {
+      links.graph.for_neighbours(
+          leaf, [&](std::int32_t other) { clear = clear && !map.leaf_has_facets(other); });
+    } else {
+      const std::int32_t cell = map.tree().leaf_cell(leaf);
+      const double half_diagonal = 0.8661 * map.tree().cell_side(cell);
+      map.for_facets_near(map.tree().cell_centre(cell), half_diagonal + reach,
+                          [&](std::int32_t) { clear = false; });
+    }
+    near.reach[l] = reach;
+    near.clear[l] = clear;
+  }
+  return near;
+}
+
+void NearBoundary<3>::build(const Nodes<3>& nodes, const std::array<View<double>, 3>& at,
+                            const Buckets<3>& buckets, const DomainMap<3>& map,
+                            const Ground<3>& ground) {
+  at_ = at;
+  if (static_cast<std::int64_t>(gap_.extent(0)) < nodes.capacity())
+    gap_ = make_view<double>("pnpbs::NearBoundary::gap", nodes.capacity());
+  for_each("pnpbs::NearBoundary::build", nodes.count, [&](std::int64_t i) {
+    gap_(i) = nodes.moves(i) ? gap_of(i, nodes, buckets, map, ground) : kFarAway;
+  });
+}
+
+double NearBoundary<3>::gap_of(std::int64_t i, const Nodes<3>& nodes, const Buckets<3>& buckets,
+                               const DomainMap<3>& map, const Ground<3>& ground) const {
+  const double reach = near_.radius * nodes.d(i);
+  if (nodes.carrier(i) == Carrier::surface) {
+    const SurfacePoint here{nodes.boundary_node(i), nodes.position(i)};
+    const double gap = ground.surface().feature_clearance(here, reach);
+    return gap < reach ? gap : kFarAway;
+  }
+  const Point<3> x = point_at<3>(at_, i);
+  const std::int32_t bucket = buckets.bucket_of(i);
+  const bool in_bucket = map.tree().fine_box_holds(map.tree().fine_box(bucket), x);
+  const std::int32_t leaf = in_bucket ? bucket : map.tree().leaf_at(x);
+  if (leaf_is_clear(leaf) && reach <= near_.reach[static_cast<std::size_t>(leaf)]) return kFarAway;
+  const double gap = map.clearance(x, reach);
+  return gap < reach ? gap : kFarAway;
+}
+
+// ------------------------------------------------------------------ how nodes move -------------
+
+Point<3> NearBoundary<3>::hold_off(std::int64_t i, const Nodes<3>& nodes, const DomainMap<3>& map,
+                                   const Ground<3>& ground, const Point<3>& to) const {
+  if (nodes.carrier(i) == Carrier::surface) return walk_on_surface(i, nodes, ground, to);
+  constexpr double kRounding = 1 + 1e-8;
+  const double clearance = kVolumeClearance * nodes.d(i);
+  const Point<3> from = nodes.position(i);
+  const double way = std::max(clearance, distance<3>(from, to));
+  if (gap_(i) > kRounding * (distance<3>(point_at<3>(at_, i), to) + way)) return to;
+  const NearestPoint<3> nearest = map.nearest(to, clearance);
+  const bool inside = map.inside(to);
+  if (inside && nearest.facet < 0) return to;
+  if (!inside || nearest.gap == 0) return from;
+  const Point<3> kept = shifted(nearest.x, clearance / nearest.gap, difference(to, nearest.x));
+  // In a wedge or a gap there may be no place with that much room: better than before will do.
+  return map.inside(kept) && map.clearance(kept, clearance) >= nearest.gap ? kept : from;
+}
+
+// Along the surface, up to the features that have nodes of their own; nearer to them only as long
+// as there is room.
+Point<3> NearBoundary<3>::walk_on_surface(std::int64_t i, const Nodes<3>& nodes,
+                                          const Ground<3>& ground, const Point<3>& to) const {
+  const Surface& surface = ground.surface();
+  const SurfacePoint from{nodes.boundary_node(i), nodes.position(i)};
+  const SurfacePoint reached = walk(surface, from, difference(to, from.position));
+  const double clearance = kBoundaryClearance * nodes.d(i);
+  const double gap = surface.feature_clearance(reached, clearance);
+  if (gap < clearance && gap < surface.feature_clearance(from, clearance)) return from.position;
+  nodes.boundary_node(i) = reached.facet;
+  return reached.position;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surfaces near the nodes of a level in space.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/nodes.hpp"
+#include "level/ground.hpp"
+#include "level/level_tree.hpp"
+#include "neighbors/buckets.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class NearBoundary;
+
+// Who sees whom among nodes in space, as lists ask. Judged from where the nodes were at the last
+// event, like all that the boundary hides, or for lists made here from where they are.
+class VisibilityInSpace {
+ public:
+  VisibilityInSpace(const Nodes<3>& nodes, const std::array<View<double>, 3>& at,
+                    const DomainMap<3>& map, const Ground<3>& ground)
+      : nodes_(nodes), at_(at), map_(map), ground_(ground) {}
+
+  bool may_occlude(std::int64_t i) const { return nodes_.carrier(i) != Carrier::free; }
+  bool visible(std::int64_t i, std::int64_t j) const;
+
+ private:
+  bool bubbles_on_surfaces() const { return nodes_.moving == Carrier::surface; }
+  SurfacePlace place(std::int64_t i) const {
+    return ground_.place(nodes_.carrier(i), nodes_.reference_on(i));
+  }
+  bool looks_at(std::int64_t on_boundary, std::int64_t inner) const;
+  bool see_through_inside(std::int64_t i, std::int64_t j) const;
+
+  const Nodes<3>& nodes_;
+  std::array<View<double>, 3> at_;
+  const DomainMap<3>& map_;
+  const Ground<3>& ground_;
+};
+
+template <>
+class NearBoundary<3> {
+ public:
+  struct NearLeaves {
+    double radius = 0;
+    std::vector<double> reach;  // how far from each leaf facets were looked for
+    std::vector<char> clear;    // was there none?
+  };
+  static NearLeaves near_leaves(const LevelTree<3>& tree, double radius);
+  void adopt(NearLeaves near) { near_ = std::move(near); }
+  void reset(const Ground<3>&) {}
+
+  void build(const Nodes<3>& nodes, const std::array<View<double>, 3>& at,
+             const Buckets<3>& buckets, const DomainMap<3>& map, const Ground<3>& ground);
+  VisibilityInSpace visibility(const Nodes<3>& nodes, const DomainMap<3>& map,
+                               const Ground<3>& ground) const {
+    return {nodes, at_, map, ground};
+  }
+
+  double radius() const { return near_.radius; }
+  bool leaf_is_clear(std::int32_t leaf) const {
+    return near_.clear[static_cast<std::size_t>(leaf)] != 0;
+  }
+  bool within(std::int64_t i, double reach) const { return gap_(i) <= reach; }
+  bool constrains(const Nodes<3>& nodes, std::int64_t i, double reach) const {
+    return nodes.carrier(i) == Carrier::surface || within(i, reach);
+  }
+  Point<3> hold_off(std::int64_t i, const Nodes<3>& nodes, const DomainMap<3>& map,
+                    const Ground<3>& ground, const Point<3>& to) const;
+
+ private:
+  double gap_of(std::int64_t i, const Nodes<3>& nodes, const Buckets<3>& buckets,
+                const DomainMap<3>& map, const Ground<3>& ground) const;
+  Point<3> walk_on_surface(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
+                           const Point<3>& to) const;
+
+  NearLeaves near_;
+  std::array<View<double>, 3> at_;
+  // Of a free node, to the nearest facet; of one on a surface, to the nearest feature edge;
+  // kFarAway if that is more than the radius.
+  View<double> gap_;
+};
+
+}  // namespace pnpbs

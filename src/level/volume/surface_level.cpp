@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/surface_level.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "delaunay/volume/tangent_star.hpp"
+#include "domain/clearance.hpp"
+#include "domain/volume/surface_walk.hpp"
+#include "domain/volume/vectors.hpp"
+#include "initial/volume/surface_fill.hpp"
+#include "level/exchange.hpp"
+#include "level/lists_and_stars.hpp"
+#include "level/numbering.hpp"
+#include "level/reach.hpp"
+#include "population/free_place.hpp"
+
+namespace pnpbs {
+
+Settings surface_settings(const Settings& inside) {
+  Settings settings(Options{}, 2);
+  settings.max_nodes = inside.max_nodes;
+  settings.max_bytes = inside.max_bytes;
+  settings.exchange_interval = inside.exchange_interval;
+  settings.metis_seed = inside.metis_seed;
+  settings.rebalance_above = inside.rebalance_above;
+  settings.halo_deficit = inside.halo_deficit;
+  return settings;
+}
+
+// ------------------------------------------------------------------ coming and going -----------
+
+void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, bool begin_anew) {
+  const Ground<3>& ground = level.ground;
+  GivenNodes<3> laid;
+  agreed(*level.comm, [&] {
+    laid = ground.feature_nodes();
+    std::vector<SurfacePoint> filled;
+    if (begin_anew)
+      filled = surface_fill(ground.surface(), ground.evaluator(), level.settings.node_limit());
+    for (const SurfacePoint& at : filled) {
+      GivenNode<3> node{at.position, -1};
+      node.carrier = Carrier::surface;
+      node.boundary_node = at.facet;
+      node.tag = ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag;
+      laid.push_back(node);
+    }
+    laid.insert(laid.end(), on_surfaces.begin(), on_surfaces.end());
+  });
+  level.nodes.moving = Carrier::surface;
+  number_and_store(level, {}, LaidNodes<3>(std::move(laid)));
+}
+
+void fix_surface_nodes(Level<3>& level) {
+  level.nodes.moving = Carrier::free;
+  for_each("pnpbs::fix_surface_nodes", level.nodes.count, [&](std::int64_t i) {
+    for (int k = 0; k < 3; ++k) level.nodes.v[k](i) = 0;
+  });
+}
+
+GivenNodes<3> surface_nodes(const Level<3>& level) {
+  const Nodes<3>& nodes = level.nodes;
+  GivenNodes<3> given;
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (nodes.owned(i) && nodes.carrier(i) != Carrier::free)
+      given.push_back({nodes.position(i), nodes.id(i), nodes.carrier(i), nodes.boundary_node(i),
+                       nodes.tag(i), -1, nodes.d(i)});
+  return given;
+}
+
+// ------------------------------------------------------------------ stars ----------------------
+
+namespace {
+
+SurfacePoint place_on_surface(const Nodes<3>& nodes, std::int64_t i) {
+  return {nodes.boundary_node(i), nodes.position(i)};
+}
+
+// Where one comes to who goes that far from node i, which is on a surface.
+SurfacePoint walk_from(const Level<3>& level, std::int64_t i, const Point<3>& move) {
+  return walk(level.ground.surface(), place_on_surface(level.nodes, i), move);
+}
+
+const Point<3>& normal_at(const Level<3>& level, std::int64_t i) {
+  return level.ground.surface().normal(level.nodes.boundary_node(i));
+}
+
+// Are two nodes next to each other on a feature curve?
+bool joined(const Ground<3>& ground, const Nodes<3>& nodes, std::int64_t i, std::int64_t j) {
+  if (nodes.carrier(i) == Carrier::surface || nodes.carrier(j) == Carrier::surface) return false;
+  const std::int32_t a = nodes.boundary_node(i), b = nodes.boundary_node(j);
+  const FeatureNodes& features = ground.features();
+  const auto follows = [&](std::int32_t from, std::int32_t to) {
+    const std::int32_t curve = features.nodes[static_cast<std::size_t>(from)].curve;
+    if (curve < 0) return false;
+    return features.next(from, {curve, true}) == to || features.next(from, {curve, false}) == to;
+  };
+  if (follows(a, b) || follows(b, a)) return true;
+  // Two corners with nothing between them.
+  for (const std::vector<std::int32_t>& along : features.along)
+    if (along.size() == 2 && ((along[0] == a && along[1] == b) || (along[0] == b && along[1] == a)))
+      return true;
+  return false;
+}
+
+// The star within its surface of a node on it, counter-clockwise; empty if it is not known.
+std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i) {
+  const Nodes<3>& nodes = level.nodes;
+  std::vector<StarSide> sides(1);
+  sides[0].normal = normal_at(level, i);
+  sides[0].first = sides[0].last = -1;
+  level.lists().for_neighbours(i, [&](std::int64_t j) {
+    if (nodes.carrier(j) != Carrier::free)
+      sides[0].around.push_back({nodes.position(j), nodes.id(j), static_cast<std::int32_t>(j)});
+  });
+  const double reach = level.lists().radius() * nodes.d(i);
+  std::vector<SurfaceStarEntry> star;
+  const Joined on_curve = [&](std::int32_t a, std::int32_t b) {
+    return joined(level.ground, nodes, a, b);
+  };
+  const SurfaceStarPoint centre{nodes.position(i), nodes.id(i), static_cast<std::int32_t>(i)};
+  if (!tangent_star(centre, 2 * reach, sides, on_curve, star)) star.clear();
+  return star;
+}
+
+}  // namespace
+
+// ------------------------------------------------------------------ new bubbles ----------------
+
+// Seen from above, with the neighbours at their distances.
+Point<3> free_place_on_surface(const Level<3>& level, std::int64_t i) {
+  const Nodes<3>& nodes = level.nodes;
+  const Point<3>& normal = normal_at(level, i);
+  const Point<3> axis = std::fabs(normal[0]) < 0.6 ? Point<3>{1, 0, 0} : Point<3>{0, 1, 0};
+  const Point<3> u = unit_vector(part_across(axis, normal)), v = cross(normal, u);
+  std::vector<Point<2>> around;
+  level.lists().for_neighbours(i, [&](std::int64_t j) {
+    const Point<3> way = difference(nodes.position(j), nodes.position(i));
+    const Point<2> flat{dot(way, u), dot(way, v)};
+    const double seen = std::hypot(flat[0], flat[1]);
+    const double stretch = seen > 0 ? length(way) / seen : 0;
+    around.push_back({stretch * flat[0], stretch * flat[1]});
+  });
+  const Point<2> place = free_place<2>({0, 0}, nodes.d(i), around);
+  return walk_from(level, i, shifted(shifted({}, place[0], u), place[1], v)).position;
+}
+
+// The way there as it was walked: along the chord, which for a node's own surroundings leads to the
+// same place but for what the surface bends.
+std::int32_t facet_at(const Level<3>& level, std::int64_t from, const Point<3>& place) {
+  return pull_back(level.ground.surface(), place, level.nodes.boundary_node(from)).facet;
+}
+
+// ------------------------------------------------------------------ sweeps ---------------------
+
+namespace {
+
+// Node i on its way to the mean of its neighbours.
+SurfacePoint swept(const Level<3>& level, std::int64_t i, double weight) {
+  const Nodes<3>& nodes = level.nodes;
+  const SurfacePoint here = place_on_surface(nodes, i);
+  const std::vector<SurfaceStarEntry> star = surface_star(level, i);
+  if (star.size() < 3) return here;
+  Point<3> sum{};
+  for (const SurfaceStarEntry& entry : star)
+    sum = shifted(sum, 1, difference(nodes.position(entry.node), here.position));
+  const double part = weight / static_cast<double>(star.size());
+  const SurfacePoint to = walk_from(level, i, {part * sum[0], part * sum[1], part * sum[2]});
+  const double clearance = kBoundaryClearance * nodes.d(i);
+  const Surface& surface = level.ground.surface();
+  const double gap = surface.feature_clearance(to, clearance);
+  return gap < clearance && gap < surface.feature_clearance(here, clearance) ? here : to;
+}
+
+}  // namespace
+
+void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps) {
+  Nodes<3>& nodes = level.nodes;
+  for (std::int64_t s = 0; s < sweeps; ++s) {
+    nodes.set_reference_positions();
+    exchange(level, kStarHops);
+    agreed(*level.comm, [&] {
+      rebuild_lists(level, level.settings.list_radius);
+      std::vector<SurfacePoint> to(static_cast<std::size_t>(nodes.count));
+      const auto moves = [&](std::int64_t i) { return nodes.moves(i) && nodes.owned(i) != 0; };
+      for_each("pnpbs::sweep_on_surfaces", nodes.count, [&](std::int64_t i) {
+        if (moves(i))
+          to[static_cast<std::size_t>(i)] = swept(level, i, level.settings.sweep.weight);
+      });
+      for_each("pnpbs::sweep_on_surfaces", nodes.count, [&](std::int64_t i) {
+        if (!moves(i)) return;
+        nodes.set_position(i, to[static_cast<std::size_t>(i)].position);
+        nodes.boundary_node(i) = to[static_cast<std::size_t>(i)].facet;
+      });
+    });
+    nodes.moved();
+  }
+  nodes.set_reference_positions();
+  level.ghosts.choose_anew();
+}
+
+// ------------------------------------------------------------------ refinement -----------------
+
+namespace {
+
+// In the middle between node i on a surface and another node of it.
+GivenNode<3> middle(const Level<3>& level, std::int64_t i, std::int64_t j, double d) {
+  const Point<3> way = difference(level.nodes.position(j), level.nodes.position(i));
+  const SurfacePoint at = walk_from(level, i, {0.5 * way[0], 0.5 * way[1], 0.5 * way[2]});
+  return {at.position,
+          -1,
+          Carrier::surface,
+          at.facet,
+          level.ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag,
+          -1,
+          d};
+}
+
+}  // namespace
+
+void append_surface_midpoints(const Level<3>& level, const View<double>& next_spacing,
+                              GivenNodes<3>& refined) {
+  constexpr double kHalved = 1.4;  // an edge this much longer than the spacing to come is
+  const Nodes<3>& nodes = level.nodes;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (!nodes.owned(i) || nodes.carrier(i) != Carrier::surface) continue;
+    const double d = next_spacing(i);
+    if (nodes.d(i) < kHalved * d) continue;
+    const std::vector<SurfaceStarEntry> star = surface_star(level, i);
+    for (std::size_t k = 0; k < star.size(); ++k) {
+      const std::int64_t j = star[k].node, next = star[(k + 1) % star.size()].node;
+      // Of two nodes on surfaces the one with the lesser id has the edge.
+      if (nodes.carrier(j) != Carrier::surface || nodes.id(i) < nodes.id(j))
+        refined.push_back(middle(level, i, j, d));
+      if (!star[k].triangle || joined(level.ground, nodes, j, next)) continue;
+      if (nodes.carrier(j) == Carrier::surface || nodes.carrier(next) == Carrier::surface) continue;
+      // An edge between two nodes on features: the way there is through the middle of the triangle.
+      const Point<3> a = nodes.position(j), b = nodes.position(next);
+      const Point<3> mid{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
+      const SurfacePoint at = pull_back(level.ground.surface(), mid, nodes.boundary_node(i));
+      refined.push_back({at.position, -1, Carrier::surface, at.facet,
+                         level.ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag, -1,
+                         d});
+    }
+  }
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A placement in the plane or in space: its domain, its spacing and its levels.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "level/laid_nodes.hpp"
+#include "level/level.hpp"
+#include "level/rebalance.hpp"
+#include "level/taken_nodes.hpp"
+#include "placement/placement.hpp"
+#include "spacing/steepest_growth.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class PlacementOf : public Placement {
+ public:
+  PlacementOf(std::shared_ptr<const Communicator> comm, std::shared_ptr<Domain<Dim>> domain,
+              Options options)
+      : Placement(std::move(comm), std::move(options)), domain_(std::move(domain)) {}
+
+  int dimension() const override { return Dim; }
+  void set_spacing(std::shared_ptr<const Spacing<Dim>> spacing);
+  void set_nodes(GivenNodes<Dim> nodes);
+  void forget_nodes() override { level_.reset(); }
+
+  Outcome initialise() override;
+  Outcome step(std::int64_t n) override;
+  Outcome run() override;
+  PopulationCounts adjust_population() override;
+  void rebalance() override;
+  Estimate estimate() override;
+
+  bool has_nodes() const override { return level_ != nullptr; }
+  std::int64_t count() const override { return level_ ? level_->owned_count() : 0; }
+  NodeColumns nodes() const override;
+  const Level<Dim>& level() const { return *level_; }
+  void prepare_order() override;
+  void prepare_lists() override;
+  void prepare_stars() override;
+  // Calls visit(places of its corners) for every element, a triangle or a tetrahedron, once, over
+  // all ranks: at the owner of its node with the least id, which comes first. After prepare_stars.
+  template <class Visit>
+  void for_elements(const Visit& visit) const {
+    for_elements(0, count(), visit);
+  }
+  // Only those whose first node has a place from begin up to end, by that place.
+  template <class Visit>
+  void for_elements(std::int64_t begin, std::int64_t end, const Visit& visit) const;
+  // Calls visit(places of its nodes, tag) for every facet of the boundary once, over all ranks. In
+  // the plane an edge comes at the owner of the node it begins with, after prepare_order.
+  template <class Visit>
+  void for_boundary_facets(const Visit& visit) const;
+  // Calls visit(places) for every face of only one tetrahedron, once, over all ranks: at the owner
+  // of its node with the least id, which comes first; so that from outside they turn
+  // counter-clockwise. After prepare_stars.
+  template <class Visit>
+  void for_open_facets(const Visit& visit) const requires(Dim == 3);
+  int owner_of(std::int64_t node) const {
+    return level_->tree->owner_at(level_->nodes.position(node));
+  }
+  ExchangePattern exchange_pattern() override;
+  // d by its values at this rank's nodes, in places. Collective.
+  std::shared_ptr<const Spacing<Dim>> spacing_from(std::vector<double> values);
+
+  std::int64_t rebuilds() const override {
+    return rebuilds_before_ + (level_ ? level_->neighbourhood.rebuilds() : 0);
+  }
+  std::int64_t rebalances() const override {
+    return rebalances_before_ + (level_ ? level_->rebalances : 0);
+  }
+  Speeds speeds() const override { return level_ ? speeds_of(*level_) : Speeds{}; }
+  LevelFigures level_figures() const override;
+  std::int64_t boundary_nodes() const override;
+  double imbalance() const override { return level_ ? imbalance_of(*level_) : 1; }
+  NearestNeighbourError spacing_error() override;
+  const ElementQuality& element_quality() override;
+  std::uint64_t hash() const override;
+
+ private:
+  Outcome prepare_level();
+  Outcome make_level();
+  Settings settings_for_new_level() const;
+  std::shared_ptr<const Spacing<Dim>> bounded_spacing() const;
+  std::shared_ptr<const Spacing<Dim>> growth_limited(std::shared_ptr<const Spacing<Dim>> spacing,
+                                                     const Settings& settings);
+  std::shared_ptr<const Spacing<Dim>> growth_limited(std::shared_ptr<const Spacing<Dim>> spacing,
+                                                     const Settings& settings,
+                                                     const std::function<void()>& beat) const;
+  static bool too_steep(const SteepestGrowth<Dim>& steepest);
+  static std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
+  double estimated_nodes(const Settings& settings) const;
+  std::unique_ptr<Level<Dim>> empty_level(std::shared_ptr<const Spacing<Dim>> spacing,
+                                          const Settings& settings,
+                                          const Level<Dim>* like = nullptr);
+  void adopt_level(std::unique_ptr<Level<Dim>> next);
+  int coarser_levels_that_pay(const Level<Dim>& finest,
+                              const std::shared_ptr<const Spacing<Dim>>& spacing) const;
+  bool boundary_leaves_room(const Level<Dim>& finest, const Spacing<Dim>& coarser, double factor,
+                            double nodes) const;
+  TakenNodes put_first_nodes(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& from_coarser,
+                             int which);
+  void settle_surfaces(std::unique_ptr<Level<Dim>>& level,
+                       GivenNodes<Dim>& nodes) requires(Dim == 3);
+  int surface_levels_that_pay(const Level<Dim>& finest) const requires(Dim == 3);
+  GivenNodes<Dim> nodes_from_coarser_levels(const Level<Dim>& finest,
+                                            const std::shared_ptr<const Spacing<Dim>>& spacing,
+                                            const Settings& settings, Outcome& outcome);
+  void require_same_domain() const;
+  template <class Work>
+  auto while_moving(const Work& work);
+  // Shares of a run's work, for its progress: coarser levels, and steps without the finish.
+  static constexpr double kCoarseShare = 0.5, kStepsShare = 0.9;
+  bool bubbles_rest() const;
+  Outcome advance(std::int64_t until, ProgressPart part);
+  void event();
+  void control_population();
+  void keep_balance();
+  void rebalance_now();
+  bool far_too_few() const;
+  bool stops_between_events(double fraction);
+  void fill(Level<Dim>& level, LaidNodes<Dim> laid);
+  void repair_defects();
+  Outcome finish();
+
+  std::shared_ptr<Domain<Dim>> domain_;
+  std::shared_ptr<const Spacing<Dim>> spacing_;
+  std::unique_ptr<Level<Dim>> level_;
+  GivenNodes<Dim> given_;  // nodes to start from instead of a fill
+  int filled_level_ = 0;   // coarser levels whose inside was filled, the first of them by a lattice
+  bool start_from_given_ = false;
+  bool spacing_replaced_ = false;  // since the level was made
+};
+
+template <int Dim>
+template <class Visit>
+void PlacementOf<Dim>::for_elements(std::int64_t begin, std::int64_t end,
+                                    const Visit& visit) const {
+  const View<std::int64_t> id = level_->nodes.id;
+  for (std::int64_t p = begin; p < end; ++p) {
+    const std::int64_t i = node_at(p);
+    level_->stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {
+      std::array<std::int64_t, Dim + 1> places{p};
+      for (std::size_t k = 0; k < Dim; ++k) {
+        if (id(others[k]) < id(i)) return;
+        places[k + 1] = place_of(others[k]);
+      }
+      visit(places);
+    });
+  }
+}
+
+template <int Dim>
+template <class Visit>
+void PlacementOf<Dim>::for_boundary_facets(const Visit& visit) const {
+  if constexpr (Dim == 2) {
+    const Boundary& boundary = level_->ground.boundary();
+    const Nodes<2>& nodes = level_->nodes;
+    std::vector<std::int64_t> place(boundary.nodes.size(), -1);
+    for (std::int64_t i = 0; i < nodes.count; ++i)
+      if (!nodes.moves(i)) place[static_cast<std::size_t>(nodes.boundary_node(i))] = place_of(i);
+    const std::int64_t owned = count();
+    for (const BoundaryEdge& e : boundary.facets) {
+      if (e.begin == e.end) continue;  // a fixed node
+      const std::int64_t begin = place[static_cast<std::size_t>(e.begin)];
+      if (begin >= 0 && begin < owned)
+        visit(std::array<std::int64_t, 2>{begin, place[static_cast<std::size_t>(e.end)]}, e.tag);
+    }
+  }
+}
+
+// Of the tetrahedra around a node, those of its faces that come once.
+template <int Dim>
+template <class Visit>
+void PlacementOf<Dim>::for_open_facets(const Visit& visit) const requires(Dim == 3) {
+  const View<std::int64_t> id = level_->nodes.id;
+  struct Face {
+    std::int64_t low, high;               // the other two nodes
+    std::array<std::int64_t, 3> turning;  // places, as seen from outside
+  };
+  std::vector<Face> faces;
+  for (std::int64_t p = 0; p < count(); ++p) {
+    const std::int64_t i = node_at(p);
+    faces.clear();
+    level_->stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {
+      // (i, a, b, c) turns right-handed: from outside, its faces with i turn as i, b, a.
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int64_t a = others[k], b = others[(k + 1) % 3];
+        if (id(a) < id(i) || id(b) < id(i)) continue;
+        faces.push_back({std::min(a, b), std::max(a, b), {p, place_of(b), place_of(a)}});
+      }
+    });
+    std::sort(faces.begin(), faces.end(), [](const Face& f, const Face& g) {
+      return f.low != g.low ? f.low < g.low : f.high < g.high;
+    });
+    const auto same = [&](std::size_t f, std::size_t g) {
+      return g < faces.size() && faces[f].low == faces[g].low && faces[f].high == faces[g].high;
+    };
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      if (!same(f, f + 1) && !(f > 0 && same(f, f - 1))) visit(faces[f].turning);
+  }
+}
+
+// Calls work(placement) with it as what it is.
+template <class Work>
+auto in_its_dimension(Placement& placement, const Work& work) {
+  if (placement.dimension() == 2) return work(static_cast<PlacementOf<2>&>(placement));
+  return work(static_cast<PlacementOf<3>&>(placement));
+}
+template <class Work>
+auto in_its_dimension(const Placement& placement, const Work& work) {
+  if (placement.dimension() == 2) return work(static_cast<const PlacementOf<2>&>(placement));
+  return work(static_cast<const PlacementOf<3>&>(placement));
+}
+
+}  // namespace pnpbs
