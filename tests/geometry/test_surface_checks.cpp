@@ -124,7 +124,8 @@ START_TEST(triangles_without_area_go_and_leave_the_surface_closed) {
   soup.vertex(0.25, 0, 0);
   VolumeDomain domain;
   check_soup(soup, domain);
-  ck_assert(warns(domain, "2 triangles have no area and are left out; the first is triangle 5 of"));
+  ck_assert(warns(
+      domain, "2 triangles have no area to speak of and are left out; the first is triangle 5 of"));
   ck_assert(is_closed(domain.mesh()));
   ck_assert_uint_eq(domain.mesh().facets.size(), 6);
   expect_near(domain.volume(), 1.0 / 6, 1e-15);
@@ -151,11 +152,13 @@ END_TEST
 
 START_TEST(edges_split_on_one_side_stay_closed_by_triangles_without_area) {
   Random random(12);
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 20; ++round) {
+    // Exactly but for the last digits of double or of single precision.
+    const double off = round < 10 ? 1e-10 : 1e-5;
     Soup soup = soup_of(surfaces::sphere(1, 600));
     VolumeDomain reference;
     check_soup(soup, reference);
-    for (int split = 0; split < 100; ++split) {
+    for (int split = 0; split < (round < 10 ? 100 : 20); ++split) {
       const std::int64_t t = random.below(soup.triangles()), k = random.below(3);
       const std::int64_t a = soup.corners[3 * t + k], b = soup.corners[3 * t + (k + 1) % 3],
                          c = soup.corners[3 * t + (k + 2) % 3];
@@ -163,7 +166,7 @@ START_TEST(edges_split_on_one_side_stay_closed_by_triangles_without_area) {
       std::array<double, 3> x;
       for (int i = 0; i < 3; ++i)
         x[i] = (1 - along) * soup.xyz[3 * a + i] + along * soup.xyz[3 * b + i] +
-               random.between(-1e-10, 1e-10);
+               random.between(-off, off);
       const std::int64_t middle = soup.vertex(x[0], x[1], x[2]);
       soup.corners[3 * t + (k + 1) % 3] = middle;
       soup.triangle(middle, b, c);
@@ -175,8 +178,26 @@ START_TEST(edges_split_on_one_side_stay_closed_by_triangles_without_area) {
     ck_assert(is_closed(domain.mesh()));
     ck_assert_uint_eq(domain.mesh().nodes.size(), soup.vertices());
     ck_assert_uint_eq(domain.mesh().facets.size(), 2 * soup.vertices() - 4);
-    expect_near(domain.volume(), reference.volume(), 1e-9);
-    expect_near(domain.area(), reference.area(), 1e-9);
+    expect_near(domain.volume(), reference.volume(), round < 10 ? 1e-9 : 1e-7);
+    expect_near(domain.area(), reference.area(), round < 10 ? 1e-9 : 1e-7);
+  }
+}
+END_TEST
+
+START_TEST(flat_triangles_folded_over_by_rounding_are_mended) {
+  // In the bottom, a flat triangle at the edge from 1 to 2 is turned over by a vertex that
+  // lies a little beyond that edge.
+  for (const double off : {-1e-7, 1e-7}) {
+    Soup soup = unit_tetrahedron();
+    soup.vertex(0.5 + off, 0.5 + off, 0);
+    soup.corners = {0, 2, 1, 1, 2, 4, 0, 1, 3, 1, 4, 3, 4, 2, 3, 2, 0, 3};
+    soup.tags.assign(6, 1);
+    VolumeDomain domain;
+    check_soup(soup, domain);
+    ck_assert(warns(domain, "1 triangle has no area to speak of"));
+    ck_assert(is_closed(domain.mesh()));
+    ck_assert_uint_eq(domain.mesh().facets.size(), 6);
+    expect_near(domain.volume(), 1.0 / 6, 1e-6);
   }
 }
 END_TEST
@@ -384,6 +405,7 @@ int main() {
                     torn_surfaces_are_welded_in_silence_and_near_vertices_with_a_warning,
                     triangles_without_area_go_and_leave_the_surface_closed,
                     edges_split_on_one_side_stay_closed_by_triangles_without_area,
+                    flat_triangles_folded_over_by_rounding_are_mended,
                     triangles_given_twice_count_once, a_surface_too_small_for_the_domain_is_refused,
                     open_seams_are_told_with_triangle_vertices_and_place,
                     edges_of_more_than_two_triangles_are_refused,

@@ -36,14 +36,23 @@ double longest_edge(const FacetCorners<3>& corners) {
   return distance<3>(corners[(apex + 1) % 3], corners[(apex + 2) % 3]);
 }
 
-// Its height over the longest edge.
-double thickness(const FacetCorners<3>& corners) {
+// Of single precision a millionth of the domain's size is left.
+constexpr double kRounding = 1000;  // in tolerances
+constexpr double kFlat = 1e-4;      // height over the shorter of the two other edges
+
+bool is_thin(const FacetCorners<3>& corners, double tolerance) {
   const double longest = longest_edge(corners);
-  return longest == 0 ? 0
-                      : length(cross(difference(corners[1], corners[0]),
-                                     difference(corners[2], corners[0]))) /
-                            longest;
+  const double twice_area =
+      length(cross(difference(corners[1], corners[0]), difference(corners[2], corners[0])));
+  const double height = longest == 0 ? 0 : twice_area / longest;
+  if (height <= tolerance) return true;
+  const int k = apex_of(corners);
+  const double shorter = std::min(distance<3>(corners[k], corners[(k + 1) % 3]),
+                                  distance<3>(corners[k], corners[(k + 2) % 3]));
+  return height <= kRounding * tolerance && height <= kFlat * shorter;
 }
+
+constexpr std::size_t kMaxCuts = 10;  // per triangle: far more than needed
 
 class Thinner {
  public:
@@ -56,10 +65,12 @@ class Thinner {
     for (std::size_t t = 0; t < given; ++t) look_at(static_cast<std::int32_t>(t));
     if (removed_ == 0 && thin_.empty()) return {};
     list_triangles_at_vertices();
-    // The longest first: what is cut along its long edge has shorter ones then, so this ends.
-    while (!thin_.empty()) {
+    // The longest first: what is cut along its long edge has shorter ones then.
+    for (std::size_t cuts = 0; !thin_.empty(); ++cuts) {
       const std::int32_t t = std::get<1>(thin_.top());
       thin_.pop();
+      if (cuts > kMaxCuts * given)
+        throw Error(ErrorKind::domain, surface_.triangle_name(t) + " is too thin");
       if (!gone_[t]) cut_out(t);
     }
     std::size_t kept = 0;
@@ -74,7 +85,7 @@ class Thinner {
     gone_.resize(triangles_.size(), 0);
     if (is_collapsed(triangles_[t])) {
       remove(t);
-    } else if (thickness(surface_.corners(t)) <= tolerance_) {
+    } else if (is_thin(surface_.corners(t), tolerance_)) {
       thin_.push({longest_edge(surface_.corners(t)), t});
     }
   }
@@ -137,8 +148,8 @@ void remove_thin_triangles(Triangulation& surface, double tolerance,
   const auto [count, first] = Thinner(surface, tolerance).run();
   if (count == 0) return;
   warnings.push_back(std::to_string(count) + (count == 1 ? " triangle has" : " triangles have") +
-                     " no area and " + (count == 1 ? "is" : "are") + " left out; the first is " +
-                     first);
+                     " no area to speak of and " + (count == 1 ? "is" : "are") +
+                     " left out; the first is " + first);
 }
 
 void remove_duplicate_triangles(Triangulation& surface, std::vector<std::string>& warnings) {

@@ -10,8 +10,9 @@
 namespace pnpbs {
 
 // Takes out triangles two of whose corners are one vertex, or one of whose corners lies within the
-// tolerance of the opposite edge: there, triangles on the other side of the edge are cut in two.
-// Warns if there are any.
+// tolerance of the opposite edge: there, triangles on the other side of the edge are cut in two. So
+// are those that are flat but for the rounding of a file's numbers: within a thousand tolerances,
+// and with an angle of nearly 180 degrees. Warns if there are any.
 void remove_thin_triangles(Triangulation& surface, double tolerance,
                            std::vector<std::string>& warnings);
 
