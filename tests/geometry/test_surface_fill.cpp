@@ -149,7 +149,6 @@ START_TEST(test_mixed_patches) {
 }
 END_TEST
 
-// The order of the facets must not show in the density, nor batches of d in anything.
 START_TEST(test_repeats_to_the_bit) {
   const Spacing d = [](const P& x) { return 0.05 + 0.02 * x[1]; };
   const SurfaceCase c(space_shapes::ball(3).mesh());
@@ -158,6 +157,21 @@ START_TEST(test_repeats_to_the_bit) {
                           [](const SurfacePoint& a, const SurfacePoint& b) {
                             return a.facet == b.facet && a.position == b.position;
                           }));
+}
+END_TEST
+
+START_TEST(test_one_facet) {
+  space_shapes::Shape one;
+  one.nodes = {{0, 0, 0}, {2, 0, 0.5}, {0.3, 1, 1}};
+  one.triangles = {{0, 1, 2}};
+  const SurfaceCase c(one.mesh());
+  const Spacing d = [](const P&) { return 0.1; };
+  const std::vector<SurfacePoint> nodes = fill(c, d);
+  check_places(c, nodes, d);
+  ck_assert_uint_gt(nodes.size(), 60);
+  ck_assert_double_lt(static_cast<double>(nodes.size()), wanted_nodes(c, d));
+  ck_assert_uint_eq(fill(c, [](const P&) { return 3; }).size(), 0);
+  ck_assert_uint_eq(fill(SurfaceCase(space_shapes::Mesh()), d).size(), 0);
 }
 END_TEST
 
@@ -171,7 +185,8 @@ END_TEST
 }  // namespace
 
 int main() {
-  return run_suite("surface_fill", {test_density_on_a_ball, test_closed_patch_has_nodes,
-                                    test_lattice_on_a_cube, test_lattice_follows_the_longest_edge,
-                                    test_mixed_patches, test_repeats_to_the_bit, test_too_many});
+  return run_suite("surface_fill",
+                   {test_density_on_a_ball, test_closed_patch_has_nodes, test_lattice_on_a_cube,
+                    test_lattice_follows_the_longest_edge, test_mixed_patches,
+                    test_repeats_to_the_bit, test_one_facet, test_too_many});
 }
