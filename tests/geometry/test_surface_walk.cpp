@@ -120,8 +120,8 @@ double great_circle_error(int cuts) {
 
 START_TEST(test_great_circles) {
   const double coarse = great_circle_error(4), fine = great_circle_error(6);
-  ck_assert_double_lt(coarse, 0.5);
-  ck_assert_double_lt(fine, 0.5);
+  ck_assert_double_lt(coarse, 0.25);
+  ck_assert_double_lt(fine, 0.25);
 }
 END_TEST
 
