@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "delaunay/volume/word_of_bits.hpp"
 #include "predicates/space.hpp"
 
 namespace pnpbs {
@@ -14,21 +15,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNoSlope = -std::numeric_limits<double>::max();
-constexpr std::size_t kGroup = 8, kWord = 64;
-
-// Inverted positions are at most 1 long, and each is wrong by at most 10 half ulps. Then products
-// of three of them, or of their differences, with their own rounding, are wrong by less than 400.
-constexpr double kRounding = 0x1p-43;
-
-// Bits of those among the first n numbers for which test(k) holds, a word at a time.
-template <class Test>
-std::uint64_t bits_where(std::size_t first, std::size_t n, const Test& test) {
-  const std::size_t tests = std::min(kWord, n - first);
-  std::uint64_t bits = 0;
-#pragma omp simd reduction(| : bits)
-  for (std::size_t k = 0; k < tests; ++k) bits |= static_cast<std::uint64_t>(test(first + k)) << k;
-  return bits;
-}
 
 std::uint64_t bit_in_word(std::int32_t k, std::size_t first) {
   const std::size_t at = static_cast<std::size_t>(k) - first;
@@ -58,6 +44,7 @@ bool VolumeStar::wrap(double reach) {
   facets_.clear();
   open_.clear();
   unproven_.clear();
+  shields_.clear();
   search_reach_ = 0;
   if (count() >= 3) {
     invert();
@@ -168,7 +155,8 @@ void VolumeStar::walk(double reach) {
       add_facet(facet, reach);
     } else {
       set_done(edge);
-      open_.push_back(edge);
+      open_.push_back(face_of(edge));
+      shields_.push_back(open_.back());
     }
   }
 }
@@ -188,9 +176,16 @@ void VolumeStar::add_facet(const Facet& facet, double reach) {
   const double square = unit_ * unit_ * dot_product(plane.normal, plane.normal);
   if (proven > 0 && proven * proven >= square) return;
   unproven_.push_back(plane);
+  if (plane.offset <= 0)  // flat, or nearly so
+    for (std::size_t k = 0; k < 3; ++k)
+      shields_.push_back(face_of({facet.corners[k], facet.corners[(k + 1) % 3]}));
   const double diameter =
       plane.offset > 0 ? std::sqrt(square) / (kMargin * plane.offset) : kInfinity;
   search_reach_ = std::max(search_reach_, std::min(diameter, max_reach()));
+}
+
+VolumeStar::Face VolumeStar::face_of(const Edge& edge) const {
+  return {edge, cross_product(inverse(edge.from), inverse(edge.to))};
 }
 
 VolumeStar::Facet VolumeStar::facet_of(const Edge& edge, std::int32_t corner) const {
@@ -284,74 +279,6 @@ bool VolumeStar::find_facet_exactly(const Edge& edge, Facet& facet) const {
     found = true;
   }
   return found;
-}
-
-// ------------------------------------------------------------------ what may yet come ----------
-
-// A place in the plane of an open face, between its edges and not as far out as its corners are
-// after inversion, is nothing that a sphere of an element can reach which holds none of these.
-bool VolumeStar::covered_by_open_face(const Point<3>& y) const {
-  constexpr double kThin = 1e-3, kSlack = 1e-9, kMargin = 1e-6;
-  if (unit_ < 0.01 * max_reach()) return false;
-  for (const Edge& edge : open_) {
-    const Point<3> a = inverse(edge.from), b = inverse(edge.to), normal = cross_product(a, b);
-    const double square = dot_product(normal, normal);
-    if (square < kThin * kThin || std::fabs(dot_product(normal, y)) > kRounding) continue;
-    const double of_a = dot_product(cross_product(y, b), normal) / square;
-    const double of_b = dot_product(cross_product(a, y), normal) / square;
-    if (of_a > -kSlack && of_b > -kSlack && of_a + of_b < 1 - kMargin) return true;
-  }
-  return false;
-}
-
-bool VolumeStar::may_matter(const Point<3>& x) const {
-  const Point<3> away = difference(x, centre_.x);
-  const double square = dot_product(away, away), farthest = search_reach_ * (1 + 1e-9);
-  if (square == 0 || square > farthest * farthest) return false;
-  if (nothing_found_) return true;
-  const double scale = unit_ / square;
-  const Point<3> y{scale * away[0], scale * away[1], scale * away[2]};
-  bool may = std::any_of(unproven_.begin(), unproven_.end(), [&](const Plane& plane) {
-    return dot_product(plane.normal, y) > plane.offset;
-  });
-  for (const Edge& edge : open_) {
-    if (may) break;
-    const Point<3> normal = cross_product(inverse(edge.from), inverse(edge.to));
-    const double out = dot_product(normal, y);
-    may = out > kRounding || (out > -kRounding && !covered_by_open_face(y) &&
-                              orientation(centre_.x, candidates_[index(edge.from)].x,
-                                          candidates_[index(edge.to)].x, x) > 0);
-  }
-  return may;
-}
-
-bool VolumeStar::may_matter_in(const Box<3>& box) const {
-  if (nothing_found_) return true;
-  Point<3> low = difference(box.low, centre_.x), high = difference(box.high, centre_.x);
-  double square = 0, farthest = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double gap = std::max({low[k], -high[k], 0.0});
-    square += gap * gap;
-    farthest += std::max(low[k] * low[k], high[k] * high[k]);
-  }
-  if (square > search_reach_ * search_reach_ * (1 + 1e-9)) return false;
-  // In the unit of length of the planes, normal * x > offset * |x|^2, for the best x in the box.
-  const double slack = 1e-9 * farthest / unit_;
-  const auto reaches = [&](const Point<3>& normal, double offset) {
-    double sum = slack;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double peak = offset > 0 ? 0.5 * normal[k] * unit_ / offset : kInfinity;
-      const double x = normal[k] > 0 ? std::clamp(peak, low[k], high[k])
-                                     : std::clamp(offset > 0 ? peak : -kInfinity, low[k], high[k]);
-      sum += normal[k] * x - offset * x * x / unit_;
-    }
-    return sum > 0;
-  };
-  for (const Plane& plane : unproven_)
-    if (reaches(plane.normal, std::max(plane.offset, 0.0))) return true;
-  for (const Edge& edge : open_)
-    if (reaches(cross_product(inverse(edge.from), inverse(edge.to)), 0)) return true;
-  return false;
 }
 
 // ------------------------------------------------------------------ the elements ---------------

@@ -39,6 +39,8 @@ class VolumeStar {
   double search_reach() const { return search_reach_; }
   // Can a node that is no candidate change the elements?
   bool may_matter(const Point<3>& x) const;
+  // The same for n <= 64 nodes, whose coordinates are given, as bits: 0 only if surely not.
+  std::uint64_t may_matter_bits(const std::array<const double*, 3>& x, std::size_t n) const;
   // The same for any node in the box: false only if surely not.
   bool may_matter_in(const Box<3>& box) const;
 
@@ -72,6 +74,9 @@ class VolumeStar {
   struct Edge {
     std::int32_t from, to;
   };
+  // Inverted positions are at most 1 long, and each is wrong by at most 10 half ulps. Then products
+  // of three of them, or of their differences, with their own rounding, are wrong by less than 400.
+  static constexpr double kRounding = 0x1p-43;
 
   static std::size_t index(std::int32_t k) { return static_cast<std::size_t>(k); }
   std::int32_t count() const { return static_cast<std::int32_t>(candidates_.size()); }
@@ -79,12 +84,19 @@ class VolumeStar {
     return {y_[0][index(k)], y_[1][index(k)], y_[2][index(k)]};
   }
 
+  // Face (centre, from, to), and its normal after inversion.
+  struct Face {
+    Edge edge;
+    Point<3> normal;
+  };
+
   void invert();
   std::int32_t nearest() const;
   void start_walk(std::int32_t first);
   void start_walk_exactly(std::int32_t first, const std::vector<double>& gaps);
   void walk(double reach);
 
+  Face face_of(const Edge& edge) const;
   Facet facet_of(const Edge& edge, std::int32_t corner) const;
   int side(const Point<3>& normal, std::int32_t a, std::int32_t b, std::int32_t c) const;
   bool surely_below(const Plane& plane, std::int32_t k) const;
@@ -95,7 +107,7 @@ class VolumeStar {
   void add_facet(const Facet& facet, double reach);
   bool is_done(const Edge& edge) const;
   void set_done(const Edge& edge);
-  bool covered_by_open_face(const Point<3>& y) const;
+  bool is_shielded(const Point<3>& y) const;
   bool is_element(const Facet& facet) const;
   void number_corners();
 
@@ -108,7 +120,8 @@ class VolumeStar {
   std::vector<Edge> waiting_;             // edges of facets whose other facet is to be found
   std::vector<std::uint64_t> done_;       // for each candidate: edges from it that have a facet
   std::vector<Facet> facets_;
-  std::vector<Edge> open_;       // faces (centre, from, to) with nothing behind
+  std::vector<Face> open_;       // with nothing behind
+  std::vector<Face> shields_;    // with these, and those of flat tetrahedra
   std::vector<Plane> unproven_;  // of facets
   bool nothing_found_ = false;
   double search_reach_ = 0;

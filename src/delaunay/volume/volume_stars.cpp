@@ -2,11 +2,13 @@
 #include "delaunay/volume/volume_stars.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 #include "delaunay/listed_reach.hpp"
 #include "delaunay/volume/circumsphere.hpp"
 #include "delaunay/volume/volume_star.hpp"
+#include "delaunay/volume/word_of_bits.hpp"
 
 namespace pnpbs {
 
@@ -97,16 +99,30 @@ class StarWriter {
                             [&](std::int32_t cell) { return may_matter_in(cell); });
   }
 
+  // Among n nodes from the first one on.
+  void find_what_may_matter(std::int32_t first, std::int32_t n) {
+    const auto& x = in_.nodes.x;
+    std::uint64_t bits =
+        star_.may_matter_bits({x[0].data() + first, x[1].data() + first, x[2].data() + first},
+                              static_cast<std::size_t>(n));
+    for (; bits != 0; bits &= bits - 1) {
+      const std::int32_t j = first + std::countr_zero(bits);
+      if (star_.may_matter(in_.nodes.position(j)) &&
+          std::find(candidates_.begin(), candidates_.end(), j) == candidates_.end())
+        found_.push_back(j);
+    }
+  }
+
   // Returns whether there was any such node.
   bool add_what_may_matter() {
+    constexpr std::int32_t kNodes = kWord;
     found_.clear();
     in_.tree.for_leaves_in(
         search_box(), [&](std::int32_t cell) { return may_matter_in(cell); },
         [&](std::int32_t leaf) {
-          for (std::int32_t j = in_.buckets.begin(leaf); j < in_.buckets.end(leaf); ++j)
-            if (star_.may_matter(in_.nodes.position(j)) &&
-                std::find(candidates_.begin(), candidates_.end(), j) == candidates_.end())
-              found_.push_back(j);
+          for (std::int32_t first = in_.buckets.begin(leaf); first < in_.buckets.end(leaf);
+               first += kNodes)
+            find_what_may_matter(first, std::min(kNodes, in_.buckets.end(leaf) - first));
         });
     for (const std::int32_t j : found_) add(j);
     return !found_.empty();
