@@ -99,37 +99,41 @@ void VolumeStar::set_done(const Edge& edge) {
 // The nearest node is a neighbour. Of all circles through it and the centre, the smallest one is
 // the equator of an empty sphere: a node in there would make a smaller one, as it is farther away
 // than the nearest. After inversion, circles are lines, and the smallest one is the farthest line.
+// So its other node makes a face with the nearest one, unless there are ties.
 void VolumeStar::start_walk(std::int32_t first) {
   const std::size_t n = candidates_.size();
   const Point<3> a = inverse(first);
   const double *x = y_[0].data(), *y = y_[1].data(), *z = y_[2].data();
-  static thread_local std::vector<double> gaps;  // of the lines, squared
-  gaps.resize(n);
+  line_gaps_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     const Point<3> b{x[k], y[k], z[k]}, along = difference(b, a), area = cross_product(a, b);
     const double length2 = dot_product(along, along);
-    gaps[k] = length2 > 0 ? dot_product(area, area) / length2 : -1;
+    line_gaps_[k] = length2 > 0 ? dot_product(area, area) / length2 : -1;
   }
-  gaps[index(first)] = -1;
-  const auto farthest = std::max_element(gaps.begin(), gaps.end());
-  const auto second = static_cast<std::int32_t>(farthest - gaps.begin());
+  line_gaps_[index(first)] = -1;
+  const auto farthest = std::max_element(line_gaps_.begin(), line_gaps_.end());
+  const auto second = static_cast<std::int32_t>(farthest - line_gaps_.begin());
   const Point<3> b = inverse(second), along = difference(b, a);
-  const double t = -dot_product(a, along) / dot_product(along, along);
+  const double length2 = dot_product(along, along), t = -dot_product(a, along) / length2;
   const Point<3> foot{a[0] + t * along[0], a[1] + t * along[1], a[2] + t * along[2]};
-  if (*farthest > 0.01 && all_surely_below({foot, *farthest}, {first, second, second})) {
+  // The sphere is a little larger than it is by rounding, as long as the line's ends are apart.
+  constexpr double kApart = 0.1;
+  if (*farthest > kApart * kApart && length2 > kApart * kApart &&
+      all_surely_below({foot, *farthest - 4 * kRounding}, {first, second, second})) {
     waiting_.push_back({first, second});
     waiting_.push_back({second, first});
   } else {
-    start_walk_exactly(first, gaps);
+    start_walk_exactly(first);
   }
 }
 
 // With ties: some facet with the nearest node for a corner.
-void VolumeStar::start_walk_exactly(std::int32_t first, const std::vector<double>& gaps) {
+void VolumeStar::start_walk_exactly(std::int32_t first) {
   std::vector<std::int32_t> order(candidates_.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](std::int32_t k, std::int32_t l) { return gaps[index(k)] > gaps[index(l)]; });
+  std::sort(order.begin(), order.end(), [this](std::int32_t k, std::int32_t l) {
+    return line_gaps_[index(k)] > line_gaps_[index(l)];
+  });
   Facet facet;
   for (const std::int32_t second : order) {
     if (second == first) continue;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -74,6 +75,12 @@ class VolumeStar {
   struct Edge {
     std::int32_t from, to;
   };
+  // Face (centre, from, to), and its normal after inversion.
+  struct Face {
+    Edge edge;
+    Point<3> normal;
+  };
+
   // Inverted positions are at most 1 long, and each is wrong by at most 10 half ulps. Then products
   // of three of them, or of their differences, with their own rounding, are wrong by less than 400.
   static constexpr double kRounding = 0x1p-43;
@@ -84,16 +91,10 @@ class VolumeStar {
     return {y_[0][index(k)], y_[1][index(k)], y_[2][index(k)]};
   }
 
-  // Face (centre, from, to), and its normal after inversion.
-  struct Face {
-    Edge edge;
-    Point<3> normal;
-  };
-
   void invert();
   std::int32_t nearest() const;
   void start_walk(std::int32_t first);
-  void start_walk_exactly(std::int32_t first, const std::vector<double>& gaps);
+  void start_walk_exactly(std::int32_t first);
   void walk(double reach);
 
   Face face_of(const Edge& edge) const;
@@ -117,11 +118,12 @@ class VolumeStar {
   std::array<std::vector<double>, 3> y_;  // inverted, in whole groups filled up with the origin
   mutable std::vector<double> slopes_;    // of as many
   double unit_ = 1;                       // distance of the nearest candidate: 1 after inversion
+  std::vector<double> line_gaps_;         // after inversion: of lines to the nearest, squared
   std::vector<Edge> waiting_;             // edges of facets whose other facet is to be found
   std::vector<std::uint64_t> done_;       // for each candidate: edges from it that have a facet
   std::vector<Facet> facets_;
   std::vector<Face> open_;       // with nothing behind
-  std::vector<Face> shields_;    // with these, and those of flat tetrahedra
+  std::vector<Face> shields_;    // these, and those of flat tetrahedra
   std::vector<Plane> unproven_;  // of facets
   bool nothing_found_ = false;
   double search_reach_ = 0;
