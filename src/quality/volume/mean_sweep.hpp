@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A finishing sweep in space: every node that moves goes part of the way to the mean of its
+// neighbours in the Delaunay triangulation. All move from the old positions (Jacobi). It makes
+// tetrahedra better on the whole, and leaves slivers to their repair.
+#pragma once
+
+#include <cstdint>
+
+#include "base/nodes.hpp"
+#include "dynamics/schemes.hpp"
+
+namespace pnpbs {
+
+// Moves the nodes with a closed star that allowed(i, x) lets go to x; `proposed` is scratch. The
+// neighbours come in an order that depends on ids only.
+template <class Stars, class Allowed>
+void sweep_to_means(Nodes<3>& nodes, const Stars& stars, double share, const Field<3>& proposed,
+                    const Allowed& allowed) {
+  for_each("pnpbs::sweep_to_means::propose", nodes.count, [&](std::int64_t i) {
+    const Point<3> x = nodes.position(i);
+    Point<3> goal = x;
+    if (nodes.moves(i) && stars.closed(i)) {
+      Point<3> sum{};
+      double neighbours = 0;
+      stars.for_neighbours(i, [&](std::int64_t j) {
+        for (int k = 0; k < 3; ++k) sum[k] += nodes.x[k](j);
+        ++neighbours;
+      });
+      for (std::size_t k = 0; k < 3; ++k) goal[k] += share * (sum[k] / neighbours - x[k]);
+      if (!allowed(i, goal)) goal = x;
+    }
+    for (int k = 0; k < 3; ++k) proposed[k](i) = goal[k];
+  });
+  for_each("pnpbs::sweep_to_means::go", nodes.count,
+           [&](std::int64_t i) { nodes.set_position(i, point_at<3>(proposed, i)); });
+  nodes.moved();
+}
+
+}  // namespace pnpbs
