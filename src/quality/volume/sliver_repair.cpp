@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "quality/volume/sliver_repair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/mixed_hash.hpp"
+#include "tree/box_tree.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr int kTrials = 8;                                 // of a node whose turn it is
+constexpr double kShortestWay = 0.08, kLongestWay = 0.28;  // spacings
+
+double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+
+// A direction that follows from the bits alone.
+Point<3> direction_from(std::uint64_t bits) {
+  while (true) {
+    Point<3> v;
+    for (double& along : v) {
+      bits = mixed(bits);
+      along = 2 * unit_interval(bits) - 1;
+    }
+    const double length = std::sqrt(dot_product(v, v));
+    if (length > 1 || length < 0.1) continue;
+    for (double& along : v) along /= length;
+    return v;
+  }
+}
+
+}  // namespace
+
+SliverRepair::SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule,
+                           Allowed allowed)
+    : nodes_(nodes),
+      small_(rule.repair_below),
+      penalised_(rule.penalty_below),
+      allowed_(std::move(allowed)),
+      stars_(nodes, stars) {
+  for (std::int32_t i = 0; i < nodes.count; ++i) {
+    if (nodes.owned(i)) continue;
+    ghosts_.push_back(i);
+    ghost_positions_.push_back(nodes.position(i));
+  }
+  find_slivers();
+}
+
+// ------------------------------------------------------------------ which there are ------------
+
+std::array<Point<3>, 4> SliverRepair::corners_of(const TetrahedronNodes& tetrahedron) const {
+  std::array<Point<3>, 4> x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = nodes_.position(tetrahedron[k]);
+  return x;
+}
+
+bool SliverRepair::is_sliver(const TetrahedronNodes& tetrahedron) const {
+  return small_.any(corners_of(tetrahedron));
+}
+
+// Those around node i that have it for the first by id of all corners that count.
+template <class Counts>
+void SliverRepair::add_slivers_at(std::int64_t i, const Counts& counts,
+                                  std::vector<TetrahedronNodes>& found) const {
+  std::vector<TetrahedronNodes> star;
+  stars_.add_star(i, star);
+  for (const TetrahedronNodes& t : star)
+    if (*std::find_if(t.begin(), t.end(), counts) == i && is_sliver(t)) found.push_back(t);
+}
+
+void SliverRepair::find_slivers() {
+  constexpr std::int64_t kChunk = 1024;
+  std::vector<std::vector<TetrahedronNodes>> found(
+      static_cast<std::size_t>((nodes_.count + kChunk - 1) / kChunk));
+  for_each_guarded("pnpbs::SliverRepair::find", std::ssize(found), [&](std::int64_t chunk) {
+    for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes_.count); ++i)
+      add_slivers_at(
+          i, [](std::int32_t) { return true; }, found[static_cast<std::size_t>(chunk)]);
+  });
+  for (const auto& some : found) slivers_.insert(slivers_.end(), some.begin(), some.end());
+  stars_.sort_by_id(slivers_);
+}
+
+// Stars have changed, and with them the slivers.
+void SliverRepair::accept(const StarChange& change) {
+  nodes_.set_position(change.node, change.x);
+  const std::vector<std::int32_t> affected = stars_.accept(change);
+  const auto is_affected = [&](std::int32_t i) {
+    return std::binary_search(affected.begin(), affected.end(), i);
+  };
+  std::erase_if(slivers_, [&](const TetrahedronNodes& sliver) {
+    return std::any_of(sliver.begin(), sliver.end(), is_affected);
+  });
+  for (const std::int32_t i : affected) add_slivers_at(i, is_affected, slivers_);
+  stars_.sort_by_id(slivers_);
+}
+
+void SliverRepair::follow_ghosts() {
+  for (std::size_t g = 0; g < ghosts_.size(); ++g) {
+    const Point<3> x = nodes_.position(ghosts_[g]), old = ghost_positions_[g];
+    if (x == old) continue;
+    ghost_positions_[g] = x;
+    nodes_.set_position(ghosts_[g], old);
+    NodeMove move(nodes_, stars_, ghosts_[g]);
+    if (move.go_to(x) && move.complete()) accept(move.change());
+    nodes_.set_position(ghosts_[g], x);  // also where it is too far away to be followed
+  }
+}
+
+std::int64_t SliverRepair::slivers() const {
+  return std::count_if(slivers_.begin(), slivers_.end(), [&](const TetrahedronNodes& sliver) {
+    return std::any_of(sliver.begin(), sliver.end(),
+                       [&](std::int32_t i) { return nodes_.owned(i) && nodes_.moves(i); });
+  });
+}
+
+// ------------------------------------------------------------------ whose turn it is -----------
+
+// By lots, not by how bad slivers are: one that cannot be mended would bar others for ever.
+std::vector<SliverRepair::Attempt> SliverRepair::draw_lots(std::int64_t number) const {
+  std::vector<Attempt> attempts;
+  for (const TetrahedronNodes& sliver : slivers_) {
+    std::uint64_t lot = mixed(static_cast<std::uint64_t>(number));
+    std::vector<std::int32_t> free;
+    for (const std::int32_t i : sliver) {
+      lot = mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
+      if (nodes_.moves(i)) free.push_back(i);
+    }
+    const std::int32_t node = free[mixed(lot) % free.size()];
+    attempts.push_back({sliver, lot, node, {}});
+  }
+  return attempts;
+}
+
+// The contest: of two that are so near that they might change the same stars, the higher lot.
+std::vector<char> SliverRepair::winners(const std::vector<Attempt>& attempts) const {
+  std::vector<Box<3>> boxes;
+  const auto reach = [&](std::int32_t i) { return kSliverReach * nodes_.d(i); };
+  for (const Attempt& attempt : attempts)
+    boxes.push_back(box_around<3>(nodes_.position(attempt.node), reach(attempt.node)));
+  const BoxTree<3> tree(std::move(boxes));
+  std::vector<char> wins(attempts.size());
+  for_each_guarded("pnpbs::SliverRepair::winners", std::ssize(attempts), [&](std::int64_t a) {
+    const Attempt& own = attempts[static_cast<std::size_t>(a)];
+    const Point<3> x = nodes_.position(own.node);
+    double square = reach(own.node) * reach(own.node);
+    bool wins_here = true;
+    tree.for_near(
+        x, [&] { return square; },
+        [&](std::int32_t b) {
+          const Attempt& other = attempts[static_cast<std::size_t>(b)];
+          if (b == a ||
+              distance<3>(nodes_.position(other.node), x) > reach(own.node) + reach(other.node))
+            return;
+          if (other.lot < own.lot ||
+              (other.lot == own.lot && stars_.ids_less(other.sliver, own.sliver)))
+            return;
+          wins_here = false;
+          square = -1;  // that is enough
+        });
+    wins[static_cast<std::size_t>(a)] = wins_here;
+  });
+  return wins;
+}
+
+// ------------------------------------------------------------------ what helps -----------------
+
+// Along the normal of the face opposite to the node, to and fro, then in other directions.
+Point<3> SliverRepair::place_to_try(const Attempt& attempt, int trial) const {
+  const std::uint64_t bits = mixed(attempt.lot + 1 + static_cast<std::uint64_t>(trial));
+  const double way =
+      nodes_.d(attempt.node) * (kShortestWay + (kLongestWay - kShortestWay) * unit_interval(bits));
+  Point<3> direction = direction_from(bits);
+  if (trial < 2) {
+    std::array<Point<3>, 3> face;
+    std::size_t n = 0;
+    for (const std::int32_t i : attempt.sliver)
+      if (i != attempt.node) face[n++] = nodes_.position(i);
+    const Point<3> normal =
+        cross_product(difference(face[1], face[0]), difference(face[2], face[0]));
+    const double length = std::sqrt(dot_product(normal, normal));
+    if (length > 0)
+      for (std::size_t k = 0; k < 3; ++k) direction[k] = (trial == 0 ? 1 : -1) * normal[k] / length;
+  }
+  Point<3> x = nodes_.position(attempt.node);
+  for (std::size_t k = 0; k < 3; ++k) x[k] += way * direction[k];
+  return x;
+}
+
+// The sum comes out the same whatever the order in which they are given.
+double SliverRepair::penalty(std::vector<TetrahedronNodes> tetrahedra, std::int32_t node,
+                             const Point<3>& at) const {
+  std::erase_if(tetrahedra, [this](const auto& t) { return !stars_.any_moves(t); });
+  for (TetrahedronNodes& t : tetrahedra) t = stars_.by_id(t);
+  stars_.sort_by_id(tetrahedra);
+  tetrahedra.erase(std::unique(tetrahedra.begin(), tetrahedra.end()), tetrahedra.end());
+  double sum = 0;
+  for (const TetrahedronNodes& t : tetrahedra) {
+    std::array<Point<3>, 4> x = corners_of(t);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (t[k] == node) x[k] = at;
+    sum += penalised_.penalty(x);
+  }
+  return sum;
+}
+
+// Of all tetrahedra that a move of node i usually changes.
+double SliverRepair::penalty_around(std::int32_t i) const {
+  std::vector<TetrahedronNodes> around;
+  stars_.add_star(i, around);
+  stars_.for_neighbours(i, [&](std::int64_t j) { stars_.add_star(j, around); });
+  return penalty(std::move(around), i, nodes_.position(i));
+}
+
+bool SliverRepair::within_reach(const StarChange& change) const {
+  const Point<3> x = nodes_.position(change.node);
+  const double reach = kSliverReach * nodes_.d(change.node);
+  const auto near = [&](const TetrahedronNodes& t) {
+    return std::all_of(t.begin(), t.end(),
+                       [&](std::int32_t i) { return distance<3>(nodes_.position(i), x) <= reach; });
+  };
+  return std::all_of(change.gone.begin(), change.gone.end(), near) &&
+         std::all_of(change.made.begin(), change.made.end(), near);
+}
+
+void SliverRepair::try_moves(Attempt& attempt) const {
+  constexpr double kRounding = 1e-9;
+  const std::int32_t i = attempt.node;
+  const double around = penalty_around(i);
+  NodeMove move(nodes_, stars_, i);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Point<3> x = place_to_try(attempt, trial);
+    if (!allowed_(i, x) || !move.go_to(x)) continue;
+    const StarChange& change = move.change();
+    if (penalty(change.made, i, x) >= around) continue;  // most: nothing else need be looked at
+    if (!move.complete() || !within_reach(change)) continue;
+    if (penalty(change.made, i, x) >= (1 - kRounding) * penalty(change.gone, i, nodes_.position(i)))
+      continue;
+    attempt.success.push_back(change);
+    return;
+  }
+}
+
+std::int64_t SliverRepair::round(std::int64_t number) {
+  follow_ghosts();
+  std::vector<Attempt> attempts = draw_lots(number);
+  const std::vector<char> wins = winners(attempts);
+  for_each_guarded("pnpbs::SliverRepair::round", std::ssize(attempts), [&](std::int64_t a) {
+    Attempt& attempt = attempts[static_cast<std::size_t>(a)];
+    if (wins[static_cast<std::size_t>(a)] && nodes_.owned(attempt.node)) try_moves(attempt);
+  });
+  std::int64_t moved = 0;
+  for (const Attempt& attempt : attempts)
+    for (const StarChange& change : attempt.success) {
+      accept(change);
+      ++moved;
+    }
+  nodes_.moved();
+  return moved;
+}
+
+}  // namespace pnpbs

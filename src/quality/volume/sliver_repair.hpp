@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Repair of slivers: tetrahedra with a small dihedral angle, which Delaunay triangulations have in
+// space however even the distances are. One of the nodes goes a little way, the stars around are
+// made anew, and it stays there if small angles become fewer or less small.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/nodes.hpp"
+#include "quality/volume/node_move.hpp"
+#include "quality/volume/small_angles.hpp"
+#include "quality/volume/star_changes.hpp"
+
+namespace pnpbs {
+
+struct SliverRule {
+  std::int64_t rounds = 100;
+  double repair_below = 30;   // degrees
+  double penalty_below = 35;  // the angles that must not become worse on the way
+};
+
+// What a move changes lies within this many d of the node; nodes nearer to each other than the sum
+// of these do not go at once.
+inline constexpr double kSliverReach = 1.8;
+
+class SliverRepair {
+ public:
+  // May node i be at x?
+  using Allowed = std::function<bool(std::int64_t i, const Point<3>& x)>;
+
+  // The stars are those of the nodes' positions, and remain while this lives. Where ghosts are:
+  // those of all nodes within three times the reach of an owned one.
+  SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed);
+
+  // Moves owned nodes, and returns how many. Between rounds, ghosts get their new positions.
+  std::int64_t round(std::int64_t number);
+
+  // Those left, with an owned node that can move.
+  std::int64_t slivers() const;
+
+ private:
+  // The node of a sliver that is to move, and its lot in this round.
+  struct Attempt {
+    TetrahedronNodes sliver;
+    std::uint64_t lot;
+    std::int32_t node;
+    std::vector<StarChange> success;  // one, or none
+  };
+
+  std::array<Point<3>, 4> corners_of(const TetrahedronNodes& tetrahedron) const;
+  bool is_sliver(const TetrahedronNodes& tetrahedron) const;
+  template <class Counts>
+  void add_slivers_at(std::int64_t i, const Counts& counts,
+                      std::vector<TetrahedronNodes>& found) const;
+  void find_slivers();
+  void accept(const StarChange& change);
+  void follow_ghosts();
+
+  std::vector<Attempt> draw_lots(std::int64_t number) const;
+  std::vector<char> winners(const std::vector<Attempt>& attempts) const;
+  void try_moves(Attempt& attempt) const;
+  Point<3> place_to_try(const Attempt& attempt, int trial) const;
+  bool within_reach(const StarChange& change) const;
+  double penalty(std::vector<TetrahedronNodes> tetrahedra, std::int32_t node,
+                 const Point<3>& at) const;
+  double penalty_around(std::int32_t i) const;
+
+  Nodes<3>& nodes_;
+  SmallAngles small_, penalised_;
+  Allowed allowed_;
+  StarChanges stars_;
+  std::vector<TetrahedronNodes> slivers_;  // in an order by ids
+  std::vector<std::int32_t> ghosts_;
+  std::vector<Point<3>> ghost_positions_;  // for which the stars are
+};
+
+}  // namespace pnpbs

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "quality/volume/star_changes.hpp"
+
+#include <utility>
+
+namespace pnpbs {
+
+namespace {
+
+bool has(const TetrahedronNodes& tetrahedron, std::int32_t i) {
+  return std::find(tetrahedron.begin(), tetrahedron.end(), i) != tetrahedron.end();
+}
+
+// With an even permutation, so that the orientation stays.
+StarChanges::Corners others(const TetrahedronNodes& t, std::int32_t i) {
+  if (t[0] == i) return {t[1], t[2], t[3]};
+  if (t[1] == i) return {t[0], t[3], t[2]};
+  if (t[2] == i) return {t[0], t[1], t[3]};
+  return {t[0], t[2], t[1]};
+}
+
+}  // namespace
+
+TetrahedronNodes StarChanges::by_id(TetrahedronNodes corners) const {
+  std::sort(corners.begin(), corners.end(),
+            [this](std::int32_t a, std::int32_t b) { return nodes_.id(a) < nodes_.id(b); });
+  return corners;
+}
+
+bool StarChanges::ids_less(const TetrahedronNodes& a, const TetrahedronNodes& b) const {
+  return std::lexicographical_compare(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [this](std::int32_t i, std::int32_t j) { return nodes_.id(i) < nodes_.id(j); });
+}
+
+void StarChanges::sort_by_id(std::vector<TetrahedronNodes>& tetrahedra) const {
+  std::sort(tetrahedra.begin(), tetrahedra.end(),
+            [this](const auto& a, const auto& b) { return ids_less(a, b); });
+}
+
+void StarChanges::add_star(std::int64_t i, std::vector<TetrahedronNodes>& tetrahedra) const {
+  for_simplices(i, [&](const Corners& corners) {
+    const TetrahedronNodes tetrahedron{static_cast<std::int32_t>(i), corners[0], corners[1],
+                                       corners[2]};
+    if (any_moves(tetrahedron)) tetrahedra.push_back(by_id(tetrahedron));
+  });
+}
+
+std::vector<std::int32_t> StarChanges::accept(const StarChange& change) {
+  std::vector<std::int32_t> affected;
+  for (const auto* tetrahedra : {&change.gone, &change.made})
+    for (const TetrahedronNodes& t : *tetrahedra)
+      affected.insert(affected.end(), t.begin(), t.end());
+  std::sort(affected.begin(), affected.end());
+  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  for (const std::int32_t i : affected) {
+    Star star;
+    std::vector<TetrahedronNodes> gone;
+    for (const TetrahedronNodes& t : change.gone)
+      if (has(t, i)) gone.push_back(by_id(t));
+    for_simplices(i, [&](const Corners& corners) {
+      const TetrahedronNodes t = by_id({i, corners[0], corners[1], corners[2]});
+      if (std::find(gone.begin(), gone.end(), t) == gone.end()) star.simplices.push_back(corners);
+    });
+    for (const TetrahedronNodes& t : change.made)
+      if (has(t, i)) star.simplices.push_back(others(t, i));
+    for (const Corners& corners : star.simplices)
+      star.neighbours.insert(star.neighbours.end(), corners.begin(), corners.end());
+    std::sort(star.neighbours.begin(), star.neighbours.end());
+    star.neighbours.erase(std::unique(star.neighbours.begin(), star.neighbours.end()),
+                          star.neighbours.end());
+    changed_[i] = std::move(star);
+  }
+  return affected;
+}
+
+}  // namespace pnpbs
