@@ -81,13 +81,18 @@ void SliverRepair::find_slivers() {
           i, [](std::int32_t) { return true; }, found[static_cast<std::size_t>(chunk)]);
   });
   for (const auto& some : found) slivers_.insert(slivers_.end(), some.begin(), some.end());
-  stars_.sort_by_id(slivers_);
 }
 
-// Stars have changed, and with them the slivers.
-void SliverRepair::accept(const StarChange& change) {
-  nodes_.set_position(change.node, change.x);
-  const std::vector<std::int32_t> affected = stars_.accept(change);
+// Nodes have gone: the stars follow, and the slivers in these.
+void SliverRepair::accept(const std::vector<StarChange>& changes) {
+  std::vector<std::int32_t> affected;
+  for (const StarChange& change : changes) {
+    const std::vector<std::int32_t> more = stars_.accept(change);
+    affected.insert(affected.end(), more.begin(), more.end());
+    nodes_.set_position(change.node, change.x);
+  }
+  std::sort(affected.begin(), affected.end());
+  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
   const auto is_affected = [&](std::int32_t i) {
     return std::binary_search(affected.begin(), affected.end(), i);
   };
@@ -95,19 +100,27 @@ void SliverRepair::accept(const StarChange& change) {
     return std::any_of(sliver.begin(), sliver.end(), is_affected);
   });
   for (const std::int32_t i : affected) add_slivers_at(i, is_affected, slivers_);
-  stars_.sort_by_id(slivers_);
 }
 
+// Other ranks have moved their nodes. What is too far away to be followed is no concern of ours.
 void SliverRepair::follow_ghosts() {
+  std::vector<StarChange> changes;
+  std::vector<std::size_t> moved;
+  std::vector<Point<3>> now;
   for (std::size_t g = 0; g < ghosts_.size(); ++g) {
-    const Point<3> x = nodes_.position(ghosts_[g]), old = ghost_positions_[g];
-    if (x == old) continue;
-    ghost_positions_[g] = x;
-    nodes_.set_position(ghosts_[g], old);
-    NodeMove move(nodes_, stars_, ghosts_[g]);
-    if (move.go_to(x) && move.complete()) accept(move.change());
-    nodes_.set_position(ghosts_[g], x);  // also where it is too far away to be followed
+    const Point<3> x = nodes_.position(ghosts_[g]);
+    if (x == ghost_positions_[g]) continue;
+    moved.push_back(g);
+    now.push_back(x);
+    nodes_.set_position(ghosts_[g], ghost_positions_[g]);
   }
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    NodeMove move(nodes_, stars_, ghosts_[moved[k]]);
+    if (move.go_to(now[k]) && move.complete()) changes.push_back(move.change());
+    ghost_positions_[moved[k]] = now[k];
+  }
+  accept(changes);
+  for (std::size_t k = 0; k < moved.size(); ++k) nodes_.set_position(ghosts_[moved[k]], now[k]);
 }
 
 std::int64_t SliverRepair::slivers() const {
@@ -119,18 +132,32 @@ std::int64_t SliverRepair::slivers() const {
 
 // ------------------------------------------------------------------ whose turn it is -----------
 
+// One of its corners; now and then a neighbour of it, in case that none of the corners can help.
+std::int32_t SliverRepair::node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot) const {
+  constexpr std::uint64_t kCornersOf = 5;  // so many turns, the others are neighbours'
+  std::vector<std::int32_t> choice;
+  const auto add = [&](std::int64_t i) {
+    if (nodes_.moves(i)) choice.push_back(static_cast<std::int32_t>(i));
+  };
+  for (const std::int32_t i : sliver) add(i);
+  const std::int32_t corner = choice[mixed(lot) % choice.size()];
+  if (mixed(lot + 1) % (kCornersOf + 1) < kCornersOf) return corner;
+  choice.assign(1, corner);
+  stars_.for_neighbours(corner, add);
+  const auto hash = [&](std::int32_t i) {
+    return mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
+  };
+  return *std::max_element(choice.begin(), choice.end(),
+                           [&](std::int32_t i, std::int32_t j) { return hash(i) < hash(j); });
+}
+
 // By lots, not by how bad slivers are: one that cannot be mended would bar others for ever.
 std::vector<SliverRepair::Attempt> SliverRepair::draw_lots(std::int64_t number) const {
   std::vector<Attempt> attempts;
   for (const TetrahedronNodes& sliver : slivers_) {
     std::uint64_t lot = mixed(static_cast<std::uint64_t>(number));
-    std::vector<std::int32_t> free;
-    for (const std::int32_t i : sliver) {
-      lot = mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
-      if (nodes_.moves(i)) free.push_back(i);
-    }
-    const std::int32_t node = free[mixed(lot) % free.size()];
-    attempts.push_back({sliver, lot, node, {}});
+    for (const std::int32_t i : sliver) lot = mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
+    attempts.push_back({sliver, lot, node_to_move(sliver, lot), {}});
   }
   return attempts;
 }
@@ -175,10 +202,9 @@ Point<3> SliverRepair::place_to_try(const Attempt& attempt, int trial) const {
       nodes_.d(attempt.node) * (kShortestWay + (kLongestWay - kShortestWay) * unit_interval(bits));
   Point<3> direction = direction_from(bits);
   if (trial < 2) {
-    std::array<Point<3>, 3> face;
-    std::size_t n = 0;
+    std::vector<Point<3>> face;
     for (const std::int32_t i : attempt.sliver)
-      if (i != attempt.node) face[n++] = nodes_.position(i);
+      if (i != attempt.node) face.push_back(nodes_.position(i));
     const Point<3> normal =
         cross_product(difference(face[1], face[0]), difference(face[2], face[0]));
     const double length = std::sqrt(dot_product(normal, normal));
@@ -252,14 +278,12 @@ std::int64_t SliverRepair::round(std::int64_t number) {
     Attempt& attempt = attempts[static_cast<std::size_t>(a)];
     if (wins[static_cast<std::size_t>(a)] && nodes_.owned(attempt.node)) try_moves(attempt);
   });
-  std::int64_t moved = 0;
-  for (const Attempt& attempt : attempts)
-    for (const StarChange& change : attempt.success) {
-      accept(change);
-      ++moved;
-    }
+  std::vector<StarChange> changes;
+  for (Attempt& attempt : attempts)
+    for (StarChange& change : attempt.success) changes.push_back(std::move(change));
+  accept(changes);
   nodes_.moved();
-  return moved;
+  return std::ssize(changes);
 }
 
 }  // namespace pnpbs

@@ -55,9 +55,10 @@ class SliverRepair {
   void add_slivers_at(std::int64_t i, const Counts& counts,
                       std::vector<TetrahedronNodes>& found) const;
   void find_slivers();
-  void accept(const StarChange& change);
+  void accept(const std::vector<StarChange>& changes);
   void follow_ghosts();
 
+  std::int32_t node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot) const;
   std::vector<Attempt> draw_lots(std::int64_t number) const;
   std::vector<char> winners(const std::vector<Attempt>& attempts) const;
   void try_moves(Attempt& attempt) const;
@@ -71,7 +72,7 @@ class SliverRepair {
   SmallAngles small_, penalised_;
   Allowed allowed_;
   StarChanges stars_;
-  std::vector<TetrahedronNodes> slivers_;  // in an order by ids
+  std::vector<TetrahedronNodes> slivers_;  // in no order that matters
   std::vector<std::int32_t> ghosts_;
   std::vector<Point<3>> ghost_positions_;  // for which the stars are
 };

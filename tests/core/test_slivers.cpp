@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What finishes a volume's nodes: sweeps to the mean of the neighbours, and the repair of slivers,
+// with the triangulation that follows every node that goes elsewhere.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "predicates/space.hpp"
+#include "quality/volume/mean_sweep.hpp"
+#include "quality/volume/sliver_repair.hpp"
+#include "quality/volume/tetrahedron_quality.hpp"
+#include "run_kernel_suite.hpp"
+#include "volume_box.hpp"
+
+using Ids = std::array<std::int64_t, 4>;
+using Corners = std::array<Point<3>, 4>;
+using Places = std::map<std::int64_t, Point<3>>;
+
+namespace {
+
+bool anywhere(std::int64_t, const Point<3>&) { return true; }
+
+// A lattice box, shaken, with its stars.
+struct Shaken {
+  Bubbles<3> b;
+  pnpbs::KnownRegion<3> everywhere;
+  pnpbs::VolumeStars stars;
+
+  explicit Shaken(int cells, double by, double leaf = 3) {
+    const volume_box::Crystal crystal{cells};
+    b.box = crystal.box();
+    b.grow_tree([](const Point<3>&) { return 1.0; }, leaf);
+    std::vector<Bubble<3>> bubbles = volume_box::sites(crystal);
+    volume_box::shake(bubbles, by);
+    b.set(bubbles);
+    make_stars();
+  }
+  Shaken(const Shaken&) = delete;
+
+  void make_stars() {
+    b.list(1.6);
+    stars.build({b.nodes, b.tree, b.buckets, b.lists, everywhere});
+  }
+
+  template <class Stars>
+  std::multiset<Ids> tetrahedra(const Stars& of) const {
+    std::multiset<Ids> all;
+    for (std::int64_t i = 0; i < b.nodes.count; ++i)
+      of.for_simplices(i, [&](const std::array<std::int32_t, 3>& others) {
+        Ids ids{b.nodes.id(i), b.nodes.id(others[0]), b.nodes.id(others[1]), b.nodes.id(others[2])};
+        std::sort(ids.begin(), ids.end());
+        all.insert(ids);
+      });
+    return all;
+  }
+
+  Places places() const {
+    Places all;
+    for (std::int64_t i = 0; i < b.nodes.count; ++i) all[b.nodes.id(i)] = b.nodes.position(i);
+    return all;
+  }
+
+  // Of tetrahedra with a node that moves, by the present stars.
+  double least_angle() const {
+    double least = 180;
+    for (std::int64_t i = 0; i < b.nodes.count; ++i)
+      stars.for_simplices(i, [&](const std::array<std::int32_t, 3>& others) {
+        if (!b.nodes.moves(i)) return;
+        Corners x{b.nodes.position(i)};
+        for (std::size_t k = 0; k < 3; ++k) x[k + 1] = b.nodes.position(others[k]);
+        least = std::min(least, pnpbs::min_dihedral_angle(x));
+      });
+    return least;
+  }
+};
+
+double volume(const Corners& x) {
+  const Point<3> u = pnpbs::difference(x[1], x[0]), v = pnpbs::difference(x[2], x[0]);
+  return pnpbs::dot_product(pnpbs::cross_product(u, v), pnpbs::difference(x[3], x[0])) / 6;
+}
+
+// Of positive orientation.
+Corners corners_of(const Ids& ids, const Places& places) {
+  Corners x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = places.at(ids[k]);
+  if (volume(x) < 0) std::swap(x[0], x[1]);
+  return x;
+}
+
+// By all nodes: four times in the stars, no node in any sphere, no gap and no overlap.
+void expect_delaunay(const std::multiset<Ids>& tetrahedra, const Places& places, double space) {
+  double sum = 0;
+  for (auto t = tetrahedra.begin(); t != tetrahedra.end(); t = tetrahedra.upper_bound(*t)) {
+    ck_assert_uint_eq(tetrahedra.count(*t), 4);
+    const Corners x = corners_of(*t, places);
+    sum += volume(x);
+    for (const auto& [id, p] : places) {
+      if (std::find(t->begin(), t->end(), id) != t->end()) continue;
+      quick_assert(pnpbs::in_sphere(x[0], x[1], x[2], x[3], p) <= 0);
+    }
+  }
+  ck_assert_double_eq_tol(sum, space, 1e-9 * space);
+}
+
+double space_of(const std::multiset<Ids>& tetrahedra, const Places& places) {
+  double sum = 0;
+  for (const Ids& t : tetrahedra) sum += volume(corners_of(t, places)) / 4;
+  return sum;
+}
+
+}  // namespace
+
+// ------------------------------------------------------------------ angles ---------------------
+
+START_TEST(known_angles) {
+  const double h = std::sqrt(2.0) / 2;
+  const Corners body_centred{Point<3>{-h, 0, 0}, Point<3>{h, 0, 0}, Point<3>{0, h, h},
+                             Point<3>{0, -h, h}};
+  std::array<double, 6> cosines = pnpbs::dihedral_cosines(body_centred);
+  std::sort(cosines.begin(), cosines.end());
+  for (const std::size_t k : {0u, 1u}) ck_assert_double_eq_tol(cosines[k], 0, 1e-15);
+  for (const std::size_t k : {2u, 3u, 4u, 5u}) ck_assert_double_eq_tol(cosines[k], 0.5, 1e-15);
+  const pnpbs::SmallAngles below_61(61), below_59(59);
+  quick_assert(below_61.any(body_centred) && !below_59.any(body_centred));
+  ck_assert_double_eq_tol(below_61.penalty(body_centred), 4, 1e-9);
+  ck_assert_double_eq(below_59.penalty(body_centred), 0);
+  // Flat: four angles of 0 and two of 180.
+  const Corners flat{Point<3>{0, 0, 0}, Point<3>{1, 0, 0}, Point<3>{1, 1, 0}, Point<3>{0, 1, 0}};
+  ck_assert_double_eq_tol(pnpbs::SmallAngles(35).penalty(flat), 4 * 35 * 35, 1e-6);
+}
+END_TEST
+
+START_TEST(angles_of_any_tetrahedron) {
+  Random random(1);
+  for (int trial = 0; trial < 1000; ++trial) {
+    Corners x;
+    for (Point<3>& p : x) p = random.point<3>(unit_box<3>());
+    double expected = 0;
+    for (const double angle : pnpbs::dihedral_angles(x))
+      expected += std::pow(std::max(0.0, 35 - angle), 2);
+    ck_assert_double_eq_tol(pnpbs::SmallAngles(35).penalty(x), expected, 1e-7 * (1 + expected));
+    std::swap(x[1], x[2]);  // turned over
+    ck_assert_double_eq_tol(pnpbs::SmallAngles(35).penalty(x), expected, 1e-7 * (1 + expected));
+  }
+}
+END_TEST
+
+// ------------------------------------------------------------------ one node goes --------------
+
+START_TEST(stars_follow_nodes) {
+  Shaken s(6, 0.25);
+  pnpbs::Nodes<3>& nodes = s.b.nodes;
+  const double space = space_of(s.tetrahedra(s.stars), s.places());
+  pnpbs::StarChanges changes(nodes, s.stars);
+  Random random(2);
+  std::int64_t gone = 0, made = 0, far = 0, refused = 0;
+  for (int move = 0; move < 2000; ++move) {
+    const auto i = static_cast<std::int32_t>(random.below(nodes.count));
+    if (!nodes.moves(i)) continue;
+    const double way = move % 10 == 0 ? 0.8 : 0.28;
+    Point<3> x = nodes.position(i);
+    for (double& along : x) along += random.between(-way, way);
+    pnpbs::NodeMove attempt(nodes, changes, i);
+    if (!attempt.go_to(x) || !attempt.complete()) {
+      ++refused;
+      continue;
+    }
+    far += move % 10 == 0;
+    gone += std::ssize(attempt.change().gone);
+    made += std::ssize(attempt.change().made);
+    changes.accept(attempt.change());
+    nodes.set_position(i, x);
+    if (move % 400 == 0) expect_delaunay(s.tetrahedra(changes), s.places(), space);
+  }
+  expect_delaunay(s.tetrahedra(changes), s.places(), space);
+  ck_assert_int_gt(gone, 2000);
+  ck_assert_int_gt(made, 2000);
+  ck_assert_int_gt(far, 3);
+  ck_assert_int_lt(refused, far);
+  // And the neighbours.
+  const std::multiset<Ids> followed = s.tetrahedra(changes);
+  std::map<std::int64_t, std::set<std::int64_t>> neighbours;
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    changes.for_neighbours(i, [&](std::int64_t j) { neighbours[nodes.id(i)].insert(nodes.id(j)); });
+  s.make_stars();
+  quick_assert(followed == s.tetrahedra(s.stars));
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    std::set<std::int64_t> expected;
+    s.stars.for_neighbours(i, [&](std::int64_t j) { expected.insert(nodes.id(j)); });
+    quick_assert(expected == neighbours[nodes.id(i)]);
+  }
+}
+END_TEST
+
+// ------------------------------------------------------------------ slivers --------------------
+
+namespace {
+
+// As long as there are slivers. Returns how many nodes have moved.
+std::int64_t repair(pnpbs::SliverRepair& slivers) {
+  std::int64_t moved = 0;
+  for (std::int64_t round = 0; round < 300 && slivers.slivers() > 0; ++round)
+    moved += slivers.round(round);
+  return moved;
+}
+
+}  // namespace
+
+START_TEST(no_sliver_is_left) {
+  Shaken s(9, 0.25);
+  const Places before = s.places();
+  ck_assert_double_lt(s.least_angle(), 10);
+  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
+  ck_assert_int_gt(slivers.slivers(), 50);
+  const std::int64_t moved = repair(slivers);
+  ck_assert_int_eq(slivers.slivers(), 0);
+  ck_assert_int_gt(moved, 50);
+  s.make_stars();
+  ck_assert_double_ge(s.least_angle(), 30 - 1e-9);
+  double farthest = 0;
+  for (std::int64_t i = 0; i < s.b.nodes.count; ++i) {
+    const double way = pnpbs::distance<3>(s.b.nodes.position(i), before.at(s.b.nodes.id(i)));
+    if (!s.b.nodes.moves(i)) ck_assert_double_eq(way, 0);
+    farthest = std::max(farthest, way);
+  }
+  ck_assert_double_lt(farthest, 1);
+}
+END_TEST
+
+// Every round makes the sum of what small angles lack less, whatever goes at once.
+START_TEST(rounds_only_help) {
+  Shaken s(9, 0.3);
+  const pnpbs::SmallAngles small(35);
+  std::set<std::int64_t> moving;
+  for (std::int64_t i = 0; i < s.b.nodes.count; ++i)
+    if (s.b.nodes.moves(i)) moving.insert(s.b.nodes.id(i));
+  const auto penalty = [&] {
+    double sum = 0;
+    s.make_stars();
+    const Places places = s.places();
+    for (const Ids& t : s.tetrahedra(s.stars)) {
+      if (std::any_of(t.begin(), t.end(), [&](std::int64_t id) { return moving.contains(id); }))
+        sum += small.penalty(corners_of(t, places)) / 4;
+    }
+    return sum;
+  };
+  double last = penalty();
+  for (std::int64_t round = 0; round < 6; ++round) {
+    pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
+    ck_assert_int_gt(slivers.round(round), 1);
+    const double now = penalty();
+    ck_assert_double_lt(now, last);
+    last = now;
+  }
+}
+END_TEST
+
+START_TEST(nodes_keep_off_where_they_must) {
+  Shaken s(9, 0.25);
+  const Places before = s.places();
+  const auto allowed = [&](std::int64_t i, const Point<3>& x) {
+    return s.b.nodes.position(i)[0] > 4 && x[0] > 4;
+  };
+  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, allowed);
+  ck_assert_int_gt(repair(slivers), 20);
+  for (const auto& [id, x] : s.places()) {
+    quick_assert(before.at(id)[0] > 4 || x == before.at(id));
+    quick_assert(before.at(id)[0] <= 4 || x[0] > 4);
+  }
+}
+END_TEST
+
+// ------------------------------------------------------------------ the same everywhere --------
+
+START_TEST(the_same_in_another_order) {
+  Shaken s(8, 0.25), other(8, 0.25, 6);
+  quick_assert(s.b.nodes.id(0) != other.b.nodes.id(0) || s.b.nodes.id(9) != other.b.nodes.id(9));
+  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
+  pnpbs::SliverRepair other_slivers(other.b.nodes, other.stars, {}, anywhere);
+  ck_assert_int_gt(repair(slivers), 20);
+  repair(other_slivers);
+  quick_assert(s.places() == other.places());
+}
+END_TEST
+
+// Two that own one half each and tell the other where its ghosts are.
+START_TEST(the_same_from_two_halves) {
+  Shaken whole(9, 0.3), low(9, 0.3), high(9, 0.3);
+  const auto is_low = [](const Point<3>& x) { return x[1] < 4.9; };
+  for (std::int64_t i = 0; i < low.b.nodes.count; ++i) {
+    low.b.nodes.owned(i) = is_low(low.b.nodes.position(i));
+    high.b.nodes.owned(i) = !is_low(high.b.nodes.position(i));
+  }
+  pnpbs::SliverRepair all(whole.b.nodes, whole.stars, {}, anywhere),
+      of_low(low.b.nodes, low.stars, {}, anywhere), of_high(high.b.nodes, high.stars, {}, anywhere);
+  std::int64_t moved_low = 0, moved_high = 0;
+  for (std::int64_t round = 0; round < 30; ++round) {
+    const std::int64_t moved = all.round(round);
+    const std::int64_t here = of_low.round(round), there = of_high.round(round);
+    ck_assert_int_eq(here + there, moved);
+    moved_low += here;
+    moved_high += there;
+    for (std::int64_t i = 0; i < low.b.nodes.count; ++i) {
+      ck_assert_int_eq(low.b.nodes.id(i), high.b.nodes.id(i));
+      if (low.b.nodes.owned(i))
+        high.b.nodes.set_position(i, low.b.nodes.position(i));
+      else
+        low.b.nodes.set_position(i, high.b.nodes.position(i));
+    }
+    quick_assert(low.places() == whole.places());
+  }
+  ck_assert_int_gt(moved_low, 10);
+  ck_assert_int_gt(moved_high, 10);
+}
+END_TEST
+
+// ------------------------------------------------------------------ sweeps ---------------------
+
+START_TEST(sweeps_go_to_the_mean) {
+  Shaken s(6, 0.2);
+  pnpbs::Nodes<3>& nodes = s.b.nodes;
+  const Places before = s.places();
+  std::map<std::int64_t, std::set<std::int64_t>> neighbours;
+  for (const Ids& t : s.tetrahedra(s.stars))
+    for (const std::int64_t i : t)
+      for (const std::int64_t j : t)
+        if (i != j) neighbours[i].insert(j);
+  pnpbs::Field<3> proposed;
+  pnpbs::reserve_field<3>(proposed, "proposed", nodes.count);
+  pnpbs::sweep_to_means(nodes, s.stars, 0.6, proposed, [](std::int64_t, const Point<3>& x) {
+    return x[2] < 4;  // the goal
+  });
+  std::int64_t went = 0, stayed = 0;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    const Point<3> x = before.at(nodes.id(i));
+    Point<3> goal{};
+    const std::set<std::int64_t>& around = neighbours[nodes.id(i)];
+    for (const std::int64_t j : around)
+      for (std::size_t k = 0; k < 3; ++k)
+        goal[k] += before.at(j)[k] / static_cast<double>(around.size());
+    for (std::size_t k = 0; k < 3; ++k) goal[k] = x[k] + 0.6 * (goal[k] - x[k]);
+    const bool may = nodes.moves(i) && goal[2] < 4;
+    ck_assert_double_lt(pnpbs::distance<3>(nodes.position(i), may ? goal : x),
+                        may ? 1e-12 : 1e-300);
+    ++(may ? went : stayed);
+  }
+  ck_assert_int_gt(went, 20);
+  ck_assert_int_gt(stayed, 20);
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite(
+      "slivers", {known_angles, angles_of_any_tetrahedron, stars_follow_nodes, no_sliver_is_left,
+                  rounds_only_help, nodes_keep_off_where_they_must, the_same_in_another_order,
+                  the_same_from_two_halves, sweeps_go_to_the_mean});
+}
