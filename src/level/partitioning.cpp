@@ -71,11 +71,12 @@ std::vector<PartitionCell<Dim>> LevelTree<Dim>::rough_cells(const Settings& sett
   double max = std::numeric_limits<double>::infinity();
   std::vector<std::int64_t> work;
   for (int pass = 0; pass < kPasses; ++pass) {
-    map_.build_part(comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(),
-                    settings.node_limit(),
-                    [&](const BackgroundTree<Dim>& tree, std::int32_t c, double nodes) {
-                      return tree.cell(c).depth < kUniformDepth || nodes > max;
-                    });
+    map_.build_part(
+        comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
+        [&](const BackgroundTree<Dim>& tree, std::int32_t c, double nodes) {
+          return tree.cell(c).depth < kUniformDepth || nodes > max;
+        },
+        kLevelRefinement<Dim>);
     work = expected_work();
     max = static_cast<double>(std::accumulate(work.begin(), work.end(), std::int64_t{0})) /
           (kWorkPerNode * kCellsPerRank * comm_.size());

@@ -35,7 +35,8 @@ std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
 
 template <int Dim>
 void LevelTree<Dim>::grow_whole(const Settings& settings) {
-  map_.build(ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit());
+  map_.build(ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
+             kLevelRefinement<Dim>);
   link_leaves(settings);
 }
 
@@ -62,13 +63,14 @@ void LevelTree<Dim>::grow_part(const Settings& settings, const LevelTree<Dim>* l
 template <int Dim>
 void LevelTree<Dim>::refine(const Settings& settings, const std::vector<char>& refined) {
   const BackgroundTree<Dim>& cells = distribution_.cells().tree();
-  map_.build_part(comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(),
-                  settings.node_limit(),
-                  [&](const BackgroundTree<Dim>& tree, std::int32_t c, double) {
-                    const typename BackgroundTree<Dim>::Cell& in =
-                        cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
-                    return in.first_child >= 0 || refined[static_cast<std::size_t>(in.leaf)];
-                  });
+  map_.build_part(
+      comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
+      [&](const BackgroundTree<Dim>& tree, std::int32_t c, double) {
+        const typename BackgroundTree<Dim>::Cell& in =
+            cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
+        return in.first_child >= 0 || refined[static_cast<std::size_t>(in.leaf)];
+      },
+      kLevelRefinement<Dim>);
   distribution_.take_leaves(&map_.tree(), refined);
 }
 

@@ -80,11 +80,12 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
   DomainMap<Dim> map;
   double max = std::numeric_limits<double>::infinity(), nodes = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
-    map.build_part(comm, domain.bounds(), boundary, evaluator,
-                   std::numeric_limits<std::int64_t>::max(),
-                   [&](const BackgroundTree<Dim>& tree, std::int32_t c, double in_cell) {
-                     return tree.cell(c).depth < kUniformDepth || in_cell > max;
-                   });
+    map.build_part(
+        comm, domain.bounds(), boundary, evaluator, std::numeric_limits<std::int64_t>::max(),
+        [&](const BackgroundTree<Dim>& tree, std::int32_t c, double in_cell) {
+          return tree.cell(c).depth < kUniformDepth || in_cell > max;
+        },
+        kLevelRefinement<Dim>);
     nodes = nodes_inside(map, measure_of(domain));
     max = nodes / kCells;
   }

@@ -30,8 +30,8 @@ class DomainMap<Dim>::Growth {
   };
 
   Growth(const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
-         const NodeLimit& limit)
-      : boundary_(boundary), spacing_(spacing), limit_(limit) {}
+         const NodeLimit& limit, Refinement by)
+      : boundary_(boundary), spacing_(spacing), limit_(limit), by_(by) {}
 
   const FacetCells<Dim>& facets() const { return *facets_; }
   const CellState& state(std::int32_t c) const { return cells_[static_cast<std::size_t>(c)]; }
@@ -78,6 +78,7 @@ class DomainMap<Dim>::Growth {
   const BoundaryMesh<Dim>& boundary_;
   const SpacingEvaluator<Dim>& spacing_;
   NodeLimit limit_;
+  Refinement by_;
   std::optional<FacetCells<Dim>> facets_;
   std::vector<double> boundary_spacing_;
   std::vector<CellState> cells_;
@@ -144,7 +145,8 @@ bool DomainMap<Dim>::Growth::wants_split(const BackgroundTree<Dim>& tree, std::i
   const CellState& cell = state(c);
   const double side = tree.cell_side(c);
   if (side > kLeafSpacings * cell.min) return true;
-  return tree.cell(c).depth < kMaxDepthByNodes && holds_many_boundary_nodes(tree, c);
+  return by_ == Refinement::spacing_and_boundary && tree.cell(c).depth < kMaxDepthByNodes &&
+         holds_many_boundary_nodes(tree, c);
 }
 
 // As its facets tell. In space hundreds of them may share a corner, and splitting leaves one cell
@@ -188,8 +190,9 @@ void DomainMap<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::i
 
 template <int Dim>
 void DomainMap<Dim>::build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
-                           const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit) {
-  Growth growth(boundary, spacing, limit);
+                           const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
+                           Refinement by) {
+  Growth growth(boundary, spacing, limit, by);
   grow(*serial_communicator(), bounds, growth,
        [](const BackgroundTree<Dim>&, std::int32_t, double) { return true; });
 }
@@ -198,8 +201,8 @@ template <int Dim>
 void DomainMap<Dim>::build_part(const Communicator& comm, const Box<Dim>& bounds,
                                 const BoundaryMesh<Dim>& boundary,
                                 const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
-                                const MaySplit& may_split) {
-  Growth growth(boundary, spacing, limit);
+                                const MaySplit& may_split, Refinement by) {
+  Growth growth(boundary, spacing, limit, by);
   grow(comm, bounds, growth, may_split);
 }
 

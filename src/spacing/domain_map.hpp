@@ -15,6 +15,14 @@
 
 namespace pnpbs {
 
+// What a tree is refined by. The boundary of a plane level has nodes that d asks for; the surfaces
+// of a volume may be far finer than d, and have an index of their own.
+enum class Refinement { spacing, spacing_and_boundary };
+
+template <int Dim>
+constexpr Refinement kLevelRefinement{Dim == 2 ? Refinement::spacing_and_boundary
+                                               : Refinement::spacing};
+
 template <int Dim>
 class DomainMap : public FacetIndex<Dim> {
  public:
@@ -24,7 +32,8 @@ class DomainMap : public FacetIndex<Dim> {
   // Throws Error(ErrorKind::spacing or ::memory) when d would mean more nodes than the limit
   // allows.
   void build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
-             const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit);
+             const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
+             Refinement by = Refinement::spacing_and_boundary);
 
   // May a cell that d or the boundary wants split be split? `nodes`: those its samples of d ask
   // for.
@@ -34,7 +43,8 @@ class DomainMap : public FacetIndex<Dim> {
   // call is collective, and a failure on one rank is thrown on all.
   void build_part(const Communicator& comm, const Box<Dim>& bounds,
                   const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
-                  const NodeLimit& limit, const MaySplit& may_split);
+                  const NodeLimit& limit, const MaySplit& may_split,
+                  Refinement by = Refinement::spacing_and_boundary);
 
   static constexpr double kLeafSpacings = 4;
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "delaunay/listed_reach.hpp"
 #include "delaunay/volume/circumsphere.hpp"
@@ -21,6 +23,15 @@ Point<3> centroid(const Tetrahedron& ordered) {
     for (std::size_t k = 0; k < 3; ++k) sum[k] += corner.x[k];
   for (double& along : sum) along *= 0.25;
   return sum;
+}
+
+// Is it so thin that its volume is a small part of a regular one with its longest edge?
+bool is_flat_cap(const TetrahedronCorners& x) {
+  constexpr double kFlat = 0.2;
+  const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
+  const double longest = longest_edge(x);
+  const double regular = longest * longest * longest * std::numbers::sqrt2 / 2;  // six times
+  return std::fabs(dot_product(u, cross_product(v, w))) < kFlat * regular;
 }
 
 // Finds the stars of one node after the other.
@@ -129,18 +140,25 @@ class StarWriter {
   }
 
   // A pure function of the four corners. One that is flat between boundary nodes is nothing but
-  // their rounding.
+  // their rounding, or what a curved surface rises between them.
   bool in_domain(std::int64_t i, const VolumeStar::Corners& corners) const {
     if (in_.facets == nullptr) return true;
-    int held = in_.nodes.moves(i) ? 0 : 1;
+    const auto held = [&](std::int64_t node) { return in_.nodes.carrier(node) != Carrier::free; };
+    std::array<std::int64_t, 4> node{i};
     Tetrahedron tetrahedron{star_.centre()};
+    int held_nodes = held(i);
     for (std::size_t k = 0; k < 3; ++k) {
-      held += in_.nodes.moves(candidates_[index(corners[k])]) ? 0 : 1;
+      node[k + 1] = candidates_[index(corners[k])];
+      held_nodes += held(node[k + 1]);
       tetrahedron[k + 1] = star_.candidates()[index(corners[k])];
     }
-    if (held < 2) return true;
+    if (held_nodes < 2) return true;
     const Tetrahedron t = ordered_by_id(tetrahedron);
-    if (held == 4 && circumsphere({t[0].x, t[1].x, t[2].x, t[3].x}).flat) return false;
+    if (held_nodes == 4) {
+      const TetrahedronCorners x{t[0].x, t[1].x, t[2].x, t[3].x};
+      if (circumsphere(x).flat) return false;
+      if (is_flat_cap(x) && in_.on_one_surface && in_.on_one_surface(node)) return false;
+    }
     return in_.facets->inside(centroid(t));
   }
 

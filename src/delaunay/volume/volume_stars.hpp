@@ -29,6 +29,9 @@ struct VolumeStarInput {
   // Does the list of node i hold all pairs within its radius, as the boundary hides none? Not set:
   // that of every node does.
   std::function<bool(std::int64_t)> complete = {};
+  // Do these four nodes, none of them free, lie on one surface, side by side? A flat tetrahedron of
+  // such is none of the domain: the surface is as well without it. Not set: they do not.
+  std::function<bool(const std::array<std::int64_t, 4>&)> on_one_surface = {};
 };
 
 class VolumeStars {

@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "domain/facet_index.hpp"
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
 #include "domain/volume/triangulation.hpp"
@@ -42,6 +44,7 @@ struct VolumeSummary {
 // What check() finds out.
 struct ResolvedVolume {
   BoundaryMesh<3> mesh;
+  FacetIndex<3> facets;  // of the mesh
   Features features;
   std::vector<FixedNode3> fixed_nodes;
   std::vector<std::string> warnings;
@@ -77,14 +80,16 @@ class VolumeDomain {
   // Valid after check(). First the triangles of the surfaces, in the order in which they were
   // given, with the domain behind those that bound it; then the segments (a, b, b) of inner curves,
   // and (a, a, a) for each fixed node. All nodes are used.
-  const BoundaryMesh<3>& mesh() const { return resolved_.mesh; }
-  const Features& features() const { return resolved_.features; }
-  const std::vector<FixedNode3>& fixed_nodes() const { return resolved_.fixed_nodes; }
-  const std::vector<std::string>& warnings() const { return resolved_.warnings; }
-  const VolumeSummary& summary() const { return resolved_.summary; }
-  const Box<3>& bounds() const { return resolved_.summary.bounds; }
-  double volume() const { return resolved_.summary.volume; }
-  double area() const { return resolved_.summary.area; }
+  const BoundaryMesh<3>& mesh() const { return resolved_->mesh; }
+  // Answers what is inside and what is near, whatever d is.
+  const FacetIndex<3>& facets() const { return resolved_->facets; }
+  const Features& features() const { return resolved_->features; }
+  const std::vector<FixedNode3>& fixed_nodes() const { return resolved_->fixed_nodes; }
+  const std::vector<std::string>& warnings() const { return resolved_->warnings; }
+  const VolumeSummary& summary() const { return resolved_->summary; }
+  const Box<3>& bounds() const { return resolved_->summary.bounds; }
+  double volume() const { return resolved_->summary.volume; }
+  double area() const { return resolved_->summary.area; }
 
  private:
   void add_source(SurfaceSource source, const char* kind, std::int64_t& given,
@@ -97,7 +102,8 @@ class VolumeDomain {
   std::vector<FixedNode3> given_nodes_;
   std::int64_t surfaces_given_ = 0, boxes_given_ = 0, balls_given_ = 0, cylinders_given_ = 0;
   bool checked_ = false;
-  ResolvedVolume resolved_;
+  // Shared by copies, and by all that points into it.
+  std::shared_ptr<const ResolvedVolume> resolved_ = std::make_shared<ResolvedVolume>();
 };
 
 }  // namespace pnpbs

@@ -1,9 +1,75 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/finish.hpp"
 
+#include <optional>
+
+#include "level/exchange.hpp"
+#include "level/reach.hpp"
+#include "quality/volume/mean_sweep.hpp"
+#include "quality/volume/sliver_repair.hpp"
+
 namespace pnpbs {
 
-FinishResults sweep_and_repair(Level<3>& level, std::int64_t) {
+namespace {
+
+// Sweeps and repairs leave that much room: no triangle of the surface is missing then.
+constexpr double kFinishClearance = 0.6;
+
+bool may_go(const Level<3>& level, std::int64_t i, const Point<3>& x) {
+  return level.neighbourhood.near_boundary().stays_clear(i, level.nodes, level.ground, x,
+                                                         kFinishClearance * level.nodes.d(i));
+}
+
+// The stars are made anew before each.
+void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
+  for (std::int64_t s = 0; s < sweeps; ++s) {
+    make_finish_stars(level, 0);
+    const PhaseTimer timer(level.timers, Phase::sweeps);
+    agreed(*level.comm, [&] {
+      pnpbs::sweep_to_means(level.nodes, level.stars, level.settings.sweep.weight,
+                            level.time_integration.scratch(level.nodes),
+                            [&](std::int64_t i, const Point<3>& x) { return may_go(level, i, x); });
+    });
+  }
+}
+
+void repair_slivers(Level<3>& level) {
+  // Of what a move changes, and what another one may.
+  constexpr int kRings = 4;
+  make_finish_stars(level, kRings);
+  const PhaseTimer timer(level.timers, Phase::sweeps);
+  SliverRule rule;
+  std::optional<SliverRepair> repair;
+  agreed(*level.comm, [&] {
+    repair.emplace(level.nodes, level.stars, rule,
+                   [&](std::int64_t i, const Point<3>& x) { return may_go(level, i, x); });
+  });
+  for (std::int64_t round = 0; round < rule.rounds; ++round) {
+    std::int64_t left = 0;
+    agreed(*level.comm, [&] {
+      repair->round(round);
+      left = repair->slivers();
+    });
+    level.nodes.moved();
+    update_ghosts(level);
+    if (level.comm->allreduce_sum(static_cast<std::uint64_t>(left)) == 0) break;
+  }
+}
+
+}  // namespace
+
+FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps) {
+  constexpr std::int64_t kSweepsBetween = 2;
+  if (level.settings.repair.rounds > 0) {
+    sweep_to_means(level, sweeps);
+    repair_slivers(level);
+    if (sweeps > 0) {
+      sweep_to_means(level, kSweepsBetween);
+      repair_slivers(level);
+    }
+  } else {
+    sweep_to_means(level, sweeps);
+  }
   FinishResults results;
   make_finish_stars(level, 0);
   agreed(*level.comm, [&] {

@@ -22,8 +22,8 @@ class NearBoundary;
 class VisibilityInSpace {
  public:
   VisibilityInSpace(const Nodes<3>& nodes, const std::array<View<double>, 3>& at,
-                    const DomainMap<3>& map, const Ground<3>& ground)
-      : nodes_(nodes), at_(at), map_(map), ground_(ground) {}
+                    const Ground<3>& ground)
+      : nodes_(nodes), at_(at), ground_(ground) {}
 
   bool may_occlude(std::int64_t i) const { return nodes_.carrier(i) != Carrier::free; }
   bool visible(std::int64_t i, std::int64_t j) const;
@@ -38,7 +38,6 @@ class VisibilityInSpace {
 
   const Nodes<3>& nodes_;
   std::array<View<double>, 3> at_;
-  const DomainMap<3>& map_;
   const Ground<3>& ground_;
 };
 
@@ -56,9 +55,9 @@ class NearBoundary<3> {
 
   void build(const Nodes<3>& nodes, const std::array<View<double>, 3>& at,
              const Buckets<3>& buckets, const DomainMap<3>& map, const Ground<3>& ground);
-  VisibilityInSpace visibility(const Nodes<3>& nodes, const DomainMap<3>& map,
+  VisibilityInSpace visibility(const Nodes<3>& nodes, const DomainMap<3>&,
                                const Ground<3>& ground) const {
-    return {nodes, at_, map, ground};
+    return {nodes, at_, ground};
   }
 
   double radius() const { return near_.radius; }
@@ -71,6 +70,10 @@ class NearBoundary<3> {
   }
   Point<3> hold_off(std::int64_t i, const Nodes<3>& nodes, const DomainMap<3>& map,
                     const Ground<3>& ground, const Point<3>& to) const;
+
+  // May free node i go to `to`, with that much room or no less than now?
+  bool stays_clear(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
+                   const Point<3>& to, double clearance) const;
 
  private:
   double gap_of(std::int64_t i, const Nodes<3>& nodes, const Buckets<3>& buckets,
