@@ -65,8 +65,7 @@ std::vector<Point<Dim>> graded_fill(const Level<Dim>& level,
 }  // namespace
 
 template <int Dim>
-void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& beat) {
-  const PhaseTimer timer(level.timers, Phase::fill);
+GivenNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::function<void()>& beat) {
   GivenNodes<Dim> inner;
   const std::vector<LeafSummary<Dim>> unrefined = summaries_of_unrefined_leaves(level);
   const auto owned = [&](std::int32_t leaf) {
@@ -79,6 +78,13 @@ void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& b
       inner.push_back({x, -1});
   });
   for (const Point<Dim>& x : graded_fill(level, owned)) inner.push_back({x, -1});
+  return inner;
+}
+
+template <int Dim>
+void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& beat) {
+  const PhaseTimer timer(level.timers, Phase::fill);
+  GivenNodes<Dim> inner = first_inner_nodes(level, beat);
   agreed(*level.comm, [&] {
     beat();
     find_leaves(level, inner);
@@ -90,5 +96,8 @@ void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& b
 
 template void fill(Level<2>&, LaidNodes<2>, const std::function<void()>&);
 template void fill(Level<3>&, LaidNodes<3>, const std::function<void()>&);
+
+template GivenNodes<2> first_inner_nodes(const Level<2>&, const std::function<void()>&);
+template GivenNodes<3> first_inner_nodes(const Level<3>&, const std::function<void()>&);
 
 }  // namespace pnpbs

@@ -9,6 +9,7 @@
 #include "level/expected_nodes.hpp"
 #include "level/refinement.hpp"
 #include "level/taken_nodes.hpp"
+#include "level/volume/gaps.hpp"
 #include "placement/placement_of.hpp"
 
 namespace pnpbs {
@@ -153,7 +154,9 @@ TakenNodes PlacementOf<Dim>::put_first_nodes(std::unique_ptr<Level<Dim>>& level,
     fill(*level, laid_nodes(level->ground, from_coarser));
     return {};
   }
-  return take(*level, std::move(from_coarser), 0);
+  const TakenNodes taken = take(*level, std::move(from_coarser), 0);
+  if constexpr (Dim == 3) fill_gaps_inside(*level);
+  return taken;
 }
 
 // Of the members defined here.

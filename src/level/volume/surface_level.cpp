@@ -14,6 +14,7 @@
 #include "level/lists_and_stars.hpp"
 #include "level/numbering.hpp"
 #include "level/reach.hpp"
+#include "level/volume/gaps.hpp"
 #include "population/free_place.hpp"
 
 namespace pnpbs {
@@ -31,25 +32,43 @@ Settings surface_settings(const Settings& inside) {
 
 // ------------------------------------------------------------------ coming and going -----------
 
-void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, bool begin_anew) {
+namespace {
+
+// On surfaces alone. Depends on the surface and d only, so every rank finds the same.
+GivenNodes<3> filled_surfaces(const Level<3>& level) {
   const Ground<3>& ground = level.ground;
-  GivenNodes<3> laid;
+  GivenNodes<3> filled;
+  for (const SurfacePoint& at :
+       surface_fill(ground.surface(), ground.evaluator(), level.settings.node_limit())) {
+    GivenNode<3> node{at.position, -1};
+    node.carrier = Carrier::surface;
+    node.boundary_node = at.facet;
+    node.tag = ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag;
+    filled.push_back(node);
+  }
+  return filled;
+}
+
+void append(GivenNodes<3>& to, const GivenNodes<3>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, bool begin_anew) {
+  GivenNodes<3> laid, filled;
   agreed(*level.comm, [&] {
-    laid = ground.feature_nodes();
-    std::vector<SurfacePoint> filled;
-    if (begin_anew)
-      filled = surface_fill(ground.surface(), ground.evaluator(), level.settings.node_limit());
-    for (const SurfacePoint& at : filled) {
-      GivenNode<3> node{at.position, -1};
-      node.carrier = Carrier::surface;
-      node.boundary_node = at.facet;
-      node.tag = ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag;
-      laid.push_back(node);
-    }
-    laid.insert(laid.end(), on_surfaces.begin(), on_surfaces.end());
+    laid = level.ground.feature_nodes();
+    filled = filled_surfaces(level);
+    append(laid, begin_anew ? filled : on_surfaces);
   });
   level.nodes.moving = Carrier::surface;
   number_and_store(level, {}, LaidNodes<3>(std::move(laid)));
+  if (begin_anew) return;
+  GivenNodes<3> more = in_gaps(level, filled);
+  if (level.comm->allreduce_sum(more.size()) == 0) return;
+  append(more, surface_nodes(level));
+  number_and_store(level, {}, LaidNodes<3>(std::move(more)));
 }
 
 void fix_surface_nodes(Level<3>& level) {

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/gaps.hpp"
+
+#include <utility>
+
+#include "level/exchange.hpp"
+#include "level/first_nodes.hpp"
+#include "level/lists_and_stars.hpp"
+#include "level/numbering.hpp"
+#include "level/reach.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// In units of d. In a lattice no place is farther than 0.58 (on a surface) or 0.61 (inside) from a
+// node.
+constexpr double kGap = 0.8;
+
+// Is a node there that a new one would be on top of, on its side of the surface?
+bool covers(const Level<3>& level, std::int64_t i, const GivenNode<3>& candidate) {
+  const Nodes<3>& nodes = level.nodes;
+  if (distance<3>(nodes.position(i), candidate.position) >= kGap * nodes.d(i)) return false;
+  if (candidate.is_inner() || nodes.carrier(i) == Carrier::free) return candidate.is_inner();
+  const Ground<3>& ground = level.ground;
+  return ground.surface().sees(ground.place(nodes.carrier(i), nodes.boundary_node(i)),
+                               ground.place(candidate.carrier, candidate.boundary_node));
+}
+
+bool is_covered(const Level<3>& level, std::int32_t leaf, const GivenNode<3>& candidate) {
+  const Buckets<3>& buckets = level.neighbourhood.buckets();
+  bool covered = false;
+  buckets.for_neighbours(leaf, [&](std::int32_t b) {
+    for (std::int64_t i = buckets.begin(b); !covered && i < buckets.end(b); ++i)
+      covered = covers(level, i, candidate);
+  });
+  return covered;
+}
+
+}  // namespace
+
+GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates) {
+  exchange(level, kStarHops);
+  GivenNodes<3> found;
+  agreed(*level.comm, [&] {
+    rebuild_lists(level, level.settings.list_radius);
+    for (const GivenNode<3>& candidate : candidates) {
+      const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);
+      if (level.tree->owns(leaf) && !is_covered(level, leaf, candidate)) found.push_back(candidate);
+    }
+  });
+  return found;
+}
+
+void fill_gaps_inside(Level<3>& level) {
+  GivenNodes<3> inner = in_gaps(level, first_inner_nodes(level));
+  if (level.comm->allreduce_sum(inner.size()) == 0) return;
+  GivenNodes<3> laid;
+  const Nodes<3>& nodes = level.nodes;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (!nodes.owned(i)) continue;
+    const GivenNode<3> node{
+        nodes.position(i), nodes.id(i), nodes.carrier(i), nodes.boundary_node(i),
+        nodes.tag(i),      -1,          nodes.d(i)};
+    (node.is_inner() ? inner : laid).push_back(node);
+  }
+  find_leaves(level, inner);
+  sort_by_place(level, inner);
+  number_and_store(level, std::move(inner), LaidNodes<3>(std::move(laid)));
+}
+
+}  // namespace pnpbs

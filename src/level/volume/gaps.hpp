@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gaps between the nodes that a level in space took over from a coarser one: where that had no room
+// for nodes, as in a wall thinner than its spacing, there is none to be refined, and no bubble
+// beside which others would come. There a fill helps.
+#pragma once
+
+#include "initial/given_nodes.hpp"
+#include "level/level.hpp"
+
+namespace pnpbs {
+
+// Of these new nodes, those that this rank owns and that are far from all that the level has.
+// Collective.
+GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates);
+
+// Puts a fill of the inside into the gaps there. Collective.
+void fill_gaps_inside(Level<3>& level);
+
+}  // namespace pnpbs
