@@ -8,6 +8,7 @@
 
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
+#include "comm/records.hpp"
 #include "level/level_tree.hpp"
 #include "level/neighbourhood.hpp"
 #include "partition/halo_exchange.hpp"
@@ -32,6 +33,24 @@ class Ghosts {
   // that owns its place, so nobody else is asked. Collective.
   void fetch(const Communicator& comm, const LevelTree<Dim>& tree,
              const std::vector<Box<Dim>>& boxes, Nodes<Dim>& nodes, const Buckets<Dim>& buckets);
+
+  // Sends news of these owned nodes, news_of(i), to the ranks that have them as ghosts; returns
+  // what came from the others. Collective.
+  template <class Record, class NewsOf>
+  std::vector<Record> tell(const Communicator& comm, const Nodes<Dim>& nodes,
+                           const std::vector<std::int32_t>& owned, const NewsOf& news_of) const {
+    Outbox outgoing;
+    for (const std::int32_t i : owned) {
+      const std::vector<Record> news = news_of(i);
+      halo_.for_ranks_with(nodes, i, [&](int rank) {
+        for (const Record& record : news) pack(outgoing.to(rank), record);
+      });
+    }
+    std::vector<Record> arrived;
+    for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
+      for_records<Record>({message.bytes}, [&](const Record& r) { arrived.push_back(r); });
+    return arrived;
+  }
 
   // The next exchange must choose them.
   void choose_anew() { hops_ = 0; }

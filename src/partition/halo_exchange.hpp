@@ -41,6 +41,13 @@ class HaloExchange {
   std::size_t place(int rank) const { return static_cast<std::size_t>(places_.of(rank)); }
   // Owned nodes that the rank has as ghosts.
   const std::vector<std::int32_t>& sent_to(int rank) const { return send_[place(rank)]; }
+  // Calls visit(rank) for the ranks that have that owned node as a ghost.
+  template <class Visit>
+  void for_ranks_with(const Nodes<Dim>& nodes, std::int32_t node, const Visit& visit) const {
+    const auto by_id = [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); };
+    for (std::size_t k = 0; k < neighbours_.size(); ++k)
+      if (std::binary_search(send_[k].begin(), send_[k].end(), node, by_id)) visit(neighbours_[k]);
+  }
   void send(int rank, std::int32_t node) { send_[place(rank)].push_back(node); }
   void receive(int rank, std::int32_t node) { receive_[place(rank)].push_back(node); }
 

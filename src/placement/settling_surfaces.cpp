@@ -49,6 +49,7 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
   }
   restore();
   given = surface_nodes(*level);
+  scatter_to_owners(*level, given);  // some have moved on since the last exchange
   given.insert(given.end(), inner.begin(), inner.end());
 }
 

@@ -41,11 +41,9 @@ SliverRepair::SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const Sliv
       penalised_(rule.penalty_below),
       allowed_(std::move(allowed)),
       stars_(nodes, stars) {
-  for (std::int32_t i = 0; i < nodes.count; ++i) {
-    if (nodes.owned(i)) continue;
-    ghosts_.push_back(i);
-    ghost_positions_.push_back(nodes.position(i));
-  }
+  bool any_ghost = false;
+  for (std::int32_t i = 0; i < nodes.count; ++i) any_ghost = any_ghost || !nodes.owned(i);
+  for (std::int32_t i = 0; any_ghost && i < nodes.count; ++i) place_of_id_[nodes.id(i)] = i;
   find_slivers();
 }
 
@@ -102,25 +100,48 @@ void SliverRepair::accept(const std::vector<StarChange>& changes) {
   for (const std::int32_t i : affected) add_slivers_at(i, is_affected, slivers_);
 }
 
-// Other ranks have moved their nodes. What is too far away to be followed is no concern of ours.
-void SliverRepair::follow_ghosts() {
-  std::vector<StarChange> changes;
-  std::vector<std::size_t> moved;
-  std::vector<Point<3>> now;
-  for (std::size_t g = 0; g < ghosts_.size(); ++g) {
-    const Point<3> x = nodes_.position(ghosts_[g]);
-    if (x == ghost_positions_[g]) continue;
-    moved.push_back(g);
-    now.push_back(x);
-    nodes_.set_position(ghosts_[g], ghost_positions_[g]);
+// ------------------------------------------------------------------ over several ranks ---------
+
+std::vector<ChangedTetrahedron> SliverRepair::changes_of(std::int32_t node) const {
+  std::vector<ChangedTetrahedron> changed;
+  for (const StarChange& change : changes_) {
+    if (change.node != node) continue;
+    const auto add = [&](const std::vector<TetrahedronNodes>& tetrahedra, bool made) {
+      for (const TetrahedronNodes& t : tetrahedra) {
+        ChangedTetrahedron record{nodes_.id(node), change.x, {}, made};
+        for (std::size_t k = 0; k < 4; ++k) record.corners[k] = nodes_.id(t[k]);
+        changed.push_back(record);
+      }
+    };
+    add(change.gone, false);
+    add(change.made, true);
   }
-  for (std::size_t k = 0; k < moved.size(); ++k) {
-    NodeMove move(nodes_, stars_, ghosts_[moved[k]]);
-    if (move.go_to(now[k]) && move.complete()) changes.push_back(move.change());
-    ghost_positions_[moved[k]] = now[k];
+  return changed;
+}
+
+std::vector<std::int32_t> SliverRepair::moved_nodes() const {
+  std::vector<std::int32_t> moved;
+  for (const StarChange& change : changes_) moved.push_back(change.node);
+  return moved;
+}
+
+// Of tetrahedra with corners that are not known here the stars need not be right.
+void SliverRepair::follow(const std::vector<ChangedTetrahedron>& news) {
+  const auto place = [&](std::int64_t id) {
+    const auto found = place_of_id_.find(id);
+    return found == place_of_id_.end() ? -1 : found->second;
+  };
+  std::vector<StarChange> changes;
+  for (const ChangedTetrahedron& record : news) {
+    const std::int32_t node = place(record.node);
+    if (node < 0) continue;
+    if (changes.empty() || changes.back().node != node) changes.push_back({node, record.x, {}, {}});
+    TetrahedronNodes corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = place(record.corners[k]);
+    if (std::find(corners.begin(), corners.end(), -1) == corners.end())
+      (record.made ? changes.back().made : changes.back().gone).push_back(corners);
   }
   accept(changes);
-  for (std::size_t k = 0; k < moved.size(); ++k) nodes_.set_position(ghosts_[moved[k]], now[k]);
 }
 
 std::int64_t SliverRepair::slivers() const {
@@ -271,19 +292,18 @@ void SliverRepair::try_moves(Attempt& attempt) const {
 }
 
 std::int64_t SliverRepair::round(std::int64_t number) {
-  follow_ghosts();
   std::vector<Attempt> attempts = draw_lots(number);
   const std::vector<char> wins = winners(attempts);
   for_each_guarded("pnpbs::SliverRepair::round", std::ssize(attempts), [&](std::int64_t a) {
     Attempt& attempt = attempts[static_cast<std::size_t>(a)];
     if (wins[static_cast<std::size_t>(a)] && nodes_.owned(attempt.node)) try_moves(attempt);
   });
-  std::vector<StarChange> changes;
+  changes_.clear();
   for (Attempt& attempt : attempts)
-    for (StarChange& change : attempt.success) changes.push_back(std::move(change));
-  accept(changes);
+    for (StarChange& change : attempt.success) changes_.push_back(std::move(change));
+  accept(changes_);
   nodes_.moved();
-  return std::ssize(changes);
+  return std::ssize(changes_);
 }
 
 }  // namespace pnpbs

@@ -4,8 +4,10 @@
 // made anew, and it stays there if small angles become fewer or less small.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <unordered_map>
 #include <vector>
 
 #include "base/nodes.hpp"
@@ -25,6 +27,14 @@ struct SliverRule {
 // of these do not go at once.
 inline constexpr double kSliverReach = 1.8;
 
+// A tetrahedron that a node's move has made, or done away with, as other ranks are told of it.
+struct ChangedTetrahedron {
+  std::int64_t node;  // id; it is at x now
+  Point<3> x;
+  std::array<std::int64_t, 4> corners;  // ids, of positive orientation
+  std::int64_t made;                    // 0: it is gone
+};
+
 class SliverRepair {
  public:
   // May node i be at x?
@@ -34,8 +44,13 @@ class SliverRepair {
   // those of all nodes within three times the reach of an owned one.
   SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed);
 
-  // Moves owned nodes, and returns how many. Between rounds, ghosts get their new positions.
+  // Moves owned nodes, and returns how many. Between rounds, ranks tell those that have these
+  // nodes as ghosts what has changed with them: so the stars of all stay what they are to their
+  // owners, however many rounds there are.
   std::int64_t round(std::int64_t number);
+  std::vector<std::int32_t> moved_nodes() const;  // in the last round
+  std::vector<ChangedTetrahedron> changes_of(std::int32_t moved_node) const;
+  void follow(const std::vector<ChangedTetrahedron>& news);
 
   // Those left, with an owned node that can move.
   std::int64_t slivers() const;
@@ -56,7 +71,6 @@ class SliverRepair {
                       std::vector<TetrahedronNodes>& found) const;
   void find_slivers();
   void accept(const std::vector<StarChange>& changes);
-  void follow_ghosts();
 
   std::int32_t node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot) const;
   std::vector<Attempt> draw_lots(std::int64_t number) const;
@@ -72,9 +86,9 @@ class SliverRepair {
   SmallAngles small_, penalised_;
   Allowed allowed_;
   StarChanges stars_;
-  std::vector<TetrahedronNodes> slivers_;  // in no order that matters
-  std::vector<std::int32_t> ghosts_;
-  std::vector<Point<3>> ghost_positions_;  // for which the stars are
+  std::vector<TetrahedronNodes> slivers_;                       // in no order that matters
+  std::vector<StarChange> changes_;                             // of the last round
+  std::unordered_map<std::int64_t, std::int32_t> place_of_id_;  // where there are ghosts
 };
 
 }  // namespace pnpbs
