@@ -11,6 +11,8 @@
 #include <string>
 
 #include "io/sink.hpp"
+#include "picture/drawing.hpp"
+#include "picture/lettering.hpp"
 
 namespace pnpbs::picture {
 
@@ -44,5 +46,11 @@ class CairoStream {
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+
+inline void draw_on_paper(cairo_t* cairo, const Drawing& drawing) {
+  set_colour(cairo, paper);
+  cairo_paint(cairo);
+  drawing.draw(cairo);
+}
 
 }  // namespace pnpbs::picture

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "picture/colour_bar.hpp"
+#include "picture/legend.hpp"
 #include "picture/lettering.hpp"
 #include "picture/palette.hpp"
 #include "picture/triangle_fill.hpp"
@@ -25,6 +26,7 @@ constexpr double boundary_disc = 0.45;
 constexpr double disc_in_bubble = 0.22;
 constexpr double min_disc = 1.1;        // pixels
 constexpr double edge_on_colour = 0.3;  // opacity
+constexpr PictureSize picture_size{14, 1000, 2400};
 
 // ------------------------------------------------------------------------ spacing -----------
 
@@ -118,9 +120,6 @@ class Painter {
   Colour colour_of(double spacing) const { return spacing_colour(scale_.fraction(spacing)); }
   void bubble(std::size_t node);
   void discs_of(const std::vector<std::size_t>& members, const Colour& colour, double diameter);
-  double begin_legend(double font_size);
-  void node_count(double base);
-  void scale_bar(double left, double base);
   void colour_bar(double left, double base, double width);
   double key(double left, double base, const std::string& meaning, const Colour& colour);
   void dot(double x, double y);
@@ -213,36 +212,6 @@ void Painter::discs_of(const std::vector<std::size_t>& members, const Colour& co
 
 // ------------------------------------------------------------------------ legend ------------
 
-// 103 214 instead of 103214.
-std::string grouped(std::size_t count) {
-  std::string digits = std::to_string(count);
-  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) {
-    digits.insert(static_cast<std::size_t>(at), 1, ' ');
-  }
-  return digits;
-}
-
-// The largest of 1, 2, 5 times a power of ten that is at most `value`.
-double round_below(double value) {
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  const double digit = value / power;
-  return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
-}
-
-void Painter::scale_bar(double left, double base) {
-  const double length = round_below(frame_.from_pixels(0.22 * frame_.width));
-  const double right = left + frame_.pixels(length);
-  const double tick = 0.35 * frame_.font_size;
-  cairo_move_to(cairo_, left, base - tick);
-  cairo_line_to(cairo_, left, base);
-  cairo_line_to(cairo_, right, base);
-  cairo_line_to(cairo_, right, base - tick);
-  set_colour(cairo_, ink);
-  cairo_set_line_width(cairo_, 1.2 * frame_.line_width);
-  cairo_stroke(cairo_);
-  draw_text(cairo_, 0.5 * (left + right), base - 0.6 * frame_.font_size, short_number(length), 0.5);
-}
-
 void Painter::colour_bar(double left, double base, double width) {
   const double height = 0.55 * frame_.font_size;
   cairo_pattern_t* gradient = cairo_pattern_create_linear(left, 0, left + width, 0);
@@ -270,30 +239,16 @@ double Painter::key(double left, double base, const std::string& meaning, const 
   return draw_text(cairo_, left + 1.5 * size, base, meaning, 0);
 }
 
-// Returns the line the legend stands on.
-double Painter::begin_legend(double font_size) {
-  cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cairo_, font_size);
-  const double base = frame_.height - frame_.margin;
-  scale_bar(frame_.margin, base);
-  return base;
-}
-
-void Painter::node_count(double base) {
-  draw_text(cairo_, frame_.width - frame_.margin, base, grouped(nodes_.size()) + " nodes", 1);
-}
-
 void Painter::legend(const TriangleValues& values) {
-  // High and narrow pictures have not room for three things beside each other in large letters.
-  const double font_size = std::min(frame_.font_size, frame_.width / 45);
-  const double base = begin_legend(font_size);
+  const double font_size = font_beside_colour_bar(frame_);
+  const double base = begin_legend(cairo_, frame_, font_size);
   draw_colour_bar(cairo_, values.scale(), values.title(),
                   {0.32 * frame_.width, base, 0.36 * frame_.width, font_size});
-  node_count(base);
+  draw_node_count(cairo_, frame_, base, nodes_.size());
 }
 
 void Painter::legend() {
-  const double base = begin_legend(frame_.font_size);
+  const double base = begin_legend(cairo_, frame_, frame_.font_size);
   const double middle = 0.3 * frame_.width;
   double end = middle + 0.28 * frame_.width;
   if (scale_.uniform()) {
@@ -304,14 +259,10 @@ void Painter::legend() {
     colour_bar(middle, base, end - middle);
   }
   key(end + frame_.font_size, base, "boundary", boundary_node);
-  node_count(base);
+  draw_node_count(cairo_, frame_, base, nodes_.size());
 }
 
-}  // namespace
-
 // ------------------------------------------------------------------------ the whole ---------
-
-namespace {
 
 // Small discs look pale: the fewer pixels there are between nodes, the more of them are filled.
 double disc_size(const PictureFrame& frame) {
@@ -319,14 +270,10 @@ double disc_size(const PictureFrame& frame) {
   return std::lerp(dense_disc, disc_over_spacing, std::clamp((pixels - 4) / 8, 0.0, 1.0));
 }
 
-}  // namespace
-
-void draw_picture(cairo_t* cairo, const NodeSet& nodes, const PictureFrame& frame,
-                  const PictureStyle& style) {
-  set_colour(cairo, paper);
-  cairo_paint(cairo);
+void draw(cairo_t* cairo, const NodeSet& nodes, const PictureFrame& frame,
+          const PictureStyle& style) {
   Painter painter(cairo, nodes, frame);
-  if (style.colour != TriangleColour::none) {
+  if (style.colour != ElementColour::none) {
     const TriangleValues values(nodes, style.colour);
     fill_triangles(cairo, frame, values);
     painter.triangles(ink, edge_on_colour);
@@ -344,6 +291,21 @@ void draw_picture(cairo_t* cairo, const NodeSet& nodes, const PictureFrame& fram
     painter.discs(disc_size(frame), boundary_disc);
   }
   painter.legend();
+}
+
+std::string description_of(const NodeSet& nodes, const PictureStyle& style) {
+  if (style.colour == ElementColour::none) return "";
+  const TriangleValues values(nodes, style.colour);
+  return "Triangles by " + words_of(values.scale(), values.title());
+}
+
+}  // namespace
+
+Drawing drawing_of(const NodeSet& nodes, const PictureStyle& style) {
+  const PictureFrame frame =
+      frame_around(bounds_of({nodes.outline, nodes.xy}), nodes.spacing, picture_size);
+  return {frame.width, frame.height, description_of(nodes, style),
+          [&nodes, frame, style](cairo_t* cairo) { draw(cairo, nodes, frame, style); }};
 }
 
 }  // namespace pnpbs::picture

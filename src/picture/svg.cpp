@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cairo-svg.h>
 
-#include <optional>
 #include <string>
 
 #include "picture/cairo_surface.hpp"
-#include "picture/colour_bar.hpp"
-#include "picture/picture.hpp"
+#include "picture/formats.hpp"
 
 namespace pnpbs::picture {
 namespace {
@@ -35,16 +33,15 @@ class Describer {
   bool described_ = false;
 };
 
-void write_plain(const NodeSet& nodes, const PictureStyle& style, io::Sink& sink) {
-  const PictureFrame frame = frame_for(nodes);
+void write_plain(const Drawing& drawing, io::Sink& sink) {
   CairoStream stream(sink);
-  const Surface surface(
-      cairo_svg_surface_create_for_stream(CairoStream::write, &stream, frame.width, frame.height),
-      cairo_surface_destroy);
+  const Surface surface(cairo_svg_surface_create_for_stream(CairoStream::write, &stream,
+                                                            drawing.width, drawing.height),
+                        cairo_surface_destroy);
   cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
   {
     const Context cairo(cairo_create(surface.get()), cairo_destroy);
-    draw_picture(cairo.get(), nodes, frame, style);
+    draw_on_paper(cairo.get(), drawing);
     stream.check(cairo_status(cairo.get()));
   }
   cairo_surface_finish(surface.get());
@@ -53,12 +50,11 @@ void write_plain(const NodeSet& nodes, const PictureStyle& style, io::Sink& sink
 
 }  // namespace
 
-void write_svg(const NodeSet& nodes, const PictureStyle& style, io::Sink& sink) {
-  if (style.colour == TriangleColour::none) return write_plain(nodes, style, sink);
-  const TriangleValues values(nodes, style.colour);
-  Describer describer(sink, "Triangles by " + words_of(values.scale(), values.title()));
+void write_svg(const Drawing& drawing, io::Sink& sink) {
+  if (drawing.description.empty()) return write_plain(drawing, sink);
+  Describer describer(sink, drawing.description);
   io::Sink described([&describer](std::span<const char> part) { describer(part); });
-  write_plain(nodes, style, described);
+  write_plain(drawing, described);
   described.flush();
 }
 

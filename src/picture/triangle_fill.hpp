@@ -4,7 +4,7 @@
 
 #include <cairo.h>
 
-#include "picture/picture.hpp"
+#include "picture/picture_frame.hpp"
 #include "picture/triangle_values.hpp"
 
 namespace pnpbs::picture {

@@ -4,10 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "tool/cut.hpp"
 #include "tool/exit.hpp"
 #include "tool/help.hpp"
 #include "tool/library.hpp"
 #include "tool/names.hpp"
+#include "tool/numbers.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -26,26 +28,43 @@ void add_repeatable(CLI::App& app, const std::string& name, std::vector<std::str
   app.add_option(name, values, help)->allow_extra_args(false)->take_all();
 }
 
+void take_feature_angle(const std::string& text, Arguments& arguments) {
+  const auto numbers = numbers_between_commas(text);
+  if (!numbers || numbers->size() != 1 || numbers->front() < 0 || numbers->front() > 180)
+    refuse("--feature-angle: expected degrees from 0 to 180, found '" + text + "'");
+  arguments.feature_angle = numbers->front();
+}
+
 void add_input(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to fill";
   app.add_option("--domain", arguments.domain,
-                 "the domain: a file in Triangle's .poly format, - for\nstandard input")
+                 "the domain: in the plane, a file in Triangle's .poly format, -\nfor standard "
+                 "input; in space, a closed surface as .stl, .off,\n.obj, .ply, or .poly or "
+                 ".smesh as TetGen has them, or\n'box(x0,y0,z0, x1,y1,z1)', 'ball(x,y,z, r)',\n"
+                 "'cylinder(x0,y0,z0, x1,y1,z1, r)'")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--spacing", arguments.spacing,
                  "wanted distance d between neighbouring nodes: a number, or\na formula in x and y "
-                 "such as '1 + 0.02*hypot(x,y)'")
+                 "(and z) such as '1 + 0.02*hypot(x,y)'")
       ->type_name("EXPR")
       ->group(group);
   app.add_option("--spacing-grid", arguments.spacing_grid,
                  "instead: d sampled on an ESRI ASCII grid (.asc)")
       ->type_name("FILE")
       ->group(group);
+  app.add_option_function<std::string>(
+         "--feature-angle",
+         [&arguments](const std::string& text) { take_feature_angle(text, arguments); },
+         "nodes follow a surface's edges where its normals turn by\nmore than this; default: 40 "
+         "degrees")
+      ->type_name("DEGREES")
+      ->group(group);
 }
 
 void take_colour(const std::string& name, Arguments& arguments) {
-  const std::vector<std::string> names = picture::triangle_colour_names();
-  const auto colour = picture::triangle_colour_called(name);
+  const std::vector<std::string> names = picture::element_colour_names();
+  const auto colour = picture::element_colour_called(name);
   if (!colour) {
     std::string known;
     for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
@@ -68,14 +87,20 @@ void add_output(CLI::App& app, Arguments& arguments) {
       ->type_name("FILE")
       ->group(group);
   app.add_flag("--nodes-only", arguments.nodes_only,
-               "no triangles in files that may be without (.vtu, .pvtu,\n.msh)")
+               "no triangles or tetrahedra in files that may be without\n(.vtu, .pvtu, .msh)")
       ->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
   app.add_option_function<std::string>(
          "--color", [&arguments](const std::string& name) { take_colour(name, arguments); },
-         "colour the triangles in pictures by quality, edge (mean\nlength over d) or spacing (d); "
-         "default: none")
+         "colour the triangles in pictures by quality, edge (mean\nlength over d) or spacing (d), "
+         "or none, the default; of\nbodies the tetrahedra that are cut, by quality if not\nasked "
+         "otherwise")
       ->type_name("BY")
+      ->group(group);
+  app.add_option("--cut", arguments.cut,
+                 "where pictures cut a body open: x=NUMBER, y=NUMBER,\nz=NUMBER, or A,B,C,D for "
+                 "A x + B y + C z = D; default:\nthrough the middle, square to the shortest extent")
+      ->type_name("PLANE")
       ->group(group);
 }
 
@@ -93,8 +118,8 @@ void add_general(CLI::App& app, Arguments& arguments, Questions& questions) {
       ->group(group);
   app.add_flag(
          "--check", arguments.check,
-         "check the results before they are written: lists, triangles,\narea; an error if any "
-         "of it is wrong")
+         "check the results before they are written: lists, triangles\nor tetrahedra, area or "
+         "volume; an error if any of it is wrong")
       ->group(group);
   app.add_flag("-h,--help", questions.help, "this text")->group(group);
   app.add_flag("--version", questions.version, "version, and what it was built with")->group(group);
@@ -153,9 +178,11 @@ void check_input(const Arguments& arguments) {
   if (!arguments.spacing.empty() && !arguments.spacing_grid.empty()) {
     refuse("--spacing and --spacing-grid exclude each other");
   }
-  if (arguments.bubbles && arguments.colour != picture::TriangleColour::none) {
+  const auto colour = arguments.colour.value_or(picture::ElementColour::none);
+  if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");
   }
+  if (!arguments.cut.empty()) cut_plane_in(arguments.cut);
 }
 
 // One empty line between groups is enough.
@@ -167,8 +194,10 @@ std::string compact(std::string text) {
 }  // namespace
 
 std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
-  CLI::App app("Places nodes in a plane domain so that their distances follow a spacing function.",
-               "pnpbs");
+  CLI::App app(
+      "Places nodes in a domain, plane or in space, so that their distances follow a spacing "
+      "function.",
+      "pnpbs");
   Questions questions;
   std::vector<std::string> settings;
   app.allow_extras();
@@ -191,6 +220,14 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   take_settings(settings, arguments);
   check_input(arguments);
   return "";
+}
+
+void refuse_other_dimension(const Arguments& arguments, int dimension) {
+  const std::string plane = ", and this domain is in the plane";
+  if (dimension == 2 && arguments.feature_angle) refuse("--feature-angle is for bodies" + plane);
+  if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);
+  if (dimension == 3 && arguments.bubbles)
+    refuse("--bubbles is for domains in the plane, and this one is a body");
 }
 
 }  // namespace pnpbs::tool

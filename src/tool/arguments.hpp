@@ -2,23 +2,28 @@
 // What the user asks for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "picture/triangle_values.hpp"
+#include "picture/element_colour.hpp"
 
 namespace pnpbs::tool {
 
+constexpr double default_feature_angle = 40;  // degrees
+
 struct Arguments {
-  std::string domain;        // a file, or "-"
+  std::string domain;        // a file, "-", or a body in words
   std::string spacing;       // a formula; empty if spacing_grid is set
   std::string spacing_grid;  // a file
   std::vector<std::string> outputs;
   std::string format;  // of standard output and of unknown extensions
   std::string report;  // a file, "-", or empty
-  std::vector<std::pair<std::string, std::string>> options;        // key and value for the library
-  picture::TriangleColour colour = picture::TriangleColour::none;  // of triangles in pictures
+  std::vector<std::pair<std::string, std::string>> options;  // key and value for the library
+  std::optional<double> feature_angle;                       // of surfaces, degrees
+  std::optional<picture::ElementColour> colour;              // of elements in pictures
+  std::string cut;  // where pictures cut a body open; empty: through its middle
   bool bubbles = false;
   bool check = false;  // the results
   bool nodes_only = false;
@@ -30,5 +35,8 @@ struct Arguments {
 // Parses the command line. If it only wants information (--help, --version, ...), that is the
 // result; otherwise it is empty. Throws BadInput.
 std::string parse_arguments(int argc, char** argv, Arguments& arguments);
+
+// What only domains of the other dimension have. Throws BadInput.
+void refuse_other_dimension(const Arguments& arguments, int dimension);
 
 }  // namespace pnpbs::tool

@@ -3,9 +3,16 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string_view>
 
+#include "io/extension.hpp"
 #include "tool/exit.hpp"
 
 namespace pnpbs::tool {
@@ -27,11 +34,38 @@ std::string standard_input() {
   }
 }
 
+bool is_surface(const std::string& extension) {
+  constexpr std::array<std::string_view, 5> surfaces{"stl", "off", "obj", "ply", "smesh"};
+  return std::ranges::find(surfaces, extension) != surfaces.end();
+}
+
+// A .poly is Triangle's or TetGen's: the second number of both is the dimension. Only what is
+// certainly a body's is said to be one; all else, pipes too, is for the reader of plane domains.
+bool has_three_dimensions(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  std::ifstream file(path);
+  std::string line, vertices, dimension;
+  while (std::getline(file, line)) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    if (words >> vertices) return words >> dimension && dimension == "3";
+  }
+  return false;
+}
+
 }  // namespace
 
-void read_domain(const std::string& path, pnpbs_domain domain, pnpbs_context context,
-                 const Ranks& ranks) {
-  const bool from_input = path == "-";
+DomainSource::DomainSource(const Arguments& arguments)
+    : path_(arguments.domain),
+      primitive_(primitive_in(arguments.domain)),
+      feature_angle_(arguments.feature_angle.value_or(default_feature_angle)) {
+  const std::string extension = io::extension_of(path_);
+  if (primitive_ || is_surface(extension) || (extension == "poly" && has_three_dimensions(path_)))
+    dimension_ = 3;
+}
+
+void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks& ranks) const {
+  const bool from_input = path_ == "-";
   const std::string text = from_input ? ranks.from_first(standard_input) : "";
   ranks.agreed([&] {
     if (from_input) {
@@ -39,10 +73,29 @@ void read_domain(const std::string& path, pnpbs_domain domain, pnpbs_context con
                                     "standard input"),
             context);
     } else {
-      check(pnpbs_domain_read_poly(domain, path.c_str()), context);
+      add_to(domain, context);
     }
     check(pnpbs_domain_check(domain), context);
   });
+}
+
+void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
+  if (primitive_) return add(*primitive_, domain, context);
+  if (dimension_ == 2) return read_plane(domain, context);
+  check(pnpbs_domain_read_surface(domain, PNPBS_BOUNDARY, path_.c_str(), feature_angle_), context);
+}
+
+// Whatever its name. But who gives a file that is none needs to know how it was taken.
+void DomainSource::read_plane(pnpbs_domain domain, pnpbs_context context) const {
+  try {
+    check(pnpbs_domain_read_poly(domain, path_.c_str()), context);
+  } catch (const Failure& error) {
+    const std::string extension = io::extension_of(path_);
+    std::error_code none;
+    if (extension == "poly" || !std::filesystem::is_regular_file(path_, none)) throw;
+    throw BadInput(std::string(error.what()) + "\nIt was read as a .poly file: its name does not " +
+                   "end in .stl, .off, .obj, .ply or .smesh.");
+  }
 }
 
 }  // namespace pnpbs::tool

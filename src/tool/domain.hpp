@@ -1,17 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading the domain from a file or from standard input.
+// The domain that the user names: a file, standard input, or a simple body in words.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "tool/arguments.hpp"
 #include "tool/library.hpp"
+#include "tool/primitive.hpp"
 #include "tool/ranks.hpp"
 
 namespace pnpbs::tool {
 
-// path "-" is standard input, of the first rank; files are read by every rank. Collective. Throws
-// Failure.
-void read_domain(const std::string& path, pnpbs_domain domain, pnpbs_context context,
-                 const Ranks& ranks);
+class DomainSource {
+ public:
+  // Local: finds out what it is. Throws BadInput.
+  explicit DomainSource(const Arguments& arguments);
+
+  int dimension() const { return dimension_; }  // 2: in the plane, 3: a body
+
+  // Standard input is the first rank's; files are read by every rank. Collective. Throws Failure.
+  void read(pnpbs_domain domain, pnpbs_context context, const Ranks& ranks) const;
+
+ private:
+  void add_to(pnpbs_domain domain, pnpbs_context context) const;
+  void read_plane(pnpbs_domain domain, pnpbs_context context) const;
+
+  std::string path_;  // "-" is standard input
+  std::optional<Primitive> primitive_;
+  int dimension_ = 2;
+  double feature_angle_;
+};
 
 }  // namespace pnpbs::tool

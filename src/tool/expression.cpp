@@ -34,7 +34,8 @@ void define_names(mu::Parser& parser) {
 }
 
 std::vector<std::string> known_names(const mu::Parser& parser) {
-  std::vector<std::string> names{"x", "y"};
+  std::vector<std::string> names;
+  for (const auto& [name, place] : parser.GetVar()) names.push_back(name);
   for (const auto& [name, function] : parser.GetFunDef()) names.push_back(name);
   for (const auto& [name, value] : parser.GetConst()) names.push_back(name);
   return names;
@@ -80,6 +81,7 @@ std::string about_unknown(const std::string& token, const mu::Parser& parser) {
     return "'" + token + "' needs its arguments in parentheses";
   if (std::isdigit(first)) return "'" + token + "' is no number";
   if (!std::isalpha(first) && first != '_') return "unexpected '" + token + "'";
+  if (token == "z") return "unknown name 'z': this domain is in the plane and has x and y";
   return "unknown name '" + token + "'" + did_you_mean(token, known_names(parser));
 }
 
@@ -118,16 +120,19 @@ std::string in_words(const mu::Parser::exception_type& error, const mu::Parser& 
 
 struct Expression::Parser {
   mu::Parser parser;
-  double x = 0, y = 0;
+  int dimension;
+  double place[3] = {0, 0, 0};
 };
 
-Expression::Expression(const std::string& text) : parser_(std::make_unique<Parser>()) {
+Expression::Expression(const std::string& text, int dimension)
+    : parser_(std::make_unique<Parser>()) {
   refuse_what_is_no_formula(text);
   mu::Parser& parser = parser_->parser;
+  parser_->dimension = dimension;
   try {
     define_names(parser);
-    parser.DefineVar("x", &parser_->x);
-    parser.DefineVar("y", &parser_->y);
+    for (int k = 0; k < dimension; ++k)
+      parser.DefineVar(std::string(1, "xyz"[k]), &parser_->place[k]);
     parser.SetExpr(text);
     parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
@@ -142,16 +147,15 @@ Expression::~Expression() = default;
 
 bool Expression::is_constant() const { return parser_->parser.GetUsedVar().empty(); }
 
-double Expression::at(double x, double y) const {
-  parser_->x = x;
-  parser_->y = y;
+double Expression::at(const double* place) const {
+  std::copy_n(place, parser_->dimension, parser_->place);
   return parser_->parser.Eval();
 }
 
 // One by one on purpose: muParser's own bulk mode is no faster on one thread, and starts OpenMP
 // threads that get in the way of the library's.
-void Expression::at(std::int64_t n, const double* xy, double* values) const {
-  for (std::int64_t i = 0; i < n; ++i) values[i] = at(xy[2 * i], xy[2 * i + 1]);
+void Expression::at(std::int64_t n, const double* coordinates, double* values) const {
+  for (std::int64_t i = 0; i < n; ++i) values[i] = at(coordinates + parser_->dimension * i);
 }
 
 std::string expression_help() {
@@ -159,7 +163,9 @@ std::string expression_help() {
   define_names(parser);
   std::string list;
   for (const auto& [name, function] : parser.GetFunDef()) list += (list.empty() ? "" : " ") + name;
-  return "x, y, pi, e, numbers, + - * / ^ ( ), comparisons, a ? b : c, and the functions " + list;
+  return "x, y, z (of bodies), pi, e, numbers, + - * / ^ ( ), comparisons, a ? b : c, and the "
+         "functions " +
+         list;
 }
 
 }  // namespace pnpbs::tool

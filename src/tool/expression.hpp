@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing that the user writes as a formula in x and y.
+// A spacing that the user writes as a formula in x and y, and z for bodies.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,13 @@ namespace pnpbs::tool {
 class Expression {
  public:
   // Throws BadInput with the text and a mark below the place of the error.
-  explicit Expression(const std::string& text);
+  Expression(const std::string& text, int dimension);
   ~Expression();
 
-  bool is_constant() const;  // neither x nor y occurs in it
-  double at(double x, double y) const;
-  void at(std::int64_t n, const double* xy, double* values) const;
+  bool is_constant() const;  // no coordinate occurs in it
+  double at(const double* place) const;
+  // coordinates: [n][dimension]
+  void at(std::int64_t n, const double* coordinates, double* values) const;
 
  private:
   struct Parser;

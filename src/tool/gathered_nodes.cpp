@@ -4,97 +4,122 @@
 #include <algorithm>
 #include <array>
 
+#include "tool/own_elements.hpp"
+
 namespace pnpbs::tool {
 namespace {
 
+template <int Dim>
 struct Node {
   std::int64_t id;
-  double x, y, spacing;
+  Point<Dim> position;
+  double spacing;
   std::int64_t tag;
 };
 
-using Corners = std::array<std::int64_t, 3>;
-
-std::vector<Node> own_nodes(pnpbs_placement placement, pnpbs_context context) {
+template <int Dim>
+std::vector<Node<Dim>> own_nodes(pnpbs_placement placement, pnpbs_context context) {
   std::int64_t count = 0;
   check(pnpbs_placement_count(placement, &count), context);
   const auto size = static_cast<std::size_t>(count);
-  std::vector<double> xy(2 * size), spacing(size);
+  std::vector<Point<Dim>> positions(size);
+  std::vector<double> spacing(size);
   std::vector<std::int64_t> ids(size);
   std::vector<std::int32_t> tags(size);
-  check(pnpbs_placement_get_nodes(placement, count, xy.data(), ids.data(), tags.data(),
-                                  spacing.data()),
-        context);
-  std::vector<Node> nodes(size);
-  for (std::size_t i = 0; i < size; ++i)
-    nodes[i] = {ids[i], xy[2 * i], xy[2 * i + 1], spacing[i], tags[i]};
+  check(
+      pnpbs_placement_get_nodes(placement, count, positions.empty() ? nullptr : positions[0].data(),
+                                ids.data(), tags.data(), spacing.data()),
+      context);
+  std::vector<Node<Dim>> nodes(size);
+  for (std::size_t i = 0; i < size; ++i) nodes[i] = {ids[i], positions[i], spacing[i], tags[i]};
   return nodes;
 }
 
-std::vector<std::int64_t> ghost_ids(pnpbs_placement placement, pnpbs_context context) {
-  std::int64_t count = 0;
-  check(pnpbs_placement_ghost_count(placement, &count), context);
-  std::vector<std::int64_t> ids(static_cast<std::size_t>(count));
-  check(
-      pnpbs_placement_get_ghosts(placement, count, nullptr, ids.data(), nullptr, nullptr, nullptr),
-      context);
-  return ids;
+// All ranks' nodes in the order of their ids, whoever had them. `own` are this rank's.
+template <int Dim>
+std::vector<Node<Dim>> all_nodes(std::vector<Node<Dim>> own, const Ranks& ranks) {
+  std::vector<Node<Dim>> nodes = ranks.gather(std::move(own));
+  std::ranges::sort(nodes, {}, &Node<Dim>::id);
+  return nodes;
 }
 
-// By the ids of their corners.
-std::vector<Corners> own_triangles(pnpbs_placement placement, pnpbs_context context,
-                                   const std::vector<Node>& nodes) {
-  const std::vector<std::int64_t> ghosts = ghost_ids(placement, context);
-  std::int64_t count = 0;
-  check(pnpbs_placement_get_triangles(placement, 0, &count, nullptr), context);
-  std::vector<Corners> triangles(static_cast<std::size_t>(count));
-  check(pnpbs_placement_get_triangles(placement, count, &count,
-                                      triangles.empty() ? nullptr : triangles[0].data()),
-        context);
-  for (Corners& corners : triangles) {
+// Puts ids for the local indices of corners.
+template <int Dim, std::size_t Size>
+void name_corners(std::vector<Corners<Size>>& elements, const std::vector<Node<Dim>>& nodes,
+                  const std::vector<std::int64_t>& ghosts) {
+  for (Corners<Size>& corners : elements)
     for (std::int64_t& corner : corners) {
       const auto i = static_cast<std::size_t>(corner);
       corner = i < nodes.size() ? nodes[i].id : ghosts[i - nodes.size()];
     }
-  }
-  return triangles;
 }
 
-// In the order of their ids, whoever had them.
-void take_nodes(std::vector<Node> nodes, picture::NodeSet& set) {
-  std::ranges::sort(nodes, {}, &Node::id);
+// All ranks' elements, in the order of the ids of their corners, by the places of these ids.
+template <std::size_t Size>
+std::vector<Corners<Size>> all_elements(std::vector<Corners<Size>> own,
+                                        const std::vector<std::int64_t>& ids, const Ranks& ranks) {
+  std::vector<Corners<Size>> elements = ranks.gather(std::move(own));
+  std::ranges::sort(elements);
+  for (Corners<Size>& corners : elements)
+    for (std::int64_t& corner : corners)
+      corner = std::ranges::lower_bound(ids, corner) - ids.begin();
+  return elements;
+}
+
+void take(const std::vector<Node<2>>& nodes, picture::NodeSet& set) {
   set.xy.reserve(2 * nodes.size());
   set.ids.reserve(nodes.size());
   set.tags.reserve(nodes.size());
   set.spacing.reserve(nodes.size());
-  for (const Node& node : nodes) {
-    set.xy.insert(set.xy.end(), {node.x, node.y});
+  for (const Node<2>& node : nodes) {
+    set.xy.insert(set.xy.end(), node.position.begin(), node.position.end());
     set.ids.push_back(node.id);
     set.tags.push_back(static_cast<std::int32_t>(node.tag));
     set.spacing.push_back(node.spacing);
   }
 }
 
-void take_triangles(std::vector<Corners> triangles, picture::NodeSet& set) {
-  std::ranges::sort(triangles);
-  for (Corners& corners : triangles) {
-    for (std::int64_t& corner : corners)
-      corner = std::ranges::lower_bound(set.ids, corner) - set.ids.begin();
+// Returns their ids.
+std::vector<std::int64_t> take(const std::vector<Node<3>>& nodes, picture::Body& body) {
+  std::vector<std::int64_t> ids;
+  ids.reserve(nodes.size());
+  body.positions.reserve(nodes.size());
+  body.spacing.reserve(nodes.size());
+  for (const Node<3>& node : nodes) {
+    ids.push_back(node.id);
+    body.positions.push_back(node.position);
+    body.spacing.push_back(node.spacing);
   }
-  set.triangles = std::move(triangles);
+  return ids;
 }
 
 }  // namespace
 
 picture::NodeSet gathered_nodes(pnpbs_placement placement, pnpbs_context context,
                                 const Ranks& ranks) {
-  std::vector<Node> own;
-  ranks.agreed([&] { own = own_nodes(placement, context); });
-  std::vector<Corners> triangles = own_triangles(placement, context, own);
+  std::vector<Node<2>> own;
+  ranks.agreed([&] { own = own_nodes<2>(placement, context); });
+  std::vector<Corners<3>> triangles = own_triangles(placement, context);
+  name_corners(triangles, own, ghost_ids(placement, context));
   picture::NodeSet set;
-  take_nodes(ranks.gather(std::move(own)), set);
-  take_triangles(ranks.gather(std::move(triangles)), set);
+  take(all_nodes(std::move(own), ranks), set);
+  set.triangles = all_elements(std::move(triangles), set.ids, ranks);
   return set;
+}
+
+picture::Body gathered_body(pnpbs_placement placement, pnpbs_context context, const Ranks& ranks) {
+  std::vector<Node<3>> own;
+  ranks.agreed([&] { own = own_nodes<3>(placement, context); });
+  const std::vector<std::int64_t> ghosts = ghost_ids(placement, context);
+  std::vector<Corners<4>> tetrahedra = own_tetrahedra(placement, context);
+  std::vector<Corners<3>> boundary = own_boundary(placement, context);
+  name_corners(tetrahedra, own, ghosts);
+  name_corners(boundary, own, ghosts);
+  picture::Body body;
+  const std::vector<std::int64_t> ids = take(all_nodes(std::move(own), ranks), body);
+  body.tetrahedra = all_elements(std::move(tetrahedra), ids, ranks);
+  body.boundary = all_elements(std::move(boundary), ids, ranks);
+  return body;
 }
 
 }  // namespace pnpbs::tool

@@ -83,16 +83,19 @@ using Header = std::map<std::string, double>;
 
 // Reads name and value pairs; leaves the first word of the values in `word`.
 Header read_header(Words& words, std::string& word) {
-  constexpr std::array<std::string_view, 10> known{
-      "ncols",     "nrows",    "xllcorner", "yllcorner", "xllcenter",
-      "yllcenter", "cellsize", "dx",        "dy",        "nodata_value"};
+  constexpr std::array<std::string_view, 14> known{
+      "ncols",     "nrows",     "nlayers",  "xllcorner", "yllcorner", "zllcorner", "xllcenter",
+      "yllcenter", "zllcenter", "cellsize", "dx",        "dy",        "dz",        "nodata_value"};
   Header header;
   while (words.next(word) && begins_with_letter(word)) {
     const std::string name = in_small_letters(word);
     if (name == "nan" || name == "inf") break;
     if (std::ranges::find(known, name) == known.end()) {
-      words.fail("ncols, nrows, xllcorner or xllcenter, cellsize or dx and dy, nodata_value",
-                 "'" + word + "'");
+      words.fail(
+          "ncols, nrows, nlayers, xllcorner or xllcenter (y, z as well), cellsize or dx and dy "
+          "(and "
+          "dz), nodata_value",
+          "'" + word + "'");
     }
     std::string value;
     if (!words.next(value)) words.fail("a value of " + word, "the end of the file");
@@ -115,25 +118,44 @@ std::int64_t count_of(const Header& header, const Words& words, const std::strin
   return static_cast<std::int64_t>(value);
 }
 
-double origin_of(const Header& header, const Words& words, const std::string& letter, double step) {
+double origin_of(const Header& header, const Words& words, char axis, double step) {
+  const std::string letter(1, axis);
   const auto centre = header.find(letter + "llcenter");
   if (centre != header.end()) return centre->second;
   return value_of(header, words, letter + "llcorner") + 0.5 * step;
 }
 
-// One size for both directions, or, as GDAL writes cells that are no squares, one for each.
-void read_steps(const Header& header, const Words& words, double step[2]) {
+// The names of the steps, for messages.
+std::string steps_called(int dimension) { return dimension == 3 ? "dx, dy and dz" : "dx and dy"; }
+
+// One size for all directions, or, as GDAL writes cells that are no squares, one for each.
+void read_steps(const Header& header, const Words& words, int dimension, Grid& grid) {
   const bool squares = header.contains("cellsize");
-  if (squares && (header.contains("dx") || header.contains("dy")))
-    words.fail("cellsize, or dx and dy", "both in the header");
-  if (!squares && !header.contains("dx") && !header.contains("dy"))
-    words.fail("cellsize, or dx and dy, in the header", "none");
-  for (int k = 0; k < 2; ++k) {
-    const std::string name = squares ? "cellsize" : k == 0 ? "dx" : "dy";
-    step[k] = value_of(header, words, name);
-    if (!(step[k] > 0 && std::isfinite(step[k])))
-      words.fail(name + " to be positive", std::to_string(step[k]));
+  const bool each = header.contains("dx") || header.contains("dy") || header.contains("dz");
+  if (squares && each) words.fail("cellsize, or " + steps_called(dimension), "both in the header");
+  if (!squares && !each)
+    words.fail("cellsize, or " + steps_called(dimension) + ", in the header", "none");
+  for (int k = 0; k < dimension; ++k) {
+    const std::string name = squares ? "cellsize" : std::string("d") + "xyz"[k];
+    grid.step[k] = value_of(header, words, name);
+    if (!(grid.step[k] > 0 && std::isfinite(grid.step[k])))
+      words.fail(name + " to be positive", std::to_string(grid.step[k]));
   }
+}
+
+// Three dimensions if there are layers, else two.
+void read_shape(const Header& header, const Words& words, Grid& grid) {
+  constexpr const char* counts[] = {"ncols", "nrows", "nlayers"};
+  const int dimension = header.contains("nlayers") ? 3 : 2;
+  double points = 1;
+  for (int k = 0; k < dimension; ++k) {
+    grid.size[k] = count_of(header, words, counts[k]);
+    points *= static_cast<double>(grid.size[k]);
+  }
+  if (points > max_points) words.fail("at most 1e9 grid points", "more");
+  read_steps(header, words, dimension, grid);
+  for (int k = 0; k < dimension; ++k)
+    grid.origin[k] = origin_of(header, words, "xyz"[k], grid.step[k]);
 }
 
 // Grows with what the file really holds: a header may promise anything.
@@ -149,12 +171,13 @@ std::vector<double> read_values(Words& words, std::string word, std::int64_t cou
   return values;
 }
 
-void turn_upside_down(std::vector<double>& values, std::int64_t columns) {
-  const auto rows = static_cast<std::int64_t>(values.size()) / columns;
-  for (std::int64_t row = 0; row < rows / 2; ++row) {
-    std::swap_ranges(values.begin() + row * columns, values.begin() + (row + 1) * columns,
-                     values.begin() + (rows - 1 - row) * columns);
-  }
+// The northern row of every layer comes first in the file, and last in the grid.
+void turn_layers_upside_down(Grid& grid) {
+  const std::int64_t columns = grid.size[0], rows = grid.size[1];
+  for (auto layer = grid.values.begin(); layer != grid.values.end(); layer += columns * rows)
+    for (std::int64_t row = 0; row < rows / 2; ++row)
+      std::swap_ranges(layer + row * columns, layer + (row + 1) * columns,
+                       layer + (rows - 1 - row) * columns);
 }
 
 // Spreads values from the cells that have one, step by step.
@@ -168,7 +191,9 @@ void fill_gaps(Grid& grid, double no_data, const Words& words) {
   if (front.empty()) words.fail("data", "no cell that has any");
   if (front.size() == known.size()) return;
   for (; !front.empty(); front.pop_front()) {
-    const std::int64_t column = front[0] % grid.size[0], row = front[0] / grid.size[0];
+    const std::int64_t layer_size = grid.size[0] * grid.size[1];
+    const std::int64_t column = front[0] % grid.size[0];
+    const std::int64_t row = front[0] % layer_size / grid.size[0], layer = front[0] / layer_size;
     const auto visit = [&](bool exists, std::int64_t offset) {
       const auto to = static_cast<std::size_t>(front[0] + offset);
       if (!exists || known[to]) return;
@@ -180,26 +205,24 @@ void fill_gaps(Grid& grid, double no_data, const Words& words) {
     visit(column + 1 < grid.size[0], 1);
     visit(row > 0, -grid.size[0]);
     visit(row + 1 < grid.size[1], grid.size[0]);
+    visit(layer > 0, -layer_size);
+    visit(layer + 1 < grid.size[2], layer_size);
   }
 }
 
 }  // namespace
 
-Grid read_grid(const std::string& path) {
+Grid read_grid(const std::string& path, int dimension) {
   Words words(path);
   std::string word;
   const Header header = read_header(words, word);
+  if (dimension == 2 && header.contains("nlayers"))
+    throw BadInput(path +
+                   ": a grid with layers (nlayers) is for bodies; this domain is in the plane");
   Grid grid;
-  grid.size[0] = count_of(header, words, "ncols");
-  grid.size[1] = count_of(header, words, "nrows");
-  if (static_cast<double>(grid.size[0]) * static_cast<double>(grid.size[1]) > max_points) {
-    words.fail("at most 1e9 grid points", "more");
-  }
-  read_steps(header, words, grid.step);
-  grid.origin[0] = origin_of(header, words, "x", grid.step[0]);
-  grid.origin[1] = origin_of(header, words, "y", grid.step[1]);
-  grid.values = read_values(words, word, grid.size[0] * grid.size[1]);
-  turn_upside_down(grid.values, grid.size[0]);
+  read_shape(header, words, grid);
+  grid.values = read_values(words, word, grid.size[0] * grid.size[1] * grid.size[2]);
+  turn_layers_upside_down(grid);
   const auto no_data = header.find("nodata_value");
   fill_gaps(grid, no_data == header.end() ? -9999.0 : no_data->second, words);
   return grid;

@@ -4,7 +4,9 @@
 //   ncols 4          xllcenter 0      cellsize 0.5          1 1 2 2   (northern row first)
 //   nrows 3          yllcenter 0      nodata_value -9999    1 1 1 2 ...
 //
-// Cells that are no squares have dx and dy instead of cellsize.
+// Cells that are no squares have dx and dy instead of cellsize. For bodies there may be layers, one
+// such block of values after the other, the lowest first: nlayers, zllcorner or zllcenter, and dz
+// beside dx and dy.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +16,15 @@
 namespace pnpbs::tool {
 
 struct Grid {
-  std::int64_t size[2];        // grid points in x and y
-  double origin[2];            // the south-western one
-  double step[2];              // of columns and rows
-  std::vector<double> values;  // x fastest, from the south
+  std::int64_t size[3] = {1, 1, 1};  // grid points in x, y and z
+  double origin[3] = {0, 0, 0};      // the lowest south-western one
+  double step[3] = {1, 1, 1};        // of columns, rows and layers
+  std::vector<double> values;        // x fastest, from the south, from below
 };
 
 // Throws BadInput with file, line and what was expected. Cells without data take the value of
-// the nearest cell that has one, in steps along rows and columns.
-Grid read_grid(const std::string& path);
+// the nearest cell that has one, in steps along rows, columns and layers. Without layers, the
+// values are those of all heights; with layers, dimension must be 3.
+Grid read_grid(const std::string& path, int dimension);
 
 }  // namespace pnpbs::tool

@@ -10,6 +10,8 @@
 #include <optional>
 
 #include "tool/arguments.hpp"
+#include "tool/body_figures.hpp"
+#include "tool/cut.hpp"
 #include "tool/domain.hpp"
 #include "tool/exit.hpp"
 #include "tool/file_format.hpp"
@@ -86,23 +88,46 @@ bool wants_picture(const Arguments& arguments) {
 }
 
 // What a run would come to.
-void tell_estimate(pnpbs_context context, pnpbs_placement placement, const Arguments& arguments,
+void tell_estimate(pnpbs_context context, pnpbs_placement placement,
+                   const std::optional<BodyFigures>& body, const Arguments& arguments,
                    const Ranks& ranks) {
   std::int64_t nodes = 0, bytes = 0;
   double seconds = 0;
   check(pnpbs_placement_estimate(placement, &nodes, &bytes, &seconds), context);
   give_up_if_any_is_interrupted(ranks);
   if (ranks.is_first())
-    std::cout << estimate_text({nodes, bytes, seconds, ranks.size(), wants_picture(arguments)});
+    std::cout << estimate_text(
+        {nodes, bytes, seconds, ranks.size(), wants_picture(arguments), body});
 }
 
-ExitCode run(const Arguments& arguments, const Ranks& ranks) {
+PictureLook look_of(const Arguments& arguments, int dimension, pnpbs_domain domain,
+                    pnpbs_context context) {
+  using picture::ElementColour;
+  if (dimension == 2)
+    return {arguments.bubbles, arguments.colour.value_or(ElementColour::none), std::nullopt};
+  return {false, arguments.colour.value_or(ElementColour::quality),
+          cut_plane_for(arguments.cut, domain, context)};
+}
+
+// What is wrong with the words of the user, before anything is done.
+struct Wishes {
   std::optional<Outputs> outputs;
+  std::optional<DomainSource> source;
   std::optional<Spacing> spacing;
-  ranks.agreed([&] {
-    if (!arguments.dry_run) outputs.emplace(arguments, ranks);
-    spacing.emplace(arguments);
-  });
+  Wishes(const Arguments& arguments, const Ranks& ranks) {
+    ranks.agreed([&] {
+      if (!arguments.dry_run) outputs.emplace(arguments, ranks);
+      source.emplace(arguments);
+      refuse_other_dimension(arguments, source->dimension());
+      spacing.emplace(arguments, source->dimension());
+    });
+  }
+};
+
+ExitCode run(const Arguments& arguments, const Ranks& ranks) {
+  Wishes wishes(arguments, ranks);
+  std::optional<Outputs>& outputs = wishes.outputs;
+  const int dimension = wishes.source->dimension();
   Context context;
   ranks.create_context(context.out());
   Domain domain;
@@ -110,23 +135,30 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
     for (const auto& [key, value] : arguments.options) {
       check(pnpbs_context_set(context, key.c_str(), value.c_str()), context);
     }
-    check(pnpbs_domain_create(context, 2, domain.out()), context);
+    check(pnpbs_domain_create(context, dimension, domain.out()), context);
   });
-  read_domain(arguments.domain, domain, context, ranks);
+  wishes.source->read(domain, context, ranks);
+  PictureLook look;
+  std::optional<BodyFigures> body;
+  ranks.agreed([&] {
+    look = look_of(arguments, dimension, domain, context);
+    if (dimension == 3) body = body_figures(domain, context);
+  });
 
   defer_interrupts();
   Placement placement;
   check(pnpbs_placement_create(context, domain, placement.out()), context);
-  spacing->give_to(placement, context);
+  wishes.spacing->give_to(placement, context);
   if (arguments.dry_run) {
-    tell_estimate(context, placement, arguments, ranks);
+    tell_estimate(context, placement, body, arguments, ranks);
     return ExitCode::done;
   }
   const pnpbs_status status = place(context, placement, arguments, ranks);
 
   if (arguments.check) check(pnpbs_placement_check(placement), context);
   Statistics statistics(placement);
-  outputs->write_pictures(placement, domain, context);
+  if (outputs->has_pictures()) outputs->write_pictures({placement, domain, context, ranks, look});
+  if (body) body->area = boundary_area(placement, context, ranks);
   const std::vector<std::string> warnings = warnings_of(context, placement);
   outputs->write_report(report_text(arguments, statistics, warnings));
   give_up_if_any_is_interrupted(ranks);
@@ -134,7 +166,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   statistics.renew_memory(placement);  // files take some, too
   outputs->replace_report(report_text(arguments, statistics, warnings));
   if (ranks.is_first() && !arguments.quiet && !outputs->use_standard_output()) {
-    std::cout << summary_text(statistics, outputs->files());
+    std::cout << summary_text(statistics, body, outputs->files());
   }
   return exit_code_of_run(status);
 }

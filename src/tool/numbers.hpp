@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers for people.
+// Numbers for people, and from them.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace pnpbs::tool {
 
 std::string grouped(std::int64_t count);                 // 103 214
 std::string short_number(double value, int digits = 3);  // significant digits
+std::string measure(double value);                       // four digits: 118 742, 0.01234
 std::string size_in_bytes(double bytes);                 // 131 MiB
 std::string duration(double seconds);                    // 0.94 s, 12 s, 3 min 20 s, 2 h 5 min
+
+// "1, 2.5,-3e4". Nothing if one of them is no finite number.
+std::optional<std::vector<double>> numbers_between_commas(const std::string& text);
 
 }  // namespace pnpbs::tool

@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "tool/exit.hpp"
-#include "tool/gathered_nodes.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/names.hpp"
 
@@ -46,25 +45,17 @@ void refuse_to_replace(const std::string& input, const std::string& path) {
     throw BadInput("'" + path + "' would replace what is read: write to another file");
 }
 
-std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
-  std::int64_t count = 0;
-  check(pnpbs_domain_get_segments(domain, 0, &count, nullptr, nullptr), context);
-  std::vector<double> outline(4 * static_cast<std::size_t>(count));
-  check(pnpbs_domain_get_segments(domain, count, &count, outline.data(), nullptr), context);
-  return outline;
-}
-
 }  // namespace
 
 Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
-    : ranks_(ranks), style_{arguments.bubbles, arguments.colour}, elements_(!arguments.nodes_only) {
+    : ranks_(ranks), elements_(!arguments.nodes_only) {
   const FileFormat* otherwise = format_called(arguments.format);
   for (const std::string& path : arguments.outputs) add(path, format_of(path, otherwise));
   if (!arguments.report.empty()) add(arguments.report, nullptr);
   for (const Output& output : outputs_)
     for (const std::string& input : {arguments.domain, arguments.spacing_grid})
       refuse_to_replace(input, output.file.path());
-  check_pictures();
+  check_pictures(arguments);
   if (ranks_.is_first()) check_writable();
 }
 
@@ -78,11 +69,15 @@ void Outputs::add(const std::string& path, const FileFormat* format) {
   outputs_.push_back({io::OutputFile(path), format});
 }
 
-void Outputs::check_pictures() const {
-  if (style_.colour == picture::TriangleColour::none) return;
-  if (std::ranges::any_of(outputs_, &Output::is_picture)) return;
-  throw BadInput("--color: there is no picture to colour; add --output FILE.png or FILE.svg");
+void Outputs::check_pictures(const Arguments& arguments) const {
+  if (has_pictures()) return;
+  const std::string add = "; add --output FILE.png or FILE.svg";
+  if (arguments.colour.value_or(picture::ElementColour::none) != picture::ElementColour::none)
+    throw BadInput("--color: there is no picture to colour" + add);
+  if (!arguments.cut.empty()) throw BadInput("--cut: there is no picture of a body" + add);
 }
+
+bool Outputs::has_pictures() const { return std::ranges::any_of(outputs_, &Output::is_picture); }
 
 void Outputs::check_writable() const {
   for (const Output& output : outputs_) {
@@ -101,17 +96,14 @@ void Outputs::check_writable() const {
   }
 }
 
-void Outputs::write_pictures(pnpbs_placement placement, pnpbs_domain domain,
-                             pnpbs_context context) {
-  if (std::ranges::none_of(outputs_, &Output::is_picture)) return;
-  picture::NodeSet nodes = gathered_nodes(placement, context, ranks_);
+void Outputs::write_pictures(const GatheredPicture& picture) {
   ranks_.agreed([&] {
     if (!ranks_.is_first()) return;
-    nodes.outline = outline_of(domain, context);
+    const picture::Drawing drawing = picture.drawing();
     for (Output& output : outputs_) {
       if (!output.is_picture()) continue;
       give_up_if_interrupted();
-      output.file.write([&](io::Sink& sink) { output.format->picture->write(nodes, style_, sink); },
+      output.file.write([&](io::Sink& sink) { output.format->picture->write(drawing, sink); },
                         give_up_if_interrupted);
     }
   });

@@ -10,6 +10,7 @@
 #include "io/output_file.hpp"
 #include "tool/arguments.hpp"
 #include "tool/file_format.hpp"
+#include "tool/gathered_picture.hpp"
 #include "tool/library.hpp"
 #include "tool/ranks.hpp"
 
@@ -21,9 +22,12 @@ class Outputs {
   // unknown formats.
   Outputs(const Arguments& arguments, const Ranks& ranks);
 
+  // Whether there is any. Local.
+  bool has_pictures() const;
+
   // Collective, all of these; first pictures and the report, then the nodes. What was written
   // appears with write_nodes, when all of it is complete.
-  void write_pictures(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context);
+  void write_pictures(const GatheredPicture& picture);
   void write_report(const std::string& text);
   void write_nodes(pnpbs_placement placement, pnpbs_context context);
   // Afterwards: puts another text into the report, unless that has gone where nothing can be taken
@@ -41,14 +45,13 @@ class Outputs {
     bool is_nodes() const { return format && !format->picture; }
   };
   void add(const std::string& path, const FileFormat* format);
-  void check_pictures() const;
+  void check_pictures(const Arguments& arguments) const;
   void check_writable() const;
   static std::int32_t monitor(double fraction, std::int64_t, std::int64_t, double, void* user);
   bool publish_own();
   void settle_own(bool published);
 
   const Ranks& ranks_;
-  picture::PictureStyle style_;
   bool elements_;
   std::vector<Output> outputs_;
   std::exception_ptr failure_;  // of publish_own

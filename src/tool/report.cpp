@@ -55,6 +55,7 @@ std::string report_text(const Arguments& arguments, const Statistics& statistics
                         const std::vector<std::string>& warnings) {
   Json report;
   report["domain"] = arguments.domain;
+  if (arguments.feature_angle) report["feature_angle"] = *arguments.feature_angle;
   if (arguments.spacing_grid.empty()) {
     report["spacing"] = arguments.spacing;
   } else {

@@ -19,11 +19,11 @@ std::int32_t evaluate(std::int64_t n, std::int32_t /*dim*/, const double* xyz, d
 
 }  // namespace
 
-Spacing::Spacing(const Arguments& arguments) {
+Spacing::Spacing(const Arguments& arguments, int dimension) {
   if (arguments.spacing_grid.empty()) {
-    expression_ = std::make_unique<Expression>(arguments.spacing);
+    expression_ = std::make_unique<Expression>(arguments.spacing, dimension);
   } else {
-    grid_ = std::make_unique<Grid>(read_grid(arguments.spacing_grid));
+    grid_ = std::make_unique<Grid>(read_grid(arguments.spacing_grid, dimension));
   }
 }
 
@@ -33,7 +33,8 @@ void Spacing::give_to(pnpbs_placement placement, pnpbs_context context) const {
                                            grid_->values.data()),
           context);
   } else if (expression_->is_constant()) {
-    check(pnpbs_placement_set_spacing_constant(placement, expression_->at(0, 0)), context);
+    constexpr double anywhere[3] = {0, 0, 0};
+    check(pnpbs_placement_set_spacing_constant(placement, expression_->at(anywhere)), context);
   } else {
     check(pnpbs_placement_set_spacing_callback(placement, evaluate, expression_.get()), context);
   }

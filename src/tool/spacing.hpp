@@ -13,7 +13,7 @@ namespace pnpbs::tool {
 
 class Spacing {
  public:
-  explicit Spacing(const Arguments& arguments);
+  Spacing(const Arguments& arguments, int dimension);
 
   // This object must outlive the placement.
   void give_to(pnpbs_placement placement, pnpbs_context context) const;

@@ -31,15 +31,24 @@ std::string spacing_line(const Statistics& statistics) {
   return line + "\n";
 }
 
-std::string quality_line(const Statistics& statistics) {
+std::string body_line(const std::optional<BodyFigures>& body) {
+  if (!body) return "";
+  const Point<3>& size = body->extent;
+  std::string line = "body     " + short_number(size[0], 4) + " x " + short_number(size[1], 4) +
+                     " x " + short_number(size[2], 4) + ", volume " + measure(body->volume);
+  if (body->area) line += ", surface " + measure(*body->area);
+  return line + "\n";
+}
+
+std::string quality_line(const Statistics& statistics, bool in_space) {
   const auto* mean = statistics.find<double>("quality.mean");
   const auto* one_percent = statistics.find<double>("quality.one_percent");
   const auto* min = statistics.find<double>("quality.min");
   const auto* angle = statistics.find<double>("quality.min_angle");
   if (!mean || !one_percent || !min || !angle) return "";
   return "quality  " + short_number(*mean, 4) + " in the mean, 99 % above " +
-         short_number(*one_percent, 3) + ", least " + short_number(*min, 3) + "; smallest angle " +
-         short_number(*angle, 3) + " degrees\n";
+         short_number(*one_percent, 3) + ", least " + short_number(*min, 3) + "; smallest " +
+         (in_space ? "dihedral angle " : "angle ") + short_number(*angle, 3) + " degrees\n";
 }
 
 std::string edge_line(const Statistics& statistics) {
@@ -91,13 +100,14 @@ std::string files_line(const std::vector<std::string>& files) {
 }  // namespace
 
 std::string estimate_text(const RunEstimate& run) {
-  constexpr double kPictureBytesPerNode = 115;  // measured, with a million nodes
+  // Measured, with a million nodes and with 100 000.
+  const double picture_bytes_per_node = run.body ? 340 : 115;
   const double nodes = static_cast<double>(run.nodes);
-  std::string text = "nodes    about " + grouped(run.nodes) + "\nmemory   about " +
-                     size_in_bytes(static_cast<double>(run.bytes));
+  std::string text = body_line(run.body) + "nodes    about " + grouped(run.nodes) +
+                     "\nmemory   about " + size_in_bytes(static_cast<double>(run.bytes));
   if (run.processes > 1) text += " in each of " + grouped(run.processes) + " processes";
   if (run.picture)
-    text += ", and " + size_in_bytes(kPictureBytesPerNode * nodes) + " for the picture" +
+    text += ", and " + size_in_bytes(picture_bytes_per_node * nodes) + " for the picture" +
             (run.processes > 1 ? " in the first one" : "");
   text += "\ntime     roughly " + duration(run.seconds);
   if (nodes > 0 && run.seconds > 0)
@@ -107,10 +117,11 @@ std::string estimate_text(const RunEstimate& run) {
   return text + "\n";
 }
 
-std::string summary_text(const Statistics& statistics, const std::vector<std::string>& files) {
-  return nodes_line(statistics) + spacing_line(statistics) + edge_line(statistics) +
-         quality_line(statistics) + stop_line(statistics) + memory_line(statistics) +
-         files_line(files);
+std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
+                         const std::vector<std::string>& files) {
+  return body_line(body) + nodes_line(statistics) + spacing_line(statistics) +
+         edge_line(statistics) + quality_line(statistics, body.has_value()) +
+         stop_line(statistics) + memory_line(statistics) + files_line(files);
 }
 
 }  // namespace pnpbs::tool

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "tool/body_figures.hpp"
 #include "tool/statistics.hpp"
 
 namespace pnpbs::tool {
@@ -14,12 +16,14 @@ struct RunEstimate {
   std::int64_t nodes, bytes;  // memory of each process
   double seconds;
   int processes;
-  bool picture;  // of all nodes, drawn by the first process
+  bool picture;                     // of all nodes, drawn by the first process
+  std::optional<BodyFigures> body;  // nothing: a domain in the plane
 };
 
 // Before a run: about how many nodes, how much memory of each process, how long.
 std::string estimate_text(const RunEstimate& run);
 
-std::string summary_text(const Statistics& statistics, const std::vector<std::string>& files);
+std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
+                         const std::vector<std::string>& files);
 
 }  // namespace pnpbs::tool

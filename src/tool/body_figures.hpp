@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How large a body is.
+#pragma once
+
+#include <optional>
+
+#include "base/types.hpp"
+#include "tool/library.hpp"
+#include "tool/ranks.hpp"
+
+namespace pnpbs::tool {
+
+struct BodyFigures {
+  Point<3> extent;
+  double volume;
+  std::optional<double> area;  // of the triangles on its boundary, when there are nodes
+};
+
+// Local. Throws Failure.
+BodyFigures body_figures(pnpbs_domain domain, pnpbs_context context);
+
+// On the first rank; 0 on the others. Collective.
+double boundary_area(pnpbs_placement placement, pnpbs_context context, const Ranks& ranks);
+
+}  // namespace pnpbs::tool

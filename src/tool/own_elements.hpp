@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What this rank has of the elements, by local indices: its own nodes first, then its ghosts.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tool/library.hpp"
+
+namespace pnpbs::tool {
+
+template <std::size_t Size>
+using Corners = std::array<std::int64_t, Size>;
+
+// Collective, all of these. Throw Failure.
+std::vector<Corners<3>> own_triangles(pnpbs_placement placement, pnpbs_context context);
+std::vector<Corners<4>> own_tetrahedra(pnpbs_placement placement, pnpbs_context context);
+std::vector<Corners<3>> own_boundary(pnpbs_placement placement,
+                                     pnpbs_context context);  // of a body
+std::vector<std::int64_t> ghost_ids(pnpbs_placement placement, pnpbs_context context);
+
+}  // namespace pnpbs::tool
