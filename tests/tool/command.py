@@ -78,6 +78,13 @@ class CommandTest(unittest.TestCase):
             "--domain", domain or self.square, "--spacing", spacing, "--check", *arguments, **more
         )
 
+    def place_body(self, domain, spacing, *arguments, **more):
+        """A run in space, whether the bubbles come to rest or not."""
+        process = self.start("--domain", domain, "--spacing", spacing, *arguments, **more)
+        out, err = process.communicate()
+        self.assertIn(process.returncode, (DONE, NOT_CONVERGED, SPACING_MISSED), err.decode())
+        return out.decode(), err.decode()
+
     def refuse(self, *arguments, code=BAD_INPUT, **more):
         """A run that must fail, write no file and say why; returns what it says."""
         before = self.files()

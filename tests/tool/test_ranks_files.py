@@ -8,7 +8,7 @@ import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-from command import LAKE
+from command import LAKE, NOT_CONVERGED
 from ranks import RanksTest
 from readers import point_array, read_with_vtk
 
@@ -90,6 +90,19 @@ class SameFiles(RanksTest):
             self.run_ranks(3, *ask, by)
             self.assertEqual((self.folder / "a.svg").read_bytes(), expected)
         self.assertIn("--color", self.refuse_ranks(3, *ask, "red"))
+
+    # Also of what the summary tells: extent, volume, surface.
+    def test_pictures_of_bodies(self):
+        ask = ("--domain", "cylinder(0,0,0, 0,0,2, 1)", "--spacing", "0.25", "--steps", "10",
+               "-o", "a.svg", "-o", "a.png", "--cut", "1,1,0, 0.3")
+        out, _ = self.run_command(*ask, code=NOT_CONVERGED)
+        expected = {name: (self.folder / name).read_bytes() for name in ("a.svg", "a.png")}
+        for ranks in (2, 3):
+            again, _ = self.run_ranks(ranks, *ask, code=NOT_CONVERGED)
+            self.assertEqual(again.splitlines()[0], out.splitlines()[0])
+            for name, content in expected.items():
+                self.assertEqual((self.folder / name).read_bytes(), content)
+        self.assertIn("misses the body", self.refuse_ranks(2, *ask[:-1], "z=3"))
 
     def test_standard_streams(self):
         out, _ = self.run_command("--domain", LAKE, "--spacing", "6", "-o", "-", "--format", "vtu")

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Domains in space: what the command reads, tells and refuses."""
+
+import json
+import struct
+import unittest
+
+import numpy
+from vtk.util.numpy_support import vtk_to_numpy
+
+from command import DATA, LAKE, CommandTest
+from readers import point_array, read_with_vtk
+
+BOX = "box(0,0,0, 1,1,1)"
+
+# A unit cube as TetGen has it; the second number of its first line says that it is in space.
+FACES = ["1 2 3 4", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"]
+VERTICES = "8 3 0 0\n" + "".join(f"{1 + i} {x} {y} {z}\n" for i, (x, y, z) in enumerate(
+    [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]))
+CUBE = (VERTICES + "6 1\n" + "".join(f"1 0 {7 + k}\n4 {face}\n" for k, face in enumerate(FACES)) + "0\n")
+
+LAYERS = """\
+ncols 1
+nrows 2
+nlayers 2
+xllcenter 0
+yllcenter 0
+zllcenter 0
+dx 1
+dy 1
+dz 0.5
+0.30 0.20
+-1 0.20
+nodata_value -1
+"""
+
+
+def tetrahedra_of(grid):
+    """Corners of the cells of a .vtu that are tetrahedra."""
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    return numpy.array([corners[a:b] for a, b in zip(offsets[:-1], offsets[1:]) if b - a == 4])
+
+
+def points_of(grid):
+    return vtk_to_numpy(grid.GetPoints().GetData())
+
+
+def volume_of(points, tetrahedra):
+    a, b, c, d = (points[tetrahedra[:, k]] for k in range(4))
+    return numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a).sum() / 6
+
+
+class Files(CommandTest):
+    def test_bracket(self):
+        out, _ = self.place_body(DATA / "bracket.stl", "3.5 + 0.03*hypot(x-62, y-14) + 0.01*z",
+                                 "-o", "a.vtu", "-o", "a.png", "--report", "a.json")
+        report = json.loads((self.folder / "a.json").read_text())
+        grid = read_with_vtk(self.folder / "a.vtu")
+        points = points_of(grid)
+        self.assertEqual(len(points), report["nodes"])
+        self.assertTrue(1000 < len(points) < 4000)
+        numpy.testing.assert_allclose(
+            point_array(grid, "spacing"),
+            3.5 + 0.03 * numpy.hypot(points[:, 0] - 62, points[:, 1] - 14) + 0.01 * points[:, 2],
+            rtol=1e-6)
+        self.assertTrue(report["edge"]["bands"])
+        self.assertRegex(out, r"(?m)^body     80 x 60 x 70, volume 86 524, surface 23 \d\d\d$")
+        self.assertRegex(out, r"smallest dihedral angle \d")
+        # Its holes are round: coarse triangles cut off a little.
+        self.assertAlmostEqual(volume_of(points, tetrahedra_of(grid)) / 86524, 1, delta=0.01)
+
+    def test_each_kind_of_file(self):
+        # The volume as the summary tells it.
+        (self.folder / "cube.poly").write_text("# a comment first\n\n" + CUBE)
+        (self.folder / "cube.smesh").write_text(VERTICES + "6 0\n" + "".join(
+            f"4 {face}\n" for face in FACES) + "0\n")
+        for domain, volume in ((DATA / "eros.off", "0.2913"), (DATA / "kleopatra.obj", "708 868"),
+                               ("cube.poly", "1"), ("cube.smesh", "1"), (BOX, "1"),
+                               ("ball( 1e3,0,-2.5 , 1 )", "4.188"),
+                               ("cylinder(0,0,0, 0,3,4, 1)", "15.7")):
+            with self.subTest(str(domain)):
+                out, _ = self.run_command("--domain", domain, "--spacing", "5", "--dry-run")
+                self.assertRegex(out.decode(), rf"^body     .*, volume {volume}\d?\n")
+
+    def test_tags_of_facets(self):
+        (self.folder / "cube.poly").write_text(CUBE)
+        self.place_body("cube.poly", "0.3", "-o", "a.vtu")
+        grid = read_with_vtk(self.folder / "a.vtu")
+        points, tags = points_of(grid), point_array(grid, "tag")
+        middle = (abs(points - 0.5) < 0.4).sum(axis=1) == 2
+        for tag, axis, place in ((7, 2, 0), (8, 2, 1), (9, 1, 0), (10, 0, 1), (11, 1, 1), (12, 0, 0)):
+            on = middle & (points[:, axis] == place)
+            self.assertTrue(on.any())
+            self.assertEqual(set(tags[on]), {tag})
+
+    def test_feature_angle(self):
+        self.place_body(DATA / "kleopatra.obj", "12", "-o", "a.vtu", "--report", "a.json")
+        self.place_body(DATA / "kleopatra.obj", "12", "-o", "b.vtu", "--feature-angle", "20",
+                        "--report", "b.json")
+        self.assertNotEqual((self.folder / "a.vtu").read_bytes(),
+                            (self.folder / "b.vtu").read_bytes())
+        self.assertNotIn("feature_angle", json.loads((self.folder / "a.json").read_text()))
+        self.assertEqual(json.loads((self.folder / "b.json").read_text())["feature_angle"], 20)
+
+
+class Grids(CommandTest):
+    def place_on(self, text):
+        (self.folder / "g.asc").write_text(text)
+        process = self.start("--domain", BOX, "--spacing-grid", "g.asc", "-o", "a.vtu", "-q")
+        process.communicate()
+        grid = read_with_vtk(self.folder / "a.vtu")
+        return points_of(grid), point_array(grid, "spacing")
+
+    # At y = 0 and 1, below; the same at z = 0.5, where a gap takes the value of the cell below it.
+    def test_layers(self):
+        header, values = LAYERS.split("dz 0.5\n")
+        header += "dz 0.5\nnodata_value -1\n"
+        points, spacing = self.place_on(header + "0.3\n0.2\n0.3\n-1\n")
+        numpy.testing.assert_allclose(spacing, 0.2 + 0.1 * points[:, 1], rtol=1e-3)
+        points, spacing = self.place_on(header + "0.2\n0.2\n0.3\n0.3\n")
+        numpy.testing.assert_allclose(spacing, 0.2 + 0.2 * numpy.minimum(points[:, 2], 0.5), rtol=1e-3)
+
+    def test_a_flat_grid_holds_for_all_heights(self):
+        points, spacing = self.place_on("ncols 1\nnrows 2\nxllcorner -0.5\nyllcorner -0.5\n"
+                                        "cellsize 1\n0.3\n0.2\n")
+        numpy.testing.assert_allclose(spacing, 0.2 + 0.1 * points[:, 1], rtol=1e-3)
+
+    def test_bad_grids(self):
+        good = LAYERS.replace("nodata_value -1\n", "").replace("0.30 0.20\n-1 0.20\n", "1\n1\n1\n1\n")
+        for text, word in ((good.replace("dz 0.5\n", ""), "dz"),
+                           (good.replace("zllcenter 0\n", ""), "zllcorner"),
+                           (good.replace("nlayers 2", "nlayers 1.5"), "nlayers"),
+                           (good.replace("nlayers 2", "nlayers 3"), "6 values"),
+                           (good + "1\n", "no more")):
+            (self.folder / "g.asc").write_text(text)
+            self.assertIn(word, self.refuse("--domain", BOX, "--spacing-grid", "g.asc"))
+        (self.folder / "g.asc").write_text(good)
+        self.assertIn("nlayers", self.refuse("--domain", LAKE, "--spacing-grid", "g.asc"))
+
+
+class Refusals(CommandTest):
+    def refuse_domain(self, domain, *arguments, spacing="0.5"):
+        return self.refuse("--domain", domain, "--spacing", spacing, "-o", "a.png", *arguments)
+
+    def test_damaged_stl(self):
+        whole = (DATA / "bracket.stl").read_bytes()
+        bad = self.folder / "bad.stl"
+        bad.write_bytes(whole[:20000])
+        self.assertRegex(self.refuse_domain("bad.stl"), "bad.stl: .*20000 bytes, expected 268084")
+        at = 84 + 50 * 17 + 12  # the first corner of the 18th triangle
+        bad.write_bytes(whole[:at] + struct.pack("<f", numpy.nan) + whole[at + 4:])
+        self.assertIn(f"bad.stl: at byte {at}", self.refuse_domain("bad.stl"))
+        bad.write_bytes(whole[:80] + struct.pack("<I", 5359) + whole[84:-50])
+        self.assertIn("triangle", self.refuse_domain("bad.stl", spacing="5"))
+        bad.write_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0\n")
+        self.assertIn("bad.stl:5:", self.refuse_domain("bad.stl"))
+
+    def test_other_files(self):
+        (self.folder / "a.step").write_text("ISO-10303-21;\nHEADER;\n")
+        message = self.refuse_domain("a.step")
+        self.assertIn("a.step:1:", message)
+        self.assertIn("does not end in .stl, .off, .obj, .ply or .smesh", message)
+        self.assertIn("nowhere.stl", self.refuse_domain("nowhere.stl"))
+        self.assertIn("folder.obj", self.refuse_domain(self.folder_called("folder.obj")))
+
+    def folder_called(self, name):
+        (self.folder / name).mkdir()
+        return name
+
+    def test_bodies_in_words(self):
+        for text, word in (("bal(0,0,0,1)", "did you mean ball?"), ("blob(1)", "known: box"),
+                           ("ball(0,0,0)", "centre and radius"), ("ball(0,0,0,x)", "centre and radius"),
+                           ("ball(0,0,0,)", "centre and radius"), ("ball(0,0,0,0)", "radius"),
+                           ("ball(0,0,0,nan)", "centre and radius"), ("box(0,0,0,1,1)", "corners"),
+                           ("box(0,0,0,1,1,0)", "high"), ("cylinder(0,0,0,0,0,0,1)", "end")):
+            with self.subTest(text):
+                self.assertIn(word, self.refuse_domain(text))
+        (self.folder / "lake(1)").write_bytes(LAKE.read_bytes())  # a file's name comes first
+        self.run_command("--domain", "lake(1)", "--spacing", "20", "-o", "a.csv")
+
+    def test_what_is_for_the_other_dimension(self):
+        plane = ("--domain", self.square, "--spacing", "0.1", "-o", "a.png")
+        self.assertIn("--cut is for bodies", self.refuse(*plane, "--cut", "x=0.5"))
+        self.assertIn("--feature-angle is for bodies", self.refuse(*plane, "--feature-angle", "30"))
+        self.assertIn("--bubbles", self.refuse_domain(BOX, "--bubbles"))
+        message = self.refuse("--domain", self.square, "--spacing", "0.1 + z", "-o", "a.csv")
+        self.assertIn("position 7: unknown name 'z': this domain is in the plane", message)
+        self.assertIn("did you mean", self.refuse_domain(BOX, spacing="1 + hypt(z,x)"))
+
+    def test_numbers(self):
+        for angle in ("-1", "181", "x", "", "30,40"):
+            self.assertIn("--feature-angle", self.refuse_domain(BOX, "--feature-angle", angle))
+        for text in ("0", "z - 2", "nan", "1e-9"):
+            self.refuse_domain(BOX, spacing=text)
+
+    def test_a_spacing_far_larger_than_the_body(self):
+        self.place_body(BOX, "50", "-o", "a.vtu", "-o", "a.png", "-o", "a.svg")
+        points = points_of(read_with_vtk(self.folder / "a.vtu"))
+        corners = {tuple(point) for point in points}
+        self.assertEqual(corners, {(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)})
+
+
+if __name__ == "__main__":
+    unittest.main()
