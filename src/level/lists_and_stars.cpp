@@ -55,13 +55,24 @@ VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
     return level.nodes.carrier(i) == Carrier::free &&
            !near_boundary.within(i, level.lists().radius() * level.nodes.d(i));
   };
+  const auto on_one_surface = [&level](const std::array<std::int64_t, 4>& corners) {
+    const auto place = [&](std::int64_t i) {
+      return level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i));
+    };
+    const Surface& surface = level.ground.surface();
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (!surface.sees(place(corners[a]), place(corners[b]))) return false;
+    return true;
+  };
   return {level.nodes,
           level.tree->tree(),
           neighbourhood.buckets(),
           neighbourhood.lists(),
           known,
-          &level.map(),
-          complete};
+          &level.ground.domain().index().sides(),
+          complete,
+          on_one_surface};
 }
 
 template <int Dim>

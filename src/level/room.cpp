@@ -60,7 +60,7 @@ bool pressed_to_boundary(const Level<Dim>& level, std::int64_t i) {
 
 // What tells the inside and what is near.
 const FacetIndex<2>& facets_of(const Level<2>& level) { return level.map(); }
-const FacetIndex<3>& facets_of(const Level<3>& level) { return level.ground.domain().facets(); }
+const SurfaceIndex& facets_of(const Level<3>& level) { return level.ground.domain().index(); }
 
 }  // namespace
 
@@ -71,7 +71,7 @@ bool has_clearance(const Level<Dim>& level, const std::type_identity_t<Point<Dim
   for (int k = 0; k < Dim; ++k)
     if (!(x[k] > box.low[k] && x[k] < box.high[k])) return false;
   const double clearance = (Dim == 2 ? kBoundaryClearance : kNewNodeClearance) * d;
-  const FacetIndex<Dim>& facets = facets_of(level);
+  const auto& facets = facets_of(level);
   return facets.inside(x) && facets.clearance(x, clearance) >= clearance;
 }
 

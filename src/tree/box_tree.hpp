@@ -73,10 +73,10 @@ class BoxTree {
   }
 
   // Calls visit(box) for every box with a squared distance to x of at most limit(), which may
-  // shrink on the way.
+  // shrink on the way; nearer ones mostly come first.
   template <class Limit, class Visit>
   void for_near(const Point<Dim>& x, const Limit& limit, const Visit& visit) const {
-    walk([&](const Box<Dim>& box) { return squared_gap_to(box, x) <= limit(); }, visit);
+    if (!cells_.empty()) near_in_cell(0, squared_gap_to(cells_[0].box, x), x, limit, visit);
   }
 
   // About this many boxes that hold all.
@@ -144,6 +144,27 @@ class BoxTree {
     }
     for (std::int32_t i = cell.begin; i < cell.end; ++i)
       if (enter(boxes_[index(order_[index(i)])])) visit(order_[index(i)]);
+  }
+
+  template <class Limit, class Visit>
+  void near_in_cell(std::int32_t c, double square, const Point<Dim>& x, const Limit& limit,
+                    const Visit& visit) const {
+    if (square > limit()) return;
+    const Cell& cell = cells_[index(c)];
+    if (cell.child < 0) {
+      for (std::int32_t i = cell.begin; i < cell.end; ++i)
+        if (squared_gap_to(boxes_[index(order_[index(i)])], x) <= limit()) visit(order_[index(i)]);
+      return;
+    }
+    std::int32_t first = cell.child, second = cell.child + 1;
+    double to_first = squared_gap_to(cells_[index(first)].box, x),
+           to_second = squared_gap_to(cells_[index(second)].box, x);
+    if (to_second < to_first) {
+      std::swap(first, second);
+      std::swap(to_first, to_second);
+    }
+    near_in_cell(first, to_first, x, limit, visit);
+    near_in_cell(second, to_second, x, limit, visit);
   }
 
   std::vector<Box<Dim>> boxes_;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/limits.hpp"
-#include "domain/facet_search.hpp"
 #include "domain/given_values.hpp"
 #include "domain/volume/primitives.hpp"
 #include "domain/volume/volume_resolver.hpp"
@@ -130,7 +129,7 @@ void VolumeDomain::check() {
   if (checked_) return;
   auto resolved = std::make_shared<ResolvedVolume>(
       resolve_volume(surfaces_, feature_angles_, polylines_, holes_, given_nodes_));
-  resolved->facets = index_facets(resolved->mesh, resolved->summary.bounds);
+  resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
   resolved_ = std::move(resolved);
   checked_ = true;
 }

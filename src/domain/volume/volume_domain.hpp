@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "domain/facet_index.hpp"
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
+#include "domain/volume/surface_index.hpp"
 #include "domain/volume/triangulation.hpp"
 
 namespace pnpbs {
@@ -44,7 +44,7 @@ struct VolumeSummary {
 // What check() finds out.
 struct ResolvedVolume {
   BoundaryMesh<3> mesh;
-  FacetIndex<3> facets;  // of the mesh
+  SurfaceIndex index;  // of the mesh
   Features features;
   std::vector<FixedNode3> fixed_nodes;
   std::vector<std::string> warnings;
@@ -82,7 +82,7 @@ class VolumeDomain {
   // and (a, a, a) for each fixed node. All nodes are used.
   const BoundaryMesh<3>& mesh() const { return resolved_->mesh; }
   // Answers what is inside and what is near, whatever d is.
-  const FacetIndex<3>& facets() const { return resolved_->facets; }
+  const SurfaceIndex& index() const { return resolved_->index; }
   const Features& features() const { return resolved_->features; }
   const std::vector<FixedNode3>& fixed_nodes() const { return resolved_->fixed_nodes; }
   const std::vector<std::string>& warnings() const { return resolved_->warnings; }

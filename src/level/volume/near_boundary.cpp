@@ -36,7 +36,7 @@ bool VisibilityInSpace::see_through_inside(std::int64_t i, std::int64_t j) const
   const Point<3> a = point_at<3>(at_, i), b = point_at<3>(at_, j);
   Point<3> middle;
   for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * (a[k] + b[k]);
-  return ground_.domain().facets().inside(middle);
+  return ground_.domain().index().inside(middle);
 }
 
 // ------------------------------------------------------------------ what is near ---------------
@@ -91,7 +91,7 @@ double NearBoundary<3>::gap_of(std::int64_t i, const Nodes<3>& nodes, const Buck
   const bool in_bucket = map.tree().fine_box_holds(map.tree().fine_box(bucket), x);
   const std::int32_t leaf = in_bucket ? bucket : map.tree().leaf_at(x);
   if (leaf_is_clear(leaf) && reach <= near_.reach[static_cast<std::size_t>(leaf)]) return kFarAway;
-  const double gap = ground.domain().facets().clearance(x, reach);
+  const double gap = ground.domain().index().clearance(x, reach);
   return gap < reach ? gap : kFarAway;
 }
 
@@ -105,14 +105,14 @@ Point<3> NearBoundary<3>::hold_off(std::int64_t i, const Nodes<3>& nodes, const 
   const Point<3> from = nodes.position(i);
   const double way = std::max(clearance, distance<3>(from, to));
   if (gap_(i) > kRounding * (distance<3>(point_at<3>(at_, i), to) + way)) return to;
-  const FacetIndex<3>& facets = ground.domain().facets();
-  const NearestPoint<3> nearest = facets.nearest(to, clearance);
-  const bool inside = facets.inside(to);
+  const SurfaceIndex& index = ground.domain().index();
+  const NearestPoint<3> nearest = index.nearest(to, clearance);
+  const bool inside = index.inside(to);
   if (inside && nearest.facet < 0) return to;
   if (!inside || nearest.gap == 0) return from;
   const Point<3> kept = shifted(nearest.x, clearance / nearest.gap, difference(to, nearest.x));
   // In a wedge or a gap there may be no place with that much room: better than before will do.
-  return facets.inside(kept) && facets.clearance(kept, clearance) >= nearest.gap ? kept : from;
+  return index.inside(kept) && index.clearance(kept, clearance) >= nearest.gap ? kept : from;
 }
 
 bool NearBoundary<3>::stays_clear(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
@@ -121,10 +121,10 @@ bool NearBoundary<3>::stays_clear(std::int64_t i, const Nodes<3>& nodes, const G
   if (gap_(i) > kRounding * (distance<3>(point_at<3>(at_, i), to) +
                              std::max(clearance, distance<3>(nodes.position(i), to))))
     return true;
-  const FacetIndex<3>& facets = ground.domain().facets();
-  if (!facets.inside(to)) return false;
-  const double gap = facets.clearance(to, clearance);
-  return gap >= clearance || gap >= facets.clearance(nodes.position(i), clearance);
+  const SurfaceIndex& index = ground.domain().index();
+  if (!index.inside(to)) return false;
+  const double gap = index.clearance(to, clearance);
+  return gap >= clearance || gap >= index.clearance(nodes.position(i), clearance);
 }
 
 // Along the surface, up to the features that have nodes of their own; nearer to them only as long

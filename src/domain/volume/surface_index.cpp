@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/facet_search.hpp"
+#include "domain/volume/surface_index.hpp"
 
 #include <utility>
+#include <vector>
+
+#include "domain/volume/triangles.hpp"
 
 namespace pnpbs {
 
-FacetIndex<3> index_facets(const BoundaryMesh<3>& mesh, const Box<3>& bounds) {
+namespace {
+
+FacetIndex<3> index_sides(const BoundaryMesh<3>& mesh, const Box<3>& bounds) {
   constexpr std::size_t kMaxFacets = 12;
   constexpr int kMaxDepth = 16;  // where more meet in a node, no cell holds fewer
   FacetCells<3> facets(mesh);
@@ -26,6 +31,31 @@ FacetIndex<3> index_facets(const BoundaryMesh<3>& mesh, const Box<3>& bounds) {
   });
   add_children_before(tree, tree.cell_count());
   return FacetIndex<3>(std::move(tree), facets);
+}
+
+}  // namespace
+
+SurfaceIndex::SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds)
+    : sides_(index_sides(mesh, bounds)) {
+  std::vector<Box<3>> boxes;
+  for (const BoundaryTriangle& facet : mesh.facets) {
+    const auto [a, b, c] = corners_of(mesh, facet);
+    boxes.push_back(joined(joined(Box<3>{a, a}, {b, b}), {c, c}));
+  }
+  boxes_ = BoxTree<3>(std::move(boxes));
+}
+
+NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
+  constexpr double kRounding = 1 + 1e-12;  // lest one equally near is missed
+  NearestPoint<3> best{reach};
+  boxes_.for_near(
+      x, [&] { return kRounding * best.gap * best.gap; },
+      [&](std::int32_t f) {
+        const Point<3> q = nearest_on(sides_.corners(f), x);
+        const double gap = distance<3>(q, x);
+        if (gap < best.gap || (gap == best.gap && f < best.facet)) best = {gap, f, q};
+      });
+  return best;
 }
 
 }  // namespace pnpbs

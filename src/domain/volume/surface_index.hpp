@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is asked of the surfaces of a volume, which may be far finer than d, or coarser: inside and
+// outside, the nearest point.
+#pragma once
+
+#include <memory>
+
+#include "domain/facet_index.hpp"
+#include "tree/box_tree.hpp"
+
+namespace pnpbs {
+
+class SurfaceIndex {
+ public:
+  SurfaceIndex() = default;
+  // The mesh must outlive it.
+  SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds);
+
+  // Is x strictly inside the domain? (On a facet: no.) Exact.
+  bool inside(const Point<3>& x) const { return sides_.inside(x); }
+  const FacetIndex<3>& sides() const { return sides_; }
+
+  // The nearest point of the facets, if it is nearer to x than `reach`; else its gap is `reach`. Of
+  // facets equally near, that of the least index.
+  NearestPoint<3> nearest(const Point<3>& x, double reach) const;
+  // Its gap alone.
+  double clearance(const Point<3>& x, double reach) const { return nearest(x, reach).gap; }
+
+ private:
+  FacetIndex<3> sides_;  // cells that hold few facets each, whatever d is
+  BoxTree<3> boxes_;     // of the facets
+};
+
+}  // namespace pnpbs
