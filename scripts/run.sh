@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# On a fresh machine, everything up to nodes in a real lake: installs what is missing, builds, and
-# places 104 000 nodes in Lake Victoria, fine in its middle. Leaves lake.png (the picture),
-# lake.vtu (for ParaView) and report.json in the folder out.
+# On a fresh machine, everything up to nodes in a real lake and a body: installs what is missing,
+# builds, places 104 000 nodes in Lake Victoria, fine in its middle, and some ten thousand in a
+# bracket. Leaves lake.png and bracket.png (the pictures; the bracket's is cut open), lake.vtu and
+# bracket.vtu (for ParaView) and a report of each in the folder out.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -16,4 +17,7 @@ mkdir -p out
 build/release/bin/pnpbs --domain examples/data/lake_victoria.poly \
   --spacing '0.35 + 0.006*hypot(x,y)' \
   --output out/lake.png --output out/lake.vtu --report out/report.json
-echo "See out/lake.png, out/lake.vtu and out/report.json."
+build/release/bin/pnpbs --domain examples/data/bracket.stl \
+  --spacing '0.8 + 0.05*hypot(x-62, y-14)' \
+  --output out/bracket.png --output out/bracket.vtu --report out/bracket.json
+echo "See out/lake.png, out/bracket.png, the .vtu files and the reports there."

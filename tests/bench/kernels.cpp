@@ -118,7 +118,7 @@ void fill_square(pnpbs::PlaneDomain& domain) {
 
 pnpbs::GivenNodes<2> moved_lattice(double d, double max) {
   LevelRun lattice(fill_square, constant(d));
-  pnpbs::fill(*lattice.level);
+  fill_level(*lattice.level);
   pnpbs::GivenNodes<2> nodes = inner_nodes_of(*lattice.level);
   Random random(1);
   for (pnpbs::GivenNode<2>& node : nodes)
@@ -131,7 +131,7 @@ struct Scratch {
   pnpbs::Stages<2> stages;
 };
 
-void measure_forces(const Level<2>& level, const Scratch& scratch, Rows& rows) {
+void measure_forces(const Level& level, const Scratch& scratch, Rows& rows) {
   const Nodes<2>& nodes = level.nodes;
   const LinearPush push{1, level.settings.rest_length};
   rows.measure("force, push", [&] { evaluate_forces(nodes, level.lists(), push, scratch.there); });
@@ -140,7 +140,7 @@ void measure_forces(const Level<2>& level, const Scratch& scratch, Rows& rows) {
 }
 
 // Velocities change, positions do not: so all steps begin at the same ones.
-void measure_steps(Level<2>& level, Scratch& scratch, Rows& rows) {
+void measure_steps(Level& level, Scratch& scratch, Rows& rows) {
   Nodes<2>& nodes = level.nodes;
   const AdjacencyList<2>& lists = level.lists();
   const pnpbs::Motion& motion = level.settings.motion;
@@ -172,7 +172,7 @@ void run(const Arguments& arguments, const char* list_radius) {
   const double d = std::sqrt(2 / std::sqrt(3.0) / arguments.nodes);
   const pnpbs::GivenNodes<2> lattice = moved_lattice(d, arguments.moved);
   LevelRun run(fill_square, constant(d), {{"list_radius", list_radius}, {"smoothing_rounds", "0"}});
-  Level<2>& level = *run.level;
+  Level& level = *run.level;
   Scratch scratch;
   Rows times;
   double listed = 0, rows = 0;

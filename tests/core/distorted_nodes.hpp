@@ -52,7 +52,7 @@ inline double quality_of(const Triangle& t, const Places& places) {
 inline LevelRun distorted(const Build& build, const Plane& d, std::uint64_t seed,
                           const std::function<void(pnpbs::Settings&)>& adapt) {
   LevelRun fill(build, d);
-  pnpbs::fill(*fill.level);
+  fill_level(*fill.level);
   pnpbs::GivenNodes<2> nodes = inner_nodes_of(*fill.level);
   Random random(seed);
   for (pnpbs::GivenNode<2>& node : nodes)

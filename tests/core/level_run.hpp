@@ -51,6 +51,10 @@ inline void add_lake(pnpbs::PlaneDomain& domain, const char* name) {
 using Build = std::function<void(pnpbs::PlaneDomain&)>;
 using OptionList = std::vector<std::pair<const char*, const char*>>;
 
+inline void fill_level(pnpbs::Level<2>& level) {
+  pnpbs::fill(level, pnpbs::LaidNodes<2>(level.ground.boundary()));
+}
+
 // The inner nodes, as nodes to start from (placed for a spacing that take() does not know).
 inline pnpbs::GivenNodes<2> inner_nodes_of(const pnpbs::Level<2>& level) {
   pnpbs::GivenNodes<2> inner;
@@ -78,7 +82,7 @@ struct LevelRun {
     if (adapt) adapt(settings);
     event_interval = settings.event_interval;
     level = std::make_unique<pnpbs::Level<2>>(pnpbs::serial_communicator(), domain, spacing_of(d),
-                                           settings, *timers);
+                                              settings, *timers);
     level->grow_tree();
   }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bubbles.hpp"
+#include "population/free_place.hpp"
 #include "population/population.hpp"
 #include "quick_assert.hpp"
 
@@ -62,6 +63,7 @@ Change<Dim> choose(const Set<Dim>& set, const PopulationRule& rule, const Freedo
       pnpbs::choose_thresholds<Dim>(*pnpbs::serial_communicator(), b.nodes, b.lists, ratios, rule,
                                     pnpbs::kMeanTolerance),
       [&](std::int64_t i) { return freedom.must_go.count(b.nodes.id(i)) > 0; },
+      [&](std::int64_t i) { return pnpbs::free_place<Dim>(b.nodes, b.lists, i); },
       [&](const Point<Dim>& x, double) { return freedom.fits(x[0], x[1]); });
   Change<Dim> by_id;
   for (std::int32_t i : change.deleted) quick_assert(by_id.deleted.insert(b.nodes.id(i)).second);

@@ -23,7 +23,7 @@ constexpr double kD = 0.03;
 
 GivenNodes lattice() {
   LevelRun fill(kSquare, constant(kD));
-  pnpbs::fill(*fill.level);
+  fill_level(*fill.level);
   return inner_nodes_of(*fill.level);
 }
 
@@ -71,7 +71,7 @@ double min_quality(LevelRun& run) {
 }
 
 // How far from a point is the nearest node?
-double gap_at(const Level<2>& level, const P& x) {
+double gap_at(const Level& level, const P& x) {
   double gap = 1;
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
     gap = std::min(gap, pnpbs::distance<2>(level.nodes.position(i), x));

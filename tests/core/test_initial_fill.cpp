@@ -155,7 +155,7 @@ START_TEST(steep_spacings_are_met_from_band_to_band) {
   const auto d = [](double y) { return 0.001 + 0.2 * std::fabs(y - 0.4371); };
   LevelRun run([](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); },
                [&](double, double y) { return d(y); });
-  pnpbs::fill(*run.level);
+  fill_level(*run.level);
   const pnpbs::Nodes<2>& nodes = run.level->nodes;
   for (double from = 0.001; from < 0.06; from *= 2) {
     double wanted = 0, placed = 0;
@@ -203,7 +203,7 @@ END_TEST
 // What a level makes of a fill: ids in the order of memory, boundary nodes as laid, d and tags.
 START_TEST(levels_number_their_nodes) {
   LevelRun run(add_ring, [](double x, double) { return 0.05 + 0.02 * x; });
-  pnpbs::fill(*run.level);
+  fill_level(*run.level);
   const pnpbs::Nodes<2>& nodes = run.level->nodes;
   std::int64_t laid = 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {

@@ -22,7 +22,7 @@ namespace {
 // Position and velocity of each node.
 using State = std::map<std::int64_t, std::array<double, 4>>;
 
-State state_of(const Level<2>& level) {
+State state_of(const Level& level) {
   const pnpbs::Nodes<2>& nodes = level.nodes;
   State state;
   for (std::int64_t i = 0; i < nodes.count; ++i)
@@ -80,7 +80,7 @@ std::vector<Case> cases() {
 // A fill, shaken so that there is something to do.
 pnpbs::GivenNodes<2> shaken(const Case& c, std::uint64_t seed) {
   LevelRun fill(c.build, c.d);
-  pnpbs::fill(*fill.level);
+  fill_level(*fill.level);
   pnpbs::GivenNodes<2> nodes = inner_nodes_of(*fill.level);
   Random random(seed);
   for (pnpbs::GivenNode<2>& node : nodes)
@@ -89,7 +89,7 @@ pnpbs::GivenNodes<2> shaken(const Case& c, std::uint64_t seed) {
   return nodes;
 }
 
-void finish(Level<2>& level) {
+void finish(Level& level) {
   pnpbs::finish_by_runge_kutta(level);
   pnpbs::sweep_and_repair(level, 6);
 }
@@ -139,7 +139,7 @@ START_TEST(order_in_memory_does_not_matter) {
     straight.steps(45);
     mixed.steps(45);
     expect_same(state_of(*straight.level), state_of(*mixed.level), c.name, 45);
-    for (Level<2>* level : {straight.level.get(), mixed.level.get()}) {
+    for (Level* level : {straight.level.get(), mixed.level.get()}) {
       finish(*level);
     }
     expect_same(state_of(*straight.level), state_of(*mixed.level), c.name + ", finished", 46);

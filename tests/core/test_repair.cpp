@@ -27,8 +27,8 @@ constexpr double kD = 0.05;
 constexpr std::int64_t kMore = 100000, kBoundary = 200000;
 LevelRun lattice_with(const std::vector<P>& more) {
   LevelRun fill(kSquare, constant(kD));
-  pnpbs::fill(*fill.level);
-  GivenNodes<2> nodes = inner_nodes_of(*fill.level);
+  fill_level(*fill.level);
+  GivenNodes nodes = inner_nodes_of(*fill.level);
   std::int64_t id = kMore;
   for (const P& x : more) nodes.push_back({x, id++});
   LevelRun run(kSquare, constant(kD));
@@ -53,7 +53,7 @@ P middle_of_edge(const P& near, double angle) {
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
 }
 
-std::int64_t nodes_added(const Level<2>& level) {
+std::int64_t nodes_added(const Level& level) {
   std::int64_t count = 0;
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
     count += level.nodes.id(i) >= kMore && level.nodes.id(i) < kBoundary;
@@ -92,7 +92,7 @@ START_TEST(stars_close_over_the_hole) {
   DelaunayStars stars = run.level->stars;
   const std::vector<std::int32_t> surplus = pnpbs::take_out_surplus_nodes(run.level->nodes, stars);
   ck_assert_uint_eq(surplus.size(), 2);
-  const auto triangles = [](const Level<2>& level, const DelaunayStars& of) {
+  const auto triangles = [](const Level& level, const DelaunayStars& of) {
     std::multiset<std::array<std::int64_t, 3>> all;  // from each corner
     for (std::int64_t i = 0; i < level.nodes.count; ++i)
       of.for_simplices(i, [&](const DelaunayStars::Corners& others) {
@@ -123,7 +123,7 @@ END_TEST
 
 // In the middle of four nodes on a square a node has four good triangles: it stays.
 START_TEST(good_node_with_four_neighbours_stays) {
-  GivenNodes<2> nodes;
+  GivenNodes nodes;
   const double d = 0.25;
   for (int i = 1; i < 4; ++i)
     for (int j = 1; j < 4; ++j) nodes.push_back({{d * i, d * j}, 3 * i + j});
@@ -168,7 +168,8 @@ START_TEST(bad_triangles_get_better) {
     const std::vector<Triangle> triangles = triangles_by_id(*run.level);
     const Places before = places_by_id(*run.level);
     pnpbs::BadTriangleRepair repair(run.level->nodes, run.level->stars,
-                                    run.level->neighbourhood.near_edges(), run.level->map(), bad);
+                                    run.level->neighbourhood.near_boundary().edges(),
+                                    run.level->map(), bad);
     std::int64_t moved = 0;
     for (int round = 0; round < 10; ++round) moved += repair.round();
     const Places after = places_by_id(*run.level);
@@ -196,7 +197,8 @@ START_TEST(repair_leaves_the_rest_alone) {
     for (const Triangle& t : triangles_by_id(*run.level))
       if (shape_of(t, before) < bad + 1e-9) of_bad.insert(t.begin(), t.end());
     pnpbs::BadTriangleRepair repair(run.level->nodes, run.level->stars,
-                                    run.level->neighbourhood.near_edges(), run.level->map(), bad);
+                                    run.level->neighbourhood.near_boundary().edges(),
+                                    run.level->map(), bad);
     ck_assert_int_gt(repair.round(), 0);
     const pnpbs::Nodes<2>& nodes = run.level->nodes;
     for (std::int64_t i = 0; i < nodes.count; ++i) {

@@ -10,7 +10,7 @@
 #include "run_kernel_suite.hpp"
 
 using pnpbs::DelaunayStars;
-using pnpbs::Placement;
+using Placement = pnpbs::PlacementOf<2>;
 
 namespace {
 

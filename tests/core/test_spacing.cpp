@@ -236,7 +236,7 @@ END_TEST
 
 namespace {
 
-pnpbs::SteepestGrowth steepest_of(const Build& build, const Plane& d) {
+pnpbs::SteepestGrowth<2> steepest_of(const Build& build, const Plane& d) {
   PlaneDomain domain;
   build(domain);
   domain.check();
@@ -246,7 +246,7 @@ pnpbs::SteepestGrowth steepest_of(const Build& build, const Plane& d) {
   const pnpbs::Boundary boundary = pnpbs::discretize_boundary(domain, spacing);
   pnpbs::DomainMap<2> map;
   map.build(domain.bounds(), boundary, spacing, {1'000'000'000});
-  return pnpbs::steepest_growth(
+  return pnpbs::steepest_growth<2>(
       *pnpbs::serial_communicator(), map, [](std::int32_t) { return true; }, spacing);
 }
 
@@ -254,12 +254,12 @@ pnpbs::SteepestGrowth steepest_of(const Build& build, const Plane& d) {
 
 START_TEST(steepest_growth_of_slopes) {
   for (const double g : {0.05, 0.3, 1.0}) {
-    const pnpbs::SteepestGrowth even =
+    const pnpbs::SteepestGrowth<2> even =
         steepest_of(add_square, [=](double x, double y) { return 0.02 + g * (0.6 * x + 0.8 * y); });
     // Between samples to the east and to the north, where the slope is 1.4 / sqrt(2) of the whole.
     ck_assert_double_le(even.growth, g * (1 + 1e-9));
     ck_assert_double_ge(even.growth, 0.98 * g);
-    const pnpbs::SteepestGrowth cone = steepest_of(
+    const pnpbs::SteepestGrowth<2> cone = steepest_of(
         add_square, [=](double x, double y) { return 0.01 + g * std::hypot(x - 0.3, y - 0.6); });
     ck_assert_double_le(cone.growth, g * (1 + 1e-9));
     ck_assert_double_ge(cone.growth, 0.98 * g);
@@ -272,7 +272,7 @@ END_TEST
 // Wherever the leaves of the tree end; the place is told.
 START_TEST(steepest_growth_of_jumps) {
   for (const double jump : {0.5, 0.503, 0.561, 0.7499}) {
-    const pnpbs::SteepestGrowth steepest =
+    const pnpbs::SteepestGrowth<2> steepest =
         steepest_of(add_square, [=](double x, double) { return x > jump ? 1.0 : 0.004; });
     ck_assert_double_ge(steepest.growth, 1);
     ck_assert_double_eq_tol(steepest.at[0], jump, 4 * 0.004);
@@ -294,7 +294,7 @@ START_TEST(steepest_growth_of_two_sides) {
   const Plane jump = [](double x, double) { return x > 0.502 ? 0.2 : 0.02; };
   ck_assert_double_eq(steepest_of(apart, jump).growth, 0);
   for (const Build& build : {joined, Build(add_square)}) {
-    const pnpbs::SteepestGrowth steepest = steepest_of(build, jump);
+    const pnpbs::SteepestGrowth<2> steepest = steepest_of(build, jump);
     ck_assert_double_ge(steepest.growth, 0.5);
     ck_assert_double_eq_tol(steepest.at[0], 0.502, 0.08);
   }

@@ -24,7 +24,7 @@ using P = pnpbs::Point<2>;
 
 namespace {
 
-std::vector<Triangle> reference(const Level<2>& level) {
+std::vector<Triangle> reference(const Level& level) {
   pnpbs_bench::NodeSet set;
   for (std::int64_t i = 0; i < level.nodes.count; ++i) {
     set.x.push_back(level.nodes.position(i));
@@ -40,7 +40,7 @@ std::vector<Triangle> reference(const Level<2>& level) {
   return pnpbs_bench::reference_triangles(set);
 }
 
-int place_in_circle(const Level<2>& level, const Triangle& t, std::int64_t d) {
+int place_in_circle(const Level& level, const Triangle& t, std::int64_t d) {
   const auto x = [&](std::int64_t i) { return level.nodes.position(i); };
   const int turn = pnpbs::orientation(x(t[0]), x(t[1]), x(t[2]));
   return turn * pnpbs::in_circle(x(t[0]), x(t[1]), x(t[2]), x(d));
@@ -48,7 +48,7 @@ int place_in_circle(const Level<2>& level, const Triangle& t, std::int64_t d) {
 
 // Of the triangles beside t among `others`: does a corner lie exactly on the circle of t, and none
 // inside?
-bool tied(const Level<2>& level, const Triangle& t, const std::vector<Triangle>& others) {
+bool tied(const Level& level, const Triangle& t, const std::vector<Triangle>& others) {
   const auto in_t = [&](std::int64_t d) { return std::count(t.begin(), t.end(), d) > 0; };
   bool on_circle = false;
   for (const Triangle& other : others) {
@@ -64,7 +64,7 @@ bool tied(const Level<2>& level, const Triangle& t, const std::vector<Triangle>&
 }
 
 // The same triangles; where four or more nodes lie exactly on a circle, as many, on that circle.
-void expect_reference(const Level<2>& level, const std::string& what) {
+void expect_reference(const Level& level, const std::string& what) {
   const std::vector<Triangle> ours = star_triangles(level), theirs = reference(level);
   std::vector<Triangle> ours_only, theirs_only;
   std::set_difference(ours.begin(), ours.end(), theirs.begin(), theirs.end(),
@@ -87,7 +87,7 @@ void expect_reference(const Level<2>& level, const std::string& what) {
 void expect_stars(const std::string& what, const Build& build, const Plane& d,
                   std::int64_t min_nodes = 100) {
   LevelRun run(build, d);
-  pnpbs::fill(*run.level);
+  fill_level(*run.level);
   ck_assert_int_gt(run.level->nodes.count, min_nodes);
   for (const std::int64_t until : {0, 5, 100}) {
     run.steps(until - run.steps_done);

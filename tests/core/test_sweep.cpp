@@ -64,7 +64,7 @@ START_TEST(nodes_go_towards_the_mean) {
   const Plane d = constant(0.05);
   const Build square = [](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
   LevelRun fill(square, d);
-  pnpbs::fill(*fill.level);
+  fill_level(*fill.level);
   pnpbs::GivenNodes<2> nodes = inner_nodes_of(*fill.level);
   Random random(110);
   for (pnpbs::GivenNode<2>& node : nodes)
@@ -72,7 +72,7 @@ START_TEST(nodes_go_towards_the_mean) {
   LevelRun run(square, d, {{"smoothing_rounds", "0"}});
   pnpbs::take(*run.level, nodes, 0);
   run.renew_stars();
-  const Level<2>& level = *run.level;
+  const Level& level = *run.level;
   std::map<std::int64_t, P> expected;
   for (std::int64_t i = 0; i < level.nodes.count; ++i) {
     const P x = level.nodes.position(i);

@@ -23,7 +23,7 @@ enum class Way { free, blocked, unclear };
 
 class Walls {
  public:
-  explicit Walls(const Level<2>& level) : level_(level) {
+  explicit Walls(const Level& level) : level_(level) {
     const pnpbs::Box<2>& box = level.map().tree().cell_box(0);
     close_ = 1e-9 * (box.high[0] - box.low[0]);
   }
@@ -81,7 +81,7 @@ class Walls {
     return inside;
   }
 
-  const Level<2>& level_;
+  const Level& level_;
   double close_;
   std::vector<BoundaryEdge> near_;
 };
@@ -92,7 +92,7 @@ struct Pairs {
 
 void expect_lists(LevelRun& run, double radius, const std::string& what, Pairs& pairs) {
   pnpbs::rebuild_lists(*run.level, radius);
-  const Level<2>& level = *run.level;
+  const Level& level = *run.level;
   const pnpbs::Nodes<2>& nodes = level.nodes;
   Walls walls(level);
   std::vector<char> listed(static_cast<std::size_t>(nodes.count));
@@ -123,7 +123,7 @@ void expect_lists(LevelRun& run, double radius, const std::string& what, Pairs& 
 
 Pairs expect_lists_in(const Shape& shape, const Plane& d) {
   LevelRun run(shape.build, d);
-  pnpbs::fill(*run.level);
+  fill_level(*run.level);
   Pairs pairs;
   expect_lists(run, 1.5, shape.name, pairs);
   run.steps(10);
@@ -201,7 +201,7 @@ END_TEST
 START_TEST(nodes_stay_off_the_boundary) {
   LevelRun run([](PlaneDomain& p) { shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1)); },
                constant(0.1), {{"event_interval", "100"}});
-  pnpbs::fill(*run.level);
+  fill_level(*run.level);
   run.steps(1, false, false);
   const double d = 0.1, toward_wall = -1.5 * d;
   std::int64_t at_wall = 0;
@@ -225,7 +225,7 @@ END_TEST
 START_TEST(changed_options_count_from_here) {
   LevelRun run([](PlaneDomain& p) { shapes::add_loop(p, shapes::rectangle(0, 0, 1, 1)); },
                [](double x, double) { return 0.03 + 0.04 * x; }, {{"event_interval", "100"}});
-  pnpbs::fill(*run.level);
+  fill_level(*run.level);
   run.steps(10, false, false);
   const auto away_from_anchor = [&] {
     const pnpbs::Nodes<2>& nodes = run.level->nodes;

@@ -54,7 +54,7 @@ PackedNode lattice_node(std::int64_t id) {
   const Point<3> site{kEdge * (static_cast<double>(cell / (kCells * kCells)) + offset),
                       kEdge * (static_cast<double>(cell / kCells % kCells) + offset),
                       kEdge * (static_cast<double>(cell % kCells) + offset)};
-  PackedNode node{id, site, {}, site, spacing(site), 0, -1, pnpbs::Carrier::free};
+  PackedNode node{id, site, {}, site, spacing(site), 0, -1, -1, pnpbs::Carrier::free};
   for (const double x : site)
     if (x < kFixedRim || x > 1 - kFixedRim) node.carrier = pnpbs::Carrier::fixed;
   if (node.carrier == pnpbs::Carrier::free)

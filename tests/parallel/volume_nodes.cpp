@@ -48,13 +48,15 @@ PackedNode node_at(std::int64_t id, int moment) {
   node.d = kMin * (1 + 0.1 * number(id, 50));
   node.tag = static_cast<std::int32_t>(100 * number(id, 51));
   node.boundary_node = static_cast<std::int32_t>(10 * number(id, 52)) - 8;
+  node.reference_on = static_cast<std::int32_t>(10 * number(id, 54)) - 8;
   node.carrier = number(id, 53) < 0.5 ? pnpbs::Carrier::free : pnpbs::Carrier::fixed;
   return node;
 }
 
 bool same(const PackedNode& a, const PackedNode& b) {
   return a.id == b.id && a.x == b.x && a.v == b.v && a.reference == b.reference && a.d == b.d &&
-         a.tag == b.tag && a.boundary_node == b.boundary_node && a.carrier == b.carrier;
+         a.tag == b.tag && a.boundary_node == b.boundary_node && a.reference_on == b.reference_on &&
+         a.carrier == b.carrier;
 }
 
 // All nodes of the rank, owned and ghosts, are what they are to be at the moment.
