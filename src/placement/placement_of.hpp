@@ -14,6 +14,7 @@
 #include "level/level.hpp"
 #include "level/rebalance.hpp"
 #include "level/taken_nodes.hpp"
+#include "placement/facet_tag.hpp"
 #include "placement/placement.hpp"
 #include "spacing/steepest_growth.hpp"
 
@@ -55,14 +56,24 @@ class PlacementOf : public Placement {
   template <class Visit>
   void for_elements(std::int64_t begin, std::int64_t end, const Visit& visit) const;
   // Calls visit(places of its nodes, tag) for every facet of the boundary once, over all ranks. In
-  // the plane an edge comes at the owner of the node it begins with, after prepare_order.
+  // the plane an edge comes at the owner of the node it begins with, after prepare_order; in space
+  // it is the open facets, after prepare_stars.
   template <class Visit>
   void for_boundary_facets(const Visit& visit) const;
+  template <class Visit>
+  void for_boundary_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
+      requires(Dim == 3);
   // Calls visit(places) for every face of only one tetrahedron, once, over all ranks: at the owner
   // of its node with the least id, which comes first; so that from outside they turn
   // counter-clockwise. After prepare_stars.
   template <class Visit>
-  void for_open_facets(const Visit& visit) const requires(Dim == 3);
+  void for_open_facets(const Visit& visit) const requires(Dim == 3) {
+    for_open_facets(0, count(), visit);
+  }
+  // Only those whose first node has a place from begin up to end, by that place.
+  template <class Visit>
+  void for_open_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
+      requires(Dim == 3);
   int owner_of(std::int64_t node) const {
     return level_->tree->owner_at(level_->nodes.position(node));
   }
@@ -173,28 +184,43 @@ void PlacementOf<Dim>::for_boundary_facets(const Visit& visit) const {
       if (begin >= 0 && begin < owned)
         visit(std::array<std::int64_t, 2>{begin, place[static_cast<std::size_t>(e.end)]}, e.tag);
     }
+  } else {
+    for_boundary_facets(0, count(), visit);
   }
+}
+
+template <int Dim>
+template <class Visit>
+void PlacementOf<Dim>::for_boundary_facets(std::int64_t begin, std::int64_t end,
+                                           const Visit& visit) const requires(Dim == 3) {
+  for_open_facets(begin, end, [&](const std::array<std::int64_t, 3>& places) {
+    const auto [a, b, c] = places;
+    visit(places, facet_tag(*level_, {node_at(a), node_at(b), node_at(c)}));
+  });
 }
 
 // Of the tetrahedra around a node, those of its faces that come once.
 template <int Dim>
 template <class Visit>
-void PlacementOf<Dim>::for_open_facets(const Visit& visit) const requires(Dim == 3) {
+void PlacementOf<Dim>::for_open_facets(std::int64_t begin, std::int64_t end,
+                                       const Visit& visit) const requires(Dim == 3) {
   const View<std::int64_t> id = level_->nodes.id;
   struct Face {
-    std::int64_t low, high;               // the other two nodes
+    std::int64_t low, high;               // ids of the other two nodes
     std::array<std::int64_t, 3> turning;  // places, as seen from outside
   };
   std::vector<Face> faces;
-  for (std::int64_t p = 0; p < count(); ++p) {
+  for (std::int64_t p = begin; p < end; ++p) {
     const std::int64_t i = node_at(p);
+    if (level_->stars.closed(i)) continue;
     faces.clear();
     level_->stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {
       // (i, a, b, c) turns right-handed: from outside, its faces with i turn as i, b, a.
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int64_t a = others[k], b = others[(k + 1) % 3];
         if (id(a) < id(i) || id(b) < id(i)) continue;
-        faces.push_back({std::min(a, b), std::max(a, b), {p, place_of(b), place_of(a)}});
+        faces.push_back(
+            {std::min(id(a), id(b)), std::max(id(a), id(b)), {p, place_of(b), place_of(a)}});
       }
     });
     std::sort(faces.begin(), faces.end(), [](const Face& f, const Face& g) {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangles of the tetrahedra's boundary and the surface there, whose tag they have.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "level/level.hpp"
+
+namespace pnpbs {
+
+// nodes: the triangle's, as they lie in memory. If one lies inside of a surface, it knows; if all
+// are on its features, the surface nearest to the triangle's middle tells. The same on every rank
+// that has the nodes.
+std::int32_t facet_tag(const Level<3>& level, std::array<std::int64_t, 3> nodes);
+
+// However far away that is; d: the spacing there.
+NearestPoint<3> nearest_on_boundary(const Level<3>& level, const Point<3>& x, double d);
+
+}  // namespace pnpbs
