@@ -221,8 +221,4 @@ void check_results(PlacementOf<2>& placement) {
   ResultCheck(placement).check();
 }
 
-void check_results(PlacementOf<3>&) {
-  throw Error(ErrorKind::unsupported, "results in space are not checked yet");
-}
-
 }  // namespace pnpbs

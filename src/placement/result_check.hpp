@@ -17,7 +17,15 @@ namespace pnpbs {
 // - the triangles' areas add up to the domain's.
 // No rank learns more than what its own nodes and ghosts are. Collective.
 void check_results(PlacementOf<2>& placement);
-// The same of tetrahedra: each face is that of another one or on the boundary. Collective.
+// The same in space, unless
+// - ids and places as there, all nodes lie inside, on a surface or where they were laid on the
+//   features, and all of those are there,
+// - lists as there,
+// - tetrahedra are of positive volume, each in the stars of its four corners, and on either side of
+//   a face there is one at most, of a face of inner nodes one on both sides,
+// - the faces with a tetrahedron on one side only are closed surfaces, which enclose the volume of
+//   the tetrahedra, and that of the domain but for what they may cut off.
+// Collective.
 void check_results(PlacementOf<3>& placement);
 
 }  // namespace pnpbs

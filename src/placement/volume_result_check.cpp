@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The check of the results in space.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "base/mixed_hash.hpp"
+#include "base/space_vectors.hpp"
+#include "comm/records.hpp"
+#include "placement/node_check.hpp"
+#include "placement/result_check.hpp"
+#include "predicates/space.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using Three = std::array<std::int64_t, 3>;
+
+struct StarTetrahedron {
+  std::int64_t of;     // ids: the star of `of` must have
+  Three others;        // these, increasing
+  std::int64_t owner;  // of `of`
+};
+
+// An edge of a triangle of the boundary, as that turns.
+struct TurningEdge {
+  std::int64_t low, high;  // ids
+  std::int64_t turn;       // 1 from low to high, -1 back
+  Point<3> middle;
+};
+
+class VolumeResultCheck : public NodeCheck<3> {
+ public:
+  explicit VolumeResultCheck(const PlacementOf<3>& placement)
+      : NodeCheck<3>(placement), ground_(level_.ground) {}
+
+  void check() const {
+    check_ids();
+    check_places();
+    check_sides();
+    check_feature_nodes();
+    check_lists();
+    check_stars();
+    check_boundary();
+    check_volume();
+  }
+
+ private:
+  using Corners = Stars<3>::Corners;
+
+  const Point<3>& laid(std::size_t n) const { return ground_.features().nodes[n].position; }
+  bool is_feature_node(std::int64_t i) const {
+    return nodes_.boundary_node(i) >= 0 && nodes_.carrier(i) != Carrier::surface;
+  }
+  Three sorted_ids(const Corners& corners) const;
+  std::array<Point<3>, 3> positions_at(const Three& places) const;
+
+  void check_sides() const;
+  void check_on_surface(std::int64_t i) const;
+  void check_feature_nodes() const;
+
+  bool star_has(std::int64_t i, const Three& others) const;
+  void check_stars() const;
+  void check_star(std::int64_t i, std::vector<StarTetrahedron>& elsewhere) const;
+  void check_corner(std::int64_t corner, const Corners& others,
+                    std::vector<StarTetrahedron>& elsewhere) const;
+  void check_faces(std::int64_t i) const;
+
+  void check_boundary() const;
+
+  struct Enclosed {
+    double volume = 0, rounding = 0, cut_off = 0;
+  };
+  double volume_of_tetrahedra() const;
+  double max_gap(const std::array<Point<3>, 3>& corners, double d) const;
+  Enclosed enclosed_by_open_facets() const;
+  void check_volume() const;
+
+  const Ground<3>& ground_;
+};
+
+Three VolumeResultCheck::sorted_ids(const Corners& corners) const {
+  Three ids{nodes_.id(corners[0]), nodes_.id(corners[1]), nodes_.id(corners[2])};
+  std::ranges::sort(ids);
+  return ids;
+}
+
+std::array<Point<3>, 3> VolumeResultCheck::positions_at(const Three& places) const {
+  return {position(p_.node_at(places[0])), position(p_.node_at(places[1])),
+          position(p_.node_at(places[2]))};
+}
+
+// ------------------------------------------------------------------ nodes ----------------------
+
+void VolumeResultCheck::check_sides() const {
+  for_owned([&](std::int64_t i) {
+    if (is_feature_node(i))
+      check_laid(i, laid(static_cast<std::size_t>(nodes_.boundary_node(i))));
+    else if (nodes_.carrier(i) == Carrier::surface)
+      check_on_surface(i);
+    else
+      check_inside(i, ground_.domain().facets());
+  });
+}
+
+// As near to it as rounding lets it lie.
+void VolumeResultCheck::check_on_surface(std::int64_t i) const {
+  const Box<3>& bounds = ground_.bounds();
+  double largest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    largest = std::max({largest, std::fabs(bounds.low[k]), std::fabs(bounds.high[k])});
+  const double gap = nearest_on_boundary(level_, position(i), nodes_.d(i)).gap;
+  if (gap > 0x1p-44 * largest)
+    fail_check("node " + name(i) + " is on a surface, but " + rounded_text(gap) +
+               " away from the next one");
+}
+
+void VolumeResultCheck::check_feature_nodes() const {
+  std::vector<std::int64_t> times(ground_.features().nodes.size(), 0);
+  for_owned([&](std::int64_t i) {
+    if (is_feature_node(i)) ++times[static_cast<std::size_t>(nodes_.boundary_node(i))];
+  });
+  check_laid_come_once(std::move(times), [this](std::size_t n) { return laid(n); });
+}
+
+// ------------------------------------------------------------------ stars ----------------------
+
+// Does the star of node i have the tetrahedron with these?
+bool VolumeResultCheck::star_has(std::int64_t i, const Three& others) const {
+  bool found = false;
+  level_.stars.for_simplices(
+      i, [&](const Corners& corners) { found = found || sorted_ids(corners) == others; });
+  return found;
+}
+
+void VolumeResultCheck::check_stars() const {
+  std::vector<StarTetrahedron> elsewhere;
+  for_owned([&](std::int64_t i) { check_star(i, elsewhere); });
+  for_owned([&](std::int64_t i) { check_faces(i); });
+  if (comm_.size() == 1) return;
+  for (const StarTetrahedron& t : redistribute(comm_, elsewhere, [](const StarTetrahedron& sent) {
+         return static_cast<int>(sent.owner);
+       })) {
+    const std::int64_t i = owned_node(t.of);
+    if (i < 0 || !star_has(i, t.others))
+      fail_check("the star of node " + (i < 0 ? std::to_string(t.of) : name(i)) +
+                 " lacks the tetrahedron with nodes " + std::to_string(t.others[0]) + ", " +
+                 std::to_string(t.others[1]) + " and " + std::to_string(t.others[2]));
+  }
+}
+
+void VolumeResultCheck::check_star(std::int64_t i, std::vector<StarTetrahedron>& elsewhere) const {
+  level_.stars.for_simplices(i, [&](const Corners& corners) {
+    const auto [a, b, c] = corners;
+    if (orientation(position(i), position(a), position(b), position(c)) <= 0)
+      fail_check("the tetrahedron of nodes " + name(i) + ", " + name(a) + ", " + name(b) + " and " +
+                 name(c) + " has no positive volume");
+    const auto self = static_cast<std::int32_t>(i);
+    check_corner(a, {self, b, c}, elsewhere);
+    check_corner(b, {self, a, c}, elsewhere);
+    check_corner(c, {self, a, b}, elsewhere);
+  });
+}
+
+// A tetrahedron must be in the star of this corner of it, too.
+void VolumeResultCheck::check_corner(std::int64_t corner, const Corners& others,
+                                     std::vector<StarTetrahedron>& elsewhere) const {
+  if (!nodes_.owned(corner))
+    elsewhere.push_back({nodes_.id(corner), sorted_ids(others), owner_of(corner)});
+  else if (!star_has(corner, sorted_ids(others)))
+    fail_check("the star of node " + name(corner) + " lacks the tetrahedron with nodes " +
+               name(others[0]) + ", " + name(others[1]) + " and " + name(others[2]));
+}
+
+// On either side of a face there is one tetrahedron at most; inside there are two.
+void VolumeResultCheck::check_faces(std::int64_t i) const {
+  using Side = std::pair<std::int32_t, std::int32_t>;  // of the face with node i, as it turns
+  std::vector<Side> sides;
+  level_.stars.for_simplices(i, [&](const Corners& corners) {
+    const auto [a, b, c] = corners;
+    sides.insert(sides.end(), {{a, b}, {b, c}, {c, a}});
+  });
+  if (sides.empty() && nodes_.carrier(i) == Carrier::free)
+    fail_check("node " + name(i) + " lies inside, but no tetrahedron has it");
+  std::ranges::sort(sides);
+  const auto text = [&](const Side& side) {
+    return "the face of nodes " + name(i) + ", " + name(side.first) + " and " + name(side.second);
+  };
+  const auto twice = std::ranges::adjacent_find(sides);
+  if (twice != sides.end()) fail_check(text(*twice) + " has two tetrahedra on one side");
+  if (nodes_.carrier(i) != Carrier::free) return;
+  for (const Side& side : sides)
+    if (nodes_.carrier(side.first) == Carrier::free &&
+        nodes_.carrier(side.second) == Carrier::free &&
+        !std::ranges::binary_search(sides, Side{side.second, side.first}))
+      fail_check(text(side) + " lies inside, but has a tetrahedron on one side only");
+}
+
+// ------------------------------------------------------------------ the boundary ---------------
+
+// The open facets are closed surfaces: at each edge as many turn one way as the other.
+void VolumeResultCheck::check_boundary() const {
+  std::vector<TurningEdge> edges;
+  p_.for_open_facets([&](const Three& places) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int64_t i = p_.node_at(places[k]), j = p_.node_at(places[(k + 1) % 3]);
+      TurningEdge edge{nodes_.id(i), nodes_.id(j), 1, position(i)};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        edge.middle[axis] += (nodes_.x[axis](j) - edge.middle[axis]) / 2;
+      if (edge.low > edge.high) {
+        std::swap(edge.low, edge.high);
+        edge.turn = -1;
+      }
+      edges.push_back(edge);
+    }
+  });
+  const auto ends = [](const TurningEdge& edge) { return std::tuple(edge.low, edge.high); };
+  if (comm_.size() > 1)
+    edges = redistribute(comm_, edges, [this](const TurningEdge& edge) {
+      const std::uint64_t key =
+          mixed(static_cast<std::uint64_t>(edge.low)) ^ static_cast<std::uint64_t>(edge.high);
+      return static_cast<int>(mixed(key) % static_cast<std::uint64_t>(comm_.size()));
+    });
+  std::ranges::sort(edges, {}, ends);
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    std::int64_t turns = 0;
+    auto next = edge;
+    for (; next != edges.end() && ends(*next) == ends(*edge); ++next) turns += next->turn;
+    if (turns != 0)
+      fail_check("the boundary of the tetrahedra is not closed at the edge of nodes " +
+                 std::to_string(edge->low) + " and " + std::to_string(edge->high) + " around " +
+                 point_text(edge->middle));
+    edge = next;
+  }
+}
+
+// ------------------------------------------------------------------ volume ---------------------
+
+double VolumeResultCheck::volume_of_tetrahedra() const {
+  double mine = 0;
+  p_.for_elements([&](const std::array<std::int64_t, 4>& places) {
+    const Point<3> x = position(p_.node_at(places[0]));
+    const auto [a, b, c] = positions_at({places[1], places[2], places[3]});
+    mine += dot_product(difference(a, x), cross_product(difference(b, x), difference(c, x))) / 6;
+  });
+  return sum_over_ranks(mine, ground_.measure());
+}
+
+// Between a triangle and the surface, at its middle and those of its edges; d: the spacing there.
+double VolumeResultCheck::max_gap(const std::array<Point<3>, 3>& corners, double d) const {
+  constexpr double kMiddles[][3] = {
+      {1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
+  double gap = 0;
+  for (const auto& weights : kMiddles) {
+    Point<3> x{};
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      for (std::size_t k = 0; k < 3; ++k) x[k] += weights[corner] * corners[corner][k];
+    gap = std::max(gap, nearest_on_boundary(level_, x, d).gap);
+  }
+  return gap;
+}
+
+// What they enclose, how far rounding may put that off, and how much of the body may lie on the
+// other side of them.
+VolumeResultCheck::Enclosed VolumeResultCheck::enclosed_by_open_facets() const {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  Enclosed mine;
+  p_.for_open_facets([&](const Three& places) {
+    const auto [a, b, c] = positions_at(places);
+    const Point<3>& low = ground_.bounds().low;
+    const Point<3> p = difference(a, low), q = difference(b, low), r = difference(c, low);
+    const Point<3> normal = cross_product(difference(b, a), difference(c, a));
+    mine.volume += dot_product(p, cross_product(q, r)) / 6;
+    mine.rounding += 4 * kEpsilon * std::sqrt(dot_product(p, p) * dot_product(q, q)) *
+                     std::sqrt(dot_product(r, r));
+    // Gaps are about as wide as at the worst of these places, or a third less; twice as wide has
+    // room for what lies between.
+    const double twice_area = std::sqrt(dot_product(normal, normal));
+    mine.cut_off += twice_area * max_gap({a, b, c}, nodes_.d(p_.node_at(places[0])));
+  });
+  const double unit = ground_.measure();
+  return {sum_over_ranks(mine.volume, unit), sum_over_ranks(mine.rounding, unit),
+          sum_over_ranks(mine.cut_off, unit)};
+}
+
+void VolumeResultCheck::check_volume() const {
+  constexpr double kTolerance = 1e-9;
+  const double body = ground_.measure();
+  const Enclosed enclosed = enclosed_by_open_facets();
+  const double tetrahedra = volume_of_tetrahedra();
+  const double tolerance = kTolerance * body + enclosed.rounding;
+  if (!(body > enclosed.rounding)) return;  // too thin to be measured
+  if (std::fabs(tetrahedra - enclosed.volume) > tolerance)
+    fail_check("the tetrahedra have the volume " + number_text(tetrahedra) +
+               ", their boundary encloses " + number_text(enclosed.volume));
+  if (std::fabs(tetrahedra - body) > tolerance + enclosed.cut_off)
+    fail_check("the tetrahedra have the volume " + number_text(tetrahedra) + ", the domain " +
+               number_text(body) + ", and the faces of their boundary cut off no more than " +
+               rounded_text(enclosed.cut_off));
+}
+
+}  // namespace
+
+void check_results(PlacementOf<3>& placement) {
+  placement.prepare_stars();
+  VolumeResultCheck(placement).check();
+}
+
+}  // namespace pnpbs
