@@ -10,16 +10,20 @@ namespace pnpbs::io {
 namespace {
 
 constexpr std::array table{
-    Format{"vtu", "VTK unstructured grid: nodes, triangles, id, tag, spacing, quality", true,
-           Elements::on_request, write_vtu},
+    Format{"vtu", "VTK unstructured grid: nodes, elements, id, tag, spacing, quality", true,
+           Elements::on_request, false, write_vtu},
     Format{"pvtu", "the same as one .vtu piece per rank beside it", false, Elements::on_request,
-           nullptr},
-    Format{"msh", "gmsh's format 2.2: nodes, triangles, boundary edges with their tags", false,
-           Elements::on_request, write_msh},
-    Format{"node", "Triangle's node file, numbered from 1, with boundary markers", false,
-           Elements::beside, write_node},
-    Format{"ele", "Triangle's element file for the .node file", false, Elements::always, write_ele},
-    Format{"csv", "id,x,y,tag,spacing", false, Elements::never, write_csv},
+           false, nullptr},
+    Format{"msh", "gmsh's format 2.2: nodes, elements, facets of the boundary with their tags",
+           false, Elements::on_request, false, write_msh},
+    Format{"node", "Triangle's and TetGen's node file, numbered from 1, with boundary markers",
+           false, Elements::beside, false, write_node},
+    Format{"ele", "Triangle's and TetGen's element file for the .node file", false,
+           Elements::always, false, write_ele},
+    Format{"face", "TetGen's file of a body's boundary triangles for the .node file", false,
+           Elements::always, true, write_face},
+    Format{"csv", "id,x,y,tag,spacing, of bodies id,x,y,z,tag,spacing", false, Elements::never,
+           false, write_csv},
 };
 
 }  // namespace

@@ -11,13 +11,14 @@
 
 namespace pnpbs::io {
 
-enum class Elements { never, on_request, beside, always };  // beside: in a second file
+enum class Elements { never, on_request, beside, always };  // beside: in files beside
 
 struct Format {
   const char* name;  // also the extension, without its dot
   const char* help;
   bool binary;  // not for terminals
   Elements elements;
+  bool bodies_only;  // none of the plane
   // Collective. nullptr: in pieces, which is not one file's business.
   void (*write)(const NodeSource& nodes, SharedFile& file);
 };
@@ -32,10 +33,12 @@ const Format* format_by_extension(std::string_view path);
 void write_vtu(const NodeSource& nodes, SharedFile& file);
 void write_node(const NodeSource& nodes, SharedFile& file);
 void write_ele(const NodeSource& nodes, SharedFile& file);
+void write_face(const NodeSource& nodes, SharedFile& file);
 void write_msh(const NodeSource& nodes, SharedFile& file);
 void write_csv(const NodeSource& nodes, SharedFile& file);
 
 // The file that names the pieces. Collective. elements: as the pieces have them.
-void write_pvtu(const std::vector<std::string>& pieces, bool elements, SharedFile& file);
+void write_pvtu(const std::vector<std::string>& pieces, int dimension, bool elements,
+                SharedFile& file);
 
 }  // namespace pnpbs::io

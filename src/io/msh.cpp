@@ -1,31 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gmsh's format 2.2, as text: the version that most programs read. Numbers from 1. Boundary edges
-// have their tag as physical group, triangles the group 1. Without elements every node is a point
-// of its tag's group, since gmsh forgets nodes that belong to nothing.
+// gmsh's format 2.2, as text: the version that most programs read. Numbers from 1. Facets of the
+// boundary have their tag as physical group, elements the group 1. Without elements every node is a
+// point of its tag's group, since gmsh forgets nodes that belong to nothing.
 #include <cmath>
 #include <cstdlib>
 
-#include "io/numbered_points.hpp"
+#include "io/numbered_rows.hpp"
 
 namespace pnpbs::io {
 namespace {
 
-constexpr std::string_view point = " 15 2 ";    // one node; two tags follow
-constexpr std::string_view line = " 1 2 ";      // two nodes
-constexpr std::string_view triangle = " 2 2 ";  // three nodes
-
-void write_corners(const std::int64_t* corners, std::size_t count, Sink& sink) {
-  for (std::size_t k = 0; k < count; ++k) {
-    sink.text(" ");
-    sink.number(corners[k] + 1);
-  }
-  sink.text("\n");
-}
+// Kinds of elements, and that two tags follow.
+constexpr std::string_view point = " 15 2 ";
+constexpr std::string_view line = " 1 2 ";
+constexpr std::string_view triangle = " 2 2 ";
+constexpr std::string_view tetrahedron = " 4 2 ";
 
 void write_points(const NodeSource& nodes, SharedFile& file) {
   file.append_text("$Nodes\n" + std::to_string(nodes.contents().nodes) + "\n");
+  const std::string_view rest = nodes.contents().dimension == 2 ? " 0\n" : "\n";  // z
   append_numbered_points(nodes, file,
-                         [](const NodeRows&, std::size_t, Sink& sink) { sink.text(" 0\n"); });
+                         [&](const NodeRows&, std::size_t, Sink& sink) { sink.text(rest); });
   file.append_text("$EndNodes\n");
 }
 
@@ -39,39 +34,44 @@ void write_nodes_as_elements(const NodeSource& nodes, SharedFile& file) {
         sink.number(tag);  // physical group
         sink.text(" ");
         sink.number(std::abs(tag) + 1);  // geometric entity
-        write_corners(&number, 1, sink);
-        ++number;
+        sink.text(" ");
+        sink.number(++number);
+        sink.text("\n");
       }
     });
   });
 }
 
-void write_edges(const NodeSource& nodes, SharedFile& file) {
-  nodes.for_edges([&](const EdgeRows& rows) {
+void write_facets(const NodeSource& nodes, SharedFile& file) {
+  const Contents& all = nodes.contents();
+  nodes.for_facets([&](const FacetRows& rows) {
     file.append([&](Sink& sink) {
       std::int64_t number = rows.first;
-      for (std::size_t e = 0; e < rows.tags.size(); ++e) {
-        const std::int64_t tag = rows.tags[e];
+      for (std::size_t f = 0; f < rows.tags.size(); ++f) {
+        const std::int64_t tag = rows.tags[f];
         sink.number(++number);
-        sink.text(line);
+        sink.text(all.dimension == 2 ? line : triangle);
         sink.number(tag);  // physical group
         sink.text(" ");
         sink.number(std::abs(tag));  // geometric entity
-        write_corners(&rows.ends[2 * e], 2, sink);
+        write_corners(rows.corners, f, all.facet_corners(), sink);
+        sink.text("\n");
       }
     });
   });
 }
 
-void write_triangles(const NodeSource& nodes, SharedFile& file) {
-  nodes.for_triangles([&](const TriangleRows& rows) {
+void write_elements(const NodeSource& nodes, SharedFile& file) {
+  const Contents& all = nodes.contents();
+  nodes.for_elements([&](const ElementRows& rows) {
     file.append([&](Sink& sink) {
-      std::int64_t number = nodes.contents().edges + rows.first;
-      for (std::size_t t = 0; t < rows.quality.size(); ++t) {
+      std::int64_t number = all.facets + rows.first;
+      for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.number(++number);
-        sink.text(triangle);
+        sink.text(all.dimension == 2 ? triangle : tetrahedron);
         sink.text("1 1");
-        write_corners(&rows.corners[3 * t], 3, sink);
+        write_corners(rows.corners, e, all.element_corners(), sink);
+        sink.text("\n");
       }
     });
   });
@@ -83,11 +83,11 @@ void write_msh(const NodeSource& nodes, SharedFile& file) {
   file.append_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
   write_points(nodes, file);
   const Contents& all = nodes.contents();
-  const std::int64_t elements = all.elements ? all.edges + all.triangles : all.nodes;
+  const std::int64_t elements = all.with_elements ? all.facets + all.elements : all.nodes;
   file.append_text("$Elements\n" + std::to_string(elements) + "\n");
-  if (all.elements) {
-    write_edges(nodes, file);
-    write_triangles(nodes, file);
+  if (all.with_elements) {
+    write_facets(nodes, file);
+    write_elements(nodes, file);
   } else {
     write_nodes_as_elements(nodes, file);
   }

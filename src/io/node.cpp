@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangle's .node format, "nodes dimension attributes markers", then "number x y marker"; and its
-// .ele format, "triangles corners attributes", then "number corner corner corner". From 1.
-#include "io/numbered_points.hpp"
+// Triangle's and TetGen's .node format, "nodes dimension attributes markers", then "number x y
+// marker" or "number x y z marker"; their .ele format, "elements corners attributes", then "number
+// corner corner ..."; and TetGen's .face format, "faces markers", then "number corner corner corner
+// marker". From 1.
+#include "io/numbered_rows.hpp"
 
 namespace pnpbs::io {
 
 void write_node(const NodeSource& nodes, SharedFile& file) {
-  file.append_text(std::to_string(nodes.contents().nodes) + " 2 0 1\n");
+  const Contents& all = nodes.contents();
+  file.append_text(std::to_string(all.nodes) + " " + std::to_string(all.dimension) + " 0 1\n");
   append_numbered_points(nodes, file, [](const NodeRows& rows, std::size_t i, Sink& sink) {
     sink.text(" ");
     sink.number(rows.tags[i]);
@@ -16,21 +19,39 @@ void write_node(const NodeSource& nodes, SharedFile& file) {
 }
 
 void write_ele(const NodeSource& nodes, SharedFile& file) {
-  file.append_text(std::to_string(nodes.contents().triangles) + " 3 0\n");
-  nodes.for_triangles([&](const TriangleRows& rows) {
+  const Contents& all = nodes.contents();
+  const int corners = all.element_corners();
+  file.append_text(std::to_string(all.elements) + " " + std::to_string(corners) + " 0\n");
+  nodes.for_elements([&](const ElementRows& rows) {
     file.append([&](Sink& sink) {
       std::int64_t number = rows.first;
-      for (std::size_t t = 0; t < rows.quality.size(); ++t) {
+      for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.number(++number);
-        for (std::size_t k = 0; k < 3; ++k) {
-          sink.text(" ");
-          sink.number(rows.corners[3 * t + k] + 1);
-        }
+        write_corners(rows.corners, e, corners, sink);
         sink.text("\n");
       }
     });
   });
-  file.append_text("# triangles of nodes placed by pnpbs\n");
+  file.append_text(all.dimension == 2 ? "# triangles of nodes placed by pnpbs\n"
+                                      : "# tetrahedra of nodes placed by pnpbs\n");
+}
+
+void write_face(const NodeSource& nodes, SharedFile& file) {
+  const Contents& all = nodes.contents();
+  file.append_text(std::to_string(all.facets) + " 1\n");
+  nodes.for_facets([&](const FacetRows& rows) {
+    file.append([&](Sink& sink) {
+      std::int64_t number = rows.first;
+      for (std::size_t f = 0; f < rows.tags.size(); ++f) {
+        sink.number(++number);
+        write_corners(rows.corners, f, all.facet_corners(), sink);
+        sink.text(" ");
+        sink.number(rows.tags[f]);
+        sink.text("\n");
+      }
+    });
+  });
+  file.append_text("# boundary of tetrahedra of nodes placed by pnpbs\n");
 }
 
 }  // namespace pnpbs::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the writers write: nodes, triangles and boundary edges, a window at a time, so that writing
-// takes hardly any memory beside the nodes themselves.
+// What the writers write: nodes, elements and the facets of the boundary, a window at a time, so
+// that writing takes hardly any memory beside the nodes themselves. Elements are triangles in the
+// plane and tetrahedra in space; facets are edges, and triangles.
 #pragma once
 
 #include <cstddef>
@@ -10,32 +11,37 @@
 
 namespace pnpbs::io {
 
-// What all ranks hold together. Nodes, triangles and edges are numbered through, from 0.
+// What all ranks hold together. Nodes, elements and facets are numbered through, from 0.
 struct Contents {
-  bool is_piece = false;  // one of many, which stands for itself and knows ghosts
-  bool elements = false;  // triangles and edges as well?
-  std::int64_t nodes = 0, triangles = 0, edges = 0;
+  int dimension = 2;
+  bool is_piece = false;       // one of many, which stands for itself and knows ghosts
+  bool with_elements = false;  // and facets?
+  std::int64_t nodes = 0, elements = 0, facets = 0;
+
+  int element_corners() const { return dimension + 1; }
+  int facet_corners() const { return dimension; }
 };
 
 struct NodeRows {
   std::int64_t first = 0;            // number of the first one here
-  std::vector<double> xy;            // [nodes][2]
+  std::vector<double> x;             // [nodes][dimension]
   std::vector<std::int64_t> ids;     // [nodes]
   std::vector<std::int32_t> tags;    // [nodes], 0: inner node
   std::vector<double> spacing;       // [nodes], d at the node
   std::vector<std::uint8_t> ghosts;  // [nodes], 1: another rank's; pieces only
 };
 
-struct TriangleRows {
+struct ElementRows {
   std::int64_t first = 0;
-  std::vector<std::int64_t> corners;  // [triangles][3], numbers
-  std::vector<float> quality;         // [triangles], 2 r_in / R
+  std::vector<std::int64_t> corners;  // [elements][dimension + 1], numbers
+  std::vector<float> quality;         // [elements], 2 r_in / R, in space 3 r_in / R
 };
 
-struct EdgeRows {  // on boundary and inner curves
+struct FacetRows {  // in the plane on inner curves, too
   std::int64_t first = 0;
-  std::vector<std::int64_t> ends;  // [edges][2], numbers
-  std::vector<std::int32_t> tags;  // [edges]
+  std::vector<std::int64_t> corners;  // [facets][dimension], numbers
+  std::vector<std::int32_t> tags;     // [facets]
+  std::vector<float> quality;         // [facets], 2 r_in / R; in space only
 };
 
 class NodeSource {
@@ -48,8 +54,8 @@ class NodeSource {
   // other, empty ones included, and may do collective work. The parts of a window are in the order
   // of the ranks. Collective.
   virtual void for_nodes(const std::function<void(const NodeRows&)>& visit) const = 0;
-  virtual void for_triangles(const std::function<void(const TriangleRows&)>& visit) const = 0;
-  virtual void for_edges(const std::function<void(const EdgeRows&)>& visit) const = 0;
+  virtual void for_elements(const std::function<void(const ElementRows&)>& visit) const = 0;
+  virtual void for_facets(const std::function<void(const FacetRows&)>& visit) const = 0;
 
  protected:
   Contents contents_;

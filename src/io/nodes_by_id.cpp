@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ranges>
 #include <tuple>
+#include <utility>
 
 #include "comm/records.hpp"
 #include "io/rows.hpp"
@@ -12,77 +13,90 @@ namespace pnpbs::io {
 
 namespace {
 
+template <int Dim>
 struct NodeRow {
   std::int64_t id;
-  double x[2], d;
+  Point<Dim> x;
+  double d;
   std::int64_t tag;
 };
 
 // Nodes by their labels: see NodesById::label.
-struct TriangleRow {
-  std::int64_t corners[3];  // the least first
+template <int Dim>
+struct ElementRow {
+  std::array<std::int64_t, Dim + 1> corners;  // the least first
   double quality;
 };
 
-struct EdgeRow {
-  std::int64_t ends[2];
-  std::int64_t tag;
+template <int Dim>
+struct FacetRow {
+  std::array<std::int64_t, Dim> corners;  // in space the least first
+  std::int32_t tag;
+  float quality;
 };
 
-NodeRow node_row(const Nodes<2>& nodes, std::int64_t i) {
-  return {nodes.id(i), {nodes.x[0](i), nodes.x[1](i)}, nodes.d(i), nodes.tag(i)};
+template <int Dim>
+NodeRow<Dim> node_row(const Nodes<Dim>& nodes, std::int64_t i) {
+  return {nodes.id(i), nodes.position(i), nodes.d(i), nodes.tag(i)};
 }
 
-NodeRows sorted_nodes(std::vector<NodeRow> rows) {
-  std::ranges::sort(rows, {}, &NodeRow::id);
+template <int Dim>
+NodeRows sorted_nodes(std::vector<NodeRow<Dim>> rows) {
+  std::ranges::sort(rows, {}, &NodeRow<Dim>::id);
   NodeRows sorted;
-  for (const NodeRow& row : rows) {
+  for (const NodeRow<Dim>& row : rows) {
     sorted.ids.push_back(row.id);
-    sorted.xy.insert(sorted.xy.end(), row.x, row.x + 2);
+    sorted.x.insert(sorted.x.end(), row.x.begin(), row.x.end());
     sorted.spacing.push_back(row.d);
     sorted.tags.push_back(static_cast<std::int32_t>(row.tag));
   }
   return sorted;
 }
 
-TriangleRows sorted_triangles(std::vector<TriangleRow> rows) {
-  std::ranges::sort(rows, {}, [](const TriangleRow& t) {
-    return std::tuple(t.corners[0], t.corners[1]);  // the third follows from the first two
-  });
-  TriangleRows sorted;
-  for (const TriangleRow& row : rows) {
-    sorted.corners.insert(sorted.corners.end(), row.corners, row.corners + 3);
+template <int Dim>
+ElementRows sorted_elements(std::vector<ElementRow<Dim>> rows) {
+  std::ranges::sort(rows, {}, &ElementRow<Dim>::corners);
+  ElementRows sorted;
+  for (const ElementRow<Dim>& row : rows) {
+    sorted.corners.insert(sorted.corners.end(), row.corners.begin(), row.corners.end());
     sorted.quality.push_back(static_cast<float>(row.quality));
   }
   return sorted;
 }
 
-EdgeRows sorted_edges(std::vector<EdgeRow> rows) {
-  std::ranges::sort(rows, {},
-                    [](const EdgeRow& e) { return std::tuple(e.ends[0], e.ends[1], e.tag); });
-  EdgeRows sorted;
-  for (const EdgeRow& row : rows) {
-    sorted.ends.insert(sorted.ends.end(), row.ends, row.ends + 2);
-    sorted.tags.push_back(static_cast<std::int32_t>(row.tag));
+template <int Dim>
+FacetRows sorted_facets(std::vector<FacetRow<Dim>> rows) {
+  std::ranges::sort(rows, {}, [](const FacetRow<Dim>& f) { return std::tuple(f.corners, f.tag); });
+  FacetRows sorted;
+  for (const FacetRow<Dim>& row : rows) {
+    sorted.corners.insert(sorted.corners.end(), row.corners.begin(), row.corners.end());
+    sorted.tags.push_back(row.tag);
+    sorted.quality.push_back(row.quality);
   }
   return sorted;
 }
 
 }  // namespace
 
-NodesById::NodesById(PlacementOf<2>& placement, bool elements)
+template <int Dim>
+NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements)
     : placement_(placement), comm_(placement.communicator()) {
   prepare(placement, elements);
-  contents_.elements = elements;
+  contents_.dimension = Dim;
+  contents_.with_elements = elements;
   std::vector<std::int64_t> counts{placement.count(), 0, 0};
   if (elements) {
     placement.for_elements([&](const auto&) { ++counts[1]; });
-    placement.for_boundary_facets([&](const auto&, std::int32_t) { ++counts[2]; });
+    const auto count_facet = [&](const auto&...) { ++counts[2]; };
+    if constexpr (Dim == 2)
+      placement.for_boundary_facets(count_facet);
+    else
+      placement.for_open_facets(count_facet);
   }
   comm_.allreduce_sum(counts);
   contents_.nodes = counts[0];
-  contents_.triangles = counts[1];
-  contents_.edges = counts[2];
+  contents_.elements = counts[1];
+  contents_.facets = counts[2];
   if (comm_.size() == 1) return;
   const View<std::int64_t> id = placement.level().nodes.id;
   blocks_.emplace(comm_, placement.count(),
@@ -96,7 +110,8 @@ NodesById::NodesById(PlacementOf<2>& placement, bool elements)
 // ------------------------------------------------------------------ windows --------------------
 
 // The place of this rank's first node in this part or in one behind it.
-std::int64_t NodesById::first_place_in(std::size_t part) const {
+template <int Dim>
+std::int64_t NodesById<Dim>::first_place_in(std::size_t part) const {
   const std::int64_t owned = placement_.count();
   if (!blocks_) return std::min(static_cast<std::int64_t>(part) * kWindow, owned);
   if (part >= bounds_.size()) return owned;
@@ -106,8 +121,9 @@ std::int64_t NodesById::first_place_in(std::size_t part) const {
       places, bounds_[part], {}, [&](std::int64_t place) { return id(placement_.node_at(place)); });
 }
 
+template <int Dim>
 template <class Visit>
-void NodesById::for_windows(const Visit& visit) const {
+void NodesById<Dim>::for_windows(const Visit& visit) const {
   const auto ranks = static_cast<std::size_t>(comm_.size());
   const auto rank = static_cast<std::size_t>(comm_.rank());
   for (std::size_t part = 0; static_cast<std::int64_t>(part) * kWindow < contents_.nodes;
@@ -117,8 +133,9 @@ void NodesById::for_windows(const Visit& visit) const {
 }
 
 // Brings each row to the rank that has its first node in its part of the window.
+template <int Dim>
 template <class Row, class Label>
-std::vector<Row> NodesById::brought(std::vector<Row> rows, const Label& first_label) const {
+std::vector<Row> NodesById<Dim>::brought(std::vector<Row> rows, const Label& first_label) const {
   if (!blocks_) return rows;
   return redistribute<Row>(comm_, rows, [&](const Row& row) {
     const auto part = std::ranges::upper_bound(bounds_, first_label(row)) - bounds_.begin() - 1;
@@ -126,66 +143,96 @@ std::vector<Row> NodesById::brought(std::vector<Row> rows, const Label& first_la
   });
 }
 
-std::int64_t NodesById::label(std::int64_t place) const {
+template <int Dim>
+std::int64_t NodesById<Dim>::label(std::int64_t place) const {
   return blocks_ ? placement_.level().nodes.id(placement_.node_at(place)) : place;
 }
 
-void NodesById::label_by_numbers(std::vector<std::int64_t>& labels) const {
+template <int Dim>
+template <std::size_t n>
+std::array<std::int64_t, n> NodesById<Dim>::labels(
+    const std::array<std::int64_t, n>& places) const {
+  std::array<std::int64_t, n> all;
+  std::ranges::transform(places, all.begin(), [this](std::int64_t place) { return label(place); });
+  return all;
+}
+
+template <int Dim>
+void NodesById<Dim>::label_by_numbers(std::vector<std::int64_t>& labels) const {
   if (blocks_) labels = blocks_->numbers_of(labels);
 }
 
 // ------------------------------------------------------------------ rows -----------------------
 
-void NodesById::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
-  const Nodes<2>& nodes = placement_.level().nodes;
+template <int Dim>
+void NodesById<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
+  const Nodes<Dim>& nodes = placement_.level().nodes;
   for_windows([&](const Window& window) {
-    std::vector<NodeRow> own;
+    std::vector<NodeRow<Dim>> own;
     for (std::int64_t place = window.begin; place < window.end; ++place)
-      own.push_back(node_row(nodes, placement_.node_at(place)));
-    NodeRows rows = sorted_nodes(brought(std::move(own), [](const NodeRow& n) { return n.id; }));
+      own.push_back(node_row<Dim>(nodes, placement_.node_at(place)));
+    NodeRows rows =
+        sorted_nodes<Dim>(brought(std::move(own), [](const NodeRow<Dim>& n) { return n.id; }));
     rows.first = window.first;
     visit(rows);
   });
 }
 
-void NodesById::for_triangles(const std::function<void(const TriangleRows&)>& visit) const {
-  const Nodes<2>& nodes = placement_.level().nodes;
-  const auto position = [&](std::int64_t place) {
-    return nodes.position(placement_.node_at(place));
-  };
+// Labels become numbers, and the rows get theirs, behind those of the windows before.
+template <int Dim>
+template <class Rows>
+void NodesById<Dim>::number_rows(Rows& rows, std::size_t count, std::int64_t& before) const {
+  label_by_numbers(rows.corners);
+  const RankSpan span = span_of(comm_, count);
+  rows.first = before + span.first;
+  before += span.total;
+}
+
+template <int Dim>
+void NodesById<Dim>::for_elements(const std::function<void(const ElementRows&)>& visit) const {
   std::int64_t before = 0;
   for_windows([&](const Window& window) {
-    std::vector<TriangleRow> own;
-    placement_.for_elements(
-        window.begin, window.end, [&](const std::array<std::int64_t, 3>& places) {
-          const auto [a, b, c] = places;
-          own.push_back(
-              {{label(a), label(b), label(c)}, quality_of(position(a), position(b), position(c))});
-        });
-    TriangleRows rows = sorted_triangles(
-        brought(std::move(own), [](const TriangleRow& t) { return t.corners[0]; }));
-    label_by_numbers(rows.corners);
-    const RankSpan span = span_of(comm_, rows.quality.size());
-    rows.first = before + span.first;
-    before += span.total;
+    std::vector<ElementRow<Dim>> own;
+    placement_.for_elements(window.begin, window.end, [&](const auto& places) {
+      own.push_back({labels(places), quality_of(positions_at(placement_, places))});
+    });
+    ElementRows rows = sorted_elements<Dim>(
+        brought(std::move(own), [](const ElementRow<Dim>& e) { return e.corners[0]; }));
+    number_rows(rows, rows.quality.size(), before);
     visit(rows);
   });
 }
 
-// All at once: the boundary is in every rank's memory anyway.
-void NodesById::for_edges(const std::function<void(const EdgeRows&)>& visit) const {
-  std::vector<EdgeRow> own;
-  placement_.for_boundary_facets([&](const std::array<std::int64_t, 2>& places, std::int32_t tag) {
-    const auto [a, b] = places;
-    own.push_back({{label(a), label(b)}, tag});
-  });
-  if (blocks_)
-    own = redistribute<EdgeRow>(comm_, own,
-                                [&](const EdgeRow& e) { return blocks_->rank_of(e.ends[0]); });
-  EdgeRows rows = sorted_edges(std::move(own));
-  label_by_numbers(rows.ends);
-  rows.first = span_of(comm_, rows.tags.size()).first;
-  visit(rows);
+template <int Dim>
+void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& visit) const {
+  std::int64_t before = 0;
+  std::vector<FacetRow<Dim>> own;
+  const auto keep = [&](const auto& places, std::int32_t tag) {
+    own.push_back({labels(places), tag, facet_quality(placement_, places)});
+  };
+  const auto first = [](const FacetRow<Dim>& f) { return f.corners[0]; };
+  const auto pass_on = [&](std::vector<FacetRow<Dim>> arrived) {
+    FacetRows rows = sorted_facets<Dim>(std::move(arrived));
+    number_rows(rows, rows.tags.size(), before);
+    visit(rows);
+  };
+  if constexpr (Dim == 2) {
+    // All at once: the boundary is in every rank's memory anyway.
+    placement_.for_boundary_facets(keep);
+    if (blocks_)
+      own = redistribute<FacetRow<Dim>>(
+          comm_, own, [&](const FacetRow<Dim>& f) { return blocks_->rank_of(first(f)); });
+    pass_on(std::move(own));
+  } else {
+    for_windows([&](const Window& window) {
+      own.clear();
+      placement_.for_boundary_facets(window.begin, window.end, keep);
+      pass_on(brought(own, first));
+    });
+  }
 }
+
+template class NodesById<2>;
+template class NodesById<3>;
 
 }  // namespace pnpbs::io

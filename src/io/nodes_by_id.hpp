@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All nodes of a placement in the order of their ids, triangles and boundary edges in the order of
-// their corners: the same whole for any number of ranks.
+// All nodes of a placement in the order of their ids, elements and facets of the boundary in the
+// order of their corners: the same whole for any number of ranks.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "comm/id_blocks.hpp"
@@ -11,14 +12,15 @@
 
 namespace pnpbs::io {
 
+template <int Dim>
 class NodesById : public NodeSource {
  public:
   // Collective.
-  NodesById(PlacementOf<2>& placement, bool elements);
+  NodesById(PlacementOf<Dim>& placement, bool elements);
 
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
-  void for_triangles(const std::function<void(const TriangleRows&)>& visit) const override;
-  void for_edges(const std::function<void(const EdgeRows&)>& visit) const override;
+  void for_elements(const std::function<void(const ElementRows&)>& visit) const override;
+  void for_facets(const std::function<void(const FacetRows&)>& visit) const override;
 
  private:
   // Each rank has one part of it, of kWindow nodes.
@@ -30,16 +32,23 @@ class NodesById : public NodeSource {
   void for_windows(const Visit& visit) const;
   template <class Row, class Label>
   std::vector<Row> brought(std::vector<Row> rows, const Label& first_label) const;
+  template <class Rows>
+  void number_rows(Rows& rows, std::size_t count, std::int64_t& before) const;
   std::int64_t first_place_in(std::size_t part) const;
   std::int64_t label(std::int64_t place) const;
+  template <std::size_t n>
+  std::array<std::int64_t, n> labels(const std::array<std::int64_t, n>& places) const;
   void label_by_numbers(std::vector<std::int64_t>& labels) const;
 
-  const PlacementOf<2>& placement_;
+  const PlacementOf<Dim>& placement_;
   const Communicator& comm_;
   // More ranks than one know nodes of others by their ids; one alone by their places, which are
   // the numbers.
   std::optional<IdBlocks> blocks_;
   std::vector<std::int64_t> bounds_;  // ids that parts of windows begin with
 };
+
+extern template class NodesById<2>;
+extern template class NodesById<3>;
 
 }  // namespace pnpbs::io

@@ -7,29 +7,40 @@
 
 namespace pnpbs::io {
 
-OwnPiece::OwnPiece(const PlacementOf<2>& placement, bool elements)
+template <int Dim>
+OwnPiece<Dim>::OwnPiece(const PlacementOf<Dim>& placement, bool elements)
     : placement_(placement),
       owned_(placement.count()),
       number_(static_cast<std::size_t>(placement.level().nodes.count - owned_), -1) {
+  contents_.dimension = Dim;
   contents_.is_piece = true;
-  contents_.elements = elements;
+  contents_.with_elements = elements;
   if (elements) {
-    placement.for_elements([&](const std::array<std::int64_t, 3>& places) {
-      ++contents_.triangles;
-      for (const std::int64_t place : places) {
-        if (place < owned_) continue;
-        std::int64_t& number = number_[static_cast<std::size_t>(place - owned_)];
-        if (number >= 0) continue;
-        number = owned_ + static_cast<std::int64_t>(ghosts_.size());
-        ghosts_.push_back(place);
-      }
+    placement.for_elements([&](const auto& places) {
+      ++contents_.elements;
+      for (const std::int64_t place : places) know(place);
     });
+    if constexpr (Dim == 3)
+      placement.for_open_facets([&](const auto& places) {
+        ++contents_.facets;
+        for (const std::int64_t place : places) know(place);
+      });
   }
   contents_.nodes = owned_ + static_cast<std::int64_t>(ghosts_.size());
 }
 
-void OwnPiece::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
-  const Nodes<2>& nodes = placement_.level().nodes;
+template <int Dim>
+void OwnPiece<Dim>::know(std::int64_t place) {
+  if (place < owned_) return;
+  std::int64_t& number = number_[static_cast<std::size_t>(place - owned_)];
+  if (number >= 0) return;
+  number = owned_ + static_cast<std::int64_t>(ghosts_.size());
+  ghosts_.push_back(place);
+}
+
+template <int Dim>
+void OwnPiece<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
+  const Nodes<Dim>& nodes = placement_.level().nodes;
   for (std::int64_t begin = 0; begin < contents_.nodes; begin += kWindow) {
     NodeRows rows;
     rows.first = begin;
@@ -37,7 +48,7 @@ void OwnPiece::for_nodes(const std::function<void(const NodeRows&)>& visit) cons
       const bool ghost = k >= owned_;
       const std::int64_t place = ghost ? ghosts_[static_cast<std::size_t>(k - owned_)] : k;
       const std::int64_t i = placement_.node_at(place);
-      rows.xy.insert(rows.xy.end(), {nodes.x[0](i), nodes.x[1](i)});
+      for (std::size_t axis = 0; axis < Dim; ++axis) rows.x.push_back(nodes.x[axis](i));
       rows.ids.push_back(nodes.id(i));
       rows.tags.push_back(nodes.tag(i));
       rows.spacing.push_back(nodes.d(i));
@@ -47,26 +58,48 @@ void OwnPiece::for_nodes(const std::function<void(const NodeRows&)>& visit) cons
   }
 }
 
-void OwnPiece::for_triangles(const std::function<void(const TriangleRows&)>& visit) const {
-  const Nodes<2>& nodes = placement_.level().nodes;
-  const auto position = [&](std::int64_t place) {
-    return nodes.position(placement_.node_at(place));
-  };
+template <int Dim>
+template <class Visit>
+void OwnPiece<Dim>::for_windows(const Visit& visit) const {
+  for (std::int64_t begin = 0; begin < owned_; begin += kWindow)
+    visit(begin, std::min(begin + kWindow, owned_));
+}
+
+template <int Dim>
+void OwnPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>& visit) const {
   std::int64_t before = 0;
-  for (std::int64_t begin = 0; begin < owned_; begin += kWindow) {
-    TriangleRows rows;
+  for_windows([&](std::int64_t begin, std::int64_t end) {
+    ElementRows rows;
     rows.first = before;
-    placement_.for_elements(
-        begin, std::min(begin + kWindow, owned_), [&](const std::array<std::int64_t, 3>& places) {
-          const auto [a, b, c] = places;
-          for (const std::int64_t place : places)
-            rows.corners.push_back(
-                place < owned_ ? place : number_[static_cast<std::size_t>(place - owned_)]);
-          rows.quality.push_back(quality_of(position(a), position(b), position(c)));
-        });
+    placement_.for_elements(begin, end, [&](const auto& places) {
+      for (const std::int64_t place : places) rows.corners.push_back(number(place));
+      rows.quality.push_back(quality_of(positions_at(placement_, places)));
+    });
     before += static_cast<std::int64_t>(rows.quality.size());
     visit(rows);
+  });
+}
+
+// In the plane, pieces have none.
+template <int Dim>
+void OwnPiece<Dim>::for_facets(const std::function<void(const FacetRows&)>& visit) const {
+  if constexpr (Dim == 3) {
+    std::int64_t before = 0;
+    for_windows([&](std::int64_t begin, std::int64_t end) {
+      FacetRows rows;
+      rows.first = before;
+      placement_.for_boundary_facets(begin, end, [&](const auto& places, std::int32_t tag) {
+        for (const std::int64_t place : places) rows.corners.push_back(number(place));
+        rows.tags.push_back(tag);
+        rows.quality.push_back(facet_quality(placement_, places));
+      });
+      before += static_cast<std::int64_t>(rows.tags.size());
+      visit(rows);
+    });
   }
 }
+
+template class OwnPiece<2>;
+template class OwnPiece<3>;
 
 }  // namespace pnpbs::io

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One rank's own nodes and triangles, with the ghosts that these need; numbered by itself.
+// One rank's own nodes and elements and, in space, facets of the boundary, with the ghosts that
+// these need; numbered by itself.
 #pragma once
 
 #include "io/node_source.hpp"
@@ -7,22 +8,34 @@
 
 namespace pnpbs::io {
 
+template <int Dim>
 class OwnPiece : public NodeSource {
  public:
   // Local, after rows.hpp's prepare.
-  OwnPiece(const PlacementOf<2>& placement, bool elements);
+  OwnPiece(const PlacementOf<Dim>& placement, bool elements);
 
   // Local.
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
-  void for_triangles(const std::function<void(const TriangleRows&)>& visit) const override;
-  void for_edges(const std::function<void(const EdgeRows&)>&) const override {}  // has none
+  void for_elements(const std::function<void(const ElementRows&)>& visit) const override;
+  void for_facets(const std::function<void(const FacetRows&)>& visit) const override;
 
  private:
-  const PlacementOf<2>& placement_;
+  void know(std::int64_t place);
+  std::int64_t number(std::int64_t place) const {
+    return place < owned_ ? place : number_[static_cast<std::size_t>(place - owned_)];
+  }
+  // Calls visit(begin, end) for windows of the own nodes.
+  template <class Visit>
+  void for_windows(const Visit& visit) const;
+
+  const PlacementOf<Dim>& placement_;
   std::int64_t owned_;
-  // Ghosts in the order in which triangles ask for them.
+  // Ghosts in the order in which elements and facets ask for them.
   std::vector<std::int64_t> ghosts_;  // places
   std::vector<std::int64_t> number_;  // of each ghost, by its place among them; -1: not needed
 };
+
+extern template class OwnPiece<2>;
+extern template class OwnPiece<3>;
 
 }  // namespace pnpbs::io

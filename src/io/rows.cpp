@@ -3,18 +3,43 @@
 
 #include <cmath>
 
+#include "quality/volume/tetrahedron_quality.hpp"
+
 namespace pnpbs::io {
 
-float quality_of(const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+namespace {
+
+float as_written(double quality) {
+  return std::isfinite(quality) ? static_cast<float>(quality) : 0.0F;
+}
+
+// Of a triangle with these sides.
+float quality_of(double a, double b, double c, double twice_area) {
+  // In ratios, so that no product leaves the range of doubles.
+  const double height = twice_area / a;
+  return as_written(4 * (height / b) * (height / c) * (a / (a + b + c)));
+}
+
+}  // namespace
+
+float quality_of(const std::array<Point<2>, 3>& triangle) {
+  const auto& [p, q, r] = triangle;
   const auto side = [](const Point<2>& u, const Point<2>& v) {
     return std::hypot(v[0] - u[0], v[1] - u[1]);
   };
-  const double a = side(p, q), b = side(q, r), c = side(r, p);
-  const double twice_area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-  // In ratios, so that no product leaves the range of doubles.
-  const double height = twice_area / a;
-  const double value = 4 * (height / b) * (height / c) * (a / (a + b + c));
-  return std::isfinite(value) ? static_cast<float>(value) : 0.0F;
+  return quality_of(side(p, q), side(q, r), side(r, p),
+                    (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+}
+
+float quality_of(const std::array<Point<3>, 3>& triangle) {
+  const auto& [p, q, r] = triangle;
+  const auto length = [](const Point<3>& u) { return std::hypot(u[0], u[1], u[2]); };
+  return quality_of(length(difference(q, p)), length(difference(r, q)), length(difference(p, r)),
+                    length(cross_product(difference(q, p), difference(r, p))));
+}
+
+float quality_of(const std::array<Point<3>, 4>& tetrahedron) {
+  return as_written(tetrahedron_quality(tetrahedron));
 }
 
 void prepare(Placement& placement, bool elements) {

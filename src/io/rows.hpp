@@ -2,8 +2,10 @@
 // Steps that all sources of nodes have in common.
 #pragma once
 
+#include <array>
+
 #include "io/node_source.hpp"
-#include "placement/placement.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs::io {
 
@@ -11,10 +13,32 @@ namespace pnpbs::io {
 // against the nodes of any rank that has many.
 constexpr std::int64_t kWindow = 8192;
 
-// 2 r_in / R: 1 for an equilateral triangle, 0 for a flat one.
-float quality_of(const Point<2>& p, const Point<2>& q, const Point<2>& r);
+// Of a triangle 2 r_in / R, of a tetrahedron 3 r_in / R: 1 for an equilateral one, 0 for a flat
+// one.
+float quality_of(const std::array<Point<2>, 3>& triangle);
+float quality_of(const std::array<Point<3>, 3>& triangle);
+float quality_of(const std::array<Point<3>, 4>& tetrahedron);
 
-// Makes ready what for_triangles and for_boundary_edges need, or only the order. Collective.
+// Where the nodes at these places are.
+template <int Dim, std::size_t n>
+std::array<Point<Dim>, n> positions_at(const PlacementOf<Dim>& placement,
+                                       const std::array<std::int64_t, n>& places) {
+  std::array<Point<Dim>, n> x;
+  for (std::size_t k = 0; k < n; ++k)
+    x[k] = placement.level().nodes.position(placement.node_at(places[k]));
+  return x;
+}
+
+// Of a facet: see FacetRows.
+template <int Dim, std::size_t n>
+float facet_quality(const PlacementOf<Dim>& placement, const std::array<std::int64_t, n>& places) {
+  if constexpr (Dim == 3)
+    return quality_of(positions_at(placement, places));
+  else
+    return 0;
+}
+
+// Makes ready what for_elements and for_facets need, or only the order. Collective.
 void prepare(Placement& placement, bool elements);
 
 }  // namespace pnpbs::io

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // VTK's XML unstructured grid. The arrays follow the XML part as raw binary, each after its
 // length in bytes, so a million nodes cost no text conversion and no copy. The .pvtu file names
-// pieces of that kind.
+// pieces of that kind. In space the facets of the boundary are cells, too, behind the elements.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::uint8_t vtk_vertex = 1;
 constexpr std::uint8_t vtk_triangle = 5;
+constexpr std::uint8_t vtk_tetrahedron = 10;
 
 struct Array {
   std::string type, name;
@@ -43,25 +44,43 @@ Array of_nodes(const std::string& type, const std::string& name, const Contents&
           }};
 }
 
-// The same of the triangles.
+// The same of the elements, so many values each.
 template <typename Value>
-Array of_triangles(const std::string& type, const std::string& name, const Contents& all,
-                   std::vector<Value> TriangleRows::*member, int components) {
-  return {type, name, 1, bytes_of<Value>(all.triangles, components),
+Array of_elements(const std::string& type, const std::string& name, const Contents& all,
+                  std::vector<Value> ElementRows::*member, int values) {
+  return {type, name, 1, bytes_of<Value>(all.elements, values),
           [member](const NodeSource& nodes, SharedFile& file) {
-            nodes.for_triangles([&](const TriangleRows& rows) {
+            nodes.for_elements([&](const ElementRows& rows) {
               file.append([&](Sink& sink) { sink.array(std::span<const Value>(rows.*member)); });
             });
           }};
 }
 
+// An array of the elements, and behind it, in space, that of the boundary's facets.
+template <typename Value>
+Array with_facets(const Array& elements, const Contents& all, std::vector<Value> FacetRows::*member,
+                  int values) {
+  if (all.dimension == 2) return elements;
+  Array both = elements;
+  both.bytes += bytes_of<Value>(all.facets, values);
+  both.write = [first = elements.write, member](const NodeSource& nodes, SharedFile& file) {
+    first(nodes, file);
+    nodes.for_facets([&](const FacetRows& rows) {
+      file.append([&](Sink& sink) { sink.array(std::span<const Value>(rows.*member)); });
+    });
+  };
+  return both;
+}
+
 Array points(const Contents& all) {
   return {"Float64", "Points", 3, bytes_of<double>(all.nodes, 3),
-          [](const NodeSource& nodes, SharedFile& file) {
+          [dimension = static_cast<std::size_t>(all.dimension)](const NodeSource& nodes,
+                                                                SharedFile& file) {
             nodes.for_nodes([&](const NodeRows& rows) {
               file.append([&](Sink& sink) {
                 for (std::size_t i = 0; i < rows.ids.size(); ++i) {
-                  const std::array<double, 3> point{rows.xy[2 * i], rows.xy[2 * i + 1], 0};
+                  std::array<double, 3> point{};
+                  std::copy_n(&rows.x[dimension * i], dimension, point.data());
                   sink.bytes(point.data(), sizeof point);
                 }
               });
@@ -92,26 +111,48 @@ struct Part {
   std::vector<Array> arrays;
 };
 
-// What every kind of cells has: the numbers of their corners, where each cell ends in them, and
-// its type.
-template <std::uint8_t type>
-Part cells(Array connectivity, std::int64_t count, std::int64_t corners) {
-  return {"Cells",
-          {std::move(connectivity),
-           computed<std::int64_t>("Int64", "offsets", count,
-                                  [corners](std::int64_t i) { return corners * (i + 1); }),
-           computed<std::uint8_t>("UInt8", "types", count, [](std::int64_t) { return type; })}};
+std::int64_t cells_of(const Contents& all) {
+  if (!all.with_elements) return all.nodes;
+  return all.elements + (all.dimension == 3 ? all.facets : 0);
 }
 
-Part triangle_cells(const Contents& all) {
-  return cells<vtk_triangle>(of_triangles("Int64", "connectivity", all, &TriangleRows::corners, 3),
-                             all.triangles, 3);
+// The numbers of the cells' corners, where each cell ends in them, and its type.
+Part element_cells(const Contents& all) {
+  const int corners = all.element_corners(), facet_corners = all.facet_corners();
+  const auto end = [=, elements = all.elements](std::int64_t i) {
+    const std::int64_t before = std::min(i + 1, elements);
+    return corners * before + facet_corners * (i + 1 - before);
+  };
+  const auto type = [elements = all.dimension == 3 ? all.elements : 0](std::int64_t i) {
+    return i < elements ? vtk_tetrahedron : vtk_triangle;
+  };
+  return {"Cells",
+          {with_facets(of_elements("Int64", "connectivity", all, &ElementRows::corners, corners),
+                       all, &FacetRows::corners, facet_corners),
+           computed<std::int64_t>("Int64", "offsets", cells_of(all), end),
+           computed<std::uint8_t>("UInt8", "types", cells_of(all), type)}};
 }
 
 Part vertex_cells(const Contents& all) {
-  return cells<vtk_vertex>(
-      computed<std::int64_t>("Int64", "connectivity", all.nodes, [](std::int64_t i) { return i; }),
-      all.nodes, 1);
+  return {
+      "Cells",
+      {computed<std::int64_t>("Int64", "connectivity", all.nodes, [](std::int64_t i) { return i; }),
+       computed<std::int64_t>("Int64", "offsets", all.nodes, [](std::int64_t i) { return i + 1; }),
+       computed<std::uint8_t>("UInt8", "types", all.nodes,
+                              [](std::int64_t) { return vtk_vertex; })}};
+}
+
+// In space, elements have the tag 0.
+Part cell_data(const Contents& all) {
+  Part data{"CellData",
+            {with_facets(of_elements("Float32", "quality", all, &ElementRows::quality, 1), all,
+                         &FacetRows::quality, 1)}};
+  if (all.dimension == 3)
+    data.arrays.push_back(
+        with_facets(computed<std::int32_t>("Int32", "tag", all.elements,
+                                           [](std::int64_t) { return std::int32_t{0}; }),
+                    all, &FacetRows::tags, 1));
+  return data;
 }
 
 std::vector<Part> parts_of(const Contents& all) {
@@ -121,11 +162,9 @@ std::vector<Part> parts_of(const Contents& all) {
                             of_nodes("Float64", "spacing", all, &NodeRows::spacing)}}};
   if (all.is_piece)
     parts[0].arrays.push_back(of_nodes("UInt8", "vtkGhostType", all, &NodeRows::ghosts));
-  if (all.elements)
-    parts.push_back(
-        {"CellData", {of_triangles("Float32", "quality", all, &TriangleRows::quality, 1)}});
+  if (all.with_elements) parts.push_back(cell_data(all));
   parts.push_back({"Points", {points(all)}});
-  parts.push_back(all.elements ? triangle_cells(all) : vertex_cells(all));
+  parts.push_back(all.with_elements ? element_cells(all) : vertex_cells(all));
   return parts;
 }
 
@@ -179,12 +218,10 @@ std::string in_xml(const std::string& text) {
 
 void write_vtu(const NodeSource& nodes, SharedFile& file) {
   const std::vector<Part> parts = parts_of(nodes.contents());
-  const std::int64_t cells =
-      nodes.contents().elements ? nodes.contents().triangles : nodes.contents().nodes;
   file.append_text(opening("UnstructuredGrid") +
                    "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
                    std::to_string(nodes.contents().nodes) + "\" NumberOfCells=\"" +
-                   std::to_string(cells) + "\">\n" + declaration(parts) +
+                   std::to_string(cells_of(nodes.contents())) + "\">\n" + declaration(parts) +
                    "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
   for (const Part& part : parts) {
     for (const Array& array : part.arrays) {
@@ -197,10 +234,12 @@ void write_vtu(const NodeSource& nodes, SharedFile& file) {
   file.append_text("\n  </AppendedData>\n</VTKFile>\n");
 }
 
-void write_pvtu(const std::vector<std::string>& pieces, bool elements, SharedFile& file) {
+void write_pvtu(const std::vector<std::string>& pieces, int dimension, bool elements,
+                SharedFile& file) {
   std::string text = opening("PUnstructuredGrid") + "  <PUnstructuredGrid GhostLevel=\"0\">\n";
   Contents declared;  // nothing, but with all the arrays that pieces have
-  declared.elements = elements;
+  declared.dimension = dimension;
+  declared.with_elements = elements;
   declared.is_piece = true;
   for (const Part& part : parts_of(declared)) {
     if (part.name == "Cells") continue;  // a reader knows what they look like

@@ -30,9 +30,11 @@ std::string with_extension(const std::string& path, const char* extension) {
 }
 
 // The files of one call.
+template <int Dim>
 class Writing {
  public:
-  Writing(PlacementOf<2>& placement, std::size_t files) : placement_(placement), expected_(files) {}
+  Writing(PlacementOf<Dim>& placement, std::size_t files)
+      : placement_(placement), expected_(files) {}
 
   void add(const FileWish& wish) {
     if (wish.format->write) {
@@ -62,7 +64,7 @@ class Writing {
   }
 
   void add_file(const FileWish& wish) {
-    std::optional<NodesById>& nodes = wish.elements ? with_elements_ : nodes_only_;
+    std::optional<NodesById<Dim>>& nodes = wish.elements ? with_elements_ : nodes_only_;
     if (!nodes) nodes.emplace(placement_, wish.elements);
     SharedFile& file = open(comm(), wish.path);
     wish.format->write(*nodes, file);
@@ -73,7 +75,7 @@ class Writing {
   void add_piece(const FileWish& wish) {
     prepare(placement_, wish.elements);
     agreed(*comm(), [&] {
-      const OwnPiece piece(placement_, wish.elements);
+      const OwnPiece<Dim> piece(placement_, wish.elements);
       SharedFile& file = open(serial_communicator(), piece_path(wish.path, comm()->rank()));
       write_vtu(piece, file);
       file.close();
@@ -84,7 +86,7 @@ class Writing {
     std::vector<std::string> pieces;
     for (int rank = 0; rank < comm()->size(); ++rank) pieces.push_back(piece_path(wish.path, rank));
     SharedFile& file = open(comm(), wish.path);
-    write_pvtu(pieces, wish.elements, file);
+    write_pvtu(pieces, Dim, wish.elements, file);
     file.close();
   }
 
@@ -95,19 +97,22 @@ class Writing {
       throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
   }
 
-  PlacementOf<2>& placement_;
+  PlacementOf<Dim>& placement_;
   const std::int64_t nodes_ = placement_.global_count();
   std::size_t expected_, done_ = 0;
-  std::optional<NodesById> with_elements_, nodes_only_;
+  std::optional<NodesById<Dim>> with_elements_, nodes_only_;
   std::vector<std::unique_ptr<SharedFile>> files_;
 };
 
 }  // namespace
 
-void add_wish(const std::string& path, const std::string& format_name, bool elements,
+void add_wish(const std::string& path, const std::string& format_name, bool elements, int dimension,
               std::vector<FileWish>& wishes) {
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
+  if (format.bodies_only && dimension == 2)
+    refuse(std::string("a .") + format.name + " file is of bodies, none of the plane: '" + path +
+           "'");
   if (!format.write && path == "-")
     refuse("a file in pieces cannot go to standard output; take vtu instead of pvtu");
   if (elements && format.elements == Elements::never)
@@ -118,7 +123,10 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
   const bool holds_elements =
       format.elements == Elements::always || (elements && format.elements == Elements::on_request);
   wishes.push_back({path, &format, holds_elements});
-  if (beside) wishes.push_back({with_extension(path, "ele"), format_by_name("ele"), true});
+  if (!beside) return;
+  wishes.push_back({with_extension(path, "ele"), format_by_name("ele"), true});
+  if (dimension == 3)
+    wishes.push_back({with_extension(path, "face"), format_by_name("face"), true});
 }
 
 std::string piece_path(const std::string& path, int rank) {
@@ -130,11 +138,11 @@ std::string piece_path(const std::string& path, int rank) {
 void write_files(Placement& placement, const std::vector<FileWish>& wishes) {
   // What one rank cannot do at any step of it, all give up.
   agreed(placement.communicator(), [&] {
-    if (placement.dimension() != 2)
-      throw Error(ErrorKind::unsupported, "files of placements in space are not written yet");
-    Writing writing(static_cast<PlacementOf<2>&>(placement), wishes.size());
-    for (const FileWish& wish : wishes) writing.add(wish);
-    writing.publish();
+    in_its_dimension(placement, [&]<int Dim>(PlacementOf<Dim>& it) {
+      Writing<Dim> writing(it, wishes.size());
+      for (const FileWish& wish : wishes) writing.add(wish);
+      writing.publish();
+    });
   });
 }
 

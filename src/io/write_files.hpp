@@ -17,8 +17,9 @@ struct FileWish {
 };
 
 // What is wanted of one file: in its format by name, or by extension if that is empty. Where the
-// elements are in a second file, that is another wish. Throws Error(ErrorKind::argument).
-void add_wish(const std::string& path, const std::string& format, bool elements,
+// elements are in files beside it, these are wishes of their own. Throws
+// Error(ErrorKind::argument).
+void add_wish(const std::string& path, const std::string& format, bool elements, int dimension,
               std::vector<FileWish>& wishes);
 
 // Names of the pieces of a .pvtu file.

@@ -77,6 +77,11 @@ START_TEST(every_format) {
     ck_assert_int_gt((int)strlen(help), 10);
     ck_assert_int_eq(binary, strcmp(name, "vtu") == 0);
     snprintf(path, sizeof path, "a.%s", name);
+    if (strcmp(name, "face") == 0) {
+      MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 0),
+                "bodies", "a.face");
+      continue;
+    }
     MUST(pnpbs_placement_write(it.placement, in_folder(path), 0));
     if (elements) {
       const long without = size_of(path);
@@ -86,7 +91,7 @@ START_TEST(every_format) {
     ck_assert_int_gt(size_of(path), 100);
   }
   ck_assert_int_gt(size_of("a_0.vtu"), size_of("a.pvtu"));
-  ck_assert_int_eq(empty_folder(), count + 1);
+  ck_assert_int_eq(empty_folder(), count); /* a_0.vtu and no a.face */
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_info(count, NULL, NULL, NULL, NULL), "index",
             "0 ..");
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_count(NULL), "count", "NULL");
@@ -100,6 +105,40 @@ START_TEST(triangle_s_elements_are_beside) {
   ck_assert_int_eq(empty_folder(), 1);
   MUST(pnpbs_placement_write(it.placement, in_folder("a.node"), 1));
   ck_assert_int_gt(size_of("a.ele"), 1000);
+  job_end(&it);
+}
+END_TEST
+
+static job placed_cube(void) {
+  const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
+  job it;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_box(it.domain, low, high, 1));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.3));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_check(it.placement));
+  return it;
+}
+
+START_TEST(every_format_in_space) {
+  job it = placed_cube();
+  int32_t count = 0, k;
+  MUST(pnpbs_format_count(&count));
+  for (k = 0; k < count; ++k) {
+    const char* name = NULL;
+    char path[40];
+    MUST(pnpbs_format_info(k, &name, NULL, NULL, NULL));
+    snprintf(path, sizeof path, "a.%s", name);
+    MUST(pnpbs_placement_write(it.placement, in_folder(path), 0));
+    if (strcmp(name, "csv") != 0) MUST(pnpbs_placement_write(it.placement, in_folder(path), 1));
+    ck_assert_int_gt(size_of(path), 100);
+  }
+  ck_assert_int_eq(empty_folder(), count + 1);
+  MUST(pnpbs_placement_write(it.placement, in_folder("b.node"), 1));
+  ck_assert_int_gt(size_of("b.face"), 500);
+  ck_assert_int_eq(empty_folder(), 3);
   job_end(&it);
 }
 END_TEST
@@ -226,6 +265,7 @@ int main(void) {
   tcase_add_checked_fixture(tests, make_folder, remove_folder);
   tcase_add_test(tests, every_format);
   tcase_add_test(tests, triangle_s_elements_are_beside);
+  tcase_add_test(tests, every_format_in_space);
   tcase_add_test(tests, several_with_formats_of_their_own);
   tcase_add_test(tests, refused);
   tcase_add_test(tests, without_nodes);
