@@ -22,26 +22,36 @@ def point_array(grid, name):
     return vtk_to_numpy(grid.GetPointData().GetArray(name))
 
 
-def read_node(path):
-    """By Triangle's definition; # begins a comment. Returns points and markers."""
+def read_rows(path):
+    """The first line and the numbered ones of Triangle's and TetGen's files; # begins a comment."""
     lines = [line.split("#")[0].split() for line in path.read_text().splitlines()]
-    lines = [line for line in lines if line]
-    count, dimension, attributes, markers = map(int, lines[0])
-    assert dimension == 2 and markers == 1 and len(lines) == 1 + count
-    assert [int(line[0]) for line in lines[1:]] == list(range(1, count + 1))
-    assert all(len(line) == 1 + dimension + attributes + markers for line in lines[1:])
-    points = numpy.array([[float(word) for word in line[1:3]] for line in lines[1:]])
-    return points, numpy.array([int(line[-1]) for line in lines[1:]])
+    head, *rows = [line for line in lines if line]
+    assert [int(row[0]) for row in rows] == list(range(1, int(head[0]) + 1))
+    return list(map(int, head[1:])), [row[1:] for row in rows]
 
 
-def read_ele(path):
-    """By Triangle's definition. Returns the corners, numbered from 0."""
-    lines = [line.split("#")[0].split() for line in path.read_text().splitlines()]
-    lines = [line for line in lines if line]
-    count, corners, attributes = map(int, lines[0])
-    assert corners == 3 and attributes == 0 and len(lines) == 1 + count
-    assert [int(line[0]) for line in lines[1:]] == list(range(1, count + 1))
-    return numpy.array([[int(word) for word in line[1:]] for line in lines[1:]]) - 1
+def read_node(path, dimension=2):
+    """By Triangle's and TetGen's definition. Returns points and markers."""
+    (written, attributes, markers), rows = read_rows(path)
+    assert (written, attributes, markers) == (dimension, 0, 1)
+    assert all(len(row) == dimension + 1 for row in rows)
+    points = numpy.array([[float(word) for word in row[:-1]] for row in rows])
+    return points, numpy.array([int(row[-1]) for row in rows])
+
+
+def read_ele(path, corners=3):
+    """By the same definitions. Returns the corners, numbered from 0."""
+    (written, attributes), rows = read_rows(path)
+    assert (written, attributes) == (corners, 0) and all(len(row) == corners for row in rows)
+    return numpy.array([[int(word) for word in row] for row in rows]) - 1
+
+
+def read_face(path):
+    """By TetGen's definition. Returns the corners, numbered from 0, and markers."""
+    (markers,), rows = read_rows(path)
+    assert markers == 1 and all(len(row) == 4 for row in rows)
+    numbers = numpy.array([[int(word) for word in row] for row in rows])
+    return numbers[:, :3] - 1, numbers[:, 3]
 
 
 def read_csv(path):

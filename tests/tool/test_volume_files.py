@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files of volumes, read back by other people's readers, alone and over ranks."""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import meshio
+import numpy
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+from readers import point_array, read_csv, read_ele, read_face, read_node, read_with_vtk
+
+PROGRAM = os.environ["PNPBS_WRITE_VOLUMES"]
+MPIEXEC = os.environ.get("PNPBS_MPIEXEC")
+SIZE = numpy.array([1.0, 0.8, 0.6])
+SAME_BYTES = ("a.vtu", "a.msh", "a.node", "a.ele", "a.face", "a.csv")
+FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # of a tetrahedron, as seen from outside
+
+
+def cells_of(grid):
+    """Tetrahedra and triangles, and their data."""
+    kinds = numpy.array([grid.GetCellType(i) for i in range(grid.GetNumberOfCells())])
+    numbers = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    count = int((kinds == vtk.VTK_TETRA).sum())
+    assert (kinds[:count] == vtk.VTK_TETRA).all() and (kinds[count:] == vtk.VTK_TRIANGLE).all()
+    return numbers[: 4 * count].reshape(-1, 4), numbers[4 * count :].reshape(-1, 3)
+
+
+def cell_array(grid, name):
+    return vtk_to_numpy(grid.GetCellData().GetArray(name))
+
+
+def volumes(points, tetrahedra):
+    a, b, c, d = (points[tetrahedra[:, k]] for k in range(4))
+    return numpy.einsum("ij,ij->i", b - a, numpy.cross(c - a, d - a)) / 6
+
+
+def areas(points, triangles):
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    return numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2
+
+
+def tetrahedron_quality(points, tetrahedra):
+    """3 r_in / R, by the product of opposite edges."""
+    x = points[tetrahedra]
+    length = lambda i, j: numpy.linalg.norm(x[:, i] - x[:, j], axis=1)
+    p, q, r = (length(0, i) * length(j, k) for i, j, k in ((1, 2, 3), (2, 1, 3), (3, 1, 2)))
+    volume = volumes(points, tetrahedra)
+    surface = sum(areas(points, tetrahedra[:, face]) for face in FACES)
+    radius = numpy.sqrt((p + q + r) * (p + q - r) * (p - q + r) * (q + r - p)) / (24 * volume)
+    return 9 * volume / surface / radius
+
+
+def turned(rows):
+    """Each row with its least entry first, in the same sense; all in order."""
+    first = rows.argmin(axis=1)
+    rows = numpy.stack([rows[numpy.arange(len(rows)), (first + k) % 3] for k in range(3)], axis=1)
+    return rows[numpy.lexsort(rows.T[::-1])]
+
+
+def open_faces(tetrahedra):
+    """The faces that only one tetrahedron has."""
+    faces = numpy.concatenate([tetrahedra[:, face] for face in FACES])
+    _, index, count = numpy.unique(numpy.sort(faces, axis=1), axis=0, return_index=True,
+                                   return_counts=True)
+    assert count.max() == 2
+    return faces[index[count == 1]]
+
+
+class VolumeTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, body, spacing, *names, elements=1, ranks=1):
+        mpi = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
+               "-np", str(ranks)] if ranks > 1 else []
+        subprocess.run([*mpi, PROGRAM, body, str(spacing), str(elements), *names], check=True,
+                       cwd=self.folder, env=dict(os.environ, OMP_NUM_THREADS="1"), timeout=100)
+
+    def grid(self, name="a.vtu", kind=vtk.vtkXMLUnstructuredGridReader):
+        return read_with_vtk(self.folder / name, kind)
+
+
+class Alone(VolumeTest):
+    def place(self, body, spacing):
+        self.write(body, spacing, "a.vtu", "a.pvtu", "a.msh", "a.node", "a.csv")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
+                         sorted([*SAME_BYTES, "a.pvtu", "a_0.vtu"]))
+        self.vtu = self.grid()
+        self.points = vtk_to_numpy(self.vtu.GetPoints().GetData())
+        self.tetrahedra, self.triangles = cells_of(self.vtu)
+        self.tags = cell_array(self.vtu, "tag")[len(self.tetrahedra):]
+        self.assertGreater(len(self.points), 3000)
+        self.check_cells()
+        self.check_meshio()
+        self.check_msh()
+        self.check_node_files()
+        self.check_csv()
+        self.check_pieces()
+
+    def check_cells(self):
+        self.assertGreater(volumes(self.points, self.tetrahedra).min(), 0)
+        numpy.testing.assert_array_equal(turned(self.triangles), turned(open_faces(self.tetrahedra)))
+        quality = cell_array(self.vtu, "quality")
+        expected = tetrahedron_quality(self.points, self.tetrahedra)
+        numpy.testing.assert_allclose(quality[: len(expected)], expected, rtol=1e-4, atol=1e-5)
+        x = self.points[self.triangles]
+        a, b, c = (numpy.linalg.norm(x[:, k] - x[:, k - 1], axis=1) for k in range(3))
+        expected = 16 * areas(self.points, self.triangles) ** 2 / (a * b * c * (a + b + c))
+        numpy.testing.assert_allclose(quality[len(self.tetrahedra):], expected, rtol=1e-5)
+        self.assertFalse(cell_array(self.vtu, "tag")[: len(self.tetrahedra)].any())
+        ids = point_array(self.vtu, "id")
+        self.assertTrue((numpy.diff(ids) > 0).all())
+        on_boundary = numpy.zeros(len(ids), bool)
+        on_boundary[self.triangles] = True
+        numpy.testing.assert_array_equal(on_boundary, point_array(self.vtu, "tag") != 0)
+
+    def check_meshio(self):
+        mesh = meshio.read(self.folder / "a.vtu")
+        self.assertEqual([block.type for block in mesh.cells], ["tetra", "triangle"])
+        numpy.testing.assert_array_equal(mesh.cells[0].data, self.tetrahedra)
+        numpy.testing.assert_array_equal(mesh.cells[1].data, self.triangles)
+        numpy.testing.assert_array_equal(mesh.cell_data["tag"][1], self.tags)
+
+    def check_msh(self):
+        mesh = meshio.read(self.folder / "a.msh")
+        numpy.testing.assert_array_equal(mesh.points, self.points)
+        triangles, tetrahedra = mesh.cells
+        self.assertEqual((triangles.type, tetrahedra.type), ("triangle", "tetra"))
+        numpy.testing.assert_array_equal(triangles.data, self.triangles)
+        numpy.testing.assert_array_equal(tetrahedra.data, self.tetrahedra)
+        groups = mesh.cell_data["gmsh:physical"]
+        numpy.testing.assert_array_equal(groups[0], self.tags)
+        self.assertEqual(set(groups[1]), {1})
+
+    def check_node_files(self):
+        points, markers = read_node(self.folder / "a.node", dimension=3)
+        numpy.testing.assert_array_equal(points, self.points)
+        numpy.testing.assert_array_equal(markers, point_array(self.vtu, "tag"))
+        numpy.testing.assert_array_equal(read_ele(self.folder / "a.ele", corners=4),
+                                         self.tetrahedra)
+        triangles, markers = read_face(self.folder / "a.face")
+        numpy.testing.assert_array_equal(triangles, self.triangles)
+        numpy.testing.assert_array_equal(markers, self.tags)
+
+    def check_csv(self):
+        table = read_csv(self.folder / "a.csv")
+        self.assertEqual(list(table), ["id", "x", "y", "z", "tag", "spacing"])
+        numpy.testing.assert_array_equal(numpy.stack([table[k] for k in "xyz"], 1), self.points)
+        for name in ("id", "tag", "spacing"):
+            numpy.testing.assert_array_equal(table[name], point_array(self.vtu, name))
+
+    def check_pieces(self):
+        whole = self.grid("a.pvtu", vtk.vtkXMLPUnstructuredGridReader)
+        numpy.testing.assert_array_equal(vtk_to_numpy(whole.GetPoints().GetData()), self.points)
+        self.assertFalse(point_array(whole, "vtkGhostType").any())
+        self.assertEqual(whole.GetNumberOfCells(), self.vtu.GetNumberOfCells())
+
+    def test_box(self):
+        self.place("box", 0.06)
+        self.assertAlmostEqual(volumes(self.points, self.tetrahedra).sum(), SIZE.prod(), places=9)
+        self.assertEqual(set(self.tags), set(range(1, 7)))
+        area = areas(self.points, self.triangles)
+        for tag in range(1, 7):
+            axis, high = divmod(tag - 1, 2)
+            side = self.triangles[self.tags == tag]
+            numpy.testing.assert_allclose(self.points[side][..., axis], high * SIZE[axis],
+                                          atol=1e-12)
+            self.assertAlmostEqual(area[self.tags == tag].sum(), SIZE.prod() / SIZE[axis], places=9)
+
+    def test_ball(self):
+        self.place("ball", 0.06)
+        self.assertEqual(set(self.tags), {7})
+        edge = 0.06  # what the triangles cut off of a ball
+        ball, sphere = numpy.pi / 6, numpy.pi
+        volume = volumes(self.points, self.tetrahedra).sum()
+        self.assertTrue(ball - 0.3 * sphere * edge**2 < volume < ball)
+        radii = numpy.linalg.norm(self.points[self.triangles] - [1, 2, 3], axis=2)
+        self.assertLess(abs(radii - 0.5).max(), 1e-4)
+
+
+class NodesOnly(VolumeTest):
+    def test_points(self):
+        self.write("box", 0.2, "a.vtu", "a.msh", "a.node", elements=0)
+        self.assertEqual(len(list(self.folder.iterdir())), 3)
+        grid = self.grid()
+        points = vtk_to_numpy(grid.GetPoints().GetData())
+        self.assertEqual(grid.GetNumberOfCells(), len(points))
+        self.assertEqual(set(point_array(grid, "tag")), set(range(7)))
+        mesh = meshio.read(self.folder / "a.msh")
+        self.assertEqual([block.type for block in mesh.cells], ["vertex"])
+        numpy.testing.assert_array_equal(mesh.points, points)
+
+
+@unittest.skipUnless(MPIEXEC, "no MPI")
+class OverRanks(VolumeTest):
+    def test_same_files(self):
+        names = ("a.vtu", "a.pvtu", "a.msh", "a.node", "a.csv")
+        self.write("box", 0.06, *names)
+        expected = {name: (self.folder / name).read_bytes() for name in SAME_BYTES}
+        grid = self.grid()
+        for ranks in (2, 3):
+            for path in self.folder.iterdir():
+                path.unlink()
+            self.write("box", 0.06, *names, ranks=ranks)
+            for name, content in expected.items():
+                self.assertEqual((self.folder / name).read_bytes(), content, f"{name}, {ranks}")
+            whole = self.grid("a.pvtu", vtk.vtkXMLPUnstructuredGridReader)
+            pieces = [self.grid(f"a_{rank}.vtu") for rank in range(ranks)]
+            self.assertEqual(whole.GetNumberOfCells(), grid.GetNumberOfCells())
+            self.assertEqual(self.by_ids(pieces), self.by_ids([grid]))
+
+    def by_ids(self, grids):
+        """Own nodes and all cells as sets that know nothing of numbers in the files."""
+        found = [[], [], []]
+        for grid in grids:
+            ids = point_array(grid, "id")
+            own = numpy.ones(len(ids), bool)
+            if grid.GetPointData().HasArray("vtkGhostType"):
+                own = point_array(grid, "vtkGhostType") == 0
+            found[0] += zip(ids[own].tolist(), vtk_to_numpy(grid.GetPoints().GetData())[own].tolist())
+            tetrahedra, triangles = cells_of(grid)
+            quality, tags = (cell_array(grid, name).tolist() for name in ("quality", "tag"))
+            found[1] += zip(ids[tetrahedra].tolist(), quality)
+            count = len(tetrahedra)
+            found[2] += zip(ids[triangles].tolist(), quality[count:], tags[count:])
+        return [sorted(rows) for rows in found]
+
+
+if __name__ == "__main__":
+    unittest.main()

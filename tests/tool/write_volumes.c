@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Places nodes in a volume and writes the files named, for test_volume_files.py: a box of
+ * 1 x 0.8 x 0.6 whose sides have the tags 1 to 6 (low x, high x, low y, ...), or a ball of radius
+ * 0.5 around (1, 2, 3) with the tag 7. Alone, or over ranks.
+ *
+ *   write_volumes box|ball d elements(0|1) file ... */
+#include <pnpbs/pnpbs.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#ifdef PNPBS_TEST_MPI
+#include <mpi.h>
+#include <pnpbs/pnpbs_mpi.h>
+#endif
+
+static void must(pnpbs_status status, const char* what) {
+  if (status == PNPBS_OK || status == PNPBS_NOT_CONVERGED) return;
+  fprintf(stderr, "%s: status %d, %s\n", what, (int)status, pnpbs_last_error(NULL));
+#ifdef PNPBS_TEST_MPI
+  MPI_Abort(MPI_COMM_WORLD, 1);
+#endif
+  exit(1);
+}
+
+static pnpbs_context begin(int* argc, char*** argv) {
+  pnpbs_context context;
+#ifdef PNPBS_TEST_MPI
+  MPI_Init(argc, argv);
+  must(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context), "context");
+#else
+  (void)argc, (void)argv;
+  must(pnpbs_context_create_serial(&context), "context");
+#endif
+  return context;
+}
+
+/* Corner c of it lies high in x, y, z where bits 0, 1, 2 of c are set. */
+static void add_tagged_box(pnpbs_domain domain) {
+  const int64_t corners[] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+                             2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
+  const int32_t tags[] = {1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6};
+  double vertices[24];
+  int c;
+  for (c = 0; c < 8; ++c) {
+    vertices[3 * c] = c & 1 ? 1 : 0;
+    vertices[3 * c + 1] = c & 2 ? 0.8 : 0;
+    vertices[3 * c + 2] = c & 4 ? 0.6 : 0;
+  }
+  must(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 8, vertices, 12, corners, tags, 40), "box");
+}
+
+int main(int argc, char** argv) {
+  const double centre[] = {1, 2, 3};
+  const pnpbs_context context = begin(&argc, &argv);
+  pnpbs_context ending = context;
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+  int32_t elements[16];
+  int k;
+  if (argc < 5 || argc > 20) return 2;
+  for (k = 4; k < argc; ++k) elements[k - 4] = atoi(argv[3]) && !strstr(argv[k], ".csv");
+  must(pnpbs_domain_create(context, 3, &domain), "domain");
+  if (strcmp(argv[1], "box") == 0)
+    add_tagged_box(domain);
+  else
+    must(pnpbs_domain_add_ball(domain, centre, 0.5, 7), "ball");
+  must(pnpbs_placement_create(context, domain, &placement), "placement");
+  must(pnpbs_placement_set_spacing_constant(placement, atof(argv[2])), "spacing");
+  must(pnpbs_placement_run(placement), "run");
+  must(pnpbs_placement_check(placement), "check");
+  must(pnpbs_placement_write_files(placement, argc - 4, (const char* const*)argv + 4, NULL,
+                                   elements),
+       "files");
+  pnpbs_placement_destroy(&placement);
+  pnpbs_domain_destroy(&domain);
+  pnpbs_context_destroy(&ending);
+#ifdef PNPBS_TEST_MPI
+  MPI_Finalize();
+#endif
+  return 0;
+}
