@@ -8,7 +8,7 @@ namespace pnpbs {
 NearestPoint<3> nearest_on_boundary(const Level<3>& level, const Point<3>& x, double d) {
   // Not far as a rule, and there may be many facets to a d.
   constexpr double kFirst = 1. / 64;
-  const FacetIndex<3>& facets = level.ground.domain().facets();
+  const SurfaceIndex& facets = level.ground.domain().index();
   NearestPoint<3> nearest;
   for (double reach = kFirst * d; nearest.facet < 0; reach *= 2) nearest = facets.nearest(x, reach);
   return nearest;

@@ -102,7 +102,7 @@ void VolumeResultCheck::check_sides() const {
     else if (nodes_.carrier(i) == Carrier::surface)
       check_on_surface(i);
     else
-      check_inside(i, ground_.domain().facets());
+      check_inside(i, ground_.domain().index().sides());
   });
 }
 

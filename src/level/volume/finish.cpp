@@ -20,11 +20,12 @@ bool may_go(const Level<3>& level, std::int64_t i, const Point<3>& x) {
                                                          kFinishClearance * level.nodes.d(i));
 }
 
-// The stars are made anew before each.
+// The few edges that have other nodes after the first sweep do not matter to the next.
 void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
+  if (sweeps > 0) make_finish_stars(level, 0);
+  const PhaseTimer timer(level.timers, Phase::sweeps);
   for (std::int64_t s = 0; s < sweeps; ++s) {
-    make_finish_stars(level, 0);
-    const PhaseTimer timer(level.timers, Phase::sweeps);
+    update_ghosts(level);
     agreed(*level.comm, [&] {
       pnpbs::sweep_to_means(level.nodes, level.stars, level.settings.sweep.weight,
                             level.time_integration.scratch(level.nodes),
