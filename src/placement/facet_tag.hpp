@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles of the tetrahedra's boundary and the surface there, whose tag they have.
+// The tag of a triangle of the tetrahedra's boundary: that of the surface there.
 #pragma once
 
 #include <array>
@@ -13,8 +13,5 @@ namespace pnpbs {
 // are on its features, the surface nearest to the triangle's middle tells. The same on every rank
 // that has the nodes.
 std::int32_t facet_tag(const Level<3>& level, std::array<std::int64_t, 3> nodes);
-
-// However far away that is; d: the spacing there.
-NearestPoint<3> nearest_on_boundary(const Level<3>& level, const Point<3>& x, double d);
 
 }  // namespace pnpbs

@@ -55,6 +55,9 @@ class VolumeResultCheck : public NodeCheck<3> {
   bool is_feature_node(std::int64_t i) const {
     return nodes_.boundary_node(i) >= 0 && nodes_.carrier(i) != Carrier::surface;
   }
+  double gap_to_surface(const Point<3>& x) const {
+    return ground_.domain().index().clearance(x, std::numeric_limits<double>::infinity());
+  }
   Three sorted_ids(const Corners& corners) const;
   std::array<Point<3>, 3> positions_at(const Three& places) const;
 
@@ -75,7 +78,7 @@ class VolumeResultCheck : public NodeCheck<3> {
     double volume = 0, rounding = 0, cut_off = 0;
   };
   double volume_of_tetrahedra() const;
-  double max_gap(const std::array<Point<3>, 3>& corners, double d) const;
+  double max_gap(const std::array<Point<3>, 3>& corners) const;
   Enclosed enclosed_by_open_facets() const;
   void check_volume() const;
 
@@ -112,7 +115,7 @@ void VolumeResultCheck::check_on_surface(std::int64_t i) const {
   double largest = 0;
   for (std::size_t k = 0; k < 3; ++k)
     largest = std::max({largest, std::fabs(bounds.low[k]), std::fabs(bounds.high[k])});
-  const double gap = nearest_on_boundary(level_, position(i), nodes_.d(i)).gap;
+  const double gap = gap_to_surface(position(i));
   if (gap > 0x1p-44 * largest)
     fail_check("node " + name(i) + " is on a surface, but " + rounded_text(gap) +
                " away from the next one");
@@ -249,8 +252,8 @@ double VolumeResultCheck::volume_of_tetrahedra() const {
   return sum_over_ranks(mine, ground_.measure());
 }
 
-// Between a triangle and the surface, at its middle and those of its edges; d: the spacing there.
-double VolumeResultCheck::max_gap(const std::array<Point<3>, 3>& corners, double d) const {
+// Between a triangle and the surface, at its middle and those of its edges.
+double VolumeResultCheck::max_gap(const std::array<Point<3>, 3>& corners) const {
   constexpr double kMiddles[][3] = {
       {1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
   double gap = 0;
@@ -258,7 +261,7 @@ double VolumeResultCheck::max_gap(const std::array<Point<3>, 3>& corners, double
     Point<3> x{};
     for (std::size_t corner = 0; corner < 3; ++corner)
       for (std::size_t k = 0; k < 3; ++k) x[k] += weights[corner] * corners[corner][k];
-    gap = std::max(gap, nearest_on_boundary(level_, x, d).gap);
+    gap = std::max(gap, gap_to_surface(x));
   }
   return gap;
 }
@@ -279,7 +282,7 @@ VolumeResultCheck::Enclosed VolumeResultCheck::enclosed_by_open_facets() const {
     // Gaps are about as wide as at the worst of these places, or a third less; twice as wide has
     // room for what lies between.
     const double twice_area = std::sqrt(dot_product(normal, normal));
-    mine.cut_off += twice_area * max_gap({a, b, c}, nodes_.d(p_.node_at(places[0])));
+    mine.cut_off += twice_area * max_gap({a, b, c});
   });
   const double unit = ground_.measure();
   return {sum_over_ranks(mine.volume, unit), sum_over_ranks(mine.rounding, unit),
