@@ -6,13 +6,15 @@
  *   node        a point to compute on; the centre of a bubble
  *   spacing     d(x) > 0, the wanted distance between neighbouring nodes about x, in the
  *               unit of the coordinates; a bubble's diameter
- *   boundary    the curves that bound the domain; each is cut into boundary edges between
- *               consecutive boundary nodes, and every boundary edge is an edge of the
+ *   boundary    the curves that bound a domain in the plane, or the surfaces that bound one in
+ *               space. Curves are cut into boundary edges between consecutive boundary nodes,
+ *               surfaces into boundary triangles; every one of these is an edge or a face of the
  *               Delaunay triangulation that the stars describe
- *   tag         an integer that marks what a node or boundary edge lies on; 0 for inner nodes
+ *   tag         an integer that marks what a node, boundary edge or boundary triangle lies on;
+ *               0 for inner nodes
  *   adjacency   all nodes within `adjacency_radius` times the mean spacing of the pair
- *   star        a node's neighbours in the constrained Delaunay triangulation, in order
- *               around it
+ *   star        a node's neighbours in the constrained Delaunay triangulation, in the plane in
+ *               order around it
  *
  * Conventions of every function
  *   status      a pnpbs_status is returned: 0 done; > 0 an outcome whose results are valid;
@@ -20,8 +22,10 @@
  *   collective  "Collective" functions must be called by all ranks of the context, in the same
  *               order, and return the same status on all of them. "Local" ones need not.
  *   arrays      are the caller's, are read or filled during the call, and are never kept.
- *               Coordinates are interleaved, [n][dim] with dim = 2 in the plane.
+ *               Coordinates are interleaved, [n][dim] with dim = 2 in the plane, 3 in space.
  *               Counts, ids, indices and offsets are 64-bit; indices and offsets are 0-based.
+ *   dimension   functions for domains or placements "in the plane" or "in space" refuse others with
+ *               PNPBS_ERROR_ARGUMENT; all other functions are for both.
  *   range       coordinates reach up to 1e60; a domain is at least 1e-60 large, and at least 1e-10
  *               of its distance from the origin, so that the digits of its coordinates tell
  *               places apart. Others are PNPBS_ERROR_DOMAIN. A spacing may be larger than the
@@ -196,15 +200,15 @@ PNPBS_API pnpbs_status pnpbs_format_info(int32_t index, const char **name, const
 
 /* ---------------------------------------------------------------- domain ---------------- */
 
-/** Role of a curve. A BOUNDARY curve separates inside from outside: the inside is what lies
- *  behind an odd number of boundary curves (holes and islands nest to any depth). An INNER
- *  curve lies in the domain, and the nodes follow it. */
+/** Role of a curve, or of a surface in space. BOUNDARY ones separate inside from outside: the
+ *  inside is what lies behind an odd number of them (holes and islands nest to any depth). INNER
+ *  ones lie in the domain, and the nodes follow them. Curves in space are always INNER. */
 #define PNPBS_BOUNDARY 0
 #define PNPBS_INNER 1
 
-/** A curve by its parameter: fills coordinates[n][dim] for t[n]. Must be a pure function,
- *  continuous and with no self-intersection. Return 0, or nonzero to fail the call with
- *  PNPBS_ERROR_CALLBACK. */
+/** A curve in the plane by its parameter: fills coordinates[n][dim], dim = 2, for t[n]. Must be a
+ *  pure function, continuous and with no self-intersection. Return 0, or nonzero to fail the call
+ *  with PNPBS_ERROR_CALLBACK. */
 typedef int32_t (*pnpbs_curve_fn)(int64_t n, int32_t dim, const double *t, double *coordinates,
                                   void *user);
 
@@ -216,8 +220,12 @@ PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
 /** Destroys the handle and sets it to NULL; takes NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
 
+/** The dimension that the domain was created with. Local.
+ *  @param[out] dim  2: in the plane, 3: in space */
+PNPBS_API pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim);
+
 /** Adds straight segments through n vertices. Local.
- *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER
+ *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER; in space PNPBS_INNER
  *  @param[in] closed        nonzero: a segment leads from the last vertex to the first; the
  *                           first vertex is not repeated
  *  @param[in] coordinates   [n][dim]
@@ -225,7 +233,8 @@ PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
  *  @param[in] corner_angle  degrees, 0 .. 180. 0: every vertex becomes a node. Otherwise only
  *                           vertices where the direction turns by more than this do, as do the
  *                           ends of open polylines and vertices where curves meet; between them
- *                           the polyline stands for a smooth curve. */
+ *                           the polyline stands for a smooth curve. In space every vertex becomes a
+ *                           node, whatever the angle */
 PNPBS_API pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed,
                                                  int64_t n, const double *coordinates,
                                                  const int32_t *tags, double corner_angle);
@@ -248,8 +257,8 @@ PNPBS_API pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t rol
                                                 double feature_angle);
 
 /** The same from a file: .stl (text or binary), .off, .obj, .ply, or .poly and .smesh as TetGen has
- *  them. Groups, materials and facet markers become tags. Local. Errors: PNPBS_ERROR_FILE with
- *  file, line and what was expected. */
+ *  them. Groups, materials and facet markers become tags, hole points holes of the domain in space.
+ *  Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role,
                                                  const char *path, double feature_angle);
 
@@ -270,72 +279,74 @@ PNPBS_API pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double *
 PNPBS_API pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double *begin,
                                                  const double *end, double radius, int32_t tag);
 
-/** Adds a circular arc; its ends join curves that end at the same point (within 1e-9 of the
- *  domain's size). Local.
- *  @param[in] centre          [dim]
+/** Adds a circular arc to a domain in the plane; its ends join curves that end at the same point
+ *  (within 1e-9 of the domain's size). Local.
+ *  @param[in] centre          [2]
  *  @param[in] radius          > 0
  *  @param[in] begin,end       angles in radians; |end - begin| = 2 pi makes a full circle */
 PNPBS_API pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const double *centre,
                                             double radius, double begin, double end, int32_t tag);
 
-/** Adds a general curve given by a callback on begin <= t <= end. The callback is called during
- *  this function and whenever a placement is initialised, so it and `user` must outlive the
- *  placements made on the domain. A curve whose ends coincide is closed. Smooth inside: corners
- *  are where curves meet. Local. */
+/** Adds a general curve, given by a callback on begin <= t <= end, to a domain in the plane. The
+ *  callback is called during this function and whenever a placement is initialised, so it and
+ *  `user` must outlive the placements made on the domain. A curve whose ends coincide is closed.
+ *  Smooth inside: corners are where curves meet. Local. */
 PNPBS_API pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role,
                                               pnpbs_curve_fn curve, void *user, double begin,
                                               double end, int32_t tag);
 
-/** Adds a planar straight-line graph as Triangle means it: what the segments enclose is the
- *  domain, except the regions that contain a hole point; a loop without a hole point and any
- *  open chain are inner curves. Every vertex becomes a node. Shared vertices and T-junctions
- *  (within 1e-12 of the domain's size) are legal. Once a graph was added, this rule holds for
- *  all curves of the domain. Local.
- *  @param[in] coordinates   [vertices][dim]
+/** Adds a planar straight-line graph as Triangle means it to a domain in the plane: what the
+ *  segments enclose is the domain, except the regions that contain a hole point; a loop without a
+ *  hole point and any open chain are inner curves. Every vertex becomes a node. Shared vertices and
+ *  T-junctions (within 1e-12 of the domain's size) are legal. Once a graph was added, this rule
+ *  holds for all curves of the domain. Local.
+ *  @param[in] coordinates   [vertices][2]
  *  @param[in] vertex_tags   [vertices] or NULL; 0 = take the segment's
  *  @param[in] segment_ends  [segments][2], 0-based vertex indices
  *  @param[in] segment_tags  [segments] or NULL for 1
- *  @param[in] hole_points   [holes][dim]; may be NULL if holes is 0 */
+ *  @param[in] hole_points   [holes][2]; may be NULL if holes is 0 */
 PNPBS_API pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices,
                                              const double *coordinates, const int32_t *vertex_tags,
                                              int64_t segments, const int64_t *segment_ends,
                                              const int32_t *segment_tags, int64_t holes,
                                              const double *hole_points);
 
-/** Removes from the domain the region around a point (between curves of either role). Local. */
+/** Removes from the domain the region around a point, as far as the next curves or surfaces of
+ *  either role. Local.
+ *  @param[in] point  [dim] */
 PNPBS_API pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double *point);
 
 /** Adds nodes that must appear exactly. Local.
- *  @param[in] coordinates  [n][dim], inside the domain or on a vertex of its curves
+ *  @param[in] coordinates  [n][dim], inside the domain or on a vertex of its curves or surfaces
  *  @param[in] tags  [n], nonzero, or NULL for 1 */
 PNPBS_API pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n,
                                                     const double *coordinates, const int32_t *tags);
 
 /** Reads a file of Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
- *  markers kept as tags) and adds it as pnpbs_domain_add_pslg does. Local. Errors:
- *  PNPBS_ERROR_FILE with file, line and what was expected. */
+ *  markers kept as tags) and adds it to a domain in the plane as pnpbs_domain_add_pslg does. Local.
+ *  Errors: PNPBS_ERROR_FILE with file, line and what was expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
 
 /** The same from memory. Local. @param[in] name  what to call the text in messages */
 PNPBS_API pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text,
                                                int64_t length, const char *name);
 
-/** Checks the whole geometry: duplicate vertices, self-intersections, unclosed boundary curves,
- *  hole points outside or on a curve, fixed nodes outside or too close. Placements check too;
- *  asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the vertex or
- *  segment. */
+/** Checks the whole geometry: duplicate vertices, self-intersections, boundary curves or surfaces
+ *  that do not close, hole points outside or on one, fixed nodes outside or too close. Placements
+ *  check too; asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the
+ *  vertex, segment or triangle. */
 PNPBS_API pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
 
-/** Bounding box of the curves. Local. @param[out] low,high  [dim] */
+/** Bounding box of the curves or surfaces. Local. @param[out] low,high  [dim] */
 PNPBS_API pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high);
 
-/** Area of the inside. Local; checks the domain first. */
+/** Area of the inside, in space its volume. Local; checks the domain first. */
 PNPBS_API pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);
 
-/** Straight segments that show the domain (curves finely sampled), for pictures. Local.
+/** Straight segments that show a domain in the plane (curves finely sampled), for pictures. Local.
  *  Ask with capacity 0 for the count.
  *  @param[out] count     number of segments
- *  @param[out] segments  [count][2][dim], or NULL
+ *  @param[out] segments  [count][2][2], or NULL
  *  @param[out] tags      [count], or NULL */
 PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity,
                                                  int64_t *count, double *segments, int32_t *tags);
@@ -393,17 +404,18 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement plac
  *  @param[in] size    [dim] number of grid points in each direction, >= 1
  *  @param[in] origin  [dim] the first grid point
  *  @param[in] step    [dim] > 0, distance of grid points
- *  @param[in] values  [size[1]][size[0]] (x fastest) */
+ *  @param[in] values  [size[1]][size[0]], in space [size[2]][size[1]][size[0]] (x fastest) */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement,
                                                         const int64_t *size, const double *origin,
                                                         const double *step, const double *values);
 
-/** The spacing from values at the nodes there are: d is linear on each triangle of their Delaunay
- *  triangulation (pnpbs_placement_get_triangles), and beyond its rim, next to curved boundaries,
- *  what it is at the nearest point of the rim. Every rank gives the values of its own nodes; they
- *  stay with the ranks, copied together with the triangles, and the nodes may go on to be replaced.
- *  Collective. Errors: PNPBS_ERROR_STATE without nodes, PNPBS_ERROR_SPACING for a value that is
- *  zero, negative or not finite: the message names the rank, the node's id and the value.
+/** The spacing from values at the nodes there are: d is linear on each triangle or tetrahedron of
+ *  their Delaunay triangulation (pnpbs_placement_get_triangles, pnpbs_placement_get_tetrahedra),
+ *  and beyond its rim, next to curved boundaries, what it is at the nearest point of the rim. Every
+ *  rank gives the values of its own nodes; they stay with the ranks, copied together with the
+ *  triangles or tetrahedra, and the nodes may go on to be replaced. Collective. Errors:
+ *  PNPBS_ERROR_STATE without nodes, PNPBS_ERROR_SPACING for a value that is zero, negative or not
+ *  finite: the message names the rank, the node's id and the value.
  *  @param[in] n  number of nodes of this rank (pnpbs_placement_count)
  *  @param[in] d  [n] in the order of pnpbs_placement_get_nodes */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
@@ -466,6 +478,10 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  PNPBS_STOPPED. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
+/** The dimension of the placement's domain. Local.
+ *  @param[out] dim  2: in the plane, 3: in space */
+PNPBS_API pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t *dim);
+
 /** Number of nodes of this rank. Local. */
 PNPBS_API pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t *nodes);
 
@@ -473,15 +489,15 @@ PNPBS_API pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t 
  *  @param[in]  capacity  nodes the arrays have room for; too small is PNPBS_ERROR_CAPACITY
  *  @param[out] coordinates  [nodes][dim]
  *  @param[out] ids       [nodes] global ids, the same for any number of ranks and threads
- *  @param[out] tags      [nodes] 0 inner, otherwise the tag of the boundary, curve or fixed node
+ *  @param[out] tags      [nodes] 0 inner, otherwise the tag of the curve, surface or fixed node
  *  @param[out] spacing   [nodes] d at the node, no more than 1024 times the domain's size; on a
  *                        boundary that is far finer than d, 32 of the node's longest edge there */
 PNPBS_API pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity,
                                                  double *coordinates, int64_t *ids, int32_t *tags,
                                                  double *spacing);
 
-/** Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars and
- *  triangles ghost g has the local index nodes + g. Collective. */
+/** Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars,
+ *  triangles and tetrahedra ghost g has the local index nodes + g. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t *ghosts);
 
 /** Copies the ghosts out, by increasing id; any array may be NULL. Collective.
@@ -546,29 +562,31 @@ PNPBS_API pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, 
 /** Number of entries of all Delaunay stars. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int64_t *entries);
 
-/** Each node's star in the constrained Delaunay triangulation of the domain, counter-clockwise.
- *  Collective.
+/** Each node's star in the constrained Delaunay triangulation of the domain: in the plane
+ *  counter-clockwise; in space all nodes that share a tetrahedron with it, in no order that means
+ *  anything. Collective.
  *  @param[out] offsets     [nodes + 1]
  *  @param[out] neighbours  [entries] local indices
  *  @param[out] triangle    [entries] 1 if the node, this neighbour and the next one around (the
  *                          first one after the last) are a triangle of the domain, 0 if a gap
- *                          outside the domain lies between them; may be NULL */
+ *                          outside the domain lies between them. In space 0. May be NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int64_t capacity,
                                                  int64_t *offsets, int64_t *neighbours,
                                                  int8_t *triangle);
 
-/** Triangles of the stars, each once, counter-clockwise. Over several ranks a triangle is the
- *  rank's that owns its node with the least id; other corners may be ghosts, and the triangles of
- *  all ranks together are one conforming triangulation of the domain. Collective. Ask with
- *  capacity 0 for the count. @param[out] triangles  [count][3] local indices, or NULL */
+/** Triangles of the stars of a placement in the plane, each once, counter-clockwise. Over several
+ *  ranks a triangle is the rank's that owns its node with the least id; other corners may be
+ *  ghosts, and the triangles of all ranks together are one conforming triangulation of the domain.
+ *  Collective. Ask with capacity 0 for the count.
+ *  @param[out] triangles  [count][3] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t capacity,
                                                      int64_t *count, int64_t *triangles);
 
 /** Tetrahedra of the stars of a placement in space, each once: seen from the fourth corner, the
- *  first three turn clockwise (the volume by the right hand's rule is positive). Over several ranks
- *  a tetrahedron is the rank's that owns its node with the least id; other corners may be ghosts,
- *  and the tetrahedra of all ranks together are one conforming triangulation of the domain.
- *  Collective. Ask with capacity 0 for the count.
+ *  first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of corners a, b, c, d
+ *  is positive. Over several ranks a tetrahedron is the rank's that owns its node with the least
+ *  id; other corners may be ghosts, and the tetrahedra of all ranks together are one conforming
+ *  triangulation of the domain. Collective. Ask with capacity 0 for the count.
  *  @param[out] tetrahedra  [count][4] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
                                                       int64_t *count, int64_t *tetrahedra);
@@ -583,10 +601,11 @@ PNPBS_API pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement pl
                                                               int64_t capacity, int64_t *count,
                                                               int64_t *triangles, int32_t *tags);
 
-/** Boundary edges: consecutive nodes on boundary and inner curves. Over several ranks an edge is
- *  the rank's that owns the node it begins with; the other end may be a ghost. Local. Ask with
- *  capacity 0 for the count. @param[out] edges [count][2] local indices, or NULL
- *  @param[out] tags [count], or NULL */
+/** Boundary edges of a placement in the plane: consecutive nodes on boundary and inner curves. Over
+ *  several ranks an edge is the rank's that owns the node it begins with; the other end may be a
+ *  ghost. Local. Ask with capacity 0 for the count.
+ *  @param[out] edges  [count][2] local indices, or NULL
+ *  @param[out] tags   [count], or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement,
                                                           int64_t capacity, int64_t *count,
                                                           int64_t *edges, int32_t *tags);
@@ -597,7 +616,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placem
  *  each in the stars of its three corners, with every boundary edge, and their areas add up to what
  *  the boundary encloses. It takes about as long as making lists and stars, and no rank holds more
  *  than its share. Collective. Errors: PNPBS_ERROR_INTERNAL if something is wrong: the message says
- *  what, with ids and coordinates; PNPBS_ERROR_STATE without nodes. */
+ *  what, with ids and coordinates; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_UNSUPPORTED for a
+ *  placement in space. */
 PNPBS_API pnpbs_status pnpbs_placement_check(pnpbs_placement placement);
 
 /** A statistic by key (see pnpbs_statistic_info). Collective (some are computed when asked).
@@ -610,11 +630,12 @@ PNPBS_API pnpbs_status pnpbs_placement_get_double(pnpbs_placement placement, con
 PNPBS_API pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, const char *key,
                                                   const char **value);
 
-/** How well the edges of the triangles follow the spacing, by bands of it: eight, equal in log d
- *  between the least and the largest d at the nodes, or one if that is less than 1.1 times the
- *  least. Bands without edges are left out. An edge's d is the mean of d at its ends. Edges between
- *  two boundary nodes, whose places the corners of the domain decide, do not count here. Over all
- *  ranks, and the same on each. Collective. Ask with capacity 0 for the count; arrays may be NULL.
+/** How well the edges of the triangles or tetrahedra follow the spacing, by bands of it: eight,
+ *  equal in log d between the least and the largest d at the nodes, or one if that is less than 1.1
+ *  times the least. Bands without edges are left out. An edge's d is the mean of d at its ends.
+ *  Edges between two boundary nodes, whose places the corners of the domain decide, do not count
+ *  here. Over all ranks, and the same on each. Collective. Ask with capacity 0 for the count;
+ *  arrays may be NULL.
  *  @param[in]  capacity   bands the arrays have room for; 8 is always enough
  *  @param[out] count      number of bands
  *  @param[out] d_from     [count] where each begins, in the unit of the coordinates; increasing

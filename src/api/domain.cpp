@@ -118,6 +118,14 @@ pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) {
   });
 }
 
+pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t* dim) {
+  return guarded(domain, [&](DomainObject& object) {
+    require_pointer(dim, "dim");
+    *dim = object.plane ? 2 : 3;
+    return PNPBS_OK;
+  });
+}
+
 pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed, int64_t n,
                                        const double* coordinates, const int32_t* tags,
                                        double corner_angle) {

@@ -59,6 +59,14 @@ void copy_nodes(const Placement& p, std::int64_t first, std::int64_t n, double* 
 
 }  // namespace
 
+pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t* dim) {
+  return guarded(placement, [&](PlacementObject& object) {
+    require_pointer(dim, "dim");
+    *dim = object.placement->dimension();
+    return PNPBS_OK;
+  });
+}
+
 pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t* nodes) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(nodes, "nodes");

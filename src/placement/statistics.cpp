@@ -62,7 +62,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "nodes", [](P p) { return p.global_count(); }, "nodes of all kinds"),
       integer(
           "boundary_nodes", [](P p) { return p.boundary_nodes(); },
-          "nodes on boundary and inner curves, and fixed nodes"),
+          "nodes on boundary and inner curves and surfaces, and fixed nodes"),
       integer(
           "steps", [](P p) { return p.steps_done(); }, "time steps done, on coarser levels, too"),
       integer(
@@ -138,25 +138,25 @@ const std::vector<StatisticRow>& statistic_table() {
           "nearest-neighbour distance over d: least")),
       computed(real(
           "quality.mean", [](P p) { return p.element_quality().simplex.mean; },
-          "quality of the triangles, 2 r_in / R: mean")),
+          "quality of the triangles, 2 r_in / R, or of the tetrahedra, 3 r_in / R: mean")),
       computed(real(
           "quality.one_percent", [](P p) { return p.element_quality().simplex.one_percent; },
-          "quality of the triangles: 99 % lie above this, a multiple of 2^-16")),
+          "quality of the elements: 99 % lie above this, a multiple of 2^-16")),
       computed(real(
           "quality.min", [](P p) { return p.element_quality().simplex.min; },
-          "quality of the triangles: the worst")),
+          "quality of the elements: the worst")),
       computed(real(
           "quality.min_angle", [](P p) { return p.element_quality().simplex.min_angle; },
-          "smallest angle of the triangles, degrees")),
+          "smallest angle of the triangles, or between faces of the tetrahedra, degrees")),
       computed(real(
           "quality.irregular", [](P p) { return p.element_quality().irregular; },
-          "share of the inner nodes that have not six neighbours in their stars")),
+          "share of the inner nodes that have not six neighbours in their stars, in space 14")),
       computed(real(
           "edge.mean", [](P p) { return p.element_quality().edge.mean; },
-          "length of the triangles' edges over d, the mean of d at their ends: mean")),
+          "length of the elements' edges over d, the mean of d at their ends: mean")),
       computed(real(
           "edge.deviation", [](P p) { return p.element_quality().edge.deviation; },
-          "length of the triangles' edges over d: standard deviation")),
+          "length of the elements' edges over d: standard deviation")),
       real(
           "speed.largest", [](P p) { return p.speeds().max; },
           "largest scaled speed, spacings per unit of time"),
