@@ -13,9 +13,12 @@
 !>   collective  "Collective" procedures must be called by all ranks of the context, in the same
 !>               order, and have the same outcome on all of them. "Local" ones need not.
 !>   arrays      are yours, are read or filled during the call, and are never kept. Coordinates are
-!>               (dim, n) with dim = 2 in the plane. Arrays to fill may have more room than needed;
-!>               too little is PNPBS_ERROR_CAPACITY. Arrays to fill and optional arrays must have no
-!>               gaps in memory: whole ones, or sections x(i:j) and x(:,i:j) of such.
+!>               (dim, n) with dim = 2 in the plane, 3 in space; other rows are
+!>               PNPBS_ERROR_ARGUMENT. Arrays to fill may have more room than needed; too little is
+!>               PNPBS_ERROR_CAPACITY. Arrays to fill and optional arrays must have no gaps in
+!>               memory: whole ones, or sections x(i:j) and x(:,i:j) of such.
+!>   dimension   procedures for domains or placements "in the plane" or "in space" refuse others
+!>               with PNPBS_ERROR_ARGUMENT; all others are for both.
 !>   integers    ids, counts, indices and offsets are integer(c_int64_t), the others
 !>               integer(c_int32_t). Local indices and offsets count from 1; ids and numbers of
 !>               nodes are the same as in C, ranks are as in MPI.
@@ -72,7 +75,13 @@ module pnpbs
   contains
     procedure :: create => domain_create
     procedure :: destroy => domain_destroy
+    procedure :: dimension => domain_dimension
     procedure :: add_polyline => domain_add_polyline
+    procedure :: add_surface => domain_add_surface
+    procedure :: read_surface => domain_read_surface
+    procedure :: add_box => domain_add_box
+    procedure :: add_ball => domain_add_ball
+    procedure :: add_cylinder => domain_add_cylinder
     procedure :: add_arc => domain_add_arc
     procedure :: add_curve => domain_add_curve
     procedure :: add_pslg => domain_add_pslg
@@ -104,7 +113,9 @@ module pnpbs
       placement_set_real
     procedure :: set_spacing_constant => placement_set_spacing_constant
     procedure :: set_spacing_callback => placement_set_spacing_callback
-    procedure :: set_spacing_grid => placement_set_spacing_grid
+    procedure, private :: placement_set_spacing_grid
+    procedure, private :: placement_set_spacing_grid_in_space
+    generic :: set_spacing_grid => placement_set_spacing_grid, placement_set_spacing_grid_in_space
     procedure :: set_spacing_at_nodes => placement_set_spacing_at_nodes
     procedure :: set_monitor => placement_set_monitor
     procedure :: set_nodes => placement_set_nodes
@@ -116,6 +127,7 @@ module pnpbs
     procedure :: adjust_population => placement_adjust_population
     procedure :: rebalance => placement_rebalance
     procedure :: run => placement_run
+    procedure :: dimension => placement_dimension
     procedure :: count => placement_count
     procedure :: get_nodes => placement_get_nodes
     procedure :: ghost_count => placement_ghost_count
@@ -131,6 +143,10 @@ module pnpbs
     generic :: get_stars => placement_get_stars, placement_get_stars_logical
     procedure :: triangle_count => placement_triangle_count
     procedure :: get_triangles => placement_get_triangles
+    procedure :: tetrahedron_count => placement_tetrahedron_count
+    procedure :: get_tetrahedra => placement_get_tetrahedra
+    procedure :: boundary_triangle_count => placement_boundary_triangle_count
+    procedure :: get_boundary_triangles => placement_get_boundary_triangles
     procedure :: boundary_edge_count => placement_boundary_edge_count
     procedure :: get_boundary_edges => placement_get_boundary_edges
     procedure :: check => placement_check
@@ -408,7 +424,7 @@ contains
   ! ------------------------------------------------------------ domain ------------------------
 
   !> An empty domain. Local.
-  !>   dim  optional: 2 (3 comes later: PNPBS_ERROR_UNSUPPORTED)
+  !>   dim  optional: 2, in the plane, or 3, in space; 2 without
   subroutine domain_create(self, context, dim, stat, errmsg)
     class(pnpbs_domain), intent(inout) :: self
     type(pnpbs_context), intent(in) :: context
@@ -429,16 +445,28 @@ contains
     call conclude('domain%destroy', c_domain_destroy(self%c), stat, errmsg)
   end subroutine
 
+  !> The dimension that the domain was created with. Local.
+  !>   dim  2: in the plane, 3: in space
+  subroutine domain_dimension(self, dim, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(out) :: dim
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    dim = 0
+    call conclude('domain%dimension', c_domain_dimension(self%c, dim), stat, errmsg)
+  end subroutine
+
   !> Adds straight segments through n vertices. Local.
-  !>   role          PNPBS_BOUNDARY or PNPBS_INNER
+  !>   role          PNPBS_BOUNDARY or PNPBS_INNER; in space PNPBS_INNER
   !>   closed        whether a segment leads from the last vertex to the first; the first vertex is
   !>                 not repeated
-  !>   coordinates            (2, n)
+  !>   coordinates   (dim, n)
   !>   tags          optional: one for each segment, nonzero; 1 without
   !>   corner_angle  optional, degrees, 0 .. 180; 0 without: every vertex becomes a node. Otherwise
   !>                 only vertices where the direction turns by more than this do, as do the ends of
   !>                 open polylines and vertices where curves meet; between them the polyline stands
-  !>                 for a smooth curve.
+  !>                 for a smooth curve. In space it does not count, but the feature_angle of the
+  !>                 surfaces does in its place
   subroutine domain_add_polyline(self, role, closed, coordinates, tags, corner_angle, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(in) :: role
@@ -452,10 +480,12 @@ contains
     type(c_ptr) :: a_tags
     integer(c_int64_t) :: n, segments, room
     integer(c_int) :: status
+    integer :: dim
     real(c_double) :: angle
     n = size(coordinates, 2, kind=c_int64_t)
     segments = merge(n, n - 1, closed)
-    call given%check_rows('coordinates', size(coordinates, 1), 2)
+    dim = dimension_of(self, given)
+    call given%check_rows('coordinates', size(coordinates, 1), dim)
     call given%place_int32('tags', tags, a_tags, room)
     call given%require('tags', room, segments)
     angle = 0
@@ -466,8 +496,119 @@ contains
     call conclude('domain%add_polyline', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds a circular arc; its ends join curves that end at the same point (within 1e-9 of the
-  !> domain's size). Local.
+  !> Adds a triangulated surface to a domain in space. Closed ones with the role PNPBS_BOUNDARY
+  !> bound it: the inside is what lies behind an odd number of them. PNPBS_INNER: nodes follow the
+  !> surface, closed or open, inside the domain. Vertices that coincide are one; what the triangles
+  !> enclose decides their orientation. Local.
+  !>   role           PNPBS_BOUNDARY or PNPBS_INNER
+  !>   coordinates    (3, vertices)
+  !>   corners        (3, triangles) vertices, counted from 1
+  !>   tags           optional, (triangles), nonzero; 1 without
+  !>   feature_angle  optional, degrees, 0 .. 180; 40 without: where the normals of two triangles
+  !>                  differ by more, or their tags do, nodes lie on the edge between them. Between
+  !>                  such edges the triangles are the shape alone, whatever their size
+  subroutine domain_add_surface(self, role, coordinates, corners, tags, feature_angle, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(in) :: role
+    real(c_double), intent(in) :: coordinates(:,:)
+    integer(c_int64_t), intent(in) :: corners(:,:)
+    integer(c_int32_t), intent(in), optional :: tags(:)
+    real(c_double), intent(in), optional :: feature_angle
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_tags
+    integer(c_int64_t) :: vertices, triangles, room
+    integer(c_int) :: status
+    vertices = size(coordinates, 2, kind=c_int64_t)
+    triangles = size(corners, 2, kind=c_int64_t)
+    call given%check_rows('coordinates', size(coordinates, 1), 3)
+    call given%check_rows('corners', size(corners, 1), 3)
+    call given%place_int32('tags', tags, a_tags, room)
+    call given%require('tags', room, triangles)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_add_surface(self%c, role, vertices, coordinates, triangles, corners - 1, &
+                                    a_tags, angle_or_40(feature_angle))
+    call conclude('domain%add_surface', status, stat, errmsg, given)
+  end subroutine
+
+  !> The same from a file: .stl (text or binary), .off, .obj, .ply, or .poly and .smesh as TetGen
+  !> has them. Groups, materials and facet markers become tags, hole points holes of the domain in
+  !> space. Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected.
+  !>   role           PNPBS_BOUNDARY or PNPBS_INNER
+  !>   path           blanks at its end do not count
+  !>   feature_angle  optional, as add_surface has it
+  subroutine domain_read_surface(self, role, path, feature_angle, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(in) :: role
+    character(len=*), intent(in) :: path
+    real(c_double), intent(in), optional :: feature_angle
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%read_surface', &
+                  c_domain_read_surface(self%c, role, c_text(path), angle_or_40(feature_angle)), &
+                  stat, errmsg)
+  end subroutine
+
+  !> Adds a box to a domain in space; its sides bound the domain. Local.
+  !>   low, high  (3)
+  !>   tag        optional: nonzero; 1 without
+  subroutine domain_add_box(self, low, high, tag, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: low(:), high(:)
+    integer(c_int32_t), intent(in), optional :: tag
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('low', size(low), 3)
+    call given%check_rows('high', size(high), 3)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_domain_add_box(self%c, low, high, tag_or_one(tag))
+    call conclude('domain%add_box', status, stat, errmsg, given)
+  end subroutine
+
+  !> Adds a ball to a domain in space, as triangles within 1e-4 of the radius. Local.
+  !>   centre  (3)
+  !>   radius  > 0
+  !>   tag     optional: nonzero; 1 without
+  subroutine domain_add_ball(self, centre, radius, tag, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: centre(:), radius
+    integer(c_int32_t), intent(in), optional :: tag
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('centre', size(centre), 3)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_domain_add_ball(self%c, centre, radius, tag_or_one(tag))
+    call conclude('domain%add_ball', status, stat, errmsg, given)
+  end subroutine
+
+  !> Adds a round cylinder to a domain in space, as triangles within 1e-4 of the radius. Local.
+  !>   begin, end  (3), the middles of its two circles
+  !>   radius      > 0
+  !>   tag         optional: nonzero; 1 without
+  subroutine domain_add_cylinder(self, begin, end, radius, tag, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: begin(:), end(:), radius
+    integer(c_int32_t), intent(in), optional :: tag
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('begin', size(begin), 3)
+    call given%check_rows('end', size(end), 3)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_add_cylinder(self%c, begin, end, radius, tag_or_one(tag))
+    call conclude('domain%add_cylinder', status, stat, errmsg, given)
+  end subroutine
+
+  !> Adds a circular arc to a domain in the plane; its ends join curves that end at the same point
+  !> (within 1e-9 of the domain's size). Local.
   !>   centre      (2)
   !>   radius      > 0
   !>   begin, end  angles in radians; |end - begin| = 2 pi makes a full circle
@@ -488,10 +629,10 @@ contains
     call conclude('domain%add_arc', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds a general curve given by a callback on begin <= t <= end. The callback is called during
-  !> this procedure and whenever a placement is initialised, so it and user must outlive the
-  !> placements made on the domain. A curve whose ends coincide is closed. Smooth inside: corners
-  !> are where curves meet. Local.
+  !> Adds a general curve, given by a callback on begin <= t <= end, to a domain in the plane. The
+  !> callback is called during this procedure and whenever a placement is initialised, so it and
+  !> user must outlive the placements made on the domain. A curve whose ends coincide is closed.
+  !> Smooth inside: corners are where curves meet. Local.
   !>   tag   optional: nonzero; 1 without
   !>   user  optional: what the callback is given; null without
   subroutine domain_add_curve(self, role, curve, begin, end, tag, user, stat, errmsg)
@@ -508,12 +649,12 @@ contains
                                      end, tag_or_one(tag)), stat, errmsg)
   end subroutine
 
-  !> Adds a planar straight-line graph as Triangle means it: what the segments enclose is the
-  !> domain, except the regions that contain a hole point; a loop without a hole point and any open
-  !> chain are inner curves. Every vertex becomes a node. Shared vertices and T-junctions (within
-  !> 1e-12 of the domain's size) are legal. Once a graph was added, this rule holds for all curves
-  !> of the domain. Local.
-  !>   coordinates            (2, vertices)
+  !> Adds a planar straight-line graph as Triangle means it to a domain in the plane: what the
+  !> segments enclose is the domain, except the regions that contain a hole point; a loop without a
+  !> hole point and any open chain are inner curves. Every vertex becomes a node. Shared vertices
+  !> and T-junctions (within 1e-12 of the domain's size) are legal. Once a graph was added, this
+  !> rule holds for all curves of the domain. Local.
+  !>   coordinates   (2, vertices)
   !>   segment_ends  (2, segments) vertices, counted from 1
   !>   vertex_tags   optional, (vertices); 0 = take the segment's
   !>   segment_tags  optional, (segments); 1 without
@@ -549,7 +690,9 @@ contains
     call conclude('domain%add_pslg', status, stat, errmsg, given)
   end subroutine
 
-  !> Removes from the domain the region around a point (between curves of either role). Local.
+  !> Removes from the domain the region around a point, as far as the next curves or surfaces of
+  !> either role. Local.
+  !>   point  (dim)
   subroutine domain_add_hole(self, point, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: point(:)
@@ -557,15 +700,17 @@ contains
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
     integer(c_int) :: status
-    call given%check_rows('point', size(point), 2)
+    integer :: dim
+    dim = dimension_of(self, given)
+    call given%check_rows('point', size(point), dim)
     status = PNPBS_OK
     if (.not. given%is_wrong()) status = c_domain_add_hole(self%c, point)
     call conclude('domain%add_hole', status, stat, errmsg, given)
   end subroutine
 
   !> Adds nodes that must appear exactly. Local.
-  !>   coordinates    (2, n), inside the domain or on a vertex of its curves
-  !>   tags  optional, (n), nonzero; 1 without
+  !>   coordinates  (dim, n), inside the domain or on a vertex of its curves or surfaces
+  !>   tags         optional, (n), nonzero; 1 without
   subroutine domain_add_fixed_nodes(self, coordinates, tags, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)
@@ -576,8 +721,10 @@ contains
     type(c_ptr) :: a_tags
     integer(c_int64_t) :: n, room
     integer(c_int) :: status
+    integer :: dim
     n = size(coordinates, 2, kind=c_int64_t)
-    call given%check_rows('coordinates', size(coordinates, 1), 2)
+    dim = dimension_of(self, given)
+    call given%check_rows('coordinates', size(coordinates, 1), dim)
     call given%place_int32('tags', tags, a_tags, room)
     call given%require('tags', room, n)
     status = PNPBS_OK
@@ -586,8 +733,8 @@ contains
   end subroutine
 
   !> Reads a file of Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
-  !> markers kept as tags) and adds it as add_pslg does. Local. Errors: PNPBS_ERROR_FILE with file,
-  !> line and what was expected.
+  !> markers kept as tags) and adds it to a domain in the plane as add_pslg does. Local. Errors:
+  !> PNPBS_ERROR_FILE with file, line and what was expected.
   !>   path  blanks at its end do not count
   subroutine domain_read_poly(self, path, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -610,10 +757,10 @@ contains
                                       c_text(name)), stat, errmsg)
   end subroutine
 
-  !> Checks the whole geometry: duplicate vertices, self-intersections, unclosed boundary curves,
-  !> hole points outside or on a curve, fixed nodes outside or too close. Placements check too;
-  !> asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the vertex or
-  !> segment.
+  !> Checks the whole geometry: duplicate vertices, self-intersections, boundary curves or surfaces
+  !> that do not close, hole points outside or on one, fixed nodes outside or too close. Placements
+  !> check too; asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the
+  !> vertex, segment or triangle.
   subroutine domain_check(self, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -621,8 +768,8 @@ contains
     call conclude('domain%check', c_domain_check(self%c), stat, errmsg)
   end subroutine
 
-  !> Bounding box of the curves. Local.
-  !>   low, high  (2)
+  !> Bounding box of the curves or surfaces. Local.
+  !>   low, high  (dim)
   subroutine domain_bounds(self, low, high, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(inout) :: low(:), high(:)
@@ -630,14 +777,16 @@ contains
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
     integer(c_int) :: status
-    call given%check_rows('low', size(low), 2)
-    call given%check_rows('high', size(high), 2)
+    integer :: dim
+    dim = dimension_of(self, given)
+    call given%check_rows('low', size(low), dim)
+    call given%check_rows('high', size(high), dim)
     status = PNPBS_OK
     if (.not. given%is_wrong()) status = c_domain_bounds(self%c, low, high)
     call conclude('domain%bounds', status, stat, errmsg, given)
   end subroutine
 
-  !> Area of the inside. Local; checks the domain first.
+  !> Area of the inside, in space its volume. Local; checks the domain first.
   subroutine domain_measure(self, measure, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(out) :: measure
@@ -657,7 +806,7 @@ contains
                   errmsg)
   end subroutine
 
-  !> Straight segments that show the domain (curves finely sampled), for pictures. Local.
+  !> Straight segments that show a domain in the plane (curves finely sampled), for pictures. Local.
   !>   segments  optional, (2, 2, count): coordinates, ends, segments
   !>   tags      optional, (count)
   subroutine domain_get_segments(self, segments, tags, stat, errmsg)
@@ -778,9 +927,9 @@ contains
 
   !> The spacing from values on a rectangular grid, copied; linear in each direction between them,
   !> constant beyond the grid's edge. Collective.
-  !>   origin  (2) the first grid point
-  !>   step    (2) > 0, distance of grid points
-  !>   values  (nx, ny)
+  !>   origin  (dim) the first grid point
+  !>   step    (dim) > 0, distance of grid points
+  !>   values  (nx, ny), in space (nx, ny, nz)
   subroutine placement_set_spacing_grid(self, origin, step, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(in) :: origin(:), step(:), values(:,:)
@@ -789,20 +938,47 @@ contains
     type(arguments) :: given
     integer(c_int64_t) :: points(2)
     integer(c_int) :: status
-    call given%check_rows('origin', size(origin), 2)
-    call given%check_rows('step', size(step), 2)
+    call check_grid(self, size(origin), size(step), 2, given)
     points = shape(values, kind=c_int64_t)
     points(1) = given%capacity(points(1))
     status = c_placement_set_spacing_grid(self%c, points, origin, step, values)
     call conclude('placement%set_spacing_grid', status, stat, errmsg, given)
   end subroutine
 
-  !> The spacing from values at the nodes there are: d is linear on each triangle of their Delaunay
-  !> triangulation (get_triangles), and beyond its rim, next to curved boundaries, what it is at the
-  !> nearest point of the rim. Every rank gives the values of its own nodes; they stay with the
-  !> ranks, copied together with the triangles, and the nodes may go on to be replaced. Collective.
-  !> Errors: PNPBS_ERROR_STATE without nodes, PNPBS_ERROR_SPACING for a value that is zero, negative
-  !> or not finite: the message names the rank, the node's id and the value.
+  subroutine placement_set_spacing_grid_in_space(self, origin, step, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: origin(:), step(:), values(:,:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: points(3)
+    integer(c_int) :: status
+    call check_grid(self, size(origin), size(step), 3, given)
+    points = shape(values, kind=c_int64_t)
+    points(1) = given%capacity(points(1))
+    status = c_placement_set_spacing_grid(self%c, points, origin, step, values)
+    call conclude('placement%set_spacing_grid', status, stat, errmsg, given)
+  end subroutine
+
+  ! Refuses values of another dimension, and grids that do not say where all their points are.
+  subroutine check_grid(self, origins, steps, rank_of_values, given)
+    class(pnpbs_placement), intent(in) :: self
+    integer, intent(in) :: origins, steps, rank_of_values
+    type(arguments), intent(inout) :: given
+    integer :: dim
+    dim = dimension_of(self, given)
+    call given%check_rank('values', rank_of_values, dim)
+    call given%check_rows('origin', origins, rank_of_values)
+    call given%check_rows('step', steps, rank_of_values)
+  end subroutine
+
+  !> The spacing from values at the nodes there are: d is linear on each triangle or tetrahedron of
+  !> their Delaunay triangulation (get_triangles, get_tetrahedra), and beyond its rim, next to
+  !> curved boundaries, what it is at the nearest point of the rim. Every rank gives the values of
+  !> its own nodes; they stay with the ranks, copied together with the triangles or tetrahedra, and
+  !> the nodes may go on to be replaced. Collective. Errors: PNPBS_ERROR_STATE without nodes,
+  !> PNPBS_ERROR_SPACING for a value that is zero, negative or not finite: the message names the
+  !> rank, the node's id and the value.
   !>   d  one for every node of this rank, in the order of get_nodes
   subroutine placement_set_spacing_at_nodes(self, d, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -833,8 +1009,8 @@ contains
   !> library. Over several ranks each gives some, wherever they lie. Where they are many times too
   !> dense for d they are thinned (statistic 'deleted'). Points outside the domain or too close to
   !> its boundary are left out (statistic 'dropped'). Clears the nodes there are. Collective.
-  !>   coordinates   (2, n)
-  !>   ids  optional, (n): distinct, 0 .. 2**62; of the library's choice without
+  !>   coordinates  (dim, n)
+  !>   ids          optional, (n): distinct, 0 .. 2**62; of the library's choice without
   subroutine placement_set_nodes(self, coordinates, ids, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)
@@ -845,8 +1021,10 @@ contains
     type(c_ptr) :: a_ids
     integer(c_int64_t) :: n, room
     integer(c_int) :: status
+    integer :: dim
     n = size(coordinates, 2, kind=c_int64_t)
-    call given%check_rows('coordinates', size(coordinates, 1), 2)
+    dim = dimension_of(self, given)
+    call given%check_rows('coordinates', size(coordinates, 1), dim)
     call given%place_int64('ids', ids, a_ids, room)
     call given%require('ids', room, n)
     status = c_placement_set_nodes(self%c, given%capacity(n), coordinates, a_ids)
@@ -949,6 +1127,17 @@ contains
 
   ! ------------------------------------------------------------ placement: results ------------
 
+  !> The dimension of the placement's domain. Local.
+  !>   dim  2: in the plane, 3: in space
+  subroutine placement_dimension(self, dim, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(out) :: dim
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    dim = 0
+    call conclude('placement%dimension', c_placement_dimension(self%c, dim), stat, errmsg)
+  end subroutine
+
   !> Number of nodes of this rank. Local.
   subroutine placement_count(self, nodes, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -960,10 +1149,10 @@ contains
   end subroutine
 
   !> Copies the nodes of this rank out, in their local order; all arrays are optional. Local.
-  !>   coordinates       (2, nodes)
-  !>   ids      (nodes) global ids, the same for any number of ranks and threads
-  !>   tags     (nodes) 0 inner, otherwise the tag of the boundary, curve or fixed node
-  !>   spacing  (nodes) d at the node
+  !>   coordinates  (dim, nodes)
+  !>   ids          (nodes) global ids, the same for any number of ranks and threads
+  !>   tags         (nodes) 0 inner, otherwise the tag of the curve, surface or fixed node
+  !>   spacing      (nodes) d at the node
   subroutine placement_get_nodes(self, coordinates, ids, tags, spacing, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(inout), optional :: coordinates(:,:), spacing(:)
@@ -972,20 +1161,22 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
-    type(c_ptr) :: a_xy, a_ids, a_tags, a_spacing
+    type(c_ptr) :: a_xyz, a_ids, a_tags, a_spacing
     integer(c_int64_t) :: room(4)
     integer(c_int) :: status
-    call given%place_real_columns('coordinates', coordinates, 2, a_xy, room(1))
+    integer :: dim
+    dim = dimension_of(self, given)
+    call given%place_real_columns('coordinates', coordinates, dim, a_xyz, room(1))
     call given%place_int64('ids', ids, a_ids, room(2))
     call given%place_int32('tags', tags, a_tags, room(3))
     call given%place_real('spacing', spacing, a_spacing, room(4))
-    status = c_placement_get_nodes(self%c, given%capacity(minval(room)), a_xy, a_ids, a_tags, &
+    status = c_placement_get_nodes(self%c, given%capacity(minval(room)), a_xyz, a_ids, a_tags, &
                                    a_spacing)
     call conclude('placement%get_nodes', status, stat, errmsg, given)
   end subroutine
 
-  !> Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars and
-  !> triangles ghost g has the local index nodes + g. Collective.
+  !> Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars,
+  !> triangles and tetrahedra ghost g has the local index nodes + g. Collective.
   subroutine placement_ghost_count(self, ghosts, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: ghosts
@@ -997,7 +1188,7 @@ contains
 
   !> Copies the ghosts out, by increasing id; all arrays are optional. Collective.
   !>   coordinates, ids, tags, spacing  as get_nodes
-  !>   owners                  (ghosts) the rank that owns each
+  !>   owners                           (ghosts) the rank that owns each
   subroutine placement_get_ghosts(self, coordinates, ids, tags, spacing, owners, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(inout), optional :: coordinates(:,:), spacing(:)
@@ -1006,15 +1197,17 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
-    type(c_ptr) :: a_xy, a_ids, a_tags, a_spacing, a_owners
+    type(c_ptr) :: a_xyz, a_ids, a_tags, a_spacing, a_owners
     integer(c_int64_t) :: room(5)
     integer(c_int) :: status
-    call given%place_real_columns('coordinates', coordinates, 2, a_xy, room(1))
+    integer :: dim
+    dim = dimension_of(self, given)
+    call given%place_real_columns('coordinates', coordinates, dim, a_xyz, room(1))
     call given%place_int64('ids', ids, a_ids, room(2))
     call given%place_int32('tags', tags, a_tags, room(3))
     call given%place_real('spacing', spacing, a_spacing, room(4))
     call given%place_int32('owners', owners, a_owners, room(5))
-    status = c_placement_get_ghosts(self%c, given%capacity(minval(room)), a_xy, a_ids, a_tags, &
+    status = c_placement_get_ghosts(self%c, given%capacity(minval(room)), a_xyz, a_ids, a_tags, &
                                     a_spacing, a_owners)
     call conclude('placement%get_ghosts', status, stat, errmsg, given)
   end subroutine
@@ -1162,13 +1355,15 @@ contains
     call conclude('placement%star_size', c_placement_star_size(self%c, entries), stat, errmsg)
   end subroutine
 
-  !> Each node's star in the constrained Delaunay triangulation of the domain, counter-clockwise.
-  !> Collective.
+  !> Each node's star in the constrained Delaunay triangulation of the domain: in the plane
+  !> counter-clockwise; in space all nodes that share a tetrahedron with it, in no order that means
+  !> anything. Collective.
   !>   offsets     (nodes + 1)
   !>   neighbours  (entries) local indices
   !>   triangle    optional, (entries), logical or integer(c_int8_t): true or 1 if the node, this
   !>               neighbour and the next one around (the first one after the last) are a triangle of
-  !>               the domain, false or 0 if a gap outside the domain lies between them
+  !>               the domain, false or 0 if a gap outside the domain lies between them, and
+  !>               everywhere in space
   subroutine placement_get_stars(self, offsets, neighbours, triangle, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(inout) :: offsets(:), neighbours(:)
@@ -1205,7 +1400,7 @@ contains
     where (flags /= not_set) triangle = flags /= 0
   end subroutine
 
-  !> Number of triangles that get_triangles has. Collective.
+  !> Number of triangles that get_triangles has, in the plane. Collective.
   subroutine placement_triangle_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -1216,9 +1411,10 @@ contains
                   c_placement_get_triangles(self%c, 0_c_int64_t, count, c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Triangles of the stars, each once, counter-clockwise. Over several ranks a triangle is the
-  !> rank's that owns its node with the least id; other corners may be ghosts, and the triangles of
-  !> all ranks together are one conforming triangulation of the domain. Collective.
+  !> Triangles of the stars of a placement in the plane, each once, counter-clockwise. Over several
+  !> ranks a triangle is the rank's that owns its node with the least id; other corners may be
+  !> ghosts, and the triangles of all ranks together are one conforming triangulation of the domain.
+  !> Collective.
   !>   triangles  (3, count) local indices
   subroutine placement_get_triangles(self, triangles, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1238,7 +1434,80 @@ contains
     end do
   end subroutine
 
-  !> Number of boundary edges that get_boundary_edges has. Local.
+  !> Number of tetrahedra that get_tetrahedra has, in space. Collective.
+  subroutine placement_tetrahedron_count(self, count, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    count = 0
+    call conclude('placement%tetrahedron_count', &
+                  c_placement_get_tetrahedra(self%c, 0_c_int64_t, count, c_null_ptr), stat, errmsg)
+  end subroutine
+
+  !> Tetrahedra of the stars of a placement in space, each once: seen from the fourth corner, the
+  !> first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of corners a, b, c,
+  !> d is positive. Over several ranks a tetrahedron is the rank's that owns its node with the least
+  !> id; other corners may be ghosts, and the tetrahedra of all ranks together are one conforming
+  !> triangulation of the domain. Collective.
+  !>   tetrahedra  (4, count) local indices
+  subroutine placement_get_tetrahedra(self, tetrahedra, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout) :: tetrahedra(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_tetrahedra
+    integer(c_int64_t) :: room, count, t
+    integer(c_int) :: status
+    call given%place_int64_columns('tetrahedra', tetrahedra, 4, a_tetrahedra, room)
+    status = c_placement_get_tetrahedra(self%c, given%capacity(room), count, a_tetrahedra)
+    call conclude('placement%get_tetrahedra', status, stat, errmsg, given)
+    if (status < 0) return
+    do t = 1, count
+      call count_from_one(tetrahedra(:, t))
+    end do
+  end subroutine
+
+  !> Number of triangles that get_boundary_triangles has, in space. Collective.
+  subroutine placement_boundary_triangle_count(self, count, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    count = 0
+    call conclude('placement%boundary_triangle_count', &
+                  c_placement_get_boundary_triangles(self%c, 0_c_int64_t, count, c_null_ptr, &
+                                                     c_null_ptr), stat, errmsg)
+  end subroutine
+
+  !> Triangles of the boundary of a placement in space: the faces of tetrahedra that have no other
+  !> tetrahedron behind them, counter-clockwise as seen from outside. Over several ranks a triangle
+  !> is the rank's that owns its node with the least id. Collective.
+  !>   triangles  optional, (3, count) local indices
+  !>   tags       optional, (count) of the surface there
+  subroutine placement_get_boundary_triangles(self, triangles, tags, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout), optional :: triangles(:,:)
+    integer(c_int32_t), intent(inout), optional :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_triangles, a_tags
+    integer(c_int64_t) :: room(2), count, t
+    integer(c_int) :: status
+    call given%place_int64_columns('triangles', triangles, 3, a_triangles, room(1))
+    call given%place_int32('tags', tags, a_tags, room(2))
+    status = c_placement_get_boundary_triangles(self%c, given%capacity(minval(room)), count, &
+                                                a_triangles, a_tags)
+    call conclude('placement%get_boundary_triangles', status, stat, errmsg, given)
+    if (status < 0 .or. .not. present(triangles)) return
+    do t = 1, count
+      call count_from_one(triangles(:, t))
+    end do
+  end subroutine
+
+  !> Number of boundary edges that get_boundary_edges has, in the plane. Local.
   subroutine placement_boundary_edge_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -1250,8 +1519,9 @@ contains
                                                  c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Boundary edges: consecutive nodes on boundary and inner curves. Over several ranks an edge is
-  !> the rank's that owns the node it begins with; the other end may be a ghost. Local.
+  !> Boundary edges of a placement in the plane: consecutive nodes on boundary and inner curves.
+  !> Over several ranks an edge is the rank's that owns the node it begins with; the other end may
+  !> be a ghost. Local.
   !>   edges  optional, (2, count) local indices
   !>   tags   optional, (count)
   subroutine placement_get_boundary_edges(self, edges, tags, stat, errmsg)
@@ -1278,10 +1548,11 @@ contains
   !> Checks that the results keep what is promised of them: ids are unique, no two nodes lie in one
   !> place, all lie inside or on the boundary, and all that the boundary has are there; adjacency
   !> lists are symmetric; the triangles of the stars are one conforming triangulation of the domain,
-  !> each in the stars of its three corners, with every boundary edge, and their areas add up to what
-  !> the boundary encloses. It takes about as long as making lists and stars, and no rank holds more
-  !> than its share. Collective. Errors: PNPBS_ERROR_INTERNAL if something is wrong: the message says
-  !> what, with ids and coordinates; PNPBS_ERROR_STATE without nodes.
+  !> each in the stars of its three corners, with every boundary edge, and their areas add up to
+  !> what the boundary encloses. It takes about as long as making lists and stars, and no rank holds
+  !> more than its share. Collective. Errors: PNPBS_ERROR_INTERNAL if something is wrong: the
+  !> message says what, with ids and coordinates; PNPBS_ERROR_STATE without nodes;
+  !> PNPBS_ERROR_UNSUPPORTED for a placement in space.
   subroutine placement_check(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -1339,11 +1610,11 @@ contains
                                              c_null_ptr, c_null_ptr, c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> How well the edges of the triangles follow the spacing, by bands of it: eight, equal in log d
-  !> between the least and the largest d at the nodes, or one if that is less than 1.1 times the
-  !> least. Bands without edges are left out. An edge's d is the mean of d at its ends. Edges between
-  !> two boundary nodes, whose places the corners of the domain decide, do not count here. Over all
-  !> ranks, and the same on each. Collective.
+  !> How well the edges of the triangles or tetrahedra follow the spacing, by bands of it: eight,
+  !> equal in log d between the least and the largest d at the nodes, or one if that is less than
+  !> 1.1 times the least. Bands without edges are left out. An edge's d is the mean of d at its
+  !> ends. Edges between two boundary nodes, whose places the corners of the domain decide, do not
+  !> count here. Over all ranks, and the same on each. Collective.
   !>   d_from, d_to  optional, (count): where each band begins and ends, increasing
   !>   edges         optional, (count): how many edges there are
   !>   mean          optional, (count): of their length over d
@@ -1507,6 +1778,33 @@ contains
     integer(c_int32_t) :: value
     value = 1
     if (present(tag)) value = tag
+  end function
+
+  function angle_or_40(feature_angle) result(value)
+    real(c_double), intent(in), optional :: feature_angle
+    real(c_double) :: value
+    value = 40
+    if (present(feature_angle)) value = feature_angle
+  end function
+
+  ! The dimension of a domain or placement. That a handle is dead counts more than what is wrong
+  ! with arrays.
+  function dimension_of(object, given) result(dim)
+    class(*), intent(in) :: object
+    type(arguments), intent(inout) :: given
+    integer :: dim
+    integer(c_int32_t) :: found
+    integer(c_int) :: status
+    status = PNPBS_OK
+    found = 0
+    select type (object)
+    class is (pnpbs_domain)
+      status = c_domain_dimension(object%c, found)
+    class is (pnpbs_placement)
+      status = c_placement_dimension(object%c, found)
+    end select
+    if (status < 0) call given%refuse(status, pnpbs_last_error())
+    dim = found
   end function
 
   ! 0 if the placement is dead, which the call that follows finds, too.

@@ -33,8 +33,8 @@ module pnpbs_c
   integer(c_int), parameter :: PNPBS_ERROR_UNSUPPORTED = -13  !< not supported by this build
   integer(c_int), parameter :: PNPBS_ERROR_INTERNAL = -14     !< internal error
 
-  integer(c_int32_t), parameter :: PNPBS_BOUNDARY = 0  !< a curve that separates inside from outside
-  integer(c_int32_t), parameter :: PNPBS_INNER = 1     !< a curve in the domain that nodes follow
+  integer(c_int32_t), parameter :: PNPBS_BOUNDARY = 0  !< what separates inside from outside
+  integer(c_int32_t), parameter :: PNPBS_INNER = 1     !< what lies in the domain, and nodes follow
 
   !> The version this module was written for; pnpbs_version tells the library's.
   integer(c_int32_t), parameter :: PNPBS_VERSION_MAJOR = 0
@@ -47,9 +47,9 @@ module pnpbs_c
   ! they need to know comes through user, the c_loc of a target that outlives the calls.
 
   abstract interface
-    !> A curve by its parameter: fills coordinates(dim,n) for t(n). Must be a pure function,
-    !> continuous, and with no self-intersection. Returns 0, or anything else to fail the call
-    !> with PNPBS_ERROR_CALLBACK.
+    !> A curve in the plane by its parameter: fills coordinates(dim,n), dim = 2, for t(n). Must be a
+    !> pure function, continuous, and with no self-intersection. Returns 0, or anything else to fail
+    !> the call with PNPBS_ERROR_CALLBACK.
     function pnpbs_curve_fn(n, dim, t, coordinates, user) bind(C)
       import
       implicit none
@@ -255,6 +255,14 @@ module pnpbs_c
       integer(c_int) :: c_domain_destroy
     end function
 
+    function c_domain_dimension(domain, dim) bind(C, name="pnpbs_domain_dimension")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), intent(out) :: dim
+      integer(c_int) :: c_domain_dimension
+    end function
+
     function c_domain_add_polyline(domain, role, closed, n, coordinates, tags, corner_angle) bind(C, &
       name="pnpbs_domain_add_polyline")
       import
@@ -266,6 +274,62 @@ module pnpbs_c
       type(c_ptr), value :: tags ! const int32_t *
       real(c_double), value :: corner_angle
       integer(c_int) :: c_domain_add_polyline
+    end function
+
+    function c_domain_add_surface(domain, role, vertices, coordinates, triangles, corners, tags, &
+      feature_angle) bind(C, name="pnpbs_domain_add_surface")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: role
+      integer(c_int64_t), value :: vertices
+      real(c_double), intent(in) :: coordinates(*)
+      integer(c_int64_t), value :: triangles
+      integer(c_int64_t), intent(in) :: corners(*)
+      type(c_ptr), value :: tags ! const int32_t *
+      real(c_double), value :: feature_angle
+      integer(c_int) :: c_domain_add_surface
+    end function
+
+    function c_domain_read_surface(domain, role, path, feature_angle) bind(C, &
+      name="pnpbs_domain_read_surface")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: role
+      character(kind=c_char), intent(in) :: path(*)
+      real(c_double), value :: feature_angle
+      integer(c_int) :: c_domain_read_surface
+    end function
+
+    function c_domain_add_box(domain, low, high, tag) bind(C, name="pnpbs_domain_add_box")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), intent(in) :: low(*), high(*)
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_box
+    end function
+
+    function c_domain_add_ball(domain, centre, radius, tag) bind(C, name="pnpbs_domain_add_ball")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), intent(in) :: centre(*)
+      real(c_double), value :: radius
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_ball
+    end function
+
+    function c_domain_add_cylinder(domain, begin, end, radius, tag) bind(C, &
+      name="pnpbs_domain_add_cylinder")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), intent(in) :: begin(*), end(*)
+      real(c_double), value :: radius
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_cylinder
     end function
 
     function c_domain_add_arc(domain, role, centre, radius, begin, end, tag) bind(C, &
@@ -534,6 +598,14 @@ module pnpbs_c
       integer(c_int) :: c_placement_run
     end function
 
+    function c_placement_dimension(placement, dim) bind(C, name="pnpbs_placement_dimension")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int32_t), intent(out) :: dim
+      integer(c_int) :: c_placement_dimension
+    end function
+
     function c_placement_count(placement, nodes) bind(C, name="pnpbs_placement_count")
       import
       implicit none
@@ -664,6 +736,29 @@ module pnpbs_c
       integer(c_int64_t), intent(out) :: count
       type(c_ptr), value :: triangles ! int64_t *
       integer(c_int) :: c_placement_get_triangles
+    end function
+
+    function c_placement_get_tetrahedra(placement, capacity, count, tetrahedra) bind(C, &
+      name="pnpbs_placement_get_tetrahedra")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: tetrahedra ! int64_t *
+      integer(c_int) :: c_placement_get_tetrahedra
+    end function
+
+    function c_placement_get_boundary_triangles(placement, capacity, count, triangles, tags) &
+      bind(C, name="pnpbs_placement_get_boundary_triangles")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: triangles ! int64_t *
+      type(c_ptr), value :: tags ! int32_t *
+      integer(c_int) :: c_placement_get_boundary_triangles
     end function
 
     function c_placement_get_boundary_edges(placement, capacity, count, edges, tags) bind(C, &

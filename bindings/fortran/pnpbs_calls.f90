@@ -35,6 +35,7 @@ module pnpbs_calls
     procedure :: place_real_columns
     procedure :: place_real_pairs
     procedure :: check_rows
+    procedure :: check_rank
     procedure, private :: check_neighbours_in_memory
   end type
 
@@ -334,6 +335,17 @@ contains
     character(len=80) :: numbers
     if (rows == needed) return
     write (numbers, '(a, i0, a, i0, a)') ' has an extent of ', rows, ' where ', needed, ' is right'
+    call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
+  end subroutine
+
+  !> Refuses an array of another rank than the dimension.
+  subroutine check_rank(self, name, rank_of_array, dim)
+    class(arguments), intent(inout) :: self
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: rank_of_array, dim
+    character(len=80) :: numbers
+    if (rank_of_array == dim) return
+    write (numbers, '(a, i0, a, i0, a)') ' has rank ', rank_of_array, ' where ', dim, ' is right'
     call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
   end subroutine
 

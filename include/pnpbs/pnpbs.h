@@ -233,8 +233,8 @@ PNPBS_API pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim)
  *  @param[in] corner_angle  degrees, 0 .. 180. 0: every vertex becomes a node. Otherwise only
  *                           vertices where the direction turns by more than this do, as do the
  *                           ends of open polylines and vertices where curves meet; between them
- *                           the polyline stands for a smooth curve. In space every vertex becomes a
- *                           node, whatever the angle */
+ *                           the polyline stands for a smooth curve. In space it does not count, but
+ *                           the feature_angle of the surfaces does in its place */
 PNPBS_API pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed,
                                                  int64_t n, const double *coordinates,
                                                  const int32_t *tags, double corner_angle);
@@ -583,10 +583,10 @@ PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, 
                                                      int64_t *count, int64_t *triangles);
 
 /** Tetrahedra of the stars of a placement in space, each once: seen from the fourth corner, the
- *  first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of corners a, b, c, d
- *  is positive. Over several ranks a tetrahedron is the rank's that owns its node with the least
- *  id; other corners may be ghosts, and the tetrahedra of all ranks together are one conforming
- *  triangulation of the domain. Collective. Ask with capacity 0 for the count.
+ *  first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of corners a, b, c
+ *  and d is positive. Over several ranks a tetrahedron is the rank's that owns its node with the
+ *  least id; other corners may be ghosts, and the tetrahedra of all ranks together are one
+ *  conforming triangulation of the domain. Collective. Ask with capacity 0 for the count.
  *  @param[out] tetrahedra  [count][4] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
                                                       int64_t *count, int64_t *tetrahedra);

@@ -104,8 +104,8 @@ contains
     handle = context%handle()
     call expect(handle /= 0, 'a handle')
     call same%from_handle(handle)
-    call domain%create(same, 3, stat, errmsg)
-    call expect_failure(stat, PNPBS_ERROR_UNSUPPORTED, errmsg, '3')
+    call domain%create(same, 4, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '4')
     call expect(context%last_error() == errmsg, 'the message of the context')
     call domain%create(same)
     call same%destroy

@@ -7,21 +7,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-int64_t twin_nodes(int64_t handle, int64_t n, const double* xy, const int64_t* ids,
+int64_t twin_nodes(int64_t handle, int64_t n, const double* xyz, const int64_t* ids,
                    const int32_t* tags, const double* d);
-int64_t twin_ghosts(int64_t handle, int64_t n, const double* xy, const int64_t* ids,
+int64_t twin_ghosts(int64_t handle, int64_t n, const double* xyz, const int64_t* ids,
                     const int32_t* tags, const double* d, const int32_t* owners,
                     const int64_t* numbers);
 int64_t twin_lists(int64_t handle, int32_t stars, int64_t nodes, const int64_t* offsets,
                    const int64_t* neighbours, const int8_t* triangle);
 int64_t twin_triangles(int64_t handle, int64_t n, const int64_t* triangles);
 int64_t twin_edges(int64_t handle, int64_t n, const int64_t* edges, const int32_t* tags);
+int64_t twin_tetrahedra(int64_t handle, int64_t n, const int64_t* tetrahedra);
+int64_t twin_boundary_triangles(int64_t handle, int64_t n, const int64_t* triangles,
+                                const int32_t* tags);
 int64_t twin_exchange(int64_t handle, int32_t neighbours, const int32_t* ranks,
                       const int64_t* send_offsets, const int64_t* send_nodes,
                       const int64_t* receive_offsets, const int64_t* receive_nodes);
 int64_t twin_segments(int64_t handle, int64_t n, const double* segments, const int32_t* tags);
 
 static pnpbs_placement placement_of(int64_t handle) { return (pnpbs_placement)(intptr_t)handle; }
+
+static int32_t dimension_of(pnpbs_placement p) {
+  int32_t dim = 0;
+  return pnpbs_placement_dimension(p, &dim) == PNPBS_OK ? dim : 0;
+}
 
 static void* room(int64_t n, size_t size) { return calloc((size_t)n + 1, size); }
 
@@ -32,15 +40,16 @@ static int64_t shifted(int64_t n, const int64_t* ours, const int64_t* fortran) {
   return wrong;
 }
 
-int64_t twin_nodes(int64_t handle, int64_t n, const double* xy, const int64_t* ids,
+int64_t twin_nodes(int64_t handle, int64_t n, const double* xyz, const int64_t* ids,
                    const int32_t* tags, const double* d) {
   const pnpbs_placement p = placement_of(handle);
-  double *x = room(2 * n, sizeof *x), *s = room(n, sizeof *s);
+  const int32_t dim = dimension_of(p);
+  double *x = room(dim * n, sizeof *x), *s = room(n, sizeof *s);
   int64_t *i = room(n, sizeof *i), nodes = -1, wrong = 0;
   int32_t* t = room(n, sizeof *t);
   wrong += pnpbs_placement_count(p, &nodes) != PNPBS_OK || nodes != n;
   wrong += pnpbs_placement_get_nodes(p, n, x, i, t, s) != PNPBS_OK;
-  wrong += memcmp(x, xy, (size_t)n * 2 * sizeof *x) != 0;
+  wrong += memcmp(x, xyz, (size_t)(dim * n) * sizeof *x) != 0;
   wrong += memcmp(i, ids, (size_t)n * sizeof *i) != 0;
   wrong += memcmp(t, tags, (size_t)n * sizeof *t) != 0;
   wrong += memcmp(s, d, (size_t)n * sizeof *s) != 0;
@@ -48,16 +57,17 @@ int64_t twin_nodes(int64_t handle, int64_t n, const double* xy, const int64_t* i
   return wrong;
 }
 
-int64_t twin_ghosts(int64_t handle, int64_t n, const double* xy, const int64_t* ids,
+int64_t twin_ghosts(int64_t handle, int64_t n, const double* xyz, const int64_t* ids,
                     const int32_t* tags, const double* d, const int32_t* owners,
                     const int64_t* numbers) {
   const pnpbs_placement p = placement_of(handle);
-  double *x = room(2 * n, sizeof *x), *s = room(n, sizeof *s);
+  const int32_t dim = dimension_of(p);
+  double *x = room(dim * n, sizeof *x), *s = room(n, sizeof *s);
   int64_t *i = room(n, sizeof *i), ghosts = -1, wrong = 0;
   int32_t *t = room(n, sizeof *t), *o = room(n, sizeof *o);
   wrong += pnpbs_placement_ghost_count(p, &ghosts) != PNPBS_OK || ghosts != n;
   wrong += pnpbs_placement_get_ghosts(p, n, x, i, t, s, o) != PNPBS_OK;
-  wrong += memcmp(x, xy, (size_t)n * 2 * sizeof *x) != 0;
+  wrong += memcmp(x, xyz, (size_t)(dim * n) * sizeof *x) != 0;
   wrong += memcmp(i, ids, (size_t)n * sizeof *i) != 0;
   wrong += memcmp(t, tags, (size_t)n * sizeof *t) != 0;
   wrong += memcmp(s, d, (size_t)n * sizeof *s) != 0;
@@ -102,6 +112,27 @@ int64_t twin_edges(int64_t handle, int64_t n, const int64_t* edges, const int32_
   wrong += count != n;
   wrong += shifted(2 * n, ends, edges) + (memcmp(t, tags, (size_t)n * sizeof *t) != 0);
   free(ends), free(t);
+  return wrong;
+}
+
+int64_t twin_tetrahedra(int64_t handle, int64_t n, const int64_t* tetrahedra) {
+  int64_t *corners = room(4 * n, sizeof *corners), count = -1, wrong = 0;
+  wrong += pnpbs_placement_get_tetrahedra(placement_of(handle), n, &count, corners) != PNPBS_OK;
+  wrong += count != n;
+  wrong += shifted(4 * n, corners, tetrahedra);
+  free(corners);
+  return wrong;
+}
+
+int64_t twin_boundary_triangles(int64_t handle, int64_t n, const int64_t* triangles,
+                                const int32_t* tags) {
+  int64_t *corners = room(3 * n, sizeof *corners), count = -1, wrong = 0;
+  int32_t* t = room(n, sizeof *t);
+  wrong += pnpbs_placement_get_boundary_triangles(placement_of(handle), n, &count, corners, t) !=
+           PNPBS_OK;
+  wrong += count != n;
+  wrong += shifted(3 * n, corners, triangles) + (memcmp(t, tags, (size_t)n * sizeof *t) != 0);
+  free(corners), free(t);
   return wrong;
 }
 

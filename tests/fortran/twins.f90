@@ -9,21 +9,21 @@ module twins
   public :: compare_with_c, twin_segments
 
   interface
-    function twin_nodes(handle, n, xy, ids, tags, d) bind(C)
+    function twin_nodes(handle, n, xyz, ids, tags, d) bind(C)
       import
       implicit none
       integer(c_int64_t), value :: handle, n
-      real(c_double), intent(in) :: xy(*), d(*)
+      real(c_double), intent(in) :: xyz(*), d(*)
       integer(c_int64_t), intent(in) :: ids(*)
       integer(c_int32_t), intent(in) :: tags(*)
       integer(c_int64_t) :: twin_nodes
     end function
 
-    function twin_ghosts(handle, n, xy, ids, tags, d, owners, numbers) bind(C)
+    function twin_ghosts(handle, n, xyz, ids, tags, d, owners, numbers) bind(C)
       import
       implicit none
       integer(c_int64_t), value :: handle, n
-      real(c_double), intent(in) :: xy(*), d(*)
+      real(c_double), intent(in) :: xyz(*), d(*)
       integer(c_int64_t), intent(in) :: ids(*), numbers(*)
       integer(c_int32_t), intent(in) :: tags(*), owners(*)
       integer(c_int64_t) :: twin_ghosts
@@ -56,6 +56,23 @@ module twins
       integer(c_int64_t) :: twin_edges
     end function
 
+    function twin_tetrahedra(handle, n, tetrahedra) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      integer(c_int64_t), intent(in) :: tetrahedra(*)
+      integer(c_int64_t) :: twin_tetrahedra
+    end function
+
+    function twin_boundary_triangles(handle, n, triangles, tags) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      integer(c_int64_t), intent(in) :: triangles(*)
+      integer(c_int32_t), intent(in) :: tags(*)
+      integer(c_int64_t) :: twin_boundary_triangles
+    end function
+
     function twin_exchange(handle, neighbours, ranks, send_offsets, send_nodes, receive_offsets, &
                            receive_nodes) bind(C)
       import
@@ -83,47 +100,55 @@ contains
   !> Copies everything out that there is, and compares it with what C gets. Collective.
   subroutine compare_with_c(placement)
     type(pnpbs_placement), intent(in) :: placement
+    integer(c_int32_t) :: dim
+    call placement%dimension(dim)
     call compare_nodes(placement)
     call compare_ghosts(placement)
     call compare_lists(placement)
-    call compare_elements(placement)
+    if (dim == 2) call compare_elements(placement)
+    if (dim == 3) call compare_elements_in_space(placement)
     call compare_exchange(placement)
   end subroutine
 
   subroutine compare_nodes(placement)
     type(pnpbs_placement), intent(in) :: placement
-    real(c_double), allocatable :: xy(:,:), d(:)
+    real(c_double), allocatable :: xyz(:,:), d(:)
     integer(c_int64_t), allocatable :: ids(:)
     integer(c_int32_t), allocatable :: tags(:)
     integer(c_int64_t) :: n
+    integer(c_int32_t) :: dim
     call placement%count(n)
-    allocate (xy(2, n), ids(n), tags(n), d(n))
-    call placement%get_nodes(xy, ids, tags, d)
-    call expect(twin_nodes(placement%handle(), n, xy, ids, tags, d) == 0, 'nodes as in C')
+    call placement%dimension(dim)
+    allocate (xyz(dim, n), ids(n), tags(n), d(n))
+    call placement%get_nodes(xyz, ids, tags, d)
+    call expect(twin_nodes(placement%handle(), n, xyz, ids, tags, d) == 0, 'nodes as in C')
     ! One at a time, with more room than is needed, and left alone beyond.
     deallocate (ids)
     allocate (ids(n + 2))
     ids = -7
-    xy = 0
+    xyz = 0
     call placement%get_nodes(ids=ids)
     call expect(all(ids(n + 1:) == -7), 'room that is not needed')
-    call placement%get_nodes(coordinates=xy)
-    call expect(twin_nodes(placement%handle(), n, xy, ids, tags, d) == 0, 'nodes one by one')
+    call placement%get_nodes(coordinates=xyz)
+    call expect(twin_nodes(placement%handle(), n, xyz, ids, tags, d) == 0, 'nodes one by one')
   end subroutine
 
   subroutine compare_ghosts(placement)
     type(pnpbs_placement), intent(in) :: placement
-    real(c_double), allocatable :: xy(:,:), d(:)
+    real(c_double), allocatable :: xyz(:,:), d(:)
     integer(c_int64_t), allocatable :: ids(:), numbers(:)
     integer(c_int32_t), allocatable :: tags(:), owners(:)
     integer(c_int64_t) :: ghosts, nodes, first, mine
+    integer(c_int32_t) :: dim
     call placement%count(nodes)
     call placement%ghost_count(ghosts)
-    allocate (xy(2, ghosts), ids(ghosts), tags(ghosts), d(ghosts), owners(ghosts), numbers(ghosts))
-    call placement%get_ghosts(xy, ids, tags, d, owners)
+    call placement%dimension(dim)
+    allocate (xyz(dim, ghosts), ids(ghosts), tags(ghosts), d(ghosts), owners(ghosts))
+    allocate (numbers(ghosts))
+    call placement%get_ghosts(xyz, ids, tags, d, owners)
     call placement%get_numbering(first, mine, numbers)
     call expect(first >= 0 .and. mine == nodes, 'numbering')
-    call expect(twin_ghosts(placement%handle(), ghosts, xy, ids, tags, d, owners, numbers) == 0, &
+    call expect(twin_ghosts(placement%handle(), ghosts, xyz, ids, tags, d, owners, numbers) == 0, &
                 'ghosts as in C')
   end subroutine
 
@@ -166,6 +191,23 @@ contains
     call placement%get_boundary_edges(edges)
     call placement%get_boundary_edges(tags=tags)
     call expect(twin_edges(placement%handle(), count, edges, tags) == 0, 'boundary edges as in C')
+  end subroutine
+
+  subroutine compare_elements_in_space(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int64_t), allocatable :: tetrahedra(:,:), triangles(:,:)
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int64_t) :: count
+    call placement%tetrahedron_count(count)
+    allocate (tetrahedra(4, count))
+    call placement%get_tetrahedra(tetrahedra)
+    call expect(twin_tetrahedra(placement%handle(), count, tetrahedra) == 0, 'tetrahedra as in C')
+    call placement%boundary_triangle_count(count)
+    allocate (triangles(3, count), tags(count))
+    call placement%get_boundary_triangles(triangles)
+    call placement%get_boundary_triangles(tags=tags)
+    call expect(twin_boundary_triangles(placement%handle(), count, triangles, tags) == 0, &
+                'boundary triangles as in C')
   end subroutine
 
   subroutine compare_exchange(placement)

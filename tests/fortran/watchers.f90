@@ -32,6 +32,23 @@ contains
     cone_spacing = c%answer
   end function
 
+  !> d = finest + growth z, in space.
+  function height_spacing(n, dim, xyz, d, user) bind(C)
+    integer(c_int64_t), value :: n
+    integer(c_int32_t), value :: dim
+    real(c_double), intent(in) :: xyz(dim, n)
+    real(c_double), intent(out) :: d(n)
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: height_spacing
+    type(cone), pointer :: c
+    call c_f_pointer(user, c)
+    height_spacing = c%answer
+    if (dim /= 3) height_spacing = 3
+    d = c%finest
+    if (dim == 3) d = c%finest + c%growth * xyz(3, :)
+    c%calls = c%calls + 1
+  end function
+
   function constant_spacing(n, dim, xyz, d, user) bind(C)
     integer(c_int64_t), value :: n
     integer(c_int32_t), value :: dim

@@ -1,0 +1,280 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Domains in space and placements in them: volumes that are known, tetrahedra that fill them and
+!> boundary triangles that enclose them, and spacings of three coordinates.
+program test_space
+  use, intrinsic :: iso_c_binding
+  use pnpbs
+  use expectations
+  use tetrahedra
+  use twins
+  use watchers
+  implicit none
+  real(c_double), parameter :: pi = 3.14159265358979323846d0
+  real(c_double), parameter :: zero(3) = [0d0, 0d0, 0d0], one(3) = [1d0, 1d0, 1d0]
+  type(pnpbs_context) :: context
+  integer(c_int) :: stat
+  character(len=300) :: errmsg
+
+  call context%create_serial
+  call about_shapes
+  call about_surfaces
+  call about_a_box
+  call about_a_ball_in_a_box
+  call about_spacings
+  call context%destroy
+  call finish
+
+contains
+
+  function volume(domain)
+    type(pnpbs_domain), intent(in) :: domain
+    real(c_double) :: volume
+    call domain%measure(volume)
+  end function
+
+  subroutine about_shapes
+    type(pnpbs_domain) :: domain
+    real(c_double) :: low(3), high(3)
+    integer(c_int32_t) :: dim
+    call domain%create(context, 3)
+    call domain%dimension(dim)
+    call expect(dim == 3, 'dimension of a domain in space')
+    call domain%add_box([-1d0, 0d0, 2d0], [1d0, 3d0, 6d0], 7)
+    call expect(volume(domain) == 24, 'volume of a box')
+    call domain%bounds(low, high)
+    call expect(all(low == [-1d0, 0d0, 2d0]) .and. all(high == [1d0, 3d0, 6d0]), 'bounds')
+    call domain%add_ball([0d0, 1.5d0, 4d0], 0.5d0)
+    call expect(abs(volume(domain) - (24 - pi / 6)) < 1d-3, 'a ball in the box is a cavity')
+    call domain%destroy
+    call domain%create(context, 3)
+    call domain%add_cylinder([0d0, 0d0, 1d0], [0d0, 0d0, 4d0], 0.5d0, 2)
+    call expect(abs(volume(domain) - 0.75d0 * pi) < 1d-3, 'volume of a cylinder')
+    call domain%add_fixed_nodes(reshape([0d0, 0d0, 2d0], [3, 1]), [9])
+    call domain%add_polyline(PNPBS_INNER, .false., &
+                             reshape([0.1d0, 0d0, 2d0, 0.1d0, 0d0, 3d0], [3, 2]), [8])
+    call domain%check
+    call domain%destroy
+  end subroutine
+
+  subroutine about_surfaces
+    type(pnpbs_domain) :: domain
+    integer :: i
+    call domain%create(context, 3)
+    call domain%add_surface(PNPBS_BOUNDARY, vertices, faces, [1, 2, 3, 4], 30d0)
+    call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'volume of a tetrahedron')
+    ! Inside it a smaller one, whose inside is taken out by a point.
+    call domain%add_surface(PNPBS_INNER, 0.25d0 * vertices + 0.1d0, faces)
+    call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'an inner surface')
+    call domain%add_hole([0.15d0, 0.15d0, 0.15d0])
+    call expect(abs(volume(domain) - (1 - 0.25d0**3) / 6) < 1d-15, 'a hole in the inner surface')
+    call domain%destroy
+
+    open (19, file='fortran_tetrahedron.off', status='replace')
+    write (19, '(a)') 'OFF', '4 4 0'
+    write (19, '(3f4.1)') vertices
+    write (19, '(4i2)') (3, faces(:, i) - 1, i = 1, 4)
+    close (19)
+    call domain%create(context, 3)
+    call domain%read_surface(PNPBS_BOUNDARY, 'fortran_tetrahedron.off   ')
+    call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'volume of a tetrahedron from a file')
+    call domain%read_surface(PNPBS_INNER, 'no/such/file.stl', 20d0, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'no/such/file.stl')
+    call domain%destroy
+  end subroutine
+
+  !> A placement in a domain, run, with everything as C has it.
+  subroutine place(domain, placement, d)
+    type(pnpbs_domain), intent(in) :: domain
+    type(pnpbs_placement), intent(inout) :: placement
+    real(c_double), intent(in) :: d
+    call placement%create(context, domain)
+    call placement%set('steps', 40)
+    call placement%set_spacing_constant(d)
+    call placement%run(stat)
+    call expect(stat >= 0, 'run')
+    call compare_with_c(placement)
+  end subroutine
+
+  function determinant(a, b, c)
+    real(c_double), intent(in) :: a(3), b(3), c(3)
+    real(c_double) :: determinant
+    determinant = a(1) * (b(2) * c(3) - b(3) * c(2)) - a(2) * (b(1) * c(3) - b(3) * c(1)) &
+      + a(3) * (b(1) * c(2) - b(2) * c(1))
+  end function
+
+  !> The tetrahedra turn rightly and fill as much as the boundary triangles enclose, which is told;
+  !> these fit together, side by side. Tells the tags of nodes and of boundary triangles.
+  subroutine look_at_elements(placement, filled, node_tags, tags)
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), intent(out) :: filled
+    integer(c_int32_t), allocatable, intent(out) :: node_tags(:), tags(:)
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int64_t), allocatable :: corners(:,:), triangles(:,:)
+    integer(c_int64_t) :: nodes, count, t
+    real(c_double) :: least, enclosed, six_volumes
+    call placement%count(nodes)
+    call placement%tetrahedron_count(count)
+    allocate (x(3, nodes), node_tags(nodes), corners(4, count))
+    call placement%get_nodes(x, tags=node_tags)
+    call placement%get_tetrahedra(corners)
+    filled = 0
+    least = 1
+    do t = 1, count
+      six_volumes = determinant(x(:, corners(2, t)) - x(:, corners(1, t)), &
+                                x(:, corners(3, t)) - x(:, corners(1, t)), &
+                                x(:, corners(4, t)) - x(:, corners(1, t)))
+      least = min(least, six_volumes)
+      filled = filled + six_volumes / 6
+    end do
+    call expect(least > 0, 'from the fourth corner the first three turn counter-clockwise')
+    call placement%boundary_triangle_count(count)
+    allocate (triangles(3, count), tags(count))
+    call placement%get_boundary_triangles(triangles, tags)
+    enclosed = 0
+    do t = 1, count
+      enclosed = enclosed + determinant(x(:, triangles(1, t)), x(:, triangles(2, t)), &
+                                        x(:, triangles(3, t))) / 6
+    end do
+    call expect(abs(enclosed - filled) < 1d-12, 'the boundary triangles enclose the tetrahedra')
+    call expect(all_closed(triangles, nodes), 'the boundary triangles are closed')
+  end subroutine
+
+  !> Is every side of the triangles, from one node to another, once one from that to this?
+  function all_closed(triangles, nodes)
+    integer(c_int64_t), intent(in) :: triangles(:,:), nodes
+    logical :: all_closed
+    integer, allocatable :: sides(:,:)
+    integer :: t, k
+    allocate (sides(nodes, nodes))
+    sides = 0
+    do t = 1, size(triangles, 2)
+      do k = 1, 3
+        associate (a => triangles(k, t), b => triangles(mod(k, 3) + 1, t))
+          sides(a, b) = sides(a, b) + 1
+        end associate
+      end do
+    end do
+    all_closed = size(triangles) > 0 .and. maxval(sides) == 1 .and. all(sides == transpose(sides))
+  end function
+
+  subroutine about_a_box
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    integer(c_int32_t), allocatable :: node_tags(:), tags(:)
+    integer(c_int8_t), allocatable :: triangle(:)
+    integer(c_int64_t), allocatable :: offsets(:), neighbours(:)
+    integer(c_int32_t) :: dim
+    integer(c_int64_t) :: nodes, entries, triangles
+    real(c_double) :: filled
+    call domain%create(context, 3)
+    call domain%add_box(zero, one, 5)
+    call place(domain, placement, 0.25d0)
+    call placement%dimension(dim)
+    call expect(dim == 3, 'dimension of a placement in space')
+    call look_at_elements(placement, filled, node_tags, tags)
+    call expect(abs(filled - 1) < 1d-12, 'tetrahedra fill the box')
+    call expect(all(tags == 5) .and. all(node_tags == 0 .or. node_tags == 5), 'tags of the box')
+    ! Euler: b nodes on a surface without handles have 2 b - 4 triangles.
+    call placement%boundary_triangle_count(triangles)
+    call expect(triangles == 2 * count(node_tags == 5) - 4, 'triangles by Euler''s formula')
+    call placement%count(nodes)
+    call placement%star_size(entries)
+    allocate (offsets(nodes + 1), neighbours(entries), triangle(entries))
+    call placement%get_stars(offsets, neighbours, triangle)
+    call expect(all(triangle == 0), 'no triangle follows a neighbour in space')
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  subroutine about_a_ball_in_a_box
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    integer(c_int32_t), allocatable :: node_tags(:), tags(:)
+    real(c_double) :: filled
+    call domain%create(context, 3)
+    call domain%add_box(-one, one, 3)
+    call domain%add_ball(zero, 0.5d0, 4)
+    call place(domain, placement, 0.25d0)
+    call look_at_elements(placement, filled, node_tags, tags)
+    ! Chords cut the cavity short.
+    call expect(filled > volume(domain) .and. filled < 1.02d0 * volume(domain), 'around a ball')
+    call expect(any(tags == 3) .and. any(tags == 4) .and. all(tags == 3 .or. tags == 4), &
+                'tags of both surfaces')
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  function left_of_middle(placement) result(share)
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int64_t) :: nodes
+    real(c_double) :: share
+    call placement%count(nodes)
+    allocate (x(3, nodes))
+    call placement%get_nodes(x)
+    share = real(count(x(1, :) < 0.5d0), c_double) / real(nodes, c_double)
+  end function
+
+  subroutine about_spacings
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    integer(c_int64_t) :: coarse, fine, same
+    real(c_double), allocatable :: x(:,:), d(:)
+    type(cone), target :: asked
+    call domain%create(context, 3)
+    call domain%add_surface(PNPBS_BOUNDARY, 2 * vertices, faces)
+    call place(domain, placement, 0.4d0)
+    call placement%count(coarse)
+    asked%finest = 0.2d0
+    call placement%set_spacing_callback(height_spacing, c_loc(asked))
+    call placement%run
+    call placement%count(fine)
+    allocate (x(3, fine), d(fine))
+    call placement%get_nodes(x, spacing=d)
+    call expect(fine > coarse .and. asked%calls > 0, 'finer by a callback')
+    call expect(maxval(abs(d - (asked%finest + asked%growth * x(3, :)))) < 1d-12, &
+                'd of the third coordinate')
+    d = 0.4d0
+    call placement%set_spacing_at_nodes(d)
+    call placement%run
+    call placement%count(same)
+    call expect(2 * same < fine, 'coarser by values at nodes')
+    deallocate (d)
+    allocate (d(same))
+    call placement%get_nodes(spacing=d)
+    call expect(maxval(abs(d - 0.4d0)) < 1d-12, 'd of values at nodes')
+    call placement%destroy
+    call domain%destroy
+
+    call domain%create(context, 3)
+    call domain%add_box(zero, one)
+    call placement%create(context, domain)
+    ! x fastest: fine on the left, coarse on the right.
+    call placement%set_spacing_grid(zero, one, reshape([0.12d0, 0.4d0], [2, 1, 1]))
+    call placement%run
+    call expect(left_of_middle(placement) > 0.7, 'finer on the left')
+    call placement%set_nodes(reshape([0.3d0, 0.4d0, 0.5d0], [3, 1]), [1234567_c_int64_t])
+    call placement%initialise
+    call expect_node(placement, 1234567_c_int64_t, [0.3d0, 0.4d0, 0.5d0])
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  subroutine expect_node(placement, id, place_of_it)
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int64_t), intent(in) :: id
+    real(c_double), intent(in) :: place_of_it(3)
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int64_t), allocatable :: ids(:)
+    integer(c_int64_t) :: nodes, i
+    logical :: found
+    call placement%count(nodes)
+    allocate (x(3, nodes), ids(nodes))
+    call placement%get_nodes(x, ids)
+    found = .false.
+    do i = 1, nodes
+      if (ids(i) == id) found = all(x(:, i) == place_of_it)
+    end do
+    call expect(found, 'a node that was given')
+  end subroutine
+end program test_space
