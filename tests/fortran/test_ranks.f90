@@ -21,6 +21,7 @@ program test_ranks
   call MPI_Comm_split(MPI_COMM_WORLD, mod(rank, 2), rank, half, ierror)
   call compare_with_serial(half)
   call MPI_Comm_free(half, ierror)
+  call about_space
   call about_errors
   call MPI_Finalize(ierror)
   call finish
@@ -65,6 +66,33 @@ contains
     call domain_alone%destroy
     call context%destroy
     call alone%destroy
+  end subroutine
+
+  !> A box, graded in its height, as one process has it.
+  subroutine about_space
+    type(pnpbs_context) :: contexts(2)
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    character(len=:), allocatable :: hash, hash_alone
+    integer :: k
+    call contexts(1)%create_serial
+    call contexts(2)%create_mpi(MPI_COMM_WORLD)
+    asked%finest = 0.15d0
+    do k = 1, 2
+      call domain%create(contexts(k), 3)
+      call domain%add_box([0d0, 0d0, 0d0], [1d0, 1d0, 1d0])
+      call placement%create(contexts(k), domain)
+      call placement%set('steps', 20)
+      call placement%set_spacing_callback(height_spacing, c_loc(asked))
+      call placement%run
+      call placement%get('hash', hash)
+      if (k == 1) hash_alone = hash
+      call compare_with_c(placement)
+      call placement%destroy
+      call domain%destroy
+      call contexts(k)%destroy
+    end do
+    call expect(hash == hash_alone, 'the same nodes in space on any number of ranks')
   end subroutine
 
   subroutine about_errors
