@@ -121,10 +121,38 @@ pnpbs_domain_create(context, dim, domain) =
 pnpbs_domain_destroy(domain) =
     @ccall $(symbol(:pnpbs_domain_destroy))(domain::Ptr{pnpbs_domain})::pnpbs_status
 
+pnpbs_domain_dimension(domain, dim) =
+    @ccall $(symbol(:pnpbs_domain_dimension))(
+        domain::pnpbs_domain, dim::Ptr{Int32})::pnpbs_status
+
 pnpbs_domain_add_polyline(domain, role, closed, n, coordinates, tags, corner_angle) =
     @ccall $(symbol(:pnpbs_domain_add_polyline))(
         domain::pnpbs_domain, role::Int32, closed::Int32, n::Int64, coordinates::Ptr{Cdouble},
         tags::Ptr{Int32}, corner_angle::Cdouble)::pnpbs_status
+
+pnpbs_domain_add_surface(domain, role, vertices, coordinates, triangles, corners, tags,
+                         feature_angle) =
+    @ccall $(symbol(:pnpbs_domain_add_surface))(
+        domain::pnpbs_domain, role::Int32, vertices::Int64, coordinates::Ptr{Cdouble},
+        triangles::Int64, corners::Ptr{Int64}, tags::Ptr{Int32},
+        feature_angle::Cdouble)::pnpbs_status
+
+pnpbs_domain_read_surface(domain, role, path, feature_angle) =
+    @ccall $(symbol(:pnpbs_domain_read_surface))(
+        domain::pnpbs_domain, role::Int32, path::Cstring, feature_angle::Cdouble)::pnpbs_status
+
+pnpbs_domain_add_box(domain, low, high, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_box))(
+        domain::pnpbs_domain, low::Ptr{Cdouble}, high::Ptr{Cdouble}, tag::Int32)::pnpbs_status
+
+pnpbs_domain_add_ball(domain, centre, radius, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_ball))(
+        domain::pnpbs_domain, centre::Ptr{Cdouble}, radius::Cdouble, tag::Int32)::pnpbs_status
+
+pnpbs_domain_add_cylinder(domain, from, to, radius, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_cylinder))(
+        domain::pnpbs_domain, from::Ptr{Cdouble}, to::Ptr{Cdouble}, radius::Cdouble,
+        tag::Int32)::pnpbs_status
 
 pnpbs_domain_add_arc(domain, role, centre, radius, from, to, tag) =
     @ccall $(symbol(:pnpbs_domain_add_arc))(
@@ -247,6 +275,10 @@ pnpbs_placement_rebalance(placement) =
 pnpbs_placement_run(placement) =
     @ccall $(symbol(:pnpbs_placement_run))(placement::pnpbs_placement)::pnpbs_status
 
+pnpbs_placement_dimension(placement, dim) =
+    @ccall $(symbol(:pnpbs_placement_dimension))(
+        placement::pnpbs_placement, dim::Ptr{Int32})::pnpbs_status
+
 pnpbs_placement_count(placement, nodes) =
     @ccall $(symbol(:pnpbs_placement_count))(
         placement::pnpbs_placement, nodes::Ptr{Int64})::pnpbs_status
@@ -304,6 +336,16 @@ pnpbs_placement_get_triangles(placement, capacity, count, triangles) =
     @ccall $(symbol(:pnpbs_placement_get_triangles))(
         placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},
         triangles::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_tetrahedra(placement, capacity, count, tetrahedra) =
+    @ccall $(symbol(:pnpbs_placement_get_tetrahedra))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},
+        tetrahedra::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_boundary_triangles(placement, capacity, count, triangles, tags) =
+    @ccall $(symbol(:pnpbs_placement_get_boundary_triangles))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, triangles::Ptr{Int64},
+        tags::Ptr{Int32})::pnpbs_status
 
 pnpbs_placement_get_boundary_edges(placement, capacity, count, edges, tags) =
     @ccall $(symbol(:pnpbs_placement_get_boundary_edges))(

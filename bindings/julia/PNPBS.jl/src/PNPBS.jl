@@ -14,9 +14,10 @@ Delaunay stars, the same ones for any number of threads and MPI ranks.
         nodes(placement).points
     end
 
-Points are columns of `(2, n)` matrices; local indices and offsets count from 1, global ids and MPI
-ranks from 0. "Collective" functions must be called by all ranks of the context in the same order,
-and throw on all of them or on none; "local" ones need not. One task at a time may use a context.
+Points are columns of `(2, n)` matrices, in space of `(3, n)` ones; local indices and offsets count
+from 1, global ids and MPI ranks from 0. "Collective" functions must be called by all ranks of the
+context in the same order, and throw on all of them or on none; "local" ones need not. One task at a
+time may use a context.
 """
 module PNPBS
 
@@ -26,10 +27,11 @@ using Base: disable_sigint, reenable_sigint
 export Context, Domain, Placement, CompressedRows, PNPBSError
 export set!, set_spacing!, set_monitor!, set_nodes!
 export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_fixed_nodes!
+export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!
 export read_poly!, parse_poly!, check_domain, bounds, measure, outline
 export estimate, initialise!, run!, step!, adjust_population!, rebalance!
 export node_count, nodes, ghost_count, ghosts, exchange_pattern, update_ghosts!, numbering
-export adjacency, stars, triangles, boundary_edges, check_results
+export adjacency, stars, triangles, boundary_edges, tetrahedra, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library
 

@@ -3,12 +3,15 @@
 """
     Domain(context::Context; dim = 2)
 
-An empty domain in the plane, to which curves, holes and fixed nodes are added. What lies behind an
-odd number of boundary curves is inside; holes and islands nest to any depth. Every function on
-domains is local, and its points are the columns of a `(2, n)` matrix.
+An empty domain in the plane, or with `dim = 3` in space, to which curves, surfaces, holes and fixed
+nodes are added. What lies behind an odd number of boundary curves, or surfaces in space, is inside;
+holes and islands nest to any depth. Every function on domains is local, and its points are the
+columns of a `(dim, n)` matrix. Functions for domains "in the plane" or "in space" refuse others, as
+a [`PNPBSError`](@ref) with status `:error_argument` or as a `DimensionMismatch`.
 
-A curve's `role` is `:boundary`, which separates inside from outside, or `:inner`, which lies in the
-domain and which the nodes follow. Its `tag` is a nonzero integer that marks the nodes on it.
+The `role` of a curve or surface is `:boundary`, which separates inside from outside, or `:inner`,
+which lies in the domain and which the nodes follow; curves in space are always `:inner`. Its `tag`
+is a nonzero integer that marks the nodes on it.
 """
 mutable struct Domain
     handle::LibPNPBS.pnpbs_domain
@@ -34,6 +37,17 @@ function Base.close(domain::Domain)
     return nothing
 end
 
+"""
+    ndims(domain), ndims(placement)
+
+The dimension: 2 in the plane, 3 in space. Local.
+"""
+function Base.ndims(domain::Domain)
+    dim = Ref{Int32}(0)
+    check(domain.context, LibPNPBS.pnpbs_domain_dimension(live(domain), dim))
+    return Int(dim[])
+end
+
 Base.show(io::IO, domain::Domain) = print(io, "PNPBS.Domain(", isopen(domain) ? "" : "closed", ")")
 
 function role_number(role::Symbol)
@@ -50,11 +64,12 @@ Adds straight segments through the columns of `coordinates`; `closed` leads one 
 first.
 `tags` is one for all segments or one for each. With `corner_angle = 0` every vertex becomes a
 node; otherwise those where the direction turns by more than so many degrees, and between them the
-polyline stands for a smooth curve.
+polyline stands for a smooth curve. In space the `role` is `:inner`, and the `feature_angle` of the
+surfaces takes the place of the `corner_angle`.
 """
 function add_polyline!(domain::Domain, coordinates::AbstractMatrix{<:Real}; closed::Bool = true,
                        role::Symbol = :boundary, tags = nothing, corner_angle::Real = 0)
-    points = as_points(coordinates, "coordinates")
+    points = as_points(coordinates, ndims(domain), "coordinates")
     n = size(points, 2)
     segment_tags = as_tags(tags, closed ? n : max(n - 1, 0), "tags")
     check(domain.context,
@@ -64,25 +79,99 @@ function add_polyline!(domain::Domain, coordinates::AbstractMatrix{<:Real}; clos
 end
 
 """
+    add_surface!(domain, coordinates, corners; role = :boundary, tags = nothing,
+                 feature_angle = 40)
+
+Adds a triangulated surface to a domain in space: `corners` is `(3, m)`, indices of columns of
+`coordinates` from 1. Closed ones with the role `:boundary` bound the domain; nodes follow `:inner`
+ones, closed or open. Vertices that coincide are one; what the triangles enclose decides their
+orientation. `tags` is one for all triangles or one for each. Where the normals of two triangles
+differ by more than `feature_angle` degrees, or their tags do, nodes lie on the edge between them.
+Between such edges the triangles are the shape alone, whatever their size.
+"""
+function add_surface!(domain::Domain, coordinates::AbstractMatrix{<:Real},
+                      corners::AbstractMatrix{<:Integer}; role::Symbol = :boundary, tags = nothing,
+                      feature_angle::Real = 40)
+    points = as_points(coordinates, 3, "coordinates")
+    require_columns(corners, 3, "corners")
+    m = size(corners, 2)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_surface(live(domain), role_number(role), size(points, 2),
+                                            points, m, Matrix{Int64}(corners) .- 1,
+                                            as_tags(tags, m, "tags"), feature_angle))
+    return domain
+end
+
+"""
+    read_surface!(domain, path; role = :boundary, feature_angle = 40)
+
+Adds the surface of a file to a domain in space: .stl (text or binary), .off, .obj, .ply, or .poly
+and .smesh as TetGen has them. Groups, materials and facet markers become tags, hole points holes of
+the domain. Otherwise as [`add_surface!`](@ref).
+"""
+function read_surface!(domain::Domain, path::AbstractString; role::Symbol = :boundary,
+                       feature_angle::Real = 40)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_read_surface(live(domain), role_number(role), path, feature_angle))
+    return domain
+end
+
+"""
+    add_box!(domain, low, high; tag = 1)
+
+Adds a box to a domain in space; its sides bound the domain.
+"""
+function add_box!(domain::Domain, low, high; tag::Integer = 1)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_box(live(domain), as_point(low, 3, "low"),
+                                        as_point(high, 3, "high"), tag))
+    return domain
+end
+
+"""
+    add_ball!(domain, centre, radius; tag = 1)
+
+Adds a ball to a domain in space, as triangles within 1e-4 of the radius.
+"""
+function add_ball!(domain::Domain, centre, radius::Real; tag::Integer = 1)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_ball(live(domain), as_point(centre, 3, "centre"), radius, tag))
+    return domain
+end
+
+"""
+    add_cylinder!(domain, from, to, radius; tag = 1)
+
+Adds a round cylinder to a domain in space, as triangles within 1e-4 of the radius; `from` and `to`
+are the middles of its two circles.
+"""
+function add_cylinder!(domain::Domain, from, to, radius::Real; tag::Integer = 1)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_cylinder(live(domain), as_point(from, 3, "from"),
+                                             as_point(to, 3, "to"), radius, tag))
+    return domain
+end
+
+"""
     add_arc!(domain, centre, radius; from = 0, to = 2pi, role = :boundary, tag = 1)
 
-Adds a circular arc between two angles in radians; a full circle by default. Its ends join curves
-that end at the same point.
+Adds a circular arc between two angles in radians, a full circle by default, to a domain in the
+plane. Its ends join curves that end at the same point.
 """
 function add_arc!(domain::Domain, centre, radius::Real; from::Real = 0, to::Real = 2pi,
                   role::Symbol = :boundary, tag::Integer = 1)
     check(domain.context,
-          LibPNPBS.pnpbs_domain_add_arc(live(domain), role_number(role), as_point(centre, "centre"),
-                                        radius, from, to, tag))
+          LibPNPBS.pnpbs_domain_add_arc(live(domain), role_number(role),
+                                        as_point(centre, 2, "centre"), radius, from, to, tag))
     return domain
 end
 
 """
     add_curve!(f, domain, from, to; role = :boundary, tag = 1)
 
-Adds the curve of a function: `f(t)` gets a vector of parameters between `from` and `to` and returns
-the points as a `(2, length(t))` matrix. It must always give the same point for the same parameter,
-be continuous, and not cross itself. Corners are where curves meet.
+Adds the curve of a function to a domain in the plane: `f(t)` gets a vector of parameters between
+`from` and `to` and returns the points as a `(2, length(t))` matrix. It must always give the same
+point for the same parameter, be continuous, and not cross itself. Corners are where curves meet.
 
     add_curve!(domain, 0, 2pi) do t
         [cos.(t) 0.5 .* sin.(t)]'
@@ -104,17 +193,17 @@ end
     add_pslg!(domain, coordinates, segments; vertex_tags = nothing, segment_tags = nothing,
               holes = nothing)
 
-Adds a planar straight-line graph as Triangle means it: what the segments enclose is the domain,
-but for the regions that contain a hole point. `segments` is `(2, m)`, indices of columns of `coordinates`
-from 1; `holes` is `(2, h)`. Every vertex becomes a node.
+Adds a planar straight-line graph as Triangle means it to a domain in the plane: what the segments
+enclose is the domain, but for the regions that contain a hole point. `segments` is `(2, m)`,
+indices of columns of `coordinates` from 1; `holes` is `(2, h)`. Every vertex becomes a node.
 """
 function add_pslg!(domain::Domain, coordinates::AbstractMatrix{<:Real},
                    segments::AbstractMatrix{<:Integer};
                    vertex_tags = nothing, segment_tags = nothing,
                    holes::Union{Nothing,AbstractMatrix{<:Real}} = nothing)
-    points = as_points(coordinates, "coordinates")
-    require_points(segments, "segments")
-    hole_points = holes === nothing ? zeros(2, 0) : as_points(holes, "holes")
+    points = as_points(coordinates, 2, "coordinates")
+    require_columns(segments, 2, "segments")
+    hole_points = holes === nothing ? zeros(2, 0) : as_points(holes, 2, "holes")
     n, m = size(points, 2), size(segments, 2)
     ends = Matrix{Int64}(segments) .- 1
     check(domain.context,
@@ -128,20 +217,21 @@ end
 """
     add_hole!(domain, point)
 
-Removes the region around a point from the domain.
+Removes the region around a point from the domain, as far as the next curves or surfaces.
 """
 function add_hole!(domain::Domain, point)
-    check(domain.context, LibPNPBS.pnpbs_domain_add_hole(live(domain), as_point(point, "point")))
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_add_hole(live(domain), as_point(point, ndims(domain), "point")))
     return domain
 end
 
 """
     add_fixed_nodes!(domain, coordinates; tags = nothing)
 
-Adds nodes that must appear exactly, inside the domain or on a vertex of its curves.
+Adds nodes that must appear exactly, inside the domain or on a vertex of its curves or surfaces.
 """
 function add_fixed_nodes!(domain::Domain, coordinates::AbstractMatrix{<:Real}; tags = nothing)
-    points = as_points(coordinates, "coordinates")
+    points = as_points(coordinates, ndims(domain), "coordinates")
     n = size(points, 2)
     check(domain.context,
           LibPNPBS.pnpbs_domain_add_fixed_nodes(live(domain), n, points, as_tags(tags, n, "tags")))
@@ -151,7 +241,7 @@ end
 """
     read_poly!(domain, path)
 
-Adds what a file of Triangle's .poly format describes.
+Adds what a file of Triangle's .poly format describes to a domain in the plane.
 """
 function read_poly!(domain::Domain, path::AbstractString)
     check(domain.context, LibPNPBS.pnpbs_domain_read_poly(live(domain), path))
@@ -161,7 +251,8 @@ end
 """
     parse_poly!(domain, text; name = "text")
 
-Adds what a text in Triangle's .poly format describes; messages call it `name`.
+Adds what a text in Triangle's .poly format describes to a domain in the plane; messages call it
+`name`.
 """
 function parse_poly!(domain::Domain, text::AbstractString; name::AbstractString = "text")
     bytes = String(text)
@@ -174,8 +265,8 @@ end
     check_domain(domain)
 
 Checks the whole geometry: duplicate vertices, crossings, open boundaries, hole points outside. A
-[`PNPBSError`](@ref) with status `:error_domain` names the vertex or segment. Placements check as
-well; asking early costs nothing extra.
+[`PNPBSError`](@ref) with status `:error_domain` names the vertex, segment or triangle. Placements
+check as well; asking early costs nothing extra.
 """
 function check_domain(domain::Domain)
     check(domain.context, LibPNPBS.pnpbs_domain_check(live(domain)))
@@ -185,10 +276,11 @@ end
 """
     bounds(domain) -> (low, high)
 
-The corners of the bounding box of the curves.
+The corners of the bounding box of the curves or surfaces.
 """
 function bounds(domain::Domain)
-    low, high = zeros(2), zeros(2)
+    dim = ndims(domain)
+    low, high = zeros(dim), zeros(dim)
     check(domain.context, LibPNPBS.pnpbs_domain_bounds(live(domain), low, high))
     return low, high
 end
@@ -196,19 +288,19 @@ end
 """
     measure(domain) -> Float64
 
-The area of the inside.
+The area of the inside, in space its volume.
 """
 function measure(domain::Domain)
-    area = Ref(0.0)
-    check(domain.context, LibPNPBS.pnpbs_domain_measure(live(domain), area))
-    return area[]
+    inside = Ref(0.0)
+    check(domain.context, LibPNPBS.pnpbs_domain_measure(live(domain), inside))
+    return inside[]
 end
 
 """
     outline(domain) -> (segments, tags)
 
-Straight segments that show the domain, curves finely sampled, for pictures: `segments[:, 1, k]` and
-`segments[:, 2, k]` are the ends of the k-th.
+Straight segments that show a domain in the plane, curves finely sampled, for pictures:
+`segments[:, 1, k]` and `segments[:, 2, k]` are the ends of the k-th.
 """
 function outline(domain::Domain)
     count = Ref{Int64}(0)

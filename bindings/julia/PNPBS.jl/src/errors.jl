@@ -45,18 +45,18 @@ function require_length(values, n, what)
     return nothing
 end
 
-function require_points(points, what)
-    size(points, 1) == 2 || throw(DimensionMismatch(
-        "$what has size $(size(points)); points are columns, so (2, n) was expected"))
+function require_columns(columns, rows, what)
+    size(columns, 1) == rows || throw(DimensionMismatch(
+        "$what has size $(size(columns)); ($rows, n) was expected, a column for each"))
     return nothing
 end
 
-function as_points(points::AbstractMatrix{<:Real}, what)
-    require_points(points, what)
+function as_points(points::AbstractMatrix{<:Real}, dim, what)
+    require_columns(points, dim, what)
     return convert(Matrix{Float64}, points)
 end
 
-as_point(points, what) = (require_length(points, 2, what); Float64[points...])
+as_point(point, dim, what) = (require_length(point, dim, what); Float64[point...])
 
 # Tags as the library takes them: nothing for its default, one for all, or one for each.
 as_tags(::Nothing, n, what) = C_NULL

@@ -43,6 +43,12 @@ function Base.close(placement::Placement)
     return nothing
 end
 
+function Base.ndims(placement::Placement)
+    dim = Ref{Int32}(0)
+    check(placement, LibPNPBS.pnpbs_placement_dimension(live(placement), dim))
+    return Int(dim[])
+end
+
 function Base.show(io::IO, placement::Placement)
     what = isopen(placement) ? "$(node_count(placement)) nodes here" : "closed"
     print(io, "PNPBS.Placement(", what, ")")
@@ -68,21 +74,22 @@ set_placement_option(handle, key, value) =
 """
     set_spacing!(placement, d::Real)
     set_spacing!(f, placement)
-    set_spacing!(placement, values::AbstractMatrix; origin, step)
+    set_spacing!(placement, values::AbstractArray; origin, step)
     set_spacing!(placement, d::AbstractVector)
 
 The node spacing d(x), the wanted distance between neighbouring nodes about x. On a placement that
 has nodes the spacing is replaced: the nodes stay, and the next run starts from them. Collective.
 
 - A number: the same everywhere.
-- A function: `f(x)` gets points as the columns of a `(2, n)` matrix and returns a vector of n
+- A function: `f(x)` gets points as the columns of a `(dim, n)` matrix and returns a vector of n
   values. It must always give the same value for the same point, and is asked for different points
   on different ranks, so nothing collective may happen inside. An exception that it throws comes
   out of the call in progress.
-- A matrix: values on a rectangular grid whose first point is `origin`, with distances `step`; the
-  first index goes along x. Linear between the grid's points, constant beyond its edge.
+- A matrix, in space an array of three dimensions: values on a rectangular grid whose first point is
+  `origin`, with distances `step`; the first index goes along x. Linear between the grid's points,
+  constant beyond its edge.
 - A vector: values at the nodes of this rank, in the order of [`nodes`](@ref); linear on each
-  triangle of their triangulation.
+  triangle or tetrahedron of their triangulation.
 
 For example
 
@@ -105,12 +112,15 @@ function set_spacing!(f, placement::Placement)
     return keep_spacing!(placement, callback)
 end
 
-function set_spacing!(placement::Placement, values::AbstractMatrix{<:Real}; origin, step)
+function set_spacing!(placement::Placement, values::AbstractArray{<:Real}; origin, step)
+    dim = ndims(placement)
+    ndims(values) == dim || throw(DimensionMismatch(
+        "values has size $(size(values)); an array of $dim dimensions was expected"))
     check(placement,
           LibPNPBS.pnpbs_placement_set_spacing_grid(live(placement), Int64[size(values)...],
-                                                    as_point(origin, "origin"),
-                                                    as_point(step, "step"),
-                                                    convert(Matrix{Float64}, values)))
+                                                    as_point(origin, dim, "origin"),
+                                                    as_point(step, dim, "step"),
+                                                    convert(Array{Float64}, values)))
     return keep_spacing!(placement, nothing)
 end
 
@@ -162,7 +172,7 @@ nodes there are. Collective.
 """
 function set_nodes!(placement::Placement, coordinates::AbstractMatrix{<:Real};
                     ids::Union{Nothing,AbstractVector{<:Integer}} = nothing)
-    points = as_points(coordinates, "coordinates")
+    points = as_points(coordinates, ndims(placement), "coordinates")
     n = size(points, 2)
     wrong = ids !== nothing && length(ids) != n
     # Where the ids are too many or too few on one rank, the library hears of it, and so do the

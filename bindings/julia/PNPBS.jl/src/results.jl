@@ -16,13 +16,13 @@ end
 """
     nodes(placement) -> (points, ids, tags, spacing)
 
-The nodes of this rank in their local order: `points` is `(2, n)`; `ids` are global; `tags` are 0
-for inner nodes and otherwise that of the boundary, curve or fixed node; `spacing` is d at the
-node. Local.
+The nodes of this rank in their local order: `points` is `(dim, n)`; `ids` are global; `tags` are 0
+for inner nodes and otherwise that of the curve, surface or fixed node; `spacing` is d at the node.
+Local.
 """
 function nodes(placement::Placement)
     n = node_count(placement)
-    points, ids = zeros(2, n), zeros(Int64, n)
+    points, ids = zeros(ndims(placement), n), zeros(Int64, n)
     tags, spacing = zeros(Int32, n), zeros(n)
     check(placement, LibPNPBS.pnpbs_placement_get_nodes(live(placement), n, points, ids, tags,
                                                         spacing))
@@ -43,12 +43,12 @@ end
 """
     ghosts(placement) -> (points, ids, tags, spacing, owners)
 
-The ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars and triangles
-ghost g has the local index `node_count(placement) + g`. Collective.
+The ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars, triangles
+and tetrahedra ghost g has the local index `node_count(placement) + g`. Collective.
 """
 function ghosts(placement::Placement)
     n = ghost_count(placement)
-    points, ids = zeros(2, n), zeros(Int64, n)
+    points, ids = zeros(ndims(placement), n), zeros(Int64, n)
     tags, spacing, owners = zeros(Int32, n), zeros(n), zeros(Int32, n)
     check(placement, LibPNPBS.pnpbs_placement_get_ghosts(live(placement), n, points, ids, tags,
                                                          spacing, owners))
@@ -114,7 +114,9 @@ end
 Each node's star in the constrained Delaunay triangulation of the domain. `neighbours[i]` has the
 local indices of node i's neighbours, counter-clockwise; `triangle[i][k]` tells whether the node,
 its k-th neighbour and the next one around are a triangle of the domain, or whether a gap lies
-between them. Both are [`CompressedRows`](@ref). Collective.
+between them. In space the neighbours are all nodes that share a tetrahedron with node i, in no
+order that means anything, and `triangle[i][k]` is `false`. Both are [`CompressedRows`](@ref).
+Collective.
 """
 function stars(placement::Placement)
     entries = Ref{Int64}(0)
@@ -131,35 +133,60 @@ end
 """
     triangles(placement) -> Matrix{Int64}
 
-The triangles, `(3, n)` local indices, counter-clockwise, each once: a triangle is the rank's that
-owns its node with the least id, other corners may be ghosts. Collective.
+The triangles of a placement in the plane, `(3, n)` local indices, counter-clockwise, each once: a
+triangle is the rank's that owns its node with the least id, other corners may be ghosts.
+Collective.
 """
-function triangles(placement::Placement)
+triangles(placement::Placement) = elements(placement, LibPNPBS.pnpbs_placement_get_triangles, 3)
+
+"""
+    tetrahedra(placement) -> Matrix{Int64}
+
+The tetrahedra of a placement in space, `(4, n)` local indices, each once: seen from the fourth
+corner, the first three turn counter-clockwise. A tetrahedron is the rank's that owns its node with
+the least id, other corners may be ghosts. Collective.
+"""
+tetrahedra(placement::Placement) = elements(placement, LibPNPBS.pnpbs_placement_get_tetrahedra, 4)
+
+function elements(placement, get, rows)
     count = Ref{Int64}(0)
-    ask(capacity, corners) =
-        check(placement, LibPNPBS.pnpbs_placement_get_triangles(live(placement), capacity, count,
-                                                                corners))
-    ask(0, C_NULL)
-    corners = zeros(Int64, 3, count[])
-    ask(count[], corners)
+    check(placement, get(live(placement), 0, count, C_NULL))
+    corners = zeros(Int64, rows, count[])
+    check(placement, get(live(placement), count[], count, corners))
     return corners .+= 1
 end
 
 """
     boundary_edges(placement) -> (edges, tags)
 
-The edges between consecutive nodes on boundary and inner curves: `(2, n)` local indices, and the
-tags of the curves. An edge is the rank's that owns its first node. Local.
+The edges between consecutive nodes on boundary and inner curves of a placement in the plane:
+`(2, n)` local indices, and the tags of the curves. An edge is the rank's that owns its first node.
+Local.
 """
 function boundary_edges(placement::Placement)
+    edges, tags = facets(placement, LibPNPBS.pnpbs_placement_get_boundary_edges, 2)
+    return (edges = edges, tags = tags)
+end
+
+"""
+    boundary_triangles(placement) -> (triangles, tags)
+
+The triangles of the boundary of a placement in space, the faces of tetrahedra that have no other
+tetrahedron behind them: `(3, n)` local indices, counter-clockwise as seen from outside, and the
+tags of the surfaces there. A triangle is the rank's that owns its node with the least id.
+Collective.
+"""
+function boundary_triangles(placement::Placement)
+    corners, tags = facets(placement, LibPNPBS.pnpbs_placement_get_boundary_triangles, 3)
+    return (triangles = corners, tags = tags)
+end
+
+function facets(placement, get, rows)
     count = Ref{Int64}(0)
-    ask(capacity, edges, tags) =
-        check(placement, LibPNPBS.pnpbs_placement_get_boundary_edges(live(placement), capacity,
-                                                                     count, edges, tags))
-    ask(0, C_NULL, C_NULL)
-    edges, tags = zeros(Int64, 2, count[]), zeros(Int32, count[])
-    ask(count[], edges, tags)
-    return (edges = edges .+= 1, tags = tags)
+    check(placement, get(live(placement), 0, count, C_NULL, C_NULL))
+    corners, tags = zeros(Int64, rows, count[]), zeros(Int32, count[])
+    check(placement, get(live(placement), count[], count, corners, tags))
+    return (corners .+= 1), tags
 end
 
 """
@@ -168,7 +195,8 @@ end
 Checks that the results keep what is promised of them: unique ids, no two nodes in one place, all
 inside or on the boundary; symmetric adjacency lists; stars that are one conforming triangulation of
 the domain, with every boundary edge and the right area. A [`PNPBSError`](@ref) with status
-`:error_internal` says what is wrong, with ids and coordinates. Collective.
+`:error_internal` says what is wrong, with ids and coordinates; with `:error_unsupported`, that the
+placement is in space. Collective.
 """
 function check_results(placement::Placement)
     check(placement, LibPNPBS.pnpbs_placement_check(live(placement)))
@@ -216,12 +244,12 @@ statistics(placement::Placement) =
 """
     edge_bands(placement) -> (d_from, d_to, edges, mean, deviation)
 
-How well the edges of the triangles follow the spacing, by bands of it: eight, equal in log d
-between the least and the largest d at the nodes, or one if that is less than 1.1 times the least.
-Bands without edges are left out. For each band where it begins and ends, how many edges there are,
-and the mean and standard deviation of their length over d, the mean of d at their ends. Edges
-between two boundary nodes, whose places the corners of the domain decide, do not count here. Over
-all ranks, and the same on each. Collective.
+How well the edges of the triangles or tetrahedra follow the spacing, by bands of it: eight, equal
+in log d between the least and the largest d at the nodes, or one if that is less than 1.1 times the
+least. Bands without edges are left out. For each band where it begins and ends, how many edges
+there are, and the mean and standard deviation of their length over d, the mean of d at their ends.
+Edges between two boundary nodes, whose places the corners of the domain decide, do not count here.
+Over all ranks, and the same on each. Collective.
 """
 function edge_bands(placement::Placement)
     count = Ref{Int64}(0)

@@ -6,7 +6,8 @@ using Test
 
 include("support.jl")
 
-const FILES = ["package", "domains", "placements", "callbacks", "interrupts", "handles", "adapting"]
+const FILES = ["package", "domains", "placements", "space", "callbacks", "interrupts", "handles",
+               "adapting"]
 
 @testset "PNPBS" begin
     for name in (isempty(ARGS) ? FILES : ARGS)

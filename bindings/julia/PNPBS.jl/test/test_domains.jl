@@ -89,7 +89,7 @@ end
 @testset "wrong domains" begin
     Context() do context
         domain = Domain(context)
-        @test fails(() -> Domain(context; dim = 3), :error_unsupported, "dim")
+        @test fails(() -> Domain(context; dim = 4), :error_argument, "dim")
         @test fails(() -> add_arc!(domain, (0, 0), -1), :error_argument, "radius", "-1")
         @test_throws DimensionMismatch add_polyline!(domain, [0 0; 1 0; 1 1])
         @test_throws DimensionMismatch add_polyline!(domain, [0 1 1; 0 0 1]; tags = [1, 2])

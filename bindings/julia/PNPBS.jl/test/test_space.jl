@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Domains in space and placements in them.
+
+cross3(u, v) = [u[2] * v[3] - u[3] * v[2], u[3] * v[1] - u[1] * v[3], u[1] * v[2] - u[2] * v[1]]
+determinant(u, v, w) = sum(cross3(u, v) .* w)
+
+function tetrahedron_volume(points, corners)
+    (a, b, c, d) = (points[:, k] for k in corners)
+    return determinant(b - a, c - a, d - a) / 6
+end
+
+# What triangles that turn counter-clockwise, seen from outside, enclose.
+enclosed(points, triangles) =
+    sum(determinant((points[:, k] for k in triangles[:, t])...) for t in 1:size(triangles, 2)) / 6
+
+# The sides of triangles, from node to node.
+sides(triangles) = [(corners[k], corners[mod1(k + 1, 3)])
+                    for corners in eachcol(triangles) for k in 1:3]
+
+# Whether every side comes once, and once the other way round.
+function fit_together(triangles)
+    all_sides = sides(triangles)
+    return allunique(all_sides) && Set(all_sides) == Set(reverse.(all_sides))
+end
+
+# A tetrahedron with a volume of 1/6.
+const VERTICES = [0 1 0 0
+                  0 0 1 0
+                  0 0 0 1]
+const FACES = [1 1 1 2
+               3 2 4 3
+               2 4 3 4]
+
+placed_in(domain, spacing) =
+    (placement = set_spacing!(Placement(domain; steps = 40), spacing); run!(placement); placement)
+
+@testset "shapes in space" begin
+    Context() do context
+        domain = Domain(context; dim = 3)
+        @test ndims(domain) == 3 && ndims(Domain(context)) == 2
+        @test add_box!(domain, (-1, 0, 2), (1, 3, 6); tag = 7) === domain
+        @test measure(domain) == 24
+        @test bounds(domain) == ([-1, 0, 2], [1, 3, 6])
+        add_ball!(domain, [0, 1.5, 4], 0.5)
+        @test measure(domain) ≈ 24 - pi / 6 rtol = 1e-4
+        rod = add_cylinder!(Domain(context; dim = 3), (0, 0, 1), (0, 0, 4), 0.5; tag = 2)
+        @test measure(rod) ≈ 0.75pi rtol = 1e-3
+        add_fixed_nodes!(rod, [0 0 2]'; tags = 9)
+        add_polyline!(rod, [0.1 0.1; 0 0; 2 3]; role = :inner, closed = false, tags = 8)
+        @test check_domain(rod) === nothing
+        placed = nodes(placed_in(rod, 0.25))
+        @test placed.points[:, findfirst(==(9), placed.tags)] == [0, 0, 2]
+        on_line = placed.points[:, placed.tags .== 8]
+        @test size(on_line, 2) > 3 && all(on_line[1, :] .≈ 0.1) && all(2 .<= on_line[3, :] .<= 3)
+    end
+end
+
+@testset "surfaces" begin
+    Context() do context
+        body = add_surface!(Domain(context; dim = 3), VERTICES, FACES; tags = 1:4,
+                            feature_angle = 30)
+        @test measure(body) ≈ 1 / 6
+        # Inside it a smaller one, whose inside is taken out by a point.
+        add_surface!(body, 0.25 .* VERTICES .+ 0.1, FACES; role = :inner)
+        @test measure(body) ≈ 1 / 6
+        add_hole!(body, (0.15, 0.15, 0.15))
+        @test measure(body) ≈ (1 - 0.25^3) / 6
+        mktempdir() do folder
+            path = joinpath(folder, "body.off")
+            lines(columns) = join((join(column, " ") for column in eachcol(columns)), "\n")
+            write(path, "OFF\n4 4 0\n", lines(VERTICES), "\n", lines([3 3 3 3; FACES .- 1]), "\n")
+            @test measure(read_surface!(Domain(context; dim = 3), path)) ≈ 1 / 6
+        end
+        @test fails(() -> read_surface!(body, "/none.stl"; role = :inner), :error_file, "/none.stl")
+        # Every face has its tag.
+        placement = placed_in(add_surface!(Domain(context; dim = 3), VERTICES, FACES; tags = 1:4),
+                              0.3)
+        points = nodes(placement).points
+        corners, tags = boundary_triangles(placement)
+        heights = [points[3, :], points[2, :], points[1, :], 1 .- vec(sum(points, dims = 1))]
+        @test Set(tags) == Set(1:4)
+        @test all(maximum(abs, heights[tags[t]][corners[:, t]]) < 1e-12 for t in eachindex(tags))
+    end
+end
+
+@testset "results in space" begin
+    Context() do context
+        domain = Domain(context; dim = 3)
+        add_box!(domain, (0, 0, 0), (1, 1, 1); tag = 5)
+        placement = placed_in(domain, 0.25)
+        @test ndims(placement) == 3
+        n, placed = node_count(placement), nodes(placement)
+        @test size(placed.points) == (3, n) && all(0 .<= placed.points .<= 1)
+        corners = tetrahedra(placement)
+        volumes = [tetrahedron_volume(placed.points, corners[:, k]) for k in 1:size(corners, 2)]
+        @test size(corners, 1) == 4 && all(volumes .> 0) && sum(volumes) ≈ measure(domain)
+
+        around, tags = boundary_triangles(placement)
+        @test fit_together(around) && enclosed(placed.points, around) ≈ 1
+        # Euler: b nodes on a surface without handles have 2b - 4 triangles.
+        b = count(==(5), placed.tags)
+        @test size(around) == (3, 2b - 4) && tags == fill(5, 2b - 4)
+        @test Set(vec(around)) == Set(findall(!=(0), placed.tags))
+
+        neighbours, triangle = stars(placement)
+        @test !any(any, triangle)
+        joined = [Set{Int}() for _ in 1:n]
+        for k in 1:size(corners, 2), i in corners[:, k]
+            union!(joined[i], setdiff(corners[:, k], i))
+        end
+        @test Set.(neighbours) == joined && sum(length, neighbours) == sum(length, joined)
+        radius = parse(Float64, only(row.default for row in option_table()
+                                     if row.name == "adjacency_radius"))
+        distance(i, j) = sqrt(sum(abs2, placed.points[:, i] - placed.points[:, j]))
+        @test all(Set(list) == Set(j for j in 1:n if j != i && distance(i, j) < radius * 0.25)
+                  for (i, list) in enumerate(adjacency(placement)))
+        @test ghosts(placement).points == zeros(3, 0)
+        @test statistic(placement, "nodes") == n && 0.8 < statistic(placement, "quality.mean") < 1
+    end
+end
+
+@testset "around a ball" begin
+    Context() do context
+        domain = Domain(context; dim = 3)
+        add_box!(domain, (-1, -1, -1), (1, 1, 1); tag = 3)
+        add_ball!(domain, (0, 0, 0), 0.5; tag = 4)
+        placement = placed_in(domain, 0.25)
+        points, corners = nodes(placement).points, tetrahedra(placement)
+        filled = sum(tetrahedron_volume(points, corners[:, k]) for k in 1:size(corners, 2))
+        around, tags = boundary_triangles(placement)
+        @test fit_together(around) && enclosed(points, around) ≈ filled
+        # Chords cut the cavity short.
+        @test measure(domain) < filled < 1.02measure(domain)
+        inward = around[:, tags .== 4]
+        radii = sqrt.(sum(abs2, points[:, vec(inward)], dims = 1))
+        @test all(abs.(radii .- 0.5) .< 1e-4) && -0.53 < enclosed(points, inward) < -0.4
+        @test Set(tags) == Set([3, 4]) && fit_together(inward)
+    end
+end
+
+@testset "spacings in space" begin
+    Context() do context
+        domain = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
+        placement = Placement(domain; steps = 40)
+        set_spacing!(x -> 0.15 .+ 0.2 .* x[3, :], placement)
+        run!(placement)
+        placed = nodes(placement)
+        @test placed.spacing ≈ 0.15 .+ 0.2 .* placed.points[3, :]
+        low_half = count(placed.points[3, :] .< 0.5)
+        @test low_half > 2 * (node_count(placement) - low_half)
+
+        # Values at the nodes: linear in the tetrahedra, so what is linear stays so.
+        set_spacing!(placement, 0.2 .+ 0.1 .* placed.points[1, :])
+        run!(placement)
+        placed = nodes(placement)
+        @test placed.spacing ≈ 0.2 .+ 0.1 .* placed.points[1, :]
+        @test fails(() -> set_spacing!(placement, [0.1, 0.2]), :error_argument, "2")
+
+        # A grid, the first index along x.
+        values = [0.2 + 0.1 * i + 0.05 * k for i in 0:1, j in 0:0, k in 0:2]
+        set_spacing!(placement, values; origin = (0, 0, 0), step = (1, 1, 0.5))
+        run!(placement)
+        placed = nodes(placement)
+        @test placed.spacing ≈ 0.2 .+ 0.1 .* placed.points[1, :] .+ 0.1 .* placed.points[3, :]
+
+        given = initialise!(set_nodes!(placement, [0.3 0.6; 0.4 0.5; 0.5 0.6]; ids = [70, 90]))
+        there = nodes(given)
+        @test there.points[:, findfirst(==(90), there.ids)] == [0.6, 0.5, 0.6]
+    end
+end
+
+@testset "the plane and space" begin
+    Context() do context
+        body = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
+        @test fails(() -> add_polyline!(body, [0 1 1; 0 0 1; 0 0 0]), :error_argument, "role")
+        @test fails(() -> add_arc!(body, (0, 0), 1), :error_argument, "in the plane")
+        @test fails(() -> add_curve!(t -> [t t]', body, 0, 1), :error_argument, "in the plane")
+        @test fails(() -> add_pslg!(body, [0 1; 0 0], reshape([1, 2], 2, 1)), :error_argument,
+                    "in the plane")
+        @test fails(() -> parse_poly!(body, "0 2 0 0\n"), :error_argument, "in the plane")
+        @test fails(() -> outline(body), :error_argument, "in the plane")
+        @test_throws DimensionMismatch add_polyline!(body, [0 1; 0 0]; role = :inner)
+        @test_throws DimensionMismatch add_hole!(body, (0, 0))
+        @test_throws DimensionMismatch add_fixed_nodes!(body, [0 1; 0 0])
+        @test_throws DimensionMismatch add_surface!(body, VERTICES[1:2, :], FACES)
+        @test_throws DimensionMismatch add_surface!(body, VERTICES, FACES[1:2, :])
+        @test_throws DimensionMismatch add_surface!(body, VERTICES, FACES; tags = [1, 2])
+        @test_throws DimensionMismatch add_box!(body, (0, 0), (1, 1))
+        @test_throws DimensionMismatch add_cylinder!(body, (0, 0, 0), (1, 1), 1)
+        @test fails(() -> add_surface!(body, VERTICES, FACES .+ 1), :error_argument, "corners")
+        @test fails(() -> add_ball!(body, (0, 0, 0), -1), :error_argument, "radius", "-1")
+        placement = placed_in(body, 0.5)
+        @test fails(() -> triangles(placement), :error_argument, "3 dimensions")
+        @test fails(() -> boundary_edges(placement), :error_argument, "3 dimensions")
+        @test_throws DimensionMismatch set_nodes!(placement, [0.5 0.5]')
+        @test_throws DimensionMismatch set_spacing!(placement, ones(1, 1); origin = (0, 0),
+                                                    step = (1, 1))
+        @test_throws DimensionMismatch set_spacing!(placement, ones(1, 1, 1); origin = (0, 0),
+                                                    step = (1, 1, 1))
+
+        square = square_domain(context)
+        @test fails(() -> add_box!(square, (0, 0, 0), (1, 1, 1)), :error_argument, "in space")
+        @test fails(() -> add_ball!(square, (0, 0, 0), 1), :error_argument, "in space")
+        @test fails(() -> add_cylinder!(square, (0, 0, 0), (1, 1, 1), 1), :error_argument,
+                    "in space")
+        @test fails(() -> add_surface!(square, VERTICES, FACES), :error_argument, "in space")
+        @test fails(() -> read_surface!(square, "any.stl"), :error_argument, "in space")
+        placement = placed_in(square, 0.2)
+        @test ndims(placement) == 2
+        @test fails(() -> tetrahedra(placement), :error_argument, "2 dimensions")
+        @test fails(() -> boundary_triangles(placement), :error_argument, "2 dimensions")
+        @test_throws DimensionMismatch set_spacing!(placement, ones(1, 1, 1); origin = (0, 0, 0),
+                                                    step = (1, 1, 1))
+    end
+end
