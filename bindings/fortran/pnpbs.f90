@@ -1546,13 +1546,14 @@ contains
   end subroutine
 
   !> Checks that the results keep what is promised of them: ids are unique, no two nodes lie in one
-  !> place, all lie inside or on the boundary, and all that the boundary has are there; adjacency
-  !> lists are symmetric; the triangles of the stars are one conforming triangulation of the domain,
-  !> each in the stars of its three corners, with every boundary edge, and their areas add up to
-  !> what the boundary encloses. It takes about as long as making lists and stars, and no rank holds
-  !> more than its share. Collective. Errors: PNPBS_ERROR_INTERNAL if something is wrong: the
-  !> message says what, with ids and coordinates; PNPBS_ERROR_STATE without nodes;
-  !> PNPBS_ERROR_UNSUPPORTED for a placement in space.
+  !> place, all lie inside or on the boundary, and all that the boundary's curves or feature edges
+  !> have are there; adjacency lists are symmetric; the triangles or tetrahedra of the stars are one
+  !> conforming triangulation of the domain, each in the stars of all its corners, with every boundary
+  !> edge, and their areas or volumes add up to what the boundary encloses; in space the boundary
+  !> triangles are closed, and cut off no more of the domain than chords do. It takes about as long as
+  !> making lists and stars, and no rank holds more than its share. Collective. Errors:
+  !> PNPBS_ERROR_INTERNAL if something is wrong: the message says what, with ids and coordinates;
+  !> PNPBS_ERROR_STATE without nodes.
   subroutine placement_check(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -1670,13 +1671,14 @@ contains
   ! ------------------------------------------------------------ placement: files --------------
 
   !> Writes the nodes of all ranks into one file, at the same time, in the format of its extension:
-  !> .vtu, .pvtu, .msh, .node, .ele, .csv (see pnpbs_placement_write in pnpbs.h). A file appears
-  !> under its name only when it is complete; after an error, what was there before is still there.
-  !> The folder must be the same one for all ranks, and so must path. The monitor, if there is one,
-  !> is asked now and then. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors: PNPBS_ERROR_FILE
-  !> naming the file, PNPBS_ERROR_STATE if there are no nodes yet, PNPBS_ERROR_ARGUMENT.
+  !> .vtu, .pvtu, .msh, .node, .ele, .face, .csv (see pnpbs_placement_write in pnpbs.h). A file
+  !> appears under its name only when it is complete; after an error, what was there before is still
+  !> there. The folder must be the same one for all ranks, and so must path. The monitor, if there
+  !> is one, is asked now and then. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors:
+  !> PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_STATE if there are no nodes yet,
+  !> PNPBS_ERROR_ARGUMENT.
   !>   path      blanks at its end do not count
-  !>   elements  optional: triangles (and boundary edges) as well; .false. without
+  !>   elements  optional: triangles or tetrahedra (and the boundary) as well; .false. without
   subroutine placement_write(self, path, elements, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: path

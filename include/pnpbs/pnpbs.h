@@ -611,13 +611,14 @@ PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placem
                                                           int64_t *edges, int32_t *tags);
 
 /** Checks that the results keep what is promised of them: ids are unique, no two nodes lie in one
- *  place, all lie inside or on the boundary, and all that the boundary has are there; adjacency
- *  lists are symmetric; the triangles of the stars are one conforming triangulation of the domain,
- *  each in the stars of its three corners, with every boundary edge, and their areas add up to what
- *  the boundary encloses. It takes about as long as making lists and stars, and no rank holds more
- *  than its share. Collective. Errors: PNPBS_ERROR_INTERNAL if something is wrong: the message says
- *  what, with ids and coordinates; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_UNSUPPORTED for a
- *  placement in space. */
+ *  place, all lie inside or on the boundary, and all that the boundary's curves or feature edges
+ *  have are there; adjacency lists are symmetric; the triangles or tetrahedra of the stars are one
+ *  conforming triangulation of the domain, each in the stars of all its corners, with every
+ *  boundary edge, and their areas or volumes add up to what the boundary encloses; in space the
+ *  boundary triangles are closed, and cut off no more of the domain than chords do. It takes about
+ *  as long as making lists and stars, and no rank holds more than its share. Collective. Errors:
+ *  PNPBS_ERROR_INTERNAL if something is wrong: the message says what, with ids and coordinates;
+ *  PNPBS_ERROR_STATE without nodes. */
 PNPBS_API pnpbs_status pnpbs_placement_check(pnpbs_placement placement);
 
 /** A statistic by key (see pnpbs_statistic_info). Collective (some are computed when asked).
@@ -658,19 +659,23 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
 
 /** Writes the nodes of all ranks into one file. The extension is the format:
  *    .vtu   VTK's unstructured grid: nodes with id, tag and spacing; triangles with their quality,
- *           2 r_in / R (without elements: one vertex cell per node)
+ *           2 r_in / R, or tetrahedra with theirs, 3 r_in / R (without elements: one vertex cell
+ *           per node)
  *    .pvtu  the same as a file that names one piece per rank, written by that rank beside it:
- *           mesh_0.vtu, mesh_1.vtu, ... for mesh.pvtu. Nodes of other ranks that a piece's
- *           triangles need are in it, too, marked by vtkGhostType.
- *    .msh   gmsh's format 2.2: nodes, triangles, boundary edges with their tags as physical groups
- *           (without elements: one point per node)
- *    .node  Triangle's nodes, numbered from 1, tags as markers; with elements, the triangles in a
- *           second file of the same name, .ele
- *    .ele   Triangle's triangles alone
- *    .csv   id,x,y,tag,spacing
- *  Nodes are in the order of their ids, triangles and edges in the order of their corners: all but
- *  .pvtu have the same bytes for any number of ranks and threads. All ranks write at the same time
- *  (MPI-IO), and none holds more than its share. A file appears under its name only when it is
+ *           mesh_0.vtu, mesh_1.vtu, ... for mesh.pvtu. Nodes of other ranks that a piece's elements
+ *           need are in it, too, marked by vtkGhostType.
+ *    .msh   gmsh's format 2.2: nodes, triangles and boundary edges or tetrahedra and boundary
+ *           triangles, the tags of the boundary as physical groups (without elements: one point per
+ *           node)
+ *    .node  Triangle's or TetGen's nodes, numbered from 1, tags as markers; with elements, these in
+ *           a second file of the same name, .ele, and in space the boundary triangles in a third,
+ *           .face
+ *    .ele   Triangle's triangles or TetGen's tetrahedra alone
+ *    .face  TetGen's boundary triangles alone, in space
+ *    .csv   id,x,y,tag,spacing, in space id,x,y,z,tag,spacing
+ *  Nodes are in the order of their ids, elements and boundary in the order of their corners: all
+ *  but .pvtu have the same bytes for any number of ranks and threads. All ranks write at the same
+ *  time (MPI-IO), and none holds more than its share. A file appears under its name only when it is
  *  complete; after an error, what was there before is still there. The folder must be the same one
  *  for all ranks, and so must `path`. The monitor is asked now and then, and with fraction 1 before
  *  names are given; if it stops the call, PNPBS_STOPPED is returned, nothing changes. Collective.
@@ -679,7 +684,7 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
  *  @param[in] path      - is standard output of rank 0 (pnpbs_placement_write_files tells in which
  *                       format). What is no regular file, such as a pipe, is written by rank 0, to
  *                       which the others send their parts in turn.
- *  @param[in] elements  nonzero: triangles (and boundary edges) as well */
+ *  @param[in] elements  nonzero: triangles or tetrahedra (and the boundary) as well */
 PNPBS_API pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path,
                                              int32_t elements);
 

@@ -18,6 +18,11 @@ class Docstring(NamedTuple):
     file: str
 
 
+def signatures_of(lines):
+    """What begins further in continues the line before."""
+    return tuple(re.split(r"\n(?! )", "\n".join(lines)))
+
+
 def docstrings(text, file):
     found = []
     for body in re.findall(r'^"""\n(.*?)^"""$', text, re.S | re.M):
@@ -25,7 +30,7 @@ def docstrings(text, file):
         lines = head.rstrip().splitlines()
         if not all(line.startswith("    ") for line in lines):
             continue  # of a module
-        signatures = tuple(line.strip() for line in lines)
+        signatures = signatures_of(line[4:] for line in lines)
         names = dict.fromkeys(re.match(r"[\w.]+!?", line)[0] for line in signatures)
         found.append(Docstring(tuple(names), signatures, rest.strip(), file))
     return found

@@ -171,7 +171,7 @@ START_TEST(creating) {
   pnpbs_domain domain = NULL;
   pnpbs_placement placement = NULL;
   REFUSE(ARGUMENT, "domain", "NULL", pnpbs_domain_create(it.context, 2, NULL));
-  REFUSE(UNSUPPORTED, "dim = 3", "2", pnpbs_domain_create(it.context, 3, &domain));
+  REFUSE(ARGUMENT, "dim = 4", "2 or 3", pnpbs_domain_create(it.context, 4, &domain));
   REFUSE(ARGUMENT, "dim = 1", "2", pnpbs_domain_create(it.context, 1, &domain));
   REFUSE(ARGUMENT, "dim = 0", "2", pnpbs_domain_create(it.context, 0, &domain));
   REFUSE(ARGUMENT, "dim = -2", "2", pnpbs_domain_create(it.context, -2, &domain));
@@ -306,6 +306,7 @@ START_TEST(points_and_files) {
   REFUSE(ARGUMENT, "low", "NULL", pnpbs_domain_bounds(d, NULL, out.reals));
   REFUSE(ARGUMENT, "high", "NULL", pnpbs_domain_bounds(d, out.reals, NULL));
   REFUSE(ARGUMENT, "measure", "NULL", pnpbs_domain_measure(d, NULL));
+  REFUSE(ARGUMENT, "dim", "NULL", pnpbs_domain_dimension(d, NULL));
   REFUSE(ARGUMENT, "count", "NULL",
          pnpbs_domain_get_segments(d, 9, NULL, out.reals, out.small + 90));
 }
@@ -380,6 +381,7 @@ START_TEST(getting_nodes) {
   char need[40];
   snprintf(need, sizeof need, "%lld", (long long)n);
   REFUSE(ARGUMENT, "nodes", "NULL", pnpbs_placement_count(p, NULL));
+  REFUSE(ARGUMENT, "dim", "NULL", pnpbs_placement_dimension(p, NULL));
   REFUSE(CAPACITY, "capacity = 3", need,
          pnpbs_placement_get_nodes(p, 3, out.reals, out.integers + 20, NULL, NULL));
   REFUSE(CAPACITY, "capacity = 0", need,

@@ -31,6 +31,8 @@ static void check_outputs(const char* name) {
 
 static const double xy[8] = {0, 0, 1, 0, 1, 1, 0, 1};
 static const int64_t ends[8] = {0, 1, 1, 2, 2, 3, 3, 0};
+static const double xyz[12] = {0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 1, 0};
+static const int64_t faces[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
 static const int64_t grid_size[2] = {1, 2};
 static const double grid[6] = {0.5, 0.5, 1, 1, 0.2, 0.3}; /* origin, step, values */
 static cone a_cone = {0.1, 0, 0, 0};
@@ -53,8 +55,8 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
 
 /* ---------------------------------------------------------------- every call ------------ */
 
-/* X(function, its arguments), such that a live handle would be taken. Those that create or
- * destroy are left to tests of their own. */
+/* X(function, its arguments), such that a live handle, of the dimension it is for, would be taken.
+ * Those that create or destroy are left to tests of their own. */
 #define CONTEXT_CALLS(X)                          \
   X(context_set, (handle, "steps", "10"))         \
   X(context_set_int64, (handle, "steps", 10))     \
@@ -62,6 +64,11 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_create, (handle, 2, &out.domain))
 #define DOMAIN_CALLS(X)                                                               \
   X(domain_add_polyline, (handle, PNPBS_BOUNDARY, 1, 4, xy, NULL, 0.0))               \
+  X(domain_add_surface, (handle, PNPBS_BOUNDARY, 4, xyz, 4, faces, NULL, 40.0))       \
+  X(domain_read_surface, (handle, PNPBS_BOUNDARY, "unread.stl", 40.0))                \
+  X(domain_add_box, (handle, xyz, xyz + 3, 1))                                        \
+  X(domain_add_ball, (handle, xyz, 1.0, 1))                                           \
+  X(domain_add_cylinder, (handle, xyz, xyz + 3, 1.0, 1))                              \
   X(domain_add_arc, (handle, PNPBS_BOUNDARY, xy, 1.0, 0.0, 2 * PI, 1))                \
   X(domain_add_curve, (handle, PNPBS_BOUNDARY, circle, NULL, 0.0, 2 * PI, 1))         \
   X(domain_add_pslg, (handle, 4, xy, NULL, 4, ends, NULL, 0, NULL))                   \
@@ -70,6 +77,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_read_poly, (handle, PNPBS_SOURCE_DIR "/examples/data/lake_victoria.poly")) \
   X(domain_parse_poly, (handle, "0 2 0 0\n0 0\n0\n", 14, "text"))                     \
   X(domain_check, (handle))                                                           \
+  X(domain_dimension, (handle, out.small + 2))                                        \
   X(domain_bounds, (handle, out.reals + 1, out.reals + 3))                            \
   X(domain_measure, (handle, out.reals + 1))                                          \
   X(domain_get_segments, (handle, 4, out.integers + 1, out.reals + 2, out.small + 40))
@@ -89,6 +97,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_adjust_population, (handle, out.integers + 1, out.integers + 2))                    \
   X(placement_rebalance, (handle))                                                                \
   X(placement_run, (handle))                                                                      \
+  X(placement_dimension, (handle, out.small + 2))                                                 \
   X(placement_count, (handle, out.integers + 1))                                                  \
   X(placement_get_nodes,                                                                          \
     (handle, 1, out.reals + 1, out.integers + 3, out.small + 8, out.reals + 5))                   \
@@ -98,6 +107,9 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_get_stars, (handle, 1, out.integers + 1, out.integers + 3, out.bytes + 32))         \
   X(placement_get_triangles, (handle, 1, out.integers + 1, out.integers + 2))                     \
   X(placement_get_boundary_edges, (handle, 1, out.integers + 1, out.integers + 2, out.small + 8)) \
+  X(placement_get_tetrahedra, (handle, 1, out.integers + 1, out.integers + 2))                    \
+  X(placement_get_boundary_triangles,                                                             \
+    (handle, 1, out.integers + 1, out.integers + 2, out.small + 8))                               \
   X(placement_ghost_count, (handle, out.integers + 1))                                            \
   X(placement_get_ghosts, (handle, 1, NULL, out.integers + 1, NULL, NULL, out.small + 8))         \
   X(placement_exchange_sizes, (handle, out.small + 2, out.integers + 2, out.integers + 3))        \

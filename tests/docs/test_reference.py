@@ -47,8 +47,8 @@ class Changes(unittest.TestCase):
             self.root / "docs/reference", make_reference.pages(self.root, LIBRARY)))
 
     def test_comment(self):
-        self.change("include/pnpbs/pnpbs.h", "Area of the inside.", "Its area.")
-        self.assertIn("+Its area.", self.found())
+        self.change("include/pnpbs/pnpbs.h", "Area of the inside, in space its volume.", "Its size.")
+        self.assertIn("+Its size.", self.found())
 
     def test_fortran_argument(self):
         self.change(FORTRAN, "real(c_double), intent(in) :: point(:)",
@@ -74,18 +74,19 @@ class Changes(unittest.TestCase):
             self.found()
 
     def test_new_function(self):
-        self.change("include/pnpbs/pnpbs.h", "/** Area of the inside.",
+        self.change("include/pnpbs/pnpbs.h", "/** Area of the inside,",
                     "/** Its centre. Local. */\nPNPBS_API pnpbs_status pnpbs_domain_centre("
-                    "pnpbs_domain domain, double *xy);\n\n/** Area of the inside.")
+                    "pnpbs_domain domain, double *xy);\n\n/** Area of the inside,")
         with self.assertRaisesRegex(ValueError, "centre: no procedure"):
             self.found()
 
     def test_raw_layer_only(self):
-        self.change(JULIA + "domain.jl", "LibPNPBS.pnpbs_domain_measure(live(domain), area)", "0")
+        self.change(JULIA + "domain.jl", "LibPNPBS.pnpbs_domain_measure(live(domain), inside)",
+                    "0")
         self.assertIn("only in the raw layer, `PNPBS.LibPNPBS.pnpbs_domain_measure`", self.found())
 
     def test_neither_collective_nor_local(self):
-        self.change("include/pnpbs/pnpbs.h", "Area of the inside. Local;", "Area of the inside;")
+        self.change("include/pnpbs/pnpbs.h", "in space its volume. Local;", "in space its volume;")
         with self.assertRaisesRegex(ValueError, "measure: .* collective or local"):
             self.found()
 

@@ -92,6 +92,8 @@ contains
     call placement%set_spacing_constant(d)
     call placement%run(stat)
     call expect(stat >= 0, 'run')
+    call placement%check(stat)
+    call expect(stat == PNPBS_OK, 'the results are right')
     call compare_with_c(placement)
   end subroutine
 

@@ -194,9 +194,9 @@ end
 
 Checks that the results keep what is promised of them: unique ids, no two nodes in one place, all
 inside or on the boundary; symmetric adjacency lists; stars that are one conforming triangulation of
-the domain, with every boundary edge and the right area. A [`PNPBSError`](@ref) with status
-`:error_internal` says what is wrong, with ids and coordinates; with `:error_unsupported`, that the
-placement is in space. Collective.
+the domain, with every boundary edge and the right area, or in space a closed boundary and the right
+volume. A [`PNPBSError`](@ref) with status `:error_internal` says what is wrong, with ids and
+coordinates. Collective.
 """
 function check_results(placement::Placement)
     check(placement, LibPNPBS.pnpbs_placement_check(live(placement)))
@@ -285,9 +285,10 @@ end
 """
     write_file(placement, path; elements = false) -> Symbol
 
-Writes the nodes of all ranks, and the triangles if `elements`, into one file whose extension is its
-format ([`format_table`](@ref)): .vtu, .pvtu, .msh, .node, .ele, .csv. The file appears when it is
-complete. The outcome is `:ok`, or `:stopped` by the monitor, which leaves the old file. Collective.
+Writes the nodes of all ranks, and the triangles or tetrahedra if `elements`, into one file whose
+extension is its format ([`format_table`](@ref)): .vtu, .pvtu, .msh, .node, .ele, .face, .csv. The
+file appears when it is complete. The outcome is `:ok`, or `:stopped` by the monitor, which leaves
+the old file. Collective.
 """
 write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
     check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path, elements))
