@@ -1,0 +1,72 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!
+! Conjugate gradients, preconditioned by the diagonal, over the ranks of a communicator.
+module conjugate_gradients
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use mpi
+  use ghost_exchange, only: fill_ghosts
+  use nodes_of_rank, only: local_nodes
+  use linear_elements, only: equations, multiply
+  implicit none
+  private
+  public :: solve
+
+  integer, parameter :: most_steps = 10000
+
+contains
+
+  !> On entry u is right at boundary nodes and a guess at inner nodes; on return it solves the
+  !> equations, at ghosts, too: the residual is `tolerance` times what it was. Collective.
+  subroutine solve(nodes, rows, tolerance, u)
+    type(local_nodes), intent(in) :: nodes
+    type(equations), intent(in) :: rows
+    real(c_double), intent(in) :: tolerance
+    real(c_double), intent(inout) :: u(:)
+    real(c_double), dimension(nodes%owned) :: residual, scaled, image
+    real(c_double) :: direction(size(u)), before, now, enough, length
+    integer :: step
+
+    call fill_ghosts(nodes%exchange, u)
+    call multiply(nodes, rows, u, image)
+    where (nodes%tags == 0)
+      residual = rows%load - image
+    elsewhere
+      residual = 0
+    end where
+    scaled = residual / rows%diagonal
+    direction(:nodes%owned) = scaled
+    now = dot(residual, scaled)
+    enough = tolerance**2 * now
+    do step = 1, most_steps
+      if (now <= enough) exit
+      call fill_ghosts(nodes%exchange, direction)
+      call multiply(nodes, rows, direction, image)
+      length = now / dot(direction(:nodes%owned), image)
+      u(:nodes%owned) = u(:nodes%owned) + length * direction(:nodes%owned)
+      residual = residual - length * image
+      scaled = residual / rows%diagonal
+      before = now
+      now = dot(residual, scaled)
+      direction(:nodes%owned) = scaled + now / before * direction(:nodes%owned)
+    end do
+    if (now > enough) call give_up
+    call fill_ghosts(nodes%exchange, u)
+
+  contains
+
+    function dot(a, b) result(total)
+      real(c_double), intent(in) :: a(:), b(:)
+      real(c_double) :: part, total
+      integer :: error
+      part = dot_product(a, b)
+      call MPI_Allreduce(part, total, 1, MPI_DOUBLE_PRECISION, MPI_SUM, nodes%exchange%comm, error)
+    end function
+
+    subroutine give_up
+      integer :: error
+      write (error_unit, '(a, i0, a)') 'conjugate gradients: not there after ', most_steps, ' steps'
+      call MPI_Abort(nodes%exchange%comm, 1, error)
+    end subroutine
+  end subroutine
+end module conjugate_gradients

@@ -1,0 +1,71 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!
+! How far the solution is from the known one, by integrals over the tetrahedra.
+module errors
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use mpi
+  use body, only: solution, solution_gradient
+  use linear_elements, only: hat_gradients
+  use nodes_of_rank, only: local_nodes
+  implicit none
+  private
+  public :: measure_errors
+
+  !> What measure_errors measures:
+  !>   l2        the L2 norm of u_h - u
+  !>   gradient  that of grad u_h - grad u, the H1 seminorm
+  !>   volume    of the tetrahedra
+  integer, parameter, public :: measures = 3, l2 = 1, gradient = 2, volume = 3
+
+  !> A rule of 14 points, exact to fifth degree (N. Walkington, Quadrature on simplices of arbitrary
+  !> dimension, 2000): four and four on the ways from the middle to corners and faces, six on those
+  !> to the edges; weights over the tetrahedron's volume.
+  real(c_double), parameter :: a1 = 0.310885919263300610d0, w1 = 0.112687925718015851d0
+  real(c_double), parameter :: a2 = 0.0927352503108912264d0, w2 = 0.0734930431163619495d0
+  real(c_double), parameter :: a3 = 0.0455037041256496495d0, w3 = 0.0425460207770814664d0
+  real(c_double), parameter :: b1 = 1 - 3 * a1, b2 = 1 - 3 * a2, b3 = 0.5d0 - a3
+  real(c_double), parameter :: weight(14) = [w1, w1, w1, w1, w2, w2, w2, w2, &
+                                             w3, w3, w3, w3, w3, w3]
+  real(c_double), parameter :: barycentric(4, 14) = reshape( &
+    [b1, a1, a1, a1, a1, b1, a1, a1, a1, a1, b1, a1, a1, a1, a1, b1, &
+     b2, a2, a2, a2, a2, b2, a2, a2, a2, a2, b2, a2, a2, a2, a2, b2, &
+     b3, b3, a3, a3, b3, a3, b3, a3, b3, a3, a3, b3, &
+     a3, b3, b3, a3, a3, b3, a3, b3, a3, a3, b3, b3], [4, 14])
+
+contains
+
+  !> u has the solution at nodes and ghosts. Where the body is hollow, tetrahedra reach out of it a
+  !> little; u is known and smooth there as well. Collective.
+  function measure_errors(nodes, u) result(measured)
+    type(local_nodes), intent(in) :: nodes
+    real(c_double), intent(in) :: u(:)
+    real(c_double) :: measured(measures), parts(measures)
+    integer(c_int64_t) :: t, corner(4)
+    integer :: error
+    parts = 0
+    do t = 1, size(nodes%tetrahedra, 2)
+      corner = nodes%tetrahedra(:, t)
+      parts = parts + parts_on(nodes%x(:, corner), u(corner))
+    end do
+    call MPI_Allreduce(parts, measured, measures, MPI_DOUBLE_PRECISION, MPI_SUM, &
+                       nodes%exchange%comm, error)
+    measured([l2, gradient]) = sqrt(measured([l2, gradient]))
+  end function
+
+  !> The integrals of the squared errors over one tetrahedron and its volume, from positions and
+  !> values at its corners.
+  pure function parts_on(corner, u) result(parts)
+    real(c_double), intent(in) :: corner(3, 4), u(4)
+    real(c_double) :: parts(measures), hat(3, 4), constant(3), x(3)
+    integer :: k
+    call hat_gradients(corner, hat, parts(volume))
+    constant = matmul(hat, u)
+    parts([l2, gradient]) = 0
+    do k = 1, size(weight)
+      x = matmul(corner, barycentric(:, k))
+      parts(l2) = parts(l2) + weight(k) * (dot_product(u, barycentric(:, k)) - solution(x))**2
+      parts(gradient) = parts(gradient) + weight(k) * sum((constant - solution_gradient(x))**2)
+    end do
+    parts([l2, gradient]) = parts(volume) * parts([l2, gradient])
+  end function
+end module errors
