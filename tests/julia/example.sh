@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # An example from the installed copy, in one process and on several ranks: it judges itself by the
 # lines that it prints, prints the same on any number of ranks, and all ranks together write every
-# triangle once.
+# triangle or tetrahedron once.
 # usage: example.sh <build folder> <cmake> <rules> <example> '<numbers of ranks, 0 for no MPI>'
 #                   <mpiexec, or ''> <julia> [its options]
 set -eu
@@ -39,7 +39,7 @@ for ranks in $rank_counts; do
   if [ "$example" != smallest ]; then
     written=$(find "$work/pieces" -name "${example}_*.vtk" | wc -l)
     [ "$written" -eq "$((ranks > 0 ? ranks : 1))" ] || { echo "$written pieces written"; exit 1; }
-    awk '$1 == "CELLS" { n += $2 } END { print "triangles in the pieces: " n; exit !n }' \
+    awk '$1 == "CELLS" { n += $2 } END { print "elements in the pieces: " n; exit !n }' \
       "$work"/pieces/*.vtk >> "$work/output"
   fi
   [ -e "$work/first" ] || cp "$work/output" "$work/first"

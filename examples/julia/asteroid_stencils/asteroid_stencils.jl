@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# A meshless Laplacian in an asteroid, and Poisson's equation solved with it, on any number of ranks.
+# Each node gets weights for itself and its adjacency list by least squares: of all weights that give
+# the Laplacian of polynomials up to a degree exactly, those with the least sum of squares, where far
+# nodes' weights count more (the generalized finite differences of T. Liszka, J. Orkisz, Comput.
+# Struct. 11 (1980) 83-95).
+#
+# What to check: with polynomials of degree m the formula is exact for them up to rounding, at every
+# node; the Laplacian of a smooth function converges with order m - 1, that is 2 inside and 1 on the
+# surface; and so does the solution of Poisson's equation, with order 2.
+#
+#   julia asteroid_stencils.jl [FOLDER]                one process
+#   mpiexec -n 4 julia asteroid_stencils.jl [FOLDER]   with MPI.jl in the environment
+#
+# With a folder, which must be there, every rank writes its piece of the finest solution.
+using LinearAlgebra
+using PNPBS
+using Printf
+
+# With MPI.jl, if it is there, on all ranks. Without it `comm` is nothing, and all nodes are here.
+const with_mpi = Base.find_package("MPI") !== nothing
+if with_mpi
+    import MPI
+end
+
+# ---------------------------------------------------------------- the problem -------------------
+# The Laplacian of u is f.
+u_exact(x, y, z) = sin(4x + 1) * cos(3y) * exp(2z)
+f_exact(x, y, z) = -21 * u_exact(x, y, z)
+at_points(f, points) = [f(points[1, i], points[2, i], points[3, i]) for i in 1:size(points, 2)]
+
+# 433 Eros, 1.6 long. The lists must be long enough for the polynomials, also at the surface, where
+# they are one-sided: a radius of 2 spacings gives about 50 neighbours inside and 25 on the surface.
+const asteroid = joinpath(@__DIR__, "..", "..", "data", "eros.off")
+
+function place(context, h)
+    domain = read_surface!(Domain(context; dim = 3), asteroid)
+    placement = Placement(domain; adjacency_radius = 2)
+    set_spacing!(placement, h)
+    run!(placement)
+    return placement
+end
+
+# ---------------------------------------------------------------- stencils ----------------------
+# On the surface, one degree less: there a list of radius 2 has hardly more than three layers of
+# nodes, and a polynomial of degree 3 can vanish on three layers.
+degree_at(tag) = tag == 0 ? 3 : 2
+
+# The exponents (a, b, c) of the polynomials x^a y^b z^c up to a degree, and the Laplacian of each
+# at 0.
+function exponents(degree)
+    return [(total - b - c, b, c) for total in 0:degree for b in 0:total for c in 0:(total - b)]
+end
+laplacian_at_0(powers) = sum(powers) == 2 && maximum(powers) == 2 ? 2.0 : 0.0
+
+# Row i: `centre[i]` is the weight of node i, and `weights` are those of its list, entry by entry.
+struct Stencils
+    lists::CompressedRows{Int64}
+    centre::Vector{Float64}
+    weights::Vector{Float64}
+end
+
+# The polynomials at the nodes, one column for each.
+function polynomials(x, powers)
+    return [x[1, k]^a * x[2, k]^b * x[3, k]^c for k in 1:size(x, 2), (a, b, c) in powers]
+end
+
+# The weights w of the stencil whose first node is at 0: of those with P' w = b, where P has the
+# polynomials at the nodes and b their Laplacians at 0, the one with the least sum of (w / s)^2. With
+# S P = Q R, S the diagonal of s, that is S Q (R' \ b).
+function weights_at_0(x::Matrix{Float64}, powers)
+    n, terms = size(x, 2), length(powers)
+    n > terms || error("$(n - 1) neighbours are too few for $terms polynomials: raise the option ",
+                       "adjacency_radius, or lower the degree")
+    s = [exp(-0.5 * (x[1, k]^2 + x[2, k]^2 + x[3, k]^2)) for k in 1:n]
+    factors = qr(s .* polynomials(x, powers))
+    return s .* (Matrix(factors.Q) * (factors.R' \ laplacian_at_0.(powers)))
+end
+
+# The stencil of node i as seen from it, in units of the spacing there: rounding is then the same
+# for all spacings.
+function seen_from(i, list, points, d)
+    nodes = [i; list]
+    return [(points[row, k] - points[row, i]) / d for row in 1:3, k in nodes]
+end
+
+# The stencils, and their largest error on the polynomials that they must be exact for.
+function laplacian_stencils(points, spacing, tags, lists)
+    stencils = Stencils(lists, zeros(length(lists)), zeros(length(lists.entries)))
+    largest_error = 0.0
+    for i in eachindex(lists)
+        powers = exponents(degree_at(tags[i]))
+        x = seen_from(i, lists[i], points, spacing[i])
+        w = weights_at_0(x, powers)
+        errors = polynomials(x, powers)' * w .- laplacian_at_0.(powers)
+        largest_error = max(largest_error, maximum(abs, errors))
+        stencils.centre[i] = w[1] / spacing[i]^2
+        stencils.weights[lists.offsets[i]:(lists.offsets[i + 1] - 1)] = w[2:end] ./ spacing[i]^2
+    end
+    return stencils, largest_error
+end
+
+# The Laplacian at this rank's nodes of a function given at its nodes and ghosts.
+function laplacian!(values, stencils, u)
+    offsets, neighbours = stencils.lists.offsets, stencils.lists.entries
+    for i in eachindex(values)
+        s = stencils.centre[i] * u[i]
+        for k in offsets[i]:(offsets[i + 1] - 1)
+            s += stencils.weights[k] * u[neighbours[k]]
+        end
+        values[i] = s
+    end
+    return values
+end
+
+# ---------------------------------------------------------------- over the ranks ----------------
+over_ranks(op, value, comm) = MPI.Allreduce(value, op, comm)
+over_ranks(op, value, ::Nothing) = value
+
+# Of values at the nodes; there may be ghosts' behind them.
+function dot_over_ranks(v, w, n, comm)
+    s = 0.0
+    for i in 1:n
+        s += v[i] * w[i]
+    end
+    return over_ranks(+, s, comm)
+end
+
+# ---------------------------------------------------------------- Poisson's equation ------------
+# Solves Laplacian u = f at inner nodes, from the values that u has; those on the surface stay, for
+# there the residual counts as zero. The matrix is not symmetric: BiCGSTAB (H. van der Vorst, SIAM J.
+# Sci. Stat. Comput. 13 (1992) 631-644), rows divided by their diagonal.
+function solve_poisson!(u, f, inner, stencils, pattern, comm; tolerance = 1e-12, most = 2000)
+    n = length(inner)
+    scale = [inner[i] ? 1 / stencils.centre[i] : 0.0 for i in 1:n]
+    apply!(out, v) = (laplacian!(out, stencils, update_ghosts!(v, pattern, comm)); out .*= scale)
+    dot(v, w) = dot_over_ranks(v, w, n, comm)
+
+    r = scale .* f[1:n] .- apply!(zeros(n), u)
+    shadow, Ap, As = copy(r), zeros(n), zeros(n)
+    p, s = zero(u), zero(u)
+    rho, alpha, omega = 1.0, 1.0, 1.0
+    goal = tolerance^2 * dot(r, r)
+    for _ in 1:most
+        rho_before, rho = rho, dot(shadow, r)
+        beta = rho / rho_before * alpha / omega
+        for i in 1:n
+            p[i] = r[i] + beta * (p[i] - omega * Ap[i])
+        end
+        apply!(Ap, p)
+        alpha = rho / dot(shadow, Ap)
+        for i in 1:n
+            s[i] = r[i] - alpha * Ap[i]
+        end
+        apply!(As, s)
+        omega = dot(As, s) / dot(As, As)
+        for i in 1:n
+            u[i] += alpha * p[i] + omega * s[i]
+            r[i] = s[i] - omega * As[i]
+        end
+        dot(r, r) <= goal && return update_ghosts!(u, pattern, comm)
+    end
+    error("BiCGSTAB did not converge in $most steps")
+end
+
+# ---------------------------------------------------------------- one spacing -------------------
+# Root mean square over the nodes of all ranks that are chosen.
+function mean_error(errors, chosen, comm)
+    square = over_ranks(+, sum(abs2, errors[chosen]), comm)
+    return sqrt(square / over_ranks(+, count(chosen), comm))
+end
+
+function solve(context, comm, h, folder)
+    placement = place(context, h)
+    own, others = nodes(placement), ghosts(placement)
+    points = [own.points others.points]          # this rank's nodes, then its ghosts
+    n, inner = length(own.ids), own.tags .== 0
+    stencils, largest_error = laplacian_stencils(points, own.spacing, own.tags,
+                                                 adjacency(placement))
+    exact, f = at_points(u_exact, points), at_points(f_exact, points)
+    laplacian_errors = laplacian!(zeros(n), stencils, exact) .- f[1:n]
+
+    # The surface's values are given; inside, the solver starts from zero.
+    pattern = exchange_pattern(placement)
+    u = [own.tags .!= 0; falses(length(others.ids))] .* exact
+    solve_poisson!(u, f, inner, stencils, pattern, comm)
+    errors = u .- exact
+    isempty(folder) || write_piece(folder, comm, points, tetrahedra(placement), u, abs.(errors))
+    close(placement)
+    return (nodes = over_ranks(+, n, comm), on_polynomials = over_ranks(max, largest_error, comm),
+            inside = mean_error(laplacian_errors, inner, comm),
+            on_surface = mean_error(laplacian_errors, .!inner, comm),
+            mean = mean_error(errors[1:n], inner, comm),
+            largest = over_ranks(max, maximum(abs, errors[1:n]), comm))
+end
+
+# ---------------------------------------------------------------- pictures ----------------------
+my_rank(comm) = MPI.Comm_rank(comm)
+my_rank(::Nothing) = 0
+
+# This rank's nodes and ghosts, its tetrahedra, and fields, in VTK's legacy format.
+function write_piece(folder, comm, points, corners, u, errors)
+    path = joinpath(folder, "asteroid_stencils_" * lpad(my_rank(comm), 3, '0') * ".vtk")
+    open(path, "w") do file
+        n, m = size(points, 2), size(corners, 2)
+        println(file, "# vtk DataFile Version 3.0\nasteroid_stencils\nASCII\n",
+                "DATASET UNSTRUCTURED_GRID\nPOINTS $n double")
+        foreach(i -> @printf(file, "%.9g %.9g %.9g\n", points[:, i]...), 1:n)
+        println(file, "CELLS $m $(5m)")
+        foreach(k -> println(file, "4 ", join(corners[:, k] .- 1, " ")), 1:m)
+        println(file, "CELL_TYPES $m\n", repeat("10\n", m), "POINT_DATA $n")
+        for (name, values) in (("solution", u), ("error", errors))
+            println(file, "SCALARS $name double\nLOOKUP_TABLE default")
+            foreach(value -> @printf(file, "%.9g\n", value), values)
+        end
+    end
+end
+
+# ---------------------------------------------------------------- several spacings --------------
+function main(comm, folder)
+    BLAS.set_num_threads(1)
+    context = comm === nothing ? Context() : Context(comm)
+    spacings = [0.08, 0.06, 0.045]
+    results = [solve(context, comm, h, h == last(spacings) ? folder : "") for h in spacings]
+    close(context)
+    my_rank(comm) == 0 || return
+
+    println("                Laplacian, rms error     solution, error")
+    println("    h   nodes   inside   on surface      rms       largest")
+    for (h, r) in zip(spacings, results)
+        @printf("%6.3f %6d   %.2e   %.2e      %.2e   %.2e\n", h, r.nodes, r.inside, r.on_surface,
+                r.mean, r.largest)
+    end
+    order(error) = log(error(results[1]) / error(results[end])) / log(spacings[1] / spacings[end])
+    @printf("largest error on polynomials: %.1e, expected at most 1e-10\n",
+            maximum(r.on_polynomials for r in results))
+    @printf("order of the Laplacian inside: %.2f, expected at least 1.7\n", order(r -> r.inside))
+    @printf("order of the Laplacian on the surface: %.2f, expected at least 0.8\n",
+            order(r -> r.on_surface))
+    @printf("order of the solution: %.2f, expected at least 1.7\n", order(r -> r.mean))
+end
+
+with_mpi && MPI.Init()
+main(with_mpi ? MPI.COMM_WORLD : nothing, isempty(ARGS) ? "" : ARGS[1])
+with_mpi && MPI.Finalize()
