@@ -38,6 +38,17 @@ bool FacetIndex<Dim>::inside_in_leaf(std::int32_t leaf, const Point<Dim>& x) con
 }
 
 template <int Dim>
+bool FacetIndex<Dim>::on_inner_facet(const Point<Dim>& x) const {
+  bool found = false;
+  for (const std::int32_t f : facets_of_leaf(tree_.leaf_at(x))) {
+    if (!on_facet(corners(f), x)) continue;
+    if (facet(f).bounds()) return false;
+    found = true;
+  }
+  return found;
+}
+
+template <int Dim>
 bool FacetIndex<Dim>::facet_between(std::int32_t leaf, const Point<Dim>& a,
                                     const Point<Dim>& b) const {
   const std::span<const std::int32_t> facets = facets_of_leaf(leaf);

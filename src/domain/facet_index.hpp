@@ -44,6 +44,8 @@ class FacetIndex {
   // Is x strictly inside the domain? (On a facet: no.)
   bool inside(const Point<Dim>& x) const { return inside_in_leaf(tree_.leaf_at(x), x); }
   bool inside_in_leaf(std::int32_t leaf, const Point<Dim>& x) const;
+  // Does x lie exactly on a facet that has the domain on both sides, and on none that bounds it?
+  bool on_inner_facet(const Point<Dim>& x) const;
 
   // Calls visit(facet index) for every facet that may come within `reach` of x; a facet can come
   // more than once.

@@ -121,19 +121,21 @@ std::vector<LeafNode> own_boundary_nodes(const Level<Dim>& level, const LaidNode
   return own;
 }
 
-// An id larger than all there are, on all ranks. In two parts: not every id is a double.
-template <int Dim>
-std::int64_t next_id_after(const Level<Dim>& level, const GivenNodes<Dim>& inner,
-                           const LaidNodes<Dim>& laid) {
+// In two parts: not every id is a double.
+std::int64_t largest_of_ranks(const Communicator& comm, std::int64_t id) {
   constexpr std::int64_t kPart = std::int64_t{1} << 32;
-  std::int64_t next = level.next_id;
-  for (const GivenNode<Dim>& node : inner) next = std::max(next, node.id + 1);
-  for (std::size_t b = 0; b < laid.size(); ++b) next = std::max(next, laid.id(b) + 1);
-  const auto high =
-      static_cast<std::int64_t>(level.comm->allreduce_max(static_cast<double>(next / kPart)));
+  const auto high = static_cast<std::int64_t>(comm.allreduce_max(static_cast<double>(id / kPart)));
   const auto low = static_cast<std::int64_t>(
-      level.comm->allreduce_max(next / kPart == high ? static_cast<double>(next % kPart) : 0.0));
+      comm.allreduce_max(id / kPart == high ? static_cast<double>(id % kPart) : 0.0));
   return high * kPart + low;
+}
+
+// An id larger than all there are.
+template <int Dim>
+std::int64_t next_id_after(const Level<Dim>& level, const GivenNodes<Dim>& given) {
+  std::int64_t next = level.next_id;
+  for (const GivenNode<Dim>& node : given) next = std::max(next, node.id + 1);
+  return next;
 }
 
 // By leaf: the ids for those without one. Moves level.next_id on.
@@ -153,12 +155,20 @@ std::vector<std::int64_t> new_ids(Level<Dim>& level, const LeafBlocks<Dim>& bloc
 
 }  // namespace
 
+template <int Dim>
+void reserve_ids(Level<Dim>& level, const GivenNodes<Dim>& given) {
+  level.next_id = largest_of_ranks(*level.comm, next_id_after(level, given));
+}
+
 // New ids go by bucket in Morton order, boundary nodes first, then by place, so that the order of
 // ids is nearly the order in memory.
 template <int Dim>
 void number_and_store(Level<Dim>& level, GivenNodes<Dim> inner, LaidNodes<Dim> laid) {
   leave_out_coinciding<Dim>(inner);
-  level.next_id = next_id_after(level, inner, laid);
+  level.next_id = next_id_after(level, inner);
+  for (std::size_t b = 0; b < laid.size(); ++b)
+    level.next_id = std::max(level.next_id, laid.id(b) + 1);
+  level.next_id = largest_of_ranks(*level.comm, level.next_id);
   const std::vector<LeafNode> own_boundary = own_boundary_nodes(level, laid);
   const LeafBlocks<Dim> blocks(level.tree->tree().leaf_count(), own_boundary, inner);
   const auto boundary_id = [&](const LeafNode& node) {
@@ -193,6 +203,7 @@ template void find_leaves(const Level<2>&, GivenNodes<2>&);
 template void find_leaves(const Level<3>&, GivenNodes<3>&);
 template std::vector<std::int32_t> sort_by_place(const Level<2>&, GivenNodes<2>&);
 template std::vector<std::int32_t> sort_by_place(const Level<3>&, GivenNodes<3>&);
+template void reserve_ids(Level<3>&, const GivenNodes<3>&);
 template void number_and_store(Level<2>&, GivenNodes<2>, LaidNodes<2>);
 template void number_and_store(Level<3>&, GivenNodes<3>, LaidNodes<3>);
 

@@ -18,6 +18,9 @@ void find_leaves(const Level<Dim>& level, GivenNodes<Dim>& given);
 // from; those that have no leaf are left out. Returns the first place of each leaf.
 template <int Dim>
 std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, GivenNodes<Dim>& given);
+// Nodes that are numbered from now on get ids larger than these have. Collective.
+template <int Dim>
+void reserve_ids(Level<Dim>& level, const GivenNodes<Dim>& given);
 // The boundary nodes of this rank and these inner ones, sorted by place, become the nodes of the
 // level. Those without an id get new ones. Collective.
 template <int Dim>

@@ -119,7 +119,7 @@ GivenNodes<Dim> PlacementOf<Dim>::nodes_from_coarser_levels(
     for (int l = coarser_levels_; l > 0; --l) {
       std::unique_ptr<Level<Dim>> level = empty_level(
           spacing_of_level(spacing, l), settings_of_level(settings, l == coarser_levels_), &finest);
-      put_first_nodes(level, nodes, l);
+      put_first_nodes(level, nodes, l, outcome);
       adopt_level(std::move(level));
       begin_schedule(false);
       schedule_.coarser = true;
@@ -143,9 +143,10 @@ GivenNodes<Dim> PlacementOf<Dim>::nodes_from_coarser_levels(
 // first one a fill.
 template <int Dim>
 TakenNodes PlacementOf<Dim>::put_first_nodes(std::unique_ptr<Level<Dim>>& level,
-                                             GivenNodes<Dim>& from_coarser, int which) {
+                                             GivenNodes<Dim>& from_coarser, int which,
+                                             Outcome& outcome) {
   if constexpr (Dim == 3) {
-    settle_surfaces(level, from_coarser);
+    settle_surfaces(level, from_coarser, outcome);
     from_coarser = new_nodes<Dim>(std::move(from_coarser));
     level->next_id = 0;
   }

@@ -96,13 +96,13 @@ Outcome PlacementOf<Dim>::make_level() {
   if (level_) {
     GivenNodes<Dim> kept = refined(*level_, *spacing);
     next->next_id = level_->next_id;
-    if constexpr (Dim == 3) settle_surfaces(next, kept);
+    if constexpr (Dim == 3) settle_surfaces(next, kept, outcome);
     taken = take(*next, std::move(kept), next->next_id);
     taken.left_out = 0;  // not the user's
     inserted = taken.numbered;
   } else if (start_from_given_) {
     GivenNodes<Dim> given = given_;
-    if constexpr (Dim == 3) settle_surfaces(next, given);
+    if constexpr (Dim == 3) settle_surfaces(next, given, outcome);
     taken = take(*next, std::move(given), next->next_id);
   } else {
     filled_level_ = coarser_levels_ = coarser_levels_that_pay(*next, spacing);
@@ -110,7 +110,7 @@ Outcome PlacementOf<Dim>::make_level() {
       coarser_levels_ = std::max(coarser_levels_, surface_levels_that_pay(*next));
     GivenNodes<Dim> nodes;
     if (coarser_levels_ > 0) nodes = nodes_from_coarser_levels(*next, spacing, settings, outcome);
-    put_first_nodes(next, nodes, 0);
+    put_first_nodes(next, nodes, 0, outcome);
   }
   // Nothing has failed: from here on the new level counts.
   adopt_level(std::move(next));

@@ -117,9 +117,9 @@ class PlacementOf : public Placement {
   bool boundary_leaves_room(const Level<Dim>& finest, const Spacing<Dim>& coarser, double factor,
                             double nodes) const;
   TakenNodes put_first_nodes(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& from_coarser,
-                             int which);
-  void settle_surfaces(std::unique_ptr<Level<Dim>>& level,
-                       GivenNodes<Dim>& nodes) requires(Dim == 3);
+                             int which, Outcome& outcome);
+  void settle_surfaces(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& nodes,
+                       Outcome& outcome) requires(Dim == 3);
   int surface_levels_that_pay(const Level<Dim>& finest) const requires(Dim == 3);
   GivenNodes<Dim> nodes_from_coarser_levels(const Level<Dim>& finest,
                                             const std::shared_ptr<const Spacing<Dim>>& spacing,

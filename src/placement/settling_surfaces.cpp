@@ -9,6 +9,7 @@
 #include "initial/initial_fill.hpp"
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
+#include "level/numbering.hpp"
 #include "level/volume/surface_level.hpp"
 #include "placement/placement_of.hpp"
 
@@ -16,15 +17,18 @@ namespace pnpbs {
 
 // The nodes of the boundary among those given, which may be from a coarser level, come to rest on
 // the level's surfaces, and are given instead; if there are none, the surfaces are filled.
-// Collective.
+// If the monitor has stopped the call, or does so here, they stay as they are. Collective.
 template <>
-void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNodes<3>& given) {
+void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNodes<3>& given,
+                                     Outcome& outcome) {
   scatter_to_owners(*level, given);
-  GivenNodes<3> inner, on_surfaces;
-  for (const GivenNode<3>& node : given) {
-    if (node.is_inner()) inner.push_back(node);
-    if (node.carrier == Carrier::surface) on_surfaces.push_back(node);
-  }
+  reserve_ids(*level, given);
+  GivenNodes<3> inner, on_surfaces, on_features;
+  for (const GivenNode<3>& node : given)
+    (node.is_inner()                    ? inner
+     : node.carrier == Carrier::surface ? on_surfaces
+                                        : on_features)
+        .push_back(node);
   const bool anew = comm_->allreduce_sum(on_surfaces.size()) == 0;
   const Settings inside = level->settings;
   const Schedule schedule = schedule_;
@@ -35,12 +39,14 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
   };
   try {
     level_->change_settings(surface_settings(inside));
-    put_surface_nodes(*level_, std::move(on_surfaces), anew);
+    put_surface_nodes(*level_, std::move(on_surfaces), on_features, anew);
     begin_schedule(!anew);
     schedule_.coarser = true;
     const Settings& settings = level_->settings;
-    advance(anew ? settings.steps : settings.refined_steps, {0, 0});
-    sweep_on_surfaces(*level_, settings.sweeps);
+    if (outcome != Outcome::stopped &&
+        advance(anew ? settings.steps : settings.refined_steps, {0, 0}) == Outcome::stopped)
+      outcome = Outcome::stopped;
+    if (outcome != Outcome::stopped) sweep_on_surfaces(*level_, settings.sweeps);
     fix_surface_nodes(*level_);
     level_->change_settings(inside);
   } catch (...) {

@@ -159,7 +159,8 @@ class StarWriter {
       if (circumsphere(x).flat) return false;
       if (is_flat_cap(x) && in_.on_one_surface && in_.on_one_surface(node)) return false;
     }
-    return in_.facets->inside(centroid(t));
+    const Point<3> middle = centroid(t);
+    return in_.facets->inside(middle) || in_.facets->on_inner_facet(middle);
   }
 
   void write(std::vector<std::int32_t>& out) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "delaunay/volume/tangent_star.hpp"
@@ -53,12 +54,23 @@ void append(GivenNodes<3>& to, const GivenNodes<3>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
+void keep_ids_in_place(GivenNodes<3>& laid, const GivenNodes<3>& before) {
+  std::map<Point<3>, std::int64_t> id_at;
+  for (const GivenNode<3>& node : before) id_at[node.position] = node.id;
+  for (GivenNode<3>& node : laid) {
+    const auto found = id_at.find(node.position);
+    if (found != id_at.end()) node.id = found->second;
+  }
+}
+
 }  // namespace
 
-void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, bool begin_anew) {
+void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, const GivenNodes<3>& on_features,
+                       bool begin_anew) {
   GivenNodes<3> laid, filled;
   agreed(*level.comm, [&] {
     laid = level.ground.feature_nodes();
+    keep_ids_in_place(laid, on_features);
     filled = filled_surfaces(level);
     append(laid, begin_anew ? filled : on_surfaces);
   });

@@ -15,8 +15,10 @@ namespace pnpbs {
 Settings surface_settings(const Settings& inside);
 
 // The nodes of feature edges, which are laid afresh, and these on surfaces become the nodes of the
-// level; if `begin_anew`, a fill on the surfaces. Those on surfaces move from now on. Collective.
-void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, bool begin_anew);
+// level; if `begin_anew`, a fill on the surfaces. Those on surfaces move from now on. A node of a
+// feature edge keeps the id of the one in its place among `on_features`. Collective.
+void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, const GivenNodes<3>& on_features,
+                       bool begin_anew);
 // They rest: from now on those inside move.
 void fix_surface_nodes(Level<3>& level);
 // The owned nodes of the boundary.

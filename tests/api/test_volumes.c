@@ -1,0 +1,384 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Placements in space as a user meets them: what is handed out fits together, and what cannot be
+ * done is told.
+ */
+#include "volume_support.h"
+
+/* ---------------------------------------------------------------- what is handed out ---- */
+
+START_TEST(a_box) {
+  const double d = 0.12;
+  job it = box_job(d);
+  volume v;
+  int64_t i, on_boundary = 0;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  v = volume_of(it.placement);
+  ck_assert_int_eq(v.n, integer_of(it.placement, "nodes"));
+  ck_assert_double_eq_tol((double)v.n, 1.5 / (d * d * d), 0.35 * 1.5 / (d * d * d));
+  ck_assert_double_eq_tol(boundary_area(&v, 1, NULL), 6, 1e-12);
+  ck_assert_double_gt(nearest_pair(&v), 0.5);
+  ck_assert_double_gt(real_of(it.placement, "quality.mean"), 0.85);
+  ck_assert_double_gt(real_of(it.placement, "quality.min_angle"), 25);
+  for (i = 0; i < v.n; ++i) {
+    double side = HUGE_VAL;
+    int k;
+    for (k = 0; k < 3; ++k) side = fmin(side, fmin(v.xyz[3 * i + k], 1 - v.xyz[3 * i + k]));
+    ck_assert_double_eq(v.d[i], d);
+    ck_assert_int_eq(v.tags[i], side == 0);
+    ck_assert(side == 0 || side > 0.3 * d);
+    on_boundary += v.tags[i] != 0;
+  }
+  ck_assert_int_eq(on_boundary, integer_of(it.placement, "boundary_nodes"));
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
+/* Whatever is within 1.7 d, and both ways. */
+START_TEST(adjacency_by_distance) {
+  job it = box_job(0.2);
+  volume v;
+  int64_t entries, i, j, expected = 0, *offsets, *neighbours;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  v = volume_of(it.placement);
+  MUST(pnpbs_placement_adjacency_size(it.placement, &entries));
+  offsets = malloc((size_t)(v.n + 1) * sizeof *offsets);
+  neighbours = malloc((size_t)entries * sizeof *neighbours);
+  MUST(pnpbs_placement_get_adjacency(it.placement, entries, offsets, neighbours));
+  for (i = 0; i < v.n; ++i)
+    for (j = 0; j < v.n; ++j) {
+      int64_t k;
+      int listed = 0;
+      for (k = offsets[i]; k < offsets[i + 1]; ++k) listed += neighbours[k] == j;
+      ck_assert_int_eq(listed, i != j && distance(v.xyz + 3 * i, v.xyz + 3 * j) <= 1.7 * 0.2);
+      expected += listed;
+    }
+  ck_assert_int_eq(entries, expected);
+  free(offsets), free(neighbours);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(bodies) {
+  static const struct {
+    volume_body body;
+    double d, tolerance;
+  } cases[] = {{volume_l_block, 0.12, 1e-12},
+               {volume_two_halves, 0.15, 1e-12},
+               {volume_globe, 0.2, 0.02},
+               {volume_cavity, 0.1, 0.01},
+               {volume_bracket, 4, 0.01}};
+  job it = body_job(cases[_i].body);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, cases[_i].d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, cases[_i].tolerance);
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- what cannot be -------- */
+
+START_TEST(functions_of_the_other_dimension) {
+  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, low[] = {0, 0, 0}, high[] = {1, 1, 1};
+  job plane = square_job(1), space = box_job(0.5);
+  pnpbs_domain domain = NULL;
+  int64_t count;
+  MUST_BE(PNPBS_ERROR_ARGUMENT, pnpbs_domain_create(plane.context, 4, &domain));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_box(plane.domain, low, high, 1),
+            "two dimensions", "space");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_domain_read_surface(plane.domain, PNPBS_BOUNDARY, DATA "/eros.off", 40),
+            "two dimensions", "space");
+  MUST_BE(PNPBS_ERROR_ARGUMENT,
+          pnpbs_domain_add_polyline(space.domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_read_poly(space.domain, DATA "/lake_victoria.poly"),
+            "three dimensions", "plane");
+  MUST(pnpbs_placement_set_spacing_constant(plane.placement, 0.3));
+  MUST_COMPUTE(pnpbs_placement_run(plane.placement));
+  MUST_COMPUTE(pnpbs_placement_run(space.placement));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_get_tetrahedra(plane.placement, 0, &count, NULL),
+            "dimensions", "3");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_get_boundary_triangles(plane.placement, 0, &count, NULL, NULL),
+            "dimensions", "3");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_get_triangles(space.placement, 0, &count, NULL),
+            "dimensions", "2");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_get_boundary_edges(space.placement, 0, &count, NULL, NULL),
+            "dimensions", "2");
+  job_end(&plane);
+  job_end(&space);
+}
+END_TEST
+
+/* Corners alone are nodes, and the tetrahedra between them still fill the body. */
+START_TEST(spacings_far_larger_than_the_body) {
+  static const double huge[] = {3, 1e6, 1e150, 1e299};
+  job it = box_job(huge[_i]);
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(integer_of(it.placement, "nodes"), 8);
+  check_body(&it, 1e-12);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  job_end(&it);
+}
+END_TEST
+
+static int32_t bad_beyond(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  int64_t i;
+  for (i = 0; i < n; ++i) d[i] = x[dim * i + 2] > 0.7 ? *(const double*)user : 0.15;
+  return 0;
+}
+
+static int32_t failing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  (void)n, (void)dim, (void)x, (void)d, (void)user;
+  return 1;
+}
+
+START_TEST(bad_spacings) {
+  static double bad[] = {0, -1, NAN, HUGE_VAL};
+  job it = body_job(volume_unit_box);
+  int k;
+  for (k = 0; k < COUNT_OF(bad); ++k) {
+    MUST_BE(PNPBS_ERROR_SPACING, pnpbs_placement_set_spacing_constant(it.placement, bad[k]));
+    MUST(pnpbs_placement_set_spacing_callback(it.placement, bad_beyond, &bad[k]));
+    MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement), "(", "0.");
+  }
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, failing, NULL));
+  MUST_BE(PNPBS_ERROR_CALLBACK, pnpbs_placement_run(it.placement));
+  /* And goes on to be usable. */
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.3));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(too_many_nodes) {
+  job it = box_job(0.05);
+  MUST(pnpbs_placement_set(it.placement, "max_nodes", "1000"));
+  MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement), "max_nodes", "1000");
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 1e-9));
+  MUST_BE(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- ways to drive it ------ */
+
+typedef struct {
+  int calls, stop_at;
+  double last;
+} watch;
+
+static int32_t watching(double fraction, int64_t step, int64_t nodes, double max_speed,
+                        void* user) {
+  watch* w = user;
+  (void)step, (void)nodes, (void)max_speed;
+  ck_assert_double_ge(fraction, w->last);
+  ck_assert_double_le(fraction, 1);
+  w->last = fraction;
+  return ++w->calls > w->stop_at;
+}
+
+/* On a coarser level, on the surfaces, inside: what is there is a triangulation of the body. */
+START_TEST(stopped_by_the_monitor) {
+  static const int stops[] = {0, 1, 2, 4, 6};
+  struct volume_spacing spacing = VOLUME_GRADED(0.05, 0.1, 0, 0, 0);
+  job it = body_job(volume_unit_box);
+  watch w = {0, 0, 0};
+  w.stop_at = stops[_i];
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, volume_spacing_at, &spacing));
+  MUST(pnpbs_placement_set_monitor(it.placement, watching, &w));
+  MUST_BE(PNPBS_STOPPED, pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(w.calls, stops[_i] + 1);
+  if (integer_of(it.placement, "nodes") > 0) check_body(&it, 1e-12);
+  w.stop_at = 1000000;
+  w.last = 0;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(by_steps) {
+  job it = box_job(0.15);
+  int64_t inserted = -1, deleted = -1, before;
+  int k;
+  MUST(pnpbs_placement_initialise(it.placement));
+  check_body(&it, 1e-12);
+  before = integer_of(it.placement, "steps"); /* on the surfaces */
+  for (k = 0; k < 3; ++k) {
+    MUST_COMPUTE(pnpbs_placement_step(it.placement, 7));
+    ck_assert_int_eq(integer_of(it.placement, "steps"), before + 7 * (k + 1));
+    check_body(&it, 1e-12);
+  }
+  MUST(pnpbs_placement_adjust_population(it.placement, &inserted, &deleted));
+  ck_assert_int_ge(inserted, 0);
+  ck_assert_int_ge(deleted, 0);
+  MUST(pnpbs_placement_rebalance(it.placement));
+  check_body(&it, 1e-12);
+  job_end(&it);
+}
+END_TEST
+
+/* Points of a cubic lattice, half of which lie outside; their ids stay with them. */
+START_TEST(given_nodes) {
+  enum { ROW = 12, ALL = ROW * ROW * ROW };
+  double* xyz = malloc(3 * ALL * sizeof *xyz);
+  int64_t* ids = malloc(ALL * sizeof *ids);
+  job it = box_job(0.16);
+  volume v;
+  int64_t k, kept = 0;
+  for (k = 0; k < ALL; ++k) {
+    xyz[3 * k] = 0.16 * (double)(k % ROW) + 0.08;
+    xyz[3 * k + 1] = 0.16 * (double)(k / ROW % ROW) + 0.085;
+    xyz[3 * k + 2] = 0.16 * (double)(k / (ROW * ROW)) + 0.09;
+    ids[k] = 7 * k;
+  }
+  MUST(pnpbs_placement_set_nodes(it.placement, ALL, xyz, ids));
+  MUST(pnpbs_placement_initialise(it.placement));
+  check_body(&it, 1e-12);
+  ck_assert_int_gt(integer_of(it.placement, "dropped"), ALL / 2);
+  v = volume_of(it.placement);
+  for (k = 0; k < v.n; ++k)
+    if (v.ids[k] % 7 == 0 && v.ids[k] < 7 * ALL && v.tags[k] == 0) {
+      ck_assert_double_eq(distance(v.xyz + 3 * k, xyz + 3 * (v.ids[k] / 7)), 0);
+      ++kept;
+    }
+  ck_assert_int_gt(kept, 100);
+  volume_free(&v);
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  free(xyz), free(ids);
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- adapting -------------- */
+
+START_TEST(values_at_nodes) {
+  job it = box_job(0.2);
+  volume v;
+  int64_t i;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  v = volume_of(it.placement);
+  for (i = 0; i < v.n; ++i) v.d[i] = 0.1;
+  MUST_BE(PNPBS_ERROR_ARGUMENT, pnpbs_placement_set_spacing_at_nodes(it.placement, v.n - 1, v.d));
+  MUST(pnpbs_placement_set_spacing_at_nodes(it.placement, v.n, v.d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  ck_assert_double_eq_tol(real_of(it.placement, "edge.mean"), 1, 0.06);
+  ck_assert_int_gt(integer_of(it.placement, "nodes"), 5 * v.n);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
+/* Nodes with the same id in both, each of which has moved by no more than `most`. */
+static int64_t kept_ids(const volume* before, const volume* after, double most) {
+  int64_t i, j = 0, kept = 0;
+  for (i = 0; i < before->n; ++i) {
+    while (j < after->n && after->ids[j] < before->ids[i]) ++j;
+    if (j == after->n || after->ids[j] != before->ids[i]) continue;
+    ck_assert_double_le(distance(before->xyz + 3 * i, after->xyz + 3 * j), most);
+    ++kept;
+  }
+  return kept;
+}
+
+static int64_t id_at(const volume* v, double x, double y, double z) {
+  const double xyz[] = {x, y, z};
+  int64_t i;
+  for (i = 0; i < v->n; ++i)
+    if (distance(v->xyz + 3 * i, xyz) == 0) return v->ids[i];
+  return -1;
+}
+
+/* Finer by two in a corner, coarser elsewhere, and back. */
+START_TEST(another_spacing) {
+  struct volume_spacing corner = VOLUME_GRADED(0.07, 0.08, 1, 1, 1);
+  job it = box_job(0.1);
+  volume before, after;
+  int k;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  before = volume_of(it.placement);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, volume_spacing_at, &corner));
+  ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
+  check_body(&it, 1e-12);
+  after = volume_of(it.placement);
+  for (k = 0; k < 8; ++k)
+    ck_assert_int_eq(id_at(&before, k & 1, k >> 1 & 1, k >> 2),
+                     id_at(&after, k & 1, k >> 1 & 1, k >> 2));
+  ck_assert_int_gt(kept_ids(&before, &after, 0.5), before.n / 5);
+  volume_free(&after);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
+  check_body(&it, 1e-12);
+  ck_assert_double_eq_tol((double)integer_of(it.placement, "nodes"), (double)before.n,
+                          0.2 * (double)before.n);
+  volume_free(&before);
+  job_end(&it);
+}
+END_TEST
+
+/* What is there stays, where d stays. */
+START_TEST(the_same_spacing_again) {
+  job it = box_job(0.12);
+  volume before, after;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  before = volume_of(it.placement);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.12));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  after = volume_of(it.placement);
+  ck_assert_int_gt(kept_ids(&before, &after, 0.12), before.n * 9 / 10);
+  volume_free(&before), volume_free(&after);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(growth_is_limited) {
+  struct volume_spacing jump = {0.3, 0, {0, 0, 0}, 0.5, 0.06};
+  job limited = body_job(volume_unit_box), steep = body_job(volume_unit_box);
+  MUST(pnpbs_placement_set_spacing_callback(limited.placement, volume_spacing_at, &jump));
+  ck_assert_int_ge(pnpbs_placement_run(limited.placement), 0);
+  ck_assert_int_ge(warnings_with(limited.placement, "per unit of length"), 1);
+  check_body(&limited, 1e-12);
+  MUST(pnpbs_placement_set_spacing_callback(steep.placement, volume_spacing_at, &jump));
+  MUST(pnpbs_placement_set(steep.placement, "growth_limit", "0"));
+  ck_assert_int_ge(pnpbs_placement_run(steep.placement), 0);
+  ck_assert_int_gt(integer_of(limited.placement, "nodes"), integer_of(steep.placement, "nodes"));
+  job_end(&limited);
+  job_end(&steep);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("volumes");
+  TCase* tests = tcase_create("volumes");
+  tcase_set_timeout(tests, 0);
+  tcase_add_test(tests, a_box);
+  tcase_add_test(tests, adjacency_by_distance);
+  tcase_add_loop_test(tests, bodies, 0, 5);
+  tcase_add_test(tests, functions_of_the_other_dimension);
+  tcase_add_loop_test(tests, spacings_far_larger_than_the_body, 0, 4);
+  tcase_add_test(tests, bad_spacings);
+  tcase_add_test(tests, too_many_nodes);
+  tcase_add_loop_test(tests, stopped_by_the_monitor, 0, 5);
+  tcase_add_test(tests, by_steps);
+  tcase_add_test(tests, given_nodes);
+  tcase_add_test(tests, values_at_nodes);
+  tcase_add_test(tests, another_spacing);
+  tcase_add_test(tests, the_same_spacing_again);
+  tcase_add_test(tests, growth_is_limited);
+  suite_add_tcase(suite, tests);
+  return run_suite(suite);
+}
