@@ -179,7 +179,7 @@ const std::map<std::string, void (*)()> kCases{
     {"box-graded", [] { run_bodies("box-graded"); }},
     {"box-jump", [] { run_bodies("box-jump"); }},
     {"globe", [] { run_bodies("globe"); }},
-    {"l-block", [] { run_bodies("l-block-graded"); }},
+    {"l-block", [] { run_bodies("l-block"); }},
     {"cavity", [] { run_bodies("cavity"); }},
     {"two-halves", [] { run_bodies("two-halves"); }},
     {"kleopatra", [] { run_bodies("kleopatra-graded"); }},
