@@ -103,10 +103,10 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
 }
 
 template SteepestGrowth<2> steepest_growth<2>(const Communicator&, const DomainMap<2>&,
-                                           const std::function<bool(std::int32_t)>&,
-                                           const SpacingEvaluator<2>&);
+                                              const std::function<bool(std::int32_t)>&,
+                                              const SpacingEvaluator<2>&);
 template SteepestGrowth<3> steepest_growth<3>(const Communicator&, const DomainMap<3>&,
-                                           const std::function<bool(std::int32_t)>&,
-                                           const SpacingEvaluator<3>&);
+                                              const std::function<bool(std::int32_t)>&,
+                                              const SpacingEvaluator<3>&);
 
 }  // namespace pnpbs

@@ -55,7 +55,8 @@ void repair_bad_triangles(Level<2>& level) {
 std::vector<EdgeBand> edge_bands(Level<2>& level) {
   std::vector<EdgeBand> bands;
   update_ghosts(level);
-  agreed(*level.comm, [&] { bands = measure_edge_bands<2>(*level.comm, level.nodes, level.stars); });
+  agreed(*level.comm,
+         [&] { bands = measure_edge_bands<2>(*level.comm, level.nodes, level.stars); });
   return bands;
 }
 
