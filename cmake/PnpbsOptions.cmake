@@ -15,6 +15,9 @@ option(PNPBS_WARNINGS_AS_ERRORS "Stop at the first compiler warning" OFF)
 set(PNPBS_ARCH
     ""
     CACHE STRING "Processor to compile for: empty for the compiler's default, native, x86-64-v3, ...")
+set(PNPBS_TEST_FOLDERS
+    ""
+    CACHE STRING "Folders of tests to build; empty: all")
 set(PNPBS_SANITIZE
     ""
     CACHE STRING "Sanitizers to build with, as -fsanitize takes them, e.g. address,undefined")

@@ -57,11 +57,13 @@ static inline void volume_globe_corner(const double* centre, double radius, int 
     xyz[k] = centre[k] + (octant >> k & 1 ? -1 : 1) * radius * side[k] / length;
 }
 
-/* A coarse globe: an octahedron of which every side is cut into small triangles. */
-static inline pnpbs_status volume_add_globe(pnpbs_domain domain, const double* centre,
-                                            double radius) {
+/* A coarse globe: an octahedron of which every side is cut into small triangles. The lower half
+ * has a tag of its own. */
+static inline pnpbs_status volume_add_halves(pnpbs_domain domain, const double* centre,
+                                             double radius, int32_t upper, int32_t lower) {
   static double xyz[3 * GLOBE_TRIANGLES][3];
   static int64_t corners[GLOBE_TRIANGLES][3];
+  static int32_t tags[GLOBE_TRIANGLES];
   int octant, i, j, up;
   int64_t n = 0, k;
   for (octant = 0; octant < 8; ++octant)
@@ -71,9 +73,15 @@ static inline pnpbs_status volume_add_globe(pnpbs_domain domain, const double* c
           volume_globe_corner(centre, radius, octant, i + up, j + up, xyz[3 * n]);
           volume_globe_corner(centre, radius, octant, i + 1, j, xyz[3 * n + 1]);
           volume_globe_corner(centre, radius, octant, i, j + 1, xyz[3 * n + 2]);
+          tags[n] = octant >> 2 & 1 ? lower : upper;
         }
   for (k = 0; k < 3 * n; ++k) corners[k / 3][k % 3] = k;
-  return pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 3 * n, xyz[0], n, corners[0], NULL, 40);
+  return pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 3 * n, xyz[0], n, corners[0], tags, 40);
+}
+
+static inline pnpbs_status volume_add_globe(pnpbs_domain domain, const double* centre,
+                                            double radius) {
+  return volume_add_halves(domain, centre, radius, 1, 1);
 }
 
 static inline pnpbs_status volume_globe(pnpbs_domain domain, const char* data) {
@@ -127,6 +135,26 @@ static inline pnpbs_status volume_two_halves(pnpbs_domain domain, const char* da
   return status < 0 ? status : volume_add_quads(domain, PNPBS_INNER, 4, xyz[4], 1, wall);
 }
 
+/* A ring about the z axis, by the distance to it. Its box is so that no plane of it is a lattice
+ * plane. */
+static inline int32_t volume_ring_at(int64_t n, int32_t dim, const double* x, double* f,
+                                     void* user) {
+  int64_t i;
+  (void)user;
+  for (i = 0; i < n; ++i) {
+    const double* at = x + dim * i;
+    const double across = sqrt(at[0] * at[0] + at[1] * at[1]) - 1;
+    f[i] = sqrt(across * across + at[2] * at[2]) - 0.4;
+  }
+  return 0;
+}
+
+static inline pnpbs_status volume_ring(pnpbs_domain domain, const char* data) {
+  const double low[] = {-1.5, -1.53, -0.5}, high[] = {1.6, 1.5, 0.51};
+  (void)data;
+  return pnpbs_domain_add_level_set(domain, volume_ring_at, NULL, low, high, 0.1, 5);
+}
+
 static inline pnpbs_status volume_read(pnpbs_domain domain, const char* data, const char* name) {
   char path[4200];
   snprintf(path, sizeof path, "%s/%s", data, name);
@@ -141,6 +169,59 @@ static inline pnpbs_status volume_kleopatra(pnpbs_domain domain, const char* dat
 }
 static inline pnpbs_status volume_eros(pnpbs_domain domain, const char* data) {
   return volume_read(domain, data, "eros.off");
+}
+
+/* ---------------------------------------------------------------- surfaces alone -------- */
+
+/* Nodes on the equator, where the tags meet. */
+static inline pnpbs_status surface_halves(pnpbs_domain domain, const char* data) {
+  const double centre[] = {0, 0, 0};
+  const pnpbs_status status = pnpbs_domain_set_filled(domain, 0);
+  (void)data;
+  return status < 0 ? status : volume_add_halves(domain, centre, 1, 1, 2);
+}
+
+static inline double terrain_height(double x, double y) {
+  return 0.6 * x * (1 - x * x) * (1 - 0.5 * y * y) + 0.25 * y * y * (1 - y) - 0.1 * x * y;
+}
+
+enum { TERRAIN_ROWS = 40 };
+
+/* Hills and valleys over the square from (-1, -1) to (1, 1): an open surface with a border. */
+static inline pnpbs_status surface_terrain(pnpbs_domain domain, const char* data) {
+  static double xyz[(TERRAIN_ROWS + 1) * (TERRAIN_ROWS + 1)][3];
+  static int64_t corners[2 * TERRAIN_ROWS * TERRAIN_ROWS][3];
+  const pnpbs_status status = pnpbs_domain_set_filled(domain, 0);
+  int64_t n = 0, vertices = 0;
+  int i, j, half;
+  (void)data;
+  for (j = 0; j <= TERRAIN_ROWS; ++j)
+    for (i = 0; i <= TERRAIN_ROWS; ++i, ++vertices) {
+      xyz[vertices][0] = 2.0 * i / (double)TERRAIN_ROWS - 1;
+      xyz[vertices][1] = 2.0 * j / (double)TERRAIN_ROWS - 1;
+      xyz[vertices][2] = terrain_height(xyz[vertices][0], xyz[vertices][1]);
+    }
+  for (j = 0; j < TERRAIN_ROWS; ++j)
+    for (i = 0; i < TERRAIN_ROWS; ++i)
+      for (half = 0; half < 2; ++half, ++n) {
+        const int64_t low = j * (TERRAIN_ROWS + 1) + i, high = low + TERRAIN_ROWS + 2;
+        corners[n][0] = low;
+        corners[n][1] = half ? high : low + 1;
+        corners[n][2] = half ? high - 1 : high;
+      }
+  if (status < 0) return status;
+  return pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, vertices, xyz[0], n, corners[0], NULL,
+                                  40);
+}
+
+/* A skin with creases. */
+static inline pnpbs_status surface_l_block(pnpbs_domain domain, const char* data) {
+  const pnpbs_status status = pnpbs_domain_set_filled(domain, 0);
+  return status < 0 ? status : volume_l_block(domain, data);
+}
+static inline pnpbs_status surface_kleopatra(pnpbs_domain domain, const char* data) {
+  const pnpbs_status status = pnpbs_domain_set_filled(domain, 0);
+  return status < 0 ? status : volume_kleopatra(domain, data);
 }
 
 /* ---------------------------------------------------------------- spacings -------------- */

@@ -22,6 +22,8 @@ static const struct volume_case volume_cases[] = {
     {"box-jump", volume_unit_box, {0.16, 0, {0, 0, 0}, 0.52, 0.045}},
     {"ball", volume_unit_ball, VOLUME_CONSTANT(0.13)},
     {"globe", volume_globe, VOLUME_CONSTANT(0.11)},
+    {"ring", volume_ring, VOLUME_CONSTANT(0.12)},
+    {"ring-graded", volume_ring, VOLUME_GRADED(0.06, 0.06, 1, 0, 0)},
     {"l-block", volume_l_block, VOLUME_CONSTANT(0.06)},
     {"l-block-graded", volume_l_block, VOLUME_GRADED(0.02, 0.12, 0.5, 0.5, NAN)},
     {"cavity", volume_cavity, VOLUME_CONSTANT(0.07)},
@@ -31,6 +33,10 @@ static const struct volume_case volume_cases[] = {
     {"kleopatra-graded", volume_kleopatra, VOLUME_GRADED(2, 0.08, 100, 0, 0)},
     {"eros", volume_eros, VOLUME_CONSTANT(0.05)},
     {"eros-graded", volume_eros, VOLUME_GRADED(0.018, 0.08, 0, 0.1, 0)},
+    {"surface-halves", surface_halves, VOLUME_CONSTANT(0.05)},
+    {"surface-terrain", surface_terrain, VOLUME_GRADED(0.02, 0.03, 0.5, 0, 0)},
+    {"surface-l-block", surface_l_block, VOLUME_CONSTANT(0.05)},
+    {"surface-kleopatra", surface_kleopatra, VOLUME_GRADED(2, 0.03, 100, 0, 0)},
 };
 
 enum { VOLUME_CASES = sizeof volume_cases / sizeof volume_cases[0] };

@@ -41,7 +41,7 @@ module pnpbs
   public :: PNPBS_ERROR_UNSUPPORTED, PNPBS_ERROR_INTERNAL
   public :: PNPBS_BOUNDARY, PNPBS_INNER
   public :: PNPBS_VERSION_MAJOR, PNPBS_VERSION_MINOR, PNPBS_VERSION_PATCH
-  public :: pnpbs_curve_fn, pnpbs_spacing_fn, pnpbs_monitor_fn
+  public :: pnpbs_curve_fn, pnpbs_level_set_fn, pnpbs_spacing_fn, pnpbs_monitor_fn
   public :: pnpbs_context, pnpbs_domain, pnpbs_placement
   public :: pnpbs_status_string, pnpbs_last_error, pnpbs_version, pnpbs_build_info
   public :: pnpbs_mpi_library, pnpbs_finalize, pnpbs_discard_unfinished_files
@@ -82,9 +82,11 @@ module pnpbs
     procedure :: add_box => domain_add_box
     procedure :: add_ball => domain_add_ball
     procedure :: add_cylinder => domain_add_cylinder
+    procedure :: add_level_set => domain_add_level_set
     procedure :: add_arc => domain_add_arc
     procedure :: add_curve => domain_add_curve
     procedure :: add_pslg => domain_add_pslg
+    procedure :: set_filled => domain_set_filled
     procedure :: add_hole => domain_add_hole
     procedure :: add_fixed_nodes => domain_add_fixed_nodes
     procedure :: read_poly => domain_read_poly
@@ -130,6 +132,7 @@ module pnpbs
     procedure :: dimension => placement_dimension
     procedure :: count => placement_count
     procedure :: get_nodes => placement_get_nodes
+    procedure :: get_normals => placement_get_normals
     procedure :: ghost_count => placement_ghost_count
     procedure :: get_ghosts => placement_get_ghosts
     procedure :: exchange_sizes => placement_exchange_sizes
@@ -607,6 +610,37 @@ contains
     call conclude('domain%add_cylinder', status, stat, errmsg, given)
   end subroutine
 
+  !> Adds the body where f < 0 to a domain in space; it must lie in the box. Its surface is found on
+  !> an octree that is refined near f = 0 down to cells of side resolution: what is thinner can be
+  !> lost, and so can a body that is small beside the box and towards which f does not fall. Nodes
+  !> on the surface lie where f = 0, however coarse the triangles are that lead them there; sharp
+  !> edges are rounded by the resolution, and no nodes are on them. The callback is called during
+  !> this procedure and whenever a placement is initialised, so it and user must outlive the
+  !> placements made on the domain. Local.
+  !>   low, high   (3), the box, in which alone f is asked
+  !>   resolution  > 0, at most the box's shortest side; no more than the spacing at the surface, and
+  !>               than half of the least radius to which it is bent
+  !>   tag         optional: nonzero; 1 without
+  !>   user        optional: what the callback is given; null without
+  subroutine domain_add_level_set(self, level_set, low, high, resolution, tag, user, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    procedure(pnpbs_level_set_fn) :: level_set
+    real(c_double), intent(in) :: low(:), high(:), resolution
+    integer(c_int32_t), intent(in), optional :: tag
+    type(c_ptr), intent(in), optional :: user
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('low', size(low), 3)
+    call given%check_rows('high', size(high), 3)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_add_level_set(self%c, c_funloc(level_set), pointer_or_null(user), low, &
+                                      high, resolution, tag_or_one(tag))
+    call conclude('domain%add_level_set', status, stat, errmsg, given)
+  end subroutine
+
   !> Adds a circular arc to a domain in the plane; its ends join curves that end at the same point
   !> (within 1e-9 of the domain's size). Local.
   !>   centre      (2)
@@ -688,6 +722,22 @@ contains
         segment_ends - 1, &
                                  a_segment_tags, holes, a_holes)
     call conclude('domain%add_pslg', status, stat, errmsg, given)
+  end subroutine
+
+  !> Whether a domain in space is what its surfaces enclose, as it is at first, or the surfaces
+  !> alone: nodes on them and triangles between these, and nothing inside. Then surfaces of both
+  !> roles count alike and may be closed or open. Polylines must follow edges of the triangles, fixed
+  !> nodes must be vertices of them, holes there are none. Options mean what they do in the plane.
+  !> Local.
+  !>   filled  .true.: what they enclose; .false.: the surfaces alone
+  subroutine domain_set_filled(self, filled, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    logical, intent(in) :: filled
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%set_filled', &
+                  c_domain_set_filled(self%c, merge(1_c_int32_t, 0_c_int32_t, filled)), stat, &
+                  errmsg)
   end subroutine
 
   !> Removes from the domain the region around a point, as far as the next curves or surfaces of
@@ -1175,6 +1225,22 @@ contains
     call conclude('placement%get_nodes', status, stat, errmsg, given)
   end subroutine
 
+  !> Copies out where the surfaces look at the nodes of this rank, of a placement in space: the unit
+  !> normal of the triangle that a node lies on, on feature edges and in corners the mean of those on
+  !> its sides, 0 for inner nodes. Local.
+  !>   normals  (3, nodes)
+  subroutine placement_get_normals(self, normals, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout) :: normals(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('normals', size(normals, 1), 3)
+    status = c_placement_get_normals(self%c, given%capacity(size(normals, 2, c_int64_t)), normals)
+    call conclude('placement%get_normals', status, stat, errmsg, given)
+  end subroutine
+
   !> Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars,
   !> triangles and tetrahedra ghost g has the local index nodes + g. Collective.
   subroutine placement_ghost_count(self, ghosts, stat, errmsg)
@@ -1482,7 +1548,8 @@ contains
   end subroutine
 
   !> Triangles of the boundary of a placement in space: the faces of tetrahedra that have no other
-  !> tetrahedron behind them, counter-clockwise as seen from outside. Over several ranks a triangle
+  !> tetrahedron behind them, counter-clockwise as seen from outside. Of surfaces alone, the triangles
+  !> between the nodes on them. Over several ranks a triangle
   !> is the rank's that owns its node with the least id. Collective.
   !>   triangles  optional, (3, count) local indices
   !>   tags       optional, (count) of the surface there

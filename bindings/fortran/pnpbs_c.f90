@@ -75,6 +75,20 @@ module pnpbs_c
       integer(c_int32_t) :: pnpbs_spacing_fn
     end function
 
+    !> A level set: fills values(n) with f at coordinates(dim,n), dim = 3; the body is where f < 0.
+    !> Must be a pure function of the point, the same on all ranks, continuous and finite everywhere
+    !> in the box; it need not be a distance. Returns as above.
+    function pnpbs_level_set_fn(n, dim, coordinates, values, user) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: dim
+      real(c_double), intent(in) :: coordinates(dim, n)
+      real(c_double), intent(out) :: values(n)
+      type(c_ptr), value :: user ! void *
+      integer(c_int32_t) :: pnpbs_level_set_fn
+    end function
+
     !> Progress, told at fixed step numbers and, some times a second, while the first nodes are laid
     !> or the growth of the spacing is limited (on each rank by its own clock: do nothing collective
     !> while the fraction is 0), between long steps, and between the parts of the finish: the part of
@@ -332,6 +346,19 @@ module pnpbs_c
       integer(c_int) :: c_domain_add_cylinder
     end function
 
+    function c_domain_add_level_set(domain, level_set, user, low, high, resolution, tag) bind(C, &
+      name="pnpbs_domain_add_level_set")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      type(c_funptr), value :: level_set ! pnpbs_level_set_fn
+      type(c_ptr), value :: user ! void *
+      real(c_double), intent(in) :: low(*), high(*)
+      real(c_double), value :: resolution
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_level_set
+    end function
+
     function c_domain_add_arc(domain, role, centre, radius, begin, end, tag) bind(C, &
       name="pnpbs_domain_add_arc")
       import
@@ -371,6 +398,14 @@ module pnpbs_c
       integer(c_int64_t), value :: holes
       type(c_ptr), value :: hole_points ! const double *
       integer(c_int) :: c_domain_add_pslg
+    end function
+
+    function c_domain_set_filled(domain, filled) bind(C, name="pnpbs_domain_set_filled")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: filled
+      integer(c_int) :: c_domain_set_filled
     end function
 
     function c_domain_add_hole(domain, point) bind(C, name="pnpbs_domain_add_hole")
@@ -747,6 +782,16 @@ module pnpbs_c
       integer(c_int64_t), intent(out) :: count
       type(c_ptr), value :: tetrahedra ! int64_t *
       integer(c_int) :: c_placement_get_tetrahedra
+    end function
+
+    function c_placement_get_normals(placement, capacity, normals) bind(C, &
+      name="pnpbs_placement_get_normals")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: normals(*)
+      integer(c_int) :: c_placement_get_normals
     end function
 
     function c_placement_get_boundary_triangles(placement, capacity, count, triangles, tags) &

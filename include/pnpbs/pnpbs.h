@@ -224,6 +224,15 @@ PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
  *  @param[out] dim  2: in the plane, 3: in space */
 PNPBS_API pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim);
 
+/** Whether a domain in space is what its surfaces enclose, as it is at first, or the surfaces
+ * alone: nodes on them and triangles between these, and nothing inside. Then surfaces of both roles
+ * count alike and may be closed or open; nodes lie on their borders, and the triangles' normals
+ * point to where those of most triangles of a surface did that was given. Polylines must follow
+ * edges of the triangles, fixed nodes must be vertices of them, holes there are none. Options mean
+ * what they do in the plane. Local.
+ *  @param[in] filled  nonzero: what they enclose; 0: the surfaces alone */
+PNPBS_API pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled);
+
 /** Adds straight segments through n vertices. Local.
  *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER; in space PNPBS_INNER
  *  @param[in] closed        nonzero: a segment leads from the last vertex to the first; the
@@ -278,6 +287,30 @@ PNPBS_API pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double *
  *  @param[in] radius     > 0 */
 PNPBS_API pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double *begin,
                                                  const double *end, double radius, int32_t tag);
+
+/** A level set: fills values[n] with f at coordinates[n][dim], dim = 3; the body is where f < 0.
+ *  Must be a pure function of the point, the same on all ranks, continuous and finite in its whole
+ *  box; it need not be a distance. Return 0, or nonzero to fail the call with
+ *  PNPBS_ERROR_CALLBACK. */
+typedef int32_t (*pnpbs_level_set_fn)(int64_t n, int32_t dim, const double *coordinates,
+                                      double *values, void *user);
+
+/** Adds the body where f < 0 to a domain in space; it must lie in the box. Its surface is found on
+ *  an octree that is refined near f = 0 down to cells of side `resolution`: what is thinner can be
+ *  lost, and so can a body that is small beside the box and towards which f does not fall. Nodes on
+ *  the surface lie where f = 0, however coarse the triangles are that lead them there; sharp edges
+ *  are rounded by the resolution, and no nodes are on them. The callback is called during this
+ *  function and whenever a placement is initialised, so it and `user` must outlive the placements
+ *  made on the domain. Local. Errors: PNPBS_ERROR_DOMAIN with the place where f is not
+ *  finite, or negative on the border of the box, or if it is negative nowhere.
+ *  @param[in] level_set   not NULL
+ *  @param[in] low,high    [3], the box, in which alone f is asked
+ *  @param[in] resolution  > 0, at most the box's shortest side; no more than the spacing at the
+ *                         surface, and than half of the least radius to which it is bent
+ *  @param[in] tag         nonzero */
+PNPBS_API pnpbs_status pnpbs_domain_add_level_set(pnpbs_domain domain, pnpbs_level_set_fn level_set,
+                                                  void *user, const double *low, const double *high,
+                                                  double resolution, int32_t tag);
 
 /** Adds a circular arc to a domain in the plane; its ends join curves that end at the same point
  *  (within 1e-9 of the domain's size). Local.
@@ -340,7 +373,8 @@ PNPBS_API pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
 /** Bounding box of the curves or surfaces. Local. @param[out] low,high  [dim] */
 PNPBS_API pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high);
 
-/** Area of the inside, in space its volume. Local; checks the domain first. */
+/** Area of the inside, in space its volume, of surfaces alone their area. Local; checks the domain
+ *  first. */
 PNPBS_API pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);
 
 /** Straight segments that show a domain in the plane (curves finely sampled), for pictures. Local.
@@ -429,6 +463,7 @@ PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
  *  library. Over several ranks each gives some, wherever they lie. Where they are many times too
  *  dense for d they are thinned (statistic `deleted`). Points outside the domain or too close to
  *  its boundary are left out (statistic `dropped`). Clears the nodes there are. Collective.
+ *  On surfaces alone they go to the nearest place on a surface, if that is no farther than d.
  *  @param[in] coordinates   [n][dim]
  *  @param[in] ids  [n], distinct, 0 .. 2^62, or NULL for ids of the library's choice */
 PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
@@ -438,7 +473,7 @@ PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int6
  *  some thousand places (where its growth is limited, in as many as by the run), no inner node is
  *  made, and the nodes there are stay as they are.
  *  Collective; outputs may be NULL. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
- *  @param[out] nodes    on all ranks, mostly within a few percent
+ *  @param[out] nodes    on all ranks, mostly within a few percent, in space some ten
  *  @param[out] bytes    memory of each process, for the run alone
  *  @param[out] seconds  roughly: by what a core of a present server does, times the threads of all
  *                       ranks */
@@ -475,7 +510,9 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  Returns PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether
  *  the bubbles rest or not, if in one of the bands of pnpbs_placement_get_edge_bands with 50 edges
  *  or more the mean is off 1 by more than 0.1: then there is a warning that names the band;
- *  PNPBS_STOPPED. */
+ *  PNPBS_STOPPED. In space there is a warning, too, where the tetrahedra's boundary does not follow
+ *  the surfaces (statistic `missing_faces`), or nodes are in no tetrahedron: see the option
+ *  `resolve`. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
 /** The dimension of the placement's domain. Local.
@@ -495,6 +532,15 @@ PNPBS_API pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t 
 PNPBS_API pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity,
                                                  double *coordinates, int64_t *ids, int32_t *tags,
                                                  double *spacing);
+
+/** Copies out where the surfaces look at the nodes of this rank, of a placement in space: the unit
+ *  normal of the triangle that a node lies on, on feature edges and in corners the mean of those on
+ *  its sides (where these look against each other, and for inner nodes, 0). They point out of a
+ *  filled domain. Local.
+ *  @param[in]  capacity  nodes the array has room for; too small is PNPBS_ERROR_CAPACITY
+ *  @param[out] normals   [nodes][3] */
+PNPBS_API pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capacity,
+                                                   double *normals);
 
 /** Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars,
  *  triangles and tetrahedra ghost g has the local index nodes + g. Collective. */
@@ -553,7 +599,8 @@ PNPBS_API pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement,
 /** Adjacency lists in compressed rows: the neighbours of local node i are
  *  neighbours[offsets[i] .. offsets[i+1]-1], local indices in the order of global ids; directly
  *  usable for node-based local mesh generation. Pairs that a boundary separates are not
- *  neighbours. Collective.
+ *  neighbours; on surfaces alone, those are that share a patch and whose normals differ by less
+ * than 90 degrees. Collective.
  *  @param[in] capacity  entries `neighbours` has room for
  *  @param[out] offsets  [nodes + 1] */
 PNPBS_API pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t capacity,
@@ -563,8 +610,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, 
 PNPBS_API pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int64_t *entries);
 
 /** Each node's star in the constrained Delaunay triangulation of the domain: in the plane
- *  counter-clockwise; in space all nodes that share a tetrahedron with it, in no order that means
- *  anything. Collective.
+ *  counter-clockwise; in space all nodes that share a tetrahedron with it, or a triangle of
+ * surfaces alone, in no order that means anything. Collective.
  *  @param[out] offsets     [nodes + 1]
  *  @param[out] neighbours  [entries] local indices
  *  @param[out] triangle    [entries] 1 if the node, this neighbour and the next one around (the
@@ -586,15 +633,17 @@ PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, 
  *  first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of corners a, b, c
  *  and d is positive. Over several ranks a tetrahedron is the rank's that owns its node with the
  *  least id; other corners may be ghosts, and the tetrahedra of all ranks together are one
- *  conforming triangulation of the domain. Collective. Ask with capacity 0 for the count.
+ *  conforming triangulation of the domain. Surfaces alone have none. Collective. Ask with capacity
+ * 0 for the count.
  *  @param[out] tetrahedra  [count][4] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
                                                       int64_t *count, int64_t *tetrahedra);
 
 /** Triangles of the boundary of a placement in space: the faces of tetrahedra that have no other
- *  tetrahedron behind them, counter-clockwise as seen from outside. Over several ranks a triangle
- *  is the rank's that owns its node with the least id. Collective. Ask with capacity 0 for the
- *  count.
+ *  tetrahedron behind them, counter-clockwise as seen from outside. Of surfaces alone, the
+ * triangles between the nodes on them, counter-clockwise as seen from where the surface's normal
+ * points to. Over several ranks a triangle is the rank's that owns its node with the least id, and
+ * the triangles of all ranks together conform. Collective. Ask with capacity 0 for the count.
  *  @param[out] triangles  [count][3] local indices, or NULL
  *  @param[out] tags       [count] of the surface there, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement,
@@ -615,10 +664,11 @@ PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placem
  *  have are there; adjacency lists are symmetric; the triangles or tetrahedra of the stars are one
  *  conforming triangulation of the domain, each in the stars of all its corners, with every
  *  boundary edge, and their areas or volumes add up to what the boundary encloses; in space the
- *  boundary triangles are closed, and cut off no more of the domain than chords do. It takes about
- *  as long as making lists and stars, and no rank holds more than its share. Collective. Errors:
- *  PNPBS_ERROR_INTERNAL if something is wrong: the message says what, with ids and coordinates;
- *  PNPBS_ERROR_STATE without nodes. */
+ *  boundary triangles are closed, and cut off no more of the domain than chords do; on surfaces
+ * alone every edge has a triangle on both sides, at borders on one, and the areas add up. It takes
+ * about as long as making lists and stars, and no rank holds more than its share. Collective.
+ * Errors: PNPBS_ERROR_INTERNAL if something is wrong: the message says what, with ids and
+ * coordinates; PNPBS_ERROR_STATE without nodes. */
 PNPBS_API pnpbs_status pnpbs_placement_check(pnpbs_placement placement);
 
 /** A statistic by key (see pnpbs_statistic_info). Collective (some are computed when asked).

@@ -67,6 +67,9 @@ pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
   });
 }
 
+double whole_measure(const PlaneDomain& domain) { return domain.area(); }
+double whole_measure(const VolumeDomain& domain) { return domain.measure(); }
+
 CurveRole role_from(int32_t role) {
   if (role == PNPBS_BOUNDARY) return CurveRole::boundary;
   if (role == PNPBS_INNER) return CurveRole::inner;
@@ -199,6 +202,27 @@ pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double* begin,
   });
 }
 
+pnpbs_status pnpbs_domain_add_level_set(pnpbs_domain domain, pnpbs_level_set_fn level_set,
+                                        void* user, const double* low, const double* high,
+                                        double resolution, int32_t tag) {
+  return change_volume(domain, [&](VolumeDomain& volume) {
+    if (!level_set) throw Error(ErrorKind::argument, "argument level_set is NULL");
+    require_pointer(low, "low");
+    require_pointer(high, "high");
+    const LevelSetFunction f = [level_set, user](std::int64_t n, const Point<3>* x,
+                                                 double* values) {
+      const int32_t answer = [&] {
+        const HostArithmetic arithmetic;
+        return level_set(n, 3, x->data(), values, user);
+      }();
+      if (answer != 0)
+        throw Error(ErrorKind::callback, "the level set callback returned " +
+                                             std::to_string(answer) + "; it must return 0");
+    };
+    volume.add_level_set(f, {space_point_from(low), space_point_from(high)}, resolution, tag);
+  });
+}
+
 pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const double* centre,
                                   double radius, double begin, double end, int32_t tag) {
   return change_plane(domain, [&](PlaneDomain& plane) {
@@ -239,6 +263,10 @@ pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices, const 
     plane.add_pslg(vertices, coordinates, vertex_tags, segments, segment_ends, segment_tags, holes,
                    hole_points);
   });
+}
+
+pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled) {
+  return change_volume(domain, [&](VolumeDomain& volume) { volume.set_filled(filled != 0); });
 }
 
 pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double* point) {
@@ -295,7 +323,7 @@ pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double* low, double* high)
 pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double* measure) {
   return ask_domain(domain, [&](const auto& checked) {
     require_pointer(measure, "measure");
-    *measure = measure_of(checked);
+    *measure = whole_measure(checked);
     return PNPBS_OK;
   });
 }

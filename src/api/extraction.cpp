@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/placement_calls.hpp"
+#include "placement/node_normal.hpp"
 #include "placement/result_check.hpp"
 
 using namespace pnpbs;
@@ -84,6 +85,23 @@ pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capaci
     if (p.count() == 0) return PNPBS_OK;
     p.prepare_order();
     copy_nodes(p, 0, p.count(), coordinates, ids, tags, spacing);
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capacity,
+                                         double* normals) {
+  return guarded(placement, [&](PlacementObject& object) {
+    Placement& p = *object.placement;
+    const PlacementOf<3>& in = require_dimension<3>(p);
+    require_capacity(capacity, p.count());
+    if (p.count() == 0) return PNPBS_OK;
+    require_pointer(normals, "normals");
+    p.prepare_order();
+    for_each("pnpbs::get_normals", p.count(), [&](std::int64_t place) {
+      const Point<3> normal = node_normal(in.level(), p.node_at(place));
+      std::copy(normal.begin(), normal.end(), normals + 3 * place);
+    });
     return PNPBS_OK;
   });
 }

@@ -31,7 +31,8 @@ struct BoundaryEdge {
   bool bounds() const { return left_inside != right_inside; }
 };
 
-// Where corners are the same node it is a part of a curve inside, or a fixed node.
+// Where corners are the same node it is a part of a curve inside, or a fixed node. Of surfaces
+// alone, neither side is inside.
 struct BoundaryTriangle {
   std::array<std::int32_t, 3> nodes;  // indices into BoundaryMesh::nodes
   std::int32_t tag;
@@ -40,6 +41,7 @@ struct BoundaryTriangle {
 
   const std::array<std::int32_t, 3>& corners() const { return nodes; }
   bool bounds() const { return front_inside != back_inside; }
+  bool stands_alone() const { return !front_inside && !back_inside; }
 };
 
 template <int Dim>

@@ -12,7 +12,7 @@ namespace pnpbs {
 template <int Dim>
 using Domain = std::conditional_t<Dim == 2, PlaneDomain, VolumeDomain>;
 
-// Area or volume.
+// Area or volume of the inside; surfaces alone have none.
 inline double measure_of(const PlaneDomain& domain) { return domain.area(); }
 inline double measure_of(const VolumeDomain& domain) { return domain.volume(); }
 

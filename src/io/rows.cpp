@@ -35,7 +35,7 @@ float quality_of(const std::array<Point<3>, 3>& triangle) {
   const auto& [p, q, r] = triangle;
   const auto length = [](const Point<3>& u) { return std::hypot(u[0], u[1], u[2]); };
   return quality_of(length(difference(q, p)), length(difference(r, q)), length(difference(p, r)),
-                    length(cross_product(difference(q, p), difference(r, p))));
+                    length(cross(difference(q, p), difference(r, p))));
 }
 
 float quality_of(const std::array<Point<3>, 4>& tetrahedron) {

@@ -8,10 +8,38 @@
 
 namespace pnpbs {
 
+namespace {
+
+// Of surfaces alone: they cross leaves of some area each, and the sum is known.
+std::vector<double> wanted_on_surfaces(const Level<3>& level) {
+  const DomainMap<3>& map = level.map();
+  const BackgroundTree<3>& tree = map.tree();
+  const auto face = [&](std::int32_t leaf) {
+    if (!level.tree->owns(leaf) || map.leaf_outside(leaf)) return 0.0;
+    const double sides = tree.cell_side(tree.leaf_cell(leaf)) / tree.side();
+    return sides * sides;
+  };
+  std::int64_t sum = 0;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) sum += fixed_point(face(leaf));
+  const double all = from_fixed_point(level.comm->allreduce_sum(static_cast<std::uint64_t>(sum)));
+  std::vector<double> wanted;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    const double part = face(leaf), d = map.leaf_spacing(leaf);
+    wanted.push_back(part > 0 ? Lattice<2>::kDensity * level.ground.domain().area() * (part / all) /
+                                    (d * d)
+                              : 0);
+  }
+  return wanted;
+}
+std::vector<double> wanted_on_surfaces(const Level<2>&) { return {}; }
+
+}  // namespace
+
 // Of the leaves that the boundary crosses we know only what the domain's area (volume) leaves for
 // all of them.
 template <int Dim>
 std::vector<double> wanted_nodes(const Level<Dim>& level) {
+  if (level.ground.surfaces_alone()) return wanted_on_surfaces(level);
   const DomainMap<Dim>& map = level.map();
   const BackgroundTree<Dim>& tree = map.tree();
   std::uint64_t inside = 0, crossed = 0;  // areas or volumes

@@ -16,7 +16,8 @@ struct FinishResults {
   std::vector<EdgeBand> edge_bands;  // edge length over d, of all ranks, with d from before
 };
 
-// So many sweeps, and the repair of bad ones if the settings ask for it. Collective.
+// So many sweeps, and the repair of bad ones if the settings ask for it. In space nodes only move,
+// and their edges are yet to be measured. Collective.
 FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps);
 FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps);
 

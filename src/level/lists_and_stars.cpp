@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "delaunay/volume/agreed_triangles.hpp"
 #include "level/exchange.hpp"
 #include "level/reach.hpp"
 
@@ -47,13 +48,16 @@ StarInput star_input(const Level<2>& level, const KnownRegion<2>& known) {
           known};
 }
 
+}  // namespace
+
 VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
   const Neighbourhood<3>& neighbourhood = level.neighbourhood;
-  // The boundary hides no neighbour of a free node that is far from it.
   const auto complete = [&level](std::int64_t i) {
-    const NearBoundary<3>& near_boundary = level.neighbourhood.near_boundary();
-    return level.nodes.carrier(i) == Carrier::free &&
-           !near_boundary.within(i, level.lists().radius() * level.nodes.d(i));
+    return level.neighbourhood.near_boundary().sees_all(i);
+  };
+  const auto room = [&level](std::int64_t i) {
+    const bool measured = level.nodes.moving == Carrier::free;
+    return measured ? level.neighbourhood.near_boundary().room(i, level.nodes) : 0;
   };
   const auto on_one_surface = [&level](const std::array<std::int64_t, 4>& corners) {
     const auto place = [&](std::int64_t i) {
@@ -72,12 +76,29 @@ VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
           known,
           &level.ground.domain().index().sides(),
           complete,
+          room,
           on_one_surface};
+}
+
+namespace {
+
+SurfaceStarInput surface_star_input(const Level<3>& level, const KnownRegion<3>& known) {
+  return {level.nodes,
+          level.tree->tree(),
+          level.neighbourhood.buckets(),
+          known,
+          level.ground.surface(),
+          level.ground.features(),
+          [&level](std::int64_t i) {
+            return level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i));
+          }};
 }
 
 template <int Dim>
 void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known) {
   const PhaseTimer timer(level.timers, Phase::stars);
+  if constexpr (Dim == 3)
+    if (level.ground.surfaces_alone()) return level.stars.build(surface_star_input(level, known));
   level.stars.build(star_input(level, known));
 }
 
@@ -160,6 +181,7 @@ void make_lists_and_stars(Level<Dim>& level, int hops, double radius, int rings)
 
 template <int Dim>
 void make_stars(Level<Dim>& level, int hops, double radius, int rings) {
+  if (level.ground.surfaces_alone()) rings += AgreedTriangles::kRings;
   KnownRegion<Dim> known = known_after_exchange(level, hops);
   while (true) {
     std::vector<Box<Dim>> unknown;

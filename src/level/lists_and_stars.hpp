@@ -26,6 +26,9 @@ void make_lists_and_stars(Level<Dim>& level, int hops, double radius, int rings)
 template <int Dim>
 void make_stars(Level<Dim>& level, int hops, double radius, int rings);
 
+// What the stars are made from; the region must outlive it.
+VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known);
+
 // The lists handed out. Over several ranks with the ghosts that the stars need, and the stars.
 // Collective.
 template <int Dim>

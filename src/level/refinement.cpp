@@ -9,23 +9,26 @@
 #include "level/lists_and_stars.hpp"
 #include "level/node_spacing.hpp"
 #include "level/reach.hpp"
+#include "level/thinning.hpp"
 #include "level/volume/surface_level.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-// Into how many pieces of length d a length is cut; one that is long by 1.4 is halved.
+// Into how many pieces of length d a length is cut; in the plane one that is long by 1.4 is halved,
+// in space, where what is too much is thinned, by 1.25.
+template <int Dim>
 int pieces_of(double length, double d) {
-  constexpr double kMax = 1e9;
-  return static_cast<int>(std::min(length / d + 0.6, kMax));
+  constexpr double kMax = 1e9, kRoundUp = Dim == 2 ? 0.6 : 0.75;
+  return static_cast<int>(std::min(length / d + kRoundUp, kMax));
 }
 
 // Calls visit(place) for the new nodes on the edge from x to y, cut into equal pieces: so many
 // where it is long enough.
 template <int Dim, class Visit>
 void cut_edge(const Point<Dim>& x, const Point<Dim>& y, double d, int max, const Visit& visit) {
-  const int pieces = std::min(max, pieces_of(distance<Dim>(x, y), d));
+  const int pieces = std::min(max, pieces_of<Dim>(distance<Dim>(x, y), d));
   for (int k = 1; k < pieces; ++k) {
     const double a = static_cast<double>(k) / pieces;
     Point<Dim> place;
@@ -38,7 +41,7 @@ void cut_edge(const Point<Dim>& x, const Point<Dim>& y, double d, int max, const
 template <class Visit>
 void fill_triangle(const std::array<Point<2>, 3>& x, double d, int max, const Visit& visit) {
   const double around = distance<2>(x[0], x[1]) + distance<2>(x[1], x[2]) + distance<2>(x[2], x[0]);
-  const int pieces = std::min(max, pieces_of(around / 3, d));
+  const int pieces = std::min(max, pieces_of<2>(around / 3, d));
   for (int a = 1; a < pieces - 1; ++a)
     for (int b = 1; b < pieces - a; ++b) {
       Point<2> y;
@@ -72,8 +75,8 @@ template <int Dim, class Visit>
 void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visit& visit) {
   const Nodes<Dim>& nodes = level.nodes;
   // By the spacings, not by lengths: then nearly every node keeps its number of neighbours.
-  const int pieces = pieces_of(level.ground.spacing_at(nodes, i), d);
-  if (pieces < 2) return;
+  const int pieces = pieces_of<Dim>(level.ground.spacing_at(nodes, i), d);
+  if (pieces < 2 || level.ground.surfaces_alone()) return;
   const Point<Dim> x = nodes.position(i);
   level.stars.for_neighbours(i, [&](std::int64_t j) {
     if (nodes.id(i) < nodes.id(j) && !on_one_edge(level.ground, nodes, i, j))
@@ -93,10 +96,13 @@ GivenNode<3> kept_node(const Nodes<3>& nodes, std::int64_t i) {
           nodes.tag(i),      -1,          nodes.d(i)};
 }
 
-template <int Dim>
-GivenNode<Dim> new_node(const Point<Dim>& x, double d) {
-  GivenNode<Dim> node{x, -1};
-  node.d = d;
+// With one where the spacing was `before` and will be d. Cutting edges in space may bring more than
+// d asks for.
+GivenNode<2> new_node(const Point<2>& x, double, double d) { return {x, -1, true, -1, d}; }
+GivenNode<3> new_node(const Point<3>& x, double before, double d) {
+  GivenNode<3> node{x, -1};
+  const double cuts = pieces_of<3>(before, d) - 1;
+  node.d = placed_for<3>(before, d, 0.5 * Lattice<3>::kNeighbours * cuts);
   return node;
 }
 
@@ -109,7 +115,10 @@ GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   constexpr std::int64_t kChunk = 512;
   level.nodes.set_reference_positions();
   exchange(level, kStarHops);
-  make_lists_and_stars(level, kStarHops, level.settings.list_radius, 0);
+  if (level.ground.surfaces_alone())
+    agreed(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });
+  else
+    make_lists_and_stars(level, kStarHops, level.settings.list_radius, 0);
   const View<double> spacing = spacing_at_owned_nodes(level, next);
   const Nodes<Dim>& nodes = level.nodes;
   GivenNodes<Dim> refined;
@@ -134,9 +143,10 @@ GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
     for_each("pnpbs::write_refined", chunks, [&](std::int64_t chunk) {
       std::size_t place = begin[static_cast<std::size_t>(chunk)];
       for_owned_in(chunk, [&](std::int64_t i) {
+        const double before = level.ground.spacing_at(nodes, i);
         refined[place++] = kept_node(nodes, i);
         for_new_nodes(level, i, spacing(i), [&](const Point<Dim>& x) {
-          refined[place++] = new_node<Dim>(x, spacing(i));
+          refined[place++] = new_node(x, before, spacing(i));
         });
       });
     });

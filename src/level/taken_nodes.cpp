@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/taken_nodes.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include "level/exchange.hpp"
-#include "level/expected_nodes.hpp"
 #include "level/numbering.hpp"
 #include "level/room.hpp"
+#include "level/thinning.hpp"
 
 namespace pnpbs {
 
@@ -49,53 +48,6 @@ void leave_out_those_without_room(const Level<Dim>& level, GivenNodes<Dim>& give
     GivenNode<Dim>& node = given[static_cast<std::size_t>(k)];
     if (node.leaf >= 0 && !has_room(level, node)) node.leaf = -1;
   });
-}
-
-// Where nodes are many times too dense for d, because d has grown since they were placed or because
-// they were given so, contests would take long to delete them. Each then counts for the share that
-// should stay, and along the Morton order of the leaves a node stays whenever the sum of the shares
-// passes a whole number. The nodes are sorted by place, and `begin` is each leaf's first.
-template <int Dim>
-void thin(const Level<Dim>& level, GivenNodes<Dim>& inner, const std::vector<std::int32_t>& begin) {
-  constexpr double kCrowded = 1.5;  // times the nodes that d asks for in a leaf, and a few
-  constexpr std::int64_t kOne = std::int64_t{1} << 32;
-  const std::vector<double> wanted = wanted_nodes(level);
-  const std::int32_t leaves = level.map().tree().leaf_count();
-  const auto share_of = [&](const GivenNode<Dim>& node) {
-    const auto leaf = static_cast<std::size_t>(node.leaf);
-    const double d = level.map().leaf_spacing(node.leaf), given = begin[leaf + 1] - begin[leaf];
-    double share = 1;
-    if (node.d > 0 && d > 1.02 * node.d) share = power<Dim>(node.d / d);
-    if (given > kCrowded * wanted[leaf] + 4) share = std::min(share, wanted[leaf] / given);
-    return static_cast<std::int64_t>(share * static_cast<double>(kOne));
-  };
-  const auto for_nodes_in = [&](std::int64_t leaf, const auto& visit) {
-    const auto at = static_cast<std::size_t>(leaf);
-    for (std::int32_t k = begin[at]; k < begin[at + 1]; ++k)
-      visit(inner[static_cast<std::size_t>(k)]);
-  };
-  std::vector<std::int64_t> sums(static_cast<std::size_t>(leaves), 0);
-  for_each("pnpbs::sum_shares", leaves, [&](std::int64_t leaf) {
-    for_nodes_in(leaf, [&](const GivenNode<Dim>& node) {
-      sums[static_cast<std::size_t>(leaf)] += share_of(node);
-    });
-  });
-  std::int64_t end = 0;
-  sums = level.tree->distribution().prefix_sums(*level.comm, std::move(sums), end);
-  std::vector<char> some_go(static_cast<std::size_t>(leaves), 0);
-  for_each("pnpbs::thin", leaves, [&](std::int64_t leaf) {
-    const auto at = static_cast<std::size_t>(leaf);
-    std::int64_t sum = sums[at];
-    for_nodes_in(leaf, [&](GivenNode<Dim>& node) {
-      const std::int64_t whole = sum / kOne;
-      sum += share_of(node);
-      if (sum / kOne != whole) return;
-      node.leaf = -1;
-      some_go[at] = 1;
-    });
-  });
-  if (std::find(some_go.begin(), some_go.end(), 1) != some_go.end())
-    std::erase_if(inner, [](const GivenNode<Dim>& node) { return node.leaf < 0; });
 }
 
 }  // namespace

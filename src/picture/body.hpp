@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes and tetrahedra of a body, for pictures.
+// The nodes and tetrahedra of a body, or the triangles of surfaces alone, for pictures.
 #pragma once
 
 #include <array>
@@ -16,6 +16,8 @@ struct Body {
   std::vector<std::array<std::int64_t, 4>> tetrahedra;  // corners
   std::vector<std::array<std::int64_t, 3>> boundary;    // triangles, by their corners
 
+  // Nothing is inside: its boundary is all there is.
+  bool surfaces_alone() const { return tetrahedra.empty(); }
   std::size_t size() const { return positions.size(); }
   const Point<3>& at(std::int64_t node) const { return positions[static_cast<std::size_t>(node)]; }
   TetrahedronCorners corners(std::size_t tetrahedron) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A body cut open: its faces painted from the farthest to the nearest.
+// A body cut open, or surfaces alone: faces painted from the farthest to the nearest.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -58,7 +58,7 @@ class BodyPainter {
  public:
   BodyPainter(const Body& body, const CutPlane& plane, ElementColour colour)
       : body_(body), plane_(plane), view_(plane) {
-    if (colour != ElementColour::none) values_.emplace(body, colour);
+    if (colour != ElementColour::none && !body.surfaces_alone()) values_.emplace(body, colour);
     for (const VisibleFace& face : visible_faces(body, plane)) add(face);
     sort();
     std::vector<double> shown;
@@ -88,24 +88,29 @@ class BodyPainter {
   PictureFrame frame_{};
 };
 
-// Of length 1, away from the inside of the tetrahedron.
-Point<3> outward_normal(const Point<3>& a, const Point<3>& b, const Point<3>& c,
-                        const TetrahedronCorners& of) {
-  const Point<3> normal = unit_vector(cross_product(difference(b, a), difference(c, a)));
+Point<3> opposite(const Point<3>& x) { return {-x[0], -x[1], -x[2]}; }
+
+// The normal of a face at one of its corners, away from the inside of its tetrahedron.
+Point<3> turned_away(const Point<3>& normal, const Point<3>& at, const TetrahedronCorners& of) {
   double inward = 0;
-  for (const Point<3>& corner : of) inward += dot_product(normal, difference(corner, a));
-  return inward > 0 ? Point<3>{-normal[0], -normal[1], -normal[2]} : normal;
+  for (const Point<3>& corner : of) inward += dot(normal, difference(corner, at));
+  return inward > 0 ? opposite(normal) : normal;
 }
 
 void BodyPainter::add(const VisibleFace& face) {
   const Point<3>&a = body_.at(face.corners[0]), &b = body_.at(face.corners[1]),
         &c = body_.at(face.corners[2]);
-  const TetrahedronCorners corners = body_.corners(face.tetrahedron);
-  const Point<3> normal = outward_normal(a, b, c, corners);
-  if (!view_.shows(normal)) return;
   PaintedFace painted{};
   painted.tetrahedron = face.tetrahedron;
-  painted.nearness = view_.nearness(circumsphere(corners).centre);
+  Point<3> normal = unit_vector(cross(difference(b, a), difference(c, a)));
+  if (body_.surfaces_alone()) {
+    if (!view_.shows(normal)) normal = opposite(normal);  // of an open one both sides are seen
+  } else {
+    const TetrahedronCorners corners = body_.corners(face.tetrahedron);
+    normal = turned_away(normal, a, corners);
+    if (!view_.shows(normal)) return;
+    painted.nearness = view_.nearness(circumsphere(corners).centre);
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const Point<3>& corner = body_.at(face.corners[k]);
     const Point<2> at = view_.project(corner);
@@ -209,11 +214,13 @@ void BodyPainter::legend(cairo_t* cairo) const {
     draw_colour_bar(cairo, values_->scale(), values_->title(),
                     {0.37 * frame_.width, base, 0.34 * frame_.width, font_size});
   draw_node_count(cairo, frame_, base, body_.size());
-  draw_text(cairo, frame_.width - frame_.margin, base - 1.3 * font_size, "cut at " + plane_.name,
-            1);
+  if (!body_.surfaces_alone())
+    draw_text(cairo, frame_.width - frame_.margin, base - 1.3 * font_size, "cut at " + plane_.name,
+              1);
 }
 
 std::string BodyPainter::description() const {
+  if (body_.surfaces_alone()) return "Surfaces";
   const std::string cut = "Body cut at " + plane_.name;
   if (!values_) return cut;
   return cut + ", tetrahedra by " + words_of(values_->scale(), values_->title());

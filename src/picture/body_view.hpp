@@ -15,11 +15,9 @@ class BodyView {
  public:
   explicit BodyView(const CutPlane& plane);
 
-  Point<2> project(const Point<3>& x) const {
-    return {dot_product(x, right_), dot_product(x, up_)};
-  }
-  double nearness(const Point<3>& x) const { return dot_product(x, toward_); }
-  bool shows(const Point<3>& normal) const { return dot_product(normal, toward_) > 0; }
+  Point<2> project(const Point<3>& x) const { return {dot(x, right_), dot(x, up_)}; }
+  double nearness(const Point<3>& x) const { return dot(x, toward_); }
+  bool shows(const Point<3>& normal) const { return dot(normal, toward_) > 0; }
 
   // How bright a surface is, 0 to 1; its normal has length 1.
   double light(const Point<3>& normal) const;

@@ -90,6 +90,11 @@ class Shell {
 }  // namespace
 
 std::vector<VisibleFace> visible_faces(const Body& body, const CutPlane& plane) {
+  if (body.surfaces_alone()) {
+    std::vector<VisibleFace> all;
+    for (const Corners& triangle : body.boundary) all.push_back({triangle, 0, false});
+    return all;
+  }
   return Shell(body, plane).visible();
 }
 

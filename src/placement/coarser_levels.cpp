@@ -53,12 +53,13 @@ GivenNodes<Dim> new_nodes(GivenNodes<Dim> nodes) {
 // is wrong there is wrong on every finer one, too.
 Settings settings_of_level(Settings settings, bool coarsest) {
   constexpr double kPopulationShare = 0.75;
-  constexpr double kMoreRest = 0.3;  // of the finest level's tolerance: steps are cheap here
+  // Of the finest level's tolerance: steps are cheap here.
+  const double more_rest = settings.dimension == 2 ? 0.3 : 0.08;
   constexpr double kDenser = 0.997;  // in distance: refining leaves it a little too large
   settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
   settings.population_share = kPopulationShare;
   settings.defects.bad_below = 0;  // no triangle is handed on
-  settings.tolerance_mean *= kMoreRest;
+  settings.tolerance_mean *= more_rest;
   settings.population.mean_distance *= kDenser;
   return settings;
 }
@@ -146,6 +147,10 @@ TakenNodes PlacementOf<Dim>::put_first_nodes(std::unique_ptr<Level<Dim>>& level,
                                              GivenNodes<Dim>& from_coarser, int which,
                                              Outcome& outcome) {
   if constexpr (Dim == 3) {
+    if (surfaces_alone()) {
+      put_on_surfaces(*level, std::move(from_coarser));
+      return {};
+    }
     settle_surfaces(level, from_coarser, outcome);
     from_coarser = new_nodes<Dim>(std::move(from_coarser));
     level->next_id = 0;

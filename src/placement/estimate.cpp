@@ -45,7 +45,7 @@ double PlacementOf<Dim>::estimated_nodes(const Settings& settings) const {
   const auto estimate_with = [&](const Spacing<Dim>& d) {
     return estimate_nodes<Dim>(*comm_, *domain_, d, settings.max_nodes);
   };
-  const std::shared_ptr<const Spacing<Dim>> spacing = bounded_spacing();
+  const std::shared_ptr<const Spacing<Dim>> spacing = spacing_to_place(settings);
   if (!settings.user_limits_growth()) {
     const NodeEstimate<Dim> estimate = estimate_with(*spacing);
     if (settings.growth_limit == 0 || !too_steep(estimate.steepest)) return estimate.nodes;

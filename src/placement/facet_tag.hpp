@@ -9,9 +9,9 @@
 
 namespace pnpbs {
 
-// nodes: the triangle's, as they lie in memory. If one lies inside of a surface, it knows; if all
-// are on its features, the surface nearest to the triangle's middle tells. The same on every rank
-// that has the nodes.
-std::int32_t facet_tag(const Level<3>& level, std::array<std::int64_t, 3> nodes);
+// nodes: the triangle's, counter-clockwise as seen from outside, that of the least id first. If one
+// lies inside of a surface, it knows; if all are on its features, the patches tell that they have
+// in common. The same on every rank that has the nodes.
+std::int32_t facet_tag(const Level<3>& level, const std::array<std::int64_t, 3>& nodes);
 
 }  // namespace pnpbs

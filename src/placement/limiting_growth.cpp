@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing as it counts: as given, no larger than makes sense, or with its growth limited,
-// because the user wants it so or because nodes could not follow d as given.
+// The spacing as it counts: as given, no larger than makes sense or, if the user wants it so, than
+// resolves the shape, or with its growth limited, because the user wants that or because nodes
+// could not follow d as given.
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
-#include "domain/facets_for_tree.hpp"
 #include "placement/placement_of.hpp"
 #include "spacing/growth_limit.hpp"
+#include "spacing/resolved_spacing.hpp"
 
 namespace pnpbs {
 
@@ -21,11 +22,18 @@ constexpr double kMaxFollowed = 0.3, kTooSteep = 1.05 * kMaxFollowed;
 }  // namespace
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::bounded_spacing() const {
+std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_to_place(
+    const Settings& settings) const {
   std::shared_ptr<const Spacing<Dim>> spacing;
   agreed(*comm_, [&] {
     spacing =
         std::make_shared<BoundedSpacing<Dim>>(spacing_, kMaxSizes * size_of(domain_->bounds()));
+    if constexpr (Dim == 3) {
+      const double growth = settings.growth_limit > 0 ? settings.growth_limit : kMaxFollowed;
+      if (settings.resolve)
+        spacing = std::make_shared<ResolvedSpacing>(std::move(spacing), *domain_, growth,
+                                                    settings.node_limit());
+    }
   });
   return spacing;
 }
@@ -59,7 +67,7 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::growth_limited(
       };
       auto ways = std::make_unique<const OpenWays<Dim>>(
           domain_->bounds(), measure_of(*domain_),
-          facets_for_tree(*domain_, unlimited, settings.max_nodes));
+          indexed_boundary(*domain_, unlimited, settings.max_nodes));
       spacing = std::make_shared<GrowthLimitedSpacing<Dim>>(
           comm_, std::move(ways), std::move(spacing), settings.growth_limit, settings.node_limit(),
           beat);

@@ -6,20 +6,31 @@
 #include "level/expected_nodes.hpp"
 #include "level/first_nodes.hpp"
 #include "level/refinement.hpp"
+#include "level/volume/gaps.hpp"
 #include "placement/domain_fingerprint.hpp"
 #include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
+// Bubbles on surfaces alone are those of the plane. Ways along a surface are not measured, so the
+// growth of d is not limited there.
+template <int Dim>
+Settings PlacementOf<Dim>::present_settings() const {
+  Settings settings(options_, surfaces_alone() ? 2 : Dim);
+  if (surfaces_alone()) settings.growth_limit = 0;
+  return settings;
+}
+
 // A level for the present spacing, with the present options. Stopped if the monitor has stopped
 // what leads to it.
 template <int Dim>
 Outcome PlacementOf<Dim>::prepare_level() {
-  const Settings settings(options_, Dim);
+  const Settings settings = present_settings();
   require_same_options();
   const bool make = !level_ || spacing_replaced_ ||
                     settings.growth_limit != level_->settings.growth_limit ||
-                    settings.growth_limit_set != level_->settings.growth_limit_set;
+                    settings.growth_limit_set != level_->settings.growth_limit_set ||
+                    settings.resolve != level_->settings.resolve;
   if (comm_->allreduce_max(make) > 0) return make_level();
   level_->change_settings(settings);
   return Outcome::converged;
@@ -45,7 +56,7 @@ Settings PlacementOf<Dim>::settings_for_new_level() const {
   if (!spacing_)
     throw Error(ErrorKind::state,
                 "the placement has no spacing yet: call one of the set_spacing functions first");
-  Settings settings(options_, Dim);
+  Settings settings = present_settings();
   settings.max_bytes = bytes_allowed();
   agreed(*comm_, [this] { domain_->check(); });
   require_same_domain();
@@ -72,7 +83,7 @@ std::unique_ptr<Level<Dim>> PlacementOf<Dim>::empty_level(
 template <int Dim>
 Outcome PlacementOf<Dim>::make_level() {
   const Settings settings = settings_for_new_level();
-  std::shared_ptr<const Spacing<Dim>> spacing = bounded_spacing();
+  std::shared_ptr<const Spacing<Dim>> spacing = spacing_to_place(settings);
   if (settings.user_limits_growth()) spacing = growth_limited(std::move(spacing), settings);
   std::unique_ptr<Level<Dim>> next = empty_level(spacing, settings);
   SteepestGrowth<Dim> steepest;  // none where the user limits it
@@ -88,16 +99,22 @@ Outcome PlacementOf<Dim>::make_level() {
     next = empty_level(spacing, settings);
   }
   settings.node_limit().require_memory_for(expected_nodes(*next));
+  const bool taken_over = level_ || start_from_given_;
   TakenNodes taken;
   std::int64_t inserted = 0;
   Outcome outcome = Outcome::converged;
   coarser_levels_ = 0;
   filled_level_ = 0;
-  if (level_) {
+  if (surfaces_alone()) {
+    if constexpr (Dim == 3) taken = begin_on_surfaces(*next, spacing, settings, outcome);
+    inserted = taken.numbered;
+  } else if (level_) {
     GivenNodes<Dim> kept = refined(*level_, *spacing);
     next->next_id = level_->next_id;
     if constexpr (Dim == 3) settle_surfaces(next, kept, outcome);
     taken = take(*next, std::move(kept), next->next_id);
+    // Where d was far larger, or the shape is thin.
+    if constexpr (Dim == 3) fill_gaps_inside(*next);
     taken.left_out = 0;  // not the user's
     inserted = taken.numbered;
   } else if (start_from_given_) {
@@ -117,14 +134,24 @@ Outcome PlacementOf<Dim>::make_level() {
   dropped_ = taken.left_out;
   inserted_ += inserted;
   deleted_ += taken.thinned;
+  gather_warnings(steepest);
+  spacing_replaced_ = false;
+  begin_schedule(filled_level_ > 0);
+  schedule_.taken_over = taken_over || outcome == Outcome::stopped;
+  return outcome;
+}
+
+template <int Dim>
+void PlacementOf<Dim>::gather_warnings(const SteepestGrowth<Dim>& steepest) {
   warnings_ = domain_->warnings();
   warnings_.insert(warnings_.end(), level_->ground.warnings().begin(),
                    level_->ground.warnings().end());
-  if (too_steep(steepest)) warnings_.push_back(warning_of_growth(steepest, settings.growth_limit));
+  if (too_steep(steepest))
+    warnings_.push_back(warning_of_growth(steepest, level_->settings.growth_limit));
+  if (surfaces_alone() && options_.is_set("growth_limit") && options_.real("growth_limit") > 0)
+    warnings_.push_back("the option growth_limit has no effect on surfaces alone");
+  if constexpr (Dim == 3) warn_of_coarse_spacing();
   warnings_of_level_ = warnings_.size();
-  spacing_replaced_ = false;
-  begin_schedule(filled_level_ > 0);
-  return outcome;
 }
 
 template <int Dim>
@@ -142,6 +169,7 @@ void PlacementOf<Dim>::adopt_level(std::unique_ptr<Level<Dim>> next) {
   }
   level_ = std::move(next);
   edge_bands_.clear();
+  surface_fit_ = {};
   forget_results();
 }
 

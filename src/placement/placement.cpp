@@ -56,7 +56,7 @@ template <class Work>
 auto PlacementOf<Dim>::while_moving(const Work& work) {
   try {
     const auto result = work();
-    exchange(*level_, kStarHops);
+    if (!level_->ghosts.are_exact(level_->nodes, kStarHops)) exchange(*level_, kStarHops);
     return result;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::memory) level_.reset();
@@ -73,13 +73,14 @@ Outcome PlacementOf<Dim>::run() {
   const PhaseTimer timer(timers_, Phase::total);
   if (prepare_level() == Outcome::stopped) return Outcome::stopped;
   return while_moving([this] {
-    if (schedule_.ended) begin_schedule(false);
+    if (schedule_.ended) begin_schedule_again();
     warnings_.resize(warnings_of_level_);
     const Outcome outcome =
         advance(level_->settings.steps, {schedule_.refined ? kCoarseShare : 0, kStepsShare});
     schedule_.ended = true;
     if (outcome == Outcome::stopped) return outcome;
     if (finish() == Outcome::stopped) return Outcome::stopped;
+    warn_of_surface_fit();
     return spacing_missed() ? Outcome::spacing_missed : outcome;
   });
 }
@@ -92,7 +93,7 @@ Outcome PlacementOf<Dim>::step(std::int64_t n) {
   const PhaseTimer timer(timers_, Phase::total);
   if (prepare_level() == Outcome::stopped) return Outcome::stopped;
   return while_moving([&] {
-    if (schedule_.ended) begin_schedule(false);
+    if (schedule_.ended) begin_schedule_again();
     const std::int64_t until = schedule_.step > kNoLimit - n ? kNoLimit : schedule_.step + n;
     return advance(until, {0, 1});
   });

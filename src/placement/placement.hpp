@@ -15,6 +15,7 @@
 #include "level/finish.hpp"
 #include "level/population_events.hpp"
 #include "level/speeds.hpp"
+#include "level/volume/surface_fit.hpp"
 #include "placement/node_estimate.hpp"
 #include "settings/options.hpp"
 
@@ -23,8 +24,9 @@ namespace pnpbs {
 // Where the simulation of a level is. Events happen at step numbers of it.
 struct Schedule {
   std::int64_t step = 0;
-  bool refined = false;  // it began with the nodes of a coarser level
-  bool coarser = false;  // it is one
+  bool refined = false;     // it began with the nodes of a coarser level
+  bool coarser = false;     // it is one
+  bool taken_over = false;  // it began with nodes given, or placed for another spacing
   bool ended = false;
   bool population_settled = false;
   int quiet_events = 0;          // that changed too little to pay, in a row
@@ -121,6 +123,7 @@ class Placement {
   std::int64_t inserted() const { return inserted_; }
   std::int64_t deleted() const { return deleted_; }
   std::int64_t dropped() const { return dropped_; }
+  std::int64_t missing_faces() const { return surface_fit_.missing_faces; }
   StopReason stop_reason() const { return stop_reason_; }
   virtual Speeds speeds() const = 0;
   virtual LevelFigures level_figures() const = 0;
@@ -139,7 +142,9 @@ class Placement {
                        const std::function<void(const std::function<void()>& beat)>& work);
   void require_same_options() const;
   void begin_schedule(bool refined);
+  void begin_schedule_again();
   bool spacing_missed();
+  void warn_of_surface_fit();
   double bytes_allowed() const;
   PopulationCounts count_population_change(PopulationCounts change);
   void forget_results() {
@@ -166,6 +171,7 @@ class Placement {
   std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1, quality_version_ = -1;
   std::vector<std::int32_t> by_id_, place_;
   std::vector<EdgeBand> edge_bands_;  // of the level's finish
+  SurfaceFit surface_fit_;            // likewise
   ElementQuality quality_;
 };
 

@@ -70,7 +70,8 @@ class PlacementOf : public Placement {
   void for_open_facets(const Visit& visit) const requires(Dim == 3) {
     for_open_facets(0, count(), visit);
   }
-  // Only those whose first node has a place from begin up to end, by that place.
+  // Only those whose first node has a place from begin up to end, by that place. Of surfaces alone,
+  // all triangles.
   template <class Visit>
   void for_open_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
       requires(Dim == 3);
@@ -98,13 +99,20 @@ class PlacementOf : public Placement {
  private:
   Outcome prepare_level();
   Outcome make_level();
+  // Whether the domain is surfaces alone, and of what its bubbles fill.
+  bool surfaces_alone() const {
+    if constexpr (Dim == 3) return !domain_->filled();
+    return false;
+  }
+  Settings present_settings() const;
   Settings settings_for_new_level() const;
-  std::shared_ptr<const Spacing<Dim>> bounded_spacing() const;
+  std::shared_ptr<const Spacing<Dim>> spacing_to_place(const Settings& settings) const;
   std::shared_ptr<const Spacing<Dim>> growth_limited(std::shared_ptr<const Spacing<Dim>> spacing,
                                                      const Settings& settings);
   std::shared_ptr<const Spacing<Dim>> growth_limited(std::shared_ptr<const Spacing<Dim>> spacing,
                                                      const Settings& settings,
                                                      const std::function<void()>& beat) const;
+  void warn_of_coarse_spacing() requires(Dim == 3);
   static bool too_steep(const SteepestGrowth<Dim>& steepest);
   static std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
   double estimated_nodes(const Settings& settings) const;
@@ -112,6 +120,7 @@ class PlacementOf : public Placement {
                                           const Settings& settings,
                                           const Level<Dim>* like = nullptr);
   void adopt_level(std::unique_ptr<Level<Dim>> next);
+  void gather_warnings(const SteepestGrowth<Dim>& steepest);
   int coarser_levels_that_pay(const Level<Dim>& finest,
                               const std::shared_ptr<const Spacing<Dim>>& spacing) const;
   bool boundary_leaves_room(const Level<Dim>& finest, const Spacing<Dim>& coarser, double factor,
@@ -120,6 +129,10 @@ class PlacementOf : public Placement {
                              int which, Outcome& outcome);
   void settle_surfaces(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& nodes,
                        Outcome& outcome) requires(Dim == 3);
+  std::int64_t put_on_surfaces(Level<Dim>& level, GivenNodes<Dim> nodes) requires(Dim == 3);
+  TakenNodes begin_on_surfaces(Level<Dim>& finest,
+                               const std::shared_ptr<const Spacing<Dim>>& spacing,
+                               const Settings& settings, Outcome& outcome) requires(Dim == 3);
   int surface_levels_that_pay(const Level<Dim>& finest) const requires(Dim == 3);
   GivenNodes<Dim> nodes_from_coarser_levels(const Level<Dim>& finest,
                                             const std::shared_ptr<const Spacing<Dim>>& spacing,
@@ -132,6 +145,7 @@ class PlacementOf : public Placement {
   bool bubbles_rest() const;
   Outcome advance(std::int64_t until, ProgressPart part);
   void event();
+  double tolerance_of_mean(int round) const;
   void control_population();
   void keep_balance();
   void rebalance_now();
@@ -140,6 +154,7 @@ class PlacementOf : public Placement {
   void fill(Level<Dim>& level, LaidNodes<Dim> laid);
   void repair_defects();
   Outcome finish();
+  void measure_finish() requires(Dim == 3);
 
   std::shared_ptr<Domain<Dim>> domain_;
   std::shared_ptr<const Spacing<Dim>> spacing_;
@@ -212,6 +227,11 @@ void PlacementOf<Dim>::for_open_facets(std::int64_t begin, std::int64_t end,
   std::vector<Face> faces;
   for (std::int64_t p = begin; p < end; ++p) {
     const std::int64_t i = node_at(p);
+    level_->stars.for_triangles(i, [&](const std::array<std::int32_t, 2>& others) {
+      const auto [a, b] = others;
+      if (id(i) < id(a) && id(i) < id(b))
+        visit(std::array<std::int64_t, 3>{p, place_of(a), place_of(b)});
+    });
     if (level_->stars.closed(i)) continue;
     faces.clear();
     level_->stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {

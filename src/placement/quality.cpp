@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a placement tells of its elements, and whether its nodes follow d.
+#include <algorithm>
 #include <charconv>
 
+#include "base/point_text.hpp"
+#include "level/expected_nodes.hpp"
 #include "placement/placement_of.hpp"
 
 namespace pnpbs {
@@ -34,6 +37,41 @@ bool Placement::spacing_missed() {
   const EdgeBand* worst = worst_missed_band(edge_bands_);
   if (worst) warnings_.push_back(warning_of(*worst));
   return worst != nullptr;
+}
+
+// Where the last run's tetrahedra do not follow the surfaces.
+void Placement::warn_of_surface_fit() {
+  const SurfaceFit& fit = surface_fit_;
+  const std::string what_helps =
+      std::string("make it smaller there") +
+      (options_.integer("resolve") == 0 ? ", or try the option resolve" : "");
+  if (fit.isolated_nodes > 0)
+    warnings_.push_back("in no tetrahedron: " + std::to_string(fit.isolated_nodes) +
+                        " boundary nodes, one of them at " +
+                        rounded_point_text<3>(fit.isolated_at) +
+                        "; the spacing is too coarse for the shape: " + what_helps);
+  if (fit.missing_faces > 0)
+    warnings_.push_back("the boundary of the tetrahedra does not follow the surface at " +
+                        std::to_string(fit.missing_faces) +
+                        " triangles (statistic missing_faces), one of them at " +
+                        rounded_point_text<3>(fit.missing_at) +
+                        "; the spacing does not resolve the shape: " + what_helps);
+}
+
+// Nodes in corners and on curves, and nothing between them, are no picture of any spacing.
+template <>
+void PlacementOf<3>::warn_of_coarse_spacing() {
+  constexpr double kCoarse = 0.5, kRight = 0.25;  // of the longest side
+  const Box<3>& bounds = domain_->bounds();
+  double side = 0;
+  for (std::size_t k = 0; k < 3; ++k) side = std::max(side, bounds.high[k] - bounds.low[k]);
+  const double d = spacing_variation(*level_).min;
+  if (d > kCoarse * side)
+    warnings_.push_back("the spacing is " + three_digits(d) +
+                        " or more, the longest side of the domain " + three_digits(side) +
+                        ": corners, edges and curved surfaces alone decide where nodes are; "
+                        "nodes follow a spacing of " +
+                        three_digits(kRight * side) + " or less");
 }
 
 template <int Dim>

@@ -27,5 +27,13 @@ void check_results(PlacementOf<2>& placement);
 //   the tetrahedra, and that of the domain but for what they may cut off.
 // Collective.
 void check_results(PlacementOf<3>& placement);
+// The same of surfaces alone, unless
+// - ids, places, nodes and lists as there,
+// - every node has a triangle, and each triangle is in the stars of its three corners,
+// - an edge has as many triangles as there are sheets of the surfaces: one where these end, two
+//   that turn it both ways between features,
+// - their areas add up to that of the surfaces, but for what lies between these and them.
+// After prepare_stars. Collective.
+void check_surfaces(const PlacementOf<3>& placement);
 
 }  // namespace pnpbs

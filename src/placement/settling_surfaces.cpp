@@ -5,15 +5,38 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include "domain/clearance.hpp"
 #include "initial/initial_fill.hpp"
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/numbering.hpp"
+#include "level/refinement.hpp"
 #include "level/volume/surface_level.hpp"
 #include "placement/placement_of.hpp"
 
 namespace pnpbs {
+
+namespace {
+
+struct NodesByCarrier {
+  GivenNodes<3> inner, on_surfaces, on_features;
+
+  explicit NodesByCarrier(const GivenNodes<3>& given) {
+    for (const GivenNode<3>& node : given)
+      (node.is_inner()                    ? inner
+       : node.carrier == Carrier::surface ? on_surfaces
+                                          : on_features)
+          .push_back(node);
+  }
+};
+
+std::int64_t sum_over_ranks(const Communicator& comm, std::int64_t mine) {
+  return static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(mine)));
+}
+
+}  // namespace
 
 // The nodes of the boundary among those given, which may be from a coarser level, come to rest on
 // the level's surfaces, and are given instead; if there are none, the surfaces are filled.
@@ -23,13 +46,8 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
                                      Outcome& outcome) {
   scatter_to_owners(*level, given);
   reserve_ids(*level, given);
-  GivenNodes<3> inner, on_surfaces, on_features;
-  for (const GivenNode<3>& node : given)
-    (node.is_inner()                    ? inner
-     : node.carrier == Carrier::surface ? on_surfaces
-                                        : on_features)
-        .push_back(node);
-  const bool anew = comm_->allreduce_sum(on_surfaces.size()) == 0;
+  NodesByCarrier nodes(given);
+  const bool anew = comm_->allreduce_sum(nodes.on_surfaces.size()) == 0;
   const Settings inside = level->settings;
   const Schedule schedule = schedule_;
   std::swap(level_, level);  // the time loop is that of the level there is
@@ -39,7 +57,8 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
   };
   try {
     level_->change_settings(surface_settings(inside));
-    put_surface_nodes(*level_, std::move(on_surfaces), on_features, anew);
+    deleted_ += sum_over_ranks(
+        *comm_, put_surface_nodes(*level_, std::move(nodes.on_surfaces), nodes.on_features, anew));
     begin_schedule(!anew);
     schedule_.coarser = true;
     const Settings& settings = level_->settings;
@@ -55,8 +74,9 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
   }
   restore();
   given = surface_nodes(*level);
+  agreed(*comm_, [&] { put_on_level_sets(level->ground, given); });
   scatter_to_owners(*level, given);  // some have moved on since the last exchange
-  given.insert(given.end(), inner.begin(), inner.end());
+  given.insert(given.end(), nodes.inner.begin(), nodes.inner.end());
 }
 
 // Coarser levels from which the nodes on surfaces come: where these are flat and d is even there,
@@ -74,6 +94,77 @@ int PlacementOf<3>::surface_levels_that_pay(const Level<3>& finest) const {
   while (levels < finest.settings.levels && nodes >= kMinNodes * std::ldexp(1.0, 2 * levels + 2))
     ++levels;
   return levels;
+}
+
+// These of the surfaces, or a fill of them if there are none, become the nodes of a level of
+// surfaces alone, which the time loop moves. Returns how many of this rank's are too dense for d.
+// Collective.
+template <>
+std::int64_t PlacementOf<3>::put_on_surfaces(Level<3>& level, GivenNodes<3> given) {
+  scatter_to_owners(level, given);
+  reserve_ids(level, given);
+  NodesByCarrier nodes(given);
+  const bool anew = comm_->allreduce_sum(nodes.on_surfaces.size()) == 0;
+  return put_surface_nodes(level, std::move(nodes.on_surfaces), nodes.on_features, anew);
+}
+
+namespace {
+
+// Nodes given anywhere go to the nearest point of the surfaces, unless that is farther than d or
+// on top of a feature edge. Returns how many go nowhere.
+std::int64_t bring_to_surfaces(const Level<3>& level, GivenNodes<3>& given) {
+  const Ground<3>& ground = level.ground;
+  std::vector<Point<3>> places;
+  for (GivenNode<3>& node : given) {
+    const NearestPoint<3> nearest = ground.domain().index().nearest(node.position, kFarAway);
+    node.carrier = Carrier::surface;
+    node.boundary_node = nearest.facet;
+    node.tag = ground.boundary().facets[static_cast<std::size_t>(nearest.facet)].tag;
+    places.push_back(nearest.x);
+  }
+  std::vector<double> d(places.size());
+  ground.evaluator()(std::ssize(places), places.data(), d.data());
+  GivenNodes<3> brought;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    GivenNode<3> node = given[k];
+    const SurfacePoint at{node.boundary_node, places[k]};
+    const double room = kBoundaryClearance * d[k];
+    if (ground.surface().patch(at.facet) < 0 || distance<3>(node.position, places[k]) > d[k] ||
+        ground.surface().feature_clearance(at, room) < room)
+      continue;
+    node.position = places[k];
+    node.d = d[k];
+    brought.push_back(node);
+  }
+  const auto left_out = static_cast<std::int64_t>(given.size() - brought.size());
+  given = std::move(brought);
+  return left_out;
+}
+
+}  // namespace
+
+// The nodes that surfaces alone begin with: those there are, those given, or what coarser levels
+// lead to. Collective.
+template <>
+TakenNodes PlacementOf<3>::begin_on_surfaces(Level<3>& finest,
+                                             const std::shared_ptr<const Spacing<3>>& spacing,
+                                             const Settings& settings, Outcome& outcome) {
+  TakenNodes taken;
+  GivenNodes<3> nodes;
+  if (level_) {
+    nodes = refined(*level_, *spacing);
+    finest.next_id = level_->next_id;
+    taken.numbered = sum_over_ranks(*comm_, std::ranges::count(nodes, -1, &GivenNode<3>::id));
+  } else if (start_from_given_) {
+    nodes = given_;
+    agreed(*comm_, [&] { taken.left_out = bring_to_surfaces(finest, nodes); });
+    taken.left_out = sum_over_ranks(*comm_, taken.left_out);
+  } else {
+    filled_level_ = coarser_levels_ = surface_levels_that_pay(finest);
+    if (coarser_levels_ > 0) nodes = nodes_from_coarser_levels(finest, spacing, settings, outcome);
+  }
+  taken.thinned = sum_over_ranks(*comm_, put_on_surfaces(finest, std::move(nodes)));
+  return taken;
 }
 
 }  // namespace pnpbs

@@ -80,6 +80,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "dropped", [](P p) { return p.dropped(); },
           "nodes given by the user that lie outside or too close to the boundary"),
       integer(
+          "missing_faces", [](P p) { return p.missing_faces(); },
+          "triangles of the surfaces that the boundary of the last run's tetrahedra lacks, and its "
+          "faces that are none of the surfaces"),
+      integer(
           "nodes_held",
           [](P p) {
             const std::int64_t held = p.nodes().count;

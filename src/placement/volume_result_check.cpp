@@ -9,8 +9,8 @@
 #include "base/mixed_hash.hpp"
 #include "base/space_vectors.hpp"
 #include "comm/records.hpp"
-#include "placement/node_check.hpp"
 #include "placement/result_check.hpp"
+#include "placement/volume_node_check.hpp"
 #include "predicates/space.hpp"
 
 namespace pnpbs {
@@ -32,17 +32,12 @@ struct TurningEdge {
   Point<3> middle;
 };
 
-class VolumeResultCheck : public NodeCheck<3> {
+class VolumeResultCheck : public VolumeNodeCheck {
  public:
-  explicit VolumeResultCheck(const PlacementOf<3>& placement)
-      : NodeCheck<3>(placement), ground_(level_.ground) {}
+  explicit VolumeResultCheck(const PlacementOf<3>& placement) : VolumeNodeCheck(placement) {}
 
   void check() const {
-    check_ids();
-    check_places();
-    check_sides();
-    check_feature_nodes();
-    check_lists();
+    check_nodes_and_lists();
     check_stars();
     check_boundary();
     check_volume();
@@ -51,19 +46,7 @@ class VolumeResultCheck : public NodeCheck<3> {
  private:
   using Corners = Stars<3>::Corners;
 
-  const Point<3>& laid(std::size_t n) const { return ground_.features().nodes[n].position; }
-  bool is_feature_node(std::int64_t i) const {
-    return nodes_.boundary_node(i) >= 0 && nodes_.carrier(i) != Carrier::surface;
-  }
-  double gap_to_surface(const Point<3>& x) const {
-    return ground_.domain().index().clearance(x, std::numeric_limits<double>::infinity());
-  }
   Three sorted_ids(const Corners& corners) const;
-  std::array<Point<3>, 3> positions_at(const Three& places) const;
-
-  void check_sides() const;
-  void check_on_surface(std::int64_t i) const;
-  void check_feature_nodes() const;
 
   bool star_has(std::int64_t i, const Three& others) const;
   void check_stars() const;
@@ -78,55 +61,14 @@ class VolumeResultCheck : public NodeCheck<3> {
     double volume = 0, rounding = 0, cut_off = 0;
   };
   double volume_of_tetrahedra() const;
-  double max_gap(const std::array<Point<3>, 3>& corners) const;
   Enclosed enclosed_by_open_facets() const;
   void check_volume() const;
-
-  const Ground<3>& ground_;
 };
 
 Three VolumeResultCheck::sorted_ids(const Corners& corners) const {
   Three ids{nodes_.id(corners[0]), nodes_.id(corners[1]), nodes_.id(corners[2])};
   std::ranges::sort(ids);
   return ids;
-}
-
-std::array<Point<3>, 3> VolumeResultCheck::positions_at(const Three& places) const {
-  return {position(p_.node_at(places[0])), position(p_.node_at(places[1])),
-          position(p_.node_at(places[2]))};
-}
-
-// ------------------------------------------------------------------ nodes ----------------------
-
-void VolumeResultCheck::check_sides() const {
-  for_owned([&](std::int64_t i) {
-    if (is_feature_node(i))
-      check_laid(i, laid(static_cast<std::size_t>(nodes_.boundary_node(i))));
-    else if (nodes_.carrier(i) == Carrier::surface)
-      check_on_surface(i);
-    else
-      check_inside(i, ground_.domain().index().sides());
-  });
-}
-
-// As near to it as rounding lets it lie.
-void VolumeResultCheck::check_on_surface(std::int64_t i) const {
-  const Box<3>& bounds = ground_.bounds();
-  double largest = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    largest = std::max({largest, std::fabs(bounds.low[k]), std::fabs(bounds.high[k])});
-  const double gap = gap_to_surface(position(i));
-  if (gap > 0x1p-44 * largest)
-    fail_check("node " + name(i) + " is on a surface, but " + rounded_text(gap) +
-               " away from the next one");
-}
-
-void VolumeResultCheck::check_feature_nodes() const {
-  std::vector<std::int64_t> times(ground_.features().nodes.size(), 0);
-  for_owned([&](std::int64_t i) {
-    if (is_feature_node(i)) ++times[static_cast<std::size_t>(nodes_.boundary_node(i))];
-  });
-  check_laid_come_once(std::move(times), [this](std::size_t n) { return laid(n); });
 }
 
 // ------------------------------------------------------------------ stars ----------------------
@@ -247,23 +189,9 @@ double VolumeResultCheck::volume_of_tetrahedra() const {
   p_.for_elements([&](const std::array<std::int64_t, 4>& places) {
     const Point<3> x = position(p_.node_at(places[0]));
     const auto [a, b, c] = positions_at({places[1], places[2], places[3]});
-    mine += dot_product(difference(a, x), cross_product(difference(b, x), difference(c, x))) / 6;
+    mine += dot(difference(a, x), cross(difference(b, x), difference(c, x))) / 6;
   });
   return sum_over_ranks(mine, ground_.measure());
-}
-
-// Between a triangle and the surface, at its middle and those of its edges.
-double VolumeResultCheck::max_gap(const std::array<Point<3>, 3>& corners) const {
-  constexpr double kMiddles[][3] = {
-      {1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
-  double gap = 0;
-  for (const auto& weights : kMiddles) {
-    Point<3> x{};
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      for (std::size_t k = 0; k < 3; ++k) x[k] += weights[corner] * corners[corner][k];
-    gap = std::max(gap, gap_to_surface(x));
-  }
-  return gap;
 }
 
 // What they enclose, how far rounding may put that off, and how much of the body may lie on the
@@ -275,13 +203,12 @@ VolumeResultCheck::Enclosed VolumeResultCheck::enclosed_by_open_facets() const {
     const auto [a, b, c] = positions_at(places);
     const Point<3>& low = ground_.bounds().low;
     const Point<3> p = difference(a, low), q = difference(b, low), r = difference(c, low);
-    const Point<3> normal = cross_product(difference(b, a), difference(c, a));
-    mine.volume += dot_product(p, cross_product(q, r)) / 6;
-    mine.rounding += 4 * kEpsilon * std::sqrt(dot_product(p, p) * dot_product(q, q)) *
-                     std::sqrt(dot_product(r, r));
+    const Point<3> normal = cross(difference(b, a), difference(c, a));
+    mine.volume += dot(p, cross(q, r)) / 6;
+    mine.rounding += 4 * kEpsilon * std::sqrt(dot(p, p) * dot(q, q)) * std::sqrt(dot(r, r));
     // Gaps are about as wide as at the worst of these places, or a third less; twice as wide has
     // room for what lies between.
-    const double twice_area = std::sqrt(dot_product(normal, normal));
+    const double twice_area = std::sqrt(dot(normal, normal));
     mine.cut_off += twice_area * max_gap({a, b, c});
   });
   const double unit = ground_.measure();
@@ -309,6 +236,7 @@ void VolumeResultCheck::check_volume() const {
 
 void check_results(PlacementOf<3>& placement) {
   placement.prepare_stars();
+  if (placement.level().ground.surfaces_alone()) return check_surfaces(placement);
   VolumeResultCheck(placement).check();
 }
 

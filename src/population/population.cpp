@@ -14,17 +14,30 @@ namespace pnpbs {
 
 namespace {
 
+enum class Action : char { none, remove, insert };
+
 // What a node brings to the contest; defect 0 is no candidate.
+template <int Dim>
 struct Bid {
   double defect = 0;
   std::int64_t id = -1;
+  Point<Dim> place{};  // where something goes or comes
+  Action action = Action::none;
 
   bool beats(const Bid& other) const {
     return defect > other.defect || (defect == other.defect && id > other.id);
   }
 };
 
-enum class Action : char { none, remove, insert };
+// How far a contest reaches, in steps from neighbour to neighbour: nodes across a hole from each
+// other are two spacings apart, which two of them may not bridge.
+constexpr int kHops = 3;
+
+// In a volume that are 600 nodes, of which one could act at a time while dozens are missing: in
+// space those are rivals whose places are so near that what one does changes the ratios about the
+// other.
+template <int Dim>
+constexpr double kReach{Dim == 2 ? std::numeric_limits<double>::infinity() : 1.5};  // spacings
 
 // Is there room at `place` among the neighbours of i and theirs? Boundary nodes give no way, so
 // they always need the full gap.
@@ -58,15 +71,14 @@ double overlap_ratio_at(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists
   return sum / (0.5 * nodes.d(i));
 }
 
-// The contest: does no node within three hops bid more than node i? Nodes across a hole from each
-// other are two spacings apart, which two hops around it may not bridge.
+// The contest: does no rival of node i bid more?
 template <int Dim>
-bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<double>& defects,
+bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<Bid<Dim>>& bids,
           std::int64_t i) {
-  constexpr int kHops = 3;
-  const Bid own{defects(i), nodes.id(i)};
+  const Bid<Dim>& own = bids(i);
   return for_rings(lists, i, kHops, [&](std::int64_t j, int) {
-    return !Bid{defects(j), nodes.id(j)}.beats(own);
+    const Bid<Dim>& rival = bids(j);
+    return !rival.beats(own) || distance<Dim>(own.place, rival.place) > kReach<Dim> * nodes.d(i);
   });
 }
 
@@ -79,49 +91,47 @@ PopulationChange<Dim> choose_population_change(
     const std::function<bool(std::int64_t)>& must_go,
     const std::function<Point<Dim>(std::int64_t)>& free_place,
     const std::function<bool(const Point<Dim>&, double)>& fits) {
-  const View<double> defects = make_view<double>("pnpbs::population::defects", nodes.count);
-  const View<Action> action = make_view<Action>("pnpbs::population::action", nodes.count);
+  const View<Bid<Dim>> bids = make_view<Bid<Dim>>("pnpbs::population::bids", nodes.count);
   for_each_guarded("pnpbs::population::bid", nodes.count, [&](std::int64_t i) {
-    defects(i) = 0;
-    action(i) = Action::none;
-    if (!nodes.moves(i)) return;
-    const double ratio = ratios(i);
-    const PopulationThresholds::Pair& threshold = thresholds.at(nodes.d(i));
-    if (must_go(i)) {
-      defects(i) = std::numeric_limits<double>::max();
-      action(i) = Action::remove;
-    } else if (ratio > threshold.delete_above) {
-      defects(i) = ratio - rule.ideal;
-      action(i) = Action::remove;
-    } else if (ratio < std::max(rule.insert_below, threshold.insert_below)) {
-      const double gap = ratio < threshold.insert_below ? rule.min_gap_to_aim : rule.min_gap;
-      const Point<Dim> place = free_place(i);
-      // Between boundary nodes that are dense for d a new bubble may be one too many: it would
-      // go at once, and come again.
-      if (has_room<Dim>(nodes, lists, i, place, gap, rule) && fits(place, nodes.d(i)) &&
-          overlap_ratio_at<Dim>(nodes, lists, i, place) <= rule.delete_above) {
-        defects(i) = rule.ideal - ratio;
-        action(i) = Action::insert;
+    Bid<Dim> bid{0, nodes.id(i), nodes.position(i), Action::none};
+    if (nodes.moves(i)) {
+      const double ratio = ratios(i);
+      const PopulationThresholds::Pair& threshold = thresholds.at(nodes.d(i));
+      if (must_go(i)) {
+        bid.defect = std::numeric_limits<double>::max();
+        bid.action = Action::remove;
+      } else if (ratio > threshold.delete_above) {
+        bid.defect = ratio - rule.ideal;
+        bid.action = Action::remove;
+      } else if (ratio < std::max(rule.insert_below, threshold.insert_below)) {
+        const double gap = ratio < threshold.insert_below ? rule.min_gap_to_aim : rule.min_gap;
+        const Point<Dim> place = free_place(i);
+        // Between boundary nodes that are dense for d a new bubble may be one too many: it would
+        // go at once, and come again.
+        if (has_room<Dim>(nodes, lists, i, place, gap, rule) && fits(place, nodes.d(i)) &&
+            overlap_ratio_at<Dim>(nodes, lists, i, place) <= rule.delete_above)
+          bid = {rule.ideal - ratio, nodes.id(i), place, Action::insert};
       }
     }
+    bids(i) = bid;
   });
   std::vector<std::int32_t> bidders;  // mostly few
   for (std::int32_t i = 0; i < nodes.count; ++i)
-    if (action(i) != Action::none) bidders.push_back(i);
+    if (bids(i).action != Action::none) bidders.push_back(i);
   std::vector<char> winner(bidders.size());
   for_each_guarded("pnpbs::population::contest", static_cast<std::int64_t>(bidders.size()),
                    [&](std::int64_t b) {
                      const auto k = static_cast<std::size_t>(b);
-                     winner[k] = wins<Dim>(nodes, lists, defects, bidders[k]);
+                     winner[k] = wins<Dim>(nodes, lists, bids, bidders[k]);
                    });
   PopulationChange<Dim> change;
   for (std::size_t b = 0; b < bidders.size(); ++b) {
     if (winner[b] == 0) continue;
     const std::int32_t i = bidders[b];
-    if (action(i) == Action::remove) {
+    if (bids(i).action == Action::remove) {
       change.deleted.push_back(i);
     } else {
-      change.born.push_back({free_place(i), nodes.id(i), nodes.d(i)});
+      change.born.push_back({bids(i).place, nodes.id(i), nodes.d(i)});
       change.parents.push_back(i);
     }
   }

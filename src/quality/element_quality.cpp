@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "base/lattice.hpp"
 #include "quality/triangle_quality.hpp"
@@ -33,7 +34,7 @@ void for_edges(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i
   });
 }
 
-// In space there are no neighbours but by tetrahedra of the domain.
+// In space there are no neighbours but by tetrahedra of the domain, or by triangles.
 template <class Visit>
 void for_edges(const Nodes<3>& nodes, const VolumeStars& stars, std::int64_t i,
                const Visit& visit) {
@@ -96,8 +97,8 @@ EdgeSums local_edge_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
         for_edges(nodes, stars, i, [&](std::int64_t j) {
           const double d = 0.5 * (nodes.d(i) + nodes.d(j));
           const double ratio = distance<Dim>(nodes.position(i), nodes.position(j)) / d;
-          const bool free = nodes.carrier(i) == Carrier::free || nodes.carrier(j) == Carrier::free;
-          sums.of[static_cast<std::size_t>(free ? bands.band_of(d) : SpacingBands::kMaxBands)].add(
+          const bool moves = nodes.moves(i) || nodes.moves(j);
+          sums.of[static_cast<std::size_t>(moves ? bands.band_of(d) : SpacingBands::kMaxBands)].add(
               ratio);
         });
       });
@@ -132,17 +133,35 @@ std::vector<EdgeBand> bands_with_edges(const SpacingBands& bands, const EdgeSums
 // The quality of an element in steps of 2^-16.
 constexpr std::int64_t kQualitySteps = 1 << 16;
 
-template <int Dim>
-using ElementCorners = std::array<Point<Dim>, Dim + 1>;
+// Triangles in the plane, tetrahedra, and the triangles of surfaces alone, by their corners.
+using PlaneTriangle = std::array<Point<2>, 3>;
+using SpaceTriangle = std::array<Point<3>, 3>;
 
-// Calls visit(corners) for the elements whose node with the least id is i.
-template <int Dim, class Visit>
+template <class Visit>
+void for_simplices_around(const DelaunayStars& stars, std::int64_t i, const PlaneTriangle*,
+                          const Visit& visit) {
+  stars.for_simplices(i, visit);
+}
+template <class Visit>
+void for_simplices_around(const VolumeStars& stars, std::int64_t i, const TetrahedronCorners*,
+                          const Visit& visit) {
+  stars.for_simplices(i, visit);
+}
+template <class Visit>
+void for_simplices_around(const VolumeStars& stars, std::int64_t i, const SpaceTriangle*,
+                          const Visit& visit) {
+  stars.for_triangles(i, visit);
+}
+
+// Calls visit(corners) for the elements of that kind whose node with the least id is i.
+template <class Element, int Dim, class Visit>
 void for_elements_of(const Nodes<Dim>& nodes, const Stars<Dim>& stars, std::int64_t i,
                      const Visit& visit) {
   if (!nodes.owned(i)) return;
-  stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {
-    ElementCorners<Dim> corners{nodes.position(i)};
-    for (std::size_t k = 0; k < Dim; ++k) {
+  constexpr const Element* kKind = nullptr;
+  for_simplices_around(stars, i, kKind, [&](const auto& others) {
+    Element corners{nodes.position(i)};
+    for (std::size_t k = 0; k < others.size(); ++k) {
       if (nodes.id(others[k]) < nodes.id(i)) return;
       corners[k + 1] = nodes.position(others[k]);
     }
@@ -150,8 +169,9 @@ void for_elements_of(const Nodes<Dim>& nodes, const Stars<Dim>& stars, std::int6
   });
 }
 
-double quality_of(const ElementCorners<2>& x) { return triangle_quality(x[0], x[1], x[2]); }
-double quality_of(const ElementCorners<3>& x) { return tetrahedron_quality(x); }
+double quality_of(const PlaneTriangle& x) { return triangle_quality(x[0], x[1], x[2]); }
+double quality_of(const TetrahedronCorners& x) { return tetrahedron_quality(x); }
+double quality_of(const SpaceTriangle& x) { return triangle_quality(x[0], x[1], x[2]); }
 
 struct QualitySums {
   std::int64_t elements = 0, quality = 0;  // in fixed point
@@ -163,27 +183,32 @@ struct QualitySums {
 };
 
 // Of the angle at a.
-double cosine(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
-  const double product = (b[0] - a[0]) * (c[0] - a[0]) + (b[1] - a[1]) * (c[1] - a[1]);
-  return product / (distance<2>(a, b) * distance<2>(a, c));
+template <std::size_t Dim>
+double cosine(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
+              const std::array<double, Dim>& c) {
+  double product = 0;
+  for (std::size_t k = 0; k < Dim; ++k) product += (b[k] - a[k]) * (c[k] - a[k]);
+  return product / (distance<static_cast<int>(Dim)>(a, b) * distance<static_cast<int>(Dim)>(a, c));
 }
 
 // Of the least angle of a triangle; of the least angle between faces of a tetrahedron.
-double max_cosine(const ElementCorners<2>& x) {
+template <std::size_t Dim>
+double max_cosine(const std::array<std::array<double, Dim>, 3>& x) {
   return std::max({cosine(x[0], x[1], x[2]), cosine(x[1], x[2], x[0]), cosine(x[2], x[0], x[1])});
 }
-double max_cosine(const ElementCorners<3>& x) { return std::cos(min_dihedral_angle(x) / kDegrees); }
+double max_cosine(const TetrahedronCorners& x) {
+  return std::cos(min_dihedral_angle(x) / kDegrees);
+}
 
 // The largest of value(corners) of the elements, over all ranks; at least `floor`.
-template <int Dim, class Value>
+template <class Element, int Dim, class Value>
 double max_of_elements(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars,
                        double floor, const Value& value) {
   return comm.allreduce_max(
       max_of("pnpbs::largest_of_elements", nodes.count, floor, [&](std::int64_t i) {
         double max = floor;
-        for_elements_of<Dim>(nodes, stars, i, [&](const ElementCorners<Dim>& corners) {
-          max = std::max(max, value(corners));
-        });
+        for_elements_of<Element, Dim>(
+            nodes, stars, i, [&](const Element& corners) { max = std::max(max, value(corners)); });
         return max;
       }));
 }
@@ -198,12 +223,12 @@ double one_percent_of(const std::vector<std::int64_t>& histogram, std::int64_t e
 }
 
 // How many elements there are of each step of quality, on this rank.
-template <int Dim>
+template <class Element, int Dim>
 std::vector<std::int64_t> histogram_of(const Nodes<Dim>& nodes, const Stars<Dim>& stars) {
   const View<std::int64_t> steps = make_view<std::int64_t>("pnpbs::quality", kQualitySteps);
   Kokkos::deep_copy(steps, 0);
   for_each("pnpbs::quality_histogram", nodes.count, [&](std::int64_t i) {
-    for_elements_of<Dim>(nodes, stars, i, [&](const ElementCorners<Dim>& corners) {
+    for_elements_of<Element, Dim>(nodes, stars, i, [&](const Element& corners) {
       const auto step = static_cast<std::int64_t>(kQualitySteps * quality_of(corners));
       Kokkos::atomic_inc(&steps(std::clamp<std::int64_t>(step, 0, kQualitySteps - 1)));
     });
@@ -211,17 +236,17 @@ std::vector<std::int64_t> histogram_of(const Nodes<Dim>& nodes, const Stars<Dim>
   return {steps.data(), steps.data() + kQualitySteps};
 }
 
-template <int Dim>
+template <class Element, int Dim>
 SimplexQuality measure_simplices(const Communicator& comm, const Nodes<Dim>& nodes,
                                  const Stars<Dim>& stars) {
   const QualitySums sums = sums_over(
       "pnpbs::quality_sums", nodes.count, QualitySums(), [&](std::int64_t i, QualitySums& sum) {
-        for_elements_of<Dim>(nodes, stars, i, [&](const ElementCorners<Dim>& corners) {
+        for_elements_of<Element, Dim>(nodes, stars, i, [&](const Element& corners) {
           ++sum.elements;
           sum.quality += fixed_point(quality_of(corners));
         });
       });
-  std::vector<std::int64_t> histogram = histogram_of<Dim>(nodes, stars);
+  std::vector<std::int64_t> histogram = histogram_of<Element, Dim>(nodes, stars);
   SimplexQuality found;
   found.elements =
       static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(sums.elements)));
@@ -231,12 +256,12 @@ SimplexQuality measure_simplices(const Communicator& comm, const Nodes<Dim>& nod
   if (found.elements == 0) return found;
   found.mean = quality / static_cast<double>(found.elements);
   found.one_percent = one_percent_of(histogram, found.elements);
-  found.min = -max_of_elements<Dim>(comm, nodes, stars, -1,
-                                    [](const ElementCorners<Dim>& x) { return -quality_of(x); });
-  constexpr double kOfLargestMin = Dim == 2 ? 0.5 : 1.0 / 3;  // 60 degrees, 70.5 degrees
-  const double cosine_of_min =
-      max_of_elements<Dim>(comm, nodes, stars, kOfLargestMin,
-                           [](const ElementCorners<Dim>& x) { return max_cosine(x); });
+  found.min = -max_of_elements<Element, Dim>(comm, nodes, stars, -1,
+                                             [](const Element& x) { return -quality_of(x); });
+  constexpr bool kTriangles = std::tuple_size_v<Element> == 3;
+  constexpr double kOfLargestMin = kTriangles ? 0.5 : 1.0 / 3;  // 60 degrees, 70.5 degrees
+  const double cosine_of_min = max_of_elements<Element, Dim>(
+      comm, nodes, stars, kOfLargestMin, [](const Element& x) { return max_cosine(x); });
   found.min_angle = kDegrees * std::acos(std::min(1.0, cosine_of_min));
   return found;
 }
@@ -244,16 +269,16 @@ SimplexQuality measure_simplices(const Communicator& comm, const Nodes<Dim>& nod
 // ------------------------------------------------------------------ nodes ----------------------
 
 template <int Dim>
-double irregular_share(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars) {
+double irregular_share(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars,
+                       int neighbours) {
   const auto count = [&](const char* label, const auto& counts) {
     return static_cast<double>(comm.allreduce_sum(sum_of(label, nodes.count, [&](std::int64_t i) {
-      return nodes.owned(i) && nodes.carrier(i) == Carrier::free && counts(i) ? 1 : 0;
+      return nodes.owned(i) && nodes.moves(i) && counts(i) ? 1 : 0;
     })));
   };
   const double inner = count("pnpbs::inner_nodes", [](std::int64_t) { return true; });
-  const double irregular = count("pnpbs::irregular_nodes", [&](std::int64_t i) {
-    return stars.size(i) != Lattice<Dim>::kNeighbours;
-  });
+  const double irregular =
+      count("pnpbs::irregular_nodes", [&](std::int64_t i) { return stars.size(i) != neighbours; });
   return inner > 0 ? irregular / inner : 0;
 }
 
@@ -266,16 +291,35 @@ std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<D
   return bands_with_edges(bands, edge_sums<Dim>(comm, nodes, stars, bands));
 }
 
+namespace {
+
+SimplexQuality measure_simplices(const Communicator& comm, const Nodes<2>& nodes,
+                                 const DelaunayStars& stars) {
+  return measure_simplices<PlaneTriangle, 2>(comm, nodes, stars);
+}
+SimplexQuality measure_simplices(const Communicator& comm, const Nodes<3>& nodes,
+                                 const VolumeStars& stars) {
+  return stars.are_on_surfaces() ? measure_simplices<SpaceTriangle, 3>(comm, nodes, stars)
+                                 : measure_simplices<TetrahedronCorners, 3>(comm, nodes, stars);
+}
+
+int regular_neighbours(const DelaunayStars&) { return Lattice<2>::kNeighbours; }
+int regular_neighbours(const VolumeStars& stars) {
+  return stars.are_on_surfaces() ? Lattice<2>::kNeighbours : Lattice<3>::kNeighbours;
+}
+
+}  // namespace
+
 template <int Dim>
 ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& nodes,
                                 const Stars<Dim>& stars) {
   const SpacingBands bands = bands_of_nodes<Dim>(comm, nodes);
   const EdgeSums edges = edge_sums<Dim>(comm, nodes, stars, bands);
   ElementQuality found;
-  found.simplex = measure_simplices<Dim>(comm, nodes, stars);
+  found.simplex = measure_simplices(comm, nodes, stars);
   found.edge = ratio_of(edges.all());
   found.bands = bands_with_edges(bands, edges);
-  found.irregular = irregular_share<Dim>(comm, nodes, stars);
+  found.irregular = irregular_share<Dim>(comm, nodes, stars, regular_neighbours(stars));
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/space_vectors.hpp"
 #include "base/types.hpp"
 
 namespace pnpbs {
@@ -14,6 +15,14 @@ inline double triangle_quality(const Point<2>& a, const Point<2>& b, const Point
   const double ab = distance<2>(a, b), bc = distance<2>(b, c), ca = distance<2>(c, a);
   const double product = ab * bc * ca * (ab + bc + ca);
   return product > 0 ? 4 * twice_area * std::fabs(twice_area) / product : 0.0;
+}
+
+// The same of one in space, which has no side to be turned to.
+inline double triangle_quality(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  const Point<3> normal = cross(difference(b, a), difference(c, a));
+  const double ab = distance<3>(a, b), bc = distance<3>(b, c), ca = distance<3>(c, a);
+  const double product = ab * bc * ca * (ab + bc + ca);
+  return product > 0 ? 4 * dot(normal, normal) / product : 0.0;
 }
 
 // A bound on quality that many triangles are held against, without square roots.

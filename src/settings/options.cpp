@@ -10,9 +10,55 @@
 
 namespace pnpbs {
 
+namespace {
+
+// What volumes need instead (docs/volumes.md), whatever the paper's preset is.
+struct VolumeDefault {
+  const char* name;
+  const char* value;
+  const char* best_value = nullptr;  // with effort=best, if it is another one
+};
+constexpr VolumeDefault kVolumeDefaults[] = {
+    {"rest_length", "1.2"},
+    {"time_step", "0.6"},
+    {"max_move", "0.05"},
+    {"steps", "60", "200"},
+    {"coarsest_steps", "400", "1000"},
+    {"refined_steps", "100", "300"},
+    {"delete_above", "19"},
+    {"insert_below", "9"},
+    {"sweeps", "3"},
+    {"sweep_weight", "1"},
+    {"list_radius", "1.5"},
+    {"exchange_interval", "2"},
+    {"event_interval", "10"},
+    {"tolerance_mean", "0.025", "0.008"},
+};
+
+const VolumeDefault* default_in_space(std::string_view name) {
+  for (const VolumeDefault& in_space : kVolumeDefaults)
+    if (in_space.name == name) return &in_space;
+  return nullptr;
+}
+
+// Those with another default in space name it in their help, too.
+std::vector<OptionRow> naming_both_defaults(std::vector<OptionRow> rows) {
+  static std::vector<std::string> texts;  // helps point into it
+  texts.reserve(rows.size());
+  for (OptionRow& row : rows)
+    if (const VolumeDefault* in_space = default_in_space(row.name)) {
+      std::string text = std::string(row.help) + "; default in space " + in_space->value;
+      if (in_space->best_value) text += std::string(", with effort=best ") + in_space->best_value;
+      row.help = texts.emplace_back(std::move(text)).c_str();
+    }
+  return rows;
+}
+
+}  // namespace
+
 const std::vector<OptionRow>& option_table() {
   using T = OptionType;
-  static const std::vector<OptionRow> table = {
+  static const std::vector<OptionRow> table = naming_both_defaults({
       {"method", T::choice, "default", nullptr, nullptr, 0, 0, "default | paper",
        "preset for the options below: what measures best, or the paper's scheme to the letter"},
       {"effort", T::choice, "default", nullptr, nullptr, 0, 0, "default | best",
@@ -68,10 +114,11 @@ const std::vector<OptionRow>& option_table() {
        "too many: tried on a copy of the nodes around, and kept where the triangles are better"},
       {"smoothing_rounds", T::integer, "10", "0", nullptr, 0, 10000, nullptr,
        "most rounds after the sweeps in which triangles below 0.82 are repaired, and then all bad "
-       "ones; before the sweeps, nodes that are one too many go; 0: neither"},
+       "ones; before the sweeps, nodes that are one too many go; 0: neither; in space slivers are "
+       "repaired unless it is 0"},
       {"smooth_below", T::real, "0.82", nullptr, "0.87", 0, 1, nullptr,
        "triangles are bad whose quality, 2 r_in / R, or 1.365 times the sine of the smallest angle "
-       "is below this"},
+       "is below this; in the plane alone"},
       {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
        "radius of the lists during the run, in desired distances"},
       {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 3, nullptr,
@@ -79,6 +126,9 @@ const std::vector<OptionRow>& option_table() {
       {"growth_limit", T::real, "0.3", "0", nullptr, 0, 1e6, nullptr,
        "d may grow by at most this much per unit of length; 0 is no limit. As long as it is not "
        "set, it counts only where d as given grows faster, and there is a warning then"},
+      {"resolve", T::integer, "0", nullptr, nullptr, 0, 1, nullptr,
+       "1, in space alone: d is held down where it does not resolve the shape, to half of a wall's "
+       "thickness, 3/4 of a gap's width, and at sharp edges; from there it grows by growth_limit"},
       {"exchange_interval", T::integer, "5", nullptr, nullptr, 1, 64, nullptr,
        "steps between exchanges of ghosts between ranks"},
       {"rebalance_above", T::real, "1.1", nullptr, nullptr, 1, 1e6, nullptr,
@@ -94,7 +144,7 @@ const std::vector<OptionRow>& option_table() {
       {"threads", T::integer, "0", nullptr, nullptr, 0, 4096, nullptr,
        "threads of the process, set on the context before anything runs; 0: OMP_NUM_THREADS or "
        "KOKKOS_NUM_THREADS, else the cores there are, divided by our ranks on the node"},
-  };
+  });
   return table;
 }
 
@@ -108,18 +158,6 @@ const std::vector<OptionRow>& hidden_table() {
   };
   return table;
 }
-
-// What volumes need instead (volumes: docs/method.md).
-struct VolumeDefault {
-  const char* name;
-  const char* value;
-};
-constexpr VolumeDefault kVolumeDefaults[] = {
-    {"rest_length", "1.2"}, {"time_step", "0.6"},      {"max_move", "0.05"},
-    {"steps", "60"},        {"coarsest_steps", "400"}, {"refined_steps", "100"},
-    {"delete_above", "19"}, {"insert_below", "9"},     {"sweeps", "3"},
-    {"sweep_weight", "1"},  {"list_radius", "1.5"},    {"exchange_interval", "2"},
-};
 
 struct RenamedOption {
   const char* before;
@@ -243,11 +281,11 @@ std::string Options::text(const char* key) const {
   const auto found = values_.find(key);
   if (found != values_.end()) return found->second;
   const OptionRow& row = find_row(key);
-  if (dimension_ == 3)
-    for (const VolumeDefault& in_space : kVolumeDefaults)
-      if (std::string_view(in_space.name) == key) return in_space.value;
+  const bool best = chosen("effort", "best");
+  if (const VolumeDefault* in_space = default_in_space(key); in_space && dimension_ == 3)
+    return best && in_space->best_value ? in_space->best_value : in_space->value;
   if (row.paper_value && chosen("method", "paper")) return row.paper_value;
-  if (row.best_value && chosen("effort", "best")) return row.best_value;
+  if (row.best_value && best) return row.best_value;
   return row.default_value;
 }
 

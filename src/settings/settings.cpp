@@ -25,6 +25,7 @@ Settings::Settings(const Options& o)
       adjacency_radius(o.real("adjacency_radius")),
       growth_limit(o.real("growth_limit")),
       growth_limit_set(o.is_set("growth_limit")),
+      resolve(o.integer("resolve") != 0),
       max_nodes(o.integer("max_nodes")),
       max_memory(o.real("max_memory")),
       exchange_interval(o.integer("exchange_interval")),

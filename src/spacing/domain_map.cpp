@@ -19,6 +19,11 @@ namespace {
 constexpr std::size_t kMaxBoundaryNodes = 48;
 constexpr int kMaxDepthByNodes = 26;
 
+bool are_surfaces_alone(const BoundaryMesh<2>&) { return false; }
+bool are_surfaces_alone(const BoundaryMesh<3>& boundary) {
+  return !boundary.facets.empty() && boundary.facets.front().stands_alone();
+}
+
 }  // namespace
 
 template <int Dim>
@@ -31,7 +36,11 @@ class DomainMap<Dim>::Growth {
 
   Growth(const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
          const NodeLimit& limit, Refinement by)
-      : boundary_(boundary), spacing_(spacing), limit_(limit), by_(by) {}
+      : boundary_(boundary),
+        spacing_(spacing),
+        limit_(limit),
+        by_(by),
+        surfaces_alone_(are_surfaces_alone(boundary)) {}
 
   const FacetCells<Dim>& facets() const { return *facets_; }
   const CellState& state(std::int32_t c) const { return cells_[static_cast<std::size_t>(c)]; }
@@ -65,20 +74,27 @@ class DomainMap<Dim>::Growth {
   double nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const {
     return Lattice<Dim>::kDensity * power<Dim>(tree.cell_side(c)) * state(c).mean_density;
   }
-  void count_leaf(std::int32_t c, double nodes) {
-    if (wholly_inside(c)) nodes_in_leaves_ += nodes;
+  void count_leaf(const BackgroundTree<Dim>& tree, std::int32_t c) {
+    nodes_in_leaves_ += surfaces_alone_    ? min_nodes_in(tree, c)
+                        : wholly_inside(c) ? nodes_in(tree, c)
+                                           : 0;
   }
 
  private:
   bool wholly_inside(std::int32_t c) const { return !facets_->outside(c) && !facets_->crossed(c); }
+  double min_nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const;
   void add_boundary_samples(const Box<Dim>& box, std::int32_t c, std::vector<double>& values) const;
   void take_samples(const std::vector<double>& values, CellState& cell) const;
   bool holds_many_boundary_nodes(const BackgroundTree<Dim>& tree, std::int32_t c) const;
+
+  void add_samples(const BackgroundTree<Dim>& tree, std::int32_t c, const Point<Dim>& fraction,
+                   std::size_t number, std::vector<Point<Dim>>& points) const;
 
   const BoundaryMesh<Dim>& boundary_;
   const SpacingEvaluator<Dim>& spacing_;
   NodeLimit limit_;
   Refinement by_;
+  bool surfaces_alone_;
   std::optional<FacetCells<Dim>> facets_;
   std::vector<double> boundary_spacing_;
   std::vector<CellState> cells_;
@@ -96,12 +112,8 @@ void DomainMap<Dim>::Growth::sample(const BackgroundTree<Dim>& tree, std::int32_
   owner.reserve(points.capacity());
   for (std::int32_t c = first; c < last; ++c) {
     if (facets_->outside(c)) continue;
-    for (const Point<Dim>& fraction : kSamples) {
-      const Point<Dim> x = point_in<Dim>(tree.cell_box(c), fraction);
-      if (!facets_->inside(c, x)) continue;
-      points.push_back(x);
-      owner.push_back(c);
-    }
+    for (std::size_t k = 0; k < kSamples.size(); ++k) add_samples(tree, c, kSamples[k], k, points);
+    owner.resize(points.size(), c);
   }
   std::vector<double> d(points.size());
   spacing_(static_cast<std::int64_t>(points.size()), points.data(), d.data());
@@ -113,6 +125,23 @@ void DomainMap<Dim>::Growth::sample(const BackgroundTree<Dim>& tree, std::int32_
     add_boundary_samples(tree.cell_box(c), c, values);
     take_samples(values, cells_[static_cast<std::size_t>(c)]);
   }
+}
+
+// Where a sample point of the cell asks for d: there if it is inside; for surfaces alone at the
+// nearest point of one of their facets, in turn.
+template <int Dim>
+void DomainMap<Dim>::Growth::add_samples(const BackgroundTree<Dim>& tree, std::int32_t c,
+                                         const Point<Dim>& fraction, std::size_t number,
+                                         std::vector<Point<Dim>>& points) const {
+  const Point<Dim> x = point_in<Dim>(tree.cell_box(c), fraction);
+  if (!surfaces_alone_) {
+    if (facets_->inside(c, x)) points.push_back(x);
+    return;
+  }
+  const auto facets = facets_->facets(c);
+  const auto f = static_cast<std::size_t>(facets[number % facets.size()]);
+  const Point<Dim> on_facet = nearest_on(facets_->corners()[f], x);
+  if (in_closed_box(tree.cell_box(c), on_facet)) points.push_back(on_facet);
 }
 
 template <int Dim>
@@ -173,6 +202,16 @@ bool DomainMap<Dim>::Growth::holds_many_boundary_nodes(const BackgroundTree<Dim>
   return facets.size() - having_it > kMaxBoundaryNodes * (Dim - 1);
 }
 
+// With the largest d of the cell. A surface takes two thirds of the square of each cell's side that
+// it crosses, on average.
+template <int Dim>
+double DomainMap<Dim>::Growth::min_nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const {
+  constexpr double kPart = 2.0 / 3;
+  const double sides = tree.cell_side(c) / state(c).max;
+  if (surfaces_alone_) return kPart * Lattice<2>::kDensity * sides * sides;
+  return wholly_inside(c) ? Lattice<Dim>::kDensity * power<Dim>(sides) : 0;
+}
+
 // Even with the largest d of each cell there would be more nodes than allowed: stop early.
 template <int Dim>
 void DomainMap<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::int32_t first,
@@ -180,8 +219,9 @@ void DomainMap<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::i
   double nodes = nodes_in_leaves_;
   std::int32_t finest = first;
   for (std::int32_t c = first; c < last; ++c) {
-    if (!wholly_inside(c)) continue;
-    nodes += Lattice<Dim>::kDensity * power<Dim>(tree.cell_side(c) / state(c).max);
+    const double in_cell = facets_->outside(c) ? 0 : min_nodes_in(tree, c);
+    if (in_cell == 0) continue;
+    nodes += in_cell;
     if (facets_->outside(finest) || state(c).min < state(finest).min) finest = c;
   }
   if (nodes <= static_cast<double>(limit_.max_nodes)) return limit_.require_memory_for(nodes);
@@ -228,7 +268,7 @@ void DomainMap<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Grow
       const double nodes = growth.nodes_in(tree, c);
       split[static_cast<std::size_t>(c - first)] =
           growth.wants_split(tree, c) && may_split(tree, c, nodes);
-      if (!split[static_cast<std::size_t>(c - first)]) growth.count_leaf(c, nodes);
+      if (!split[static_cast<std::size_t>(c - first)]) growth.count_leaf(tree, c);
     }
   };
   BackgroundTree<Dim> tree;

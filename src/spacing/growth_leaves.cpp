@@ -8,6 +8,7 @@
 
 #include "base/lattice.hpp"
 #include "base/point_text.hpp"
+#include "spacing/domain_map.hpp"
 #include "tree/cell_samples.hpp"
 
 namespace pnpbs {

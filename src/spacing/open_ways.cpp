@@ -5,8 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "domain/plane/boundary.hpp"
 #include "domain/plane/edges.hpp"
 #include "domain/volume/triangles.hpp"
+#include "spacing/domain_map.hpp"
 #include "tree/cell_samples.hpp"
 
 namespace pnpbs {
@@ -26,40 +28,73 @@ Box<Dim> box_of(const Point<Dim>& a, const Point<Dim>& b) {
 }  // namespace
 
 template <int Dim>
-OpenWays<Dim>::OpenWays(const Box<Dim>& bounds, double measure, BoundaryMesh<Dim> boundary)
-    : bounds_(bounds), measure_(measure), boundary_(std::move(boundary)) {
-  double wide = 0;
-  for (int k = 0; k < Dim; ++k) wide = std::max(wide, bounds.high[k] - bounds.low[k]);
-  const SpacingEvaluator<Dim> nothing_fine = [wide](std::int64_t n, const Point<Dim>*, double* d) {
-    std::fill(d, d + n, wide);
-  };
-  map_.build(bounds_, boundary_, nothing_fine, {std::numeric_limits<std::int64_t>::max()});
+OpenWays<Dim>::OpenWays(const Box<Dim>& bounds, double measure,
+                        std::shared_ptr<const FacetIndex<Dim>> facets)
+    : bounds_(bounds), measure_(measure), facets_(std::move(facets)) {
+  const BackgroundTree<Dim>& tree = facets_->tree();
+  has_facets_.assign(static_cast<std::size_t>(tree.cell_count()), 0);
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
+    has_facets_[static_cast<std::size_t>(tree.leaf_cell(leaf))] = facets_->leaf_has_facets(leaf);
+  // Children come after their parents.
+  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {
+    const std::int32_t first = tree.cell(c).first_child;
+    for (int k = 0; first >= 0 && k < BackgroundTree<Dim>::kChildren; ++k)
+      has_facets_[static_cast<std::size_t>(c)] |= has_facets_[static_cast<std::size_t>(first + k)];
+  }
 }
 
 template <int Dim>
 typename OpenWays<Dim>::Side OpenWays<Dim>::side_of(const Box<Dim>& box) const {
   bool crossed = false;
-  map_.tree().for_leaves_in(
-      box, [&](std::int32_t) { return !crossed; },
+  facets_->tree().for_leaves_in(
+      box,
+      [&](std::int32_t cell) {
+        return !crossed && has_facets_[static_cast<std::size_t>(cell)] != 0;
+      },
       [&](std::int32_t leaf) {
-        for (const std::int32_t f : map_.facets_of_leaf(leaf))
-          crossed = crossed || may_meet_box(map_.corners(f), box);
+        for (const std::int32_t f : facets_->facets_of_leaf(leaf))
+          crossed = crossed || may_meet_box(facets_->corners(f), box);
       });
   if (crossed) return Side::crossed;
-  return map_.inside(middle_of<Dim>(box)) ? Side::inside : Side::outside;
+  return facets_->inside(middle_of<Dim>(box)) ? Side::inside : Side::outside;
 }
 
 template <int Dim>
 bool OpenWays<Dim>::open(const Point<Dim>& a, const Point<Dim>& b) const {
   bool open = true;
-  const BackgroundTree<Dim>& tree = map_.tree();
+  const BackgroundTree<Dim>& tree = facets_->tree();
   tree.for_leaves_in(
       box_of<Dim>(a, b),
       [&](std::int32_t cell) {
-        return open && segment_may_meet_box(a, b, tree.cell_box_with_room(cell));
+        return open && has_facets_[static_cast<std::size_t>(cell)] != 0 &&
+               segment_may_meet_box(a, b, tree.cell_box_with_room(cell));
       },
-      [&](std::int32_t leaf) { open = open && !map_.facet_between(leaf, a, b); });
+      [&](std::int32_t leaf) { open = open && !facets_->facet_between(leaf, a, b); });
   return open;
+}
+
+std::shared_ptr<const FacetIndex<2>> indexed_boundary(const PlaneDomain& domain,
+                                                      const SpacingEvaluator<2>& d,
+                                                      std::int64_t max_nodes) {
+  struct Indexed {
+    BoundaryMesh<2> boundary;
+    DomainMap<2> map;  // refined by the boundary alone
+  };
+  const auto indexed = std::make_shared<Indexed>();
+  indexed->boundary = discretize_boundary(domain, d, max_nodes);
+  const double wide = std::max(domain.bounds().high[0] - domain.bounds().low[0],
+                               domain.bounds().high[1] - domain.bounds().low[1]);
+  const SpacingEvaluator<2> nothing_fine = [wide](std::int64_t n, const Point<2>*, double* at) {
+    std::fill(at, at + n, wide);
+  };
+  indexed->map.build(domain.bounds(), indexed->boundary, nothing_fine,
+                     {std::numeric_limits<std::int64_t>::max()});
+  return {indexed, &indexed->map};
+}
+
+std::shared_ptr<const FacetIndex<3>> indexed_boundary(const VolumeDomain& domain,
+                                                      const SpacingEvaluator<3>&, std::int64_t) {
+  return domain.sides();
 }
 
 template class OpenWays<2>;

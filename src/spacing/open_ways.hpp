@@ -5,9 +5,12 @@
 
 #include <cstdint>
 #include <iterator>
+#include <memory>
+#include <vector>
 
-#include "domain/boundary_mesh.hpp"
-#include "spacing/domain_map.hpp"
+#include "domain/domain.hpp"
+#include "domain/facet_index.hpp"
+#include "domain/spacing_evaluator.hpp"
 
 namespace pnpbs {
 
@@ -16,30 +19,37 @@ class OpenWays {
  public:
   enum class Side : char { outside, crossed, inside };
 
-  // measure: the domain's area or volume. The boundary has the nodes that d asks for on it.
-  OpenWays(const Box<Dim>& bounds, double measure, BoundaryMesh<Dim> boundary);
-  OpenWays(const OpenWays&) = delete;  // the map points to the boundary
-  OpenWays& operator=(const OpenWays&) = delete;
+  // measure: the domain's area or volume. Of the boundary, whose leaves hold few facets each.
+  OpenWays(const Box<Dim>& bounds, double measure, std::shared_ptr<const FacetIndex<Dim>> facets);
 
   const Box<Dim>& bounds() const { return bounds_; }
   double measure() const { return measure_; }
-  std::int64_t node_count() const { return std::ssize(boundary_.nodes); }
+  std::int64_t node_count() const { return std::ssize(facets_->boundary().nodes); }
   const Point<Dim>& node(std::int64_t n) const {
-    return boundary_.nodes[static_cast<std::size_t>(n)].position;
+    return facets_->boundary().nodes[static_cast<std::size_t>(n)].position;
   }
 
   // Where the domain is in a box.
   Side side_of(const Box<Dim>& box) const;
-  bool inside(const Point<Dim>& x) const { return map_.inside(x); }
+  bool inside(const Point<Dim>& x) const { return facets_->inside(x); }
   // Does the way from a to b cross no facet of the boundary? Ends may lie on one.
   bool open(const Point<Dim>& a, const Point<Dim>& b) const;
 
  private:
   Box<Dim> bounds_;
   double measure_;
-  BoundaryMesh<Dim> boundary_;
-  DomainMap<Dim> map_;  // refined by the boundary alone
+  std::shared_ptr<const FacetIndex<Dim>> facets_;
+  std::vector<char> has_facets_;  // of all cells of their tree: most have none
 };
+
+// The facets of the boundary: in the plane with the nodes that d asks for on it, in space those of
+// the surfaces as they are given.
+std::shared_ptr<const FacetIndex<2>> indexed_boundary(const PlaneDomain& domain,
+                                                      const SpacingEvaluator<2>& d,
+                                                      std::int64_t max_nodes);
+std::shared_ptr<const FacetIndex<3>> indexed_boundary(const VolumeDomain& domain,
+                                                      const SpacingEvaluator<3>& d,
+                                                      std::int64_t max_nodes);
 
 extern template class OpenWays<2>;
 extern template class OpenWays<3>;

@@ -37,11 +37,13 @@ void take_feature_angle(const std::string& text, Arguments& arguments) {
 
 void add_input(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to fill";
-  app.add_option("--domain", arguments.domain,
-                 "the domain: in the plane, a file in Triangle's .poly format, -\nfor standard "
-                 "input; in space, a closed surface as .stl, .off,\n.obj, .ply, or .poly or "
-                 ".smesh as TetGen has them, or\n'box(x0,y0,z0, x1,y1,z1)', 'ball(x,y,z, r)',\n"
-                 "'cylinder(x0,y0,z0, x1,y1,z1, r)'")
+  app.add_option(
+         "--domain", arguments.domain,
+         "the domain: in the plane, a file in Triangle's .poly format, -\nfor standard "
+         "input; in space, a closed surface as .stl, .off,\n.obj, .ply, or .poly or "
+         ".smesh as TetGen has them, or\n'box(x0,y0,z0, x1,y1,z1)', 'ball(x,y,z, r)',\n"
+         "'cylinder(x0,y0,z0, x1,y1,z1, r)', or in a box, to the resolution\nh, where a formula is "
+         "negative: 'levelset(x0,y0,z0, x1,y1,z1, h, f)'")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--spacing", arguments.spacing,
@@ -60,6 +62,13 @@ void add_input(CLI::App& app, Arguments& arguments) {
          "degrees")
       ->type_name("DEGREES")
       ->group(group);
+}
+
+void add_surfaces_only(CLI::App& app, Arguments& arguments) {
+  app.add_flag("--surfaces-only", arguments.surfaces_only,
+               "in space: nodes and triangles on the surfaces alone, which may\nbe open, and "
+               "nothing inside")
+      ->group("What to fill");
 }
 
 void take_colour(const std::string& name, Arguments& arguments) {
@@ -203,6 +212,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   app.allow_extras();
   app.get_formatter()->column_width(28);
   add_input(app, arguments);
+  add_surfaces_only(app, arguments);
   add_output(app, arguments);
   add_library_options(app, arguments, settings);
   add_general(app, arguments, questions);
@@ -225,7 +235,15 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
 void refuse_other_dimension(const Arguments& arguments, int dimension) {
   const std::string plane = ", and this domain is in the plane";
   if (dimension == 2 && arguments.feature_angle) refuse("--feature-angle is for bodies" + plane);
+  if (dimension == 2 && arguments.surfaces_only)
+    refuse("--surfaces-only is for surfaces in space" + plane);
   if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);
+  if (arguments.surfaces_only && !arguments.cut.empty())
+    refuse("--cut is for bodies, and with --surfaces-only nothing is inside");
+  using picture::ElementColour;
+  const bool coloured = arguments.colour.value_or(ElementColour::none) != ElementColour::none;
+  if (arguments.surfaces_only && coloured)
+    refuse("--color is for the tetrahedra of bodies, and with --surfaces-only there are none");
   if (dimension == 3 && arguments.bubbles)
     refuse("--bubbles is for domains in the plane, and this one is a body");
 }

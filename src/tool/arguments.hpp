@@ -23,7 +23,8 @@ struct Arguments {
   std::vector<std::pair<std::string, std::string>> options;  // key and value for the library
   std::optional<double> feature_angle;                       // of surfaces, degrees
   std::optional<picture::ElementColour> colour;              // of elements in pictures
-  std::string cut;  // where pictures cut a body open; empty: through its middle
+  std::string cut;             // where pictures cut a body open; empty: through its middle
+  bool surfaces_only = false;  // nothing inside them
   bool bubbles = false;
   bool check = false;  // the results
   bool nodes_only = false;

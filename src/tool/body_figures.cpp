@@ -29,11 +29,16 @@ std::vector<Point<3>> positions_seen(pnpbs_placement placement, pnpbs_context co
 
 }  // namespace
 
-BodyFigures body_figures(pnpbs_domain domain, pnpbs_context context) {
+BodyFigures body_figures(pnpbs_domain domain, bool filled, pnpbs_context context) {
   Box<3> box{};
   BodyFigures figures{};
   check(pnpbs_domain_bounds(domain, box.low.data(), box.high.data()), context);
-  check(pnpbs_domain_measure(domain, &figures.volume), context);
+  double measure = 0;
+  check(pnpbs_domain_measure(domain, &measure), context);
+  if (filled)
+    figures.volume = measure;
+  else
+    figures.area = measure;
   figures.extent = difference(box.high, box.low);
   return figures;
 }
@@ -43,8 +48,8 @@ double boundary_area(pnpbs_placement placement, pnpbs_context context, const Ran
   const auto at = [&x](std::int64_t node) { return x[static_cast<std::size_t>(node)]; };
   double area = 0;
   for (const auto& [a, b, c] : own_boundary(placement, context)) {
-    const Point<3> normal = cross_product(difference(at(b), at(a)), difference(at(c), at(a)));
-    area += 0.5 * std::sqrt(dot_product(normal, normal));
+    const Point<3> normal = cross(difference(at(b), at(a)), difference(at(c), at(a)));
+    area += 0.5 * std::sqrt(dot(normal, normal));
   }
   const std::vector<double> areas = ranks.gather(std::vector<double>{area});
   return std::accumulate(areas.begin(), areas.end(), 0.0);

@@ -12,12 +12,12 @@ namespace pnpbs::tool {
 
 struct BodyFigures {
   Point<3> extent;
-  double volume;
-  std::optional<double> area;  // of the triangles on its boundary, when there are nodes
+  double volume;               // 0 of surfaces alone
+  std::optional<double> area;  // of its boundary's triangles, when there are nodes
 };
 
 // Local. Throws Failure.
-BodyFigures body_figures(pnpbs_domain domain, pnpbs_context context);
+BodyFigures body_figures(pnpbs_domain domain, bool filled, pnpbs_context context);
 
 // On the first rank; 0 on the others. Collective.
 double boundary_area(pnpbs_placement placement, pnpbs_context context, const Ranks& ranks);

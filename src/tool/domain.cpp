@@ -57,10 +57,13 @@ bool has_three_dimensions(const std::string& path) {
 
 DomainSource::DomainSource(const Arguments& arguments)
     : path_(arguments.domain),
-      primitive_(primitive_in(arguments.domain)),
-      feature_angle_(arguments.feature_angle.value_or(default_feature_angle)) {
+      level_set_(LevelSet::in(path_)),
+      primitive_(level_set_ ? std::nullopt : primitive_in(path_)),
+      feature_angle_(arguments.feature_angle.value_or(default_feature_angle)),
+      filled_(!arguments.surfaces_only) {
   const std::string extension = io::extension_of(path_);
-  if (primitive_ || is_surface(extension) || (extension == "poly" && has_three_dimensions(path_)))
+  if (level_set_ || primitive_ || is_surface(extension) ||
+      (extension == "poly" && has_three_dimensions(path_)))
     dimension_ = 3;
 }
 
@@ -80,8 +83,10 @@ void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks&
 }
 
 void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
-  if (primitive_) return add(*primitive_, domain, context);
   if (dimension_ == 2) return read_plane(domain, context);
+  check(pnpbs_domain_set_filled(domain, filled_ ? 1 : 0), context);
+  if (level_set_) return level_set_->add_to(domain, context);
+  if (primitive_) return add(*primitive_, domain, context);
   check(pnpbs_domain_read_surface(domain, PNPBS_BOUNDARY, path_.c_str(), feature_angle_), context);
 }
 

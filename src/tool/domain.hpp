@@ -2,10 +2,12 @@
 // The domain that the user names: a file, standard input, or a simple body in words.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "tool/arguments.hpp"
+#include "tool/level_set.hpp"
 #include "tool/library.hpp"
 #include "tool/primitive.hpp"
 #include "tool/ranks.hpp"
@@ -19,7 +21,8 @@ class DomainSource {
 
   int dimension() const { return dimension_; }  // 2: in the plane, 3: a body
 
-  // Standard input is the first rank's; files are read by every rank. Collective. Throws Failure.
+  // Standard input is the first rank's; files are read by every rank. This object must outlive the
+  // domain. Collective. Throws Failure.
   void read(pnpbs_domain domain, pnpbs_context context, const Ranks& ranks) const;
 
  private:
@@ -27,9 +30,11 @@ class DomainSource {
   void read_plane(pnpbs_domain domain, pnpbs_context context) const;
 
   std::string path_;  // "-" is standard input
+  std::unique_ptr<LevelSet> level_set_;
   std::optional<Primitive> primitive_;
   int dimension_ = 2;
   double feature_angle_;
+  bool filled_;
 };
 
 }  // namespace pnpbs::tool

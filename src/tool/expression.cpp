@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tool/exit.hpp"
+#include "tool/interrupt.hpp"
 #include "tool/names.hpp"
 
 namespace pnpbs::tool {
@@ -48,24 +49,32 @@ std::size_t letters_before(const std::string& text, std::size_t position) {
                     [](unsigned char c) { return (c & 0xC0) != 0x80; }));
 }
 
+// What an option was given.
+struct Source {
+  const std::string& option;
+  const std::string& text;
+};
+
 // The text on one line, and below it a mark under the byte at `position`.
-[[noreturn]] void fail(const std::string& text, std::size_t position, const std::string& what) {
+[[noreturn]] void fail(const Source& source, std::size_t position, const std::string& what) {
+  const std::string& text = source.text;
   const std::size_t column = letters_before(text, std::min(position, text.size()));
   std::string line = text;
   std::ranges::replace_if(
       line, [](unsigned char c) { return c < ' '; }, ' ');
-  throw BadInput("--spacing, position " + std::to_string(column + 1) + ": " + what + "\n  " + line +
-                 "\n  " + std::string(column, ' ') + "^");
+  throw BadInput(source.option + ", position " + std::to_string(column + 1) + ": " + what + "\n  " +
+                 line + "\n  " + std::string(column, ' ') + "^");
 }
 
 // muParser would assign to variables, and return the last of several values.
-void refuse_what_is_no_formula(const std::string& text) {
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(text, 0, "empty expression");
+void refuse_what_is_no_formula(const Source& source) {
+  const std::string& text = source.text;
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(source, 0, "empty expression");
   for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1)) {
     const bool comparison =
         (at > 0 && std::string("<>!=").find(text[at - 1]) != std::string::npos) ||
         (at + 1 < text.size() && text[at + 1] == '=');
-    if (!comparison) fail(text, at, "a formula assigns nothing (== compares)");
+    if (!comparison) fail(source, at, "a formula assigns nothing (== compares)");
   }
 }
 
@@ -124,9 +133,10 @@ struct Expression::Parser {
   double place[3] = {0, 0, 0};
 };
 
-Expression::Expression(const std::string& text, int dimension)
+Expression::Expression(const std::string& text, int dimension, const std::string& option)
     : parser_(std::make_unique<Parser>()) {
-  refuse_what_is_no_formula(text);
+  const Source source{option, text};
+  refuse_what_is_no_formula(source);
   mu::Parser& parser = parser_->parser;
   parser_->dimension = dimension;
   try {
@@ -136,10 +146,10 @@ Expression::Expression(const std::string& text, int dimension)
     parser.SetExpr(text);
     parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
-    fail(text, static_cast<std::size_t>(std::max(0, error.GetPos())), in_words(error, parser));
+    fail(source, static_cast<std::size_t>(std::max(0, error.GetPos())), in_words(error, parser));
   }
   if (parser.GetNumResults() != 1) {
-    fail(text, text.find(','), "one value is wanted, not several (decimals come after a point)");
+    fail(source, text.find(','), "one value is wanted, not several (decimals come after a point)");
   }
 }
 
@@ -156,6 +166,17 @@ double Expression::at(const double* place) const {
 // threads that get in the way of the library's.
 void Expression::at(std::int64_t n, const double* coordinates, double* values) const {
   for (std::int64_t i = 0; i < n; ++i) values[i] = at(coordinates + parser_->dimension * i);
+}
+
+std::int32_t call_expression(std::int64_t n, std::int32_t /*dim*/, const double* coordinates,
+                             double* values, void* user) {
+  if (interrupted()) return 1;
+  try {
+    static_cast<const Expression*>(user)->at(n, coordinates, values);
+    return 0;
+  } catch (...) {
+    return 1;
+  }
 }
 
 std::string expression_help() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing that the user writes as a formula in x and y, and z for bodies.
+// What the user writes as a formula in x and y, and z for bodies: a spacing, a level set.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@ namespace pnpbs::tool {
 
 class Expression {
  public:
-  // Throws BadInput with the text and a mark below the place of the error.
-  Expression(const std::string& text, int dimension);
+  // `option` is the one that it was given by. Throws BadInput with the text and a mark below the
+  // place of the error.
+  Expression(const std::string& text, int dimension, const std::string& option);
   ~Expression();
 
   bool is_constant() const;  // no coordinate occurs in it
@@ -19,10 +20,16 @@ class Expression {
   // coordinates: [n][dimension]
   void at(std::int64_t n, const double* coordinates, double* values) const;
 
+  void* as_user() const { return const_cast<Expression*>(this); }
+
  private:
   struct Parser;
   std::unique_ptr<Parser> parser_;
 };
+
+// A callback of the library's, with an expression's as_user(). It fails when a signal has come.
+std::int32_t call_expression(std::int64_t n, std::int32_t dim, const double* coordinates,
+                             double* values, void* user);
 
 // Functions and constants, in words, for the help text.
 std::string expression_help();

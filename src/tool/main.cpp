@@ -142,7 +142,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   std::optional<BodyFigures> body;
   ranks.agreed([&] {
     look = look_of(arguments, dimension, domain, context);
-    if (dimension == 3) body = body_figures(domain, context);
+    if (dimension == 3) body = body_figures(domain, !arguments.surfaces_only, context);
   });
 
   defer_interrupts();

@@ -23,13 +23,13 @@ constexpr std::array shapes{
     Shape{"cylinder", 7, "cylinder(x0,y0,z0, x1,y1,z1, r), the ends of its axis and the radius"}};
 
 const Shape& shape_called(const std::string& name) {
-  std::vector<std::string> names;
+  std::vector<std::string> names{"levelset"};
   for (const Shape& shape : shapes) {
     if (shape.name == name) return shape;
     names.emplace_back(shape.name);
   }
   throw BadInput("--domain: there is no file and no body '" + name + "'" +
-                 did_you_mean(name, names) + " (known: box, ball, cylinder)");
+                 did_you_mean(name, names) + " (known: box, ball, cylinder, levelset)");
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ std::string report_text(const Arguments& arguments, const Statistics& statistics
   Json report;
   report["domain"] = arguments.domain;
   if (arguments.feature_angle) report["feature_angle"] = *arguments.feature_angle;
+  if (arguments.surfaces_only) report["surfaces_only"] = true;
   if (arguments.spacing_grid.empty()) {
     report["spacing"] = arguments.spacing;
   } else {

@@ -35,12 +35,13 @@ std::string body_line(const std::optional<BodyFigures>& body) {
   if (!body) return "";
   const Point<3>& size = body->extent;
   std::string line = "body     " + short_number(size[0], 4) + " x " + short_number(size[1], 4) +
-                     " x " + short_number(size[2], 4) + ", volume " + measure(body->volume);
+                     " x " + short_number(size[2], 4);
+  if (body->volume > 0) line += ", volume " + measure(body->volume);
   if (body->area) line += ", surface " + measure(*body->area);
   return line + "\n";
 }
 
-std::string quality_line(const Statistics& statistics, bool in_space) {
+std::string quality_line(const Statistics& statistics, bool tetrahedra) {
   const auto* mean = statistics.find<double>("quality.mean");
   const auto* one_percent = statistics.find<double>("quality.one_percent");
   const auto* min = statistics.find<double>("quality.min");
@@ -48,7 +49,7 @@ std::string quality_line(const Statistics& statistics, bool in_space) {
   if (!mean || !one_percent || !min || !angle) return "";
   return "quality  " + short_number(*mean, 4) + " in the mean, 99 % above " +
          short_number(*one_percent, 3) + ", least " + short_number(*min, 3) + "; smallest " +
-         (in_space ? "dihedral angle " : "angle ") + short_number(*angle, 3) + " degrees\n";
+         (tetrahedra ? "dihedral angle " : "angle ") + short_number(*angle, 3) + " degrees\n";
 }
 
 std::string edge_line(const Statistics& statistics) {
@@ -120,7 +121,7 @@ std::string estimate_text(const RunEstimate& run) {
 std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
                          const std::vector<std::string>& files) {
   return body_line(body) + nodes_line(statistics) + spacing_line(statistics) +
-         edge_line(statistics) + quality_line(statistics, body.has_value()) +
+         edge_line(statistics) + quality_line(statistics, body && body->volume > 0) +
          stop_line(statistics) + memory_line(statistics) + files_line(files);
 }
 

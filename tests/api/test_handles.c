@@ -4,6 +4,7 @@
  * objects may be destroyed in any order and keep what they need alive.
  */
 #include "api_support.h"
+#include "volume_bodies.h"
 
 /* Where the calls below would put their outputs. An error must not touch them. */
 static union {
@@ -69,6 +70,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_add_box, (handle, xyz, xyz + 3, 1))                                        \
   X(domain_add_ball, (handle, xyz, 1.0, 1))                                           \
   X(domain_add_cylinder, (handle, xyz, xyz + 3, 1.0, 1))                              \
+  X(domain_add_level_set, (handle, volume_ring_at, NULL, xyz, xyz + 3, 0.5, 1))       \
   X(domain_add_arc, (handle, PNPBS_BOUNDARY, xy, 1.0, 0.0, 2 * PI, 1))                \
   X(domain_add_curve, (handle, PNPBS_BOUNDARY, circle, NULL, 0.0, 2 * PI, 1))         \
   X(domain_add_pslg, (handle, 4, xy, NULL, 4, ends, NULL, 0, NULL))                   \
@@ -76,6 +78,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_add_fixed_nodes, (handle, 1, xy, NULL))                                    \
   X(domain_read_poly, (handle, PNPBS_SOURCE_DIR "/examples/data/lake_victoria.poly")) \
   X(domain_parse_poly, (handle, "0 2 0 0\n0 0\n0\n", 14, "text"))                     \
+  X(domain_set_filled, (handle, 1))                                                   \
   X(domain_check, (handle))                                                           \
   X(domain_dimension, (handle, out.small + 2))                                        \
   X(domain_bounds, (handle, out.reals + 1, out.reals + 3))                            \
@@ -101,6 +104,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_count, (handle, out.integers + 1))                                                  \
   X(placement_get_nodes,                                                                          \
     (handle, 1, out.reals + 1, out.integers + 3, out.small + 8, out.reals + 5))                   \
+  X(placement_get_normals, (handle, 1, out.reals + 1))                                            \
   X(placement_adjacency_size, (handle, out.integers + 1))                                         \
   X(placement_get_adjacency, (handle, 1, out.integers + 1, out.integers + 3))                     \
   X(placement_star_size, (handle, out.integers + 1))                                              \

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 
-#include "domain/plane/boundary.hpp"
 #include "domain/plane/plane_domain.hpp"
 #include "spacing/open_ways.hpp"
 #include "spacing/spacing.hpp"
@@ -16,6 +16,7 @@ inline std::unique_ptr<const pnpbs::OpenWays<2>> open_ways(const pnpbs::PlaneDom
                                                    double* d) {
     pnpbs::evaluate_spacing<2>(spacing, domain.area(), n, x, d);
   };
-  return std::make_unique<const pnpbs::OpenWays<2>>(domain.bounds(), domain.area(),
-                                                    pnpbs::discretize_boundary(domain, evaluator));
+  return std::make_unique<const pnpbs::OpenWays<2>>(
+      domain.bounds(), domain.area(),
+      pnpbs::indexed_boundary(domain, evaluator, std::numeric_limits<std::int64_t>::max()));
 }

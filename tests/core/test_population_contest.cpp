@@ -78,14 +78,15 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
                          const Freedom& freedom, double radius) {
   Candidate<Dim> result;
   const Bubble<Dim>& own = set[i];
+  result.place = own.x;
   if (!own.moves) return result;
   double ratio = 0;
-  Point<Dim> crowd{};
+  std::vector<Point<Dim>> around;
   for (std::size_t j = 0; j < set.size(); ++j) {
     if (j == i || !adjacent<Dim>(own, set[j], radius)) continue;
     const double gap = pnpbs::distance<Dim>(own.x, set[j].x);
     ratio += std::max(0.0, own.d + set[j].d / 2 - gap) / (own.d / 2);
-    for (int k = 0; k < Dim; ++k) crowd[k] += (set[j].x[k] - own.x[k]) / (gap * gap);
+    around.push_back(set[j].x);
   }
   if (freedom.must_go.count(own.id)) {
     result.defect = 1e300;
@@ -94,11 +95,8 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
     result.defect = ratio - rule.ideal;
     result.removed = true;
   } else if (ratio < rule.insert_below) {
-    const double length = pnpbs::distance<Dim>(crowd, {});
-    for (int k = 0; k < Dim; ++k)
-      result.place[k] = own.x[k] - own.d * (length > 0 ? crowd[k] / length : (k == 0 ? -1.0 : 0.0));
-    Point<Dim> hole{};
-    if (hole_by_search<Dim>(set, i, radius, hole)) result.place = hole;
+    if (!hole_by_search<Dim>(set, i, radius, result.place))
+      result.place = pnpbs::free_place<Dim>(own.x, own.d, around);  // away from all of them
     if (!freedom.fits(result.place[0], result.place[1])) return result;
     double there = 0;  // the new bubble's ratio
     for (std::size_t j : within_hops<Dim>(set, i, 2, radius)) {
@@ -114,6 +112,12 @@ Candidate<Dim> candidate(const Set<Dim>& set, std::size_t i, const PopulationRul
 
 // Two candidates this close may both act on the same place.
 constexpr int kHops = 3;
+template <int Dim>
+bool rivals(const Set<Dim>& set, const std::vector<Candidate<Dim>>& candidates, std::size_t i,
+            std::size_t j) {
+  return Dim == 2 ||
+         pnpbs::distance<Dim>(candidates[i].place, candidates[j].place) <= 1.5 * set[i].d;
+}
 
 template <int Dim>
 void expect_as_by_search(const Set<Dim>& set, const PopulationRule& rule, const Freedom& freedom,
@@ -126,8 +130,9 @@ void expect_as_by_search(const Set<Dim>& set, const PopulationRule& rule, const 
     if (candidates[i].defect == 0) continue;
     bool wins = true;
     for (std::size_t j : within_hops<Dim>(set, i, kHops, radius))
-      wins = wins && (candidates[j].defect < candidates[i].defect ||
-                      (candidates[j].defect == candidates[i].defect && set[j].id <= set[i].id));
+      wins = wins &&
+             (!rivals<Dim>(set, candidates, i, j) || candidates[j].defect < candidates[i].defect ||
+              (candidates[j].defect == candidates[i].defect && set[j].id <= set[i].id));
     if (!wins) continue;
     if (candidates[i].removed)
       expected.deleted.insert(set[i].id);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The defaults of the rules are those of the options that set them.
+#include <string>
+
 #include "run_kernel_suite.hpp"
 #include "settings/settings.hpp"
 
@@ -21,4 +23,40 @@ START_TEST(rules_and_options_agree) {
 }
 END_TEST
 
-int main() { return run_kernel_suite("settings", {rules_and_options_agree}); }
+// Where the default in space is another one, the help says so, with its value, and with that of the
+// best effort where that is another one again.
+START_TEST(helps_name_both_defaults) {
+  const pnpbs::Options in_plane, in_space = in_plane.in(3);
+  pnpbs::Options with_best_effort;
+  with_best_effort.set("effort", "best");
+  const pnpbs::Options best = with_best_effort.in(3);
+  int apart = 0, best_apart = 0;
+  for (const pnpbs::OptionRow& row : pnpbs::option_table()) {
+    const std::string help = row.help;
+    if (row.type == pnpbs::OptionType::choice) continue;
+    const bool whole = row.type == pnpbs::OptionType::integer;
+    const bool differs = whole ? in_plane.integer(row.name) != in_space.integer(row.name)
+                               : in_plane.real(row.name) != in_space.real(row.name);
+    const std::size_t at = help.find("; default in space ");
+    ck_assert_msg(differs == (at != std::string::npos), "%s: %s", row.name, row.help);
+    if (!differs) continue;
+    ++apart;
+    const double told = std::stod(help.substr(at + 19));
+    ck_assert_double_eq(
+        told, whole ? static_cast<double>(in_space.integer(row.name)) : in_space.real(row.name));
+    const std::string with = ", with effort=best ";
+    const std::size_t at_best = help.find(with, at);
+    const double best_value =
+        whole ? static_cast<double>(best.integer(row.name)) : best.real(row.name);
+    const bool named = at_best != std::string::npos;
+    ck_assert_double_eq(named ? std::stod(help.substr(at_best + with.size())) : told, best_value);
+    best_apart += named;
+  }
+  ck_assert_int_ge(apart, 12);
+  ck_assert_int_ge(best_apart, 4);
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite("settings", {rules_and_options_agree, helps_name_both_defaults});
+}

@@ -338,6 +338,64 @@ START_TEST(proof) {
 }
 END_TEST
 
+// Elements that other stars have make the same star of the rest, and where they are all around the
+// node, nothing else is needed.
+START_TEST(known_elements) {
+  Random random(12);
+  std::vector<P> points;
+  for (int k = 0; k < 60; ++k) points.push_back(random.point<3>({{0, 0, 0}, {1, 1, 1}}));
+  int closed = 0;
+  for (const double d : {0.25, kEverywhere}) {
+    const Set set = with_ids(points, d, 13);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const VolumeStar star = star_in(set, i, set.size(), random);
+      std::vector<VolumeStar::Corners> elements = star.triangles();  // places among the neighbours
+      random.shuffle(elements);
+      const auto candidate = [&](std::int32_t place) {
+        return star.neighbours()[static_cast<std::size_t>(place)];
+      };
+      for (const std::size_t known : {std::size_t{1}, elements.size() / 2, elements.size()}) {
+        VolumeStar again;
+        again.start(set[i]);
+        for (const VolumeNode& n : star.candidates()) again.add(n);
+        for (std::size_t k = 0; k < std::min(known, elements.size()); ++k) {
+          const auto [a, b, c] = elements[k];
+          again.add_known({candidate(a), candidate(b), candidate(c)}, true);
+        }
+        again.wrap(kEverywhere);
+        again.finish();
+        quick_assert(tetrahedra(again) == tetrahedra(star) && again.closed() == star.closed());
+        quick_assert(neighbours(again) == neighbours(star));
+      }
+      VolumeStar alone, one_less;
+      for (VolumeStar* const one : {&alone, &one_less}) {
+        one->start(set[i]);
+        for (const std::int32_t k : star.neighbours())
+          one->add(star.candidates()[static_cast<std::size_t>(k)]);
+      }
+      for (const VolumeStar::Corners& corners : elements) alone.add_known(corners, true);
+      for (std::size_t k = 1; k < elements.size(); ++k) one_less.add_known(elements[k], true);
+      quick_assert(alone.all_known() == star.closed() && !one_less.all_known());
+      if (!star.closed()) continue;
+      ++closed;
+      alone.finish();
+      quick_assert(tetrahedra(alone) == tetrahedra(star) && alone.closed());
+      VolumeStar some_outside;  // of the domain
+      some_outside.start(set[i]);
+      for (const std::int32_t k : star.neighbours())
+        some_outside.add(star.candidates()[static_cast<std::size_t>(k)]);
+      for (const VolumeStar::Corners& corners : elements)
+        some_outside.add_known(corners, corners != elements[0]);
+      quick_assert(some_outside.all_known());
+      some_outside.finish();
+      quick_assert(some_outside.triangles().size() + 1 == elements.size() &&
+                   !some_outside.closed());
+    }
+  }
+  quick_assert(closed > 20);
+}
+END_TEST
+
 // The rule is symmetric, and right for what is flat but for rounding.
 START_TEST(rule) {
   const auto element = [](const Set& t) {
@@ -371,5 +429,5 @@ END_TEST
 
 int main() {
   return run_suite("volume_star", {random_nodes, lattices, a15, hardly_any_tetrahedra, sheets,
-                                   two_components, proof, rule});
+                                   two_components, proof, known_elements, rule});
 }

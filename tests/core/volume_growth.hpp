@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "domain/volume/surface_index.hpp"
 #include "spacing/open_ways.hpp"
 #include "spacing/spacing.hpp"
 #include "surfaces.hpp"
@@ -33,10 +34,16 @@ class Block {
     surface.unit = 1.0 / 16;  // cubes are six wide
     for (surfaces::Place& x : surface.nodes)
       for (std::int64_t& along : x) along = along / 6 * 8;
-    pnpbs::BoundaryMesh<3> mesh;
-    surface.add_to(mesh, pnpbs::SurfaceRole::boundary);
-    return std::make_unique<const pnpbs::OpenWays<3>>(bounds(), l_shaped_ ? 0.75 : 1.0,
-                                                      std::move(mesh));
+    struct Indexed {
+      pnpbs::BoundaryMesh<3> mesh;
+      pnpbs::SurfaceIndex index;
+    };
+    const auto indexed = std::make_shared<Indexed>();
+    surface.add_to(indexed->mesh, pnpbs::SurfaceRole::boundary);
+    indexed->index = pnpbs::SurfaceIndex(indexed->mesh, bounds());
+    return std::make_unique<const pnpbs::OpenWays<3>>(
+        bounds(), l_shaped_ ? 0.75 : 1.0,
+        std::shared_ptr<const pnpbs::FacetIndex<3>>(indexed, &indexed->index.sides()));
   }
 
   std::shared_ptr<const pnpbs::Spacing<3>> spacing() const {

@@ -47,8 +47,8 @@ class Changes(unittest.TestCase):
             self.root / "docs/reference", make_reference.pages(self.root, LIBRARY)))
 
     def test_comment(self):
-        self.change("include/pnpbs/pnpbs.h", "Area of the inside, in space its volume.", "Its size.")
-        self.assertIn("+Its size.", self.found())
+        self.change("include/pnpbs/pnpbs.h", "in space its volume, of surfaces alone their area.", "its size.")
+        self.assertIn("+Area of the inside, its size.", self.found())
 
     def test_fortran_argument(self):
         self.change(FORTRAN, "real(c_double), intent(in) :: point(:)",
@@ -86,7 +86,7 @@ class Changes(unittest.TestCase):
         self.assertIn("only in the raw layer, `PNPBS.LibPNPBS.pnpbs_domain_measure`", self.found())
 
     def test_neither_collective_nor_local(self):
-        self.change("include/pnpbs/pnpbs.h", "in space its volume. Local;", "in space its volume;")
+        self.change("include/pnpbs/pnpbs.h", "surfaces alone their area. Local;", "surfaces alone their area;")
         with self.assertRaisesRegex(ValueError, "measure: .* collective or local"):
             self.found()
 

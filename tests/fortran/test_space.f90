@@ -4,6 +4,7 @@
 program test_space
   use, intrinsic :: iso_c_binding
   use pnpbs
+  use curves
   use expectations
   use tetrahedra
   use twins
@@ -18,6 +19,7 @@ program test_space
   call context%create_serial
   call about_shapes
   call about_surfaces
+  call about_level_sets
   call about_a_box
   call about_a_ball_in_a_box
   call about_spacings
@@ -65,6 +67,10 @@ contains
     ! Inside it a smaller one, whose inside is taken out by a point.
     call domain%add_surface(PNPBS_INNER, 0.25d0 * vertices + 0.1d0, faces)
     call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'an inner surface')
+    call domain%set_filled(.false.)
+    call expect(abs(volume(domain) - (1 + 0.25d0**2) * (1.5d0 + sqrt(0.75d0))) < 1d-12, &
+                'the area of surfaces alone')
+    call domain%set_filled(.true.)
     call domain%add_hole([0.15d0, 0.15d0, 0.15d0])
     call expect(abs(volume(domain) - (1 - 0.25d0**3) / 6) < 1d-15, 'a hole in the inner surface')
     call domain%destroy
@@ -79,6 +85,32 @@ contains
     call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'volume of a tetrahedron from a file')
     call domain%read_surface(PNPBS_INNER, 'no/such/file.stl', 20d0, stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'no/such/file.stl')
+    call domain%destroy
+  end subroutine
+
+  !> Nodes on the surface lie where the function is 0.
+  subroutine about_level_sets
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    real(c_double), target :: radius
+    real(c_double), allocatable :: x(:,:)
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int64_t) :: nodes
+    radius = 0.5d0
+    call domain%create(context, 3)
+    call domain%add_level_set(ball_level_set, -one, one, 0.1d0, 6, c_loc(radius))
+    call expect(abs(volume(domain) - pi / 6) < 0.02, 'volume of a level set')
+    call placement%create(context, domain)
+    call placement%set_spacing_constant(0.15d0)
+    call placement%run(stat)
+    call expect(stat >= 0, 'run in a level set')
+    call placement%count(nodes)
+    allocate (x(3, nodes), tags(nodes))
+    call placement%get_nodes(x, tags=tags)
+    call expect(count(tags == 6) > 50, 'nodes on the surface of a level set')
+    call expect(maxval(abs(sqrt(sum(x**2, dim=1)) - radius), mask=tags == 6) < 1d-12, &
+                'nodes lie on the surface of a level set')
+    call placement%destroy
     call domain%destroy
   end subroutine
 
@@ -110,7 +142,7 @@ contains
     type(pnpbs_placement), intent(in) :: placement
     real(c_double), intent(out) :: filled
     integer(c_int32_t), allocatable, intent(out) :: node_tags(:), tags(:)
-    real(c_double), allocatable :: x(:,:)
+    real(c_double), allocatable :: x(:,:), normals(:,:)
     integer(c_int64_t), allocatable :: corners(:,:), triangles(:,:)
     integer(c_int64_t) :: nodes, count, t
     real(c_double) :: least, enclosed, six_volumes
@@ -139,6 +171,11 @@ contains
     end do
     call expect(abs(enclosed - filled) < 1d-12, 'the boundary triangles enclose the tetrahedra')
     call expect(all_closed(triangles, nodes), 'the boundary triangles are closed')
+    allocate (normals(3, nodes))
+    call placement%get_normals(normals)
+    do t = 1, count
+      call expect(all(abs(sum(normals(:, triangles(:, t))**2, 1) - 1) < 1d-12), 'unit normals')
+    end do
   end subroutine
 
   !> Is every side of the triangles, from one node to another, once one from that to this?

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/space_vectors.hpp"
 #include "core/surfaces.hpp"
 #include "domain/boundary_mesh.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/surfaces.hpp"
-#include "domain/volume/vectors.hpp"
 
 namespace space_shapes {
 

@@ -23,7 +23,8 @@ compare() { # ranks, threads, options
   fi
 }
 
-for subject in box-graded globe two-halves kleopatra-graded adapt given-nodes by-steps; do
+for subject in box-graded globe ring-graded two-halves kleopatra-graded adapt given-nodes by-steps \
+  surface-halves surface-terrain; do
   expected=$(place 1 1 "$subject")
   echo "$expected"
   compare 1 2 exchange_interval=1

@@ -2,6 +2,7 @@
 """Domains in space: what the command reads, tells and refuses."""
 
 import json
+import re
 import struct
 import unittest
 
@@ -78,10 +79,21 @@ class Files(CommandTest):
         for domain, volume in ((DATA / "eros.off", "0.2913"), (DATA / "kleopatra.obj", "708 868"),
                                ("cube.poly", "1"), ("cube.smesh", "1"), (BOX, "1"),
                                ("ball( 1e3,0,-2.5 , 1 )", "4.188"),
-                               ("cylinder(0,0,0, 0,3,4, 1)", "15.7")):
+                               ("cylinder(0,0,0, 0,3,4, 1)", "15.7"),
+                               ("levelset(-2,-2,-2, 2,2,2, 0.05, max(x^2+y^2+z^2/4-1, z))", "4.18")):
             with self.subTest(str(domain)):
                 out, _ = self.run_command("--domain", domain, "--spacing", "5", "--dry-run")
                 self.assertRegex(out.decode(), rf"^body     .*, volume {volume}\d?\n")
+
+    def test_level_set(self):
+        ring = "levelset(-1.5,-1.5,-1.5, 1.5,1.5,1.5, 0.1, hypot(hypot(x,y)-1, z) - 0.4)"
+        self.place_body(ring, "0.15", "-o", "a.vtu")
+        grid = read_with_vtk(self.folder / "a.vtu")
+        points, tags = points_of(grid), point_array(grid, "tag")
+        f = numpy.hypot(numpy.hypot(points[:, 0], points[:, 1]) - 1, points[:, 2]) - 0.4
+        self.assertTrue((tags == 1).sum() > 200)
+        self.assertLess(abs(f[tags == 1]).max(), 1e-12)
+        self.assertLess(f[tags == 0].max(), -0.05)
 
     def test_tags_of_facets(self):
         (self.folder / "cube.poly").write_text(CUBE)
@@ -102,6 +114,42 @@ class Files(CommandTest):
                             (self.folder / "b.vtu").read_bytes())
         self.assertNotIn("feature_angle", json.loads((self.folder / "a.json").read_text()))
         self.assertEqual(json.loads((self.folder / "b.json").read_text())["feature_angle"], 20)
+
+    def test_surfaces_only(self):
+        # An open box: a cube without its lid.
+        self.save_cube_without_lid("open.off")
+        self.refuse("--domain", "open.off", "--spacing", "0.1", "-o", "a.vtu")
+        out, _ = self.place_body("open.off", "0.1", "-o", "a.node", "-o", "a.face", "--check",
+                                 "--report", "a.json", "--surfaces-only")
+        self.assertRegex(out, r"(?m)^body     1 x 1 x 1, surface 5$")
+        self.assertNotIn("dihedral", out)
+        points = numpy.loadtxt(self.folder / "a.node", skiprows=1)[:, 1:4]
+        corners = numpy.loadtxt(self.folder / "a.face", skiprows=1, dtype=int)[:, 1:4] - 1
+        a, b, c = (points[corners[:, k]] for k in range(3))
+        self.assertAlmostEqual(
+            numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1).sum() / 2, 5, delta=1e-9)
+        self.assertIs(json.loads((self.folder / "a.json").read_text())["surfaces_only"], True)
+        for option, word in (("--cut", "y=0.5"), ("--color", "quality")):
+            self.assertIn("with --surfaces-only",
+                          self.refuse("--domain", "open.off", "--spacing", "0.1",
+                                      "--surfaces-only", "-o", "a.png", option, word))
+
+    def test_picture_of_surfaces(self):
+        # Its triangles, all of them, and no cut.
+        self.save_cube_without_lid("open.off")
+        self.place_body("open.off", "0.2", "-o", "a.svg", "-o", "a.face", "--surfaces-only")
+        triangles = int((self.folder / "a.face").read_text().split()[0])
+        picture = (self.folder / "a.svg").read_text()
+        self.assertNotIn("cut at", picture)
+        self.assertGreaterEqual(len(re.findall("<path", picture)), triangles)
+
+    def save_cube_without_lid(self, name):
+        vertices = [line.split()[1:] for line in VERTICES.splitlines()[1:]]
+        faces = [[int(v) - 1 for v in face.split()] for face in FACES if face != "5 6 7 8"]
+        text = f"OFF\n{len(vertices)} {len(faces)} 0\n"
+        text += "".join(" ".join(vertex) + "\n" for vertex in vertices)
+        text += "".join("4 " + " ".join(map(str, face)) + "\n" for face in faces)
+        (self.folder / name).write_text(text)
 
 
 class Grids(CommandTest):
@@ -173,7 +221,14 @@ class Refusals(CommandTest):
                            ("ball(0,0,0)", "centre and radius"), ("ball(0,0,0,x)", "centre and radius"),
                            ("ball(0,0,0,)", "centre and radius"), ("ball(0,0,0,0)", "radius"),
                            ("ball(0,0,0,nan)", "centre and radius"), ("box(0,0,0,1,1)", "corners"),
-                           ("box(0,0,0,1,1,0)", "high"), ("cylinder(0,0,0,0,0,0,1)", "end")):
+                           ("box(0,0,0,1,1,0)", "high"), ("cylinder(0,0,0,0,0,0,1)", "end"),
+                           ("levelset(x)", "two opposite corners of a box, the resolution"),
+                           ("levelset(0,0,0, 1,1,1, a, x)", "two opposite corners"),
+                           ("levelset(0,0,0, 1,1,1, 0, x)", "resolution"),
+                           ("levelset(0,0,0, 1,1,1, 0.1, x-2)", "on the border"),
+                           ("levelset(0,0,0, 1,1,1, 0.1, 1/0)", "f is inf at"),
+                           ("levelset(0,0,0, 1,1,1, 0.1, w)", "--domain, position 2: unknown name"),
+                           ("levelet(0,0,0, 1,1,1, 0.1, x)", "did you mean levelset?")):
             with self.subTest(text):
                 self.assertIn(word, self.refuse_domain(text))
         (self.folder / "lake(1)").write_bytes(LAKE.read_bytes())  # a file's name comes first
@@ -183,6 +238,9 @@ class Refusals(CommandTest):
         plane = ("--domain", self.square, "--spacing", "0.1", "-o", "a.png")
         self.assertIn("--cut is for bodies", self.refuse(*plane, "--cut", "x=0.5"))
         self.assertIn("--feature-angle is for bodies", self.refuse(*plane, "--feature-angle", "30"))
+        self.assertIn("--surfaces-only is for surfaces in space",
+                      self.refuse("--domain", self.square, "--spacing", "0.1", "-o", "a.csv",
+                                  "--surfaces-only"))
         self.assertIn("--bubbles", self.refuse_domain(BOX, "--bubbles"))
         message = self.refuse("--domain", self.square, "--spacing", "0.1 + z", "-o", "a.csv")
         self.assertIn("position 7: unknown name 'z': this domain is in the plane", message)

@@ -29,9 +29,9 @@ struct Circumsphere {
 // The same bits for the same order of the corners, whatever their orientation.
 inline Circumsphere circumsphere(const TetrahedronCorners& x) {
   const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
-  const Point<3> vw = cross_product(v, w), wu = cross_product(w, u), uv = cross_product(u, v);
-  const double uu = dot_product(u, u), vv = dot_product(v, v), ww = dot_product(w, w);
-  const double volume = dot_product(u, vw);  // six times
+  const Point<3> vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
+  const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+  const double volume = dot(u, vw);  // six times
   // Far above the error of a determinant, in the differences of its rows and in itself, and far
   // below that of any tetrahedron worth the name.
   constexpr double kFlat = 0x1p-40;
@@ -40,7 +40,7 @@ inline Circumsphere circumsphere(const TetrahedronCorners& x) {
   for (std::size_t k = 0; k < 3 && !flat; ++k)
     to_centre[k] = (uu * vw[k] + vv * wu[k] + ww * uv[k]) / (2 * volume);
   return {{x[0][0] + to_centre[0], x[0][1] + to_centre[1], x[0][2] + to_centre[2]},
-          std::sqrt(dot_product(to_centre, to_centre)),
+          std::sqrt(dot(to_centre, to_centre)),
           flat};
 }
 

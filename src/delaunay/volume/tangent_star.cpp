@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "domain/volume/vectors.hpp"
+#include "base/space_vectors.hpp"
 
 namespace pnpbs {
 

@@ -21,23 +21,22 @@ std::uint64_t bit_in_word(std::int32_t k, std::size_t first) {
   return at < kWord ? std::uint64_t{1} << at : 0;
 }
 
-bool share_a_coordinate(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (a[k] == 0 && b[k] == 0 && c[k] == 0) return true;
-  return false;
-}
-
 }  // namespace
 
 void VolumeStar::start(const VolumeNode& centre) {
   centre_ = centre;
   candidates_.clear();
   relative_.clear();
+  known_.clear();
 }
 
 void VolumeStar::add(const VolumeNode& candidate) {
   candidates_.push_back(candidate);
   relative_.push_back(difference(candidate.x, centre_.x));
+}
+
+void VolumeStar::add_known(const Corners& corners, bool taken) {
+  known_.push_back({corners, taken});
 }
 
 bool VolumeStar::wrap(double reach) {
@@ -48,10 +47,14 @@ bool VolumeStar::wrap(double reach) {
   search_reach_ = 0;
   if (count() >= 3) {
     invert();
-    start_walk(nearest());
+    clear_edges();
+    if (known_.empty())
+      start_walk(nearest());
+    else
+      start_at_known();
     walk(reach);
   }
-  nothing_found_ = facets_.empty();
+  nothing_found_ = known_.empty() && facets_.empty();
   if (reach >= max_reach()) return true;
   if (nothing_found_ || !open_.empty()) search_reach_ = max_reach();
   return search_reach_ == 0;
@@ -64,7 +67,7 @@ void VolumeStar::invert() {
   if (slopes_.size() < padded) slopes_.resize(2 * padded);
   double least = kInfinity;
   for (std::size_t k = 0; k < n; ++k) {
-    slopes_[k] = dot_product(relative_[k], relative_[k]);
+    slopes_[k] = dot(relative_[k], relative_[k]);
     least = std::min(least, slopes_[k]);
   }
   unit_ = std::sqrt(least);
@@ -74,6 +77,10 @@ void VolumeStar::invert() {
   }
   for (std::size_t k = n; k < padded; ++k)
     for (std::size_t along = 0; along < 3; ++along) y_[along][k] = 0;
+}
+
+void VolumeStar::clear_edges() {
+  const std::size_t n = candidates_.size();
   done_.assign(n * ((n + kWord - 1) / kWord), 0);
   waiting_.clear();
 }
@@ -96,6 +103,31 @@ void VolumeStar::set_done(const Edge& edge) {
 
 // ------------------------------------------------------------------ where the walk begins ------
 
+void VolumeStar::set_known_done() {
+  for (const Known& known : known_)
+    for (std::size_t k = 0; k < 3; ++k) set_done({known.corners[k], known.corners[(k + 1) % 3]});
+}
+
+void VolumeStar::start_at_known() {
+  set_known_done();
+  for (const Known& known : known_)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Edge back{known.corners[(k + 1) % 3], known.corners[k]};
+      if (!is_done(back)) waiting_.push_back(back);
+    }
+}
+
+// Then there is one to either side of each edge. By Euler's formula there are so many that the
+// edges are mostly not looked at.
+bool VolumeStar::all_known() {
+  facets_.clear();
+  open_.clear();
+  if (candidates_.size() < 4 || known_.size() != 2 * candidates_.size() - 4) return false;
+  clear_edges();
+  start_at_known();
+  return waiting_.empty();
+}
+
 // The nearest node is a neighbour. Of all circles through it and the centre, the smallest one is
 // the equator of an empty sphere: a node in there would make a smaller one, as it is farther away
 // than the nearest. After inversion, circles are lines, and the smallest one is the farthest line.
@@ -106,15 +138,15 @@ void VolumeStar::start_walk(std::int32_t first) {
   const double *x = y_[0].data(), *y = y_[1].data(), *z = y_[2].data();
   line_gaps_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
-    const Point<3> b{x[k], y[k], z[k]}, along = difference(b, a), area = cross_product(a, b);
-    const double length2 = dot_product(along, along);
-    line_gaps_[k] = length2 > 0 ? dot_product(area, area) / length2 : -1;
+    const Point<3> b{x[k], y[k], z[k]}, along = difference(b, a), area = cross(a, b);
+    const double length2 = dot(along, along);
+    line_gaps_[k] = length2 > 0 ? dot(area, area) / length2 : -1;
   }
   line_gaps_[index(first)] = -1;
   const auto farthest = std::max_element(line_gaps_.begin(), line_gaps_.end());
   const auto second = static_cast<std::int32_t>(farthest - line_gaps_.begin());
   const Point<3> b = inverse(second), along = difference(b, a);
-  const double length2 = dot_product(along, along), t = -dot_product(a, along) / length2;
+  const double length2 = dot(along, along), t = -dot(a, along) / length2;
   const Point<3> foot{a[0] + t * along[0], a[1] + t * along[1], a[2] + t * along[2]};
   // The sphere is a little larger than it is by rounding, as long as the line's ends are apart.
   constexpr double kApart = 0.1;
@@ -159,10 +191,19 @@ void VolumeStar::walk(double reach) {
       add_facet(facet, reach);
     } else {
       set_done(edge);
-      open_.push_back(face_of(edge));
-      shields_.push_back(open_.back());
+      add_open(face_of(edge));
     }
   }
+}
+
+// Of all faces in one plane across an axis, one says what lies beyond them.
+void VolumeStar::add_open(const Face& face) {
+  shields_.push_back(face);
+  const auto k = static_cast<std::size_t>(face.common);
+  if (face.common < 0 || std::none_of(open_.begin(), open_.end(), [&](const Face& other) {
+        return other.common == face.common && other.normal[k] * face.normal[k] > 0;
+      }))
+    open_.push_back(face);
 }
 
 void VolumeStar::add_facet(const Facet& facet, double reach) {
@@ -177,7 +218,7 @@ void VolumeStar::add_facet(const Facet& facet, double reach) {
   plane.offset -= kRounding;
   constexpr double kMargin = 1 - 1e-9;
   const double proven = kMargin * reach * plane.offset;
-  const double square = unit_ * unit_ * dot_product(plane.normal, plane.normal);
+  const double square = unit_ * unit_ * dot(plane.normal, plane.normal);
   if (proven > 0 && proven * proven >= square) return;
   unproven_.push_back(plane);
   if (plane.offset <= 0)  // flat, or nearly so
@@ -189,14 +230,18 @@ void VolumeStar::add_facet(const Facet& facet, double reach) {
 }
 
 VolumeStar::Face VolumeStar::face_of(const Edge& edge) const {
-  return {edge, cross_product(inverse(edge.from), inverse(edge.to))};
+  Face face{edge, cross(inverse(edge.from), inverse(edge.to)), -1};
+  const Point<3>&a = relative_[index(edge.from)], &b = relative_[index(edge.to)];
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a[k] == 0 && b[k] == 0 && std::fabs(face.normal[k]) > kRounding)
+      face.common = static_cast<int>(k);
+  return face;
 }
 
 VolumeStar::Facet VolumeStar::facet_of(const Edge& edge, std::int32_t corner) const {
   const Point<3> a = inverse(edge.from);
-  const Point<3> normal =
-      cross_product(difference(inverse(edge.to), a), difference(inverse(corner), a));
-  return {{edge.from, edge.to, corner}, {normal, dot_product(normal, a)}};
+  const Point<3> normal = cross(difference(inverse(edge.to), a), difference(inverse(corner), a));
+  return {{edge.from, edge.to, corner}, {normal, dot(normal, a)}};
 }
 
 bool VolumeStar::all_surely_below(const Plane& plane, const Corners& facet) const {
@@ -218,8 +263,8 @@ bool VolumeStar::all_surely_below(const Plane& plane, const Corners& facet) cons
 // others are surely below, the exact arithmetic has nothing to add.
 bool VolumeStar::find_facet(const Edge& edge, Facet& facet) const {
   const Point<3> a = inverse(edge.from), b = inverse(edge.to), along = difference(b, a);
-  const Point<3> normal = cross_product(a, b), up = cross_product(along, normal);
-  const double height = dot_product(up, a);
+  const Point<3> normal = cross(a, b), up = cross(along, normal);
+  const double height = dot(up, a);
   const double *x = y_[0].data(), *y = y_[1].data(), *z = y_[2].data();
   double* const slopes = slopes_.data();
   const std::size_t n = candidates_.size(), padded = (n + kGroup - 1) & ~(kGroup - 1);
@@ -246,9 +291,16 @@ bool VolumeStar::find_facet(const Edge& edge, Facet& facet) const {
   return find_facet_exactly(edge, facet);
 }
 
+// Of places relative to the centre: where they do, all are in one plane, as often on flat surfaces.
+bool VolumeStar::share_a_coordinate(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a[k] == 0 && b[k] == 0 && c[k] == 0) return true;
+  return false;
+}
+
 // On which side of the face (centre, a, b) is c? `normal` is the face's after inversion.
 int VolumeStar::side(const Point<3>& normal, std::int32_t a, std::int32_t b, std::int32_t c) const {
-  const double out = dot_product(normal, inverse(c));
+  const double out = dot(normal, inverse(c));
   if (out > kRounding) return 1;
   if (out < -kRounding) return -1;
   const Point<3>&xa = relative_[index(a)], &xb = relative_[index(b)], &xc = relative_[index(c)];
@@ -258,13 +310,13 @@ int VolumeStar::side(const Point<3>& normal, std::int32_t a, std::int32_t b, std
 }
 
 bool VolumeStar::surely_below(const Plane& plane, std::int32_t k) const {
-  return dot_product(plane.normal, inverse(k)) - plane.offset < -kRounding;
+  return dot(plane.normal, inverse(k)) - plane.offset < -kRounding;
 }
 
 // Is a candidate in the sphere of the facet?
 bool VolumeStar::beyond(const Facet& facet, std::int32_t k) const {
   if (surely_below(facet.plane, k)) return false;
-  if (dot_product(facet.plane.normal, inverse(k)) - facet.plane.offset > kRounding) return true;
+  if (dot(facet.plane.normal, inverse(k)) - facet.plane.offset > kRounding) return true;
   const VolumeNode &a = candidates_[index(facet.corners[0])],
                    &b = candidates_[index(facet.corners[1])],
                    &c = candidates_[index(facet.corners[2])], &p = candidates_[index(k)];
@@ -272,7 +324,7 @@ bool VolumeStar::beyond(const Facet& facet, std::int32_t k) const {
 }
 
 bool VolumeStar::find_facet_exactly(const Edge& edge, Facet& facet) const {
-  const Point<3> normal = cross_product(inverse(edge.from), inverse(edge.to));
+  const Point<3> normal = cross(inverse(edge.from), inverse(edge.to));
   bool found = false;
   for (std::int32_t k = 0; k < count(); ++k) {
     if (k == edge.from || k == edge.to) continue;
@@ -283,45 +335,6 @@ bool VolumeStar::find_facet_exactly(const Edge& edge, Facet& facet) const {
     found = true;
   }
   return found;
-}
-
-// ------------------------------------------------------------------ the elements ---------------
-
-bool VolumeStar::is_element(const Facet& facet) const {
-  const auto& [a, b, c] = facet.corners;
-  const VolumeNode &p = candidates_[index(a)], &q = candidates_[index(b)],
-                   &r = candidates_[index(c)];
-  // What is far from the limit, and not flat, needs no common order of the corners.
-  constexpr double kSurelyNotFlat = 1e-4, kMargin = 1e-3;
-  const Plane& plane = facet.plane;
-  if (plane.offset > kSurelyNotFlat) {
-    const double limit = 2 * kMaxRadius * std::min({centre_.d, p.d, q.d, r.d}) * plane.offset;
-    const double diameter = unit_ * std::sqrt(dot_product(plane.normal, plane.normal));
-    if (diameter < (1 - kMargin) * limit) return true;
-    if (diameter > (1 + kMargin) * limit) return false;
-  }
-  return pnpbs::is_element(ordered_by_id({centre_, p, q, r}));
-}
-
-void VolumeStar::number_corners() {
-  neighbours_.clear();
-  place_.assign(candidates_.size(), -1);
-  for (const Corners& triangle : triangles_)
-    for (const std::int32_t k : triangle) {
-      if (place_[index(k)] < 0) neighbours_.push_back(k);
-      place_[index(k)] = 0;
-    }
-  std::sort(neighbours_.begin(), neighbours_.end(), [this](std::int32_t k, std::int32_t l) {
-    return candidates_[index(k)].id < candidates_[index(l)].id;
-  });
-  for (std::size_t n = 0; n < neighbours_.size(); ++n)
-    place_[index(neighbours_[n])] = static_cast<std::int32_t>(n);
-  for (Corners& triangle : triangles_) {
-    for (std::int32_t& k : triangle) k = place_[index(k)];
-    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
-                triangle.end());
-  }
-  std::sort(triangles_.begin(), triangles_.end());
 }
 
 }  // namespace pnpbs

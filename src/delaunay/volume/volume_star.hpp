@@ -25,6 +25,9 @@ class VolumeStar {
   void start(const VolumeNode& centre);
   // A candidate, once. Its number is how many there were.
   void add(const VolumeNode& candidate);
+  // An element that is there for sure, as the star of one of these three candidates has it; once,
+  // in positive orientation with the centre. Is it to be taken?
+  void add_known(const Corners& corners, bool taken);
 
   const VolumeNode& centre() const { return centre_; }
   const std::vector<VolumeNode>& candidates() const { return candidates_; }
@@ -33,6 +36,8 @@ class VolumeStar {
   // `reach` must be among them. Returns whether that is proof: then no other node can change the
   // elements. If not, it still is if there is none that may_matter.
   bool wrap(double reach);
+  // Are the known elements all around the centre? Then there is nothing to wrap.
+  bool all_known();
 
   // Elements reach no farther than this from their corners.
   double max_reach() const { return 2 * kMaxRadius * centre_.d; }
@@ -46,6 +51,7 @@ class VolumeStar {
   bool may_matter_in(const Box<3>& box) const;
 
   // Takes the elements for which keep(corners), three candidates, holds, and numbers their corners.
+  // Of what is known, it has been decided already.
   template <class Keep>
   void finish(const Keep& keep);
   void finish() {
@@ -72,13 +78,19 @@ class VolumeStar {
     Corners corners;
     Plane plane;
   };
+  struct Known {
+    Corners corners;
+    bool taken;
+  };
   struct Edge {
     std::int32_t from, to;
   };
-  // Face (centre, from, to), and its normal after inversion.
+  // Face (centre, from, to), and its normal after inversion. Where all three have a coordinate in
+  // common, as on flat surfaces, another node's tells exactly on which side of the face it is.
   struct Face {
     Edge edge;
     Point<3> normal;
+    int common;  // -1: none
   };
 
   // Inverted positions are at most 1 long, and each is wrong by at most 10 half ulps. Then products
@@ -92,6 +104,9 @@ class VolumeStar {
   }
 
   void invert();
+  void clear_edges();
+  void set_known_done();
+  void start_at_known();
   std::int32_t nearest() const;
   void start_walk(std::int32_t first);
   void start_walk_exactly(std::int32_t first);
@@ -99,18 +114,22 @@ class VolumeStar {
 
   Face face_of(const Edge& edge) const;
   Facet facet_of(const Edge& edge, std::int32_t corner) const;
+  static bool share_a_coordinate(const Point<3>& a, const Point<3>& b, const Point<3>& c);
   int side(const Point<3>& normal, std::int32_t a, std::int32_t b, std::int32_t c) const;
   bool surely_below(const Plane& plane, std::int32_t k) const;
   bool beyond(const Facet& facet, std::int32_t k) const;
   bool all_surely_below(const Plane& plane, const Corners& facet) const;
   bool find_facet(const Edge& edge, Facet& facet) const;
   bool find_facet_exactly(const Edge& edge, Facet& facet) const;
+  void add_open(const Face& face);
   void add_facet(const Facet& facet, double reach);
   bool is_done(const Edge& edge) const;
   void set_done(const Edge& edge);
+  bool in_front(const Face& face, const Point<3>& x, const Point<3>& y) const;
   bool is_shielded(const Point<3>& y) const;
   bool is_element(const Facet& facet) const;
   void number_corners();
+  void find_neighbours();
 
   VolumeNode centre_{};
   std::vector<VolumeNode> candidates_;
@@ -121,13 +140,16 @@ class VolumeStar {
   std::vector<double> line_gaps_;         // after inversion: of lines to the nearest, squared
   std::vector<Edge> waiting_;             // edges of facets whose other facet is to be found
   std::vector<std::uint64_t> done_;       // for each candidate: edges from it that have a facet
-  std::vector<Facet> facets_;
-  std::vector<Face> open_;       // with nothing behind
-  std::vector<Face> shields_;    // these, and those of flat tetrahedra
+  std::vector<Known> known_;
+  std::vector<Facet> facets_;    // besides
+  std::vector<Face> open_;       // with nothing behind, see add_open
+  std::vector<Face> shields_;    // all of these, and those of flat tetrahedra
   std::vector<Plane> unproven_;  // of facets
   bool nothing_found_ = false;
   double search_reach_ = 0;
+  std::vector<std::uint64_t> used_;  // a bit for each candidate
   std::vector<std::int32_t> neighbours_, place_;
+  std::vector<std::int64_t> packed_;
   std::vector<Corners> triangles_;
   bool closed_ = false;
 };
@@ -135,9 +157,12 @@ class VolumeStar {
 template <class Keep>
 void VolumeStar::finish(const Keep& keep) {
   triangles_.clear();
+  for (const Known& known : known_)
+    if (known.taken) triangles_.push_back(known.corners);
   for (const Facet& facet : facets_)
     if (is_element(facet) && keep(facet.corners)) triangles_.push_back(facet.corners);
-  closed_ = open_.empty() && !facets_.empty() && triangles_.size() == facets_.size();
+  closed_ =
+      open_.empty() && !triangles_.empty() && triangles_.size() == known_.size() + facets_.size();
   number_corners();
 }
 

@@ -24,35 +24,39 @@ bool VolumeStar::is_shielded(const Point<3>& y) const {
   if (unit_ < 0.01 * max_reach()) return false;
   return std::any_of(shields_.begin(), shields_.end(), [&](const Face& face) {
     const Point<3>& normal = face.normal;
-    const double square = dot_product(normal, normal);
-    if (square < kThin * kThin || std::fabs(dot_product(normal, y)) > kRounding) return false;
-    const double of_a = dot_product(cross_product(y, inverse(face.edge.to)), normal) / square;
-    const double of_b = dot_product(cross_product(inverse(face.edge.from), y), normal) / square;
+    const double square = dot(normal, normal);
+    if (square < kThin * kThin || std::fabs(dot(normal, y)) > kRounding) return false;
+    const double of_a = dot(cross(y, inverse(face.edge.to)), normal) / square;
+    const double of_b = dot(cross(inverse(face.edge.from), y), normal) / square;
     return of_a > -kSlack && of_b > -kSlack && of_a + of_b < 1 - kMargin;
   });
 }
 
+// Decided exactly: is x, which inversion takes to y, on the open side of the face?
+bool VolumeStar::in_front(const Face& face, const Point<3>& x, const Point<3>& y) const {
+  if (face.common >= 0) {
+    const auto k = static_cast<std::size_t>(face.common);
+    return face.normal[k] * (x[k] - centre_.x[k]) > 0;
+  }
+  const double out = dot(face.normal, y);
+  if (std::fabs(out) > kRounding) return out > 0;
+  return orientation(centre_.x, candidates_[index(face.edge.from)].x,
+                     candidates_[index(face.edge.to)].x, x) > 0;
+}
+
 bool VolumeStar::may_matter(const Point<3>& x) const {
   const Point<3> away = difference(x, centre_.x);
-  const double square = dot_product(away, away), farthest = search_reach_ * kBeyond;
+  const double square = dot(away, away), farthest = search_reach_ * kBeyond;
   if (square == 0 || square > farthest * farthest) return false;
   if (nothing_found_) return true;
   const double scale = unit_ / square;
   const Point<3> y{scale * away[0], scale * away[1], scale * away[2]};
-  bool beyond = std::any_of(unproven_.begin(), unproven_.end(), [&](const Plane& plane) {
-    return dot_product(plane.normal, y) > plane.offset;
-  });
-  bool in_a_plane = false;
-  for (const Face& face : open_) {
-    const double out = dot_product(face.normal, y);
-    beyond = beyond || out > kRounding;
-    in_a_plane = in_a_plane || out > -kRounding;
-  }
-  if (!(beyond || in_a_plane) || is_shielded(y)) return false;
-  return beyond || std::any_of(open_.begin(), open_.end(), [&](const Face& face) {
-           return orientation(centre_.x, candidates_[index(face.edge.from)].x,
-                              candidates_[index(face.edge.to)].x, x) > 0;
-         });
+  const bool beyond =
+      std::any_of(unproven_.begin(), unproven_.end(),
+                  [&](const Plane& plane) { return dot(plane.normal, y) > plane.offset; }) ||
+      std::any_of(open_.begin(), open_.end(),
+                  [&](const Face& face) { return in_front(face, x, y); });
+  return beyond && !is_shielded(y);
 }
 
 std::uint64_t VolumeStar::may_matter_bits(const std::array<const double*, 3>& x,
@@ -74,7 +78,16 @@ std::uint64_t VolumeStar::may_matter_bits(const std::array<const double*, 3>& x,
     });
   };
   for (const Plane& plane : unproven_) add_beyond(plane.normal, plane.offset - kRounding);
-  for (const Face& face : open_) add_beyond(face.normal, -2 * kRounding);
+  for (const Face& face : open_) {
+    if (face.common < 0) {
+      add_beyond(face.normal, -2 * kRounding);
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(face.common);
+    const double* const along = x[k];
+    const double c = centre_.x[k], sign = std::copysign(1.0, face.normal[k]);
+    beyond |= bits_where(n, [=](std::size_t j) { return sign * (along[j] - c) > 0; });
+  }
   return near & beyond;
 }
 

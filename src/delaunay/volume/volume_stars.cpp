@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include "delaunay/listed_reach.hpp"
-#include "delaunay/volume/circumsphere.hpp"
+#include "delaunay/volume/domain_rule.hpp"
 #include "delaunay/volume/volume_star.hpp"
 #include "delaunay/volume/word_of_bits.hpp"
 
@@ -16,25 +14,100 @@ namespace pnpbs {
 
 namespace {
 
-// The corners' mean, added up in the order of their ids: the same bits whoever asks.
-Point<3> centroid(const Tetrahedron& ordered) {
-  Point<3> sum{};
-  for (const VolumeNode& corner : ordered)
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += corner.x[k];
-  for (double& along : sum) along *= 0.25;
-  return sum;
-}
+// The elements found in the stars of a chunk's nodes, for those of its nodes that come later: an
+// element of one star is one of all its corners'.
+class FoundElements {
+ public:
+  struct Element {
+    std::array<std::int32_t, 3> corners;  // nodes, in positive orientation with the one asked about
+    bool in_domain;
+  };
 
-// Is it so thin that its volume is a small part of a regular one with its longest edge?
-bool is_flat_cap(const TetrahedronCorners& x) {
-  constexpr double kFlat = 0.2;
-  const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
-  const double longest = longest_edge(x);
-  const double regular = longest * longest * longest * std::numbers::sqrt2 / 2;  // six times
-  return std::fabs(dot_product(u, cross_product(v, w))) < kFlat * regular;
-}
+  FoundElements() { last_.fill(kNone); }
 
-// Finds the stars of one node after the other.
+  void begin_at(std::int64_t first) { first_ = first; }
+  // Of the star of node i.
+  void add(std::int64_t i, const std::array<std::int32_t, 3>& corners, bool in_domain) {
+    const auto [a, b, c] = corners;
+    const auto node = static_cast<std::int32_t>(i);
+    add_to(i, a, {{node, c, b}, in_domain});
+    add_to(i, b, {{node, a, c}, in_domain});
+    add_to(i, c, {{node, b, a}, in_domain});
+  }
+  // Calls visit(element) for those of the star of node i that are known.
+  template <class Visit>
+  void for_elements(std::int64_t i, const Visit& visit) const {
+    for (std::int32_t k = last_[place(i)]; k != kNone; k = all_[static_cast<std::size_t>(k)].before)
+      visit(all_[static_cast<std::size_t>(k)].element);
+  }
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  struct Entry {
+    Element element;
+    std::int32_t before;  // the one before of the same node
+  };
+
+  std::size_t place(std::int64_t i) const { return static_cast<std::size_t>(i - first_); }
+  void add_to(std::int64_t i, std::int32_t corner, const Element& element) {
+    if (corner <= i || corner >= first_ + VolumeStars::kChunk) return;
+    std::int32_t& last = last_[place(corner)];
+    all_.push_back({element, last});
+    last = static_cast<std::int32_t>(all_.size() - 1);
+  }
+
+  std::int64_t first_ = 0;
+  std::array<std::int32_t, VolumeStars::kChunk> last_;  // entry of each node of the chunk
+  std::vector<Entry> all_;
+};
+
+// Numbers nodes as they are added. Found by their last bits, which nodes near each other have
+// mostly different.
+class PlacesOfNodes {
+ public:
+  void clear() {
+    count_ = 0;
+    if (++round_ == 0) slots_.assign(slots_.size(), {});
+  }
+  // -1: it has none.
+  std::int32_t of(std::int32_t node) const {
+    for (std::size_t k = first_slot(node); slots_[k].round == round_; k = next_slot(k))
+      if (slots_[k].node == node) return slots_[k].place;
+    return -1;
+  }
+  // Of a node that has none yet.
+  void add(std::int32_t node) {
+    if (4 * static_cast<std::size_t>(count_ + 1) > slots_.size()) grow();
+    put(node, count_++);
+  }
+
+ private:
+  struct Slot {
+    std::uint32_t round = 0;
+    std::int32_t node = 0, place = 0;
+  };
+  std::size_t first_slot(std::int32_t node) const {
+    return static_cast<std::size_t>(node) & (slots_.size() - 1);
+  }
+  std::size_t next_slot(std::size_t k) const { return (k + 1) & (slots_.size() - 1); }
+  void put(std::int32_t node, std::int32_t place) {
+    std::size_t k = first_slot(node);
+    while (slots_[k].round == round_) k = next_slot(k);
+    slots_[k] = {round_, node, place};
+  }
+  void grow() {
+    std::vector<Slot> old(2 * slots_.size());
+    old.swap(slots_);
+    for (const Slot& slot : old)
+      if (slot.round == round_) put(slot.node, slot.place);
+  }
+
+  std::uint32_t round_ = 1;
+  std::int32_t count_ = 0;
+  std::vector<Slot> slots_ = std::vector<Slot>(256);  // those of other rounds are free
+};
+
+// Finds the stars of a chunk, one node after the other.
 class StarWriter {
  public:
   StarWriter(const VolumeStarInput& input, std::vector<double>& needs)
@@ -43,13 +116,21 @@ class StarWriter {
         reach_(input.nodes, input.tree, input.buckets, input.lists, input.known) {}
 
   void operator()(std::int64_t i, std::vector<std::int32_t>& out) {
+    if (i % VolumeStars::kChunk == 0) found_elements_.begin_at(i);
     const double needs = find_star(i);
     if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
     if (needs > 0) {
       out.push_back(VolumeStars::header(0, false));
       return;
     }
-    star_.finish([&](const VolumeStar::Corners& corners) { return in_domain(i, corners); });
+    star_.finish([&](const VolumeStar::Corners& corners) {
+      const bool taken = in_domain(i, corners);
+      found_elements_.add(i,
+                          {candidates_[index(corners[0])], candidates_[index(corners[1])],
+                           candidates_[index(corners[2])]},
+                          taken);
+      return taken;
+    });
     write(out);
   }
 
@@ -63,12 +144,32 @@ class StarWriter {
   void add(std::int64_t j) {
     star_.add(node(j));
     candidates_.push_back(static_cast<std::int32_t>(j));
+    places_.add(static_cast<std::int32_t>(j));
+  }
+
+  std::int32_t place_with(std::int32_t j) {
+    const std::int32_t place = places_.of(j);
+    if (place >= 0) return place;
+    add(j);
+    return static_cast<std::int32_t>(candidates_.size() - 1);
+  }
+  void add_new(std::int64_t j) { place_with(static_cast<std::int32_t>(j)); }
+
+  void add_known(std::int64_t i) {
+    found_elements_.for_elements(i, [&](const FoundElements::Element& element) {
+      VolumeStar::Corners places;
+      for (std::size_t k = 0; k < 3; ++k) places[k] = place_with(element.corners[k]);
+      star_.add_known(places, element.in_domain);
+    });
   }
 
   // Returns 0, or how far the nodes would have to be known.
   double find_star(std::int64_t i) {
     star_.start(node(i));
     candidates_.clear();
+    places_.clear();
+    add_known(i);
+    if (star_.all_known()) return 0;
     double reach = in_.complete && !in_.complete(i) ? 0 : reach_.of(i);
     if (reach > 0) {
       add_listed(i);
@@ -86,7 +187,7 @@ class StarWriter {
 
   void add_listed(std::int64_t i) {
     in_.lists.for_neighbours(i, [&](std::int64_t j) {
-      if (squared_distance<3>(in_.nodes.position(i), in_.nodes.position(j)) > 0) add(j);
+      if (squared_distance<3>(in_.nodes.position(i), in_.nodes.position(j)) > 0) add_new(j);
     });
   }
 
@@ -95,7 +196,7 @@ class StarWriter {
     in_.tree.for_leaves_in(box_around<3>(x, reach), [&](std::int32_t leaf) {
       for (std::int32_t j = in_.buckets.begin(leaf); j < in_.buckets.end(leaf); ++j) {
         const double gap = squared_distance<3>(x, in_.nodes.position(j));
-        if (gap > 0 && gap <= reach * reach) add(j);
+        if (gap > 0 && gap <= reach * reach) add_new(j);
       }
     });
   }
@@ -118,9 +219,7 @@ class StarWriter {
                               static_cast<std::size_t>(n));
     for (; bits != 0; bits &= bits - 1) {
       const std::int32_t j = first + std::countr_zero(bits);
-      if (star_.may_matter(in_.nodes.position(j)) &&
-          std::find(candidates_.begin(), candidates_.end(), j) == candidates_.end())
-        found_.push_back(j);
+      if (star_.may_matter(in_.nodes.position(j)) && places_.of(j) < 0) found_.push_back(j);
     }
   }
 
@@ -139,28 +238,14 @@ class StarWriter {
     return !found_.empty();
   }
 
-  // A pure function of the four corners. One that is flat between boundary nodes is nothing but
-  // their rounding, or what a curved surface rises between them.
   bool in_domain(std::int64_t i, const VolumeStar::Corners& corners) const {
-    if (in_.facets == nullptr) return true;
-    const auto held = [&](std::int64_t node) { return in_.nodes.carrier(node) != Carrier::free; };
     std::array<std::int64_t, 4> node{i};
     Tetrahedron tetrahedron{star_.centre()};
-    int held_nodes = held(i);
     for (std::size_t k = 0; k < 3; ++k) {
       node[k + 1] = candidates_[index(corners[k])];
-      held_nodes += held(node[k + 1]);
       tetrahedron[k + 1] = star_.candidates()[index(corners[k])];
     }
-    if (held_nodes < 2) return true;
-    const Tetrahedron t = ordered_by_id(tetrahedron);
-    if (held_nodes == 4) {
-      const TetrahedronCorners x{t[0].x, t[1].x, t[2].x, t[3].x};
-      if (circumsphere(x).flat) return false;
-      if (is_flat_cap(x) && in_.on_one_surface && in_.on_one_surface(node)) return false;
-    }
-    const Point<3> middle = centroid(t);
-    return in_.facets->inside(middle) || in_.facets->on_inner_facet(middle);
+    return pnpbs::in_domain(in_, node, tetrahedron);
   }
 
   void write(std::vector<std::int32_t>& out) const {
@@ -183,12 +268,15 @@ class StarWriter {
   std::vector<double>& needs_;
   ListedReach<3> reach_;
   VolumeStar star_;
+  FoundElements found_elements_;
   std::vector<std::int32_t> candidates_, found_;  // nodes
+  PlacesOfNodes places_;                          // of the candidates
 };
 
 }  // namespace
 
 void VolumeStars::build(const VolumeStarInput& input) {
+  on_surfaces_ = false;
   needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(input.nodes.count), 0);
   rows_.build("pnpbs::VolumeStars::build", input.nodes.count,
               [&] { return StarWriter(input, needs_); });

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every node's star in the Delaunay triangulation of a volume's nodes, from its adjacency list and,
 // where that is not enough, the nodes farther away; so that each rank finds its own: ties are
-// broken by id, and all agree. A tetrahedron belongs to the domain by its centroid.
+// broken by id, and all agree. A tetrahedron belongs to the domain by its centroid. Of surfaces
+// alone there are triangles instead.
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 
 #include "base/chunked_rows.hpp"
 #include "base/nodes.hpp"
+#include "delaunay/volume/surface_rings.hpp"
 #include "domain/facet_index.hpp"
 #include "neighbors/adjacency_list.hpp"
 #include "neighbors/buckets.hpp"
@@ -29,6 +31,9 @@ struct VolumeStarInput {
   // Does the list of node i hold all pairs within its radius, as the boundary hides none? Not set:
   // that of every node does.
   std::function<bool(std::int64_t)> complete = {};
+  // Of a free node, which is inside: no facet is nearer to it than this. Not set: that is not
+  // known.
+  std::function<double(std::int64_t)> room = {};
   // Do these four nodes, none of them free, lie on one surface, side by side? A flat tetrahedron of
   // such is none of the domain: the surface is as well without it. Not set: they do not.
   std::function<bool(const std::array<std::int64_t, 4>&)> on_one_surface = {};
@@ -39,9 +44,10 @@ class VolumeStars {
   using Corners = std::array<std::int32_t, 3>;
 
   void build(const VolumeStarInput& input);
+  void build(const SurfaceStarInput& input);
 
-  // Calls visit(j) for the neighbours of node i, the other corners of tetrahedra of the domain
-  // around it, by increasing id.
+  // Calls visit(j) for the neighbours of node i, the other corners of tetrahedra of the domain, or
+  // of triangles, around it, by increasing id.
   template <class Visit>
   void for_neighbours(std::int64_t i, const Visit& visit) const {
     const Star star = star_of(i);
@@ -53,11 +59,23 @@ class VolumeStars {
   // that node i and these are of positive orientation; in an order that only ids decide.
   template <class Visit>
   void for_simplices(std::int64_t i, const Visit& visit) const {
+    if (on_surfaces_) return;
     const Star star = star_of(i);
     for (const std::int32_t* t = star.first + star.neighbours; t < star.last;
          t += star.wide ? 3 : 1)
       visit(star.wide ? Corners{t[0], t[1], t[2]} : unpack(star, *t));
   }
+
+  // Calls visit(corners) for the triangles of surfaces alone around node i: their other corners,
+  // so that with node i before them they turn counter-clockwise.
+  template <class Visit>
+  void for_triangles(std::int64_t i, const Visit& visit) const {
+    if (!on_surfaces_) return;
+    const Star star = star_of(i);
+    for (const std::int32_t* t = star.first + star.neighbours; t < star.last; t += 2)
+      visit(std::array<std::int32_t, 2>{t[0], t[1]});
+  }
+  bool are_on_surfaces() const { return on_surfaces_; }
 
   // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
   double needs(std::int64_t i) const {
@@ -65,8 +83,11 @@ class VolumeStars {
   }
 
   std::int32_t size(std::int64_t i) const { return star_of(i).neighbours; }
-  // Are there tetrahedra of the domain all around the node?
+  // Are there tetrahedra of the domain, or triangles, all around the node?
   bool closed(std::int64_t i) const { return star_of(i).closed; }
+
+  // So many stars are found one after the other, each with what the ones before it have found.
+  static constexpr int kChunk = 512;
 
   // --- how a star is written down: a header, the neighbours, the triangles ---
   // Three places among the first neighbours fit into one number; of a larger star, triangles are
@@ -97,7 +118,8 @@ class VolumeStars {
             star.first[packed >> 2 * kPlaceBits]};
   }
 
-  ChunkedRows<std::int32_t, 256> rows_;
+  ChunkedRows<std::int32_t, kChunk> rows_;
+  bool on_surfaces_ = false;
   std::vector<double> needs_;  // of the nodes; empty where everything is known
 };
 

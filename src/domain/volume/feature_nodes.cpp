@@ -63,6 +63,19 @@ std::int32_t FeatureNodes::next(std::int32_t node, const CurveDirection& way) co
   return row[static_cast<std::size_t>(way.forward ? step + 1 : step - 1)];
 }
 
+bool FeatureNodes::joined(std::int32_t a, std::int32_t b) const {
+  const auto follows = [&](std::int32_t from, std::int32_t to) {
+    const std::int32_t curve = nodes[static_cast<std::size_t>(from)].curve;
+    return curve >= 0 && (next(from, {curve, true}) == to || next(from, {curve, false}) == to);
+  };
+  if (follows(a, b) || follows(b, a)) return true;
+  // Two corners with nothing between them?
+  if (nodes[static_cast<std::size_t>(a)].corner < 0) return false;
+  return std::ranges::any_of(along, [&](const std::vector<std::int32_t>& row) {
+    return row.size() == 2 && ((row[0] == a && row[1] == b) || (row[0] == b && row[1] == a));
+  });
+}
+
 FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
                                const SpacingEvaluator<3>& spacing, std::int64_t max_nodes) {
   const std::vector<std::vector<Point<3>>> lines = polylines(mesh, features);

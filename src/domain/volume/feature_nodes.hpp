@@ -29,6 +29,8 @@ struct FeatureNodes {
 
   // The one after a node in a direction of its curve, or of one that ends at its corner.
   std::int32_t next(std::int32_t node, const CurveDirection& way) const;
+  // Are two nodes next to each other on a curve?
+  bool joined(std::int32_t a, std::int32_t b) const;
 };
 
 // n = max(1, round(integral)) steps on each curve, 3 at least on closed ones. d is asked on the

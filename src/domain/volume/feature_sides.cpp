@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "domain/volume/vectors.hpp"
+#include "base/space_vectors.hpp"
 
 namespace pnpbs {
 

@@ -8,7 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "domain/volume/vectors.hpp"
+#include "base/space_vectors.hpp"
+#include "domain/volume/short_creases.hpp"
 
 namespace pnpbs {
 
@@ -28,6 +29,7 @@ struct FacetSide {
 struct FeatureEdge {
   std::array<std::int32_t, 2> nodes;
   std::span<const FacetSide> sides;
+  bool crease;  // by the angle alone
 
   std::int32_t beyond(std::int32_t node) const { return nodes[nodes[0] == node ? 1 : 0]; }
 };
@@ -45,12 +47,16 @@ std::array<std::int32_t, 2> ends_of_segment(const BoundaryTriangle& facet) {
 
 class FeatureFinder {
  public:
-  FeatureFinder(const BoundaryMesh<3>& mesh, double feature_angle)
-      : mesh_(mesh), cosine_(std::cos(feature_angle * std::numbers::pi / 180)) {}
+  FeatureFinder(const BoundaryMesh<3>& mesh, double feature_angle,
+                const std::vector<std::int32_t>& smooth_source)
+      : mesh_(mesh),
+        cosine_(std::cos(feature_angle * std::numbers::pi / 180)),
+        smooth_source_(smooth_source) {}
 
   Features run() {
     gather_sides();
     find_edges();
+    drop_short_creases();
     flood_patches();
     find_corners();
     followed_.assign(edges_.size(), 0);
@@ -108,25 +114,57 @@ class FeatureFinder {
   }
 
   void add_edge(std::int32_t node, std::span<const FacetSide> sides) {
-    if (is_feature(sides)) {
-      edges_.push_back({{node, sides[0].other}, sides});
-      return;
+    const bool divides = !is_plain(sides);
+    if (divides || is_sharp(sides)) {
+      edges_.push_back({{node, sides[0].other}, sides, !divides});
+    } else {
+      join(sides);
     }
+  }
+
+  void join(std::span<const FacetSide> sides) {
     for (const int side : {0, 1}) {
       const FacetSide &own = sides[index(side)], &other = sides[index(1 - side)];
       found_.across[index(own.facet)][index(own.k)] = other.facet;
     }
   }
 
-  bool is_feature(std::span<const FacetSide> sides) const {
-    if (sides.size() != 2 || sides[0].k < 0 || sides[1].k < 0) return true;
+  // Is there nothing that makes it a feature, whatever the angle is?
+  bool is_plain(std::span<const FacetSide> sides) const {
+    if (sides.size() != 2 || sides[0].k < 0 || sides[1].k < 0) return false;
     const BoundaryTriangle &f = facet(sides[0].facet), &g = facet(sides[1].facet);
     const bool alike =
         f.tag == g.tag && f.front_inside == g.front_inside && f.back_inside == g.back_inside;
     const bool one_orientation = f.nodes[index(sides[0].k)] != g.nodes[index(sides[1].k)];
-    if (!alike || !one_orientation) return true;
+    return alike && one_orientation;
+  }
+
+  bool is_sharp(std::span<const FacetSide> sides) const {
+    if (smooth_source(sides[0].facet) >= 0 &&
+        smooth_source(sides[0].facet) == smooth_source(sides[1].facet))
+      return false;
     const Point<3>&p = normals_[index(sides[0].facet)], &q = normals_[index(sides[1].facet)];
     return p != Point<3>{} && q != Point<3>{} && dot(p, q) < cosine_;
+  }
+
+  void drop_short_creases() {
+    std::vector<FeatureEdgeCandidate> candidates;
+    for (const FeatureEdge& edge : edges_) candidates.push_back({edge.nodes, edge.crease});
+    const std::vector<char> dropped = short_creases(mesh_, candidates);
+    std::vector<FeatureEdge> kept;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (dropped[e] == 0) {
+        kept.push_back(edges_[e]);
+      } else {
+        join(edges_[e].sides);
+        found_.short_creases.push_back(edges_[e].nodes);
+      }
+    }
+    edges_ = std::move(kept);
+  }
+
+  std::int32_t smooth_source(std::int32_t f) const {
+    return index(f) < smooth_source_.size() ? smooth_source_[index(f)] : -1;
   }
 
   void flood_patches() {
@@ -237,6 +275,7 @@ class FeatureFinder {
 
   const BoundaryMesh<3>& mesh_;
   double cosine_;
+  const std::vector<std::int32_t>& smooth_source_;
   std::vector<Point<3>> normals_;
   std::vector<std::size_t> side_begin_;  // of each node in sides_
   std::vector<FacetSide> sides_;
@@ -254,8 +293,9 @@ bool Features::is_corner(std::int32_t mesh_node) const {
   return std::binary_search(corners.begin(), corners.end(), mesh_node);
 }
 
-Features find_features(const BoundaryMesh<3>& mesh, double feature_angle) {
-  return FeatureFinder(mesh, feature_angle).run();
+Features find_features(const BoundaryMesh<3>& mesh, double feature_angle,
+                       const std::vector<std::int32_t>& smooth_source) {
+  return FeatureFinder(mesh, feature_angle, smooth_source).run();
 }
 
 Point<3> facet_normal(const BoundaryMesh<3>& mesh, const BoundaryTriangle& facet) {

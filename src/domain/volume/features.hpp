@@ -3,7 +3,7 @@
 // where the normals on its two sides turn by more than an angle, where tags meet, where other than
 // two triangles meet, at a border, and where an inner curve runs. A corner is where other than two
 // feature edges meet, where they turn sharply, and at a fixed node. What lies between feature edges
-// is a patch.
+// is a patch. Short creases (short_creases.hpp) are no features.
 #pragma once
 
 #include <array>
@@ -44,13 +44,17 @@ struct Features {
   std::vector<std::int32_t> corners;  // nodes of the mesh, in their order
   // Patches that meet in a node of the mesh which lies on features, ascending; else empty.
   std::vector<std::vector<std::int32_t>> patches_at;
+  // Sharp edges that are no features, by their nodes.
+  std::vector<std::array<std::int32_t, 2>> short_creases;
 
   bool is_corner(std::int32_t mesh_node) const;
 };
 
-// Angles in degrees. What is found depends on the order of facets and nodes alone; the time taken
-// is linear in their number.
-Features find_features(const BoundaryMesh<3>& mesh, double feature_angle);
+// Angles in degrees. `smooth_source`: of each facet -1, or a surface between whose facets normals
+// do not count; empty if there is none. What is found depends on the order of facets and nodes
+// alone; the time taken is linear in their number, but for sorting short creases.
+Features find_features(const BoundaryMesh<3>& mesh, double feature_angle,
+                       const std::vector<std::int32_t>& smooth_source = {});
 
 // The unit normal of a facet; 0 if it has no area.
 Point<3> facet_normal(const BoundaryMesh<3>& mesh, const BoundaryTriangle& facet);

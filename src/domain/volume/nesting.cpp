@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/limits.hpp"
+#include "base/space_vectors.hpp"
 #include "base/union_find.hpp"
 #include "domain/volume/triangles.hpp"
-#include "domain/volume/vectors.hpp"
 #include "predicates/expansion.hpp"
 
 namespace pnpbs {

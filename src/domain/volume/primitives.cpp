@@ -6,7 +6,7 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "domain/volume/vectors.hpp"
+#include "base/space_vectors.hpp"
 
 namespace pnpbs {
 

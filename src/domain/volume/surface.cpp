@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
-#include "domain/volume/vectors.hpp"
 
 namespace pnpbs {
 

@@ -2,7 +2,7 @@
 #include "domain/volume/surface_extent.hpp"
 
 #include "base/limits.hpp"
-#include "domain/volume/vectors.hpp"
+#include "base/space_vectors.hpp"
 #include "predicates/expansion.hpp"
 
 namespace pnpbs {
@@ -29,7 +29,7 @@ VolumeExtent extent_of(const BoundaryMesh<3>& mesh) {
   const Point<3>& origin = box.low;
   Sum volume, area;
   for (const BoundaryTriangle& facet : mesh.facets) {
-    if (!facet.bounds()) continue;
+    if (facet.front_inside && facet.back_inside) continue;
     const auto& [a, b, c] = corners_of(mesh, facet);
     const Point<3> normal = cross(difference(b, a), difference(c, a));
     const double sign = int{facet.back_inside} - int{facet.front_inside};

@@ -9,7 +9,7 @@ namespace pnpbs {
 struct VolumeExtent {
   Box<3> bounds;
   double volume;
-  double area;  // of what bounds it
+  double area;  // of what bounds it, and of surfaces alone
 };
 
 // Of a mesh whose triangles know their sides; summed in their order, with the rounding's error

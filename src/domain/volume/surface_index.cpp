@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "domain/volume/surface_index.hpp"
 
+#include <algorithm>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
 
 namespace pnpbs {
@@ -56,6 +59,21 @@ NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
         if (gap < best.gap || (gap == best.gap && f < best.facet)) best = {gap, f, q};
       });
   return best;
+}
+
+SurfaceIndex::Hit SurfaceIndex::first_hit(const Point<3>& x, const Point<3>& way,
+                                          std::int32_t from) const {
+  const Point<3> end = shifted(x, 1, way);
+  Hit first{1};
+  boxes_.for_meeting(joined(Box<3>{x, x}, {end, end}), [&](std::int32_t f) {
+    if (f == from || !crosses(x, end, sides_.corners(f))) return;
+    const auto& [a, b, c] = sides_.corners(f);
+    const Point<3> normal = cross(difference(b, a), difference(c, a));
+    const double along = std::clamp(dot(normal, difference(a, x)) / dot(normal, way), 0.0, 1.0);
+    if (first.facet < 0 || std::tie(along, f) < std::tie(first.along, first.facet))
+      first = {along, f};
+  });
+  return first;
 }
 
 }  // namespace pnpbs

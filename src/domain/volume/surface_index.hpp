@@ -26,6 +26,13 @@ class SurfaceIndex {
   // Its gap alone.
   double clearance(const Point<3>& x, double reach) const { return nearest(x, reach).gap; }
 
+  // The first facet that the straight way from x by `way` crosses, other than `from`.
+  struct Hit {
+    double along;  // share of the way
+    std::int32_t facet = -1;
+  };
+  Hit first_hit(const Point<3>& x, const Point<3>& way, std::int32_t from) const;
+
  private:
   FacetIndex<3> sides_;  // cells that hold few facets each, whatever d is
   BoxTree<3> boxes_;     // of the facets

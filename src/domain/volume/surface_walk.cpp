@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
-#include "domain/volume/vectors.hpp"
 
 namespace pnpbs {
 

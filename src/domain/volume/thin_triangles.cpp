@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
-#include "domain/volume/vectors.hpp"
+#include "base/space_vectors.hpp"
 
 namespace pnpbs {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
-#include "domain/volume/vectors.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "domain/volume/vectors.hpp"
+#include "base/space_vectors.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,13 +15,16 @@
 
 namespace pnpbs {
 
+class LevelSet;
+
 // One surface as it was added.
 struct SurfaceSource {
   std::string name;  // for messages: "surface 0", "ball 1"
   SurfaceRole role = SurfaceRole::boundary;
   std::vector<Point<3>> vertices;
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::int32_t> tags;  // of the triangles
+  std::vector<std::int32_t> tags;             // of the triangles
+  std::shared_ptr<const LevelSet> level_set;  // whose surface it is; null of others
 };
 
 struct SurfaceTriangle {

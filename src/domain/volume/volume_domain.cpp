@@ -4,10 +4,12 @@
 #include "domain/volume/volume_domain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/limits.hpp"
 #include "domain/given_values.hpp"
+#include "domain/volume/level_set_surface.hpp"
 #include "domain/volume/primitives.hpp"
 #include "domain/volume/volume_resolver.hpp"
 
@@ -16,6 +18,25 @@ namespace pnpbs {
 using namespace given_values;
 
 namespace {
+
+void require_box(const Box<3>& box) {
+  require_point<3>("low", box.low);
+  require_point<3>("high", box.high);
+  for (int k = 0; k < 3; ++k)
+    if (!(box.low[k] < box.high[k]))
+      reject(indexed("high", k) + " is " + number_text(box.high[k]) + ", expected more than " +
+             indexed("low", k) + ", which is " + number_text(box.low[k]));
+}
+
+void require_resolution(const Box<3>& box, double resolution) {
+  constexpr double kMaxCells = 1 << 19;
+  double shortest = HUGE_VAL;
+  for (int k = 0; k < 3; ++k) shortest = std::min(shortest, box.high[k] - box.low[k]);
+  const double least = size_of(box) / kMaxCells;
+  if (!(resolution >= least && resolution <= shortest))
+    reject("resolution is " + number_text(resolution) + ", expected " + rounded_text(least) +
+           " to " + rounded_text(shortest) + " in this box");
+}
 
 std::vector<std::array<std::int32_t, 3>> read_triangles(std::int64_t triangles,
                                                         const std::int64_t* corners,
@@ -65,12 +86,7 @@ void VolumeDomain::add_surface(SurfaceRole role, std::int64_t vertices, const do
 
 void VolumeDomain::add_box(const Point<3>& low, const Point<3>& high,
                            const std::array<std::int32_t, 6>& tags) {
-  require_point<3>("low", low);
-  require_point<3>("high", high);
-  for (int k = 0; k < 3; ++k)
-    if (!(low[k] < high[k]))
-      reject(indexed("high", k) + " is " + number_text(high[k]) + ", expected more than " +
-             indexed("low", k) + ", which is " + number_text(low[k]));
+  require_box({low, high});
   read_tags("tags", 6, tags.data());
   add_source(box_surface(low, high, tags), "box", boxes_given_, kFeatureAngle);
 }
@@ -98,6 +114,18 @@ void VolumeDomain::add_cylinder(const Point<3>& begin, const Point<3>& end, doub
              kFeatureAngle);
 }
 
+void VolumeDomain::add_level_set(LevelSetFunction f, const Box<3>& box, double resolution,
+                                 std::int32_t tag) {
+  require_box(box);
+  require_resolution(box, resolution);
+  require_tag("tag", tag);
+  const auto set = std::make_shared<LevelSet>("level set " + std::to_string(level_sets_given_),
+                                              std::move(f), box, resolution);
+  SurfaceSource source = level_set_surface(*set, tag);
+  source.level_set = set;
+  add_source(std::move(source), "level set", level_sets_given_, kFeatureAngle);
+}
+
 void VolumeDomain::add_polyline(bool closed, std::int64_t n, const double* xyz,
                                 const std::int32_t* tags) {
   require_count("n", n, closed ? 3 : 2);
@@ -119,6 +147,11 @@ void VolumeDomain::add_fixed_nodes(std::int64_t n, const double* xyz, const std:
   checked_ = false;
 }
 
+void VolumeDomain::set_filled(bool filled) {
+  checked_ = checked_ && filled == filled_;
+  filled_ = filled;
+}
+
 void VolumeDomain::add_hole(const Point<3>& point) {
   require_point<3>("point", point);
   holes_.push_back({point, "hole " + std::to_string(holes_.size())});
@@ -128,7 +161,7 @@ void VolumeDomain::add_hole(const Point<3>& point) {
 void VolumeDomain::check() {
   if (checked_) return;
   auto resolved = std::make_shared<ResolvedVolume>(
-      resolve_volume(surfaces_, feature_angles_, polylines_, holes_, given_nodes_));
+      resolve_volume(surfaces_, feature_angles_, polylines_, holes_, given_nodes_, filled_));
   resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
   resolved_ = std::move(resolved);
   checked_ = true;

@@ -11,6 +11,7 @@
 
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
+#include "domain/volume/level_set.hpp"
 #include "domain/volume/surface_index.hpp"
 #include "domain/volume/triangulation.hpp"
 
@@ -33,7 +34,7 @@ struct VolumeHole {
 struct VolumeSummary {
   Box<3> bounds{};
   double volume = 0;
-  double area = 0;  // of what bounds it
+  double area = 0;  // of what bounds it, or of the surfaces alone
   std::int64_t triangles = 0;
   std::int64_t components = 0;  // surfaces that are connected by edges
   std::int64_t patches = 0;
@@ -41,11 +42,23 @@ struct VolumeSummary {
   std::int64_t corners = 0;
 };
 
+// The level sets whose surfaces triangles are of.
+struct LevelSetTriangles {
+  std::vector<std::shared_ptr<const LevelSet>> sets;
+  std::vector<std::int32_t> of;  // of each facet its set, or -1; empty if there are no sets
+
+  const LevelSet* at(std::int32_t facet) const {
+    const auto f = static_cast<std::size_t>(facet);
+    return f < of.size() && of[f] >= 0 ? sets[static_cast<std::size_t>(of[f])].get() : nullptr;
+  }
+};
+
 // What check() finds out.
 struct ResolvedVolume {
   BoundaryMesh<3> mesh;
   SurfaceIndex index;  // of the mesh
   Features features;
+  LevelSetTriangles level_sets;
   std::vector<FixedNode3> fixed_nodes;
   std::vector<std::string> warnings;
   VolumeSummary summary;
@@ -66,9 +79,14 @@ class VolumeDomain {
   // Of triangles within 1e-4 of the radius from the true surface.
   void add_ball(const Point<3>& centre, double radius, std::int32_t tag);
   void add_cylinder(const Point<3>& begin, const Point<3>& end, double radius, std::int32_t tag);
+  // The body where f < 0. It is asked now, and again where nodes are to lie on its surface.
+  void add_level_set(LevelSetFunction f, const Box<3>& box, double resolution, std::int32_t tag);
   // A curve inside, with a tag for each segment.
   void add_polyline(bool closed, std::int64_t n, const double* xyz, const std::int32_t* tags);
   void add_fixed_nodes(std::int64_t n, const double* xyz, const std::int32_t* tags);
+  // Not filled, the domain is its surfaces alone, closed or open, of either role.
+  void set_filled(bool filled);
+  bool filled() const { return filled_; }
   // Takes out what lies around the point, up to the next surfaces.
   void add_hole(const Point<3>& point);
 
@@ -78,18 +96,24 @@ class VolumeDomain {
   bool is_checked() const { return checked_; }
 
   // Valid after check(). First the triangles of the surfaces, in the order in which they were
-  // given, with the domain behind those that bound it; then the segments (a, b, b) of inner curves,
-  // and (a, a, a) for each fixed node. All nodes are used.
+  // given, with the domain behind those that bound it, and on neither side of surfaces alone; then
+  // the segments (a, b, b) of inner curves, and (a, a, a) for each fixed node. All nodes are used.
   const BoundaryMesh<3>& mesh() const { return resolved_->mesh; }
   // Answers what is inside and what is near, whatever d is.
   const SurfaceIndex& index() const { return resolved_->index; }
+  // Its facets alone, for who may outlive the domain.
+  std::shared_ptr<const FacetIndex<3>> sides() const {
+    return {resolved_, &resolved_->index.sides()};
+  }
   const Features& features() const { return resolved_->features; }
+  const LevelSetTriangles& level_sets() const { return resolved_->level_sets; }
   const std::vector<FixedNode3>& fixed_nodes() const { return resolved_->fixed_nodes; }
   const std::vector<std::string>& warnings() const { return resolved_->warnings; }
   const VolumeSummary& summary() const { return resolved_->summary; }
   const Box<3>& bounds() const { return resolved_->summary.bounds; }
   double volume() const { return resolved_->summary.volume; }
   double area() const { return resolved_->summary.area; }
+  double measure() const { return filled_ ? volume() : area(); }
 
  private:
   void add_source(SurfaceSource source, const char* kind, std::int64_t& given,
@@ -100,7 +124,9 @@ class VolumeDomain {
   std::vector<InnerPolyline> polylines_;
   std::vector<VolumeHole> holes_;
   std::vector<FixedNode3> given_nodes_;
-  std::int64_t surfaces_given_ = 0, boxes_given_ = 0, balls_given_ = 0, cylinders_given_ = 0;
+  std::int64_t surfaces_given_ = 0, boxes_given_ = 0, balls_given_ = 0, cylinders_given_ = 0,
+               level_sets_given_ = 0;
+  bool filled_ = true;
   bool checked_ = false;
   // Shared by copies, and by all that points into it.
   std::shared_ptr<const ResolvedVolume> resolved_ = std::make_shared<ResolvedVolume>();

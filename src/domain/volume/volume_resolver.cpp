@@ -10,6 +10,7 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/volume/nesting.hpp"
+#include "domain/volume/resolved_features.hpp"
 #include "domain/volume/self_intersections.hpp"
 #include "domain/volume/surface_checks.hpp"
 #include "domain/volume/surface_extent.hpp"
@@ -27,12 +28,19 @@ namespace {
 class Resolver {
  public:
   Resolver(const std::vector<SurfaceSource>& surfaces, const std::vector<InnerPolyline>& polylines,
-           const std::vector<VolumeHole>& holes, const std::vector<FixedNode3>& fixed_nodes)
-      : surfaces_(surfaces), polylines_(polylines), holes_(holes), fixed_nodes_(fixed_nodes) {}
+           const std::vector<VolumeHole>& holes, const std::vector<FixedNode3>& fixed_nodes,
+           bool filled)
+      : surfaces_(surfaces),
+        polylines_(polylines),
+        holes_(holes),
+        fixed_nodes_(fixed_nodes),
+        filled_(filled) {}
 
   ResolvedVolume run(const std::vector<double>& feature_angles) {
     require_surfaces();
     surface_ = join_surfaces(surfaces_);
+    if (!filled_)  // then they all divide nothing
+      for (SurfaceTriangle& triangle : surface_.triangles) triangle.inner = true;
     measure();
     weld();
     remove_thin_triangles(surface_, kSameVertex * size_, result_.warnings);
@@ -49,9 +57,9 @@ class Resolver {
     regions_.emplace(surface_, edges, tree_);
     inside_ = inside_by_parity(surface_, *regions_);
     turn_outwards();
-    remove_holes();
+    filled_ ? remove_holes() : reject_holes();
     make_mesh();
-    find_features_of(feature_angles);
+    find_features_of(surfaces_, feature_angles, result_);
     return std::move(result_);
   }
 
@@ -59,7 +67,8 @@ class Resolver {
   // ------------------------------------------------------------ what is given
   void require_surfaces() const {
     if (surfaces_.empty()) reject("the domain has no surfaces");
-    if (std::none_of(surfaces_.begin(), surfaces_.end(), [](const SurfaceSource& surface) {
+    if (filled_ &&
+        std::none_of(surfaces_.begin(), surfaces_.end(), [](const SurfaceSource& surface) {
           return surface.role == SurfaceRole::boundary;
         }))
       reject("the domain has no boundary surface, only inner ones");
@@ -191,6 +200,12 @@ class Resolver {
       reject("the holes leave nothing of the domain");
   }
 
+  void reject_holes() const {
+    if (!holes_.empty())
+      reject(holes_[0].name + " at " + point_text(holes_[0].point) +
+             ": a domain of surfaces alone has no inside to take holes out of");
+  }
+
   // The first triangle on which the point lies, as near as places are told apart, or -1.
   std::int32_t triangle_at(const Point<3>& x) const {
     const double reach = kSamePlace * size_;
@@ -206,6 +221,10 @@ class Resolver {
 
   // ------------------------------------------------------------ the mesh
   void make_mesh() {
+    if (std::any_of(surfaces_.begin(), surfaces_.end(),
+                    [](const SurfaceSource& surface) { return surface.level_set != nullptr; }))
+      for (const SurfaceSource& surface : surfaces_)
+        result_.level_sets.sets.push_back(surface.level_set);
     number_.assign(surface_.vertices.size(), -1);
     on_surface_.assign(surface_.vertices.size(), 0);
     add_triangles();
@@ -234,7 +253,7 @@ class Resolver {
       SurfaceTriangle& triangle = surface_.triangles[t];
       for (const std::int32_t v : triangle.vertices) on_surface_[v] = 1;
       bool front = inside_[front_[t]], back = inside_[back_[t]];
-      if (!front && !back) {
+      if (filled_ && !front && !back) {
         ++left_out[triangle.source];
         continue;
       }
@@ -247,6 +266,9 @@ class Resolver {
       BoundaryTriangle facet{{}, triangle.tag, front, back};
       for (int k = 0; k < 3; ++k) facet.nodes[k] = node_at(triangle.vertices[k], triangle.tag);
       result_.mesh.facets.push_back(facet);
+      if (!result_.level_sets.sets.empty())
+        result_.level_sets.of.push_back(surfaces_[triangle.source].level_set ? triangle.source
+                                                                             : -1);
     }
     triangles_kept_ = static_cast<std::int64_t>(result_.mesh.facets.size());
     result_.summary.components = std::count(component_kept.begin(), component_kept.end(), 1);
@@ -269,6 +291,9 @@ class Resolver {
       for (const std::int32_t end : segment.ends)
         if (!on_surface_[end]) reject_on_triangle(surface_.vertices[end], segment.name);
       bool inside = segment.along >= 0 && kept_[segment.along];
+      if (!filled_ && !inside)
+        reject(segment.name + " leaves the surfaces at " + point_text(surface_.vertices[a]) +
+               ": it must follow the edges of their triangles");
       if (segment.along < 0) {
         Point<3> middle;
         for (int k = 0; k < 3; ++k)
@@ -280,7 +305,7 @@ class Resolver {
         continue;
       }
       const std::int32_t begin = node_at(a, segment.tag), end = node_at(b, segment.tag);
-      result_.mesh.facets.push_back({{begin, end, end}, segment.tag, true, true});
+      result_.mesh.facets.push_back({{begin, end, end}, segment.tag, filled_, filled_});
     }
     warn_of_left_out(left_out);
   }
@@ -300,13 +325,14 @@ class Resolver {
       if (number_[vertex] < 0) {
         if (!on_surface_[vertex]) reject_on_triangle(node.position, node.name);
         if (on_surface_[vertex] || !inside_[regions_->around(node.position)])
-          reject(node.name + " at " + point_text(node.position) + " lies outside the domain");
+          reject(node.name + " at " + point_text(node.position) +
+                 (filled_ ? " lies outside the domain" : " is no vertex of the surfaces"));
         reject_on_segment(node, segments);
       }
       node.mesh_node = node_at(vertex, node.tag);
       result_.mesh.nodes[node.mesh_node].tag = node.tag;
       const std::int32_t n = node.mesh_node;
-      result_.mesh.facets.push_back({{n, n, n}, node.tag, true, true});
+      result_.mesh.facets.push_back({{n, n, n}, node.tag, filled_, filled_});
       result_.fixed_nodes.push_back(std::move(node));
     }
   }
@@ -325,20 +351,6 @@ class Resolver {
         });
   }
 
-  // ------------------------------------------------------------ features
-  void find_features_of(const std::vector<double>& angles) {
-    const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
-    if (*smallest < *largest)
-      result_.warnings.push_back("the smallest feature_angle, " + number_text(*smallest) +
-                                 " degrees, holds for all surfaces");
-    result_.features = find_features(result_.mesh, *smallest);
-    const Features& features = result_.features;
-    result_.summary.patches = features.patches;
-    for (const FeatureCurve& curve : features.curves)
-      result_.summary.feature_edges += static_cast<std::int64_t>(curve.nodes.size()) - 1;
-    result_.summary.corners = static_cast<std::int64_t>(features.corners.size());
-  }
-
   std::int32_t triangle_count() const {
     return static_cast<std::int32_t>(surface_.triangles.size());
   }
@@ -347,6 +359,7 @@ class Resolver {
   const std::vector<InnerPolyline>& polylines_;
   const std::vector<VolumeHole>& holes_;
   const std::vector<FixedNode3>& fixed_nodes_;
+  bool filled_;
   Triangulation surface_;
   double size_ = 0;
   std::vector<std::int32_t> curve_vertices_, fixed_vertices_;  // of points as given
@@ -368,8 +381,8 @@ ResolvedVolume resolve_volume(const std::vector<SurfaceSource>& surfaces,
                               const std::vector<double>& feature_angles,
                               const std::vector<InnerPolyline>& polylines,
                               const std::vector<VolumeHole>& holes,
-                              const std::vector<FixedNode3>& fixed_nodes) {
-  return Resolver(surfaces, polylines, holes, fixed_nodes).run(feature_angles);
+                              const std::vector<FixedNode3>& fixed_nodes, bool filled) {
+  return Resolver(surfaces, polylines, holes, fixed_nodes, filled).run(feature_angles);
 }
 
 }  // namespace pnpbs

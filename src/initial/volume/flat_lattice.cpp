@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
-#include "domain/volume/vectors.hpp"
 #include "predicates/plane.hpp"
 #include "tree/box_tree.hpp"
 

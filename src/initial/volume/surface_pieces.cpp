@@ -8,7 +8,7 @@
 
 #include "base/lattice.hpp"
 #include "base/point_text.hpp"
-#include "domain/volume/vectors.hpp"
+#include "base/space_vectors.hpp"
 #include "tree/background_tree.hpp"
 #include "tree/leaf_cells.hpp"
 

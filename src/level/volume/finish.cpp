@@ -3,8 +3,11 @@
 
 #include <optional>
 
+#include "delaunay/volume/domain_rule.hpp"
 #include "level/exchange.hpp"
+#include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
+#include "level/volume/surface_level.hpp"
 #include "quality/volume/mean_sweep.hpp"
 #include "quality/volume/sliver_repair.hpp"
 
@@ -20,7 +23,8 @@ bool may_go(const Level<3>& level, std::int64_t i, const Point<3>& x) {
                                                          kFinishClearance * level.nodes.d(i));
 }
 
-// The few edges that have other nodes after the first sweep do not matter to the next.
+// The few edges that have other nodes after the first sweep do not matter to the next. (Those after
+// a repair do.)
 void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   if (sweeps > 0) make_finish_stars(level, 0);
   const PhaseTimer timer(level.timers, Phase::sweeps);
@@ -40,10 +44,24 @@ void repair_slivers(Level<3>& level) {
   make_finish_stars(level, kRings);
   const PhaseTimer timer(level.timers, Phase::sweeps);
   SliverRule rule;
+  const KnownRegion<3> everywhere;
+  const VolumeStarInput input = star_input(level, everywhere);
+  // Those on a level set are where it is 0, and stay.
+  const AlongSurfaces along_surfaces{
+      [&](std::int64_t i, const Point<3>& direction, double length) {
+        if (level.ground.domain().level_sets().at(level.nodes.boundary_node(i)) != nullptr)
+          return AlongSurfaces::Place{level.nodes.position(i), level.nodes.boundary_node(i)};
+        const SurfacePoint to = go_along_surface(level, i, direction, length);
+        return AlongSurfaces::Place{to.position, to.facet};
+      },
+      [&](const std::array<std::int64_t, 4>& nodes, const Tetrahedron& corners) {
+        return in_domain(input, nodes, corners);
+      }};
   std::optional<SliverRepair> repair;
   agreed(*level.comm, [&] {
-    repair.emplace(level.nodes, level.stars, rule,
-                   [&](std::int64_t i, const Point<3>& x) { return may_go(level, i, x); });
+    repair.emplace(
+        level.nodes, level.stars, rule,
+        [&](std::int64_t i, const Point<3>& x) { return may_go(level, i, x); }, along_surfaces);
   });
   for (std::int64_t round = 0; round < rule.rounds; ++round) {
     agreed(*level.comm, [&] { repair->round(round); });
@@ -62,22 +80,19 @@ void repair_slivers(Level<3>& level) {
 
 FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps) {
   constexpr std::int64_t kSweepsBetween = 2;
-  if (level.settings.repair.rounds > 0) {
-    sweep_to_means(level, sweeps);
-    repair_slivers(level);
-    if (sweeps > 0) {
-      sweep_to_means(level, kSweepsBetween);
-      repair_slivers(level);
-    }
+  if (level.ground.surfaces_alone()) {
+    sweep_on_surfaces(level, sweeps);
   } else {
     sweep_to_means(level, sweeps);
+    if (level.settings.repair.rounds > 0) {
+      repair_slivers(level);
+      if (sweeps > 0) {
+        sweep_to_means(level, kSweepsBetween);
+        repair_slivers(level);
+      }
+    }
   }
-  FinishResults results;
-  make_finish_stars(level, 0);
-  agreed(*level.comm, [&] {
-    results.edge_bands = measure_edge_bands<3>(*level.comm, level.nodes, level.stars);
-  });
-  return results;
+  return {};
 }
 
 }  // namespace pnpbs

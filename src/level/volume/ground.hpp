@@ -35,6 +35,7 @@ class Ground<3> {
   const VolumeDomain& domain() const { return *domain_; }
   const Box<3>& bounds() const { return domain_->bounds(); }
   double measure() const { return domain_->volume(); }
+  bool surfaces_alone() const { return !domain_->filled(); }
   const Spacing<3>& spacing() const { return *spacing_; }
   SpacingEvaluator<3> evaluator() const;  // d, checked; while this ground is there
   const BoundaryMesh<3>& boundary() const { return domain_->mesh(); }

@@ -2,16 +2,25 @@
 #include "level/volume/near_boundary.hpp"
 
 #include <algorithm>
+#include <atomic>
 
+#include "base/space_vectors.hpp"
 #include "domain/clearance.hpp"
 #include "domain/volume/surface_walk.hpp"
-#include "domain/volume/vectors.hpp"
 
 namespace pnpbs {
 
 // ------------------------------------------------------------------ who sees whom --------------
 
+// Lists are made by several threads.
 bool VisibilityInSpace::visible(std::int64_t i, std::int64_t j) const {
+  if (in_sight(i, j)) return true;
+  for (const std::int64_t node : {i, j})
+    std::atomic_ref<char>(hidden_(node)).store(1, std::memory_order_relaxed);
+  return false;
+}
+
+bool VisibilityInSpace::in_sight(std::int64_t i, std::int64_t j) const {
   const bool i_free = nodes_.carrier(i) == Carrier::free,
              j_free = nodes_.carrier(j) == Carrier::free;
   if (i_free || j_free) return i_free ? looks_at(j, i) : looks_at(i, j);
@@ -70,9 +79,12 @@ void NearBoundary<3>::build(const Nodes<3>& nodes, const std::array<View<double>
                             const Buckets<3>& buckets, const DomainMap<3>& map,
                             const Ground<3>& ground) {
   at_ = at;
-  if (static_cast<std::int64_t>(gap_.extent(0)) < nodes.capacity())
+  if (static_cast<std::int64_t>(gap_.extent(0)) < nodes.capacity()) {
     gap_ = make_view<double>("pnpbs::NearBoundary::gap", nodes.capacity());
+    hidden_ = make_view<char>("pnpbs::NearBoundary::hidden", nodes.capacity());
+  }
   for_each("pnpbs::NearBoundary::build", nodes.count, [&](std::int64_t i) {
+    hidden_(i) = 0;
     gap_(i) = nodes.moves(i) ? gap_of(i, nodes, buckets, map, ground) : kFarAway;
   });
 }

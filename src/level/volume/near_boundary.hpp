@@ -2,6 +2,7 @@
 // The surfaces near the nodes of a level in space.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -21,9 +22,10 @@ class NearBoundary;
 // event, like all that the boundary hides, or for lists made here from where they are.
 class VisibilityInSpace {
  public:
+  // What is asked about and not visible is set in `hidden`, for both nodes.
   VisibilityInSpace(const Nodes<3>& nodes, const std::array<View<double>, 3>& at,
-                    const Ground<3>& ground)
-      : nodes_(nodes), at_(at), ground_(ground) {}
+                    const Ground<3>& ground, const View<char>& hidden)
+      : nodes_(nodes), at_(at), ground_(ground), hidden_(hidden) {}
 
   bool may_occlude(std::int64_t i) const { return nodes_.carrier(i) != Carrier::free; }
   bool visible(std::int64_t i, std::int64_t j) const;
@@ -33,12 +35,14 @@ class VisibilityInSpace {
   SurfacePlace place(std::int64_t i) const {
     return ground_.place(nodes_.carrier(i), nodes_.reference_on(i));
   }
+  bool in_sight(std::int64_t i, std::int64_t j) const;
   bool looks_at(std::int64_t on_boundary, std::int64_t inner) const;
   bool see_through_inside(std::int64_t i, std::int64_t j) const;
 
   const Nodes<3>& nodes_;
   std::array<View<double>, 3> at_;
   const Ground<3>& ground_;
+  View<char> hidden_;
 };
 
 template <>
@@ -57,7 +61,7 @@ class NearBoundary<3> {
              const Buckets<3>& buckets, const DomainMap<3>& map, const Ground<3>& ground);
   VisibilityInSpace visibility(const Nodes<3>& nodes, const DomainMap<3>&,
                                const Ground<3>& ground) const {
-    return {nodes, at_, ground};
+    return {nodes, at_, ground, hidden_};
   }
 
   double radius() const { return near_.radius; }
@@ -65,6 +69,13 @@ class NearBoundary<3> {
     return near_.clear[static_cast<std::size_t>(leaf)] != 0;
   }
   bool within(std::int64_t i, double reach) const { return gap_(i) <= reach; }
+  // Of the lists made last: did the boundary keep none from that of node i?
+  bool sees_all(std::int64_t i) const { return hidden_(i) == 0; }
+  // No facet is nearer to where free node i is now.
+  double room(std::int64_t i, const Nodes<3>& nodes) const {
+    return std::min(gap_(i), near_.radius * nodes.d(i)) -
+           distance<3>(point_at<3>(at_, i), nodes.position(i));
+  }
   bool constrains(const Nodes<3>& nodes, std::int64_t i, double reach) const {
     return nodes.carrier(i) == Carrier::surface || within(i, reach);
   }
@@ -86,6 +97,7 @@ class NearBoundary<3> {
   // Of a free node, to the nearest facet; of one on a surface, to the nearest feature edge;
   // kFarAway if that is more than the radius.
   View<double> gap_;
+  View<char> hidden_;  // has the boundary kept a node from the list of this one?
 };
 
 }  // namespace pnpbs

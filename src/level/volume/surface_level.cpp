@@ -6,16 +6,17 @@
 #include <map>
 #include <utility>
 
-#include "delaunay/volume/tangent_star.hpp"
+#include "base/space_vectors.hpp"
 #include "domain/clearance.hpp"
 #include "domain/volume/surface_walk.hpp"
-#include "domain/volume/vectors.hpp"
 #include "initial/volume/surface_fill.hpp"
 #include "level/exchange.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/numbering.hpp"
 #include "level/reach.hpp"
+#include "level/thinning.hpp"
 #include "level/volume/gaps.hpp"
+#include "level/volume/surface_stars.hpp"
 #include "population/free_place.hpp"
 
 namespace pnpbs {
@@ -65,9 +66,12 @@ void keep_ids_in_place(GivenNodes<3>& laid, const GivenNodes<3>& before) {
 
 }  // namespace
 
-void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, const GivenNodes<3>& on_features,
-                       bool begin_anew) {
+std::int64_t put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces,
+                               const GivenNodes<3>& on_features, bool begin_anew) {
   GivenNodes<3> laid, filled;
+  const auto given = std::ssize(on_surfaces);
+  if (!begin_anew) thin_on_surfaces(level, on_surfaces);
+  const std::int64_t thinned = given - std::ssize(on_surfaces);
   agreed(*level.comm, [&] {
     laid = level.ground.feature_nodes();
     keep_ids_in_place(laid, on_features);
@@ -76,11 +80,12 @@ void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, const GivenNo
   });
   level.nodes.moving = Carrier::surface;
   number_and_store(level, {}, LaidNodes<3>(std::move(laid)));
-  if (begin_anew) return;
+  if (begin_anew) return thinned;
   GivenNodes<3> more = in_gaps(level, filled);
-  if (level.comm->allreduce_sum(more.size()) == 0) return;
+  if (level.comm->allreduce_sum(more.size()) == 0) return thinned;
   append(more, surface_nodes(level));
   number_and_store(level, {}, LaidNodes<3>(std::move(more)));
+  return thinned;
 }
 
 void fix_surface_nodes(Level<3>& level) {
@@ -100,7 +105,24 @@ GivenNodes<3> surface_nodes(const Level<3>& level) {
   return given;
 }
 
-// ------------------------------------------------------------------ stars ----------------------
+void put_on_level_sets(const Ground<3>& ground, GivenNodes<3>& nodes) {
+  const LevelSetTriangles& triangles = ground.domain().level_sets();
+  for (const std::shared_ptr<const LevelSet>& set : triangles.sets) {
+    if (!set) continue;
+    std::vector<std::size_t> on_set;
+    std::vector<Point<3>> x;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (nodes[i].carrier == Carrier::surface &&
+          triangles.at(nodes[i].boundary_node) == set.get()) {
+        on_set.push_back(i);
+        x.push_back(nodes[i].position);
+      }
+    set->project(x, set->resolution());
+    for (std::size_t k = 0; k < on_set.size(); ++k) nodes[on_set[k]].position = x[k];
+  }
+}
+
+// ------------------------------------------------------------------ walks ----------------------
 
 namespace {
 
@@ -115,44 +137,6 @@ SurfacePoint walk_from(const Level<3>& level, std::int64_t i, const Point<3>& mo
 
 const Point<3>& normal_at(const Level<3>& level, std::int64_t i) {
   return level.ground.surface().normal(level.nodes.boundary_node(i));
-}
-
-// Are two nodes next to each other on a feature curve?
-bool joined(const Ground<3>& ground, const Nodes<3>& nodes, std::int64_t i, std::int64_t j) {
-  if (nodes.carrier(i) == Carrier::surface || nodes.carrier(j) == Carrier::surface) return false;
-  const std::int32_t a = nodes.boundary_node(i), b = nodes.boundary_node(j);
-  const FeatureNodes& features = ground.features();
-  const auto follows = [&](std::int32_t from, std::int32_t to) {
-    const std::int32_t curve = features.nodes[static_cast<std::size_t>(from)].curve;
-    if (curve < 0) return false;
-    return features.next(from, {curve, true}) == to || features.next(from, {curve, false}) == to;
-  };
-  if (follows(a, b) || follows(b, a)) return true;
-  // Two corners with nothing between them.
-  for (const std::vector<std::int32_t>& along : features.along)
-    if (along.size() == 2 && ((along[0] == a && along[1] == b) || (along[0] == b && along[1] == a)))
-      return true;
-  return false;
-}
-
-// The star within its surface of a node on it, counter-clockwise; empty if it is not known.
-std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i) {
-  const Nodes<3>& nodes = level.nodes;
-  std::vector<StarSide> sides(1);
-  sides[0].normal = normal_at(level, i);
-  sides[0].first = sides[0].last = -1;
-  level.lists().for_neighbours(i, [&](std::int64_t j) {
-    if (nodes.carrier(j) != Carrier::free)
-      sides[0].around.push_back({nodes.position(j), nodes.id(j), static_cast<std::int32_t>(j)});
-  });
-  const double reach = level.lists().radius() * nodes.d(i);
-  std::vector<SurfaceStarEntry> star;
-  const Joined on_curve = [&](std::int32_t a, std::int32_t b) {
-    return joined(level.ground, nodes, a, b);
-  };
-  const SurfaceStarPoint centre{nodes.position(i), nodes.id(i), static_cast<std::int32_t>(i)};
-  if (!tangent_star(centre, 2 * reach, sides, on_curve, star)) star.clear();
-  return star;
 }
 
 }  // namespace
@@ -187,6 +171,15 @@ std::int32_t facet_at(const Level<3>& level, std::int64_t from, const Point<3>& 
 
 namespace {
 
+// Stays where it is if the way led too near to a feature, and nearer than now.
+SurfacePoint walk_clear_of_features(const Level<3>& level, std::int64_t i, const Point<3>& move) {
+  const SurfacePoint here = place_on_surface(level.nodes, i), to = walk_from(level, i, move);
+  const double clearance = kBoundaryClearance * level.nodes.d(i);
+  const Surface& surface = level.ground.surface();
+  const double gap = surface.feature_clearance(to, clearance);
+  return gap < clearance && gap < surface.feature_clearance(here, clearance) ? here : to;
+}
+
 // Node i on its way to the mean of its neighbours.
 SurfacePoint swept(const Level<3>& level, std::int64_t i, double weight) {
   const Nodes<3>& nodes = level.nodes;
@@ -197,14 +190,16 @@ SurfacePoint swept(const Level<3>& level, std::int64_t i, double weight) {
   for (const SurfaceStarEntry& entry : star)
     sum = shifted(sum, 1, difference(nodes.position(entry.node), here.position));
   const double part = weight / static_cast<double>(star.size());
-  const SurfacePoint to = walk_from(level, i, {part * sum[0], part * sum[1], part * sum[2]});
-  const double clearance = kBoundaryClearance * nodes.d(i);
-  const Surface& surface = level.ground.surface();
-  const double gap = surface.feature_clearance(to, clearance);
-  return gap < clearance && gap < surface.feature_clearance(here, clearance) ? here : to;
+  return walk_clear_of_features(level, i, {part * sum[0], part * sum[1], part * sum[2]});
 }
 
 }  // namespace
+
+SurfacePoint go_along_surface(const Level<3>& level, std::int64_t i, const Point<3>& direction,
+                              double length) {
+  const Point<3> tangent = unit_vector(part_across(direction, normal_at(level, i)));
+  return walk_clear_of_features(level, i, shifted({}, length, tangent));
+}
 
 void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps) {
   Nodes<3>& nodes = level.nodes;
@@ -252,12 +247,12 @@ GivenNode<3> middle(const Level<3>& level, std::int64_t i, std::int64_t j, doubl
 
 void append_surface_midpoints(const Level<3>& level, const View<double>& next_spacing,
                               GivenNodes<3>& refined) {
-  constexpr double kHalved = 1.4;  // an edge this much longer than the spacing to come is
+  constexpr double kHalved = 1.25;  // an edge so much longer than d to come; then they are thinned
   const Nodes<3>& nodes = level.nodes;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!nodes.owned(i) || nodes.carrier(i) != Carrier::surface) continue;
-    const double d = next_spacing(i);
-    if (nodes.d(i) < kHalved * d) continue;
+    if (nodes.d(i) < kHalved * next_spacing(i)) continue;
+    const double d = placed_for<2>(nodes.d(i), next_spacing(i), 3);
     const std::vector<SurfaceStarEntry> star = surface_star(level, i);
     for (std::size_t k = 0; k < star.size(); ++k) {
       const std::int64_t j = star[k].node, next = star[(k + 1) % star.size()].node;

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "domain/volume/surface.hpp"
 #include "initial/given_nodes.hpp"
 #include "level/level.hpp"
 
@@ -16,18 +17,28 @@ Settings surface_settings(const Settings& inside);
 
 // The nodes of feature edges, which are laid afresh, and these on surfaces become the nodes of the
 // level; if `begin_anew`, a fill on the surfaces. Those on surfaces move from now on. A node of a
-// feature edge keeps the id of the one in its place among `on_features`. Collective.
-void put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces, const GivenNodes<3>& on_features,
-                       bool begin_anew);
+// feature edge keeps the id of the one in its place among `on_features`. Returns how many of this
+// rank's were too dense for d. Collective.
+std::int64_t put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces,
+                               const GivenNodes<3>& on_features, bool begin_anew);
 // They rest: from now on those inside move.
 void fix_surface_nodes(Level<3>& level);
 // The owned nodes of the boundary.
 GivenNodes<3> surface_nodes(const Level<3>& level);
+// Those on triangles of a level set move to where it is 0, if that is as near as the triangle's
+// error.
+void put_on_level_sets(const Ground<3>& ground, GivenNodes<3>& nodes);
 
 // The free place beside a sparse bubble on a surface: see free_place.
 Point<3> free_place_on_surface(const Level<3>& level, std::int64_t i);
 // The facet that one comes to who walks from a node on a surface there.
 std::int32_t facet_at(const Level<3>& level, std::int64_t from, const Point<3>& place);
+
+// Where a node on a surface comes to that goes that length along it, in a direction that may rise
+// out of its tangent plane; where it is if that would be too near to a feature, and nearer than
+// now.
+SurfacePoint go_along_surface(const Level<3>& level, std::int64_t i, const Point<3>& direction,
+                              double length);
 
 // So many sweeps towards the mean of the neighbours within the surface. Collective.
 void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps);

@@ -94,8 +94,10 @@ void NodeMove::find_gone() {
   stars_.for_simplices(change_.node, [&](const Corners& corners) {
     add({change_.node, corners[0], corners[1], corners[2]});
   });
+  // Behind the other faces of the star's tetrahedra are others of these.
+  const std::size_t star = change_.gone.size();
   for (std::size_t next = 0; next < change_.gone.size(); ++next)
-    for (std::size_t corner = 0; corner < 4; ++corner) {
+    for (std::size_t corner = 0; corner < (next < star ? 1 : 4); ++corner) {
       const TetrahedronNodes t = change_.gone[next];
       const std::int32_t apex = beyond(t, corner);
       if (apex < 0) continue;

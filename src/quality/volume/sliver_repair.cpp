@@ -25,22 +25,28 @@ Point<3> direction_from(std::uint64_t bits) {
       bits = mixed(bits);
       along = 2 * unit_interval(bits) - 1;
     }
-    const double length = std::sqrt(dot_product(v, v));
+    const double length = std::sqrt(dot(v, v));
     if (length > 1 || length < 0.1) continue;
     for (double& along : v) along /= length;
     return v;
   }
 }
 
+std::uint64_t bits_of_trial(std::uint64_t lot, int trial) {
+  return mixed(lot + 1 + static_cast<std::uint64_t>(trial));
+}
+
 }  // namespace
 
 SliverRepair::SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule,
-                           Allowed allowed)
+                           Allowed allowed, AlongSurfaces along_surfaces)
     : nodes_(nodes),
       small_(rule.repair_below),
       penalised_(rule.penalty_below),
+      rounds_(rule.rounds),
       allowed_(std::move(allowed)),
-      stars_(nodes, stars) {
+      along_surfaces_(std::move(along_surfaces)),
+      stars_(nodes, stars, along_surfaces_.walk != nullptr) {
   bool any_ghost = false;
   for (std::int32_t i = 0; i < nodes.count; ++i) any_ghost = any_ghost || !nodes.owned(i);
   for (std::int32_t i = 0; any_ghost && i < nodes.count; ++i) place_of_id_[nodes.id(i)] = i;
@@ -63,10 +69,11 @@ bool SliverRepair::is_sliver(const TetrahedronNodes& tetrahedron) const {
 template <class Counts>
 void SliverRepair::add_slivers_at(std::int64_t i, const Counts& counts,
                                   std::vector<TetrahedronNodes>& found) const {
-  std::vector<TetrahedronNodes> star;
-  stars_.add_star(i, star);
-  for (const TetrahedronNodes& t : star)
-    if (*std::find_if(t.begin(), t.end(), counts) == i && is_sliver(t)) found.push_back(t);
+  stars_.for_simplices_first_at(i, counts, [&](const TetrahedronNodes& t) {
+    if (!stars_.any_movable(t)) return;
+    const TetrahedronNodes ordered = stars_.by_id(t);
+    if (is_sliver(ordered)) found.push_back(ordered);
+  });
 }
 
 void SliverRepair::find_slivers() {
@@ -88,6 +95,7 @@ void SliverRepair::accept(const std::vector<StarChange>& changes) {
     const std::vector<std::int32_t> more = stars_.accept(change);
     affected.insert(affected.end(), more.begin(), more.end());
     nodes_.set_position(change.node, change.x);
+    if (change.on >= 0) nodes_.boundary_node(change.node) = change.on;
   }
   std::sort(affected.begin(), affected.end());
   affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
@@ -108,7 +116,7 @@ std::vector<ChangedTetrahedron> SliverRepair::changes_of(std::int32_t node) cons
     if (change.node != node) continue;
     const auto add = [&](const std::vector<TetrahedronNodes>& tetrahedra, bool made) {
       for (const TetrahedronNodes& t : tetrahedra) {
-        ChangedTetrahedron record{nodes_.id(node), change.x, {}, made};
+        ChangedTetrahedron record{nodes_.id(node), change.x, {}, change.on, made};
         for (std::size_t k = 0; k < 4; ++k) record.corners[k] = nodes_.id(t[k]);
         changed.push_back(record);
       }
@@ -135,7 +143,8 @@ void SliverRepair::follow(const std::vector<ChangedTetrahedron>& news) {
   for (const ChangedTetrahedron& record : news) {
     const std::int32_t node = place(record.node);
     if (node < 0) continue;
-    if (changes.empty() || changes.back().node != node) changes.push_back({node, record.x, {}, {}});
+    if (changes.empty() || changes.back().node != node)
+      changes.push_back({node, record.x, {}, {}, record.on});
     TetrahedronNodes corners;
     for (std::size_t k = 0; k < 4; ++k) corners[k] = place(record.corners[k]);
     if (std::find(corners.begin(), corners.end(), -1) == corners.end())
@@ -147,20 +156,24 @@ void SliverRepair::follow(const std::vector<ChangedTetrahedron>& news) {
 std::int64_t SliverRepair::slivers() const {
   return std::count_if(slivers_.begin(), slivers_.end(), [&](const TetrahedronNodes& sliver) {
     return std::any_of(sliver.begin(), sliver.end(),
-                       [&](std::int32_t i) { return nodes_.owned(i) && nodes_.moves(i); });
+                       [&](std::int32_t i) { return nodes_.owned(i) && stars_.movable(i); });
   });
 }
 
 // ------------------------------------------------------------------ whose turn it is -----------
 
 // One of its corners; now and then a neighbour of it, in case that none of the corners can help.
-std::int32_t SliverRepair::node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot) const {
+std::int32_t SliverRepair::node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot,
+                                        std::int64_t number) const {
   constexpr std::uint64_t kCornersOf = 5;  // so many turns, the others are neighbours'
   std::vector<std::int32_t> choice;
   const auto add = [&](std::int64_t i) {
     if (nodes_.moves(i)) choice.push_back(static_cast<std::int32_t>(i));
   };
   for (const std::int32_t i : sliver) add(i);
+  if (choice.empty() || 2 * number >= rounds_)
+    for (const std::int32_t i : sliver)
+      if (stars_.movable(i) && !nodes_.moves(i)) choice.push_back(i);
   const std::int32_t corner = choice[mixed(lot) % choice.size()];
   if (mixed(lot + 1) % (kCornersOf + 1) < kCornersOf) return corner;
   choice.assign(1, corner);
@@ -178,7 +191,7 @@ std::vector<SliverRepair::Attempt> SliverRepair::draw_lots(std::int64_t number) 
   for (const TetrahedronNodes& sliver : slivers_) {
     std::uint64_t lot = mixed(static_cast<std::uint64_t>(number));
     for (const std::int32_t i : sliver) lot = mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
-    attempts.push_back({sliver, lot, node_to_move(sliver, lot), {}});
+    attempts.push_back({sliver, lot, node_to_move(sliver, lot, number), {}});
   }
   return attempts;
 }
@@ -216,31 +229,31 @@ std::vector<char> SliverRepair::winners(const std::vector<Attempt>& attempts) co
 
 // ------------------------------------------------------------------ what helps -----------------
 
-// Along the normal of the face opposite to the node, to and fro, then in other directions.
-Point<3> SliverRepair::place_to_try(const Attempt& attempt, int trial) const {
-  const std::uint64_t bits = mixed(attempt.lot + 1 + static_cast<std::uint64_t>(trial));
-  const double way =
-      nodes_.d(attempt.node) * (kShortestWay + (kLongestWay - kShortestWay) * unit_interval(bits));
+double SliverRepair::way_to_try(const Attempt& attempt, std::uint64_t bits) const {
+  return nodes_.d(attempt.node) *
+         (kShortestWay + (kLongestWay - kShortestWay) * unit_interval(bits));
+}
+
+// Along the normal of the face opposite to the node, to and fro, then others.
+Point<3> SliverRepair::direction_to_try(const Attempt& attempt, int trial,
+                                        std::uint64_t bits) const {
   Point<3> direction = direction_from(bits);
   if (trial < 2) {
     std::vector<Point<3>> face;
     for (const std::int32_t i : attempt.sliver)
       if (i != attempt.node) face.push_back(nodes_.position(i));
-    const Point<3> normal =
-        cross_product(difference(face[1], face[0]), difference(face[2], face[0]));
-    const double length = std::sqrt(dot_product(normal, normal));
+    const Point<3> normal = cross(difference(face[1], face[0]), difference(face[2], face[0]));
+    const double length = std::sqrt(dot(normal, normal));
     if (length > 0)
       for (std::size_t k = 0; k < 3; ++k) direction[k] = (trial == 0 ? 1 : -1) * normal[k] / length;
   }
-  Point<3> x = nodes_.position(attempt.node);
-  for (std::size_t k = 0; k < 3; ++k) x[k] += way * direction[k];
-  return x;
+  return direction;
 }
 
 // The sum comes out the same whatever the order in which they are given.
 double SliverRepair::penalty(std::vector<TetrahedronNodes> tetrahedra, std::int32_t node,
                              const Point<3>& at) const {
-  std::erase_if(tetrahedra, [this](const auto& t) { return !stars_.any_moves(t); });
+  std::erase_if(tetrahedra, [this](const auto& t) { return !stars_.any_movable(t); });
   for (TetrahedronNodes& t : tetrahedra) t = stars_.by_id(t);
   stars_.sort_by_id(tetrahedra);
   tetrahedra.erase(std::unique(tetrahedra.begin(), tetrahedra.end()), tetrahedra.end());
@@ -256,9 +269,16 @@ double SliverRepair::penalty(std::vector<TetrahedronNodes> tetrahedra, std::int3
 
 // Of all tetrahedra that a move of node i usually changes.
 double SliverRepair::penalty_around(std::int32_t i) const {
+  std::vector<std::int32_t> centres{i};
+  stars_.for_neighbours(i,
+                        [&](std::int64_t j) { centres.push_back(static_cast<std::int32_t>(j)); });
+  const auto is_centre = [&](std::int32_t j) {
+    return std::find(centres.begin(), centres.end(), j) != centres.end();
+  };
   std::vector<TetrahedronNodes> around;
-  stars_.add_star(i, around);
-  stars_.for_neighbours(i, [&](std::int64_t j) { stars_.add_star(j, around); });
+  for (const std::int32_t j : centres)
+    stars_.for_simplices_first_at(j, is_centre,
+                                  [&](const TetrahedronNodes& t) { around.push_back(t); });
   return penalty(std::move(around), i, nodes_.position(i));
 }
 
@@ -273,20 +293,54 @@ bool SliverRepair::within_reach(const StarChange& change) const {
          std::all_of(change.made.begin(), change.made.end(), near);
 }
 
-void SliverRepair::try_moves(Attempt& attempt) const {
+bool SliverRepair::helps(const StarChange& change) const {
   constexpr double kRounding = 1e-9;
+  const std::int32_t i = change.node;
+  return within_reach(change) && penalty(change.made, i, change.x) <
+                                     (1 - kRounding) * penalty(change.gone, i, nodes_.position(i));
+}
+
+void SliverRepair::try_moves(Attempt& attempt) const {
   const std::int32_t i = attempt.node;
   const double around = penalty_around(i);
   NodeMove move(nodes_, stars_, i);
   for (int trial = 0; trial < kTrials; ++trial) {
-    const Point<3> x = place_to_try(attempt, trial);
+    const std::uint64_t bits = bits_of_trial(attempt.lot, trial);
+    const double way = way_to_try(attempt, bits);
+    const Point<3> direction = direction_to_try(attempt, trial, bits);
+    Point<3> x = nodes_.position(i);
+    for (std::size_t k = 0; k < 3; ++k) x[k] += way * direction[k];
     if (!allowed_(i, x) || !move.go_to(x)) continue;
     const StarChange& change = move.change();
     if (penalty(change.made, i, x) >= around) continue;  // most: nothing else need be looked at
-    if (!move.complete() || !within_reach(change)) continue;
-    if (penalty(change.made, i, x) >= (1 - kRounding) * penalty(change.gone, i, nodes_.position(i)))
-      continue;
+    if (!move.complete() || !helps(change)) continue;
     attempt.success.push_back(change);
+    return;
+  }
+}
+
+// Would it come nearer to another node on the boundary than suits the surface's triangles?
+bool SliverRepair::crowded(std::int32_t i, const Point<3>& x) const {
+  constexpr double kRoom = 0.7;  // spacings
+  bool crowded = false;
+  stars_.for_neighbours(i, [&](std::int64_t j) {
+    const double gap = distance<3>(nodes_.position(j), x);
+    crowded = crowded || (nodes_.carrier(j) != Carrier::free && gap < kRoom * nodes_.d(i) &&
+                          gap < distance<3>(nodes_.position(j), nodes_.position(i)));
+  });
+  return crowded;
+}
+
+void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
+  const std::int32_t i = attempt.node;
+  SurfaceNodeMove move(nodes_, stars_, i, along_surfaces_.in_domain);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const std::uint64_t bits = bits_of_trial(attempt.lot, trial);
+    const AlongSurfaces::Place to =
+        along_surfaces_.walk(i, direction_to_try(attempt, trial, bits), way_to_try(attempt, bits));
+    if (to.x == nodes_.position(i) || crowded(i, to.x)) continue;
+    if (!move.go_to(to.x, to.facet) || !helps(move.change())) continue;
+    attempt.success.push_back(move.change());
     return;
   }
 }
@@ -296,7 +350,8 @@ std::int64_t SliverRepair::round(std::int64_t number) {
   const std::vector<char> wins = winners(attempts);
   for_each_guarded("pnpbs::SliverRepair::round", std::ssize(attempts), [&](std::int64_t a) {
     Attempt& attempt = attempts[static_cast<std::size_t>(a)];
-    if (wins[static_cast<std::size_t>(a)] && nodes_.owned(attempt.node)) try_moves(attempt);
+    if (!wins[static_cast<std::size_t>(a)] || !nodes_.owned(attempt.node)) return;
+    nodes_.moves(attempt.node) ? try_moves(attempt) : try_moves_along_surface(attempt);
   });
   changes_.clear();
   for (Attempt& attempt : attempts)

@@ -14,13 +14,14 @@
 #include "quality/volume/node_move.hpp"
 #include "quality/volume/small_angles.hpp"
 #include "quality/volume/star_changes.hpp"
+#include "quality/volume/surface_node_move.hpp"
 
 namespace pnpbs {
 
 struct SliverRule {
   std::int64_t rounds = 100;
-  double repair_below = 30;   // degrees
-  double penalty_below = 35;  // the angles that must not become worse on the way
+  double repair_below = 33;   // degrees
+  double penalty_below = 38;  // the angles that must not become worse on the way
 };
 
 // What a move changes lies within this many d of the node; nodes nearer to each other than the sum
@@ -32,7 +33,19 @@ struct ChangedTetrahedron {
   std::int64_t node;  // id; it is at x now
   Point<3> x;
   std::array<std::int64_t, 4> corners;  // ids, of positive orientation
-  std::int64_t made;                    // 0: it is gone
+  std::int32_t on;                      // the facet that the node is on now, or -1
+  std::int32_t made;                    // 0: it is gone
+};
+
+// How nodes on surfaces go along these.
+struct AlongSurfaces {
+  struct Place {
+    Point<3> x;
+    std::int32_t facet;
+  };
+  // Where node i comes to in that direction, as far as that length; where it is if it may not.
+  std::function<Place(std::int64_t i, const Point<3>& direction, double length)> walk;
+  SurfaceNodeMove::InDomain in_domain;
 };
 
 class SliverRepair {
@@ -41,8 +54,10 @@ class SliverRepair {
   using Allowed = std::function<bool(std::int64_t i, const Point<3>& x)>;
 
   // The stars are those of the nodes' positions, and remain while this lives. Where ghosts are:
-  // those of all nodes within three times the reach of an owned one.
-  SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed);
+  // those of all nodes within three times the reach of an owned one. Nodes on surfaces move where
+  // it is said how: where no other node of a sliver can, and late.
+  SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed,
+               AlongSurfaces along_surfaces = {});
 
   // Moves owned nodes, and returns how many. Between rounds, ranks tell those that have these
   // nodes as ghosts what has changed with them: so the stars of all stay what they are to their
@@ -72,11 +87,16 @@ class SliverRepair {
   void find_slivers();
   void accept(const std::vector<StarChange>& changes);
 
-  std::int32_t node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot) const;
+  std::int32_t node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot,
+                            std::int64_t number) const;
   std::vector<Attempt> draw_lots(std::int64_t number) const;
   std::vector<char> winners(const std::vector<Attempt>& attempts) const;
   void try_moves(Attempt& attempt) const;
-  Point<3> place_to_try(const Attempt& attempt, int trial) const;
+  void try_moves_along_surface(Attempt& attempt) const;
+  Point<3> direction_to_try(const Attempt& attempt, int trial, std::uint64_t bits) const;
+  double way_to_try(const Attempt& attempt, std::uint64_t bits) const;
+  bool helps(const StarChange& change) const;
+  bool crowded(std::int32_t i, const Point<3>& x) const;
   bool within_reach(const StarChange& change) const;
   double penalty(std::vector<TetrahedronNodes> tetrahedra, std::int32_t node,
                  const Point<3>& at) const;
@@ -84,7 +104,9 @@ class SliverRepair {
 
   Nodes<3>& nodes_;
   SmallAngles small_, penalised_;
+  std::int64_t rounds_;
   Allowed allowed_;
+  AlongSurfaces along_surfaces_;
   StarChanges stars_;
   std::vector<TetrahedronNodes> slivers_;                       // in no order that matters
   std::vector<StarChange> changes_;                             // of the last round

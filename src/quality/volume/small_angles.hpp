@@ -16,17 +16,16 @@ namespace pnpbs {
 // for the same order of the corners, whatever their orientation.
 inline std::array<double, 6> dihedral_cosines(const std::array<Point<3>, 4>& x) {
   const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
-  std::array<Point<3>, 4> normal{Point<3>{}, cross_product(w, v), cross_product(u, w),
-                                 cross_product(v, u)};
+  std::array<Point<3>, 4> normal{Point<3>{}, cross(w, v), cross(u, w), cross(v, u)};
   for (std::size_t k = 0; k < 3; ++k) normal[0][k] = -(normal[1][k] + normal[2][k] + normal[3][k]);
   std::array<double, 4> area;
-  for (std::size_t f = 0; f < 4; ++f) area[f] = std::sqrt(dot_product(normal[f], normal[f]));
+  for (std::size_t f = 0; f < 4; ++f) area[f] = std::sqrt(dot(normal[f], normal[f]));
   std::array<double, 6> cosines;
   std::size_t edge = 0;
   for (std::size_t f = 0; f < 4; ++f)
     for (std::size_t g = f + 1; g < 4; ++g) {
       const double product = area[f] * area[g];
-      cosines[edge++] = product > 0 ? -dot_product(normal[f], normal[g]) / product : 1.0;
+      cosines[edge++] = product > 0 ? -dot(normal[f], normal[g]) / product : 1.0;
     }
   return cosines;
 }

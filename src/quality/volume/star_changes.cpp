@@ -19,6 +19,13 @@ StarChanges::Corners others(const TetrahedronNodes& t, std::int32_t i) {
   return {t[0], t[2], t[1]};
 }
 
+// The same tetrahedron has the same corners in the same turn, whichever comes first.
+StarChanges::Corners least_first(const StarChanges::Corners& c) {
+  if (c[0] < c[1] && c[0] < c[2]) return c;
+  return c[1] < c[2] ? StarChanges::Corners{c[1], c[2], c[0]}
+                     : StarChanges::Corners{c[2], c[0], c[1]};
+}
+
 }  // namespace
 
 TetrahedronNodes StarChanges::by_id(TetrahedronNodes corners) const {
@@ -38,12 +45,22 @@ void StarChanges::sort_by_id(std::vector<TetrahedronNodes>& tetrahedra) const {
             [this](const auto& a, const auto& b) { return ids_less(a, b); });
 }
 
-void StarChanges::add_star(std::int64_t i, std::vector<TetrahedronNodes>& tetrahedra) const {
+StarChanges::Star StarChanges::star_after(std::int32_t i, const StarChange& change) const {
+  Star star;
+  std::vector<Corners> gone;
+  for (const TetrahedronNodes& t : change.gone)
+    if (has(t, i)) gone.push_back(least_first(others(t, i)));
   for_simplices(i, [&](const Corners& corners) {
-    const TetrahedronNodes tetrahedron{static_cast<std::int32_t>(i), corners[0], corners[1],
-                                       corners[2]};
-    if (any_moves(tetrahedron)) tetrahedra.push_back(by_id(tetrahedron));
+    if (std::find(gone.begin(), gone.end(), least_first(corners)) == gone.end())
+      star.simplices.push_back(corners);
   });
+  for (const TetrahedronNodes& t : change.made)
+    if (has(t, i)) star.simplices.push_back(others(t, i));
+  for (const Corners& corners : star.simplices)
+    for (const std::int32_t j : corners)
+      if (std::find(star.neighbours.begin(), star.neighbours.end(), j) == star.neighbours.end())
+        star.neighbours.push_back(j);
+  return star;
 }
 
 std::vector<std::int32_t> StarChanges::accept(const StarChange& change) {
@@ -54,22 +71,14 @@ std::vector<std::int32_t> StarChanges::accept(const StarChange& change) {
   std::sort(affected.begin(), affected.end());
   affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
   for (const std::int32_t i : affected) {
-    Star star;
-    std::vector<TetrahedronNodes> gone;
-    for (const TetrahedronNodes& t : change.gone)
-      if (has(t, i)) gone.push_back(by_id(t));
-    for_simplices(i, [&](const Corners& corners) {
-      const TetrahedronNodes t = by_id({i, corners[0], corners[1], corners[2]});
-      if (std::find(gone.begin(), gone.end(), t) == gone.end()) star.simplices.push_back(corners);
-    });
-    for (const TetrahedronNodes& t : change.made)
-      if (has(t, i)) star.simplices.push_back(others(t, i));
-    for (const Corners& corners : star.simplices)
-      star.neighbours.insert(star.neighbours.end(), corners.begin(), corners.end());
-    std::sort(star.neighbours.begin(), star.neighbours.end());
-    star.neighbours.erase(std::unique(star.neighbours.begin(), star.neighbours.end()),
-                          star.neighbours.end());
-    changed_[i] = std::move(star);
+    Star star = star_after(i, change);
+    std::int32_t& place = place_[static_cast<std::size_t>(i)];
+    if (place == kUnchanged) {
+      place = static_cast<std::int32_t>(changed_.size());
+      changed_.push_back(std::move(star));
+    } else {
+      changed_[static_cast<std::size_t>(place)] = std::move(star);
+    }
   }
   return affected;
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "base/nodes.hpp"
@@ -22,35 +21,55 @@ struct StarChange {
   std::int32_t node;
   Point<3> x;
   std::vector<TetrahedronNodes> gone, made;  // of positive orientation
+  std::int32_t on = -1;                      // of a node on a surface: its facet there
 };
 
 class StarChanges {
  public:
   using Corners = std::array<std::int32_t, 3>;
 
-  StarChanges(const Nodes<3>& nodes, const VolumeStars& stars) : nodes_(nodes), stars_(stars) {}
+  StarChanges(const Nodes<3>& nodes, const VolumeStars& stars, bool on_surfaces_too = false)
+      : nodes_(nodes),
+        stars_(stars),
+        on_surfaces_too_(on_surfaces_too),
+        place_(static_cast<std::size_t>(nodes.count), kUnchanged) {}
 
   // As those of VolumeStars, in some order.
   template <class Visit>
   void for_neighbours(std::int64_t i, const Visit& visit) const {
-    const auto found = changed_.find(static_cast<std::int32_t>(i));
-    if (found == changed_.end()) return stars_.for_neighbours(i, visit);
-    for (const std::int32_t j : found->second.neighbours) visit(static_cast<std::int64_t>(j));
+    const std::int32_t place = place_[static_cast<std::size_t>(i)];
+    if (place == kUnchanged) return stars_.for_neighbours(i, visit);
+    for (const std::int32_t j : changed_[static_cast<std::size_t>(place)].neighbours)
+      visit(static_cast<std::int64_t>(j));
   }
   template <class Visit>
   void for_simplices(std::int64_t i, const Visit& visit) const {
-    const auto found = changed_.find(static_cast<std::int32_t>(i));
-    if (found == changed_.end()) return stars_.for_simplices(i, visit);
-    for (const Corners& corners : found->second.simplices) visit(corners);
+    const std::int32_t place = place_[static_cast<std::size_t>(i)];
+    if (place == kUnchanged) return stars_.for_simplices(i, visit);
+    for (const Corners& corners : changed_[static_cast<std::size_t>(place)].simplices)
+      visit(corners);
   }
 
-  // Does a node of the tetrahedron move? Only such ones can be mended.
-  bool any_moves(const TetrahedronNodes& tetrahedron) const {
-    return std::any_of(tetrahedron.begin(), tetrahedron.end(),
-                       [this](std::int32_t i) { return nodes_.moves(i); });
+  // May it go elsewhere?
+  bool movable(std::int64_t i) const {
+    return nodes_.moves(i) || (on_surfaces_too_ && nodes_.carrier(i) == Carrier::surface);
   }
-  // Those around node i that are to be counted, their corners by id.
-  void add_star(std::int64_t i, std::vector<TetrahedronNodes>& tetrahedra) const;
+  // Only tetrahedra with such a node can be mended.
+  bool any_movable(const TetrahedronNodes& tetrahedron) const {
+    return std::any_of(tetrahedron.begin(), tetrahedron.end(),
+                       [this](std::int32_t i) { return movable(i); });
+  }
+  // Calls visit(tetrahedron) for those around node i that have it for the first by id of all
+  // corners that count: so each once, of those around all nodes that do.
+  template <class Counts, class Visit>
+  void for_simplices_first_at(std::int64_t i, const Counts& counts, const Visit& visit) const {
+    const std::int64_t id = nodes_.id(i);
+    for_simplices(i, [&](const Corners& corners) {
+      for (const std::int32_t j : corners)
+        if (nodes_.id(j) < id && counts(j)) return;
+      visit(TetrahedronNodes{static_cast<std::int32_t>(i), corners[0], corners[1], corners[2]});
+    });
+  }
   TetrahedronNodes by_id(TetrahedronNodes corners) const;
   bool ids_less(const TetrahedronNodes& a, const TetrahedronNodes& b) const;
   void sort_by_id(std::vector<TetrahedronNodes>& tetrahedra) const;
@@ -64,9 +83,15 @@ class StarChanges {
     std::vector<Corners> simplices;
   };
 
+  static constexpr std::int32_t kUnchanged = -1;
+
+  Star star_after(std::int32_t i, const StarChange& change) const;
+
   const Nodes<3>& nodes_;
   const VolumeStars& stars_;
-  std::unordered_map<std::int32_t, Star> changed_;
+  bool on_surfaces_too_;
+  std::vector<std::int32_t> place_;  // of each node's star among those changed
+  std::vector<Star> changed_;
 };
 
 }  // namespace pnpbs

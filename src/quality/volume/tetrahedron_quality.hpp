@@ -19,11 +19,11 @@ inline double tetrahedron_quality(const TetrahedronCorners& x) {
   double area = 0;  // twice the surface
   for (std::size_t top = 0; top < 4; ++top) {
     const Point<3>&a = x[(top + 1) % 4], &b = x[(top + 2) % 4], &c = x[(top + 3) % 4];
-    const Point<3> normal = cross_product(difference(b, a), difference(c, a));
-    area += std::sqrt(dot_product(normal, normal));
+    const Point<3> normal = cross(difference(b, a), difference(c, a));
+    area += std::sqrt(dot(normal, normal));
   }
   const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), w = difference(x[3], x[0]);
-  return 3 * dot_product(u, cross_product(v, w)) / (area * sphere.radius);
+  return 3 * dot(u, cross(v, w)) / (area * sphere.radius);
 }
 
 // In degrees, 0 to 180: at the edges 01, 02, 03, 12, 13, 23. At an edge or a face without extent,
@@ -35,12 +35,11 @@ inline std::array<double, 6> dihedral_angles(const TetrahedronCorners& x) {
   for (std::size_t e = 0; e < 6; ++e) {
     const auto& [a, b, c, d] = kEdges[e];
     const Point<3> edge = difference(x[b], x[a]);
-    const Point<3> to_c = cross_product(edge, difference(x[c], x[a]));
-    const Point<3> to_d = cross_product(edge, difference(x[d], x[a]));
+    const Point<3> to_c = cross(edge, difference(x[c], x[a]));
+    const Point<3> to_d = cross(edge, difference(x[d], x[a]));
     // Both are across the edge, turned alike.
-    const Point<3> sine = cross_product(to_c, to_d);
-    angles[e] = std::atan2(std::sqrt(dot_product(sine, sine)), dot_product(to_c, to_d)) * 180 /
-                std::numbers::pi;
+    const Point<3> sine = cross(to_c, to_d);
+    angles[e] = std::atan2(std::sqrt(dot(sine, sine)), dot(to_c, to_d)) * 180 / std::numbers::pi;
   }
   return angles;
 }

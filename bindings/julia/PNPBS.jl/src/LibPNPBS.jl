@@ -15,6 +15,7 @@ const pnpbs_context = Ptr{Cvoid}
 const pnpbs_domain = Ptr{Cvoid}
 const pnpbs_placement = Ptr{Cvoid}
 const pnpbs_curve_fn = Ptr{Cvoid}
+const pnpbs_level_set_fn = Ptr{Cvoid}
 const pnpbs_spacing_fn = Ptr{Cvoid}
 const pnpbs_monitor_fn = Ptr{Cvoid}
 
@@ -154,6 +155,11 @@ pnpbs_domain_add_cylinder(domain, from, to, radius, tag) =
         domain::pnpbs_domain, from::Ptr{Cdouble}, to::Ptr{Cdouble}, radius::Cdouble,
         tag::Int32)::pnpbs_status
 
+pnpbs_domain_add_level_set(domain, level_set, user, low, high, resolution, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_level_set))(
+        domain::pnpbs_domain, level_set::pnpbs_level_set_fn, user::Ptr{Cvoid}, low::Ptr{Cdouble},
+        high::Ptr{Cdouble}, resolution::Cdouble, tag::Int32)::pnpbs_status
+
 pnpbs_domain_add_arc(domain, role, centre, radius, from, to, tag) =
     @ccall $(symbol(:pnpbs_domain_add_arc))(
         domain::pnpbs_domain, role::Int32, centre::Ptr{Cdouble}, radius::Cdouble,
@@ -170,6 +176,10 @@ pnpbs_domain_add_pslg(domain, vertices, coordinates, vertex_tags, segments, segm
         domain::pnpbs_domain, vertices::Int64, coordinates::Ptr{Cdouble}, vertex_tags::Ptr{Int32},
         segments::Int64, segment_ends::Ptr{Int64}, segment_tags::Ptr{Int32}, holes::Int64,
         hole_points::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_domain_set_filled(domain, filled) =
+    @ccall $(symbol(:pnpbs_domain_set_filled))(
+        domain::pnpbs_domain, filled::Int32)::pnpbs_status
 
 pnpbs_domain_add_hole(domain, point) =
     @ccall $(symbol(:pnpbs_domain_add_hole))(
@@ -341,6 +351,10 @@ pnpbs_placement_get_tetrahedra(placement, capacity, count, tetrahedra) =
     @ccall $(symbol(:pnpbs_placement_get_tetrahedra))(
         placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},
         tetrahedra::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_normals(placement, capacity, normals) =
+    @ccall $(symbol(:pnpbs_placement_get_normals))(
+        placement::pnpbs_placement, capacity::Int64, normals::Ptr{Cdouble})::pnpbs_status
 
 pnpbs_placement_get_boundary_triangles(placement, capacity, count, triangles, tags) =
     @ccall $(symbol(:pnpbs_placement_get_boundary_triangles))(

@@ -27,10 +27,10 @@ using Base: disable_sigint, reenable_sigint
 export Context, Domain, Placement, CompressedRows, PNPBSError
 export set!, set_spacing!, set_monitor!, set_nodes!
 export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_fixed_nodes!
-export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!
+export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_level_set!, set_filled!
 export read_poly!, parse_poly!, check_domain, bounds, measure, outline
 export estimate, initialise!, run!, step!, adjust_population!, rebalance!
-export node_count, nodes, ghost_count, ghosts, exchange_pattern, update_ghosts!, numbering
+export node_count, nodes, normals, ghost_count, ghosts, exchange_pattern, update_ghosts!, numbering
 export adjacency, stars, triangles, boundary_edges, tetrahedra, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library

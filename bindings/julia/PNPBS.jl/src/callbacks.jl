@@ -73,6 +73,16 @@ function call_curve(n::Int64, dim::Int32, t::Ptr{Float64}, coordinates::Ptr{Floa
     end
 end
 
+function call_level_set(n::Int64, dim::Int32, coordinates::Ptr{Float64}, values::Ptr{Float64},
+                        user::Ptr{Cvoid})
+    n == 0 && return Int32(0)
+    return guarded(user) do callback
+        f = callback.f(copied(coordinates, Int(dim), Int(n)))
+        store!(values, f, (Int(n),), "level set")
+        return 0
+    end
+end
+
 # Only `true` stops: a monitor that ends with a print returns nothing.
 function call_monitor(fraction::Float64, step::Int64, nodes::Int64, max_speed::Float64,
                       user::Ptr{Cvoid})
@@ -82,6 +92,7 @@ end
 # Pointers are of this process, so they are made when the package is loaded.
 const spacing_pointer = Ref{Ptr{Cvoid}}(C_NULL)
 const curve_pointer = Ref{Ptr{Cvoid}}(C_NULL)
+const level_set_pointer = Ref{Ptr{Cvoid}}(C_NULL)
 const monitor_pointer = Ref{Ptr{Cvoid}}(C_NULL)
 
 function make_callback_pointers()
@@ -89,6 +100,8 @@ function make_callback_pointers()
                                    (Int64, Int32, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}))
     curve_pointer[] = @cfunction(call_curve, Int32,
                                  (Int64, Int32, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}))
+    level_set_pointer[] = @cfunction(call_level_set, Int32,
+                                     (Int64, Int32, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}))
     monitor_pointer[] = @cfunction(call_monitor, Int32,
                                    (Float64, Int64, Int64, Float64, Ptr{Cvoid}))
     return nothing

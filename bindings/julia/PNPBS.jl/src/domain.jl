@@ -153,6 +153,35 @@ function add_cylinder!(domain::Domain, from, to, radius::Real; tag::Integer = 1)
 end
 
 """
+    add_level_set!(f, domain, low, high, resolution; tag = 1)
+
+Adds the body where a function is negative to a domain in space: `f(x)` gets the points as a `(3, n)`
+matrix and returns a vector of `n` values. It must always give the same value for the same point, be
+continuous, and be finite everywhere in the box between `low` and `high`, where the body must lie; it
+need not be a distance. Its surface is found on an octree that is refined near `f = 0` down to cells
+of side `resolution`: what is thinner can be lost, and so can a body that is small beside the box and
+towards which `f` does not fall. Nodes on the surface lie where `f = 0`; sharp edges are rounded by the
+resolution, which is to be no more than the spacing there, and than half of the least radius to which
+the surface is bent.
+
+    add_level_set!(body, (-2, -2, -1), (2, 2, 1), 0.1) do x
+        hypot.(hypot.(x[1, :], x[2, :]) .- 1, x[3, :]) .- 0.4
+    end
+"""
+function add_level_set!(f, domain::Domain, low, high, resolution::Real; tag::Integer = 1)
+    callback = Callback(f, domain.context)
+    GC.@preserve callback begin
+        code = LibPNPBS.pnpbs_domain_add_level_set(live(domain), level_set_pointer[],
+                                                   user_pointer(callback),
+                                                   as_point(low, 3, "low"),
+                                                   as_point(high, 3, "high"), resolution, tag)
+    end
+    check(domain.context, code)
+    push!(domain.callbacks, callback)
+    return domain
+end
+
+"""
     add_arc!(domain, centre, radius; from = 0, to = 2pi, role = :boundary, tag = 1)
 
 Adds a circular arc between two angles in radians, a full circle by default, to a domain in the
@@ -211,6 +240,19 @@ function add_pslg!(domain::Domain, coordinates::AbstractMatrix{<:Real},
                                          as_tags(vertex_tags, n, "vertex_tags"), m, ends,
                                          as_tags(segment_tags, m, "segment_tags"),
                                          size(hole_points, 2), hole_points))
+    return domain
+end
+
+"""
+    set_filled!(domain, filled)
+
+Whether a domain in space is what its surfaces enclose, as it is at first, or, with `false`, the
+surfaces alone: nodes on them and triangles between these ([`boundary_triangles`](@ref)), and nothing
+inside. Surfaces of both roles count alike then and may be closed or open. Polylines must follow
+edges of the triangles, fixed nodes must be vertices of them, holes there are none.
+"""
+function set_filled!(domain::Domain, filled::Bool)
+    check(domain.context, LibPNPBS.pnpbs_domain_set_filled(live(domain), filled))
     return domain
 end
 

@@ -169,12 +169,26 @@ function boundary_edges(placement::Placement)
 end
 
 """
+    normals(placement)
+
+Where the surfaces look at this rank's nodes, of a placement in space: `(3, n)`, the unit normal of
+the triangle that a node lies on, on feature edges and in corners the mean of those on its sides,
+and 0 for inner nodes. Local.
+"""
+function normals(placement::Placement)
+    n = node_count(placement)
+    found = zeros(Float64, 3, n)
+    check(placement, LibPNPBS.pnpbs_placement_get_normals(live(placement), n, found))
+    return found
+end
+
+"""
     boundary_triangles(placement) -> (triangles, tags)
 
 The triangles of the boundary of a placement in space, the faces of tetrahedra that have no other
 tetrahedron behind them: `(3, n)` local indices, counter-clockwise as seen from outside, and the
-tags of the surfaces there. A triangle is the rank's that owns its node with the least id.
-Collective.
+tags of the surfaces there. Of surfaces alone, the triangles between the nodes on them. A triangle is
+the rank's that owns its node with the least id. Collective.
 """
 function boundary_triangles(placement::Placement)
     corners, tags = facets(placement, LibPNPBS.pnpbs_placement_get_boundary_triangles, 3)

@@ -63,6 +63,8 @@ end
         # Inside it a smaller one, whose inside is taken out by a point.
         add_surface!(body, 0.25 .* VERTICES .+ 0.1, FACES; role = :inner)
         @test measure(body) ≈ 1 / 6
+        @test measure(set_filled!(body, false)) ≈ (1 + 0.25^2) * (1.5 + sqrt(0.75))
+        set_filled!(body, true)
         add_hole!(body, (0.15, 0.15, 0.15))
         @test measure(body) ≈ (1 - 0.25^3) / 6
         mktempdir() do folder
@@ -94,6 +96,9 @@ end
         corners = tetrahedra(placement)
         volumes = [tetrahedron_volume(placed.points, corners[:, k]) for k in 1:size(corners, 2)]
         @test size(corners, 1) == 4 && all(volumes .> 0) && sum(volumes) ≈ measure(domain)
+
+        lengths = vec(sum(abs2, normals(placement), dims = 1))
+        @test all(lengths .≈ (placed.tags .!= 0))
 
         around, tags = boundary_triangles(placement)
         @test fit_together(around) && enclosed(placed.points, around) ≈ 1
@@ -135,6 +140,25 @@ end
         radii = sqrt.(sum(abs2, points[:, vec(inward)], dims = 1))
         @test all(abs.(radii .- 0.5) .< 1e-4) && -0.53 < enclosed(points, inward) < -0.4
         @test Set(tags) == Set([3, 4]) && fit_together(inward)
+    end
+end
+
+@testset "level sets" begin
+    Context() do context
+        domain = Domain(context; dim = 3)
+        add_level_set!(domain, (-1, -1, -1), (1, 1, 1), 0.1; tag = 6) do x
+            vec(sum(abs2, x, dims = 1)) .- 0.25
+        end
+        @test measure(domain) ≈ pi / 6 rtol = 0.03
+        placed = nodes(placed_in(domain, 0.15))
+        on_surface = placed.points[:, placed.tags .== 6]
+        @test size(on_surface, 2) > 50
+        @test all(abs.(sum(abs2, on_surface, dims = 1) .- 0.25) .< 1e-12)
+        @test_throws ErrorException("no body") add_level_set!(x -> error("no body"), domain,
+                                                              (-1, -1, -1), (1, 1, 1), 0.1)
+        @test_throws DimensionMismatch add_level_set!(x -> x, domain, (-1, -1, -1), (1, 1, 1), 0.1)
+        @test fails(() -> add_level_set!(x -> x[1, :], domain, (-1, -1, -1), (1, 1, 1), -7),
+                    :error_argument, "resolution", "-7")
     end
 end
 

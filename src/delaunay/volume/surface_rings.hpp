@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The star of each node within its surface, in its own tangent plane, as it finds it alone. Where
+// four nodes lie nearly on a circle, not all of them need to find the same.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "base/chunked_rows.hpp"
+#include "base/nodes.hpp"
+#include "domain/volume/feature_nodes.hpp"
+#include "domain/volume/surface.hpp"
+#include "neighbors/buckets.hpp"
+#include "partition/known_region.hpp"
+#include "tree/background_tree.hpp"
+
+namespace pnpbs {
+
+// What they are found from; all for the same positions. No node is free.
+struct SurfaceStarInput {
+  const Nodes<3>& nodes;
+  const BackgroundTree<3>& tree;
+  const Buckets<3>& buckets;
+  const KnownRegion<3>& known;
+  const Surface& surface;
+  const FeatureNodes& features;
+  std::function<SurfacePlace(std::int64_t)> place;  // of a node
+};
+
+class SurfaceRings {
+ public:
+  // A neighbour, and whether it, the next one around and the node are a triangle.
+  struct Entry {
+    std::int32_t node;
+    bool triangle;
+  };
+
+  void build(const SurfaceStarInput& input);
+
+  // Counter-clockwise; where sheets end or meet, sheet after sheet.
+  std::size_t size(std::int64_t i) const { return rows_.row(i).size(); }
+  Entry at(std::int64_t i, std::size_t k) const {
+    const std::int32_t packed = rows_.row(i)[k];
+    return {packed / 2, packed % 2 != 0};
+  }
+  // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
+  double needs(std::int64_t i) const { return needs_[static_cast<std::size_t>(i)]; }
+  std::vector<double> take_needs() { return std::move(needs_); }
+
+ private:
+  ChunkedRows<std::int32_t, 256> rows_;
+  std::vector<double> needs_;
+};
+
+}  // namespace pnpbs

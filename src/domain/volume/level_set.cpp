@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/level_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
+#include "domain/volume/level_set_zeros.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::size_t kBatch = std::size_t{1} << 16;  // points asked for at a time
+constexpr double kDifference = 1e-4;  // of the resolution, to either side: for a direction only
+// Beyond where f is 0 by its slope; then twice as far, and so on.
+constexpr double kFirstStep = 1.25;
+
+// A point on its way to where the sign of f is another.
+struct Search {
+  std::size_t point;
+  double f;
+  Point<3> along;  // unit
+  double step;
+};
+
+}  // namespace
+
+LevelSet::LevelSet(std::string name, LevelSetFunction f, const Box<3>& box, double resolution)
+    : name_(std::move(name)), f_(std::move(f)), box_(box), resolution_(resolution) {}
+
+std::vector<double> LevelSet::values(std::span<const Point<3>> x) const {
+  std::vector<double> values(x.size());
+  for (std::size_t begin = 0; begin < x.size(); begin += kBatch) {
+    const std::size_t n = std::min(kBatch, x.size() - begin);
+    f_(static_cast<std::int64_t>(n), x.data() + begin, values.data() + begin);
+  }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw Error(ErrorKind::domain, name_ + ": f is " + number_text(values[i]) + " at " +
+                                         point_text(x[i]) +
+                                         ", expected a finite number everywhere in the box");
+  return values;
+}
+
+Point<3> LevelSet::in_box(Point<3> x) const {
+  for (std::size_t k = 0; k < 3; ++k) x[k] = std::clamp(x[k], box_.low[k], box_.high[k]);
+  return x;
+}
+
+std::vector<Point<3>> LevelSet::gradients(std::span<const Point<3>> x) const {
+  std::vector<Point<3>> around;
+  for (const Point<3>& place : x)
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const double side : {-1.0, 1.0}) {
+        Point<3> there = place;
+        there[k] += side * kDifference * resolution_;
+        around.push_back(in_box(there));
+      }
+  const std::vector<double> f = values(around);
+  std::vector<Point<3>> gradients(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t low = 6 * i + 2 * k, high = low + 1;
+      const double way = around[high][k] - around[low][k];
+      if (way > 0) gradients[i][k] = (f[high] - f[low]) / way;
+    }
+  return gradients;
+}
+
+void LevelSet::project(std::span<Point<3>> x, double reach) const {
+  const std::vector<double> f = values(x);
+  const std::vector<Point<3>> gradient = gradients(x);
+  std::vector<Search> open;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double slope = length(gradient[i]), way = std::fabs(f[i]) / slope;
+    if (f[i] == 0 || !(way <= reach)) continue;
+    const Point<3> up = unit_vector(gradient[i]);
+    const Point<3> along = shifted({}, f[i] < 0 ? 1 : -1, up);
+    open.push_back({i, f[i], along, std::min(reach, kFirstStep * way)});
+  }
+  std::vector<std::size_t> crossing;
+  std::vector<CrossedSegment> segments;
+  while (!open.empty()) {
+    std::vector<Point<3>> tried;
+    for (const Search& s : open) tried.push_back(in_box(shifted(x[s.point], s.step, s.along)));
+    const std::vector<double> there = values(tried);
+    std::vector<Search> farther;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      Search s = open[k];
+      if ((s.f < 0) != (there[k] < 0)) {
+        crossing.push_back(s.point);
+        segments.push_back({x[s.point], tried[k], s.f, there[k]});
+      } else if (s.step < reach) {
+        s.step = std::min(reach, 2 * s.step);
+        farther.push_back(s);
+      }
+    }
+    open = std::move(farther);
+  }
+  const std::vector<Point<3>> zeros = zeros_on(*this, segments);
+  for (std::size_t k = 0; k < crossing.size(); ++k) x[crossing[k]] = zeros[k];
+}
+
+}  // namespace pnpbs

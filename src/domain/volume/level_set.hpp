@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A body that is given by a function: it is where f < 0.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace pnpbs {
+
+// Fills values[n] with f at x[n]; throws Error on failure.
+using LevelSetFunction = std::function<void(std::int64_t n, const Point<3>* x, double* values)>;
+
+class LevelSet {
+ public:
+  // `name` is for messages. f is asked in the box only. Features of the body that are thinner than
+  // `resolution` may be lost.
+  LevelSet(std::string name, LevelSetFunction f, const Box<3>& box, double resolution);
+
+  const std::string& name() const { return name_; }
+  const Box<3>& box() const { return box_; }
+  double resolution() const { return resolution_; }
+
+  // f at these points. Throws Error(ErrorKind::domain) where it is not finite.
+  std::vector<double> values(std::span<const Point<3>> x) const;
+
+  // Moves points to where f = 0, along the gradient of f that is found by differences. One that
+  // does not come there within `reach` stays. What becomes of a point depends on it alone.
+  void project(std::span<Point<3>> x, double reach) const;
+
+ private:
+  std::vector<Point<3>> gradients(std::span<const Point<3>> x) const;
+  Point<3> in_box(Point<3> x) const;
+
+  std::string name_;
+  LevelSetFunction f_;
+  Box<3> box_;
+  double resolution_;
+};
+
+}  // namespace pnpbs

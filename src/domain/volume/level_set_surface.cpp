@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/level_set_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "domain/volume/level_set_lattice.hpp"
+#include "domain/volume/level_set_zeros.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// In units of the resolution: vertices so near a lattice point are one. Where the surface goes
+// through it they are at the same place, but for rounding.
+constexpr double kOneVertex = 1e-6;
+
+// A lattice edge with f < 0 at one end only, by its middle in half steps of the lattice.
+std::uint64_t edge_key(const LatticePlace& a, const LatticePlace& b) {
+  return LevelSetLattice::key({a[0] + b[0], a[1] + b[1], a[2] + b[2]});
+}
+
+std::array<LatticePlace, 2> ends_of(std::uint64_t edge) {
+  const LatticePlace middle = LevelSetLattice::place(edge);
+  std::array<LatticePlace, 2> ends;
+  for (std::size_t k = 0; k < 3; ++k) {
+    ends[0][k] = middle[k] / 2;
+    ends[1][k] = (middle[k] + 1) / 2;
+  }
+  return ends;
+}
+
+struct CellTetrahedron {
+  std::array<LatticePlace, 4> corners;  // right-handed
+  std::array<bool, 4> negative;
+};
+
+// Calls visit(tetrahedron) for the six of each crossed cell: from its lowest corner to its highest,
+// one axis after the other, in every order of the axes.
+template <class Visit>
+void for_tetrahedra(const LevelSetLattice& lattice, const Visit& visit) {
+  constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  for (const LatticePlace& cell : lattice.crossed())
+    for (std::size_t order = 0; order < kOrders.size(); ++order) {
+      CellTetrahedron t;
+      LatticePlace at = t.corners[0] = cell;
+      for (std::size_t step = 0; step < 3; ++step) {
+        ++at[kOrders[order][step]];
+        t.corners[step + 1] = at;
+      }
+      if (order >= 3) std::swap(t.corners[2], t.corners[3]);
+      for (std::size_t k = 0; k < 4; ++k) t.negative[k] = lattice.value(t.corners[k]) < 0;
+      visit(t);
+    }
+}
+
+using Polygon = std::vector<std::uint64_t>;  // of vertices on edges, as seen from outside
+
+// Where the surface cuts a tetrahedron: in three edges, in four or not at all.
+Polygon cut(const CellTetrahedron& t) {
+  std::vector<std::size_t> in, out;
+  for (std::size_t k = 0; k < 4; ++k) (t.negative[k] ? in : out).push_back(k);
+  if (in.empty() || out.empty()) return {};
+  std::array<std::size_t, 4> order{};
+  std::copy(out.begin(), out.end(), std::copy(in.begin(), in.end(), order.begin()));
+  int inversions = 0;
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = a + 1; b < 4; ++b) inversions += order[a] > order[b] ? 1 : 0;
+  if (inversions % 2 == 1)  // right-handed again, within those of one sign
+    in.size() < 3 ? std::swap(order[2], order[3]) : std::swap(order[0], order[1]);
+  const auto edge = [&](std::size_t a, std::size_t b) {
+    return edge_key(t.corners[order[a]], t.corners[order[b]]);
+  };
+  if (in.size() == 1) return {edge(0, 1), edge(0, 2), edge(0, 3)};
+  if (in.size() == 3) return {edge(3, 0), edge(3, 1), edge(3, 2)};
+  return {edge(0, 2), edge(0, 3), edge(1, 3), edge(1, 2)};
+}
+
+// ------------------------------------------------------------------ vertices -------------------
+
+struct EdgeVertices {
+  std::vector<std::int32_t> of;  // of each edge
+  std::vector<Point<3>> positions;
+};
+
+// The first of those that are one counts.
+EdgeVertices vertices_on(const LevelSet& set, const LevelSetLattice& lattice,
+                         const std::vector<std::uint64_t>& edges) {
+  std::vector<CrossedSegment> segments;
+  for (const std::uint64_t edge : edges) {
+    const auto [low, high] = ends_of(edge);
+    segments.push_back(
+        {lattice.position(low), lattice.position(high), lattice.value(low), lattice.value(high)});
+  }
+  const std::vector<Point<3>> zeros = zeros_on(set, segments);
+  EdgeVertices vertices;
+  std::unordered_map<std::uint64_t, std::int32_t> at;  // lattice points
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    auto vertex = static_cast<std::int32_t>(vertices.positions.size());
+    for (const LatticePlace& end : ends_of(edges[e]))
+      if (distance<3>(lattice.position(end), zeros[e]) <= kOneVertex * set.resolution())
+        vertex = at.try_emplace(LevelSetLattice::key(end), vertex).first->second;
+    vertices.of.push_back(vertex);
+    if (vertex == std::ssize(vertices.positions)) vertices.positions.push_back(zeros[e]);
+  }
+  return vertices;
+}
+
+}  // namespace
+
+SurfaceSource level_set_surface(const LevelSet& set, std::int32_t tag) {
+  const LevelSetLattice lattice(set);
+  std::vector<std::uint64_t> edges;
+  for_tetrahedra(lattice, [&](const CellTetrahedron& t) {
+    for (const std::uint64_t edge : cut(t)) edges.push_back(edge);
+  });
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  EdgeVertices vertices = vertices_on(set, lattice, edges);
+  const auto vertex = [&](std::uint64_t edge) {
+    const auto place = std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin();
+    return vertices.of[static_cast<std::size_t>(place)];
+  };
+  const auto gap = [&](std::int32_t a, std::int32_t b) {
+    return squared_distance<3>(vertices.positions[static_cast<std::size_t>(a)],
+                               vertices.positions[static_cast<std::size_t>(b)]);
+  };
+  SurfaceSource surface;
+  for_tetrahedra(lattice, [&](const CellTetrahedron& t) {
+    std::vector<std::int32_t> v;
+    for (const std::uint64_t edge : cut(t))
+      if (v.empty() || v.back() != vertex(edge)) v.push_back(vertex(edge));
+    if (v.size() > 1 && v.front() == v.back()) v.pop_back();
+    if (v.size() == 4 && gap(v[1], v[3]) < gap(v[0], v[2]))  // along the shorter diagonal
+      std::rotate(v.begin(), v.begin() + 1, v.end());
+    for (std::size_t k = 2; k < v.size(); ++k) surface.triangles.push_back({v[0], v[k - 1], v[k]});
+  });
+  surface.vertices = std::move(vertices.positions);
+  surface.tags.assign(surface.triangles.size(), tag);
+  return surface;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/resolved_features.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "base/point_text.hpp"
+#include "domain/volume/features.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+void warn_of_short_creases(ResolvedVolume& resolved) {
+  const auto& creases = resolved.features.short_creases;
+  if (creases.empty()) return;
+  const Point<3>& first =
+      resolved.mesh.nodes[static_cast<std::size_t>(creases.front()[0])].position;
+  resolved.warnings.push_back(
+      "taken for roughness, not for features: " + std::to_string(creases.size()) +
+      " sharp edges in short creases, the first at " + point_text(first));
+}
+
+}  // namespace
+
+// Between triangles of one level set there are none: these turn where it has an edge or a bend that
+// they do not resolve.
+void find_features_of(const std::vector<SurfaceSource>& surfaces,
+                      const std::vector<double>& feature_angles, ResolvedVolume& resolved) {
+  std::vector<double> angles;
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    if (!surfaces[s].level_set) angles.push_back(feature_angles[s]);
+  if (angles.empty()) angles.push_back(kFeatureAngle);
+  const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
+  if (*smallest < *largest)
+    resolved.warnings.push_back("the smallest feature_angle, " + number_text(*smallest) +
+                                " degrees, holds for all surfaces");
+  resolved.features = find_features(resolved.mesh, *smallest, resolved.level_sets.of);
+  const Features& features = resolved.features;
+  resolved.summary.patches = features.patches;
+  for (const FeatureCurve& curve : features.curves)
+    resolved.summary.feature_edges += static_cast<std::int64_t>(curve.nodes.size()) - 1;
+  resolved.summary.corners = static_cast<std::int64_t>(features.corners.size());
+  warn_of_short_creases(resolved);
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The features of a domain whose surfaces have been resolved, and what is told of them.
+#pragma once
+
+#include <vector>
+
+#include "domain/volume/volume_resolver.hpp"
+
+namespace pnpbs {
+
+// One angle, in degrees, for each surface given: the smallest holds for all of them.
+void find_features_of(const std::vector<SurfaceSource>& surfaces,
+                      const std::vector<double>& feature_angles, ResolvedVolume& resolved);
+
+}  // namespace pnpbs

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/thinning.hpp"
+
+#include <algorithm>
+
+#include "level/expected_nodes.hpp"
+#include "level/numbering.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Of a node placed for a smaller d, so many nodes are left in M dimensions.
+template <int M, int Dim>
+double share_for(const GivenNode<Dim>& node, double d) {
+  return node.d > 0 && d > 1.02 * node.d ? power<M>(node.d / d) : 1;
+}
+
+// Each node counts for the share that should stay, and along the Morton order of the leaves a node
+// stays whenever the sum of the shares passes a whole number.
+template <int Dim, class Share>
+void keep_shares(const Level<Dim>& level, GivenNodes<Dim>& given,
+                 const std::vector<std::int32_t>& begin, const Share& share) {
+  constexpr std::int64_t kOne = std::int64_t{1} << 32;
+  const std::int32_t leaves = level.map().tree().leaf_count();
+  const auto share_of = [&](const GivenNode<Dim>& node) {
+    return static_cast<std::int64_t>(share(node) * static_cast<double>(kOne));
+  };
+  const auto for_nodes_in = [&](std::int64_t leaf, const auto& visit) {
+    const auto at = static_cast<std::size_t>(leaf);
+    for (std::int32_t k = begin[at]; k < begin[at + 1]; ++k)
+      visit(given[static_cast<std::size_t>(k)]);
+  };
+  std::vector<std::int64_t> sums(static_cast<std::size_t>(leaves), 0);
+  for_each("pnpbs::sum_shares", leaves, [&](std::int64_t leaf) {
+    for_nodes_in(leaf, [&](const GivenNode<Dim>& node) {
+      sums[static_cast<std::size_t>(leaf)] += share_of(node);
+    });
+  });
+  std::int64_t end = 0;
+  sums = level.tree->distribution().prefix_sums(*level.comm, std::move(sums), end);
+  std::vector<char> some_go(static_cast<std::size_t>(leaves), 0);
+  for_each("pnpbs::thin", leaves, [&](std::int64_t leaf) {
+    const auto at = static_cast<std::size_t>(leaf);
+    std::int64_t sum = sums[at];
+    for_nodes_in(leaf, [&](GivenNode<Dim>& node) {
+      const std::int64_t whole = sum / kOne;
+      sum += share_of(node);
+      if (sum / kOne != whole) return;
+      node.leaf = -1;
+      some_go[at] = 1;
+    });
+  });
+  if (std::find(some_go.begin(), some_go.end(), 1) != some_go.end())
+    std::erase_if(given, [](const GivenNode<Dim>& node) { return node.leaf < 0; });
+}
+
+}  // namespace
+
+template <int Dim>
+void thin(const Level<Dim>& level, GivenNodes<Dim>& inner, const std::vector<std::int32_t>& begin) {
+  constexpr double kCrowded = 1.5;  // times the nodes that d asks for in a leaf, and a few
+  const std::vector<double> wanted = wanted_nodes(level);
+  keep_shares(level, inner, begin, [&](const GivenNode<Dim>& node) {
+    const auto leaf = static_cast<std::size_t>(node.leaf);
+    const double given = begin[leaf + 1] - begin[leaf],
+                 share = share_for<Dim>(node, level.map().leaf_spacing(node.leaf));
+    if (given > kCrowded * wanted[leaf] + 4) return std::min(share, wanted[leaf] / given);
+    return share;
+  });
+}
+
+void thin_on_surfaces(const Level<3>& level, GivenNodes<3>& on_surfaces) {
+  for (GivenNode<3>& node : on_surfaces) node.leaf = level.tree->tree().leaf_at(node.position);
+  const std::vector<std::int32_t> begin = sort_by_place(level, on_surfaces);
+  keep_shares(level, on_surfaces, begin, [&](const GivenNode<3>& node) {
+    return share_for<2>(node, level.map().leaf_spacing(node.leaf));
+  });
+}
+
+template void thin(const Level<2>&, GivenNodes<2>&, const std::vector<std::int32_t>&);
+template void thin(const Level<3>&, GivenNodes<3>&, const std::vector<std::int32_t>&);
+
+}  // namespace pnpbs

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/surface_stars.hpp"
+
+namespace pnpbs {
+
+// Are two nodes next to each other on a feature curve?
+bool joined(const Ground<3>& ground, const Nodes<3>& nodes, std::int64_t i, std::int64_t j) {
+  if (nodes.carrier(i) == Carrier::surface || nodes.carrier(j) == Carrier::surface) return false;
+  return ground.features().joined(nodes.boundary_node(i), nodes.boundary_node(j));
+}
+
+namespace {
+
+constexpr std::int32_t kNowhere = -1, kNotListed = -2;
+
+// The neighbour of node i, which is on a feature, in that direction of a curve.
+std::int32_t neighbour_along(const Level<3>& level, std::int64_t i, const CurveDirection& way) {
+  if (way.curve < 0) return kNowhere;
+  const Nodes<3>& nodes = level.nodes;
+  const std::int32_t laid = level.ground.features().next(nodes.boundary_node(i), way);
+  std::int32_t found = kNotListed;
+  level.lists().for_neighbours(i, [&](std::int64_t j) {
+    const bool on_feature =
+        nodes.carrier(j) == Carrier::curve || nodes.carrier(j) == Carrier::fixed;
+    if (on_feature && nodes.boundary_node(j) == laid) found = static_cast<std::int32_t>(j);
+  });
+  return found;
+}
+
+StarSide seen_on(const Level<3>& level, std::int64_t i, const SurfaceSide& side, bool all_listed) {
+  const Nodes<3>& nodes = level.nodes;
+  StarSide seen{
+      side.normal, neighbour_along(level, i, side.begin), neighbour_along(level, i, side.end), {}};
+  const auto sees = [&](std::int64_t j) {
+    return all_listed || level.ground.surface().sees(
+                             side, level.ground.place(nodes.carrier(j), nodes.boundary_node(j)));
+  };
+  level.lists().for_neighbours(i, [&](std::int64_t j) {
+    if (nodes.carrier(j) != Carrier::free && sees(j))
+      seen.around.push_back({nodes.position(j), nodes.id(j), static_cast<std::int32_t>(j)});
+  });
+  return seen;
+}
+
+}  // namespace
+
+std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i, bool bounding) {
+  const Nodes<3>& nodes = level.nodes;
+  const Ground<3>& ground = level.ground;
+  std::vector<StarSide> sides;
+  bool known = true;
+  ground.surface().for_sides(
+      ground.place(nodes.carrier(i), nodes.boundary_node(i)), [&](const SurfaceSide& side) {
+        if (bounding && !ground.patch_bounds_domain(side.patch)) return;
+        sides.push_back(seen_on(level, i, side, !bounding));
+        known = known && sides.back().first != kNotListed && sides.back().last != kNotListed;
+      });
+  std::vector<SurfaceStarEntry> star;
+  const Joined on_curve = [&](std::int32_t a, std::int32_t b) {
+    return joined(ground, nodes, a, b);
+  };
+  const double reach = level.lists().radius() * nodes.d(i);
+  const SurfaceStarPoint centre{nodes.position(i), nodes.id(i), static_cast<std::int32_t>(i)};
+  if (!known || !tangent_star(centre, 2 * reach, sides, on_curve, star)) star.clear();
+  return star;
+}
+
+}  // namespace pnpbs

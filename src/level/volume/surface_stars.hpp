@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stars of boundary nodes within their surfaces.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/volume/tangent_star.hpp"
+#include "level/level.hpp"
+
+namespace pnpbs {
+
+// Are two nodes of the boundary next to each other on a feature curve?
+bool joined(const Ground<3>& ground, const Nodes<3>& nodes, std::int64_t i, std::int64_t j);
+
+// The star of a node of the boundary from the level's lists, side after side, each
+// counter-clockwise as seen from outside; empty if it is not known. Lists made while bubbles are on
+// surfaces hold just what is seen there. With `bounding`, from any lists: on surfaces that bound
+// the domain alone, and of nodes that these see.
+std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i,
+                                           bool bounding = false);
+
+}  // namespace pnpbs

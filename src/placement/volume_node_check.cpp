@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "placement/volume_node_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/point_text.hpp"
+
+namespace pnpbs {
+
+std::array<Point<3>, 3> VolumeNodeCheck::positions_at(const Three& places) const {
+  return {position(p_.node_at(places[0])), position(p_.node_at(places[1])),
+          position(p_.node_at(places[2]))};
+}
+
+void VolumeNodeCheck::check_sides() const {
+  for_owned([&](std::int64_t i) {
+    if (is_feature_node(i))
+      check_laid(i, laid(static_cast<std::size_t>(nodes_.boundary_node(i))));
+    else if (nodes_.carrier(i) == Carrier::surface)
+      check_on_surface(i);
+    else
+      check_inside(i, ground_.domain().index().sides());
+  });
+}
+
+// As near to it as rounding lets it lie; to the triangles of a level set, as it may be moved.
+void VolumeNodeCheck::check_on_surface(std::int64_t i) const {
+  const Box<3>& bounds = ground_.bounds();
+  double largest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    largest = std::max({largest, std::fabs(bounds.low[k]), std::fabs(bounds.high[k])});
+  const double gap = gap_to_surface(position(i));
+  const LevelSet* set = ground_.domain().level_sets().at(nodes_.boundary_node(i));
+  if (gap > (set ? set->resolution() : 0) + 0x1p-44 * largest)
+    fail_check("node " + name(i) + " is on a surface, but " + rounded_text(gap) +
+               " away from the next one");
+}
+
+void VolumeNodeCheck::check_feature_nodes() const {
+  std::vector<std::int64_t> times(ground_.features().nodes.size(), 0);
+  for_owned([&](std::int64_t i) {
+    if (is_feature_node(i)) ++times[static_cast<std::size_t>(nodes_.boundary_node(i))];
+  });
+  check_laid_come_once(std::move(times), [this](std::size_t n) { return laid(n); });
+}
+
+double VolumeNodeCheck::max_gap(const std::array<Point<3>, 3>& corners) const {
+  constexpr double kMiddles[][3] = {
+      {1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
+  double gap = 0;
+  for (const auto& weights : kMiddles) {
+    Point<3> x{};
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      for (std::size_t k = 0; k < 3; ++k) x[k] += weights[corner] * corners[corner][k];
+    gap = std::max(gap, gap_to_surface(x));
+  }
+  return gap;
+}
+
+}  // namespace pnpbs

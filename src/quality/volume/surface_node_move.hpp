@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds how the tetrahedra of the domain change if a node on a surface goes a little way along it.
+// There the triangulation ends, and what is cut off differs with the place of the node. So the
+// stars of the node and of all that are its neighbours before or after, across the outside as well,
+// are made anew for both places, and compared.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "delaunay/volume/volume_star.hpp"
+#include "quality/volume/star_changes.hpp"
+
+namespace pnpbs {
+
+class SurfaceNodeMove {
+ public:
+  // Is an element of these nodes, which are at these corners, part of the domain?
+  using InDomain =
+      std::function<bool(const std::array<std::int64_t, 4>& nodes, const Tetrahedron& corners)>;
+
+  SurfaceNodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t node,
+                  const InDomain& in_domain);
+
+  // To x on facet `on`. False if the stars made from the nodes around are not those that are
+  // there, or do not agree with each other.
+  bool go_to(const Point<3>& x, std::int32_t on);
+  const StarChange& change() const { return change_; }
+
+ private:
+  struct Found {
+    TetrahedronNodes by_id, oriented;
+    bool operator<(const Found& other) const { return by_id < other.by_id; }
+    bool operator==(const Found& other) const { return by_id == other.by_id; }
+  };
+
+  VolumeNode node_at(std::int32_t i, const Point<3>& x) const {
+    return {i == change_.node ? x : nodes_.position(i), nodes_.d(i), nodes_.id(i)};
+  }
+  void add_star(std::int32_t i, const Point<3>& x, std::vector<Found>& found,
+                std::vector<std::int32_t>* neighbours) const;
+  bool make_stars(const std::vector<std::int32_t>& centres, const Point<3>& x,
+                  std::vector<Found>& found) const;
+  std::vector<Found> stars_there(const std::vector<std::int32_t>& centres) const;
+  Found found(const TetrahedronNodes& t) const { return {stars_.by_id(t), t}; }
+
+  const Nodes<3>& nodes_;
+  const StarChanges& stars_;
+  const InDomain& in_domain_;
+  // Nodes around the node, and itself: those in two rings have all their neighbours in three.
+  std::vector<std::int32_t> two_rings_, near_;
+  StarChange change_;
+};
+
+}  // namespace pnpbs

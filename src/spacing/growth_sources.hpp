@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points that limit d around them, and what they limit it to anywhere: the least of d + g |x - y|.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "spacing/growth_source.hpp"
+#include "tree/box_tree.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class GrowthSources {
+ public:
+  GrowthSources() = default;
+  GrowthSources(std::vector<GrowthSource<Dim>> sources, double growth)
+      : sources_(std::move(sources)), growth_(growth) {
+    if (sources_.empty()) return;
+    cells_.push_back({{}, 0, 0, sources_.size(), 0});
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) split(cell);
+  }
+
+  // The limit at x if it is below this bound, or else the bound.
+  double limit(const Point<Dim>& x, double bound) const {
+    if (!cells_.empty()) look_into(0, least_in(0, x), x, bound);
+    return bound;
+  }
+
+ private:
+  struct Cell {
+    Box<Dim> box;
+    double min;                     // of its sources' d
+    std::size_t begin, end, child;  // child: the first of two, or 0
+  };
+
+  void split(std::size_t c) {
+    constexpr std::size_t kLeafSize = 8;
+    const auto begin = sources_.begin() + static_cast<std::ptrdiff_t>(cells_[c].begin),
+               end = sources_.begin() + static_cast<std::ptrdiff_t>(cells_[c].end);
+    cells_[c].box = {begin->x, begin->x};
+    cells_[c].min = begin->d;
+    for (auto source = begin; source != end; ++source) {
+      cells_[c].box = joined(cells_[c].box, Box<Dim>{source->x, source->x});
+      cells_[c].min = std::min(cells_[c].min, source->d);
+    }
+    if (cells_[c].end - cells_[c].begin <= kLeafSize) return;
+    const Box<Dim> box = cells_[c].box;
+    std::size_t longest = 0;
+    for (std::size_t k = 1; k < Dim; ++k)
+      if (box.high[longest] - box.low[longest] < box.high[k] - box.low[k]) longest = k;
+    const std::size_t middle = (cells_[c].begin + cells_[c].end) / 2;
+    std::nth_element(begin, sources_.begin() + static_cast<std::ptrdiff_t>(middle), end,
+                     [longest](const GrowthSource<Dim>& a, const GrowthSource<Dim>& b) {
+                       return a.x[longest] < b.x[longest];
+                     });
+    cells_[c].child = cells_.size();
+    cells_.push_back({{}, 0, cells_[c].begin, middle, 0});
+    cells_.push_back({{}, 0, middle, cells_[c].end, 0});
+  }
+
+  double least_in(std::size_t c, const Point<Dim>& x) const {
+    return cells_[c].min + growth_ * std::sqrt(squared_gap_to(cells_[c].box, x));
+  }
+
+  // Sources that give the least but for rounding are all looked at: so in whichever order they
+  // lie, the bound comes out the same to the bit.
+  void look_into(std::size_t c, double least, const Point<Dim>& x, double& bound) const {
+    constexpr double kRounding = 1 - 1e-12;
+    if (!(kRounding * least < bound)) return;
+    const Cell& cell = cells_[c];
+    if (cell.child == 0) {
+      for (std::size_t s = cell.begin; s < cell.end; ++s)
+        bound = std::min(bound, sources_[s].limit(x, growth_));
+      return;
+    }
+    std::size_t first = cell.child, second = cell.child + 1;
+    double by_first = least_in(first, x), by_second = least_in(second, x);
+    if (by_second < by_first) {
+      std::swap(first, second);
+      std::swap(by_first, by_second);
+    }
+    look_into(first, by_first, x, bound);
+    look_into(second, by_second, x, bound);
+  }
+
+  std::vector<GrowthSource<Dim>> sources_;
+  double growth_ = 0;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace pnpbs

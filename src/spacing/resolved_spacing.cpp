@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/resolved_spacing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "base/execution.hpp"
+#include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
+#include "domain/spacing_evaluator.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// A part of a facet, which is looked at in its middle.
+struct Piece {
+  FacetCorners<3> corners;
+  std::int32_t facet;
+
+  Point<3> middle() const {
+    const auto& [a, b, c] = corners;
+    return {(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
+  }
+};
+
+double edge_length(const Piece& piece, std::size_t k) {
+  return distance<3>(piece.corners[k], piece.corners[(k + 1) % 3]);
+}
+std::size_t longest_edge(const Piece& piece) {
+  std::size_t longest = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (edge_length(piece, k) > edge_length(piece, longest)) longest = k;
+  return longest;
+}
+
+void append_halves(const Piece& piece, std::vector<Piece>& pieces) {
+  const std::size_t k = longest_edge(piece), next = (k + 1) % 3;
+  const Point<3>& from = piece.corners[k];
+  const Point<3> middle = shifted(from, 0.5, difference(piece.corners[next], from));
+  for (const std::size_t end : {k, next}) {
+    pieces.push_back(piece);
+    pieces.back().corners[end] = middle;
+  }
+}
+
+class Shape {
+ public:
+  explicit Shape(const VolumeDomain& domain) : mesh_(domain.mesh()), index_(domain.index()) {}
+
+  std::vector<Piece> facets() const {
+    std::vector<Piece> pieces;
+    for (std::size_t f = 0; f < mesh_.facets.size(); ++f)
+      if (normal(static_cast<std::int32_t>(f)) != Point<3>{})
+        pieces.push_back({corners_of(mesh_, mesh_.facets[f]), static_cast<std::int32_t>(f)});
+    return pieces;
+  }
+
+  // What d must not exceed at a point of a facet, or d itself: a wall has room for a layer of nodes
+  // in its middle, and across a gap each surface keeps its nodes out of the spheres around the
+  // triangles of the other (equilateral ones reach 0.58 d, and d between two points is larger).
+  double held(std::int32_t facet, const Point<3>& x, double d) const {
+    constexpr double kInWall = 2, kInGap = 4.0 / 3;  // layers of d
+    const bool bounds = mesh_.facets[static_cast<std::size_t>(facet)].bounds();
+    return std::min(held_on_side(facet, x, -1, kInWall, d),
+                    held_on_side(facet, x, 1, bounds ? kInGap : kInWall, d));
+  }
+
+ private:
+  Point<3> normal(std::int32_t f) const {
+    return facet_normal(mesh_, mesh_.facets[static_cast<std::size_t>(f)]);
+  }
+
+  // Between surfaces that meet in an edge at an angle there is less and less room, whatever d is:
+  // there the room that they leave at a distance of d from the edge counts.
+  double held_on_side(std::int32_t facet, const Point<3>& x, double side, double layers,
+                      double d) const {
+    const Point<3> out = normal(facet), ahead{side * out[0], side * out[1], side * out[2]};
+    const double reach = layers * d;
+    const SurfaceIndex::Hit hit = index_.first_hit(x, shifted({}, reach, ahead), facet);
+    if (hit.facet < 0) return d;
+    const Point<3> other = normal(hit.facet);
+    const Point<3> turn =
+        dot(other, ahead) < 0 ? shifted(ahead, 1, other) : difference(ahead, other);
+    return std::min(d, std::max(hit.along * d, length(turn) * d));
+  }
+
+  const BoundaryMesh<3>& mesh_;
+  const SurfaceIndex& index_;
+};
+
+// Pieces are halved until they are not much larger than what d is held to there.
+std::vector<GrowthSource<3>> sources_on_surfaces(const VolumeDomain& domain,
+                                                 const SpacingEvaluator<3>& raw,
+                                                 const NodeLimit& limit) {
+  constexpr double kPieces = 1.5;  // length of their edges
+  const Shape shape(domain);
+  std::vector<GrowthSource<3>> sources;
+  std::vector<Piece> pieces = shape.facets();
+  while (!pieces.empty()) {
+    std::vector<double> d(pieces.size());
+    std::vector<Point<3>> middles;
+    for (const Piece& piece : pieces) middles.push_back(piece.middle());
+    raw(std::ssize(middles), middles.data(), d.data());
+    std::vector<Piece> next;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      const double held = shape.held(pieces[p].facet, middles[p], d[p]);
+      if (edge_length(pieces[p], longest_edge(pieces[p])) > kPieces * held)
+        append_halves(pieces[p], next);
+      else if (held < d[p])
+        sources.push_back({middles[p], held});
+    }
+    if (const auto all = static_cast<double>(sources.size() + next.size());
+        all > static_cast<double>(limit.max_nodes)) {
+      const auto finest = std::ranges::min_element(sources, {}, &GrowthSource<3>::d);
+      const bool any = finest != sources.end();
+      limit.report_too_many(all, any ? finest->d : d[0], point_text(any ? finest->x : middles[0]));
+    }
+    limit.require_memory_for(static_cast<double>(sources.size() + next.size()));
+    pieces = std::move(next);
+  }
+  return sources;
+}
+
+}  // namespace
+
+ResolvedSpacing::ResolvedSpacing(std::shared_ptr<const Spacing<3>> raw, const VolumeDomain& domain,
+                                 double growth, const NodeLimit& limit)
+    : raw_(std::move(raw)),
+      sources_(sources_on_surfaces(
+                   domain,
+                   [&](std::int64_t n, const Point<3>* x, double* d) {
+                     evaluate_spacing<3>(*raw_, domain.volume(), n, x, d);
+                   },
+                   limit),
+               growth) {}
+
+void ResolvedSpacing::evaluate(std::int64_t n, const Point<3>* x, double* d) const {
+  raw_->evaluate(n, x, d);
+  for_each("pnpbs::ResolvedSpacing", n, [&](std::int64_t i) { d[i] = sources_.limit(x[i], d[i]); });
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Where d does not resolve a body's shape: it is told, and the option `resolve` mends it.
+ */
+#include "volume_support.h"
+
+/* The unit box around a thin slot of nothing. */
+static pnpbs_status slotted(pnpbs_domain domain, const char* data) {
+  const double low[] = {0.48, 0.3, 0.3}, high[] = {0.52, 0.7, 0.7};
+  const pnpbs_status status = volume_unit_box(domain, data);
+  return status < 0 ? status : pnpbs_domain_add_box(domain, low, high, 2);
+}
+
+static pnpbs_status wedge(pnpbs_domain domain, const char* data) {
+  const double angle = acos(-1.0) / 9, c = cos(angle), s = sin(angle);
+  const double xyz[6][3] = {{0, 0, 0}, {1, 0, 0}, {c, s, 0}, {0, 0, 1}, {1, 0, 1}, {c, s, 1}};
+  const int sides[5][4] = {{0, 2, 1, 0}, {3, 4, 5, 3}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+  (void)data;
+  return volume_add_quads(domain, PNPBS_BOUNDARY, 6, xyz[0], 5, sides);
+}
+
+static job run_in(volume_body body, double d, const char* resolve) {
+  job it = body_job(body);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
+  MUST(pnpbs_placement_set(it.placement, "resolve", resolve));
+  ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
+  return it;
+}
+
+START_TEST(nothing_is_missing) {
+  static const volume_body bodies[] = {volume_unit_ball, volume_unit_box, volume_l_block};
+  static const double d[] = {0.15, 0.12, 0.1};
+  job it = run_in(bodies[_i], d[_i], "0");
+  ck_assert_int_eq(integer_of(it.placement, "missing_faces"), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "missing_faces"), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "in no tetrahedron"), 0);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(a_thin_slot) {
+  job it = run_in(slotted, 0.12, "0");
+  ck_assert_int_gt(integer_of(it.placement, "missing_faces"), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "does not resolve the shape"), 1);
+  job_end(&it);
+  it = run_in(slotted, 0.12, "1");
+  ck_assert_int_eq(integer_of(it.placement, "missing_faces"), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "does not resolve the shape"), 0);
+  check_body(&it, 1e-12);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(a_sharp_wedge) {
+  job it = run_in(wedge, 0.15, "0"), resolved = run_in(wedge, 0.15, "1");
+  ck_assert_int_eq(integer_of(resolved.placement, "missing_faces"), 0);
+  ck_assert_int_gt(integer_of(resolved.placement, "nodes"), integer_of(it.placement, "nodes"));
+  check_body(&resolved, 1e-12);
+  job_end(&it);
+  job_end(&resolved);
+}
+END_TEST
+
+/* Set after a run, it makes the level anew. */
+START_TEST(set_later) {
+  job it = run_in(slotted, 0.12, "0");
+  const int64_t before = integer_of(it.placement, "nodes");
+  MUST(pnpbs_placement_set(it.placement, "resolve", "1"));
+  ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
+  ck_assert_int_gt(integer_of(it.placement, "nodes"), before);
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_set(it.placement, "resolve", "2"), "resolve",
+            "0 .. 1");
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(coarser_than_the_body) {
+  job it = run_in(volume_unit_box, 3, "0");
+  ck_assert_int_eq(warnings_with(it.placement,
+                                 "the spacing is 3 or more, the longest side of the "
+                                 "domain 1:"),
+                   1);
+  ck_assert_int_eq(warnings_with(it.placement, "0.25 or less"), 1);
+  job_end(&it);
+  it = run_in(volume_unit_box, 0.3, "0");
+  ck_assert_int_eq(warnings_with(it.placement, "longest side"), 0);
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("resolving");
+  TCase* tests = tcase_create("resolving");
+  tcase_set_timeout(tests, 0);
+  tcase_add_loop_test(tests, nothing_is_missing, 0, 3);
+  tcase_add_test(tests, a_thin_slot);
+  tcase_add_test(tests, a_sharp_wedge);
+  tcase_add_test(tests, set_later);
+  tcase_add_test(tests, coarser_than_the_body);
+  suite_add_tcase(suite, tests);
+  return run_suite(suite);
+}
