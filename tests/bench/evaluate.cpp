@@ -205,18 +205,12 @@ class Collector {
 };
 
 // Edges that have their length from the nodes' motion: all but those of the boundary.
-struct FreeEdge {
-  std::size_t a, b;
-  double ratio, d;
-  bool at_boundary;
-};
-
-std::vector<FreeEdge> free_edges(const Triangulation& t, const NodeSet& set) {
+std::vector<MeasuredEdge> free_edges(const Triangulation& t, const NodeSet& set) {
   std::vector<char> on_boundary(set.x.size(), 0);
   for (const auto* edges : {&set.edges, &set.inner_edges})
     for (const auto& e : *edges)
       for (std::int64_t end : e) on_boundary[static_cast<std::size_t>(end)] = 1;
-  std::vector<FreeEdge> found;
+  std::vector<MeasuredEdge> found;
   for (auto e = t.finite_edges_begin(); e != t.finite_edges_end(); ++e) {
     const Face f = e->first, other = f->neighbor(e->second);
     if (t.is_constrained(*e) || !f->info().inside() || !other->info().inside()) continue;
@@ -230,83 +224,19 @@ std::vector<FreeEdge> free_edges(const Triangulation& t, const NodeSet& set) {
   return found;
 }
 
-void add_to(EdgeBand& band, double ratio) {  // sums, until finished
-  ++band.edges;
-  band.mean += ratio;
-  band.deviation += ratio * ratio;
-}
-
-void finish(EdgeBand& band) {
-  if (band.edges == 0) return;
-  const double n = static_cast<double>(band.edges);
-  band.mean /= n;
-  band.deviation = std::sqrt(std::max(0.0, band.deviation / n - band.mean * band.mean));
-}
-
-std::vector<EdgeBand> bands_of(const std::vector<FreeEdge>& edges) {
-  constexpr int kBands = 8;
-  double min = std::numeric_limits<double>::infinity(), max = 0;
-  for (const FreeEdge& e : edges) {
-    min = std::min(min, e.d);
-    max = std::max(max, e.d);
-  }
-  const bool graded = max > 1.1 * min;
-  const int count = graded ? kBands : 1;
-  const double width = graded ? std::log(max / min) / kBands : 1;
-  std::vector<EdgeBand> bands(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    bands[static_cast<std::size_t>(k)].d_from = min * std::exp(k * width);
-    bands[static_cast<std::size_t>(k)].d_to = graded ? min * std::exp((k + 1) * width) : max;
-  }
-  for (const FreeEdge& e : edges) {
-    const int k = graded ? static_cast<int>(std::log(e.d / min) / width) : 0;
-    add_to(bands[static_cast<std::size_t>(std::clamp(k, 0, count - 1))], e.ratio);
-  }
-  for (EdgeBand& band : bands) finish(band);
-  std::erase_if(bands, [](const EdgeBand& band) { return band.edges == 0; });
-  return bands;
-}
-
-// Means over the edges around a node, then over those of its neighbours, too: some sixty edges.
-void find_worst_places(const NodeSet& set, const std::vector<FreeEdge>& edges,
-                       EdgesByPlace& by_place) {
-  constexpr double kFewest = 40;  // edges to a mean
-  std::vector<double> sum(set.x.size(), 0), count(set.x.size(), 0);
-  for (const FreeEdge& e : edges)
-    for (std::size_t i : {e.a, e.b}) {
-      sum[i] += e.ratio;
-      count[i] += 1;
-    }
-  std::vector<double> wide_sum = sum, wide_count = count;
-  for (const FreeEdge& e : edges) {
-    wide_sum[e.a] += sum[e.b];
-    wide_count[e.a] += count[e.b];
-    wide_sum[e.b] += sum[e.a];
-    wide_count[e.b] += count[e.a];
-  }
-  by_place.min_place = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < set.x.size(); ++i) {
-    if (wide_count[i] < kFewest) continue;
-    const double mean = wide_sum[i] / wide_count[i];
-    if (mean < by_place.min_place) {
-      by_place.min_place = mean;
-      by_place.min_at = set.x[i];
-    }
-    if (mean > by_place.max_place) {
-      by_place.max_place = mean;
-      by_place.max_at = set.x[i];
-    }
-  }
-}
-
 EdgesByPlace edges_by_place(const Triangulation& t, const NodeSet& set) {
-  const std::vector<FreeEdge> edges = free_edges(t, set);
+  const std::vector<MeasuredEdge> edges = free_edges(t, set);
   EdgesByPlace by_place;
-  by_place.bands = bands_of(edges);
-  for (const FreeEdge& e : edges)
-    if (e.at_boundary) add_to(by_place.at_boundary, e.ratio);
-  finish(by_place.at_boundary);
-  find_worst_places(set, edges, by_place);
+  by_place.bands = eight_bands(edges);
+  for (const MeasuredEdge& e : edges)
+    if (e.at_boundary) by_place.at_boundary.add(e.ratio);
+  by_place.at_boundary.finish();
+  constexpr double kFewest = 40;  // some sixty are usual
+  const WorstPlaces worst = worst_places(set.x.size(), edges, kFewest);
+  by_place.min_place = worst.min;
+  by_place.max_place = worst.max;
+  by_place.min_at = set.x[worst.min_node];
+  by_place.max_at = set.x[worst.max_node];
   return by_place;
 }
 

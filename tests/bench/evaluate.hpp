@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "edges_over_d.hpp"
+
 namespace pnpbs_bench {
 
 struct NodeSet {
@@ -27,17 +29,9 @@ struct Measures {
   double edge_deviation = 0;
 };
 
-// Edge length over d of the edges whose d lies in a range; edges of the boundary do not count, as
-// their length is the domain's business.
-struct EdgeBand {
-  double d_from = 0, d_to = 0;
-  std::int64_t edges = 0;
-  double mean = 0, deviation = 0;
-};
-
-// Does d count everywhere? A mean over all edges hides a region that is crushed.
+// Edges of the boundary do not count, as their length is the domain's business.
 struct EdgesByPlace {
-  std::vector<EdgeBand> bands;  // equal in log d, from the finest on; those without edges left out
+  std::vector<EdgeBand> bands;  // eight
   EdgeBand at_boundary;         // edges with one end on the boundary
   // The means over the edges around a node and its neighbours, where they are least and largest.
   double min_place = 0, max_place = 0;

@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pnpbs-bench-kernels: what the kernels cost by themselves, on a hexagonal lattice in the unit
 // square whose nodes were moved a little at random, with lists of the radius that a run has and of
-// a larger one, which reaches some of the second shell. Usage:
+// a larger one, which reaches some of the second shell; then likewise in space. Usage:
 //   pnpbs-bench-kernels [--nodes N] [--repeat R] [--moved M]
 // M: most that a coordinate is moved by, in spacings. Medians of the repetitions; threads as
 // OMP_NUM_THREADS says.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "base/kokkos_runtime.hpp"
 #include "core/level_run.hpp"
 #include "core/random.hpp"
-#include "dynamics/schemes.hpp"
+#include "kernel_rows.hpp"
 
 namespace {
 
-using pnpbs::AdjacencyList;
 using pnpbs::CubicLaw;
 using pnpbs::Field;
 using pnpbs::kLanes;
@@ -30,13 +27,8 @@ using pnpbs::LinearPush;
 using pnpbs::Nodes;
 using pnpbs::Phase;
 
-struct Arguments {
-  double nodes = 1e5, moved = 0.1;
-  int repeat = 15;
-};
-
-Arguments read(int argc, char** argv) {
-  Arguments arguments;
+KernelArguments read(int argc, char** argv) {
+  KernelArguments arguments;
   for (int a = 1; a < argc; a += 2) {
     const std::string name = argv[a];
     const double value = a + 1 < argc ? std::atof(argv[a + 1]) : 0;
@@ -52,64 +44,6 @@ Arguments read(int argc, char** argv) {
     }
   }
   return arguments;
-}
-
-// The seconds that each kernel took, once per repetition; in the order of their first time.
-class Rows {
- public:
-  void add(const std::string& name, double seconds) {
-    if (seconds_.count(name) == 0) names_.push_back(name);
-    seconds_[name].push_back(seconds);
-  }
-  template <class Kernel>
-  void measure(const std::string& name, const Kernel& kernel) {
-    const auto start = std::chrono::steady_clock::now();
-    kernel();
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    add(name, passed.count());
-  }
-  void print_medians(double nodes) {
-    for (const std::string& name : names_) {
-      std::vector<double>& seconds = seconds_[name];
-      std::sort(seconds.begin(), seconds.end());
-      std::printf("  %-32s %7.2f ns per node\n", name.c_str(),
-                  1e9 * seconds[seconds.size() / 2] / nodes);
-    }
-  }
-
- private:
-  std::vector<std::string> names_;
-  std::map<std::string, std::vector<double>> seconds_;
-};
-
-// Each pair is in the lists of both its nodes, and is evaluated for both.
-template <class Law>
-void evaluate_forces(const Nodes<2>& nodes, const AdjacencyList<2>& lists, const Law& law,
-                     const Field<2>& forces) {
-  const pnpbs::Positions<2> x = pnpbs::positions_of<2>(nodes.x);
-  const double* const d = nodes.d.data();
-  double* const to[2] = {forces[0].data(), forces[1].data()};
-  pnpbs::for_each("pnpbs::bench::forces", lists.block_count(), [=, &nodes, &lists](std::int64_t b) {
-    std::int64_t self[kLanes];
-    pnpbs::block_nodes(b, nodes.count, self);
-    pnpbs::BlockVector<2> force;
-    pnpbs::block_force<2>(lists.block(b), law, x, d, self, force);
-    for (int k = 0; k < 2; ++k) std::copy(force[k].begin(), force[k].end(), to[k] + b * kLanes);
-  });
-}
-
-double listed_per_node(const Nodes<2>& nodes, const AdjacencyList<2>& lists) {
-  std::int64_t listed = 0;
-  for (std::int64_t i = 0; i < nodes.count; ++i)
-    lists.for_neighbours(i, [&](std::int64_t) { ++listed; });
-  return static_cast<double>(listed) / static_cast<double>(nodes.count);
-}
-
-// What the kernels run through: the longest list of each block, for all its nodes.
-double rows_per_block(const AdjacencyList<2>& lists) {
-  std::int64_t rows = 0;
-  for (std::int64_t b = 0; b < lists.block_count(); ++b) rows += lists.block(b).length;
-  return static_cast<double>(rows) / static_cast<double>(lists.block_count());
 }
 
 void fill_square(pnpbs::PlaneDomain& domain) {
@@ -134,15 +68,16 @@ struct Scratch {
 void measure_forces(const Level& level, const Scratch& scratch, Rows& rows) {
   const Nodes<2>& nodes = level.nodes;
   const LinearPush push{1, level.settings.rest_length};
-  rows.measure("force, push", [&] { evaluate_forces(nodes, level.lists(), push, scratch.there); });
+  rows.measure("force, push",
+               [&] { evaluate_forces<2>(nodes, level.lists(), push, scratch.there); });
   rows.measure("force, cubic",
-               [&] { evaluate_forces(nodes, level.lists(), CubicLaw{}, scratch.there); });
+               [&] { evaluate_forces<2>(nodes, level.lists(), CubicLaw{}, scratch.there); });
 }
 
 // Velocities change, positions do not: so all steps begin at the same ones.
 void measure_steps(Level& level, Scratch& scratch, Rows& rows) {
   Nodes<2>& nodes = level.nodes;
-  const AdjacencyList<2>& lists = level.lists();
+  const pnpbs::AdjacencyList<2>& lists = level.lists();
   const pnpbs::Motion& motion = level.settings.motion;
   const LinearPush push{1, level.settings.rest_length};
   const CubicLaw cubic;
@@ -167,7 +102,7 @@ void measure_phase(const std::string& name, const pnpbs::Timers& timers, Phase p
   rows.add(name, (timers.seconds(phase) - before) / times);
 }
 
-void run(const Arguments& arguments, const char* list_radius) {
+void run(const KernelArguments& arguments, const char* list_radius) {
   constexpr int kSweeps = 5;  // a block, within which the stars stay
   const double d = std::sqrt(2 / std::sqrt(3.0) / arguments.nodes);
   const pnpbs::GivenNodes<2> lattice = moved_lattice(d, arguments.moved);
@@ -180,8 +115,8 @@ void run(const Arguments& arguments, const char* list_radius) {
     pnpbs::take(level, lattice, 0);
     measure_phase("lists", *run.timers, Phase::lists, 1, times,
                   [&] { pnpbs::rebuild_lists_for_steps(level); });
-    listed = listed_per_node(level.nodes, level.lists());
-    rows = rows_per_block(level.lists());
+    listed = listed_per_node<2>(level.nodes, level.lists());
+    rows = rows_per_block<2>(level.lists());
     pnpbs::reserve_field<2>(scratch.there, "pnpbs::bench::there", level.nodes.count + kLanes);
     measure_forces(level, scratch, times);
     measure_steps(level, scratch, times);
@@ -199,9 +134,10 @@ void run(const Arguments& arguments, const char* list_radius) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Arguments arguments = read(argc, argv);
+  const KernelArguments arguments = read(argc, argv);
   pnpbs::start_kokkos(0, 1, [] {});
   for (const char* list_radius : {"1.6", "1.7"}) run(arguments, list_radius);
+  for (const double list_radius : {1.5, 1.7}) measure_in_space(arguments, list_radius);
   pnpbs::end_kokkos();
   return 0;
 }

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The studies as they are run, with small node sets: the schedule study's page, and what the grid
-of invariance says of runs that differ and of runs that fail. PNPBS_BENCH is the program
-pnpbs-bench; an mpirun is played."""
+"""The studies as they are run, with small node sets: the schedule study's page, what pnpbs-bench says
+of bodies, and what the grid of invariance says of runs that differ and of runs that fail.
+PNPBS_BENCH is the program pnpbs-bench; an mpirun is played."""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -92,6 +93,37 @@ class Schedule(InFolder):
             done = self.study(*words)
             self.assertEqual(done.returncode, 2)
             self.assertIn(told, done.stderr)
+
+
+class Volumes(unittest.TestCase):
+    def bench(self, *words):
+        return subprocess.run([BENCH, *words], stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, env={**os.environ, "OMP_NUM_THREADS": "1"}, check=False)
+
+    def test_cube(self):
+        done = self.bench("--nodes", "3000", "--repeat", "2", "volume-cube")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+        def number(pattern):
+            return float(re.search(pattern, done.stdout)[1])
+
+        self.assertAlmostEqual(number(r"volume-cube: (\d+) nodes") / 3000, 1, delta=0.3)
+        self.assertGreater(number(r"all +\d+ tetrahedra: mean ([\d.]+)"), 0.92)
+        self.assertGreater(number(r"least [\d.]+  angle ([\d.]+)"), 25)
+        self.assertEqual(number(r"below 20 degrees (\d+)"), 0)
+        self.assertAlmostEqual(number(r"edge/d ([\d.]+)"), 1, 1)
+        self.assertAlmostEqual(number(r"covered ([\d.]+)"), 1, 6)
+        self.assertNotIn("none in the reference", done.stdout)
+        counts = [int(re.search(rf"{label} +(\d+) tetrahedra", done.stdout)[1])
+                  for label in ("all", "inside", "boundary")]
+        self.assertEqual(counts[0], sum(counts[1:]))
+
+    def test_bad_arguments(self):
+        for words in (("--nodes", "3"), ("--nodes",), ("--scale", "0"), ("--set", "sweeps"),
+                      ("--colour", "red")):
+            done = self.bench(*words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("usage", done.stderr)
 
 
 class Grid(InFolder):

@@ -17,23 +17,70 @@ sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
+import cases  # noqa: E402
+import evaluate  # noqa: E402
+import evaluate_volume  # noqa: E402
 import force_evaluation  # noqa: E402
 import machine  # noqa: E402
 import page  # noqa: E402
-from adapters import with_cgal, with_gmsh, with_jigsaw, with_pnpbs, with_triangle  # noqa: E402
+import plane_table  # noqa: E402
+import volume_cases  # noqa: E402
+import volume_table  # noqa: E402
+from adapters import (with_cgal, with_gmsh, with_gmsh_volume, with_jigsaw,  # noqa: E402
+                      with_jigsaw_volume, with_netgen, with_pnpbs, with_tetgen, with_triangle)
 from adapters.tool import DoesNotStart, command  # noqa: E402
-from cases import CASES  # noqa: E402
-from evaluate import evaluate  # noqa: E402
 from measure import Failed  # noqa: E402
 from progress import Progress  # noqa: E402
 
 ROOT = HERE.parents[2]
 
-NOT_COMPARED = [
-    {"name": "TetGen", "why": "makes tetrahedra in volumes; there is nothing in the plane to "
-                              "compare"},
-    {"name": "dmsh, optimesh", "why": "their packages do not start without a licence key"},
-]
+
+
+class Plane:
+    """What is compared, with which tools, and how it is judged and shown."""
+    file = "comparison"
+    cases = cases.CASES
+    table = plane_table
+    not_compared = [{"name": "dmsh, optimesh",
+                     "why": "their packages do not start without a licence key"}]
+
+    def tools(self, args):
+        return [*with_pnpbs.tools(args.pnpbs, args.ours), *with_gmsh.tools(), *with_cgal.tools(),
+                *with_triangle.tools(), *with_jigsaw.tools()]
+
+    def measured(self, outcomes, case):
+        """Medians over the repetitions, and the measures of the last node set."""
+        return {"seconds": statistics.median(o.seconds for o in outcomes),
+                "inner_seconds": median_or_none([o.inner_seconds for o in outcomes]),
+                "peak_bytes": statistics.median(o.peak_bytes for o in outcomes),
+                "measures": evaluate.evaluate(outcomes[-1].points, case.domain, case.spacing)}
+
+
+class Space:
+    file = "comparison_volumes"
+    cases = volume_cases.CASES
+    table = volume_table
+    not_compared = []
+
+    def tools(self, args):
+        return [*with_pnpbs.volume_tools(args.pnpbs, args.ours), *with_gmsh_volume.tools(),
+                *with_tetgen.tools(), *with_netgen.tools(), *with_jigsaw_volume.tools()]
+
+    def measured(self, outcomes, case):
+        last = outcomes[-1]
+        measures = evaluate_volume.evaluate(last.points, last.tetrahedra, case.body, case.spacing)
+        used = [o.used for o in outcomes]
+        return {"seconds": statistics.median(u.seconds for u in used),
+                "cpu_seconds": statistics.median(u.cpu_seconds for u in used),
+                "inner_seconds": median_or_none([o.inner_seconds for o in outcomes]),
+                "peak_bytes": statistics.median(u.peak_bytes for u in used), "measures": measures}
+
+
+def median_or_none(values):
+    return None if None in values else statistics.median(values)
+
+
+KINDS = {"plane": Plane(), "space": Space()}
 
 
 def arguments():
@@ -50,10 +97,13 @@ def arguments():
         return [part.strip() for part in text.split(",")]
 
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--nodes", default=[100000], type=integers,
+    parser.add_argument("--volumes", dest="kind", action="store_const", const="space",
+                        default="plane", help="compare in space; 70000 nodes unless told")
+    parser.add_argument("--nodes", type=integers,
                         help="about so many in every case; several with commas (default 100000)")
-    parser.add_argument("--cases", default=list(CASES), type=names,
-                        help=f"some of {','.join(CASES)}")
+    parser.add_argument("--cases", type=names,
+                        help=f"some of {','.join(cases.CASES)}; with --volumes of "
+                             f"{','.join(volume_cases.CASES)}")
     parser.add_argument("--tools", type=names, default=[],
                         help="only those with one of these words in their names")
     parser.add_argument("--repeat", default=1, type=int, help="medians of so many runs")
@@ -65,13 +115,18 @@ def arguments():
     parser.add_argument("--time-limit", default=1800, type=float, help="seconds for one run")
     parser.add_argument("--no-forces", action="store_true", help="leave LAMMPS out")
     parser.add_argument("--output", type=Path, default=ROOT / "build" / "comparison",
-                        help="folder for comparison.md, comparison.json and images/")
+                        help="folder for comparison.md, comparison.json and images/, with --volumes "
+                             "comparison_volumes.md and .json")
     parser.add_argument("--from", dest="source", type=Path,
                         help="run nothing, print and write what this JSON file holds")
     args = parser.parse_args()
+    known = KINDS[args.kind].cases
+    args.nodes = args.nodes or [70000 if args.kind == "space" else 100000]
+    args.cases = args.cases or list(known)
+    args.no_forces = args.no_forces or args.kind == "space"
     for name in args.cases:
-        if name not in CASES:
-            parser.error(f"unknown case {name}: choose from {', '.join(CASES)}")
+        if name not in known:
+            parser.error(f"unknown case {name}: choose from {', '.join(known)}")
     if args.repeat < 1 or min(args.nodes) < 100:
         parser.error("--repeat must be 1 or more, --nodes 100 or more")
     return args
@@ -79,9 +134,7 @@ def arguments():
 
 def sort_out(args):
     """Tools that can run with their versions, and what is left out with the reason."""
-    tools = [*with_pnpbs.tools(args.pnpbs, args.ours), *with_gmsh.tools(), *with_cgal.tools(),
-             *with_triangle.tools(), *with_jigsaw.tools()]
-    wanted = [t for t in tools
+    wanted = [t for t in KINDS[args.kind].tools(args)
               if not args.tools or any(word.lower() in t.name.lower() for word in args.tools)]
     left_out = []
     versions = [version_or_why_not(t.name, t.available(), t.needs, t.version, left_out)
@@ -102,18 +155,13 @@ def version_or_why_not(name, is_there, needs, ask_version, left_out):
 
 
 def place(tool, case, args):
-    """Medians over the repetitions, and the measures of the last node set."""
     outcomes = []
     with tempfile.TemporaryDirectory(prefix="pnpbs-compare-") as folder:
         for repetition in range(args.repeat):
             there = Path(folder) / str(repetition)
             there.mkdir()
             outcomes.append(tool.run(case, there, args.time_limit))
-    inner = [o.inner_seconds for o in outcomes]
-    return {"seconds": statistics.median(o.seconds for o in outcomes),
-            "inner_seconds": None if None in inner else statistics.median(inner),
-            "peak_bytes": statistics.median(o.peak_bytes for o in outcomes),
-            "measures": evaluate(outcomes[-1].points, case.domain, case.spacing)}
+    return KINDS[args.kind].measured(outcomes, case)
 
 
 def run_all(args):
@@ -124,16 +172,17 @@ def run_all(args):
     lammps_version = forces and version_or_why_not(
         "LAMMPS", command("lmp"), "the command lmp (Debian's package lammps)",
         force_evaluation.lammps_version, left_out)
-    results = {"machine": machine.describe(), "command": shown_command(), "repeat": args.repeat,
+    kind = KINDS[args.kind]
+    results = {"kind": args.kind, "machine": machine.describe(), "command": shown_command(), "repeat": args.repeat,
                "tools": [{"name": t.name, "version": version, "setting": t.setting}
                          for t, version in there],
-               "left_out": left_out + NOT_COMPARED, "placements": [], "forces": []}
+               "left_out": left_out + kind.not_compared, "placements": [], "forces": []}
     jobs = [(nodes, name, tool) for nodes in args.nodes for name in args.cases
             for tool, _ in there]
     progress = Progress(len(jobs) + (len(args.nodes) if forces else 0))
-    cases = {(n, name): CASES[name](n) for n in args.nodes for name in args.cases}
+    made = {(n, name): kind.cases[name](n) for n in args.nodes for name in args.cases}
     for nodes, name, tool in jobs:
-        case = cases[nodes, name]
+        case = made[nodes, name]
         progress.begin(f"{name} {nodes}: {tool.name}")
         result = {"case": name, "case_title": case.title, "asked": nodes, "tool": tool.name}
         try:
@@ -186,34 +235,39 @@ def shown_command():
 
 def write_json(args, results):
     args.output.mkdir(parents=True, exist_ok=True)
-    (args.output / "comparison.json").write_text(json.dumps(results) + "\n")
+    name = KINDS[results["kind"]].file
+    (args.output / f"{name}.json").write_text(json.dumps(results) + "\n")
 
 
 def write(args, results):
+    """The JSON, the page, and the pictures that the plane has."""
     write_json(args, results)
-    (args.output / "images").mkdir(exist_ok=True)
-    try:
-        from plots import draw
-        pictures = draw(results, args.output / "images")
-    except ImportError:
-        sys.stderr.write("no pictures: matplotlib is not there\n")
-        pictures = {}
+    kind, pictures = KINDS[results["kind"]], {}
+    if results["kind"] == "plane":
+        (args.output / "images").mkdir(exist_ok=True)
+        try:
+            from plots import draw
+            pictures = draw(results, args.output / "images")
+        except ImportError:
+            sys.stderr.write("no pictures: matplotlib is not there\n")
     pictures = {what: f"images/{name}" for what, name in pictures.items()}
-    (args.output / "comparison.md").write_text(page.markdown(results, pictures))
+    (args.output / f"{kind.file}.md").write_text(page.markdown(results, pictures, kind.table))
 
 
 def main():
     args = arguments()
     os.environ["PATH"] = os.pathsep.join([*args.path, os.environ.get("PATH", "")])
     if args.source:
-        results = json.loads(args.source.read_text())
+        results = {"kind": "plane", **json.loads(args.source.read_text())}
     else:
         begin = time.monotonic()
         results = run_all(args)
         sys.stderr.write(f"done in {(time.monotonic() - begin) / 60:.1f} minutes\n")
     write(args, results)
-    print(page.text_tables(results))
-    print(f"\nwritten: comparison.md, comparison.json and images in {args.output}")
+    kind = KINDS[results["kind"]]
+    print(page.text_tables(results, kind.table))
+    images = " and images" if results["kind"] == "plane" else ""
+    print(f"\nwritten: {kind.file}.md, {kind.file}.json{images} in {args.output}")
     return any(r.get("failed") for r in results["placements"])
 
 
@@ -221,5 +275,5 @@ if __name__ == "__main__":
     try:
         sys.exit(main())
     except KeyboardInterrupt:
-        sys.stderr.write("\ninterrupted; comparison.json holds what was done, for --from\n")
+        sys.stderr.write("\ninterrupted; the JSON file holds what was done, for --from\n")
         sys.exit(130)

@@ -29,7 +29,7 @@ signal.setitimer(signal.ITIMER_REAL, float(limit))
 _, status, used = os.wait4(child, 0)
 seconds = time.monotonic() - begin
 with open(report, "w") as file:
-    json.dump({"seconds": seconds,
+    json.dump({"seconds": seconds, "cpu_seconds": used.ru_utime + used.ru_stime,
                "peak_bytes": used.ru_maxrss * (1 if sys.platform == "darwin" else 1024),
                "status": os.waitstatus_to_exitcode(status)}, file)
 """
@@ -44,6 +44,7 @@ class Failed(Exception):
 @dataclasses.dataclass
 class Measured:
     seconds: float      # wall time, start and files included
+    cpu_seconds: float  # that the system gave it, whatever else ran
     peak_bytes: int
     stdout: str
 

@@ -13,6 +13,10 @@ import time
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from tables import grouped  # noqa: E402
+
 PROGRAM = Path(__file__).with_name("compare.py")
 COMMAND = os.environ["PNPBS_COMMAND"]
 
@@ -31,8 +35,8 @@ class Compare(unittest.TestCase):
         self.folder = Path(temporary.name)
         self.output = self.folder / "out"
 
-    def results(self):
-        return json.loads((self.output / "comparison.json").read_text())
+    def results(self, name="comparison"):
+        return json.loads((self.output / f"{name}.json").read_text())
 
     def test_ours_and_what_is_here(self):
         done = compare(self.output, "--cases", "graded-square", "--repeat", "2",
@@ -56,7 +60,7 @@ class Compare(unittest.TestCase):
             self.assertIn(f"| {tool['name']} | {tool['version']} |", words)
         for left_out in results["left_out"]:
             self.assertIn(f"- {left_out['name']}: {left_out['why']}", words)
-        self.assertIn("TetGen", [t["name"] for t in results["left_out"]])
+        self.assertIn("dmsh, optimesh", [t["name"] for t in results["left_out"]])
         self.assertEqual(results["forces"][0]["tool"], "PNPBS")
         self.assertTrue(5 < results["forces"][0]["listed"] < 8, results["forces"])
         # The command on the page names no folder of this machine.
@@ -84,6 +88,39 @@ class Compare(unittest.TestCase):
             self.assertAlmostEqual(m["covered"], 1, 3)
             self.assertGreater(len(m["edge_bands"]), 3)
             self.assertTrue(0.8 < min(m["edge_bands"]) < max(m["edge_bands"]) < 1.1, result)
+
+    def test_in_space(self):
+        """Ours by all kinds of bodies, and the peers that are here in one."""
+        done = compare(self.output, "--volumes", "--nodes", "600", "--cases", "uniform-cube")
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        self.judge_volumes(done.stdout)
+        page = (self.output / "comparison_volumes.md").read_text()
+        again = self.folder / "again"
+        done = compare(again, "--from", self.output / "comparison_volumes.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((again / "comparison_volumes.md").read_text(), page)
+        done = compare(self.output, "--volumes", "--nodes", "1500", "--tools", "PNPBS", "--cases",
+                       "graded-cube,uniform-ball,uniform-l-block,uniform-kleopatra")
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        self.judge_volumes(done.stdout)
+        for result in self.results("comparison_volumes")["placements"]:
+            self.assertGreater(result["measures"]["angle_least"], 10, result)
+
+    def judge_volumes(self, printed):
+        results = self.results("comparison_volumes")
+        page = (self.output / "comparison_volumes.md").read_text()
+        self.assertEqual(results["placements"][0]["tool"], "PNPBS, default")
+        for result in results["placements"]:
+            self.assertNotIn("failed", result)
+            m = result["measures"]
+            self.assertTrue(0.6 < m["nodes"] / result["asked"] < 1.4, result)
+            self.assertTrue(0.6 < m["quality_mean"] < 1, result)
+            self.assertTrue(0.9 < m["edge_mean"] < 1.4, result)
+            self.assertTrue(0.9 < m["covered"] < 1.001, result)
+            self.assertAlmostEqual(m["delaunay"]["covered"], m["covered"], 1)
+            self.assertGreater(result["cpu_seconds"], 0)
+            self.assertIn(f"| {result['tool']} | {grouped(m['nodes'])} |", page)
+            self.assertIn(result["tool"], printed)
 
     def fake(self, name, text):
         """A folder for --path with a program of that name and those lines of shell."""
@@ -177,6 +214,7 @@ class Compare(unittest.TestCase):
 
     def test_bad_arguments(self):
         for arguments, told in ((("--cases", "nowhere"), "unknown case nowhere"),
+                                (("--volumes", "--cases", "uniform-square"), "unknown case"),
                                 (("--ours", "best"), "name: key=value"),
                                 (("--repeat", "0"), "--repeat")):
             done = compare(self.output, *arguments)

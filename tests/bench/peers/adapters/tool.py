@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from measure import Measured
 from spacing_table import table_of
 
 BUILD = Path(__file__).resolve().parents[4] / "build"
@@ -20,6 +21,14 @@ class Outcome:
     inner_seconds: float     # as the tool tells it, without start and files; None if it does not
     peak_bytes: int
     more: dict = dataclasses.field(default_factory=dict)
+
+
+@dataclasses.dataclass
+class VolumeOutcome:
+    points: np.ndarray       # (n, 3)
+    tetrahedra: np.ndarray   # (m, 4)
+    used: Measured           # of the process, start and files included
+    inner_seconds: float     # as the tool tells it, without start and files; None if it does not
 
 
 class DoesNotStart(Exception):
@@ -40,7 +49,8 @@ class Tool:
         raise NotImplementedError
 
     def run(self, case, folder, time_limit):
-        """Places the nodes of a case, with files in a folder. Outcome; raises measure.Failed."""
+        """Places the nodes of a case, with files in a folder. Outcome, in space VolumeOutcome; raises
+        measure.Failed."""
         raise NotImplementedError
 
 
@@ -118,8 +128,14 @@ def told_seconds(text):
     return None
 
 
-def read_node(path):
-    """Triangle's .node file."""
+def read_node(path, dimension=2):
+    """Triangle's .node file, or TetGen's."""
     with open(path) as file:
         count = int(file.readline().split()[0])
-        return np.loadtxt(file, usecols=(1, 2), max_rows=count, ndmin=2)
+        return np.loadtxt(file, usecols=range(1, dimension + 1), max_rows=count, ndmin=2)
+
+
+def read_npz(path):
+    """Points and tetrahedra, as scripts of ours write them."""
+    with np.load(path) as found:
+        return found["points"], found["tetrahedra"]

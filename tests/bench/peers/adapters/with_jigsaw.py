@@ -78,9 +78,10 @@ class Jigsaw(tool.Tool):
         told = re.search(r"JIGSAW VERSION ([\d.]+)", said)
         return told[1] if told else "unknown version"
 
-    def run(self, case, folder, time_limit):
-        (folder / "domain.msh").write_text(geometry(case.domain))
-        settings = {"GEOM_FILE": "domain.msh", "MESH_FILE": "nodes.msh", "MESH_DIMS": 2,
+    def mesh(self, case, dimension, geometry, spacing_grid, folder, time_limit):
+        """What it used; the mesh is in nodes.msh."""
+        (folder / "domain.msh").write_text(geometry)
+        settings = {"GEOM_FILE": "domain.msh", "MESH_FILE": "nodes.msh", "MESH_DIMS": dimension,
                     "GEOM_FEAT": "TRUE", "MESH_TOP1": "TRUE", "HFUN_SCAL": "ABSOLUTE",
                     "OPTM_ITER": self.sweeps, "NUMTHREAD": 1, "VERBOSITY": 1}
         if case.slope == 0:
@@ -93,7 +94,10 @@ class Jigsaw(tool.Tool):
             settings["HFUN_HMIN"] = 0
         (folder / "case.jig").write_text(
             "".join(f"{key} = {value}\n" for key, value in settings.items()))
-        used = measure(["jigsaw", "case.jig"], folder, time_limit)
+        return measure(["jigsaw", "case.jig"], folder, time_limit)
+
+    def run(self, case, folder, time_limit):
+        used = self.mesh(case, 2, geometry(case.domain), spacing_grid, folder, time_limit)
         return tool.Outcome(read_points(folder / "nodes.msh"), used.seconds,
                             seconds_without_files(used.stdout), used.peak_bytes)
 

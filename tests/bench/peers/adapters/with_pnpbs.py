@@ -36,6 +36,27 @@ class Pnpbs(tool.Tool):
                             {"report": report})
 
 
+class PnpbsInSpace(Pnpbs):
+    def run(self, case, folder, time_limit):
+        body = {"box": "box(0,0,0, 1,1,1)", "ball": "ball(0,0,0, 1)"}.get(case.body.kind)
+        if not body:
+            body = "body.stl"
+            case.body.write_stl(folder / body)
+        command = [self.program, "--domain", body, "--spacing", case.formula(),
+                   "--output", "nodes.node", "--output", "nodes.ele", "--report", "report.json",
+                   "--threads", 1, "--quiet"]
+        for option in self.options:
+            command += ["--set", option]
+        used = measure(command, folder, time_limit, accepted=(0, 3, 4))
+        report = json.loads((folder / "report.json").read_text())
+        with open(folder / "nodes.ele") as file:
+            count = int(file.readline().split()[0])
+            tetrahedra = np.loadtxt(file, int, usecols=(1, 2, 3, 4), max_rows=count, ndmin=2)
+        points = tool.read_node(folder / "nodes.node", 3)
+        return tool.VolumeOutcome(points, tetrahedra - tetrahedra.min(), used,
+                                  report["seconds"]["total"])
+
+
 def spacing(case, folder):
     """As a formula where there is one, else on a grid."""
     if case.has_formula:
@@ -50,5 +71,13 @@ def find(given):
 
 def tools(given=None, more=()):
     """The default, and (name, options) for each of `more`."""
+    return settings(Pnpbs, given, more)
+
+
+def volume_tools(given=None, more=()):
+    return settings(PnpbsInSpace, given, more)
+
+
+def settings(kind, given, more):
     program = find(given)
-    return [Pnpbs(program)] + [Pnpbs(program, name, options) for name, options in more]
+    return [kind(program)] + [kind(program, name, options) for name, options in more]
