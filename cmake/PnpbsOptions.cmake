@@ -32,7 +32,15 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 # Warnings for everything that is ours.
 add_library(pnpbs_warnings INTERFACE)
-target_compile_options(pnpbs_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
+target_compile_options(pnpbs_warnings INTERFACE -Wall -Wextra -Wpedantic)
+if(CMAKE_UNITY_BUILD)
+  # Files compiled as one: what one names at its top another may name within, and captures of a
+  # lambda may have a type that is local to its file.
+  target_compile_options(pnpbs_warnings
+                         INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+else()
+  target_compile_options(pnpbs_warnings INTERFACE -Wshadow)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC bug 105651: false alarms inside std::string's operator+.
   target_compile_options(pnpbs_warnings INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)

@@ -5,10 +5,10 @@
 #
 # The main configuration runs all tests. The others build and run those that can differ in them,
 # chosen by folder under tests, or by label (a test's folder, or a word of its own):
-#   kokkos-4.5.1   the oldest Kokkos we promise
-#   kokkos-shared  a shared Kokkos, as a user would bring it, adopted from a host program
-#   no-mpi         without MPI, and the static library
-#   sanitize       address and undefined-behaviour sanitizers, mutated inputs included
+#   sanitize  address and undefined-behaviour sanitizers, mutated inputs included, on the oldest
+#             Kokkos we promise
+#   no-mpi    without MPI, and the static library, every file compiled by itself, on a shared
+#             Kokkos as a user would bring it, adopted from a host program
 # usage: scripts/test.sh [configuration]...     (all by default; "main" is the first)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,7 +16,7 @@ root=$PWD
 
 wanted=("$@")
 if [ ${#wanted[@]} -eq 0 ]; then
-  wanted=(main kokkos-4.5.1 kokkos-shared no-mpi sanitize)
+  wanted=(main sanitize no-mpi)
 fi
 started=$SECONDS
 failed=()
@@ -68,25 +68,15 @@ for configuration in "${wanted[@]}"; do
       configure_and_build release --preset release
       run_tests release
       ;;
-    kokkos-4.5.1)
-      configure_and_build kokkos-4.5.1 -DPNPBS_BUILD_TESTS=ON -DPNPBS_BUILD_CLI=OFF \
-        -DPNPBS_TEST_FOLDERS="bench;core;api;linkage" -DKokkos_ROOT="$root/.deps/kokkos-4.5.1"
-      run_tests kokkos-4.5.1 -L '^(core|api|linkage)$'
-      ;;
-    kokkos-shared)
-      configure_and_build kokkos-shared -DPNPBS_BUILD_TESTS=ON -DPNPBS_BUILD_CLI=OFF \
-        -DPNPBS_TEST_FOLDERS="api;linkage;install" \
-        -DKokkos_ROOT="$root/.deps/kokkos-4.7.0-shared"
-      run_tests kokkos-shared
+    sanitize)
+      configure_and_build sanitize --preset sanitize -DKokkos_ROOT="$root/.deps/kokkos-4.5.1"
+      run_tests sanitize -LE '^(install|bench|docs|packaging|many-runs|figures)$'
       ;;
     no-mpi)
       configure_and_build no-mpi -DPNPBS_BUILD_TESTS=ON -DPNPBS_ENABLE_MPI=OFF \
-        -DPNPBS_INSTALL_STATIC=ON -DPNPBS_TEST_FOLDERS="api;fortran;linkage;julia;install"
+        -DPNPBS_INSTALL_STATIC=ON -DPNPBS_TEST_FOLDERS="api;fortran;linkage;julia;install" \
+        -DKokkos_ROOT="$root/.deps/kokkos-4.7.0-shared"
       run_tests no-mpi
-      ;;
-    sanitize)
-      configure_and_build sanitize --preset sanitize
-      run_tests sanitize -LE '^(install|bench|many-runs)$'
       ;;
     *)
       echo "test.sh: unknown configuration '$configuration'" >&2

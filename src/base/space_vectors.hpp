@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vectors in space.
+// Vectors in space, and what has the same name in the plane.
 #pragma once
 
 #include <cmath>
@@ -12,6 +12,8 @@ namespace pnpbs {
 inline Point<3> difference(const Point<3>& a, const Point<3>& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
+
+inline double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
 
 inline double dot(const Point<3>& a, const Point<3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -18,7 +18,7 @@
 namespace pnpbs::picture {
 namespace {
 
-constexpr PictureSize picture_size{18, 1400, 2400};
+constexpr PictureSize body_picture_size{18, 1400, 2400};
 
 constexpr Colour skin = colour(0xb9cadb);   // the boundary
 constexpr Colour flesh = colour(0xf0dcae);  // tetrahedra that have no colour of their own
@@ -64,7 +64,7 @@ class BodyPainter {
     std::vector<double> shown;
     for (const PaintedFace& face : faces_)
       for (std::size_t k = 0; k < 3; ++k) shown.insert(shown.end(), {face.x[k], face.y[k]});
-    frame_ = frame_around(bounds_of({shown}), body.spacing, picture_size);
+    frame_ = frame_around(bounds_of({shown}), body.spacing, body_picture_size);
   }
 
   const PictureFrame& frame() const { return frame_; }

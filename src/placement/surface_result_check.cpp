@@ -16,7 +16,7 @@ namespace pnpbs {
 
 namespace {
 
-struct StarTriangle {
+struct SentTriangle {
   std::int64_t of, next, last;  // ids: the star of `of` must have the other two, in this order
   std::int64_t owner;           // of `of`
 };
@@ -46,7 +46,7 @@ class SurfaceResultCheck : public VolumeNodeCheck {
   bool star_has(std::int64_t i, std::int64_t next, std::int64_t last) const;
   void check_stars() const;
   void check_corner(std::int64_t corner, std::int64_t next, std::int64_t last,
-                    std::vector<StarTriangle>& elsewhere) const;
+                    std::vector<SentTriangle>& elsewhere) const;
   [[noreturn]] void fail_of_star(const std::string& of, std::int64_t next, std::int64_t last) const;
 
   std::int64_t sheets_at(std::int64_t i, std::int64_t j) const;
@@ -75,7 +75,7 @@ void SurfaceResultCheck::fail_of_star(const std::string& of, std::int64_t next,
 }
 
 void SurfaceResultCheck::check_corner(std::int64_t corner, std::int64_t next, std::int64_t last,
-                                      std::vector<StarTriangle>& elsewhere) const {
+                                      std::vector<SentTriangle>& elsewhere) const {
   if (!nodes_.owned(corner))
     elsewhere.push_back({nodes_.id(corner), nodes_.id(next), nodes_.id(last), owner_of(corner)});
   else if (!star_has(corner, nodes_.id(next), nodes_.id(last)))
@@ -83,7 +83,7 @@ void SurfaceResultCheck::check_corner(std::int64_t corner, std::int64_t next, st
 }
 
 void SurfaceResultCheck::check_stars() const {
-  std::vector<StarTriangle> elsewhere;
+  std::vector<SentTriangle> elsewhere;
   for_owned([&](std::int64_t i) {
     bool any = false;
     level_.stars.for_triangles(i, [&](const Others& others) {
@@ -94,7 +94,7 @@ void SurfaceResultCheck::check_stars() const {
     if (!any) fail_check("node " + name(i) + " lies on a surface, but no triangle has it");
   });
   if (comm_.size() == 1) return;
-  for (const StarTriangle& t : redistribute(comm_, elsewhere, [](const StarTriangle& sent) {
+  for (const SentTriangle& t : redistribute(comm_, elsewhere, [](const SentTriangle& sent) {
          return static_cast<int>(sent.owner);
        })) {
     const std::int64_t i = owned_node(t.of);

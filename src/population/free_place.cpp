@@ -7,16 +7,11 @@
 #include <limits>
 #include <optional>
 
+#include "base/space_vectors.hpp"
+
 namespace pnpbs {
 
 namespace {
-
-template <int Dim>
-double dot(const Point<Dim>& a, const Point<Dim>& b) {
-  double sum = 0;
-  for (int k = 0; k < Dim; ++k) sum += a[k] * b[k];
-  return sum;
-}
 
 // Square to `a`: the axis that is least along it, without the part along it.
 template <int Dim>
@@ -26,7 +21,7 @@ Point<Dim> square_to(const Point<Dim>& a) {
     if (std::fabs(a[k]) < std::fabs(a[min])) min = k;
   Point<Dim> b{};
   b[min] = 1;
-  const double length = dot<Dim>(a, a);
+  const double length = dot(a, a);
   if (length == 0) return b;
   for (int k = 0; k < Dim; ++k) b[k] -= a[min] * a[k] / length;
   return b;
@@ -51,12 +46,12 @@ Point<Dim> place_away(const Point<Dim>& x, double d, const std::vector<Point<Dim
   }
   Point<Dim> away;
   for (int k = 0; k < Dim; ++k) away[k] = -crowd[k];
-  if (dot<Dim>(away, away) <= kBalanced * kBalanced * weights * weights) {
+  if (dot(away, away) <= kBalanced * kBalanced * weights * weights) {
     away = square_to<Dim>(to_nearest);
-    if (dot<Dim>(away, crowd) > 0)
+    if (dot(away, crowd) > 0)
       for (int k = 0; k < Dim; ++k) away[k] = -away[k];
   }
-  const double length = std::sqrt(dot<Dim>(away, away));
+  const double length = std::sqrt(dot(away, away));
   Point<Dim> place;
   for (int k = 0; k < Dim; ++k) place[k] = x[k] + d * (away[k] / length);
   return place;
@@ -72,21 +67,17 @@ std::optional<Point<2>> circumcentre(const Point<2>& x, const std::array<Point<2
   return Point<2>{x[0] + (cy * bb - by * cc) / area, x[1] + (bx * cc - cx * bb) / area};
 }
 
-Point<3> cross(const Point<3>& a, const Point<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 // The centre of the sphere through x and three others; none if they lie in a plane.
 std::optional<Point<3>> circumcentre(const Point<3>& x, const std::array<Point<3>, 3>& others) {
   std::array<Point<3>, 3> to;
   std::array<double, 3> square;
   for (std::size_t n = 0; n < 3; ++n) {
     for (std::size_t k = 0; k < 3; ++k) to[n][k] = others[n][k] - x[k];
-    square[n] = dot<3>(to[n], to[n]);
+    square[n] = dot(to[n], to[n]);
   }
   const std::array<Point<3>, 3> normal{cross(to[1], to[2]), cross(to[2], to[0]),
                                        cross(to[0], to[1])};
-  const double volume = 2 * dot<3>(to[0], normal[0]);
+  const double volume = 2 * dot(to[0], normal[0]);
   if (volume == 0) return std::nullopt;
   Point<3> centre;
   for (std::size_t k = 0; k < 3; ++k)

@@ -25,7 +25,7 @@ struct OwnedBox {
 };
 
 template <int Dim>
-struct Question {
+struct OwnerQuestion {
   Point<Dim> x;
   std::int64_t index;  // among the points of the asker
   std::int32_t asker, asked;
@@ -113,20 +113,20 @@ template <class Ranks>
 void NodalSpacing<Dim>::look(std::int64_t n, const Point<Dim>* x, bool same, const Ranks& ranks_for,
                              Find find, std::vector<PatchAnswer<Dim>>& answers) const {
   const std::int32_t me = comm_->rank();
-  std::vector<Question<Dim>> questions;
+  std::vector<OwnerQuestion<Dim>> questions;
   for (std::int64_t i = 0; i < n; ++i) {
     if (answers[static_cast<std::size_t>(i)].found()) continue;
     for (const std::int32_t rank : ranks_for(x[i]))
       if (!same || rank == me) questions.push_back({x[i], i, me, rank});
   }
   if (!same)
-    questions = redistribute<Question<Dim>>(
-        *comm_, questions, [](const Question<Dim>& q) { return static_cast<int>(q.asked); });
+    questions = redistribute<OwnerQuestion<Dim>>(
+        *comm_, questions, [](const OwnerQuestion<Dim>& q) { return static_cast<int>(q.asked); });
 
   std::vector<Reply<Dim>> replies(questions.size());
   for_each("pnpbs::NodalSpacing::look", static_cast<std::int64_t>(questions.size()),
            [&](std::int64_t k) {
-             const Question<Dim>& question = questions[static_cast<std::size_t>(k)];
+             const OwnerQuestion<Dim>& question = questions[static_cast<std::size_t>(k)];
              Reply<Dim>& reply = replies[static_cast<std::size_t>(k)];
              reply.index = question.index;
              reply.asker = question.asker;

@@ -9,7 +9,7 @@
 namespace pnpbs::tool {
 namespace {
 
-[[noreturn]] void refuse(const std::string& text) {
+[[noreturn]] void refuse_cut(const std::string& text) {
   throw BadInput(
       "--cut: expected x=NUMBER, y=NUMBER, z=NUMBER or A,B,C,D for the plane A x + B y "
       "+ C z = D, found '" +
@@ -35,7 +35,8 @@ picture::CutPlane across_axis(const std::string& text, std::size_t equals) {
   std::erase(axis, ' ');
   const std::size_t number = std::string("xyz").find(axis);
   const auto place = numbers_between_commas(text.substr(equals + 1));
-  if (axis.size() != 1 || number == std::string::npos || !place || place->size() != 1) refuse(text);
+  if (axis.size() != 1 || number == std::string::npos || !place || place->size() != 1)
+    refuse_cut(text);
   return picture::plane_across(static_cast<int>(number), place->front());
 }
 
@@ -56,9 +57,9 @@ picture::CutPlane cut_plane_in(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals != std::string::npos) return across_axis(text, equals);
   const auto numbers = numbers_between_commas(text);
-  if (!numbers || numbers->size() != 4) refuse(text);
+  if (!numbers || numbers->size() != 4) refuse_cut(text);
   const Point<3> normal{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-  if (normal == Point<3>{}) refuse(text);
+  if (normal == Point<3>{}) refuse_cut(text);
   return {normal, numbers->back(), name_of(normal, numbers->back())};
 }
 

@@ -12,7 +12,6 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kBeyond = 1 + 1e-9;  // distances are rounded
 
 }  // namespace
@@ -107,6 +106,7 @@ bool VolumeStar::may_matter_in(const Box<3>& box) const {
     const double bend = std::max(offset, 0.0) / unit_;
     double sum = slack;
     for (std::size_t k = 0; k < 3; ++k) {
+      constexpr double kInfinity = std::numeric_limits<double>::infinity();
       const double peak = bend > 0 ? 0.5 * normal[k] / bend : std::copysign(kInfinity, normal[k]);
       const double x = std::clamp(peak, low[k], high[k]);
       sum += normal[k] * x - bend * x * x;

@@ -9,6 +9,7 @@
 
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "domain/domain_error.hpp"
 #include "domain/plane/point_tree.hpp"
 
 namespace pnpbs {
@@ -65,10 +66,6 @@ class Joiner {
   }
 
  private:
-  [[noreturn]] static void reject(const std::string& message) {
-    throw Error(ErrorKind::domain, message);
-  }
-
   void list_points() {
     for (std::size_t s = 0; s < sources_.size(); ++s) {
       const CurveSource& source = sources_[s];
@@ -85,7 +82,8 @@ class Joiner {
       given_.push_back({-1, fixed, fixed, fixed_nodes_[f].tag, true, false});
       positions_.push_back(fixed_nodes_[f].position);
     }
-    if (given_.size() >= (std::size_t{1} << 31) - 1) reject("the domain has 2^31 points or more");
+    if (given_.size() >= (std::size_t{1} << 31) - 1)
+      reject_domain("the domain has 2^31 points or more");
   }
 
   // Samples in the middle of smooth curves join others only where these were given: two curves
@@ -135,7 +133,7 @@ class Joiner {
                                   ? " are both at " + point_text(positions_[a])
                                   : " are too close, at " + point_text(positions_[a]) + " and " +
                                         point_text(positions_[b]);
-    reject(point_name(a) + " and " + point_name(b) + where);
+    reject_domain(point_name(a) + " and " + point_name(b) + where);
   }
 
   std::string point_name(std::int32_t point) const {
@@ -186,10 +184,10 @@ class Joiner {
         const VertexPair ends{vertex_of_[first_point_[s] + begin],
                               vertex_of_[first_point_[s] + end]};
         if (ends[0] == ends[1]) {
-          reject(source.segment_name(i) + " is too short at " +
-                 point_text(graph_.vertices[ends[0]].position) +
-                 ": its ends count as the same place in a domain of size " +
-                 number_text(graph_.size));
+          reject_domain(source.segment_name(i) + " is too short at " +
+                        point_text(graph_.vertices[ends[0]].position) +
+                        ": its ends count as the same place in a domain of size " +
+                        number_text(graph_.size));
         }
         graph_.ends.push_back(ends);
         graph_.edges.push_back({static_cast<std::int32_t>(s), i, smooth ? source.parameters[i] : 0,

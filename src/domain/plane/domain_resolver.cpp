@@ -7,6 +7,7 @@
 
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "domain/domain_error.hpp"
 #include "domain/plane/domain_extent.hpp"
 #include "domain/plane/domain_graph.hpp"
 #include "domain/plane/faces.hpp"
@@ -24,8 +25,6 @@ using Kind = CurveSource::Kind;
 
 // Chords of smooth curves in conflict are halved this often before the conflict is believed.
 constexpr int kRefinements = 8;
-
-[[noreturn]] void reject(const std::string& message) { throw Error(ErrorKind::domain, message); }
 
 class Resolver {
  public:
@@ -63,11 +62,11 @@ class Resolver {
   void make_graph() {
     std::int64_t segments = 0;
     for (const CurveSource& source : sources_) segments += source.segment_count();
-    if (segments == 0) reject("the domain has no curves");
+    if (segments == 0) reject_domain("the domain has no curves");
     const double size = domain_size(sources_);
     if (size < kSmallestDomain) {
-      reject("the domain's size is " + number_text(size) + ", less than " +
-             number_text(kSmallestDomain));
+      reject_domain("the domain's size is " + number_text(size) + ", less than " +
+                    number_text(kSmallestDomain));
     }
     reject_far_away(size);
     attach_to_smooth_curves(sources_, fixed_nodes_, size);
@@ -88,9 +87,10 @@ class Resolver {
       for (const Point<2>& point : source.points)
         for (const double coordinate : point)
           if (size < kSmallestRelativeSize * std::fabs(coordinate))
-            reject("the domain's size is " + number_text(size) + ", less than " +
-                   number_text(kSmallestRelativeSize) + " of its distance from the origin, as at " +
-                   point_text(point) + ": move it nearer");
+            reject_domain("the domain's size is " + number_text(size) + ", less than " +
+                          number_text(kSmallestRelativeSize) +
+                          " of its distance from the origin, as at " + point_text(point) +
+                          ": move it nearer");
   }
 
   std::string edge_name(std::int32_t edge) const {
@@ -117,21 +117,21 @@ class Resolver {
       } else if (is_hole(conflict.vertex)) {
         reject_hole_on(hole_at(conflict.vertex), edge_name(conflict.edge));
       } else {
-        reject(name_and_place(conflict.vertex) + " lies on " + edge_name(conflict.edge));
+        reject_domain(name_and_place(conflict.vertex) + " lies on " + edge_name(conflict.edge));
       }
     }
     for (const VertexPair& pair : sweep_.coincident) {
       if (is_hole(pair[0])) continue;
       const std::string name = vertex_name(graph_.vertices[pair[0]], sources_, fixed_nodes_);
       if (is_hole(pair[1])) reject_hole_on(hole_at(pair[1]), name);
-      reject(name + " and " + vertex_name(graph_.vertices[pair[1]], sources_, fixed_nodes_) +
-             " touch at " + point_text(points_[pair[0]]));
+      reject_domain(name + " and " + vertex_name(graph_.vertices[pair[1]], sources_, fixed_nodes_) +
+                    " touch at " + point_text(points_[pair[0]]));
     }
   }
 
   [[noreturn]] static void reject_hole_on(const Hole& hole, const std::string& name) {
-    reject(hole.name + " at " + point_text(hole.point) + " lies on " + name +
-           ": move it into the region it stands for");
+    reject_domain(hole.name + " at " + point_text(hole.point) + " lies on " + name +
+                  ": move it into the region it stands for");
   }
 
   [[noreturn]] void reject_meeting_edges(std::int32_t first, std::int32_t second) const {
@@ -146,8 +146,8 @@ class Resolver {
                                : crossing_point(points_[a], points_[b], points_[c], points_[d]);
     const std::string name = edge_name(first), other = edge_name(second);
     const std::string what = common_end || on_a_line ? " overlap at " : " cross at ";
-    if (name == other) reject(name + " meets itself at " + point_text(where));
-    reject(name + " and " + other + what + point_text(where));
+    if (name == other) reject_domain(name + " meets itself at " + point_text(where));
+    reject_domain(name + " and " + other + what + point_text(where));
   }
 
   // Every vertex must end an even number of boundary segments.
@@ -159,11 +159,11 @@ class Resolver {
       any = true;
       for (const std::int32_t vertex : graph_.ends[e]) odd[vertex] ^= 1;
     }
-    if (!any) reject("the domain has no boundary curve, only inner ones");
+    if (!any) reject_domain("the domain has no boundary curve, only inner ones");
     const auto open = std::find(odd.begin(), odd.end(), 1);
     if (open == odd.end()) return;
-    reject("the boundary is not closed: it ends at " +
-           name_and_place(static_cast<std::int32_t>(open - odd.begin())));
+    reject_domain("the boundary is not closed: it ends at " +
+                  name_and_place(static_cast<std::int32_t>(open - odd.begin())));
   }
 
   bool is_boundary(std::size_t edge) const {
@@ -184,10 +184,10 @@ class Resolver {
     if (faces_.count > 1) return;
     for (std::size_t v = 0; v < graph_.vertices.size(); ++v) {
       if (graph_.vertices[v].degree != 1) continue;
-      reject("the segments enclose nothing: they end at " +
-             name_and_place(static_cast<std::int32_t>(v)));
+      reject_domain("the segments enclose nothing: they end at " +
+                    name_and_place(static_cast<std::int32_t>(v)));
     }
-    reject("the segments enclose nothing");
+    reject_domain("the segments enclose nothing");
   }
 
   // Even-odd: each boundary curve leads from outside in or from inside out.
@@ -222,7 +222,8 @@ class Resolver {
       const auto point = static_cast<std::int32_t>(graph_.vertices.size() + h);
       const std::int32_t face = face_around(point);
       if (!inside_[face]) {
-        reject(holes_[h].name + " at " + point_text(holes_[h].point) + " lies outside the domain");
+        reject_domain(holes_[h].name + " at " + point_text(holes_[h].point) +
+                      " lies outside the domain");
       }
       if (hole_in[face] < 0) {
         hole_in[face] = static_cast<std::int32_t>(h);
@@ -235,7 +236,7 @@ class Resolver {
       if (hole_in[face] >= 0) inside_[face] = 0;
     }
     if (std::find(inside_.begin(), inside_.end(), 1) == inside_.end()) {
-      reject("the holes leave nothing of the domain");
+      reject_domain("the holes leave nothing of the domain");
     }
   }
 
@@ -273,8 +274,8 @@ class Resolver {
       if (kept_degree_[v] > 0) continue;
       const bool in_face = vertex.degree == 0 && inside_[face_around(v)];
       if (!in_face && vertex.fixed >= 0) {
-        reject(fixed_nodes_[vertex.fixed].name + " at " + point_text(vertex.position) +
-               " lies outside the domain");
+        reject_domain(fixed_nodes_[vertex.fixed].name + " at " + point_text(vertex.position) +
+                      " lies outside the domain");
       }
       if (vertex.degree > 0) continue;
       const std::string name = vertex_name(vertex, sources_, fixed_nodes_);

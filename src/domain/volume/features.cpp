@@ -15,8 +15,6 @@ namespace pnpbs {
 
 namespace {
 
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // One side of a facet, as the less of its two nodes has it.
 struct FacetSide {
   std::int32_t other;  // the greater node
@@ -68,6 +66,8 @@ class FeatureFinder {
   }
 
  private:
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
   std::int32_t edge_count() const { return static_cast<std::int32_t>(edges_.size()); }
   const BoundaryTriangle& facet(std::int32_t f) const { return mesh_.facets[index(f)]; }
   const Point<3>& position(std::int32_t node) const { return mesh_.nodes[index(node)].position; }

@@ -6,13 +6,12 @@
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
+#include "domain/domain_error.hpp"
 #include "domain/volume/triangle_contacts.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-[[noreturn]] void reject(const std::string& message) { throw Error(ErrorKind::domain, message); }
 
 Box<3> box_of(const Point<3>& a, const Point<3>& b, double reach) {
   return joined(box_around<3>(a, reach), box_around<3>(b, reach));
@@ -42,8 +41,8 @@ void check_against_surface(CurveSegment& segment, const Triangulation& surface,
   });
   if (met < 0) return;
   const Point<3> place = meeting_point(x, y, surface.corners(met));
-  reject(segment.name + " meets " + surface.triangle_name(met) + " at " + point_text(place) +
-         ": they may meet in common vertices only");
+  reject_domain(segment.name + " meets " + surface.triangle_name(met) + " at " + point_text(place) +
+                ": they may meet in common vertices only");
 }
 
 // Two segments with a common end: does one lie on the other?
@@ -60,14 +59,14 @@ void check_pair(const CurveSegment& s, const CurveSegment& t, const std::vector<
       if (s.ends[i] != t.ends[j]) continue;
       if (fold_back(vertices[s.ends[i]], vertices[s.ends[1 - i]], vertices[t.ends[1 - j]],
                     same_place))
-        reject(s.name + " and " + t.name + " overlap at " + point_text(vertices[s.ends[i]]));
+        reject_domain(s.name + " and " + t.name + " overlap at " + point_text(vertices[s.ends[i]]));
       return;
     }
   const SegmentEnds x{vertices[s.ends[0]], vertices[s.ends[1]]};
   const SegmentEnds y{vertices[t.ends[0]], vertices[t.ends[1]]};
   const Point<3> place = nearest_to_segment(x, y);
   if (distance<3>(place, nearest_on_segment(y, place)) > same_place) return;
-  reject(s.name + " and " + t.name + " meet at " + point_text(place));
+  reject_domain(s.name + " and " + t.name + " meet at " + point_text(place));
 }
 
 }  // namespace
@@ -85,8 +84,8 @@ std::vector<CurveSegment> make_segments(const std::vector<InnerPolyline>& polyli
                           "segment " + std::to_string(i) + " of " + curve.name});
       const auto& [begin, end] = segments.back().ends;
       if (begin == end)
-        reject(segments.back().name + " is too short at " + point_text(vertices[begin]) +
-               ": its ends count as the same place");
+        reject_domain(segments.back().name + " is too short at " + point_text(vertices[begin]) +
+                      ": its ends count as the same place");
     }
     first += curve.points.size();
   }

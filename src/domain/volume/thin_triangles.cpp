@@ -37,8 +37,8 @@ double longest_edge(const FacetCorners<3>& corners) {
 }
 
 // Of single precision a millionth of the domain's size is left.
-constexpr double kRounding = 1000;  // in tolerances
-constexpr double kFlat = 1e-4;      // height over the shorter of the two other edges
+constexpr double kRounding = 1000;    // in tolerances
+constexpr double kFlatHeight = 1e-4;  // height over the shorter of the two other edges
 
 bool is_thin(const FacetCorners<3>& corners, double tolerance) {
   const double longest = longest_edge(corners);
@@ -49,7 +49,7 @@ bool is_thin(const FacetCorners<3>& corners, double tolerance) {
   const int k = apex_of(corners);
   const double shorter = std::min(distance<3>(corners[k], corners[(k + 1) % 3]),
                                   distance<3>(corners[k], corners[(k + 2) % 3]));
-  return height <= kRounding * tolerance && height <= kFlat * shorter;
+  return height <= kRounding * tolerance && height <= kFlatHeight * shorter;
 }
 
 constexpr std::size_t kMaxCuts = 10;  // per triangle: far more than needed

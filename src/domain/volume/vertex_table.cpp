@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "domain/volume/vertex_table.hpp"
 
-#include <bit>
+#include "base/mixed_hash.hpp"
 
 namespace pnpbs {
 
@@ -9,17 +9,9 @@ namespace {
 
 constexpr std::int32_t kFree = -1;
 
-// S. Vigna's splitmix64.
-std::uint64_t mixed(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31);
-}
-
 std::uint64_t hash_of(const Point<3>& x) {
   std::uint64_t hash = 0;
-  for (const double coordinate : x) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(coordinate));
+  for (const double coordinate : x) hash = mixed_with(hash, coordinate);
   return hash;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "domain/domain_error.hpp"
 #include "domain/volume/nesting.hpp"
 #include "domain/volume/resolved_features.hpp"
 #include "domain/volume/self_intersections.hpp"
@@ -22,8 +23,6 @@
 namespace pnpbs {
 
 namespace {
-
-[[noreturn]] void reject(const std::string& message) { throw Error(ErrorKind::domain, message); }
 
 class Resolver {
  public:
@@ -66,20 +65,20 @@ class Resolver {
  private:
   // ------------------------------------------------------------ what is given
   void require_surfaces() const {
-    if (surfaces_.empty()) reject("the domain has no surfaces");
+    if (surfaces_.empty()) reject_domain("the domain has no surfaces");
     if (filled_ &&
         std::none_of(surfaces_.begin(), surfaces_.end(), [](const SurfaceSource& surface) {
           return surface.role == SurfaceRole::boundary;
         }))
-      reject("the domain has no boundary surface, only inner ones");
+      reject_domain("the domain has no boundary surface, only inner ones");
     std::size_t vertices = fixed_nodes_.size(), triangles = 0;
     for (const SurfaceSource& surface : surfaces_) {
       vertices += surface.vertices.size();
       triangles += surface.triangles.size();
     }
     for (const InnerPolyline& curve : polylines_) vertices += curve.points.size();
-    if (vertices >= std::size_t{1} << 31) reject("the domain has 2^31 vertices or more");
-    if (triangles >= std::size_t{1} << 30) reject("the domain has 2^30 triangles or more");
+    if (vertices >= std::size_t{1} << 31) reject_domain("the domain has 2^31 vertices or more");
+    if (triangles >= std::size_t{1} << 30) reject_domain("the domain has 2^30 triangles or more");
   }
 
   void measure() {
@@ -88,14 +87,15 @@ class Resolver {
       for (const std::int32_t v : triangle.vertices) include(box, surface_.vertices[v]);
     size_ = size_of(box);
     if (size_ < kSmallestDomain)
-      reject("the domain's size is " + number_text(size_) + ", less than " +
-             number_text(kSmallestDomain));
+      reject_domain("the domain's size is " + number_text(size_) + ", less than " +
+                    number_text(kSmallestDomain));
     for (const Point<3>& x : {box.low, box.high})
       for (const double coordinate : x)
         if (size_ < kSmallestRelativeSize * std::fabs(coordinate))
-          reject("the domain's size is " + number_text(size_) + ", less than " +
-                 number_text(kSmallestRelativeSize) + " of its distance from the origin, as at " +
-                 point_text(x) + ": move it nearer");
+          reject_domain("the domain's size is " + number_text(size_) + ", less than " +
+                        number_text(kSmallestRelativeSize) +
+                        " of its distance from the origin, as at " + point_text(x) +
+                        ": move it nearer");
   }
 
   // ------------------------------------------------------------ what is at the same place
@@ -139,10 +139,10 @@ class Resolver {
       const auto [entry, is_new] = node_at.try_emplace(fixed_vertices_[i], i);
       if (is_new) continue;
       const FixedNode3 &a = fixed_nodes_[entry->second], &b = fixed_nodes_[i];
-      reject(a.name + " and " + b.name +
-             (a.position == b.position ? " are both at " + point_text(a.position)
-                                       : " are too close, at " + point_text(a.position) + " and " +
-                                             point_text(b.position)));
+      reject_domain(a.name + " and " + b.name +
+                    (a.position == b.position ? " are both at " + point_text(a.position)
+                                              : " are too close, at " + point_text(a.position) +
+                                                    " and " + point_text(b.position)));
     }
   }
 
@@ -151,9 +151,9 @@ class Resolver {
     for (const SurfaceTriangle& triangle : surface_.triangles) has_any[triangle.source] = 1;
     for (std::size_t s = 0; s < surfaces_.size(); ++s)
       if (!has_any[s])
-        reject("all triangles of " + surfaces_[s].name + " are smaller than " +
-               rounded_text(kSameVertex * size_) + ", which is nothing in a domain of size " +
-               number_text(size_));
+        reject_domain("all triangles of " + surfaces_[s].name + " are smaller than " +
+                      rounded_text(kSameVertex * size_) +
+                      ", which is nothing in a domain of size " + number_text(size_));
   }
 
   // ------------------------------------------------------------ the inside
@@ -183,10 +183,10 @@ class Resolver {
       const std::string name = holes_[h].name + " at " + point_text(holes_[h].point);
       const std::int32_t on = triangle_at(holes_[h].point);
       if (on >= 0)
-        reject(name + " lies on " + surface_.triangle_name(on) +
-               ": move it into the region it stands for");
+        reject_domain(name + " lies on " + surface_.triangle_name(on) +
+                      ": move it into the region it stands for");
       const std::int32_t region = regions_->around(holes_[h].point);
-      if (!inside_[region]) reject(name + " lies outside the domain");
+      if (!inside_[region]) reject_domain(name + " lies outside the domain");
       if (hole_in[region] < 0) {
         hole_in[region] = static_cast<std::int32_t>(h);
       } else {
@@ -197,13 +197,13 @@ class Resolver {
     for (std::size_t region = 0; region < inside_.size(); ++region)
       if (hole_in[region] >= 0) inside_[region] = 0;
     if (std::find(inside_.begin(), inside_.end(), 1) == inside_.end())
-      reject("the holes leave nothing of the domain");
+      reject_domain("the holes leave nothing of the domain");
   }
 
   void reject_holes() const {
     if (!holes_.empty())
-      reject(holes_[0].name + " at " + point_text(holes_[0].point) +
-             ": a domain of surfaces alone has no inside to take holes out of");
+      reject_domain(holes_[0].name + " at " + point_text(holes_[0].point) +
+                    ": a domain of surfaces alone has no inside to take holes out of");
   }
 
   // The first triangle on which the point lies, as near as places are told apart, or -1.
@@ -292,8 +292,8 @@ class Resolver {
         if (!on_surface_[end]) reject_on_triangle(surface_.vertices[end], segment.name);
       bool inside = segment.along >= 0 && kept_[segment.along];
       if (!filled_ && !inside)
-        reject(segment.name + " leaves the surfaces at " + point_text(surface_.vertices[a]) +
-               ": it must follow the edges of their triangles");
+        reject_domain(segment.name + " leaves the surfaces at " + point_text(surface_.vertices[a]) +
+                      ": it must follow the edges of their triangles");
       if (segment.along < 0) {
         Point<3> middle;
         for (int k = 0; k < 3; ++k)
@@ -313,8 +313,8 @@ class Resolver {
   void reject_on_triangle(const Point<3>& x, const std::string& name) const {
     const std::int32_t t = triangle_at(x);
     if (t < 0) return;
-    reject(name + " lies on " + surface_.triangle_name(t) + " at " + point_text(x) +
-           ": it must be a vertex of the surface there");
+    reject_domain(name + " lies on " + surface_.triangle_name(t) + " at " + point_text(x) +
+                  ": it must be a vertex of the surface there");
   }
 
   void add_fixed_nodes() {
@@ -325,8 +325,8 @@ class Resolver {
       if (number_[vertex] < 0) {
         if (!on_surface_[vertex]) reject_on_triangle(node.position, node.name);
         if (on_surface_[vertex] || !inside_[regions_->around(node.position)])
-          reject(node.name + " at " + point_text(node.position) +
-                 (filled_ ? " lies outside the domain" : " is no vertex of the surfaces"));
+          reject_domain(node.name + " at " + point_text(node.position) +
+                        (filled_ ? " lies outside the domain" : " is no vertex of the surfaces"));
         reject_on_segment(node, segments);
       }
       node.mesh_node = node_at(vertex, node.tag);
@@ -346,8 +346,8 @@ class Resolver {
           const FacetCorners<3> line{surface_.vertices[a], surface_.vertices[b],
                                      surface_.vertices[b]};
           if (distance<3>(nearest_on(line, node.position), node.position) > reach) return;
-          reject(node.name + " at " + point_text(node.position) + " lies on " + segments_[s].name +
-                 ": make it a vertex there");
+          reject_domain(node.name + " at " + point_text(node.position) + " lies on " +
+                        segments_[s].name + ": make it a vertex there");
         });
   }
 

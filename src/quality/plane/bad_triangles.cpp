@@ -23,7 +23,7 @@ double quality_that_suffices(double shape) {
 }
 
 // Where to look, in units of d: in eight directions, ever nearer.
-constexpr double kLongestWay = 0.08, kShortestWay = 0.01;
+constexpr double kFirstWay = 0.08, kLastWay = 0.01;
 constexpr double kDiagonal = 0.70710678118654752;
 constexpr std::array<Point<2>, 8> kDirections{{{1, 0},
                                                {kDiagonal, kDiagonal},
@@ -88,7 +88,7 @@ void BadTriangleRepair::look_around(Candidate& candidate) const {
   candidate.wants = false;
   if (candidate.worst >= bad_below_) return;
   double best = candidate.worst;
-  for (double way = kLongestWay; way >= kShortestWay; way *= 0.5)
+  for (double way = kFirstWay; way >= kLastWay; way *= 0.5)
     for (const Point<2>& direction : kDirections) {
       const double d = nodes_.d(i);
       const Point<2> place =

@@ -17,11 +17,6 @@ StarChanges::Corners face_of(const TetrahedronNodes& t, std::size_t corner) {
   return {t[kFaces[corner][0]], t[kFaces[corner][1]], t[kFaces[corner][2]]};
 }
 
-StarChanges::Corners least_first(StarChanges::Corners face) {
-  std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-  return face;
-}
-
 }  // namespace
 
 NodeMove::NodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t node)
@@ -109,7 +104,7 @@ void NodeMove::find_gone() {
 
 // A face with a tetrahedron on either side, or one gone and one made on the same, is closed.
 void NodeMove::add_face(const Corners& corners) {
-  const Corners face = least_first(corners), back{face[0], face[2], face[1]};
+  const Corners face = StarChanges::least_first(corners), back{face[0], face[2], face[1]};
   const auto found = std::find(open_.begin(), open_.end(), back);
   if (found == open_.end()) {
     open_.push_back(face);

@@ -19,14 +19,12 @@ StarChanges::Corners others(const TetrahedronNodes& t, std::int32_t i) {
   return {t[0], t[2], t[1]};
 }
 
-// The same tetrahedron has the same corners in the same turn, whichever comes first.
-StarChanges::Corners least_first(const StarChanges::Corners& c) {
-  if (c[0] < c[1] && c[0] < c[2]) return c;
-  return c[1] < c[2] ? StarChanges::Corners{c[1], c[2], c[0]}
-                     : StarChanges::Corners{c[2], c[0], c[1]};
-}
-
 }  // namespace
+
+StarChanges::Corners StarChanges::least_first(const Corners& c) {
+  if (c[0] < c[1] && c[0] < c[2]) return c;
+  return c[1] < c[2] ? Corners{c[1], c[2], c[0]} : Corners{c[2], c[0], c[1]};
+}
 
 TetrahedronNodes StarChanges::by_id(TetrahedronNodes corners) const {
   std::sort(corners.begin(), corners.end(),

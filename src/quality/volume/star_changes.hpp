@@ -70,6 +70,8 @@ class StarChanges {
       visit(TetrahedronNodes{static_cast<std::int32_t>(i), corners[0], corners[1], corners[2]});
     });
   }
+  // The same triangle has the same corners in the same turn, whichever comes first.
+  static Corners least_first(const Corners& c);
   TetrahedronNodes by_id(TetrahedronNodes corners) const;
   bool ids_less(const TetrahedronNodes& a, const TetrahedronNodes& b) const;
   void sort_by_id(std::vector<TetrahedronNodes>& tetrahedra) const;

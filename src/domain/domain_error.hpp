@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "base/error.hpp"
+
+namespace pnpbs {
+
+// Says that a domain cannot be what was given, and where.
+[[noreturn]] inline void reject_domain(const std::string& message) {
+  throw Error(ErrorKind::domain, message);
+}
+
+}  // namespace pnpbs
