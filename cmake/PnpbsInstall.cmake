@@ -163,3 +163,9 @@ pnpbs_install_link("${data_dir}" docs "${doc_dir}/docs")
 # ------------------------------------------------------------------ Julia -----------------------
 # Beside the library: the package looks for it in the prefix it lies in.
 install(DIRECTORY bindings/julia/PNPBS.jl DESTINATION "${data_dir}/julia")
+
+# ------------------------------------------------------------------ Python ----------------------
+install(
+  DIRECTORY bindings/python/pnpbs
+  DESTINATION "${data_dir}/python"
+  PATTERN __pycache__ EXCLUDE)

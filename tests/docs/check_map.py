@@ -8,7 +8,7 @@ import re
 import sys
 import tempfile
 
-LANGUAGES = {"c": "C", "fortran": "Fortran", "julia": "Julia"}
+LANGUAGES = {"c": "C", "fortran": "Fortran", "julia": "Julia", "python": "Python"}
 
 
 def missing(root):

@@ -32,11 +32,13 @@ TOOLS = {
     "gfortran": "-std=f2003 " + STRICT_FORTRAN,
     "mpifort": STRICT_FORTRAN,  # MPI's own module and mpif.h are not Fortran 2003
     "julia": "",  # as its users start it: with other options, d may differ in the last bit
+    "python3": "-B",
 }
 PROGRAMS = {
     "c": r"\bint main\(",
     "fortran": r"^\s*end program",
     "julia": r"",
+    "python": r"^import pnpbs",
 }
 
 
@@ -73,7 +75,7 @@ def environment(prefix, work):
         PKG_CONFIG_PATH=str(packages),
         JULIA_LOAD_PATH=f"@stdlib:{prefix}/share/pnpbs/julia:"
                         f"{ROOT}/bindings/julia/PNPBS.jl/test/stand_in",
-        JULIA_DEPOT_PATH=str(work / "depot"), OMP_NUM_THREADS="1",
+        JULIA_DEPOT_PATH=str(work / "depot"), PYTHONPATH=f"{prefix}/share/pnpbs/python", OMP_NUM_THREADS="1",
         # MPI's compilers call these, not the tools above, which would add flags twice.
         OMPI_CC=compiler("cc") or "cc", OMPI_FC=compiler("gfortran") or "gfortran",
         # More ranks than cores, and commands on the page that need not say so.

@@ -61,6 +61,7 @@ expected_files() {
   echo "$datadir/pnpbs/docs"
   same_files examples "$datadir/pnpbs/examples"
   same_files bindings/julia "$datadir/pnpbs/julia"
+  same_files bindings/python/pnpbs "$datadir/pnpbs/python/pnpbs"
 }
 
 say "files ('<' is missing, '>' does not belong there)"
@@ -70,7 +71,7 @@ diff "$work/expected" "$work/found" || fail "not the files that should be there"
 
 say "contents of what is copied"
 for pair in include/pnpbs:$includedir/pnpbs bindings/julia:$datadir/pnpbs/julia \
-  examples:$datadir/pnpbs/examples docs:$datadir/doc/pnpbs/docs; do
+  bindings/python/pnpbs:$datadir/pnpbs/python/pnpbs examples:$datadir/pnpbs/examples docs:$datadir/doc/pnpbs/docs; do
   same_files "${pair%%:*}" "${pair#*:}" | grep -v '/pnpbs\.1$' > "$work/copied"
   [ -s "$work/copied" ] || fail "$pair: no files"
   while read -r file; do

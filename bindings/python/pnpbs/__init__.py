@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parallel node placement by bubble simulation: given a domain and a node-spacing function d(x), it
+returns nodes whose mutual distances follow d, with their adjacency lists, boundary tags and Delaunay
+stars, the same ones for any number of threads and MPI ranks.
+
+    import pnpbs
+
+    with pnpbs.Context() as context:
+        domain = pnpbs.Domain(context)
+        domain.add_polyline([(0, 0), (1, 0), (1, 1), (0, 1)])
+        placement = pnpbs.Placement(domain)
+        placement.set_spacing(0.05)
+        placement.run()
+        points = placement.nodes().points
+
+Points are the rows of (n, 2) arrays, in space of (n, 3) ones; indices, ids and ranks count from 0.
+"Collective" functions must be called by all ranks of the context in the same order, and raise on all
+of them or on none; "local" ones need not. One thread at a time may use a context."""
+
+from ._library import library_path
+from .context import Context
+from .domain import Domain, Outline
+from .errors import PNPBSError, Status
+from .fields import Transfer
+from .placement import Estimate, Placement, PopulationChange
+from .results import EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering, Stars
+from .rows import CompressedRows
+from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unfinished_files,
+                     format_table, library_version, mpi_library, option_table, shutdown,
+                     statistic_table)
+
+__all__ = [
+    "CompressedRows", "Context", "Domain", "EdgeBands", "Estimate", "ExchangePattern", "Facets",
+    "FormatRow", "Ghosts", "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError", "Placement",
+    "PopulationChange", "Stars", "StatisticRow", "Status", "Transfer",
+    "build_info", "discard_unfinished_files", "format_table", "library_path", "library_version",
+    "mpi_library", "option_table", "shutdown", "statistic_table",
+]

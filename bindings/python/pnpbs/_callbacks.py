@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Python functions as the library's callbacks. No exception may pass through the library: it is kept
+in the context, the callback returns nonzero, and `Context._check` raises it when the call has come
+back. Whoever hands a callback over keeps it alive."""
+
+import numpy as np
+
+from ._interface import CALLBACKS
+
+
+def _guarded(context, work):
+    """`work()`, unless an exception is on its way already."""
+    if context._raised is not None:
+        return 1
+    try:
+        return 1 if work() else 0
+    except BaseException as error:  # KeyboardInterrupt, too
+        context._raised = error
+        return 1
+
+
+# A copy, so that a function that keeps or changes its argument does no harm.
+def _copied(address, shape):
+    return np.ctypeslib.as_array(address, shape=shape).copy()
+
+
+def _store(address, values, shape, what):
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != shape:
+        raise ValueError(f"the {what} function returned an array of shape {array.shape}; {shape} "
+                         "was expected")
+    np.ctypeslib.as_array(address, shape=shape)[...] = array
+
+
+def _at_points(c_type, what, f, context):
+    """f(points) for a value at each of n points, (n, dim)."""
+
+    def call(n, dim, coordinates, values, _user):
+        def work():
+            if n > 0:
+                _store(values, f(_copied(coordinates, (n, dim))), (n,), what)
+
+        return _guarded(context, work)
+
+    return CALLBACKS[c_type](call)
+
+
+def spacing_callback(f, context):
+    return _at_points("pnpbs_spacing_fn", "spacing", f, context)
+
+
+def level_set_callback(f, context):
+    return _at_points("pnpbs_level_set_fn", "level set", f, context)
+
+
+def curve_callback(f, context):
+    def call(n, dim, t, coordinates, _user):
+        def work():
+            if n > 0:
+                _store(coordinates, f(_copied(t, (n,))), (n, dim), "curve")
+
+        return _guarded(context, work)
+
+    return CALLBACKS["pnpbs_curve_fn"](call)
+
+
+def monitor_callback(f, context):
+    # Only True stops: a monitor that ends with a print returns None.
+    def call(fraction, step, nodes, max_speed, _user):
+        return _guarded(context, lambda: f(fraction, step, nodes, max_speed) is True)
+
+    return CALLBACKS["pnpbs_monitor_fn"](call)

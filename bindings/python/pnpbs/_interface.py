@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The C interface as it is: `library()` has one function for each function of `pnpbs.h`, of the same
+name and with the same arguments, which that header documents. Nothing is converted beyond what the
+types ask for. A test compares the declarations, the types of callbacks and the constants with the
+header."""
+
+import ctypes
+import re
+
+import numpy as np
+
+from ._library import open_library
+
+STATUSES = {
+    "PNPBS_OK": 0,
+    "PNPBS_NOT_CONVERGED": 1,
+    "PNPBS_STOPPED": 2,
+    "PNPBS_SPACING_MISSED": 3,
+    "PNPBS_ERROR_ARGUMENT": -1,
+    "PNPBS_ERROR_HANDLE": -2,
+    "PNPBS_ERROR_STATE": -3,
+    "PNPBS_ERROR_DOMAIN": -4,
+    "PNPBS_ERROR_SPACING": -5,
+    "PNPBS_ERROR_KEY": -6,
+    "PNPBS_ERROR_CAPACITY": -7,
+    "PNPBS_ERROR_FILE": -8,
+    "PNPBS_ERROR_CALLBACK": -9,
+    "PNPBS_ERROR_MEMORY": -10,
+    "PNPBS_ERROR_MPI": -11,
+    "PNPBS_ERROR_KOKKOS": -12,
+    "PNPBS_ERROR_UNSUPPORTED": -13,
+    "PNPBS_ERROR_INTERNAL": -14,
+}
+
+BOUNDARY = 0
+INNER = 1
+
+DECLARATIONS = """
+const char *pnpbs_status_string(pnpbs_status status);
+const char *pnpbs_last_error(pnpbs_context context);
+pnpbs_status pnpbs_version(int32_t *major, int32_t *minor, int32_t *patch);
+const char *pnpbs_build_info(void);
+const char *pnpbs_mpi_library(void);
+pnpbs_status pnpbs_context_create_serial(pnpbs_context *context);
+pnpbs_status pnpbs_context_create_f(int32_t comm, pnpbs_context *context);
+pnpbs_status pnpbs_context_create_checked_f(int32_t comm, const char *library,
+    pnpbs_context *context);
+pnpbs_status pnpbs_context_destroy(pnpbs_context *context);
+pnpbs_status pnpbs_finalize(void);
+pnpbs_status pnpbs_context_set(pnpbs_context context, const char *key, const char *value);
+pnpbs_status pnpbs_context_set_int64(pnpbs_context context, const char *key, int64_t value);
+pnpbs_status pnpbs_context_set_double(pnpbs_context context, const char *key, double value);
+pnpbs_status pnpbs_option_count(int32_t *count);
+pnpbs_status pnpbs_option_info(int32_t index, const char **name, const char **type,
+    const char **default_value, const char **range, const char **help);
+pnpbs_status pnpbs_statistic_count(int32_t *count);
+pnpbs_status pnpbs_statistic_info(int32_t index, const char **name, const char **type,
+    const char **help);
+pnpbs_status pnpbs_format_count(int32_t *count);
+pnpbs_status pnpbs_format_info(int32_t index, const char **name, const char **help,
+    int32_t *binary, int32_t *elements);
+pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim, pnpbs_domain *domain);
+pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
+pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim);
+pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled);
+pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed,
+    int64_t n, const double *coordinates, const int32_t *tags, double corner_angle);
+pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t role, int64_t vertices,
+    const double *coordinates, int64_t triangles, const int64_t *corners, const int32_t *tags,
+    double feature_angle);
+pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role, const char *path,
+    double feature_angle);
+pnpbs_status pnpbs_domain_add_box(pnpbs_domain domain, const double *low, const double *high,
+    int32_t tag);
+pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double *centre, double radius,
+    int32_t tag);
+pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double *begin,
+    const double *end, double radius, int32_t tag);
+pnpbs_status pnpbs_domain_add_level_set(pnpbs_domain domain, pnpbs_level_set_fn level_set,
+    void *user, const double *low, const double *high, double resolution, int32_t tag);
+pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const double *centre,
+    double radius, double begin, double end, int32_t tag);
+pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role, pnpbs_curve_fn curve,
+    void *user, double begin, double end, int32_t tag);
+pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices,
+    const double *coordinates, const int32_t *vertex_tags, int64_t segments,
+    const int64_t *segment_ends, const int32_t *segment_tags, int64_t holes,
+    const double *hole_points);
+pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double *point);
+pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n,
+    const double *coordinates, const int32_t *tags);
+pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
+pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text, int64_t length,
+    const char *name);
+pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
+pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high);
+pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);
+pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity, int64_t *count,
+    double *segments, int32_t *tags);
+pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
+    pnpbs_placement *placement);
+pnpbs_status pnpbs_placement_destroy(pnpbs_placement *placement);
+pnpbs_status pnpbs_placement_set(pnpbs_placement placement, const char *key, const char *value);
+pnpbs_status pnpbs_placement_set_int64(pnpbs_placement placement, const char *key, int64_t value);
+pnpbs_status pnpbs_placement_set_double(pnpbs_placement placement, const char *key, double value);
+pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d);
+pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
+    pnpbs_spacing_fn spacing, void *user);
+pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const int64_t *size,
+    const double *origin, const double *step, const double *values);
+pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
+    const double *d);
+pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monitor_fn monitor,
+    void *user);
+pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
+    const double *coordinates, const int64_t *ids);
+pnpbs_status pnpbs_placement_estimate(pnpbs_placement placement, int64_t *nodes, int64_t *bytes,
+    double *seconds);
+pnpbs_status pnpbs_placement_initialise(pnpbs_placement placement);
+pnpbs_status pnpbs_placement_step(pnpbs_placement placement, int64_t n);
+pnpbs_status pnpbs_placement_adjust_population(pnpbs_placement placement, int64_t *inserted,
+    int64_t *deleted);
+pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
+pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
+pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t *dim);
+pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t *nodes);
+pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity,
+    double *coordinates, int64_t *ids, int32_t *tags, double *spacing);
+pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capacity,
+    double *normals);
+pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t *ghosts);
+pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capacity,
+    double *coordinates, int64_t *ids, int32_t *tags, double *spacing, int32_t *owners);
+pnpbs_status pnpbs_placement_exchange_sizes(pnpbs_placement placement, int32_t *neighbours,
+    int64_t *sends, int64_t *receives);
+pnpbs_status pnpbs_placement_get_exchange(pnpbs_placement placement, int32_t neighbours,
+    int64_t sends, int64_t receives, int32_t *ranks, int64_t *send_offsets, int64_t *send_nodes,
+    int64_t *receive_offsets, int64_t *receive_nodes);
+pnpbs_status pnpbs_placement_get_numbering(pnpbs_placement placement, int64_t capacity,
+    int64_t *first, int64_t *count, int64_t *ghost_numbers);
+pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t *entries);
+pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t capacity,
+    int64_t *offsets, int64_t *neighbours);
+pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int64_t *entries);
+pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int64_t capacity,
+    int64_t *offsets, int64_t *neighbours, int8_t *triangle);
+pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int64_t *triangles);
+pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int64_t *tetrahedra);
+pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int64_t *triangles, int32_t *tags);
+pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int64_t *edges, int32_t *tags);
+pnpbs_status pnpbs_placement_check(pnpbs_placement placement);
+pnpbs_status pnpbs_placement_get_int64(pnpbs_placement placement, const char *key,
+    int64_t *value);
+pnpbs_status pnpbs_placement_get_double(pnpbs_placement placement, const char *key,
+    double *value);
+pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, const char *key,
+    const char **value);
+pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, double *d_from, double *d_to, int64_t *edges, double *mean,
+    double *deviation);
+pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t *count);
+pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
+    const char **text);
+pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path, int32_t elements);
+pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
+    const char *const *paths, const char *const *formats, const int32_t *elements);
+pnpbs_status pnpbs_discard_unfinished_files(void);
+"""
+
+
+class _Array:
+    """An argument that is an array of NumPy's, or `ctypes.byref` of a number, or None."""
+
+    dtype = None
+
+    @classmethod
+    def from_param(cls, value):
+        if isinstance(value, np.ndarray):
+            if value.dtype != cls.dtype or not value.flags.c_contiguous:
+                raise TypeError(f"an array of {cls.dtype} in the order of C was expected")
+            value = value.ctypes.data
+        return ctypes.c_void_p.from_param(value)
+
+
+def _array_of(dtype):
+    return type(f"_ArrayOf_{dtype}", (_Array,), {"dtype": np.dtype(dtype)})
+
+
+_NUMBERS = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "double": ctypes.c_double,
+            "pnpbs_status": ctypes.c_int}
+_ARRAYS = {"int8_t": _array_of("int8"), "int32_t": _array_of("int32"),
+           "int64_t": _array_of("int64"), "double": _array_of("float64")}
+
+
+def ctypes_of(c_type):
+    """The type of ctypes for one of C, as the header writes it."""
+    if c_type in _NUMBERS:
+        return _NUMBERS[c_type]
+    if c_type == "const char *":
+        return ctypes.c_char_p
+    pointee = c_type.removeprefix("const ").removesuffix(" *")
+    # Handles, callbacks, and what takes `ctypes.byref` alone.
+    return _ARRAYS.get(pointee, ctypes.c_void_p)
+
+
+def declarations(text):
+    """Of "result name(type argument, ...);": {name: (result, ((type, argument), ...))}."""
+    found = {}
+    for declaration in text.split(";"):
+        match = re.fullmatch(r"\s*(.*?[\s*])(pnpbs_\w+)\((.*)\)", declaration, re.S)
+        if match:
+            pieces = [] if match[3] == "void" else match[3].split(",")
+            arguments = [re.fullmatch(r"\s*(.*?[\s*])(\w+)\s*", piece, re.S) for piece in pieces]
+            found[match[2]] = (match[1].strip(), tuple((a[1].strip(), a[2]) for a in arguments))
+    return found
+
+
+# What the library calls. The last argument is `user`, which Python's closures do without.
+_DOUBLES = ctypes.POINTER(ctypes.c_double)
+CALLBACKS = {
+    "pnpbs_curve_fn": ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int32, _DOUBLES,
+                                       _DOUBLES, ctypes.c_void_p),
+    "pnpbs_level_set_fn": ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int32, _DOUBLES,
+                                           _DOUBLES, ctypes.c_void_p),
+    "pnpbs_spacing_fn": ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int32, _DOUBLES,
+                                         _DOUBLES, ctypes.c_void_p),
+    "pnpbs_monitor_fn": ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_double, ctypes.c_int64,
+                                         ctypes.c_int64, ctypes.c_double, ctypes.c_void_p),
+}
+
+_opened = None
+
+
+def library():
+    """The library, opened when it is first needed, with its functions declared."""
+    global _opened
+    if _opened is None:
+        opened = open_library()
+        for name, (result, arguments) in declarations(DECLARATIONS).items():
+            function = getattr(opened, name)
+            function.restype = ctypes_of(result)
+            function.argtypes = [ctypes_of(c_type) for c_type, _ in arguments]
+        _opened = opened
+    return _opened

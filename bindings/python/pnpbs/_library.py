@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the shared library is."""
+
+import ctypes
+import os
+import pathlib
+import sys
+
+# The interface this package is written for. While the major version is 0, a new minor one may change
+# it.
+INTERFACE = (0, 2)
+
+_HERE = pathlib.Path(__file__).resolve().parent
+
+
+def _candidates():
+    if os.environ.get("PNPBS_LIBRARY"):
+        yield os.environ["PNPBS_LIBRARY"]
+        return
+    suffix = "dylib" if sys.platform == "darwin" else "so"
+    # In a wheel it lies in the package; an installed package lies in <prefix>/share/pnpbs/python.
+    prefix = _HERE.parents[3]
+    folders = [_HERE / "lib", prefix / "lib", prefix / "lib64",
+               prefix / "lib" / f"{os.uname().machine}-linux-gnu"]
+    for folder in folders:
+        for path in sorted(folder.glob(f"libpnpbs*.{suffix}*")):
+            yield str(path)
+    # By the name its users are linked with: the one without a number comes with development only.
+    yield "libpnpbs.so.0" if suffix == "so" else "libpnpbs.dylib"
+
+
+def library_path():
+    """The path or name of the library that is opened, or would be: the environment variable
+    `PNPBS_LIBRARY`, or the library that this package was installed with, or whatever the system
+    finds as `libpnpbs`."""
+    return next(_candidates())
+
+
+def open_library():
+    path = library_path()
+    try:
+        opened = ctypes.CDLL(path)
+    except OSError as error:
+        raise ImportError(f"the shared library of PNPBS could not be opened: {error}; set "
+                          "PNPBS_LIBRARY to its path") from error
+    major, minor = ctypes.c_int32(), ctypes.c_int32()
+    opened.pnpbs_version(ctypes.byref(major), ctypes.byref(minor), None)
+    # Two different interfaces must not meet: what would come of it is a crash.
+    if (major.value, minor.value) != INTERFACE:
+        raise ImportError(f"{path} is PNPBS {major.value}.{minor.value}, but this package is for "
+                          f"{INTERFACE[0]}.{INTERFACE[1]}; use the package of the same version")
+    return opened

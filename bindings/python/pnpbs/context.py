@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contexts: one process, or the ranks of a communicator."""
+
+import atexit
+import ctypes
+import numbers
+
+from ._interface import library
+from .errors import PNPBSError, Status, check_without_context, last_error
+
+# Open contexts on communicators of mpi4py, in the order in which they were made: the same one on all
+# ranks. mpi4py ends MPI after Python's own exit handlers.
+_on_mpi4py = []
+
+
+class Handle:
+    """What contexts, domains and placements have in common: a handle of the library's that is closed
+    once, by `close` or at the end of a `with` block."""
+
+    def __init__(self):
+        self._handle = None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it has not been closed."""
+        return self._handle is not None
+
+    def _live(self):
+        """What the library is given: never the handle of a closed one."""
+        if self._handle is None:
+            raise PNPBSError(Status.ERROR_HANDLE, f"this {type(self).__name__} has been closed")
+        return self._handle
+
+    def _destroy(self, function):
+        handle = ctypes.c_void_p(self._handle)
+        code = function(ctypes.byref(handle))
+        self._handle = None
+        return code
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+class Context(Handle):
+    """What domains and placements are made on.
+
+    `Context()` is for one process and calls no MPI function. `Context(comm)` with a communicator of
+    mpi4py, or with the Fortran handle of any communicator (`comm.py2f()`), lives on a duplicate of
+    that communicator and is made collectively; `library` is what `MPI_Get_library_version` says, if
+    the library should compare it with its own MPI. Other keywords are options, the defaults of
+    placements made on it.
+
+    `close` it, or use it in a `with` block, when it is no longer needed: that is collective, so no
+    garbage collector does it. Contexts on communicators of mpi4py are closed when Python ends, at
+    the latest; those with a raw handle must be closed before MPI is finalised. If a `with` block
+    ends by an exception, a context on several ranks is not closed, for the others might never come
+    to close theirs."""
+
+    def __init__(self, comm=None, library=None, **options):
+        super().__init__()
+        self._on_ranks = comm is not None
+        self._raised = None  # by a callback, during the call in progress
+        # Open domains and placements, kept here because the library holds their callbacks.
+        self._children = []
+        self._handle = _created(comm, library)
+        if hasattr(comm, "py2f"):
+            _close_with_mpi(self)
+        self.set(**options)
+
+    def set(self, **options):
+        """Sets options by name, as placements made later start with them; `threads` can be set only
+        here. Local. Unknown names and values out of range raise a `PNPBSError` that names the
+        nearest option or the range. `pnpbs.option_table()` lists them."""
+        for key, value in options.items():
+            self._check(_set_option("context", self._live(), key, value))
+        return self
+
+    def close(self):
+        """Releases what the library holds, with the domains and placements made here. Closing twice
+        is allowed. Collective."""
+        if not self.is_open:
+            return
+        for child in list(self._children):
+            child.close()
+        handle = self._handle
+        code = self._destroy(_library().pnpbs_context_destroy)
+        if code < 0:
+            raise PNPBSError(Status(code), last_error(handle))
+
+    def __exit__(self, kind, *_):
+        if kind is None or not self._on_ranks:
+            self.close()
+
+    def __repr__(self):
+        what = ("over ranks" if self._on_ranks else "one process") if self.is_open else "closed"
+        return f"<pnpbs.Context, {what}>"
+
+    def _check(self, code):
+        """Every status of a call passes here. What a callback raised comes first: the library's own
+        message could only say that a callback failed."""
+        raised, self._raised = self._raised, None
+        if raised is not None:
+            raise raised
+        if code < 0:
+            raise PNPBSError(Status(code), last_error(self._handle))
+        return Status(code)
+
+
+_library = library  # the constructor has an argument of that name
+
+
+def _created(comm, library_text):
+    handle = ctypes.c_void_p()
+    if comm is None:
+        code = _library().pnpbs_context_create_serial(ctypes.byref(handle))
+        check_without_context(code)
+        return handle.value
+    if hasattr(comm, "py2f"):
+        comm, library_text = _of_mpi4py(comm)
+    if not isinstance(comm, numbers.Integral):
+        raise TypeError("a communicator of mpi4py or a Fortran handle was expected, not "
+                        f"{type(comm).__name__}")
+    if library_text is None:
+        code = _library().pnpbs_context_create_f(comm, ctypes.byref(handle))
+    else:
+        code = _library().pnpbs_context_create_checked_f(comm, library_text.encode(),
+                                                         ctypes.byref(handle))
+    check_without_context(code)
+    return handle.value
+
+
+def _of_mpi4py(comm):
+    """Fortran handle and library; a communicator means something only while MPI runs, and otherwise
+    the library says what is wrong."""
+    from mpi4py import MPI
+    running = MPI.Is_initialized() and not MPI.Is_finalized()
+    # Open MPI counts the text's end as a part of it.
+    return (comm.py2f() if running else 0), MPI.Get_library_version().rstrip("\0")
+
+
+def _close_with_mpi(context):
+    if not _on_mpi4py:
+        atexit.register(_close_contexts_of_mpi4py)
+    _on_mpi4py[:] = [other for other in _on_mpi4py if other.is_open]
+    _on_mpi4py.append(context)
+
+
+def _close_contexts_of_mpi4py():
+    from mpi4py import MPI
+    for context in _on_mpi4py:
+        if not MPI.Is_finalized():
+            context.close()
+    _on_mpi4py.clear()
+
+
+def _set_option(kind, handle, key, value):
+    """The three ways of the library to set an option, of a context or a placement."""
+    set_text = getattr(_library(), f"pnpbs_{kind}_set")
+    if isinstance(value, numbers.Integral):
+        return getattr(_library(), f"pnpbs_{kind}_set_int64")(handle, key.encode(), int(value))
+    if isinstance(value, numbers.Real):
+        return getattr(_library(), f"pnpbs_{kind}_set_double")(handle, key.encode(), float(value))
+    return set_text(handle, key.encode(), str(value).encode())

@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Domains: what is to be filled with nodes."""
+
+import ctypes
+import math
+import os
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _interface
+from ._arrays import as_indices, as_point, as_points, as_tags
+from ._callbacks import curve_callback, level_set_callback
+from ._interface import library
+from .context import Handle
+
+_ROLES = {"boundary": _interface.BOUNDARY, "inner": _interface.INNER}
+
+
+class Outline(NamedTuple):
+    segments: np.ndarray
+    tags: np.ndarray
+
+
+def _role_number(role):
+    if role not in _ROLES:
+        raise ValueError(f"role is {role!r}; 'boundary' or 'inner' was expected")
+    return _ROLES[role]
+
+
+class Domain(Handle):
+    """An empty domain in the plane, or with `dim=3` in space, to which curves, surfaces, holes and
+    fixed nodes are added. What lies behind an odd number of boundary curves, or surfaces in space, is
+    inside; holes and islands nest to any depth. Every method is local and returns the domain; points
+    are the rows of (n, dim) arrays, indices count from 0. Methods for domains "in the plane" or "in
+    space" refuse others.
+
+    The `role` of a curve or surface is "boundary", which separates inside from outside, or "inner",
+    which lies in the domain and which the nodes follow; curves in space are always inner. Its `tag`
+    is a nonzero integer that marks the nodes on it."""
+
+    def __init__(self, context, dim=2):
+        super().__init__()
+        self.context = context
+        handle = ctypes.c_void_p()
+        context._check(library().pnpbs_domain_create(context._live(), dim, ctypes.byref(handle)))
+        self._handle = handle.value
+        self._callbacks = []
+        context._children.append(self)
+
+    def close(self):
+        """Releases what the library holds. A placement keeps what it needs of its domain. Closing
+        twice is allowed."""
+        if self.is_open:
+            self.context._children.remove(self)
+            self.context._check(self._destroy(library().pnpbs_domain_destroy))
+
+    def __repr__(self):
+        return f"<pnpbs.Domain, {f'{self.dim} dimensions' if self.is_open else 'closed'}>"
+
+    def _call(self, name, *arguments):
+        self.context._check(getattr(library(), f"pnpbs_domain_{name}")(self._live(), *arguments))
+        return self
+
+    @property
+    def dim(self) -> int:
+        """2 in the plane, 3 in space."""
+        dim = ctypes.c_int32()
+        self._call("dimension", ctypes.byref(dim))
+        return dim.value
+
+    # ------------------------------------------------------------ curves -----------------------
+
+    def add_polyline(self, coordinates, closed=True, role="boundary", tags=None, corner_angle=0.0):
+        """Adds straight segments through the rows of `coordinates`; `closed` leads one from the last
+        to the first. `tags` is one for all segments or one for each. With `corner_angle=0` every
+        vertex becomes a node; otherwise those where the direction turns by more than so many
+        degrees, and between them the polyline stands for a smooth curve. In space the role is
+        "inner", and the `feature_angle` of the surfaces takes the place of the `corner_angle`."""
+        points = as_points(coordinates, self.dim, "coordinates")
+        n = len(points)
+        segments = n if closed else max(n - 1, 0)
+        return self._call("add_polyline", _role_number(role), closed, n, points,
+                          as_tags(tags, segments, "tags"), corner_angle)
+
+    def add_arc(self, centre, radius, begin=0.0, end=2 * math.pi, role="boundary", tag=1):
+        """Adds a circular arc between two angles in radians, a full circle by default, to a domain
+        in the plane. Its ends join curves that end at the same point."""
+        return self._call("add_arc", _role_number(role), as_point(centre, 2, "centre"), radius,
+                          begin, end, tag)
+
+    def add_curve(self, curve, begin, end, role="boundary", tag=1):
+        """Adds the curve of a function to a domain in the plane: `curve(t)` gets an array of n
+        parameters between `begin` and `end` and returns the points, (n, 2). It must always give the
+        same point for the same parameter, be continuous, and not cross itself. Corners are where
+        curves meet."""
+        callback = curve_callback(curve, self.context)
+        self._call("add_curve", _role_number(role), callback, None, begin, end, tag)
+        self._callbacks.append(callback)
+        return self
+
+    def add_pslg(self, coordinates, segments, vertex_tags=None, segment_tags=None, holes=()):
+        """Adds a planar straight-line graph as Triangle means it to a domain in the plane: what the
+        segments enclose is the domain, but for the regions that contain a hole point. `segments` is
+        (m, 2), indices of rows of `coordinates`; `holes` is (h, 2). Every vertex becomes a node."""
+        points = as_points(coordinates, 2, "coordinates")
+        ends = as_indices(segments, 2, "segments")
+        hole_points = as_points(holes, 2, "holes")
+        return self._call("add_pslg", len(points), points,
+                          as_tags(vertex_tags, len(points), "vertex_tags"), len(ends), ends,
+                          as_tags(segment_tags, len(ends), "segment_tags"), len(hole_points),
+                          hole_points)
+
+    def read_poly(self, path):
+        """Adds what a file of Triangle's .poly format describes to a domain in the plane."""
+        return self._call("read_poly", os.fsencode(path))
+
+    def parse_poly(self, text, name="text"):
+        """Adds what a text in Triangle's .poly format describes to a domain in the plane; messages
+        call it `name`."""
+        content = text.encode()
+        return self._call("parse_poly", content, len(content), name.encode())
+
+    # ------------------------------------------------------------ surfaces ---------------------
+
+    def add_surface(self, coordinates, corners, role="boundary", tags=None, feature_angle=40.0):
+        """Adds a triangulated surface to a domain in space: `corners` is (m, 3), indices of rows of
+        `coordinates`. Closed ones with the role "boundary" bound the domain; nodes follow "inner"
+        ones, closed or open. Vertices that coincide are one; what the triangles enclose decides
+        their orientation. `tags` is one for all triangles or one for each. Where the normals of two
+        triangles differ by more than `feature_angle` degrees, or their tags do, nodes lie on the
+        edge between them. Between such edges the triangles are the shape alone, whatever their
+        size."""
+        points = as_points(coordinates, 3, "coordinates")
+        triangles = as_indices(corners, 3, "corners")
+        return self._call("add_surface", _role_number(role), len(points), points, len(triangles),
+                          triangles, as_tags(tags, len(triangles), "tags"), feature_angle)
+
+    def read_surface(self, path, role="boundary", feature_angle=40.0):
+        """Adds the surface of a file to a domain in space, in one of the formats that the header
+        lists at `pnpbs_domain_read_surface`. Groups, materials and facet markers become tags, hole
+        points holes of the domain. Otherwise as `add_surface`."""
+        return self._call("read_surface", _role_number(role), os.fsencode(path), feature_angle)
+
+    def add_box(self, low, high, tag=1):
+        """Adds a box to a domain in space; its sides bound the domain."""
+        return self._call("add_box", as_point(low, 3, "low"), as_point(high, 3, "high"), tag)
+
+    def add_ball(self, centre, radius, tag=1):
+        """Adds a ball to a domain in space, as triangles within 1e-4 of the radius."""
+        return self._call("add_ball", as_point(centre, 3, "centre"), radius, tag)
+
+    def add_cylinder(self, begin, end, radius, tag=1):
+        """Adds a round cylinder to a domain in space, as triangles within 1e-4 of the radius;
+        `begin` and `end` are the middles of its two circles."""
+        return self._call("add_cylinder", as_point(begin, 3, "begin"), as_point(end, 3, "end"),
+                          radius, tag)
+
+    def add_level_set(self, level_set, low, high, resolution, tag=1):
+        """Adds the body where a function is negative to a domain in space: `level_set(x)` gets the
+        points, (n, 3), and returns n values. It must always give the same value for the same point,
+        be continuous, and be finite everywhere in the box between `low` and `high`, where the body
+        must lie; it need not be a distance. Its surface is found on an octree that is refined near
+        its zeros down to cells of side `resolution`: what is thinner can be lost."""
+        callback = level_set_callback(level_set, self.context)
+        self._call("add_level_set", callback, None, as_point(low, 3, "low"),
+                   as_point(high, 3, "high"), resolution, tag)
+        self._callbacks.append(callback)
+        return self
+
+    def set_filled(self, filled):
+        """Whether a domain in space is what its surfaces enclose, as it is at first, or, with False,
+        the surfaces alone: nodes on them and triangles between these, and nothing inside."""
+        return self._call("set_filled", bool(filled))
+
+    # ------------------------------------------------------------ files and tags ---------------
+
+    def read_msh(self, path, feature_angle=0.0):
+        """Reads a mesh in Gmsh's MSH format and adds what bounds it: in the plane lines and edges, in
+        space triangles, with their physical groups as tags. Sheets and lines inside are inner
+        surfaces and curves, points fixed nodes. `feature_angle` in degrees is as in `add_surface`, in
+        the plane as the `corner_angle` of `add_polyline`."""
+        return self._call("read_msh", os.fsencode(path), feature_angle)
+
+    def set_role(self, tag, role):
+        """The role of all triangles in a domain in space that have this tag, whatever role they are
+        added with."""
+        return self._call("set_role", tag, _role_number(role))
+
+    def set_tag_name(self, dim, tag, name):
+        """Names a tag of points (`dim` 0), curves (1), surfaces (2) or bodies (3), for files that have
+        physical groups."""
+        return self._call("set_tag_name", dim, tag, name.encode())
+
+    def tag_names(self):
+        """The names of tags, given or from files: {(dim, tag): name}."""
+        count = ctypes.c_int32()
+        self._call("tag_name_count", ctypes.byref(count))
+        names = {}
+        for index in range(count.value):
+            dim, tag, name = ctypes.c_int32(), ctypes.c_int32(), ctypes.c_char_p()
+            self._call("get_tag_name", index, ctypes.byref(dim), ctypes.byref(tag),
+                       ctypes.byref(name))
+            names[dim.value, tag.value] = name.value.decode()
+        return names
+
+    # ------------------------------------------------------------ points -----------------------
+
+    def add_hole(self, point):
+        """Removes the region around a point from the domain, as far as the next curves or
+        surfaces."""
+        return self._call("add_hole", as_point(point, self.dim, "point"))
+
+    def add_fixed_nodes(self, coordinates, tags=None):
+        """Adds nodes that must appear exactly, inside the domain or on a vertex of its curves or
+        surfaces."""
+        points = as_points(coordinates, self.dim, "coordinates")
+        return self._call("add_fixed_nodes", len(points), points,
+                          as_tags(tags, len(points), "tags"))
+
+    # ------------------------------------------------------------ what it is -------------------
+
+    def check(self):
+        """Checks the whole geometry: duplicate vertices, crossings, open boundaries, hole points
+        outside. A `PNPBSError` with `Status.ERROR_DOMAIN` names the vertex, segment or triangle.
+        Placements check as well; asking early costs nothing extra."""
+        return self._call("check")
+
+    def bounds(self):
+        """The corners (low, high) of the bounding box of the curves or surfaces."""
+        low, high = np.zeros(self.dim), np.zeros(self.dim)
+        self._call("bounds", low, high)
+        return low, high
+
+    def measure(self) -> float:
+        """The area of the inside, in space its volume; of surfaces alone their area."""
+        inside = ctypes.c_double()
+        self._call("measure", ctypes.byref(inside))
+        return inside.value
+
+    def distance(self, coordinates, tag=0) -> np.ndarray:
+        """The distances of points to what bounds the domain, or to the curves, surfaces or nodes with
+        this tag."""
+        points = as_points(coordinates, self.dim, "coordinates")
+        distances = np.zeros(len(points))
+        self._call("distance", tag, len(points), points, distances)
+        return distances
+
+    def shape_spacing(self, coordinates, nodes_per_turn=0.0, nodes_across=0.0, nodes_per_edge=0.0,
+                      growth=0.0) -> np.ndarray:
+        """The spacing at points that `Placement.set_spacing_from_shape` would set, without its
+        bounds. The first question takes longest: ask one before asking from inside a callback."""
+        points = as_points(coordinates, self.dim, "coordinates")
+        d = np.zeros(len(points))
+        self._call("shape_spacing", nodes_per_turn, nodes_across, nodes_per_edge, growth,
+                   len(points), points, d)
+        return d
+
+    def outline(self) -> Outline:
+        """Straight segments, (n, 2, 2), that show a domain in the plane, curves finely sampled, for
+        pictures: `segments[k, 0]` and `segments[k, 1]` are the ends of one; and their tags."""
+        count = ctypes.c_int64()
+        self._call("get_segments", 0, ctypes.byref(count), None, None)
+        segments, tags = np.zeros((count.value, 2, 2)), np.zeros(count.value, dtype=np.int32)
+        self._call("get_segments", count.value, ctypes.byref(count), segments, tags)
+        return Outline(segments, tags)

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fields: values at nodes, over ranks and from one set of nodes to the next."""
+
+import ctypes
+
+import numpy as np
+
+from ._arrays import as_points
+from ._interface import library
+from .context import Handle
+
+
+def _sizes(values):
+    """Entries, and numbers at each."""
+    return values.shape[0], int(np.prod(values.shape[1:], dtype=np.int64))
+
+
+def _as_field(values):
+    field = np.ascontiguousarray(values, np.float64)
+    return field.reshape(1) if field.ndim == 0 else field
+
+
+class Fields:
+    """The part of `Placement` that works on values at nodes: arrays of (n,) or (n, ...) numbers,
+    those of this rank's nodes in the order of `nodes`, then those of its ghosts."""
+
+    def update_ghosts(self, values):
+        """Gives the ghosts the values that their owners have: `values`, with an entry for each node
+        of this rank and each ghost behind them, is changed where it is, and returned. Collective."""
+        self._in_place("update_ghosts", values)
+        return values
+
+    def begin_update_ghosts(self, values) -> None:
+        """The first half of `update_ghosts`, for a solver that computes while messages travel: sends
+        what other ranks need of `values`, which may change as soon as it returns. One update at a
+        time is under way. Collective."""
+        field = _as_field(values)
+        self._call("begin_update_ghosts", *_sizes(field), field)
+
+    def end_update_ghosts(self, values):
+        """The second half: waits for what the other ranks sent and fills the ghosts' entries of
+        `values`, which is returned. Local."""
+        self._in_place("end_update_ghosts", values)
+        return values
+
+    def _in_place(self, name, values):
+        ok = (isinstance(values, np.ndarray) and values.dtype == np.float64 and values.ndim > 0
+              and values.flags.c_contiguous and values.flags.writeable)
+        if ok:
+            self._call(name, *_sizes(values), values)
+            return
+        # The library hears of it, and so do the other ranks, which would wait otherwise.
+        getattr(library(), f"pnpbs_placement_{name}")(self._live(), -1, 1, None)
+        raise ValueError("values must be an array of float64, in the order of C, that can be changed")
+
+    def sum(self, values):
+        """The sum over the nodes of all ranks, of each component by itself: exact, rounded once, and
+        so the same bits for any number of ranks and threads. Entries of ghosts do not count.
+        Collective."""
+        field = _as_field(values)
+        n, components = _sizes(field)
+        sums = np.zeros(components)
+        self._call("sum", n, components, field, sums)
+        return _shaped(sums, field)
+
+    def dot(self, x, y):
+        """Dot products of two fields over the nodes of all ranks, of each component by itself, as
+        exact as `sum`. Collective."""
+        first, second = _as_field(x), _as_field(y)
+        n, components = _sizes(first)
+        if first.shape != second.shape:
+            library().pnpbs_placement_dot(self._live(), -1, 1, None, None, None)
+            raise ValueError(f"x has shape {first.shape} and y {second.shape}; the same was expected")
+        products = np.zeros(components)
+        self._call("dot", n, components, first, second, products)
+        return _shaped(products, first)
+
+
+def _shaped(sums, field):
+    return float(sums[0]) if field.ndim == 1 else sums.reshape(field.shape[1:])
+
+
+class Transfer(Handle):
+    """A field on its way to the nodes that will be: copies `values` at the nodes that the placement
+    has now, (n,) or (n, ...) in the order of `nodes`, together with these nodes and their triangles
+    or tetrahedra, on which it is linear. The nodes may then move, be replaced or change their ranks.
+    Fields that are linear stay what they are, and others change by a part of the second order in d.
+    Collective.
+
+        field = pnpbs.Transfer(placement, temperature)
+        placement.set_spacing(finer).run()
+        temperature = field.at_nodes(placement)"""
+
+    def __init__(self, placement, values):
+        super().__init__()
+        self.context = placement.context
+        field = _as_field(values)
+        self._shape = field.shape[1:]
+        handle = ctypes.c_void_p()
+        self.context._check(library().pnpbs_transfer_create(
+            placement._live(), *_sizes(field), field, ctypes.byref(handle)))
+        self._handle = handle.value
+        self.context._children.append(self)
+
+    def close(self):
+        """Releases what the library holds. Closing twice is allowed. Local."""
+        if self.is_open:
+            self.context._children.remove(self)
+            self.context._check(self._destroy(library().pnpbs_transfer_destroy))
+
+    def __repr__(self):
+        return f"<pnpbs.Transfer, {'open' if self.is_open else 'closed'}>"
+
+    def at_nodes(self, placement, conserve=False) -> np.ndarray:
+        """The field at the nodes that a placement has now, the same bits for any number of ranks, then
+        and now. With `conserve` the same number is added everywhere, so that the integral is what it
+        was, to rounding. Collective."""
+        n = placement.node_count
+        values = np.zeros((n, *self._shape))
+        self.context._check(library().pnpbs_transfer_at_nodes(
+            self._live(), placement._live(), bool(conserve), n, values))
+        return values
+
+    def at_points(self, coordinates) -> np.ndarray:
+        """The field at any points, the rows of `coordinates`, of which each rank asks those it wants,
+        or none. Collective."""
+        dim = ctypes.c_int32()
+        self.context._check(library().pnpbs_transfer_sizes(self._live(), ctypes.byref(dim), None))
+        points = as_points(coordinates, dim.value, "coordinates")
+        values = np.zeros((len(points), *self._shape))
+        self.context._check(library().pnpbs_transfer_at_points(self._live(), len(points), points,
+                                                               values))
+        return values

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Placements: the nodes in a domain, and how they come to be."""
+
+import ctypes
+from typing import NamedTuple
+
+import numpy as np
+
+from ._arrays import as_point, as_points
+from ._callbacks import monitor_callback, spacing_callback
+from ._interface import library
+from .context import Handle, _set_option
+from .errors import Status
+from .fields import Fields
+from .results import Results
+
+
+class Estimate(NamedTuple):
+    nodes: int
+    bytes: int
+    seconds: float
+
+
+class PopulationChange(NamedTuple):
+    inserted: int
+    deleted: int
+
+
+def _keep_going(fraction, step, nodes, max_speed):
+    return False
+
+
+class Placement(Results, Fields, Handle):
+    """A placement of nodes in a domain, on the domain's context. Keywords are options, as in `set`;
+    the others are those of the context. Set a spacing (`set_spacing`), then `run`. Collective.
+
+    Ctrl-C ends what computes within a second or two with a `KeyboardInterrupt`; the nodes are then
+    as if a monitor had stopped the run, which is what it returns on the other ranks."""
+
+    def __init__(self, domain, **options):
+        super().__init__()
+        self.context = domain.context
+        self.domain = domain
+        handle = ctypes.c_void_p()
+        self.context._check(library().pnpbs_placement_create(
+            self.context._live(), domain._live(), ctypes.byref(handle)))
+        self._handle = handle.value
+        self.context._children.append(self)
+        # Kept alive: the library holds their addresses. The nodes there are remember the spacing
+        # that they were placed with, so one that is replaced is needed until the next run.
+        self._spacing = None
+        self._spacings_before = []
+        self._monitor = None
+        try:
+            self.set_monitor(None)
+            self.set(**options)
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self):
+        """Releases what the library holds. Closing twice is allowed. Local."""
+        if self.is_open:
+            self.context._children.remove(self)
+            self.context._check(self._destroy(library().pnpbs_placement_destroy))
+
+    def __repr__(self):
+        what = f"{self.node_count} nodes here" if self.is_open else "closed"
+        return f"<pnpbs.Placement, {what}>"
+
+    def _call(self, name, *arguments):
+        function = getattr(library(), f"pnpbs_placement_{name}")
+        return self.context._check(function(self._live(), *arguments))
+
+    # ------------------------------------------------------------ what is wanted ---------------
+
+    def set(self, **options):
+        """Sets options by name, as in `placement.set(steps=60, method="paper")`. Local. Unknown names
+        and values out of range raise a `PNPBSError` that names the nearest option or the range.
+        `pnpbs.option_table()` lists them."""
+        for key, value in options.items():
+            self.context._check(_set_option("placement", self._live(), key, value))
+        return self
+
+    def set_spacing(self, d, origin=None, step=None):
+        """The node spacing d(x), the wanted distance between neighbouring nodes about x. On a
+        placement that has nodes the spacing is replaced: the nodes stay, and the next run starts
+        from them. Collective.
+
+        - A number: the same everywhere.
+        - A function: `d(x)` gets points, (n, dim), and returns n values. It must always give the
+          same value for the same point, and is asked for different points on different ranks, so
+          nothing collective may happen inside. An exception that it raises comes out of the call in
+          progress.
+        - An array of `dim` dimensions with `origin` and `step`: values on a rectangular grid whose
+          first point is `origin`, with distances `step`; the first index goes along x. Linear between
+          the grid's points, constant beyond its edge.
+        - An array of one dimension: values at the nodes of this rank, in the order of `nodes`;
+          linear on each triangle or tetrahedron of their triangulation."""
+        callback = None
+        if callable(d):
+            callback = spacing_callback(d, self.context)
+            self._call("set_spacing_callback", callback, None)
+        elif np.ndim(d) == 0:
+            self._call("set_spacing_constant", d)
+        elif origin is not None or step is not None:
+            self._set_spacing_grid(d, origin, step)
+        else:
+            # A wrong length is the library's to find: it tells all ranks.
+            values = np.ascontiguousarray(d, np.float64).reshape(-1)
+            self._call("set_spacing_at_nodes", len(values), values)
+        return self._keep_spacing(callback)
+
+    def _keep_spacing(self, callback):
+        if self._spacing is not None:
+            self._spacings_before.append(self._spacing)
+        self._spacing = callback
+        return self
+
+    def set_spacing_from_shape(self, nodes_per_turn=0.0, nodes_across=0.0, nodes_per_edge=0.0,
+                               growth=0.0, min_spacing=0.0, max_spacing=0.0):
+        """The spacing from the shape of the domain: the least that its curves and surfaces ask for,
+        each growing with the distance from it by `growth` (0: 0.15), between `min_spacing` and
+        `max_spacing` (0: no bound). Collective.
+
+        - `nodes_per_turn`, by curvature: nodes on a full circle of its radius.
+        - `nodes_across`, by width: d at a place of the boundary is this part of the diameter of the
+          largest ball that touches it there and meets nothing ahead.
+        - `nodes_per_edge`, by the input: d at a segment is this part of its length, at a triangle of
+          the mean length of its edges.
+
+        What is 0 does not count."""
+        self._call("set_spacing_from_shape", nodes_per_turn, nodes_across, nodes_per_edge, growth,
+                   min_spacing, max_spacing)
+        return self._keep_spacing(None)
+
+    def _set_spacing_grid(self, d, origin, step):
+        dim = self.dim
+        if np.ndim(d) != dim:
+            raise ValueError(f"d has shape {np.shape(d)}; an array of {dim} dimensions was expected")
+        # The library's first index runs fastest.
+        values = np.ascontiguousarray(np.asarray(d, np.float64).T)
+        self._call("set_spacing_grid", np.array(np.shape(d), np.int64),
+                   as_point(origin, dim, "origin"), as_point(step, dim, "step"), values)
+
+    def set_monitor(self, monitor):
+        """Calls `monitor(fraction, step, nodes, max_speed)` now and then during a run; while the first
+        nodes are laid, or the growth of the spacing is limited, with `fraction` 0 and on each rank by
+        its own clock: do nothing collective then. When it returns True, the run ends early with valid
+        nodes and `Status.STOPPED`. None removes the monitor. Local."""
+        # The library's monitor stays: it is where Ctrl-C acts.
+        callback = monitor_callback(_keep_going if monitor is None else monitor, self.context)
+        self._call("set_monitor", callback, None)
+        self._monitor = callback
+        return self
+
+    def set_nodes(self, coordinates, ids=None):
+        """Inner nodes to start from instead of the library's own: the rows of `coordinates`, on any
+        ranks, with distinct global ids from 0 on if `ids` are given. The boundary is laid by the
+        library. Clears the nodes there are. Collective."""
+        points = as_points(coordinates, self.dim, "coordinates")
+        given = None if ids is None else np.ascontiguousarray(ids, np.int64)
+        wrong = given is not None and given.shape != (len(points),)
+        # Where the ids are too many or too few on one rank, the library hears of it, and so do the
+        # other ranks, which would wait otherwise.
+        code = library().pnpbs_placement_set_nodes(self._live(), -1 if wrong else len(points),
+                                                   points, given)
+        if wrong:
+            raise ValueError(f"ids has shape {given.shape}; ({len(points)},) was expected")
+        self.context._check(code)
+        return self
+
+    # ------------------------------------------------------------ running ----------------------
+
+    def estimate(self) -> Estimate:
+        """What a run from nothing would come to, from domain, spacing and options alone: how many
+        nodes on all ranks, mostly within a few percent, the memory of each process for the run alone,
+        and roughly the time in seconds. Collective."""
+        nodes, size, seconds = ctypes.c_int64(), ctypes.c_int64(), ctypes.c_double()
+        self._call("estimate", ctypes.byref(nodes), ctypes.byref(size), ctypes.byref(seconds))
+        return Estimate(nodes.value, size.value, seconds.value)
+
+    def initialise(self):
+        """Checks domain and spacing and lays the nodes that the simulation starts from. `run` and
+        `step` do it where it is needed. Collective."""
+        self._call("initialise")
+        return self
+
+    def run(self) -> Status:
+        """Places the nodes: the whole job. Run again, after another spacing perhaps, it starts from
+        the nodes there are. See `Status` for the outcomes. Collective."""
+        outcome = self._call("run")
+        self._spacings_before.clear()
+        return outcome
+
+    def step(self, n: int = 1) -> Status:
+        """Advances the simulation by n steps. The outcome is as of `run`, `Status.OK` when the
+        bubbles rest. Collective."""
+        return self._call("step", n)
+
+    def adjust_population(self) -> PopulationChange:
+        """Deletes nodes where they are too dense and inserts where they are too sparse, once, now.
+        Collective."""
+        inserted, deleted = ctypes.c_int64(), ctypes.c_int64()
+        self._call("adjust_population", ctypes.byref(inserted), ctypes.byref(deleted))
+        return PopulationChange(inserted.value, deleted.value)
+
+    def rebalance(self):
+        """Deals the work out to the ranks anew. The nodes stay as they are; who owns them changes. A
+        run does so by itself where it pays. Collective."""
+        self._call("rebalance")
+        return self

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a placement holds, copied once, into arrays of the caller's. Local indices count this rank's
+nodes from 0, then its ghosts; global ids are the library's, the same for any number of ranks."""
+
+import ctypes
+import os
+from typing import Any, Dict, List, NamedTuple
+
+import numpy as np
+
+from ._interface import library
+from .errors import Status
+from .rows import CompressedRows
+from .tables import statistic_table
+
+
+class Nodes(NamedTuple):
+    points: np.ndarray
+    ids: np.ndarray
+    tags: np.ndarray
+    spacing: np.ndarray
+
+
+class Ghosts(NamedTuple):
+    points: np.ndarray
+    ids: np.ndarray
+    tags: np.ndarray
+    spacing: np.ndarray
+    owners: np.ndarray
+
+
+class ExchangePattern(NamedTuple):
+    ranks: np.ndarray
+    send: CompressedRows
+    receive: CompressedRows
+
+
+class Numbering(NamedTuple):
+    first: int
+    count: int
+    ghosts: np.ndarray
+
+
+class Stars(NamedTuple):
+    neighbours: CompressedRows
+    triangle: CompressedRows
+
+
+class Facets(NamedTuple):
+    corners: np.ndarray
+    tags: np.ndarray
+
+
+class EdgeBands(NamedTuple):
+    d_from: np.ndarray
+    d_to: np.ndarray
+    edges: np.ndarray
+    mean: np.ndarray
+    deviation: np.ndarray
+
+
+class Results:
+    """The part of `Placement` that copies out and writes."""
+
+    def _number(self, name, c_type, *arguments):
+        number = c_type()
+        self._call(name, *arguments, ctypes.byref(number))
+        return number.value
+
+    # ------------------------------------------------------------ nodes ------------------------
+
+    @property
+    def dim(self) -> int:
+        """The dimension of the domain: 2 or 3. Local."""
+        return self._number("dimension", ctypes.c_int32)
+
+    @property
+    def node_count(self) -> int:
+        """The number of nodes of this rank. Local."""
+        return self._number("count", ctypes.c_int64)
+
+    def nodes(self) -> Nodes:
+        """The nodes of this rank in their local order: `points` is (n, dim); `ids` are global;
+        `tags` are 0 for inner nodes and otherwise that of the curve, surface or fixed node;
+        `spacing` is d at the node. Local."""
+        n = self.node_count
+        found = Nodes(np.zeros((n, self.dim)), np.zeros(n, np.int64), np.zeros(n, np.int32),
+                      np.zeros(n))
+        self._call("get_nodes", n, *found)
+        return found
+
+    def normals(self) -> np.ndarray:
+        """Where the surfaces look at this rank's nodes, of a placement in space: (n, 3), the unit
+        normal, on feature edges and in corners the mean of those on its sides, and 0 for inner
+        nodes. Local."""
+        found = np.zeros((self.node_count, 3))
+        self._call("get_normals", len(found), found)
+        return found
+
+    def ghost_count(self) -> int:
+        """The number of ghosts: nodes of other ranks that this rank sees near its own.
+        Collective."""
+        return self._number("ghost_count", ctypes.c_int64)
+
+    def ghosts(self) -> Ghosts:
+        """The ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars,
+        triangles and tetrahedra ghost g has the local index `node_count + g`. Collective."""
+        n = self.ghost_count()
+        found = Ghosts(np.zeros((n, self.dim)), np.zeros(n, np.int64), np.zeros(n, np.int32),
+                       np.zeros(n), np.zeros(n, np.int32))
+        self._call("get_ghosts", n, *found)
+        return found
+
+    def exchange_pattern(self) -> ExchangePattern:
+        """How values at nodes reach their ghosts on other ranks: send the values at the nodes
+        `send[k]` to `ranks[k]`, and put what comes from there into `receive[k]`, in the same order.
+        Right until nodes move. Collective."""
+        neighbours, sends, receives = ctypes.c_int32(), ctypes.c_int64(), ctypes.c_int64()
+        self._call("exchange_sizes", ctypes.byref(neighbours), ctypes.byref(sends),
+                   ctypes.byref(receives))
+        ranks = np.zeros(neighbours.value, np.int32)
+        send = CompressedRows(np.zeros(len(ranks) + 1, np.int64), np.zeros(sends.value, np.int64))
+        receive = CompressedRows(np.zeros(len(ranks) + 1, np.int64),
+                                 np.zeros(receives.value, np.int64))
+        self._call("get_exchange", len(ranks), sends.value, receives.value, ranks, send.offsets,
+                   send.values, receive.offsets, receive.values)
+        return ExchangePattern(ranks, send, receive)
+
+    def numbering(self) -> Numbering:
+        """Numbers that are contiguous per rank, from 0 over all ranks, as PETSc and hypre want them:
+        local node i has the number `first + i`, and ghost g has `ghosts[g]`. Unlike the ids they
+        depend on the ranks. Collective."""
+        first, count = ctypes.c_int64(), ctypes.c_int64()
+        numbers = np.zeros(self.ghost_count(), np.int64)
+        self._call("get_numbering", len(numbers), ctypes.byref(first), ctypes.byref(count), numbers)
+        return Numbering(first.value, count.value, numbers)
+
+    # ------------------------------------------------------------ lists and elements -----------
+
+    def adjacency(self) -> CompressedRows:
+        """The adjacency lists: row i has the local indices of the nodes within `adjacency_radius` of
+        node i, in the order of global ids. Pairs that a boundary separates are not neighbours.
+        Collective."""
+        entries = self._number("adjacency_size", ctypes.c_int64)
+        rows = CompressedRows(np.zeros(self.node_count + 1, np.int64), np.zeros(entries, np.int64))
+        self._call("get_adjacency", entries, rows.offsets, rows.values)
+        return rows
+
+    def stars(self) -> Stars:
+        """Each node's star in the constrained Delaunay triangulation of the domain. `neighbours[i]`
+        has the local indices of node i's neighbours, counter-clockwise; `triangle[i][k]` tells
+        whether the node, its k-th neighbour and the next one around are a triangle of the domain,
+        or whether a gap lies between them. In space the neighbours are all nodes that share a
+        tetrahedron with node i, and `triangle[i][k]` is False. Collective."""
+        entries = self._number("star_size", ctypes.c_int64)
+        rows = CompressedRows(np.zeros(self.node_count + 1, np.int64), np.zeros(entries, np.int64))
+        triangle = np.zeros(entries, np.int8)
+        self._call("get_stars", entries, rows.offsets, rows.values, triangle)
+        return Stars(rows, CompressedRows(rows.offsets, triangle.view(np.bool_)))
+
+    def triangles(self) -> np.ndarray:
+        """The triangles of a placement in the plane, (n, 3) local indices, counter-clockwise, each
+        once: a triangle is the rank's that owns its node with the least id, other corners may be
+        ghosts. Collective."""
+        return self._elements("get_triangles", 3)
+
+    def tetrahedra(self) -> np.ndarray:
+        """The tetrahedra of a placement in space, (n, 4) local indices, each once: seen from the
+        fourth corner, the first three turn counter-clockwise. A tetrahedron is the rank's that owns
+        its node with the least id, other corners may be ghosts. Collective."""
+        return self._elements("get_tetrahedra", 4)
+
+    def boundary_edges(self) -> Facets:
+        """The edges between consecutive nodes on boundary and inner curves of a placement in the
+        plane: (n, 2) local indices, and the tags of the curves. An edge is the rank's that owns its
+        first node. Local."""
+        return self._facets("get_boundary_edges", 2)
+
+    def boundary_triangles(self) -> Facets:
+        """The triangles of the boundary of a placement in space: (n, 3) local indices,
+        counter-clockwise as seen from outside, and the tags of the surfaces there. Of surfaces
+        alone, the triangles between the nodes on them. Collective."""
+        return self._facets("get_boundary_triangles", 3)
+
+    def _elements(self, name, corners):
+        count = ctypes.c_int64()
+        self._call(name, 0, ctypes.byref(count), None)
+        found = np.zeros((count.value, corners), np.int64)
+        self._call(name, len(found), ctypes.byref(count), found)
+        return found
+
+    def _facets(self, name, corners):
+        count = ctypes.c_int64()
+        self._call(name, 0, ctypes.byref(count), None, None)
+        found = Facets(np.zeros((count.value, corners), np.int64), np.zeros(count.value, np.int32))
+        self._call(name, count.value, ctypes.byref(count), *found)
+        return found
+
+    def check(self) -> None:
+        """Checks that the results keep what is promised of them; a `PNPBSError` with
+        `Status.ERROR_INTERNAL` says what is wrong, with ids and coordinates. Collective."""
+        self._call("check")
+
+    # ------------------------------------------------------------ statistics -------------------
+
+    def statistic(self, key: str) -> Any:
+        """A statistic by its name, such as "nodes", "hash" or "imbalance": an int, a float or a str.
+        `pnpbs.statistic_table()` lists them. Collective."""
+        types = {row.name: row.type for row in statistic_table()}
+        return self._statistic(key, types.get(key, "real"))
+
+    def statistics(self) -> Dict[str, Any]:
+        """All statistics, by name. Collective."""
+        return {row.name: self._statistic(row.name, row.type) for row in statistic_table()}
+
+    def _statistic(self, key, kind):
+        if kind == "integer":
+            return self._number("get_int64", ctypes.c_int64, key.encode())
+        if kind == "real":
+            return self._number("get_double", ctypes.c_double, key.encode())
+        return (self._number("get_string", ctypes.c_char_p, key.encode()) or b"").decode()
+
+    def edge_bands(self) -> EdgeBands:
+        """How well the edges of the triangles or tetrahedra follow the spacing, by bands of it:
+        eight, equal in log d between the least and the largest d at the nodes, or one if that is
+        less than 1.1 times the least. Bands without edges are left out. For each band where it
+        begins and ends, how many edges there are, and the mean and standard deviation of their
+        length over d. Edges between two boundary nodes do not count. Over all ranks, and the same on
+        each. Collective."""
+        count = ctypes.c_int64()
+        self._call("get_edge_bands", 0, ctypes.byref(count), *[None] * 5)
+        n = count.value
+        bands = EdgeBands(np.zeros(n), np.zeros(n), np.zeros(n, np.int64), np.zeros(n), np.zeros(n))
+        self._call("get_edge_bands", n, ctypes.byref(count), *bands)
+        return bands
+
+    def warnings(self) -> List[str]:
+        """Warnings about domain and spacing, and about nodes that do not follow the spacing, of the
+        last run. Local."""
+        count = self._number("warning_count", ctypes.c_int32)
+        texts = [self._number("get_warning", ctypes.c_char_p, i) for i in range(count)]
+        return [text.decode() for text in texts]
+
+    # ------------------------------------------------------------ files ------------------------
+
+    def write(self, *paths, elements=False) -> Status:
+        """Writes the nodes of all ranks, and the triangles or tetrahedra if `elements` (one for all
+        or one for each), into files whose extensions are their formats (`pnpbs.format_table()`). Several files appear together
+        when all are complete, or none does. The outcome is `Status.OK`, or `Status.STOPPED` by the
+        monitor, which leaves the old files. Collective."""
+        encoded = [os.fsencode(path) for path in paths]
+        wanted = np.full(len(paths), elements, np.int32)
+        return self._call("write_files", len(paths), (ctypes.c_char_p * len(paths))(*encoded), None,
+                          wanted)

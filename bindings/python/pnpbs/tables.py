@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the library tells about itself. All local, and without a context."""
+
+import ctypes
+from typing import List, NamedTuple, Tuple
+
+from ._interface import library
+from .errors import check_without_context
+
+
+class OptionRow(NamedTuple):
+    name: str
+    type: str
+    default: str
+    range: str
+    help: str
+
+
+class StatisticRow(NamedTuple):
+    name: str
+    type: str
+    help: str
+
+
+class FormatRow(NamedTuple):
+    name: str
+    help: str
+    binary: bool
+    elements: bool
+
+
+def library_version() -> Tuple[int, int, int]:
+    """The version of the library that is loaded."""
+    parts = [ctypes.c_int32() for _ in range(3)]
+    check_without_context(library().pnpbs_version(*map(ctypes.byref, parts)))
+    return tuple(part.value for part in parts)
+
+
+def build_info() -> str:
+    """What the library was built with, one "name: value" per line."""
+    return library().pnpbs_build_info().decode()
+
+
+def mpi_library() -> str:
+    """The MPI that the library was built with, such as "Open MPI 4.1.4"; empty in a build without
+    MPI. mpi4py must use the same one."""
+    return library().pnpbs_mpi_library().decode()
+
+
+def shutdown() -> None:
+    """Ends Kokkos if PNPBS started it. Optional. Kokkos cannot start twice, so nothing can be placed
+    afterwards."""
+    check_without_context(library().pnpbs_finalize())
+
+
+def discard_unfinished_files() -> None:
+    """Removes what unfinished writes of this process have left aside so far; for programs about to
+    end."""
+    check_without_context(library().pnpbs_discard_unfinished_files())
+
+
+def _count(function):
+    count = ctypes.c_int32()
+    check_without_context(function(ctypes.byref(count)))
+    return range(count.value)
+
+
+def _texts(function, index, n, *others):
+    texts = [ctypes.c_char_p() for _ in range(n)]
+    check_without_context(function(index, *map(ctypes.byref, texts), *others))
+    return [(text.value or b"").decode() for text in texts]
+
+
+def option_table() -> List[OptionRow]:
+    """The options of contexts and placements (`Placement.set`)."""
+    return [OptionRow(*_texts(library().pnpbs_option_info, i, 5))
+            for i in _count(library().pnpbs_option_count)]
+
+
+def statistic_table() -> List[StatisticRow]:
+    """The statistics of placements (`Placement.statistic`)."""
+    return [StatisticRow(*_texts(library().pnpbs_statistic_info, i, 3))
+            for i in _count(library().pnpbs_statistic_count)]
+
+
+def format_table() -> List[FormatRow]:
+    """The formats of files (`Placement.write`)."""
+    rows = []
+    for i in _count(library().pnpbs_format_count):
+        binary, elements = ctypes.c_int32(), ctypes.c_int32()
+        texts = _texts(library().pnpbs_format_info, i, 2, ctypes.byref(binary),
+                       ctypes.byref(elements))
+        rows.append(FormatRow(*texts, binary.value != 0, elements.value != 0))
+    return rows

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring
+0.5 <= r <= 1 with u = log r on both circles, which is then the solution everywhere. Linear finite
+elements: the rows of this rank's nodes come from the triangles of their Delaunay stars alone, without
+a mesh file and without a message. examples/c/laplace_ring is the same in C, which tells what to check.
+
+    python3 laplace_ring.py                     one process
+    mpirun -n 4 python3 laplace_ring.py --mpi   with mpi4py
+
+Dot products are the library's, exact and rounded once, and the rows are summed in the order of the
+stars: so the solution has the same bits on any number of ranks."""
+import sys
+
+import numpy as np
+import pnpbs
+
+INNER_RADIUS, OUTER_RADIUS, D = 0.5, 1.0, 0.03
+INNER_CIRCLE, OUTER_CIRCLE = 1, 2
+
+
+def known_solution(points):
+    return np.log(np.hypot(points[:, 0], points[:, 1]))
+
+
+def cotangent(points, a, b, c):
+    """Of the angles at a in the triangles of the nodes a, b, c, counter-clockwise."""
+    u, v = points[b] - points[a], points[c] - points[a]
+    return (u * v).sum(axis=1) / (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+
+
+def assemble(placement, points):
+    """For linear elements the integral of grad phi_i . grad phi_j over a triangle is -1/2 times the
+    cotangent of the angle opposite to the edge from i to j; and every row sums to zero. Row i is that
+    of the star of node i: its neighbours are the columns."""
+    stars = placement.stars()
+    offsets, columns = stars.neighbours.offsets, stars.neighbours.values
+    rows = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    here = np.flatnonzero(stars.triangle.values)        # the others are gaps outside the domain
+    last = offsets[rows[here] + 1] - 1
+    after = np.where(here == last, offsets[rows[here]], here + 1)
+    i, j, k = rows[here], columns[here], columns[after]
+    at_k, at_j = cotangent(points, k, i, j) / 2, cotangent(points, j, k, i) / 2
+    entries = np.zeros(len(columns))
+    np.subtract.at(entries, here, at_k)
+    np.subtract.at(entries, after, at_j)
+    return offsets, columns, entries
+
+
+def row_sums(offsets, terms):
+    """Each row from its first entry on, whatever rank it is on."""
+    sums = np.zeros(len(offsets) - 1)
+    np.add.at(sums, np.repeat(np.arange(len(sums)), np.diff(offsets)), terms)
+    return sums
+
+
+class Matrix:
+    def __init__(self, placement, points):
+        self.placement = placement
+        self.offsets, self.columns, self.entries = assemble(placement, points)
+        self.diagonal = -row_sums(self.offsets, self.entries)
+
+    def times(self, x):
+        """At this rank's nodes, after the ghosts of x have got the values that their owners have."""
+        self.placement.update_ghosts(x)
+        return self.diagonal * x[:len(self.diagonal)] + row_sums(self.offsets,
+                                                                 self.entries * x[self.columns])
+
+
+def solve(matrix, u, inner):
+    """Conjugate gradients: A u = 0 at the inner nodes. On the boundary u stays as it is, because the
+    residual there counts as zero."""
+    dot = matrix.placement.dot
+    n = len(inner)
+    r = -inner * matrix.times(u)
+    p = np.zeros_like(u)
+    p[:n] = r
+    rr = dot(r, r)
+    enough, steps = 1e-20 * rr, 0
+    while rr > enough:
+        q = matrix.times(p)
+        alpha = rr / dot(p[:n], q)
+        u[:n] += alpha * p[:n]
+        r = inner * (r - alpha * q)
+        rr_before, rr = rr, dot(r, r)
+        p[:n] = r + rr / rr_before * p[:n]
+        steps += 1
+    matrix.placement.update_ghosts(u)
+    return steps
+
+
+def main(context, is_first, largest):
+    ring = pnpbs.Domain(context)
+    ring.add_arc((0, 0), INNER_RADIUS, tag=INNER_CIRCLE)
+    ring.add_arc((0, 0), OUTER_RADIUS, tag=OUTER_CIRCLE)
+    placement = pnpbs.Placement(ring).set_spacing(D)
+    placement.run()
+
+    own, ghosts = placement.nodes(), placement.ghosts()
+    points = np.concatenate([own.points, ghosts.points])
+    tags = np.concatenate([own.tags, ghosts.tags])
+    matrix = Matrix(placement, points)
+    u = np.where(tags == 0, 0.0, known_solution(points))
+    steps = solve(matrix, u, own.tags == 0)
+
+    total = lambda values: placement.sum(np.asarray(values, float))
+    n, boundary = total(np.ones(len(own.tags))), total(own.tags != 0)
+    flux = total(np.where(own.tags == OUTER_CIRCLE, matrix.times(u), 0))
+    error = np.abs(u - known_solution(points))[:len(own.tags)]
+    worst = largest(error.max(initial=0))
+    norm = placement.dot(u[:len(own.tags)], u[:len(own.tags)])
+    triangles = total(np.where(np.arange(len(own.tags)) == 0, len(placement.triangles()), 0))
+    if is_first:
+        area = np.pi * (OUTER_RADIUS**2 - INNER_RADIUS**2)
+        print(f"nodes: {n:.0f}, expected about {2 * area / 3**0.5 / D**2 + boundary / 2:.0f}")
+        print(f"triangles: {triangles:.0f}, expected {2 * n - boundary:.0f}")
+        print(f"flux through the outer circle: {flux:.5f}, expected about {2 * np.pi:.5f}")
+        print(f"largest error: {worst:.8f}, expected at most {D**2 / 6 / INNER_RADIUS**2:.8f}")
+        print(f"after {steps} steps, u . u to the last bit: {norm.hex()}")
+
+
+if "--mpi" in sys.argv:
+    from mpi4py import MPI
+    world = MPI.COMM_WORLD
+    with pnpbs.Context(world) as everywhere:
+        main(everywhere, world.rank == 0, lambda x: world.allreduce(x, MPI.MAX))
+else:
+    with pnpbs.Context() as alone:
+        main(alone, True, lambda x: x)

@@ -1,0 +1,17 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The smallest program: nodes in the unit square, all 0.05 apart. The same in C is in
+examples/c/smallest, which tells what to check."""
+import numpy as np
+import pnpbs
+
+with pnpbs.Context() as context:
+    square = pnpbs.Domain(context).add_polyline([(0, 0), (1, 0), (1, 1), (0, 1)])
+    placement = pnpbs.Placement(square).set_spacing(0.05)
+    placement.run()
+
+    n = placement.node_count
+    boundary = np.count_nonzero(placement.nodes().tags)
+    print(f"nodes: {n}, expected about 503")
+    print(f"on the boundary: {boundary}, expected 80")
+    print(f"triangles: {len(placement.triangles())}, expected {2 * n - boundary - 2}")

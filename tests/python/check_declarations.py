@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compares the C header with what the Python package declares: every function, every argument, every
+type of callback, every constant. usage: check_declarations.py <pnpbs.h> <folder of pnpbs>
+
+--self-test changes the header in many ways, one at a time, and fails unless each is noticed."""
+import ctypes
+import importlib
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "linkage"))
+import c_header
+
+# What a callback's argument must be; text and other pointers there are none but these.
+CALLBACK_TYPES = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "double": ctypes.c_double,
+                  "double *": ctypes.POINTER(ctypes.c_double),
+                  "const double *": ctypes.POINTER(ctypes.c_double), "void *": ctypes.c_void_p}
+
+
+def function_differences(functions, declared):
+    for name in sorted(set(functions) | set(declared)):
+        c, own = functions.get(name), declared.get(name)
+        if c is None or own is None:
+            yield f"{name}: missing in {'the header' if c is None else 'Python'}"
+            continue
+        if own[0] != c.result:
+            yield f"{name}: returns {c.result} in C, {own[0]} in Python"
+        if own[1] != tuple((a.type, a.name) for a in c.arguments):
+            yield f"{name}: {c.arguments} in C, {own[1]} in Python"
+
+
+def callback_differences(callbacks, declared):
+    for name in sorted(set(callbacks) | set(declared)):
+        c, own = callbacks.get(name), declared.get(name)
+        if c is None or own is None:
+            yield f"{name}: missing in {'the header' if c is None else 'Python'}"
+            continue
+        if (own._restype_, list(own._argtypes_)) != (
+                CALLBACK_TYPES[c.result], [CALLBACK_TYPES[a.type] for a in c.arguments]):
+            yield f"{name}: {c} in C, {own._argtypes_} in Python"
+
+
+def constant_differences(constants, interface):
+    wanted = {name: value for name, value in constants.items() if "_VERSION_" not in name}
+    own = dict(interface.STATUSES, PNPBS_BOUNDARY=interface.BOUNDARY, PNPBS_INNER=interface.INNER)
+    for name in sorted(set(wanted) | set(own)):
+        if wanted.get(name) != own.get(name):
+            yield f"{name}: {wanted.get(name)} in C, {own.get(name)} in Python"
+
+
+def differences(text, interface):
+    declared = interface.declarations(interface.DECLARATIONS)
+    yield from function_differences(c_header.functions(text), declared)
+    yield from callback_differences(c_header.callbacks(text), interface.CALLBACKS)
+    yield from constant_differences(c_header.constants(text), interface)
+    # What the declarations become when the library is called.
+    for result, arguments in declared.values():
+        for c_type in [result] + [c_type for c_type, _ in arguments]:
+            is_pointer = c_type.endswith(("*", "_fn")) or c_type in ("pnpbs_context", "pnpbs_domain",
+                                                                     "pnpbs_placement")
+            simple = interface.ctypes_of(c_type) in interface._NUMBERS.values()
+            if is_pointer == simple:
+                yield f"{c_type} becomes {interface.ctypes_of(c_type)}"
+
+
+MUTATIONS = [
+    ("pnpbs_context context, int32_t dim,", "pnpbs_context context,"),
+    ("_run(pnpbs_placement placement)", "_run(pnpbs_placement placement, int32_t more)"),
+    ("pnpbs_context context, int32_t dim,", "pnpbs_context context, int64_t dim,"),
+    ("placement, double d);", "placement, double *d);"),
+    ("_run(pnpbs_placement placement)", "_run(pnpbs_domain placement)"),
+    ("const char *pnpbs_build_info(void)", "pnpbs_status pnpbs_build_info(void)"),
+    ("PNPBS_API pnpbs_status pnpbs_finalize(void);", ""),
+    ("int64_t nodes, double max_speed,\n", "int32_t nodes, double max_speed,\n"),
+    ("X(PNPBS_STOPPED, 2,", "X(PNPBS_STOPPED, 3,"),
+    ("#define PNPBS_INNER 1", "#define PNPBS_INNER 2"),
+]
+
+
+def main():
+    text, folder = Path(sys.argv[1]).read_text(), Path(sys.argv[2])
+    sys.path.insert(0, str(folder.parent))
+    interface = importlib.import_module(f"{folder.name}._interface")
+    found = list(differences(text, interface))
+    if len(c_header.functions(text)) != len(re.findall(r"^PNPBS_API ", text, re.M)):
+        found.append("not every declaration of the header was understood")
+    print("\n".join(found) or f"{len(c_header.functions(text))} functions agree")
+    for old, new in MUTATIONS if "--self-test" in sys.argv else ():
+        changed = text.replace(old, new, 1)
+        if changed == text or not list(differences(changed, interface)):
+            found.append(old)
+            print(f"not noticed: {old!r} -> {new!r}")
+    sys.exit(1 if found else 0)
+
+
+main()

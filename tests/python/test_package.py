@@ -1,0 +1,361 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package in one process."""
+import os
+import pathlib
+import signal
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+import pnpbs
+from pnpbs import PNPBSError, Status
+
+DATA = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"]) / "examples" / "data"
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+
+
+def graded(x):
+    return 0.05 + 0.05 * x[:, 0]
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.context = pnpbs.Context()
+        self.addCleanup(self.context.close)
+
+    def square(self, **options):
+        domain = pnpbs.Domain(self.context).add_polyline(SQUARE)
+        return pnpbs.Placement(domain, **options)
+
+    def assert_status(self, status, function, *arguments, **keywords):
+        with self.assertRaises(PNPBSError) as caught:
+            function(*arguments, **keywords)
+        self.assertEqual(caught.exception.status, status)
+        return str(caught.exception)
+
+
+class Results(Case):
+    def setUp(self):
+        super().setUp()
+        self.placement = self.square().set_spacing(graded)
+        self.assertEqual(self.placement.run(), Status.OK)
+
+    def test_nodes(self):
+        nodes = self.placement.nodes()
+        n = self.placement.node_count
+        self.assertEqual(nodes.points.shape, (n, 2))
+        self.assertEqual(sorted(nodes.ids), list(range(n)))
+        on_boundary = (np.isclose(nodes.points, 0) | np.isclose(nodes.points, 1)).any(axis=1)
+        np.testing.assert_array_equal(nodes.tags != 0, on_boundary)
+        np.testing.assert_array_equal(nodes.spacing, graded(nodes.points))
+
+    def test_adjacency(self):
+        points, lists = self.placement.nodes().points, self.placement.adjacency()
+        self.assertEqual(len(lists), len(points))
+        self.assertEqual(len(lists[3:5]), 2)
+        np.testing.assert_array_equal(lists[-1], lists[len(lists) - 1])
+        with self.assertRaises(IndexError):
+            lists[len(lists)]
+        pairs = {(i, j) for i, row in enumerate(lists) for j in row}
+        self.assertEqual(pairs, {(j, i) for i, j in pairs})
+        near = {(i, j) for i in range(len(points)) for j in range(len(points)) if i != j
+                and np.hypot(*(points[i] - points[j])) < 0.05}  # the least d
+        self.assertTrue(near and near <= pairs)
+
+    def test_triangles(self):
+        points, triangles = self.placement.nodes().points, self.placement.triangles()
+        a, b, c = (points[triangles[:, k]] for k in range(3))
+        areas = np.cross(b - a, c - a) / 2
+        self.assertTrue((areas > 0).all())
+        self.assertAlmostEqual(areas.sum(), 1, 12)
+        edges, tags = self.placement.boundary_edges()
+        lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
+        self.assertAlmostEqual(lengths.sum(), 4, 12)
+        self.assertTrue((tags != 0).all())
+        stars = self.placement.stars()
+        self.assertEqual(stars.triangle.values.sum(), 3 * len(triangles))
+
+    def test_tables_and_statistics(self):
+        self.assertEqual(self.placement.statistic("nodes"), self.placement.node_count)
+        self.assertEqual(set(self.placement.statistics()),
+                         {row.name for row in pnpbs.statistic_table()})
+        self.assertEqual(len(self.placement.statistic("hash")), 16)
+        self.assertIn("steps", {row.name for row in pnpbs.option_table()})
+        self.assertIn("vtu", " ".join(row.name for row in pnpbs.format_table()))
+        bands = self.placement.edge_bands()
+        self.assertTrue((abs(bands.mean - 1) < 0.1).all() and len(bands.mean) > 3)
+        self.assertEqual(pnpbs.library_version()[:2], (0, 2))
+        self.assertIn("Kokkos", pnpbs.build_info())
+        self.placement.check()
+
+    def test_numbering_without_ranks(self):
+        self.assertEqual(self.placement.ghost_count(), 0)
+        self.assertEqual(len(self.placement.exchange_pattern().ranks), 0)
+        first, count, ghosts = self.placement.numbering()
+        self.assertEqual((first, count, len(ghosts)), (0, self.placement.node_count, 0))
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [pathlib.Path(folder, name) for name in ("nodes.vtu", "nodes.csv")]
+            self.placement.write(*paths, elements=[True, False])
+            with open(paths[1], encoding="ascii") as file:
+                self.assertEqual(len(file.readlines()), self.placement.node_count + 1)
+            message = self.assert_status(Status.ERROR_FILE, self.placement.write,
+                                         pathlib.Path(folder, "none", "nodes.vtu"))
+            self.assertIn("nodes.vtu", message)
+
+    def test_nodes_given_again_are_the_start(self):
+        nodes = self.placement.nodes()
+        inner = nodes.tags == 0
+        other = self.square(steps=0, sweeps=0).set_spacing(graded)
+        other.set_nodes(nodes.points[inner], ids=np.arange(inner.sum()))
+        other.initialise()
+        found = {tuple(p) for p in other.nodes().points}
+        self.assertLessEqual({tuple(p) for p in nodes.points[inner]}, found)
+        with self.assertRaises(ValueError):
+            other.set_nodes(nodes.points[inner], ids=[1, 2])
+
+    def test_population_and_steps(self):
+        placement = self.square().set_spacing(0.1)
+        placement.initialise()
+        self.assertGreaterEqual(placement.adjust_population().inserted, 0)
+        self.assertEqual(placement.step(1), Status.NOT_CONVERGED)
+        placement.rebalance()
+        estimate = placement.estimate()
+        self.assertAlmostEqual(estimate.nodes / placement.node_count, 1, delta=0.1)
+
+
+class Spacings(Case):
+    def test_all_kinds_agree(self):
+        hashes = []
+        grid = 0.05 + 0.05 * np.linspace(0, 1, 5)[:, None] * np.ones(3)
+        for d in ({"d": graded}, {"d": grid, "origin": (0, 0), "step": (0.25, 0.5)}):
+            placement = self.square().set_spacing(**d)
+            placement.run()
+            hashes.append(placement.nodes().points)
+        self.assertEqual(len(hashes[0]), len(hashes[1]))
+        np.testing.assert_allclose(hashes[0], hashes[1], atol=1e-6)
+
+    def test_adapting(self):
+        placement = self.square().set_spacing(0.1)
+        placement.run()
+        before = placement.node_count
+        placement.set_spacing(placement.nodes().spacing / 2)
+        placement.run()
+        self.assertAlmostEqual(placement.node_count / before, 4, delta=0.8)
+        self.assert_status(Status.ERROR_ARGUMENT, placement.set_spacing, [0.1, 0.1])
+
+    def test_wrong_answers(self):
+        placement = self.square().set_spacing(lambda x: 0.1)
+        with self.assertRaisesRegex(ValueError, "spacing function"):
+            placement.run()
+        placement.set_spacing(lambda x: -graded(x))
+        self.assertIn("-0.", self.assert_status(Status.ERROR_SPACING, placement.run))
+        placement.set_spacing(lambda x: 1 / 0)
+        with self.assertRaises(ZeroDivisionError):
+            placement.run()
+        placement.set_spacing(0.1)
+        self.assertEqual(placement.run(), Status.OK)
+
+
+class Domains(Case):
+    def test_in_the_plane(self):
+        domain = pnpbs.Domain(self.context)
+        domain.add_polyline([(0, 0), (4, 0), (4, 2), (0, 2)], tags=[1, 2, 3, 4])
+        domain.add_arc((1, 1), 0.5, tag=5).add_fixed_nodes([(3, 1)], tags=9)
+        domain.add_curve(lambda t: np.stack([2.5 + 0.3 * np.cos(t), 1 + 0.2 * np.sin(t)], axis=1), 0,
+                         2 * np.pi, tag=6)
+        self.assertAlmostEqual(domain.measure(), 8 - np.pi * (0.25 + 0.06), 3)
+        low, high = domain.bounds()
+        np.testing.assert_array_equal([low, high], [[0, 0], [4, 2]])
+        self.assertEqual(set(domain.outline().tags), {1, 2, 3, 4, 5, 6})
+        placement = pnpbs.Placement(domain).set_spacing(0.2)
+        domain.close()
+        placement.run()
+        nodes = placement.nodes()
+        self.assertEqual(set(nodes.tags), {0, 1, 2, 3, 4, 5, 6, 9})
+        np.testing.assert_array_equal(nodes.points[nodes.tags == 9], [(3, 1)])
+
+    def test_graphs_and_files(self):
+        square = np.array(SQUARE, float)
+        points = np.concatenate([square, 0.25 + square / 2])
+        ring = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)]
+        domain = pnpbs.Domain(self.context).add_pslg(points, ring, holes=[(0.5, 0.5)])
+        self.assertAlmostEqual(domain.measure(), 0.75)
+        lake = pnpbs.Domain(self.context).read_poly(DATA / "lake_victoria.poly").check()
+        text = (DATA / "lake_victoria.poly").read_text(encoding="ascii")
+        self.assertEqual(pnpbs.Domain(self.context).parse_poly(text).measure(), lake.measure())
+        self.assert_status(Status.ERROR_FILE, lake.read_poly, "nowhere.poly")
+
+    def test_wrong_arguments(self):
+        domain = pnpbs.Domain(self.context)
+        for wrong in ([1, 2, 3], [[1, 2, 3]], [["a", "b"]]):
+            with self.assertRaises(ValueError):
+                domain.add_polyline(wrong)
+        with self.assertRaisesRegex(ValueError, "'outer'"):
+            domain.add_polyline(SQUARE, role="outer")
+        with self.assertRaisesRegex(ValueError, "tags"):
+            domain.add_polyline(SQUARE, tags=[1, 2])
+        self.assert_status(Status.ERROR_ARGUMENT, domain.add_polyline, [(0, np.nan), (1, 0), (1, 1)])
+        domain.add_polyline([(0, 0), (1, 1), (1, 0), (0, 1)])
+        self.assertIn("cross", self.assert_status(Status.ERROR_DOMAIN, domain.check))
+
+    def test_in_space(self):
+        domain = pnpbs.Domain(self.context, dim=3)
+        domain.add_box((0, 0, 0), (1, 1, 1)).add_ball((0.5, 0.5, 0.5), 0.25, tag=2)
+        placement = pnpbs.Placement(domain).set_spacing(0.15)
+        placement.run()
+        points, tetrahedra = placement.nodes().points, placement.tetrahedra()
+        a, b, c, d = (points[tetrahedra[:, k]] for k in range(4))
+        volumes = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+        self.assertTrue((volumes > 0).all())
+        triangles, tags = placement.boundary_triangles()
+        self.assertEqual(set(tags), {1, 2})
+        # The inside is what the boundary triangles enclose, by the divergence theorem.
+        a, b, c = (points[triangles[:, k]] for k in range(3))
+        self.assertAlmostEqual(np.einsum("ij,ij->", a, np.cross(b, c)) / 6, volumes.sum(), 12)
+        self.assertAlmostEqual(volumes.sum(), 1 - 4 / 3 * np.pi * 0.25**3, delta=0.02)
+        normals = placement.normals()
+        on_ball = placement.nodes().tags == 2
+        outward = (0.5 - points[on_ball]) / 0.25
+        self.assertGreater(np.einsum("ij,ij->i", normals[on_ball], outward).min(), 0.99)
+
+    def test_surfaces(self):
+        corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], float)
+        domain = pnpbs.Domain(self.context, dim=3)
+        domain.add_surface(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)], tags=4)
+        self.assertAlmostEqual(domain.measure(), 1 / 6)
+        ring = pnpbs.Domain(self.context, dim=3).add_level_set(
+            lambda x: np.hypot(np.hypot(x[:, 0], x[:, 1]) - 1, x[:, 2]) - 0.4, (-2, -2, -1),
+            (2, 2, 1), 0.1)
+        self.assertAlmostEqual(ring.measure() / (2 * np.pi**2 * 0.16), 1, delta=0.02)
+        eros = pnpbs.Domain(self.context, dim=3).read_surface(DATA / "eros.off").set_filled(False)
+        self.assertGreater(eros.measure(), 0)
+        with self.assertRaisesRegex(ValueError, "corners"):
+            domain.add_surface(corners, [(0, 1)])
+
+
+class Handles(Case):
+    def test_closing(self):
+        placement = self.square().set_spacing(0.2)
+        self.context.close()
+        self.context.close()
+        self.assertFalse(placement.is_open or placement.domain.is_open)
+        self.assert_status(Status.ERROR_HANDLE, placement.run)
+        self.assert_status(Status.ERROR_HANDLE, pnpbs.Domain, self.context)
+        for handle in (self.context, placement, placement.domain):
+            self.assertIn("closed", repr(handle))
+
+    def test_with(self):
+        with pnpbs.Context(steps=3) as context:
+            with pnpbs.Placement(pnpbs.Domain(context).add_polyline(SQUARE)) as placement:
+                self.assertEqual(placement.set_spacing(0.05).run(), Status.NOT_CONVERGED)
+            self.assertFalse(placement.is_open)
+        self.assertFalse(context.is_open)
+
+    def test_options(self):
+        self.assertIn("steps", self.assert_status(Status.ERROR_KEY, self.context.set, step=3))
+        self.assertIn("-3", self.assert_status(Status.ERROR_ARGUMENT, self.square, steps=-3))
+        self.square(method="paper", steps=10, tolerance_mean=0.05)
+
+    def test_what_is_no_communicator(self):
+        with self.assertRaises(TypeError):
+            pnpbs.Context("world")
+
+
+class Stopping(Case):
+    def test_by_the_monitor(self):
+        calls = []
+
+        def monitor(fraction, step, nodes, max_speed):
+            calls.append((fraction, step, nodes, max_speed))
+            return len(calls) > 3
+
+        placement = self.square().set_spacing(0.02).set_monitor(monitor)
+        self.assertEqual(placement.run(), Status.STOPPED)
+        placement.set_monitor(None)
+        self.assertEqual(placement.run(), Status.OK)
+        self.assertEqual(len(calls), 4)
+
+    def test_by_an_exception(self):
+        def monitor(*_):
+            raise LookupError("enough")
+
+        placement = self.square().set_spacing(0.05).set_monitor(monitor)
+        with self.assertRaisesRegex(LookupError, "enough"):
+            placement.run()
+        placement.check()
+
+    def test_by_ctrl_c(self):
+        placement = self.square(tolerance_mean=0, tolerance_max=0, steps=10**6).set_spacing(0.01)
+        began = threading.Event()
+        placement.set_monitor(lambda *_: began.set())
+
+        def interrupt():
+            began.wait()
+            time.sleep(0.2)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=interrupt)
+        thread.start()
+        with self.assertRaises(KeyboardInterrupt):
+            placement.run()
+        thread.join()
+        placement.check()
+
+
+class Fields(Case):
+    def test_sums(self):
+        placement = self.square().set_spacing(0.2)
+        placement.run()
+        values = np.full(placement.node_count, 0.1)
+        values[:2] = 1e300, -1e300
+        exact = (placement.node_count - 2) * 0.1
+        self.assertAlmostEqual(placement.sum(values), exact, 12)
+        pairs = np.stack([values, np.ones_like(values)], axis=1)
+        np.testing.assert_allclose(placement.sum(pairs), [exact, placement.node_count])
+        self.assertEqual(placement.dot(np.ones_like(values), np.ones_like(values)),
+                         placement.node_count)
+        with self.assertRaises(ValueError):
+            placement.dot(values, pairs)
+        self.assertIs(placement.update_ghosts(values), values)
+        for wrong in ([1.0], values[::2], values.astype(np.float32)):
+            with self.assertRaises(ValueError):
+                placement.update_ghosts(wrong)
+
+    def test_transfer(self):
+        placement = self.square().set_spacing(0.1)
+        placement.run()
+
+        def linear(x):
+            return np.stack([1 + 2 * x[:, 0] - x[:, 1], x[:, 1]], axis=1)
+
+        with pnpbs.Transfer(placement, linear(placement.nodes().points)) as field:
+            placement.set_spacing(graded)
+            placement.run()
+            np.testing.assert_allclose(field.at_nodes(placement), linear(placement.nodes().points),
+                                       atol=1e-12)
+            asked = np.array([(0.3, 0.4), (0.9, 0.1)])
+            np.testing.assert_allclose(field.at_points(asked), linear(asked), atol=1e-12)
+        self.assertFalse(field.is_open)
+
+    def test_spacing_from_the_shape(self):
+        domain = pnpbs.Domain(self.context).add_arc((0, 0), 1, tag=3)
+        np.testing.assert_allclose(domain.distance([(0, 0), (0.5, 0)]), [1, 0.5], atol=1e-6)
+        np.testing.assert_allclose(domain.distance([(0, 2)], tag=3), [1], atol=1e-6)
+        np.testing.assert_allclose(domain.shape_spacing([(1, 0), (0, 0)], nodes_per_turn=60),
+                                   [2 * np.pi / 60, 2 * np.pi / 60 + 0.15], rtol=1e-3)
+        placement = pnpbs.Placement(domain).set_spacing_from_shape(nodes_per_turn=60)
+        placement.run()
+        self.assertAlmostEqual(np.count_nonzero(placement.nodes().tags), 60, delta=2)
+
+    def test_tags_with_names(self):
+        domain = pnpbs.Domain(self.context).add_polyline(SQUARE, tags=7)
+        domain.set_tag_name(1, 7, "wall")
+        self.assertEqual(domain.tag_names(), {(1, 7): "wall"})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package over the ranks of mpi4py's world. Run by mpirun."""
+import sys
+import unittest
+
+import numpy as np
+from mpi4py import MPI
+import pnpbs
+from pnpbs import PNPBSError, Status
+
+WORLD = MPI.COMM_WORLD
+LAST = WORLD.size - 1
+
+
+def graded(x):
+    return 0.03 + 0.05 * x[:, 0]
+
+
+def placed_square(context):
+    domain = pnpbs.Domain(context).add_polyline([(0, 0), (1, 0), (1, 1), (0, 1)])
+    placement = pnpbs.Placement(domain).set_spacing(graded)
+    placement.run()
+    return placement
+
+
+class Ranks(unittest.TestCase):
+    def setUp(self):
+        self.context = pnpbs.Context(WORLD)
+        self.placement = placed_square(self.context)
+
+    def tearDown(self):
+        self.context.close()
+
+    def test_nodes_are_those_of_one_process(self):
+        with pnpbs.Context() as alone:
+            self.assertEqual(self.placement.statistic("hash"), placed_square(alone).statistic("hash"))
+        self.assertEqual(WORLD.allreduce(self.placement.node_count),
+                         self.placement.statistic("nodes"))
+        self.placement.check()
+
+    def test_ghosts(self):
+        own, ghosts = self.placement.nodes(), self.placement.ghosts()
+        self.assertEqual(len(ghosts.ids) > 0, WORLD.size > 1)
+        ids = np.concatenate([own.ids, ghosts.ids])
+        values = ids * 1.0
+        values[len(own.ids):] = -1
+        self.placement.update_ghosts(values)
+        np.testing.assert_array_equal(values, ids)
+        pairs = np.stack([ids, 2.0 * ids], axis=1)
+        pairs[len(own.ids):] = 0
+        self.placement.begin_update_ghosts(pairs)
+        self.placement.end_update_ghosts(pairs)
+        np.testing.assert_array_equal(pairs, np.stack([ids, 2 * ids], axis=1))
+
+        # The same by the pattern.
+        pattern = self.placement.exchange_pattern()
+        requests = [WORLD.isend(own.ids[pattern.send[k]], int(rank))
+                    for k, rank in enumerate(pattern.ranks)]
+        for k, rank in enumerate(pattern.ranks):
+            np.testing.assert_array_equal(WORLD.recv(source=int(rank)), ids[pattern.receive[k]])
+        MPI.Request.waitall(requests)
+
+    def test_sums_have_the_same_bits(self):
+        own = self.placement.nodes()
+        values = np.sin(1e3 * own.points[:, 0]) / 3
+        everything = WORLD.allgather((own.ids, values))
+        whole = np.zeros(self.placement.statistic("nodes"))
+        for ids, part in everything:
+            whole[ids] = part
+        with pnpbs.Context() as alone:
+            serial = placed_square(alone)
+            expected = serial.sum(whole[serial.nodes().ids])
+        self.assertEqual(self.placement.sum(values), expected)
+
+    def test_what_fails_on_one_rank_fails_on_all(self):
+        def spacing(x):
+            if WORLD.rank == LAST:
+                raise LookupError("not today")
+            return np.full(len(x), 0.05)
+
+        self.placement.set_spacing(spacing)
+        with self.assertRaises(LookupError if WORLD.rank == LAST else PNPBSError) as caught:
+            self.placement.run()
+        if WORLD.rank != LAST:
+            self.assertEqual(caught.exception.status, Status.ERROR_CALLBACK)
+        self.placement.set_spacing(0.05)
+        self.placement.run()
+        wrong = [1.0] if WORLD.rank == LAST else np.zeros(self.placement.node_count
+                                                          + self.placement.ghost_count())
+        with self.assertRaises((ValueError, PNPBSError)):
+            self.placement.update_ghosts(wrong)
+        ids = [1, 2] if WORLD.rank == LAST else [10 + WORLD.rank]
+        with self.assertRaises((ValueError, PNPBSError)):
+            self.placement.set_nodes([(0.5, 0.5 + WORLD.rank / 10)], ids=ids)
+
+
+if __name__ == "__main__":
+    # One report is enough; a failure on another rank still fails the run.
+    if WORLD.rank:
+        sys.stderr = open("/dev/null", "w", encoding="ascii")
+    # A context that nobody closes is closed when Python ends.
+    left_open = pnpbs.Context(WORLD)
+    unittest.main()

@@ -1,0 +1,47 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# The wheel, made of a library that is there, and used from a fresh environment: the examples judge
+# themselves by the lines that they print, and print the same on any number of ranks.
+# usage: wheel.sh <python> <bindings/python> <libpnpbs.so> <source folder> <mpiexec, or ''>
+set -eu
+python=$1 bindings=$2 library=$3 source=$4 mpiexec=$5
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+unset PNPBS_LIBRARY PYTHONPATH
+
+# What makes the wheel, NumPy and mpi4py are those of the environment that the tests have.
+cp -r "$bindings" "$work/bindings"
+"$python" -m pip wheel --quiet --no-deps --no-build-isolation --disable-pip-version-check \
+  -C cmake.define.PNPBS_LIBRARY="$library" -w "$work" "$work/bindings"
+"$python" -m venv --without-pip "$work/fresh"
+site=$("$work/fresh/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+"$python" -m pip install --quiet --no-deps --no-index --disable-pip-version-check \
+  --target "$site" "$work"/pnpbs-*.whl
+"$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))' > "$site/others.pth"
+
+cd "$work"
+fresh=$work/fresh/bin/python
+"$fresh" -c "
+import pathlib, pnpbs
+assert pathlib.Path(pnpbs.library_path()).parent == pathlib.Path('$site/pnpbs/lib'), pnpbs.library_path()
+assert pnpbs.Context.__doc__ and pathlib.Path(pnpbs.__file__).with_name('py.typed').exists()
+print(pnpbs.library_version())"
+
+for example in smallest laplace_ring; do
+  for ranks in 0 1 2 4; do
+    script=$source/examples/python/$example/$example.py
+    if [ "$ranks" = 0 ]; then
+      "$fresh" "$script" > output
+    elif [ -n "$mpiexec" ] && [ $example != smallest ]; then
+      "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" \
+        "$fresh" "$script" --mpi < /dev/null > output
+    else
+      continue
+    fi
+    echo "== $example, ranks: $ranks"
+    cat output
+    awk -f "$source/tests/install/check_lines.awk" output
+    [ -e "first_$example" ] || cp output "first_$example"
+    cmp "first_$example" output
+  done
+done
