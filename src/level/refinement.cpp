@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "level/exchange.hpp"
+#include "level/kept_node.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/node_spacing.hpp"
 #include "level/reach.hpp"
@@ -87,14 +88,6 @@ void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visi
 }
 
 void append_surface_midpoints(const Level<2>&, const View<double>&, GivenNodes<2>&) {}
-
-GivenNode<2> kept_node(const Nodes<2>& nodes, std::int64_t i) {
-  return {nodes.position(i), nodes.id(i), nodes.moves(i), -1, nodes.d(i)};
-}
-GivenNode<3> kept_node(const Nodes<3>& nodes, std::int64_t i) {
-  return {nodes.position(i), nodes.id(i), nodes.carrier(i), nodes.boundary_node(i),
-          nodes.tag(i),      -1,          nodes.d(i)};
-}
 
 // With one where the spacing was `before` and will be d. Cutting edges in space may bring more than
 // d asks for.

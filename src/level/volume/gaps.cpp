@@ -5,6 +5,7 @@
 
 #include "level/exchange.hpp"
 #include "level/first_nodes.hpp"
+#include "level/kept_node.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/numbering.hpp"
 #include "level/reach.hpp"
@@ -59,9 +60,7 @@ void fill_gaps_inside(Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!nodes.owned(i)) continue;
-    const GivenNode<3> node{
-        nodes.position(i), nodes.id(i), nodes.carrier(i), nodes.boundary_node(i),
-        nodes.tag(i),      -1,          nodes.d(i)};
+    const GivenNode<3> node = kept_node(nodes, i);
     (node.is_inner() ? inner : laid).push_back(node);
   }
   find_leaves(level, inner);

@@ -11,6 +11,7 @@
 #include "domain/volume/surface_walk.hpp"
 #include "initial/volume/surface_fill.hpp"
 #include "level/exchange.hpp"
+#include "level/kept_node.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/numbering.hpp"
 #include "level/reach.hpp"
@@ -99,9 +100,7 @@ GivenNodes<3> surface_nodes(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
   GivenNodes<3> given;
   for (std::int64_t i = 0; i < nodes.count; ++i)
-    if (nodes.owned(i) && nodes.carrier(i) != Carrier::free)
-      given.push_back({nodes.position(i), nodes.id(i), nodes.carrier(i), nodes.boundary_node(i),
-                       nodes.tag(i), -1, nodes.d(i)});
+    if (nodes.owned(i) && nodes.carrier(i) != Carrier::free) given.push_back(kept_node(nodes, i));
   return given;
 }
 

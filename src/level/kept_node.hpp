@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A node of one level on its way into another, or into the same one anew.
+#pragma once
+
+#include <cstdint>
+
+#include "base/nodes.hpp"
+#include "initial/given_nodes.hpp"
+
+namespace pnpbs {
+
+inline GivenNode<2> kept_node(const Nodes<2>& nodes, std::int64_t i) {
+  return {nodes.position(i), nodes.id(i), nodes.moves(i), -1, nodes.d(i)};
+}
+
+inline GivenNode<3> kept_node(const Nodes<3>& nodes, std::int64_t i) {
+  return {nodes.position(i), nodes.id(i), nodes.carrier(i), nodes.boundary_node(i),
+          nodes.tag(i),      -1,          nodes.d(i)};
+}
+
+}  // namespace pnpbs
