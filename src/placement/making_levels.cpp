@@ -114,9 +114,9 @@ Outcome PlacementOf<Dim>::make_level() {
     if constexpr (Dim == 3) settle_surfaces(next, kept, outcome);
     taken = take(*next, std::move(kept), next->next_id);
     // Where d was far larger, or the shape is thin.
-    if constexpr (Dim == 3) fill_gaps_inside(*next);
-    taken.left_out = 0;  // not the user's
     inserted = taken.numbered;
+    if constexpr (Dim == 3) inserted += fill_gaps_inside(*next);
+    taken.left_out = 0;  // not the user's
   } else if (start_from_given_) {
     GivenNodes<Dim> given = given_;
     if constexpr (Dim == 3) settle_surfaces(next, given, outcome);

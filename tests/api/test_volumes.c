@@ -228,6 +228,25 @@ START_TEST(by_steps) {
 }
 END_TEST
 
+/* Where d falls so far that nearly all nodes inside come as a fill of the gaps, these count, too.
+ */
+START_TEST(fills_count_as_inserted) {
+  job it = box_job(0.5);
+  int64_t before, after;
+  MUST(pnpbs_placement_initialise(it.placement));
+  before = integer_of(it.placement, "nodes") - integer_of(it.placement, "boundary_nodes");
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.15));
+  MUST_COMPUTE(pnpbs_placement_step(it.placement, 1));
+  after = integer_of(it.placement, "nodes") - integer_of(it.placement, "boundary_nodes");
+  ck_assert_int_gt(after, before + 150);
+  /* Some more came on the surfaces. */
+  ck_assert_int_ge(integer_of(it.placement, "inserted"), after - before);
+  ck_assert_int_eq(integer_of(it.placement, "deleted"), 0);
+  check_body(&it, 1e-12);
+  job_end(&it);
+}
+END_TEST
+
 /* Points of a cubic lattice, half of which lie outside; their ids stay with them. */
 START_TEST(given_nodes) {
   enum { ROW = 12, ALL = ROW * ROW * ROW };
@@ -399,6 +418,7 @@ int main(void) {
   tcase_add_test(tests, too_many_nodes);
   tcase_add_loop_test(tests, stopped_by_the_monitor, 0, 5);
   tcase_add_test(tests, by_steps);
+  tcase_add_test(tests, fills_count_as_inserted);
   tcase_add_test(tests, given_nodes);
   tcase_add_test(tests, values_at_nodes);
   tcase_add_test(tests, another_spacing);

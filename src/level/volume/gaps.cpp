@@ -53,9 +53,10 @@ GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates) {
   return found;
 }
 
-void fill_gaps_inside(Level<3>& level) {
+std::int64_t fill_gaps_inside(Level<3>& level) {
   GivenNodes<3> inner = in_gaps(level, first_inner_nodes(level));
-  if (level.comm->allreduce_sum(inner.size()) == 0) return;
+  const auto filled = static_cast<std::int64_t>(level.comm->allreduce_sum(inner.size()));
+  if (filled == 0) return 0;
   GivenNodes<3> laid;
   const Nodes<3>& nodes = level.nodes;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
@@ -66,6 +67,7 @@ void fill_gaps_inside(Level<3>& level) {
   find_leaves(level, inner);
   sort_by_place(level, inner);
   number_and_store(level, std::move(inner), LaidNodes<3>(std::move(laid)));
+  return filled;
 }
 
 }  // namespace pnpbs

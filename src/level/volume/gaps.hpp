@@ -4,6 +4,8 @@
 // beside which others would come. There a fill helps.
 #pragma once
 
+#include <cstdint>
+
 #include "initial/given_nodes.hpp"
 #include "level/level.hpp"
 
@@ -13,7 +15,8 @@ namespace pnpbs {
 // Collective.
 GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates);
 
-// Puts a fill of the inside into the gaps there. Collective.
-void fill_gaps_inside(Level<3>& level);
+// Puts a fill of the inside into the gaps there. Returns how many nodes that is, of all ranks.
+// Collective.
+std::int64_t fill_gaps_inside(Level<3>& level);
 
 }  // namespace pnpbs
