@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/limits.hpp"
 #include "domain/volume/surface.hpp"
 #include "space_shapes.hpp"
 
@@ -20,6 +21,12 @@ struct SurfaceCase {
   SurfaceCase(const SurfaceCase&) = delete;
 
   std::int32_t facet_count() const { return static_cast<std::int32_t>(mesh.facets.size()); }
+  pnpbs::Box<3> bounds() const {
+    pnpbs::Box<3> box{};
+    if (!mesh.nodes.empty()) box = {mesh.nodes[0].position, mesh.nodes[0].position};
+    for (const auto& node : mesh.nodes) include(box, node.position);
+    return box;
+  }
   // That far along the edges from the first corner of a facet to the others.
   P point(std::int32_t f, double v, double w) const {
     const auto [a, b, c] = surface.corners(f);

@@ -24,7 +24,11 @@ namespace {
 constexpr std::int64_t kMaxNodes = 1'000'000;
 
 std::vector<SurfacePoint> fill(const SurfaceCase& c, const Spacing& d) {
-  return surface_fill(c.surface, space_shapes::evaluator_of(d), kMaxNodes);
+  static const auto comm = pnpbs::serial_communicator();
+  pnpbs::BackgroundTree<3> one_cell;
+  one_cell.build(c.bounds(), [](const auto&, std::int32_t, std::int32_t, std::vector<char>&) {});
+  return surface_fill(*comm, c.surface, space_shapes::evaluator_of(d), kMaxNodes,
+                      {one_cell, [](std::int32_t) { return true; }});
 }
 
 // The integral of 2 / sqrt(3) / d^2 over all facets, by many points of each.

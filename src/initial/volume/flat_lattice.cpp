@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/limits.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
 #include "predicates/plane.hpp"
@@ -16,7 +17,8 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kParallel = 1e-4;  // radians
+constexpr double kParallel = 1e-4;   // radians
+constexpr double kRounding = 1e-12;  // of places, in units of a patch
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -61,6 +63,8 @@ class FlatPatch {
       const std::array<Point<2>, 3> x = corners(f);
       boxes.push_back(joined(joined(Box<2>{x[0], x[0]}, {x[1], x[1]}), {x[2], x[2]}));
       bounds_ = boxes.size() == 1 ? boxes[0] : joined(bounds_, boxes.back());
+      for (const Point<3>& corner : surface.corners(f))
+        height_ = std::max(height_, distance<3>(corner, in_plane(coordinates(corner))));
     }
     boxes_ = BoxTree<2>(std::move(boxes));
   }
@@ -72,6 +76,20 @@ class FlatPatch {
     return {dot(way, along_), dot(way, across_)};
   }
 
+  // Around all nodes whose coordinates are in such a box: a facet may lie a little off the plane.
+  Box<3> box_around(const Box<2>& x) const {
+    Box<3> box = empty_box<3>();
+    for (const double u : {x.low[0], x.high[0]})
+      for (const double v : {x.low[1], x.high[1]}) include(box, in_plane({u, v}));
+    const double size = bounds_.high[0] - bounds_.low[0] + bounds_.high[1] - bounds_.low[1];
+    const double room = 2 * height_ + kRounding * size;
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.low[k] -= room;
+      box.high[k] += room;
+    }
+    return box;
+  }
+
   // Facet -1: beyond the patch. Of facets that meet there, the first.
   SurfacePoint at(const Point<2>& x) const {
     std::int32_t facet = std::numeric_limits<std::int32_t>::max();
@@ -80,11 +98,14 @@ class FlatPatch {
       if (f < facet && holds(f, x)) facet = f;
     });
     if (facet == std::numeric_limits<std::int32_t>::max()) return {-1, {}};
-    const Point<3> in_plane = shifted(shifted(origin_, x[0], along_), x[1], across_);
-    return {facet, nearest_on(surface_.corners(facet), in_plane)};
+    return {facet, nearest_on(surface_.corners(facet), in_plane(x))};
   }
 
  private:
+  Point<3> in_plane(const Point<2>& x) const {
+    return shifted(shifted(origin_, x[0], along_), x[1], across_);
+  }
+
   std::array<Point<2>, 3> corners(std::int32_t f) const {
     const auto [a, b, c] = surface_.corners(f);
     return {coordinates(a), coordinates(b), coordinates(c)};
@@ -99,6 +120,7 @@ class FlatPatch {
   const std::vector<std::int32_t>& facets_;
   Point<3> origin_, along_, across_;
   Box<2> bounds_{};
+  double height_ = 0;  // of the corner farthest from the plane
   BoxTree<2> boxes_;
 };
 
@@ -115,11 +137,72 @@ double distance_to_parallel(const FlatPatch& flat, const std::vector<StraightRun
   return std::fabs(farthest);
 }
 
+// Rows and columns from the first to before the last.
+struct Block {
+  std::int64_t first_row, last_row, first_column, last_column;
+
+  bool empty() const { return first_row >= last_row || first_column >= last_column; }
+  std::int64_t rows() const { return last_row - first_row; }
+  std::int64_t columns() const { return last_column - first_column; }
+};
+
+// Rows `row` apart, of nodes `step` apart, every other one shifted by half of that.
+class Rows {
+ public:
+  Rows(const FlatPatch& flat, double step, double row) : flat_(flat), step_(step), row_(row) {}
+
+  Block whole() const {
+    const Box<2>& bounds = flat_.bounds();
+    return {whole_number(std::ceil(bounds.low[1] / row_)),
+            whole_number(std::floor(bounds.high[1] / row_)) + 1,
+            whole_number(std::ceil(bounds.low[0] / step_ - 0.5)),
+            whole_number(std::floor(bounds.high[0] / step_)) + 1};
+  }
+
+  Point<2> place(std::int64_t r, std::int64_t column) const {
+    const double shift = r % 2 != 0 ? 0.5 * step_ : 0;
+    return {shift + step_ * static_cast<double>(column), row_ * static_cast<double>(r)};
+  }
+
+  // Calls visit(place) for those that may be in cells of this rank: halves a block until it is
+  // small or meets none.
+  template <class Visit>
+  void for_places(const Block& block, const RankCells& cells, const Visit& visit) const {
+    constexpr std::int64_t kSmall = 8;
+    if (block.empty() || !cells.meet(flat_.box_around(box_of(block)))) return;
+    Block one = block, other = block;
+    if (std::max(block.rows(), block.columns()) <= kSmall) {
+      for (std::int64_t r = block.first_row; r < block.last_row; ++r)
+        for (std::int64_t c = block.first_column; c < block.last_column; ++c) visit(place(r, c));
+      return;
+    }
+    if (block.rows() > block.columns())
+      one.last_row = other.first_row = block.first_row + block.rows() / 2;
+    else
+      one.last_column = other.first_column = block.first_column + block.columns() / 2;
+    for_places(one, cells, visit);
+    for_places(other, cells, visit);
+  }
+
+ private:
+  static std::int64_t whole_number(double t) { return static_cast<std::int64_t>(t); }
+
+  Box<2> box_of(const Block& block) const {
+    const auto first_column = static_cast<double>(block.first_column),
+               last_column = static_cast<double>(block.last_column);
+    return {{step_ * first_column, row_ * static_cast<double>(block.first_row)},
+            {step_ * (last_column - 0.5), row_ * static_cast<double>(block.last_row - 1)}};
+  }
+
+  const FlatPatch& flat_;
+  double step_, row_;
+};
+
 }  // namespace
 
 std::vector<SurfacePoint> flat_lattice(const Surface& surface, std::int32_t patch,
                                        const std::vector<std::int32_t>& facets, double d,
-                                       double clearance) {
+                                       double clearance, const RankCells& cells) {
   const std::vector<StraightRun> runs = straight_runs(surface, patch);
   if (runs.empty() || facets.empty()) return {};
   const StraightRun& base = *std::max_element(
@@ -137,17 +220,12 @@ std::vector<SurfacePoint> flat_lattice(const Surface& surface, std::int32_t patc
   // Half a step beside an edge is far enough, though steps may be shorter than d.
   const double free = (1 - 1e-9) * clearance * std::min(step, d);
   std::vector<SurfacePoint> nodes;
-  const auto first_row = static_cast<std::int64_t>(std::ceil(flat.bounds().low[1] / row));
-  for (std::int64_t r = first_row; static_cast<double>(r) * row <= flat.bounds().high[1]; ++r) {
-    const double shift = r % 2 != 0 ? 0.5 * step : 0;
-    auto column = static_cast<std::int64_t>(std::ceil((flat.bounds().low[0] - shift) / step));
-    for (;; ++column) {
-      const Point<2> x{shift + step * static_cast<double>(column), row * static_cast<double>(r)};
-      if (x[0] > flat.bounds().high[0]) break;
-      const SurfacePoint at = flat.at(x);
-      if (at.facet >= 0 && surface.feature_clearance(at, free) >= free) nodes.push_back(at);
-    }
-  }
+  const Rows rows(flat, step, row);
+  rows.for_places(rows.whole(), cells, [&](const Point<2>& x) {
+    const SurfacePoint at = flat.at(x);
+    if (at.facet >= 0 && cells.hold(at.position) && surface.feature_clearance(at, free) >= free)
+      nodes.push_back(at);
+  });
   return nodes;
 }
 

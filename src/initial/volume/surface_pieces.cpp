@@ -2,14 +2,18 @@
 #include "initial/volume/surface_pieces.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <iterator>
 #include <limits>
+#include <tuple>
 #include <utility>
 
+#include "base/execution.hpp"
 #include "base/lattice.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
-#include "tree/background_tree.hpp"
+#include "comm/records.hpp"
+#include "tree/box_tree.hpp"
 #include "tree/leaf_cells.hpp"
 
 namespace pnpbs {
@@ -18,6 +22,10 @@ namespace {
 
 constexpr double kMaxEdge = 1.25;  // of a piece, in units of d: an equilateral one has 0.8 nodes
 constexpr std::int64_t kBatch = 1 << 16;  // points asked in one call
+constexpr double kMinClosed = 4;          // nodes of a closed patch
+// Nodes are counted in these: their sum may be a few times what there may be before it is found to
+// be too large, and must be a number then, too (see fixed_point).
+constexpr double kCounted = 16;
 
 struct Triangle {
   std::int32_t facet;
@@ -26,6 +34,10 @@ struct Triangle {
   Point<3> centre() const {
     const auto& [a, b, c] = corners;
     return {(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
+  }
+  Box<3> box() const {
+    const auto& [a, b, c] = corners;
+    return joined(joined(Box<3>{a, a}, {b, b}), {c, c});
   }
   double area() const {
     const auto& [a, b, c] = corners;
@@ -50,102 +62,148 @@ LongestEdge longest_edge(const Triangle& triangle) {
 
 double nodes_in(double area, double d) { return Lattice<2>::kDensity * area / (d * d); }
 
+// Where d is least; of places where it is the same, one that does not depend on who asks.
+struct LeastSpacing {
+  double d = std::numeric_limits<double>::infinity();
+  Point<3> at{};
+
+  void add(const LeastSpacing& other) {
+    if (std::tie(other.d, other.at) < std::tie(d, at)) *this = other;
+  }
+};
+
 class Cutter {
  public:
-  Cutter(const Surface& surface, const SpacingEvaluator<3>& spacing, const NodeLimit& limit)
-      : surface_(surface), spacing_(spacing), limit_(limit) {
-    pieces_.resize(static_cast<std::size_t>(surface.features().patches));
+  Cutter(const Communicator& comm, const Surface& surface, const SpacingEvaluator<3>& spacing,
+         const NodeLimit& limit, const RankCells& cells)
+      : comm_(comm), surface_(surface), spacing_(spacing), limit_(limit), cells_(cells) {
+    patches_.resize(index(surface.features().patches));
   }
 
-  std::vector<std::vector<SurfacePiece>> run() {
-    std::vector<Triangle> open;
-    for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface_.mesh().facets.size()); ++f)
-      if (surface_.patch(f) >= 0) open.push_back({f, surface_.corners(f)});
-    while (!open.empty()) open = cut(open);
-    sort();
-    return std::move(pieces_);
+  std::vector<PatchPieces> run() {
+    std::vector<Triangle> open = whole_facets();
+    // All ranks go on as long as one does: asking for d may be collective.
+    while (const std::int64_t batches = most_batches(open)) open = cut(open, batches);
+    for (PatchPieces& patch : patches_) sort(patch.pieces);
+    return std::move(patches_);
   }
 
  private:
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+  std::vector<Triangle> whole_facets() {
+    std::vector<Triangle> facets;
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface_.mesh().facets.size()); ++f) {
+      if (surface_.patch(f) < 0) continue;
+      const Triangle facet{f, surface_.corners(f)};
+      patches_[index(surface_.patch(f))].area += facet.area();
+      keep(facet, facets);
+    }
+    for (const Triangle& facet : facets) patches_[index(surface_.patch(facet.facet))].met = true;
+    for (std::int32_t p = 0; p < surface_.features().patches; ++p)
+      max_d_.push_back(surface_.has_features(p) ? std::numeric_limits<double>::infinity()
+                                                : std::sqrt(Lattice<2>::kDensity *
+                                                            patches_[index(p)].area / kMinClosed));
+    return facets;
+  }
+
+  // Unless all that it will be cut into is another rank's.
+  void keep(const Triangle& triangle, std::vector<Triangle>& open) const {
+    if (cells_.meet(triangle.box())) open.push_back(triangle);
+  }
+
+  std::int64_t most_batches(const std::vector<Triangle>& open) const {
+    return static_cast<std::int64_t>(
+        comm_.allreduce_max(static_cast<double>((std::ssize(open) + kBatch - 1) / kBatch)));
+  }
+
+  std::vector<double> spacing_at(const std::vector<Point<3>>& x, std::int64_t batches) const {
+    std::vector<double> d(x.size());
+    const std::int64_t count = std::ssize(x);
+    for (std::int64_t batch = 0; batch < batches; ++batch) {
+      const std::int64_t first = std::min(batch * kBatch, count);
+      spacing_(std::min(kBatch, count - first), x.data() + first, d.data() + first);
+    }
+    return d;
+  }
+
   // In two across their longest edge those that are too wide; the others are done.
-  std::vector<Triangle> cut(const std::vector<Triangle>& open) {
+  std::vector<Triangle> cut(const std::vector<Triangle>& open, std::int64_t batches) {
     std::vector<Point<3>> centres;
     for (const Triangle& triangle : open) centres.push_back(triangle.centre());
-    std::vector<double> d(open.size());
-    const auto count = static_cast<std::int64_t>(open.size());
-    for (std::int64_t first = 0; first < count; first += kBatch)
-      spacing_(std::min(kBatch, count - first), centres.data() + first, d.data() + first);
+    const std::vector<double> d = spacing_at(centres, batches);
     std::vector<Triangle> halves;
-    double pending = 0;
+    std::int64_t pending = 0;
     for (std::size_t n = 0; n < open.size(); ++n) {
-      if (d[n] < least_d_) {
-        least_d_ = d[n];
-        least_at_ = centres[n];
-      }
+      least_.add({d[n], centres[n]});
+      const std::int32_t cell = cells_.tree.leaf_at(centres[n]);
+      const bool own = cells_.owns(cell);
+      const double local = std::min(d[n], max_d_[index(surface_.patch(open[n].facet))]);
       const LongestEdge longest = longest_edge(open[n]);
-      if (longest.length > kMaxEdge * d[n]) {
+      if (longest.length > kMaxEdge * local) {
         // Where d grows from here on, there may be few nodes after all, but some.
-        pending += 0.25 * std::min(1.0, nodes_in(open[n].area(), d[n]));
+        if (own) pending += counted(0.25 * std::min(1.0, nodes_in(open[n].area(), local)));
         halve(open[n], longest.k, halves);
-      } else {
-        add(open[n], centres[n], d[n]);
+      } else if (own) {
+        add({{open[n].facet, centres[n]}, cell, open[n].area(), local});
       }
     }
     require_few_enough(pending);
     return halves;
   }
 
-  static void halve(const Triangle& triangle, std::size_t k, std::vector<Triangle>& halves) {
+  void halve(const Triangle& triangle, std::size_t k, std::vector<Triangle>& halves) const {
     const Point<3>&a = triangle.corners[k], &b = triangle.corners[(k + 1) % 3],
           &c = triangle.corners[(k + 2) % 3];
     const Point<3> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
-    halves.push_back({triangle.facet, {a, middle, c}});
-    halves.push_back({triangle.facet, {middle, b, c}});
+    keep({triangle.facet, {a, middle, c}}, halves);
+    keep({triangle.facet, {middle, b, c}}, halves);
   }
 
-  void add(const Triangle& triangle, const Point<3>& centre, double d) {
-    const double area = triangle.area();
-    pieces_[static_cast<std::size_t>(surface_.patch(triangle.facet))].push_back(
-        {{triangle.facet, centre}, area, d});
-    nodes_ += nodes_in(area, d);
+  void add(const SurfacePiece& piece) {
+    patches_[index(surface_.patch(piece.centre.facet))].pieces.push_back(piece);
+    nodes_ += counted(nodes_in(piece.area, piece.d));
   }
 
-  void require_few_enough(double pending) const {
-    const double nodes = nodes_ + pending;
-    if (nodes > static_cast<double>(limit_.max_nodes))
-      limit_.report_too_many(nodes, least_d_, point_text(least_at_));
+  static std::int64_t counted(double nodes) { return fixed_point(nodes / kCounted); }
+
+  void require_few_enough(std::int64_t pending) const {
+    const auto mine_counted = static_cast<std::uint64_t>(nodes_ + pending);
+    const double nodes = kCounted * from_fixed_point(comm_.allreduce_sum(mine_counted));
+    if (nodes <= static_cast<double>(limit_.max_nodes)) return;
+    Bytes mine;
+    pack(mine, least_);
+    LeastSpacing least;
+    for_records<LeastSpacing>({comm_.allgather(mine)},
+                              [&](const LeastSpacing& of_rank) { least.add(of_rank); });
+    limit_.report_too_many(nodes, least.d, point_text(least.at));
   }
 
-  void sort() {
-    const auto& nodes = surface_.mesh().nodes;
-    if (nodes.empty()) return;
-    Box<3> box{nodes[0].position, nodes[0].position};
-    for (const BoundaryNode<3>& node : nodes) box = joined(box, {node.position, node.position});
-    BackgroundTree<3> tree;
-    tree.build(box, [](const auto&, std::int32_t, std::int32_t, std::vector<char>&) {});
-    for (std::vector<SurfacePiece>& pieces : pieces_)
-      std::stable_sort(pieces.begin(), pieces.end(),
-                       [&](const SurfacePiece& a, const SurfacePiece& b) {
-                         return morton_before(tree.fine_index(a.centre.position),
-                                              tree.fine_index(b.centre.position));
-                       });
+  void sort(std::vector<SurfacePiece>& pieces) const {
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [this](const SurfacePiece& a, const SurfacePiece& b) {
+                       return morton_before(cells_.tree.fine_index(a.centre.position),
+                                            cells_.tree.fine_index(b.centre.position));
+                     });
   }
 
+  const Communicator& comm_;
   const Surface& surface_;
   const SpacingEvaluator<3>& spacing_;
   const NodeLimit& limit_;
-  std::vector<std::vector<SurfacePiece>> pieces_;  // of each patch
-  double nodes_ = 0;                               // that they have room for
-  double least_d_ = std::numeric_limits<double>::infinity();
-  Point<3> least_at_{};
+  const RankCells& cells_;
+  std::vector<PatchPieces> patches_;
+  std::vector<double> max_d_;  // of each patch
+  std::int64_t nodes_ = 0;     // counted: those that the pieces of this rank have room for
+  LeastSpacing least_;
 };
 
 }  // namespace
 
-std::vector<std::vector<SurfacePiece>> cut_to_pieces(const Surface& surface,
-                                                     const SpacingEvaluator<3>& spacing,
-                                                     const NodeLimit& limit) {
-  return Cutter(surface, spacing, limit).run();
+std::vector<PatchPieces> cut_to_pieces(const Communicator& comm, const Surface& surface,
+                                       const SpacingEvaluator<3>& spacing, const NodeLimit& limit,
+                                       const RankCells& cells) {
+  return Cutter(comm, surface, spacing, limit, cells).run();
 }
 
 }  // namespace pnpbs

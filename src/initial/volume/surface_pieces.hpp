@@ -5,23 +5,34 @@
 #include <cstdint>
 #include <vector>
 
+#include "comm/communicator.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/surface.hpp"
+#include "initial/volume/rank_cells.hpp"
 
 namespace pnpbs {
 
 struct SurfacePiece {
   SurfacePoint centre;
+  std::int32_t cell;
   double area;
   double d;  // at the centre
 };
 
-// Of each patch, in the Morton order of their centres. d is asked at the centres, in batches. A
-// piece has room for less than one node. Throws Error(ErrorKind::spacing) if there would be more
-// nodes than the limit allows.
-std::vector<std::vector<SurfacePiece>> cut_to_pieces(const Surface& surface,
-                                                     const SpacingEvaluator<3>& spacing,
-                                                     const NodeLimit& limit);
+struct PatchPieces {
+  bool met = false;                  // has it a facet that meets cells of this rank?
+  double area = 0;                   // of the whole patch
+  std::vector<SurfacePiece> pieces;  // those with their centres in cells of this rank
+};
+
+// Of each patch, in the Morton order of their centres. All ranks together have every piece once,
+// and what the pieces are does not depend on which cells are whose. d is asked at the centres, in
+// batches. A piece has room for less than one node, and a patch that is closed for four at least:
+// fewer make no closed triangulation, so there d counts for as much less. Throws
+// Error(ErrorKind::spacing) if there would be more nodes than the limit allows. Collective.
+std::vector<PatchPieces> cut_to_pieces(const Communicator& comm, const Surface& surface,
+                                       const SpacingEvaluator<3>& spacing, const NodeLimit& limit,
+                                       const RankCells& cells);
 
 }  // namespace pnpbs

@@ -37,12 +37,26 @@ Settings surface_settings(const Settings& inside) {
 
 namespace {
 
-// On surfaces alone. Depends on the surface and d only, so every rank finds the same.
+GivenNodes<3> own_feature_nodes(const Level<3>& level) {
+  GivenNodes<3> nodes = level.ground.feature_nodes();
+  std::erase_if(nodes, [&](const GivenNode<3>& node) {
+    return !level.tree->owns(level.tree->tree().leaf_at(node.position));
+  });
+  return nodes;
+}
+
+// This rank's part of a fill of all surfaces. Collective.
 GivenNodes<3> filled_surfaces(const Level<3>& level) {
   const Ground<3>& ground = level.ground;
+  const Distribution<3>& distribution = level.tree->distribution();
+  const PartitionCells<3> one_cell(ground.bounds(), {});
+  const RankCells cells{
+      level.distributed() ? distribution.cells().tree() : one_cell.tree(), [&](std::int32_t cell) {
+        return !level.distributed() || distribution.owner_of_cell(cell) == level.comm->rank();
+      }};
   GivenNodes<3> filled;
-  for (const SurfacePoint& at :
-       surface_fill(ground.surface(), ground.evaluator(), level.settings.node_limit())) {
+  for (const SurfacePoint& at : surface_fill(*level.comm, ground.surface(), ground.evaluator(),
+                                             level.settings.node_limit(), cells)) {
     GivenNode<3> node{at.position, -1};
     node.carrier = Carrier::surface;
     node.boundary_node = at.facet;
@@ -74,7 +88,7 @@ std::int64_t put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces,
   if (!begin_anew) thin_on_surfaces(level, on_surfaces);
   const std::int64_t thinned = given - std::ssize(on_surfaces);
   agreed(*level.comm, [&] {
-    laid = level.ground.feature_nodes();
+    laid = own_feature_nodes(level);
     keep_ids_in_place(laid, on_features);
     filled = filled_surfaces(level);
     append(laid, begin_anew ? filled : on_surfaces);
