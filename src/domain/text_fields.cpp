@@ -25,8 +25,9 @@ std::string_view without_leading_blanks(std::string_view text) {
   return text;
 }
 
-// As a message can show it.
-std::string shown(std::string_view field) {
+}  // namespace
+
+std::string shown_field(std::string_view field) {
   std::string text;
   for (const char c : field.substr(0, kLongestShown)) {
     const bool printable = c >= ' ' && c <= '~';
@@ -36,14 +37,15 @@ std::string shown(std::string_view field) {
 }
 
 template <class Number>
-bool parse(std::string_view field, Number& value) {
+bool parse_field(std::string_view field, Number& value) {
   if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);
   const char* end = field.data() + field.size();
   const auto result = std::from_chars(field.data(), end, value);
   return result.ec == std::errc() && result.ptr == end;
 }
-
-}  // namespace
+template bool parse_field(std::string_view, std::int32_t&);
+template bool parse_field(std::string_view, std::int64_t&);
+template bool parse_field(std::string_view, double&);
 
 TextFields::TextFields(std::string_view text, std::string name, Comments comments)
     : rest_(text), name_(std::move(name)), comments_(comments) {
@@ -89,14 +91,14 @@ std::int64_t TextFields::integer(std::string_view what) { return integer_in(requ
 
 std::int64_t TextFields::integer_in(std::string_view field, std::string_view what) const {
   std::int64_t value = 0;
-  if (!parse(field, value)) fail_found(field, what);
+  if (!parse_field(field, value)) fail_found(field, what);
   return value;
 }
 
 double TextFields::coordinate(std::string_view what) {
   const std::string_view field = required(what);
   double value = 0;
-  if (!parse(field, value) || !is_usable(value)) {
+  if (!parse_field(field, value) || !is_usable(value)) {
     fail_found(field, std::string(what) + " (a number between -1e60 and 1e60)");
   }
   return value;
@@ -105,12 +107,12 @@ double TextFields::coordinate(std::string_view what) {
 std::int32_t TextFields::tag(std::string_view what) {
   const std::string_view field = required(what);
   std::int32_t value = 0;
-  if (!parse(field, value)) fail_found(field, std::string(what) + " (a 32-bit integer)");
+  if (!parse_field(field, value)) fail_found(field, std::string(what) + " (a 32-bit integer)");
   return value;
 }
 
 void TextFields::fail_found(std::string_view found, std::string_view what) const {
-  fail("found " + shown(found) + ", expected " + std::string(what));
+  fail("found " + shown_field(found) + ", expected " + std::string(what));
 }
 
 void TextFields::fail(const std::string& message) const {

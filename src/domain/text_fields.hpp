@@ -51,6 +51,13 @@ class TextFields {
   std::int64_t line_number_ = 0;
 };
 
+// A field as a message can show it.
+std::string shown_field(std::string_view field);
+
+// Takes the whole field for a 32- or 64-bit integer or a double; false if it is none.
+template <class Number>
+bool parse_field(std::string_view field, Number& value);
+
 // Throws Error "name: holds zero bytes, expected text in `format` format" if it does.
 void expect_text(std::string_view text, const std::string& name, const std::string& format);
 

@@ -13,12 +13,16 @@
 #include <fstream>
 #include <iterator>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/limits.hpp"
 #include "damage.hpp"
+#include "domain/plane/msh_plane.hpp"
+#include "domain/volume/msh_body.hpp"
+#include "msh_files.hpp"
 #include "surface_files.hpp"
 
 namespace {
@@ -27,13 +31,13 @@ std::size_t largest_request = 0;
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+[[gnu::noinline]] void* operator new(std::size_t size) {
   largest_request = std::max(largest_request, size);
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -42,7 +46,7 @@ using pnpbs::SurfaceTriangles;
 
 struct Sample {
   std::string name;
-  SurfaceFormat format;
+  std::optional<SurfaceFormat> format;  // none: Gmsh's
   std::string bytes;
 };
 
@@ -154,12 +158,47 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   return text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
+std::optional<SurfaceFormat> format_of(const std::string& path) {
+  if (pnpbs::is_msh(path)) return std::nullopt;
+  return pnpbs::surface_format(path);
+}
+
+// A tetrahedron in a cube, with a curve and a point; a square with a hole.
+void add_meshes(std::vector<Sample>& samples) {
+  using msh_files::Kind;
+  msh_files::Mesh body = msh_files::cube();
+  body.elements.push_back({1, 21, 31, {1, 8}});
+  body.elements.push_back({15, 22, 32, {8}});
+  body.elements.push_back({4, 23, 33, {1, 2, 3, 5}});
+  auto entities = msh_files::sides_of_cube();
+  entities.push_back({3, 33, 23, {1, 2, 3, 4, 5, 6}});
+  msh_files::Mesh square;
+  for (const double size : {3.0, 1.0})
+    for (int i = 0; i < 4; ++i)
+      square.nodes.push_back({(i % 3 == 0 ? -1 : 1) * size, (i < 2 ? -1 : 1) * size, 0});
+  square.names = "1 5 \"rim\"\n";
+  square.first_node = 7;
+  square.step = 3;
+  for (std::int32_t i = 1; i < 5; ++i) {
+    const std::int32_t next = i % 4 + 1;
+    square.elements.push_back({1, 5, 5, {i, next}});
+    square.elements.push_back({3, 6, 6, {i, next, next + 4, i + 4}});
+  }
+  const std::vector<msh_files::Entity> plane{{1, 5, 5, {}}, {2, 6, 6, {5}}};
+  for (const Kind kind : {Kind::text, Kind::little_endian, Kind::big_endian}) {
+    const std::string name = kind == Kind::text ? "text" : "binary";
+    samples.push_back({"4.1, body, " + name, {}, version_41(body, entities, kind)});
+    samples.push_back({"2.2, body, " + name, {}, version_22(body, kind)});
+    samples.push_back({"4.1, square, " + name, {}, version_41(square, plane, kind)});
+    samples.push_back({"2.2, square, " + name, {}, version_22(square, kind)});
+  }
+}
+
 std::vector<Sample> samples(int count, char** paths) {
   std::vector<Sample> result;
   for (int i = 0; i < count; ++i) {
     std::ifstream file(paths[i], std::ios::binary);
-    result.push_back(
-        {paths[i], pnpbs::surface_format(paths[i]), {std::istreambuf_iterator<char>(file), {}}});
+    result.push_back({paths[i], format_of(paths[i]), {std::istreambuf_iterator<char>(file), {}}});
   }
   if (!result.empty()) return result;
   for (auto& [format, bytes] : surface_files::all(surface_files::box()))
@@ -168,6 +207,7 @@ std::vector<Sample> samples(int count, char** paths) {
   result.push_back({"pyramid.obj", SurfaceFormat::obj, pyramid_obj});
   result.push_back({"tetrahedra.poly", SurfaceFormat::poly, tetrahedra_poly});
   result.push_back({"triangle.ply", SurfaceFormat::ply, triangle_ply});
+  add_meshes(result);
   return result;
 }
 
@@ -188,6 +228,30 @@ const char* fault_of(const SurfaceTriangles& surface) {
   return nullptr;
 }
 
+// What is wrong with a mesh that was read, or with the domain that it makes.
+const char* fault_of(const pnpbs::MshMesh& mesh) {
+  for (std::size_t shape = 0; shape < pnpbs::kMshShapes; ++shape) {
+    const pnpbs::MshCells& cells = mesh.cells[shape];
+    if (cells.corners.size() != cells.count() * static_cast<std::size_t>(pnpbs::kMshCorners[shape]))
+      return "corners of other elements";
+    for (const std::int32_t i : cells.corners)
+      if (i < 0 || i >= std::ssize(mesh.nodes)) return "a corner that is no node";
+    for (const std::int32_t i : cells.regions)
+      if (i < 0 || i >= std::ssize(mesh.regions)) return "an element of no region";
+  }
+  for (const auto& point : mesh.nodes)
+    for (const double x : point)
+      if (!pnpbs::is_usable(x)) return "an unusable coordinate";
+  if (mesh.dimension() == 2) {
+    pnpbs::PlaneDomain plane;
+    add_msh(plane, mesh, 40);
+  } else {
+    pnpbs::VolumeDomain body;
+    add_msh(body, mesh, 40);
+  }
+  return nullptr;
+}
+
 struct Tally {
   std::uint64_t read = 0, refused = 0;
   double slowest = 0;
@@ -200,7 +264,8 @@ bool examine(const Sample& sample, const std::string& bytes, Tally& tally) {
   const char* fault = nullptr;
   std::string message;
   try {
-    fault = fault_of(pnpbs::parse_surface(bytes, "mutated", sample.format));
+    fault = sample.format ? fault_of(pnpbs::parse_surface(bytes, "mutated", *sample.format))
+                          : fault_of(pnpbs::parse_msh(bytes, "mutated"));
     ++tally.read;
   } catch (const pnpbs::Error& error) {
     message = error.what();

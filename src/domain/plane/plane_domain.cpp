@@ -169,6 +169,8 @@ void PlaneDomain::add_fixed_nodes(std::int64_t n, const double* xy, const std::i
 void PlaneDomain::check() {
   if (checked_) return;
   resolved_ = resolve_domain(sources_, holes_, given_nodes_);
+  resolved_.warnings.insert(resolved_.warnings.begin(), given_warnings_.begin(),
+                            given_warnings_.end());
   checked_ = true;
 }
 

@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
+#include "domain/group_names.hpp"
 #include "domain/plane/curve_source.hpp"
 
 namespace pnpbs {
@@ -74,6 +76,13 @@ class PlaneDomain {
                 std::int64_t first_number = 0);
   void add_hole(const Point<2>& point);
   void add_fixed_nodes(std::int64_t n, const double* xy, const std::int32_t* tags);
+  // To be told with those that check() finds.
+  void add_warning(std::string warning) {
+    given_warnings_.push_back(std::move(warning));
+    checked_ = false;
+  }
+  GroupNames& names() { return names_; }
+  const GroupNames& names() const { return names_; }
 
   // Checks everything and resolves corners, curves and sides; does nothing if nothing changed
   // since the last time. Throws Error(ErrorKind::domain).
@@ -96,6 +105,8 @@ class PlaneDomain {
   std::vector<CurveSource> sources_;
   std::vector<Hole> holes_;
   std::vector<FixedNode> given_nodes_;
+  std::vector<std::string> given_warnings_;
+  GroupNames names_;
   std::int64_t curves_given_ = 0, graphs_given_ = 0, holes_given_ = 0;
   bool checked_ = false;
   ResolvedDomain resolved_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,9 @@ namespace pnpbs {
 
 inline constexpr std::int64_t kMaxVertices = std::numeric_limits<std::int32_t>::max();
 inline constexpr const char* kTooManyVertices = "more than 2147483647 vertices";
+
+// As surface_format, but nothing for other endings.
+std::optional<SurfaceFormat> known_surface_format(const std::string& path);
 
 // What to say of vertices that are numbered from 0.
 inline std::string no_such_vertex(std::int64_t number, std::int64_t count) {

@@ -56,19 +56,22 @@ SurfaceTriangles parse(std::string_view bytes, const std::string& name, SurfaceF
 
 }  // namespace
 
-SurfaceFormat surface_format(const std::string& path) {
+std::optional<SurfaceFormat> known_surface_format(const std::string& path) {
   std::string ending = ending_of(path);
   for (char& c : ending)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   const auto known = std::find_if(kEndings.begin(), kEndings.end(),
                                   [&ending](const auto& each) { return each.first == ending; });
-  if (known == kEndings.end()) {
-    throw Error(ErrorKind::file,
-                path +
-                    ": not known by its ending, expected .stl, .off, .obj, .ply, .poly or "
-                    ".smesh");
-  }
+  if (known == kEndings.end()) return std::nullopt;
   return known->second;
+}
+
+SurfaceFormat surface_format(const std::string& path) {
+  if (const auto known = known_surface_format(path)) return *known;
+  throw Error(ErrorKind::file,
+              path +
+                  ": not known by its ending, expected .stl, .off, .obj, .ply, .poly or "
+                  ".smesh");
 }
 
 SurfaceTriangles read_surface(const std::string& path) {

@@ -12,7 +12,8 @@ namespace pnpbs {
 
 enum class SurfaceRole {
   boundary,  // closed, their normals pointing out of the domain: of a cavity, into it
-  inner      // nodes follow it, but the domain is on both sides
+  inner,     // nodes follow it, but the domain is on both sides
+  by_place   // as given: whichever of the two each triangle is where it lies
 };
 
 // Adds nodes and triangles, whose corners are indices into the nodes given. A node has the tag of

@@ -44,7 +44,8 @@ Triangulation join_surfaces(const std::vector<SurfaceSource>& surfaces) {
                                surface.tags[t],
                                source,
                                static_cast<std::int32_t>(t),
-                               surface.role == SurfaceRole::inner});
+                               surface.role == SurfaceRole::inner,
+                               surface.role == SurfaceRole::by_place});
     }
   }
   return all;

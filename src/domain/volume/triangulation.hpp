@@ -33,6 +33,7 @@ struct SurfaceTriangle {
   std::int32_t source;
   std::int32_t number;  // in its source
   bool inner;
+  bool by_place = false;  // whether it is inner is still to be found
 
   void turn_around() { std::swap(vertices[1], vertices[2]); }
   bool has(std::int32_t vertex) const {

@@ -84,6 +84,23 @@ void VolumeDomain::add_surface(SurfaceRole role, std::int64_t vertices, const do
   add_source(std::move(source), "surface", surfaces_given_, feature_angle);
 }
 
+void VolumeDomain::add_surface(SurfaceRole role, const SurfaceTriangles& surface,
+                               double feature_angle) {
+  std::vector<std::int64_t> corners;
+  for (const std::array<std::int32_t, 3>& triangle : surface.triangles)
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  add_surface(role, std::ssize(surface.vertices), surface.vertices.data()->data(),
+              std::ssize(surface.triangles), corners.data(), surface.tags.data(), feature_angle);
+  for (const Point<3>& hole : surface.holes) add_hole(hole);
+  for (const auto& [tag, name] : surface.tag_names) names_.add({2, tag}, name);
+}
+
+void VolumeDomain::set_role(std::int32_t tag, SurfaceRole role) {
+  require_tag("tag", tag);
+  roles_[tag] = role;
+  checked_ = false;
+}
+
 void VolumeDomain::add_box(const Point<3>& low, const Point<3>& high,
                            const std::array<std::int32_t, 6>& tags) {
   require_box({low, high});
@@ -160,8 +177,10 @@ void VolumeDomain::add_hole(const Point<3>& point) {
 
 void VolumeDomain::check() {
   if (checked_) return;
-  auto resolved = std::make_shared<ResolvedVolume>(
-      resolve_volume(surfaces_, feature_angles_, polylines_, holes_, given_nodes_, filled_));
+  auto resolved = std::make_shared<ResolvedVolume>(resolve_volume(
+      {surfaces_, feature_angles_, roles_, polylines_, holes_, given_nodes_, filled_}));
+  resolved->warnings.insert(resolved->warnings.begin(), given_warnings_.begin(),
+                            given_warnings_.end());
   resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
   resolved_ = std::move(resolved);
   checked_ = true;

@@ -5,14 +5,17 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "domain/group_names.hpp"
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
 #include "domain/volume/level_set.hpp"
 #include "domain/volume/surface_index.hpp"
+#include "domain/volume/surface_triangles.hpp"
 #include "domain/volume/triangulation.hpp"
 
 namespace pnpbs {
@@ -73,6 +76,11 @@ class VolumeDomain {
   void add_surface(SurfaceRole role, std::int64_t vertices, const double* xyz,
                    std::int64_t triangles, const std::int64_t* corners, const std::int32_t* tags,
                    double feature_angle = kFeatureAngle);
+  // From a file: its triangles and hole points, and the names of its tags.
+  void add_surface(SurfaceRole role, const SurfaceTriangles& surface,
+                   double feature_angle = kFeatureAngle);
+  // Of all triangles that have this tag, whatever they are given with.
+  void set_role(std::int32_t tag, SurfaceRole role);
   // Tags of the sides at low x, high x, low y, high y, low z, high z.
   void add_box(const Point<3>& low, const Point<3>& high, const std::array<std::int32_t, 6>& tags);
   void add_box(const Point<3>& low, const Point<3>& high, std::int32_t tag);
@@ -89,6 +97,13 @@ class VolumeDomain {
   bool filled() const { return filled_; }
   // Takes out what lies around the point, up to the next surfaces.
   void add_hole(const Point<3>& point);
+  // To be told with those that check() finds.
+  void add_warning(std::string warning) {
+    given_warnings_.push_back(std::move(warning));
+    checked_ = false;
+  }
+  GroupNames& names() { return names_; }
+  const GroupNames& names() const { return names_; }
 
   // Checks everything and finds inside, orientation and features; does nothing if nothing changed
   // since the last time. Throws Error(ErrorKind::domain).
@@ -124,6 +139,9 @@ class VolumeDomain {
   std::vector<InnerPolyline> polylines_;
   std::vector<VolumeHole> holes_;
   std::vector<FixedNode3> given_nodes_;
+  std::vector<std::string> given_warnings_;
+  std::map<std::int32_t, SurfaceRole> roles_;  // of triangles by their tags
+  GroupNames names_;
   std::int64_t surfaces_given_ = 0, boxes_given_ = 0, balls_given_ = 0, cylinders_given_ = 0,
                level_sets_given_ = 0;
   bool filled_ = true;

@@ -16,6 +16,7 @@
 #include "domain/volume/surface_checks.hpp"
 #include "domain/volume/surface_extent.hpp"
 #include "domain/volume/surface_orientation.hpp"
+#include "domain/volume/surface_roles.hpp"
 #include "domain/volume/thin_triangles.hpp"
 #include "domain/volume/triangles.hpp"
 #include "domain/volume/welding.hpp"
@@ -26,18 +27,17 @@ namespace {
 
 class Resolver {
  public:
-  Resolver(const std::vector<SurfaceSource>& surfaces, const std::vector<InnerPolyline>& polylines,
-           const std::vector<VolumeHole>& holes, const std::vector<FixedNode3>& fixed_nodes,
-           bool filled)
-      : surfaces_(surfaces),
-        polylines_(polylines),
-        holes_(holes),
-        fixed_nodes_(fixed_nodes),
-        filled_(filled) {}
+  explicit Resolver(const GivenVolume& given)
+      : surfaces_(given.surfaces),
+        polylines_(given.polylines),
+        holes_(given.holes),
+        fixed_nodes_(given.fixed_nodes),
+        filled_(given.filled) {}
 
-  ResolvedVolume run(const std::vector<double>& feature_angles) {
+  ResolvedVolume run(const GivenVolume& given) {
     require_surfaces();
     surface_ = join_surfaces(surfaces_);
+    give_roles(surface_, given.roles);
     if (!filled_)  // then they all divide nothing
       for (SurfaceTriangle& triangle : surface_.triangles) triangle.inner = true;
     measure();
@@ -45,6 +45,8 @@ class Resolver {
     remove_thin_triangles(surface_, kSameVertex * size_, result_.warnings);
     remove_duplicate_triangles(surface_, result_.warnings);
     require_triangles_of_all();
+    if (filled_) find_roles_by_place(surface_);
+    require_boundary();
     SurfaceEdges edges(surface_);
     require_closed_boundary(surface_, edges);
     warn_of_touching_vertices(surface_, edges, result_.warnings);
@@ -58,7 +60,7 @@ class Resolver {
     turn_outwards();
     filled_ ? remove_holes() : reject_holes();
     make_mesh();
-    find_features_of(surfaces_, feature_angles, result_);
+    find_features_of(surfaces_, given.feature_angles, result_);
     return std::move(result_);
   }
 
@@ -66,11 +68,6 @@ class Resolver {
   // ------------------------------------------------------------ what is given
   void require_surfaces() const {
     if (surfaces_.empty()) reject_domain("the domain has no surfaces");
-    if (filled_ &&
-        std::none_of(surfaces_.begin(), surfaces_.end(), [](const SurfaceSource& surface) {
-          return surface.role == SurfaceRole::boundary;
-        }))
-      reject_domain("the domain has no boundary surface, only inner ones");
     std::size_t vertices = fixed_nodes_.size(), triangles = 0;
     for (const SurfaceSource& surface : surfaces_) {
       vertices += surface.vertices.size();
@@ -79,6 +76,12 @@ class Resolver {
     for (const InnerPolyline& curve : polylines_) vertices += curve.points.size();
     if (vertices >= std::size_t{1} << 31) reject_domain("the domain has 2^31 vertices or more");
     if (triangles >= std::size_t{1} << 30) reject_domain("the domain has 2^30 triangles or more");
+  }
+
+  void require_boundary() const {
+    if (filled_ && std::all_of(surface_.triangles.begin(), surface_.triangles.end(),
+                               [](const SurfaceTriangle& triangle) { return triangle.inner; }))
+      reject_domain("the domain has no boundary surface, only inner ones");
   }
 
   void measure() {
@@ -377,12 +380,6 @@ class Resolver {
 
 }  // namespace
 
-ResolvedVolume resolve_volume(const std::vector<SurfaceSource>& surfaces,
-                              const std::vector<double>& feature_angles,
-                              const std::vector<InnerPolyline>& polylines,
-                              const std::vector<VolumeHole>& holes,
-                              const std::vector<FixedNode3>& fixed_nodes, bool filled) {
-  return Resolver(surfaces, polylines, holes, fixed_nodes, filled).run(feature_angles);
-}
+ResolvedVolume resolve_volume(const GivenVolume& given) { return Resolver(given).run(given); }
 
 }  // namespace pnpbs

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/msh_facets.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/point_text.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
+
+// Corners of the facets of each shape; -1: no fourth one.
+using Sides = std::vector<std::array<int, 4>>;
+
+const Sides& sides_of(MshShape shape) {
+  static const std::map<MshShape, Sides> sides{
+      {MshShape::triangle, {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 0, -1, -1}}},
+      {MshShape::quadrangle, {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 3, -1, -1}, {3, 0, -1, -1}}},
+      {MshShape::tetrahedron, {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}}},
+      {MshShape::hexahedron,
+       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+      {MshShape::prism, {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
+      {MshShape::pyramid,
+       {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}}};
+  return sides.at(shape);
+}
+
+using Key = std::array<std::int32_t, 4>;
+
+Key key_of(Key corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+std::int32_t count_of(const Key& corners) {
+  return static_cast<std::int32_t>(std::find(corners.begin(), corners.end(), kNone) -
+                                   corners.begin());
+}
+
+// A facet of elements that fill the domain.
+struct Face {
+  Key key, corners;
+  std::int32_t region;  // tag of an element's that has it
+  int elements = 1;
+  bool divides = false;  // elements of different regions
+  bool given = false;    // as an element itself
+};
+
+template <class Visit>
+void for_cells(const MshMesh& mesh, int dimension, const Visit& visit) {
+  for (std::size_t shape = 0; shape < kMshShapes; ++shape) {
+    if (kMshDimensions[shape] != dimension) continue;
+    const auto corners = static_cast<std::size_t>(kMshCorners[shape]);
+    const MshCells& cells = mesh.cells[shape];
+    for (std::size_t e = 0; e < cells.count(); ++e)
+      visit(static_cast<MshShape>(shape), std::span(cells.corners).subspan(corners * e, corners),
+            static_cast<std::size_t>(cells.regions[e]));
+  }
+}
+
+std::vector<Face> faces_of_cells(const MshMesh& mesh, int dimension) {
+  const std::vector<std::int32_t> tags = tags_of_regions(mesh, dimension);
+  std::vector<Face> all;
+  for_cells(mesh, dimension,
+            [&](MshShape shape, std::span<const std::int32_t> corners, std::size_t region) {
+              for (const std::array<int, 4>& side : sides_of(shape)) {
+                Key face{kNone, kNone, kNone, kNone};
+                for (std::size_t k = 0; k < 4; ++k)
+                  if (side[k] >= 0) face[k] = corners[static_cast<std::size_t>(side[k])];
+                all.push_back({key_of(face), face, tags[region]});
+              }
+            });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Face& a, const Face& b) { return a.key < b.key; });
+  std::vector<Face> faces;
+  for (const Face& face : all) {
+    if (faces.empty() || faces.back().key != face.key) {
+      faces.push_back(face);
+      continue;
+    }
+    ++faces.back().elements;
+    if (faces.back().region != face.region) faces.back().divides = true;
+  }
+  return faces;
+}
+
+std::string nodes_text(const MshMesh& mesh, const Key& corners) {
+  std::string text;
+  for (std::int32_t k = 0; k < count_of(corners); ++k)
+    text += (k > 0 ? ", " : "") +
+            std::to_string(
+                mesh.node_tags[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])]);
+  return text;
+}
+
+// By the entities that these regions bound; unknown if none bounds a single one.
+std::vector<MshSides> sides_of_regions(const MshMesh& mesh, int dimension) {
+  const bool told = std::ranges::any_of(mesh.regions, [&](const MshRegion& region) {
+    return region.dimension == dimension && region.bounds == 1;
+  });
+  std::vector<MshSides> sides;
+  for (const MshRegion& region : mesh.regions)
+    sides.push_back(!told                ? MshSides::unknown
+                    : region.bounds == 1 ? MshSides::one_inside
+                                         : MshSides::both_inside);
+  return sides;
+}
+
+}  // namespace
+
+std::vector<MshFacet> facets_of(const MshMesh& mesh, int dimension) {
+  std::vector<Face> faces = faces_of_cells(mesh, dimension);
+  for (const Face& face : faces)
+    if (face.elements > 2)
+      throw Error(ErrorKind::file, mesh.name + ": " + std::to_string(face.elements) +
+                                       " elements share the nodes " +
+                                       nodes_text(mesh, face.corners) + ", expected two at most");
+  const std::vector<std::int32_t> tags = tags_of_regions(mesh, dimension - 1);
+  const std::vector<MshSides> by_region = sides_of_regions(mesh, dimension - 1);
+  std::vector<MshFacet> facets;
+  for_cells(mesh, dimension - 1,
+            [&](MshShape, std::span<const std::int32_t> corners, std::size_t region) {
+              Key all{kNone, kNone, kNone, kNone};
+              std::copy(corners.begin(), corners.end(), all.begin());
+              MshSides sides = by_region[region];
+              if (!faces.empty()) {
+                const Key key = key_of(all);
+                const auto face = std::ranges::lower_bound(faces, key, {}, &Face::key);
+                const bool found = face != faces.end() && face->key == key;
+                if (found) face->given = true;
+                sides = found && face->elements == 1 ? MshSides::one_inside : MshSides::both_inside;
+              }
+              facets.push_back({all, count_of(all), tags[region], sides});
+            });
+  const std::int32_t other = free_tag(mesh);
+  for (const Face& face : faces)
+    if (!face.given && (face.elements == 1 || face.divides))
+      facets.push_back({face.corners, count_of(face.corners), other,
+                        face.divides ? MshSides::both_inside : MshSides::one_inside});
+  return facets;
+}
+
+namespace {
+
+class CurveFinder {
+ public:
+  CurveFinder(const std::vector<MshLine>& lines, const std::vector<std::int32_t>& stops)
+      : lines_(lines), used_(lines.size(), 0), stops_(stops.begin(), stops.end()) {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      for (const std::int32_t end : lines[i].ends) at_[end].push_back(i);
+  }
+
+  std::vector<MshCurve> find() {
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      for (const int k : {0, 1})
+        if (!used_[i] && ends_at(lines_[i].ends[static_cast<std::size_t>(k)]))
+          walk(i, lines_[i].ends[static_cast<std::size_t>(k)]);
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      if (!used_[i]) walk(i, lines_[i].ends[0]);
+    return std::move(curves_);
+  }
+
+ private:
+  bool ends_at(std::int32_t node) const {
+    const std::vector<std::size_t>& lines = at_.at(node);
+    if (lines.size() != 2 || stops_.contains(node)) return true;
+    const MshLine &a = lines_[lines[0]], &b = lines_[lines[1]];
+    return a.tag != b.tag || a.inner != b.inner;
+  }
+
+  void walk(std::size_t line, std::int32_t begin) {
+    MshCurve curve{{begin}, false, lines_[line].tag, lines_[line].inner};
+    for (std::int32_t node = begin;;) {
+      used_[line] = 1;
+      const auto& ends = lines_[line].ends;
+      node = ends[0] == node ? ends[1] : ends[0];
+      if (node == begin) {
+        curve.closed = true;
+        break;
+      }
+      curve.nodes.push_back(node);
+      if (ends_at(node)) break;
+      const std::vector<std::size_t>& here = at_.at(node);
+      line = here[0] == line ? here[1] : here[0];
+    }
+    curves_.push_back(std::move(curve));
+  }
+
+  const std::vector<MshLine>& lines_;
+  std::vector<char> used_;
+  std::set<std::int32_t> stops_;
+  std::map<std::int32_t, std::vector<std::size_t>> at_;  // the lines that each node ends
+  std::vector<MshCurve> curves_;
+};
+
+}  // namespace
+
+std::vector<MshCurve> curves_of(const std::vector<MshLine>& lines,
+                                const std::vector<std::int32_t>& stops) {
+  return CurveFinder(lines, stops).find();
+}
+
+void warn_of_joined_regions(const MshMesh& mesh, int dimension,
+                            std::vector<std::string>& warnings) {
+  std::set<std::int32_t> groups;
+  for (const MshRegion& region : mesh.regions)
+    if (region.dimension == dimension && region.group != 0) groups.insert(region.group);
+  if (groups.size() < 2) return;
+  std::vector<std::string> names;
+  for (const std::int32_t group : groups) {
+    const std::string* name = mesh.names.find({dimension, group});
+    names.push_back(name ? *name : name_of_tag(group));
+  }
+  warnings.push_back(mesh.name + ": its regions become one, and nodes follow what divides them: " +
+                     list_text(names, 5));
+}
+
+}  // namespace pnpbs
