@@ -35,6 +35,7 @@ void write_node(const NodeSource& nodes, SharedFile& file);
 void write_ele(const NodeSource& nodes, SharedFile& file);
 void write_face(const NodeSource& nodes, SharedFile& file);
 void write_msh(const NodeSource& nodes, SharedFile& file);
+void write_msh2(const NodeSource& nodes, SharedFile& file);
 void write_csv(const NodeSource& nodes, SharedFile& file);
 
 // The file that names the pieces. Collective. elements: as the pieces have them.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gmsh's format 2.2, as text: the version that most programs read. Numbers from 1. Facets of the
-// boundary have their tag as physical group, elements the group 1. Without elements every node is a
-// point of its tag's group, since gmsh forgets nodes that belong to nothing.
+// Gmsh's format 2.2, as text, which programs read that know no later one. Numbers from 1. Facets of
+// the boundary have their tag as physical group, elements that of the inside. Without elements
+// every node is a point of its tag's group, since Gmsh forgets nodes that belong to nothing.
 #include <cmath>
 #include <cstdlib>
 
+#include "io/msh_groups.hpp"
 #include "io/numbered_rows.hpp"
 
 namespace pnpbs::io {
@@ -61,15 +62,16 @@ void write_facets(const NodeSource& nodes, SharedFile& file) {
   });
 }
 
-void write_elements(const NodeSource& nodes, SharedFile& file) {
+void write_elements(const NodeSource& nodes, const MshGroup& inside, SharedFile& file) {
   const Contents& all = nodes.contents();
+  const std::string group = std::to_string(inside.number);
   nodes.for_elements([&](const ElementRows& rows) {
     file.append([&](Sink& sink) {
       std::int64_t number = all.facets + rows.first;
       for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.number(++number);
         sink.text(all.dimension == 2 ? triangle : tetrahedron);
-        sink.text("1 1");
+        sink.text(group + " " + group);
         write_corners(rows.corners, e, all.element_corners(), sink);
         sink.text("\n");
       }
@@ -77,17 +79,28 @@ void write_elements(const NodeSource& nodes, SharedFile& file) {
   });
 }
 
+// Names belong to groups with positive numbers.
+void write_names(const MshGroups& groups, bool with_inside, SharedFile& file) {
+  std::vector<const MshGroup*> named;
+  for (const MshGroup& group : groups.tagged)
+    if (group.rows.tag > 0) named.push_back(&group);
+  if (with_inside) named.push_back(&groups.inside);
+  append_physical_names(named, file);
+}
+
 }  // namespace
 
-void write_msh(const NodeSource& nodes, SharedFile& file) {
+void write_msh2(const NodeSource& nodes, SharedFile& file) {
   file.append_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
-  write_points(nodes, file);
   const Contents& all = nodes.contents();
+  const MshGroups groups = msh_groups(nodes);
+  write_names(groups, all.with_elements && all.elements > 0, file);
+  write_points(nodes, file);
   const std::int64_t elements = all.with_elements ? all.facets + all.elements : all.nodes;
   file.append_text("$Elements\n" + std::to_string(elements) + "\n");
   if (all.with_elements) {
     write_facets(nodes, file);
-    write_elements(nodes, file);
+    write_elements(nodes, groups.inside, file);
   } else {
     write_nodes_as_elements(nodes, file);
   }

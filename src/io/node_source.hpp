@@ -4,10 +4,13 @@
 // plane and tetrahedra in space; facets are edges, and triangles.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
+
+#include "domain/group_names.hpp"
 
 namespace pnpbs::io {
 
@@ -17,6 +20,7 @@ struct Contents {
   bool is_piece = false;       // one of many, which stands for itself and knows ghosts
   bool with_elements = false;  // and facets?
   std::int64_t nodes = 0, elements = 0, facets = 0;
+  const GroupNames* names = nullptr;  // of tags; none of pieces
 
   int element_corners() const { return dimension + 1; }
   int facet_corners() const { return dimension; }
@@ -44,6 +48,13 @@ struct FacetRows {  // in the plane on inner curves, too
   std::vector<float> quality;         // [facets], 2 r_in / R; in space only
 };
 
+// All nodes, or all facets, with one tag.
+struct TagGroup {
+  std::int32_t tag;
+  std::int64_t count = 0;
+  std::array<double, 3> low, high;  // the box around them; z is 0 in the plane
+};
+
 class NodeSource {
  public:
   virtual ~NodeSource() = default;
@@ -56,6 +67,10 @@ class NodeSource {
   virtual void for_nodes(const std::function<void(const NodeRows&)>& visit) const = 0;
   virtual void for_elements(const std::function<void(const ElementRows&)>& visit) const = 0;
   virtual void for_facets(const std::function<void(const FacetRows&)>& visit) const = 0;
+
+  // By tag, of all ranks; none of pieces. Collective.
+  virtual std::vector<TagGroup> node_groups() const { return {}; }
+  virtual std::vector<TagGroup> facet_groups() const { return {}; }
 
  protected:
   Contents contents_;

@@ -2,7 +2,10 @@
 #include "io/nodes_by_id.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <ranges>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -76,6 +79,51 @@ FacetRows sorted_facets(std::vector<FacetRow<Dim>> rows) {
   return sorted;
 }
 
+// Of this rank, then of all.
+class TagGroups {
+ public:
+  template <int Dim>
+  void add(std::int32_t tag, std::span<const Point<Dim>> corners) {
+    TagGroup& group = at(tag);
+    ++group.count;
+    for (const Point<Dim>& x : corners)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double coordinate = k < Dim ? x[k] : 0;
+        group.low[k] = std::min(group.low[k], coordinate);
+        group.high[k] = std::max(group.high[k], coordinate);
+      }
+  }
+
+  // Collective.
+  std::vector<TagGroup> of_all(const Communicator& comm) const {
+    Bytes mine;
+    for (const auto& [tag, group] : groups_) pack(mine, group);
+    TagGroups all;
+    for_records<TagGroup>({comm.allgather(mine)}, [&](const TagGroup& group) { all.join(group); });
+    std::vector<TagGroup> list;
+    for (const auto& [tag, group] : all.groups_) list.push_back(group);
+    return list;
+  }
+
+ private:
+  TagGroup& at(std::int32_t tag) {
+    return groups_.try_emplace(tag, TagGroup{tag, 0, filled(HUGE_VAL), filled(-HUGE_VAL)})
+        .first->second;
+  }
+  static std::array<double, 3> filled(double value) { return {value, value, value}; }
+
+  void join(const TagGroup& other) {
+    TagGroup& group = at(other.tag);
+    group.count += other.count;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group.low[k] = std::min(group.low[k], other.low[k]);
+      group.high[k] = std::max(group.high[k], other.high[k]);
+    }
+  }
+
+  std::map<std::int32_t, TagGroup> groups_;
+};
+
 }  // namespace
 
 template <int Dim>
@@ -84,6 +132,7 @@ NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements)
   prepare(placement, elements);
   contents_.dimension = Dim;
   contents_.with_elements = elements;
+  contents_.names = &placement.domain().names();
   std::vector<std::int64_t> counts{placement.count(), 0, 0};
   if (elements) {
     placement.for_elements([&](const auto&) { ++counts[1]; });
@@ -230,6 +279,28 @@ void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& vis
       pass_on(brought(own, first));
     });
   }
+}
+
+template <int Dim>
+std::vector<TagGroup> NodesById<Dim>::node_groups() const {
+  const Nodes<Dim>& nodes = placement_.level().nodes;
+  TagGroups groups;
+  for (std::int64_t place = 0; place < placement_.count(); ++place) {
+    const std::int64_t i = placement_.node_at(place);
+    const Point<Dim> x = nodes.position(i);
+    groups.add<Dim>(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});
+  }
+  return groups.of_all(comm_);
+}
+
+template <int Dim>
+std::vector<TagGroup> NodesById<Dim>::facet_groups() const {
+  TagGroups groups;
+  placement_.for_boundary_facets([&](const auto& places, std::int32_t tag) {
+    const auto corners = positions_at(placement_, places);
+    groups.add<Dim>(tag, corners);
+  });
+  return groups.of_all(comm_);
 }
 
 template class NodesById<2>;

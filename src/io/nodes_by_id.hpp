@@ -21,6 +21,8 @@ class NodesById : public NodeSource {
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
   void for_elements(const std::function<void(const ElementRows&)>& visit) const override;
   void for_facets(const std::function<void(const FacetRows&)>& visit) const override;
+  std::vector<TagGroup> node_groups() const override;
+  std::vector<TagGroup> facet_groups() const override;
 
  private:
   // Each rank has one part of it, of kWindow nodes.

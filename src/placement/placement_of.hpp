@@ -43,6 +43,7 @@ class PlacementOf : public Placement {
   std::int64_t count() const override { return level_ ? level_->owned_count() : 0; }
   NodeColumns nodes() const override;
   const Level<Dim>& level() const { return *level_; }
+  const Domain<Dim>& domain() const { return *domain_; }
   void prepare_order() override;
   void prepare_lists() override;
   void prepare_stars() override;

@@ -68,7 +68,7 @@ static void write_one(pnpbs_placement placement, long before, const char* path, 
 
 int main(int argc, char** argv) {
   char folder[] = "/tmp/pnpbs-memory-XXXXXX", command[100];
-  const char* paths[] = {"a.vtu", "a.pvtu", "a.msh", "a.node", "a.csv"};
+  const char* paths[] = {"a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.node", "a.csv"};
   pnpbs_placement placement;
   int64_t nodes = 0;
   size_t k;

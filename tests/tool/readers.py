@@ -3,6 +3,7 @@
 
 import csv
 
+import meshio
 import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
@@ -20,6 +21,22 @@ def read_with_vtk(path, kind=vtk.vtkXMLUnstructuredGridReader):
 
 def point_array(grid, name):
     return vtk_to_numpy(grid.GetPointData().GetArray(name))
+
+
+def read_msh(path, points):
+    """A file of Gmsh's by meshio: corners and physical groups of each kind of cells, in numbers of
+    these points, which must be the file's in some order; and the groups' names."""
+    mesh = meshio.read(path, file_format="gmsh")
+    theirs, ours = numpy.lexsort(mesh.points.T), numpy.lexsort(points.T)
+    numpy.testing.assert_array_equal(mesh.points[theirs], points[ours])
+    number = numpy.empty(len(points), int)
+    number[theirs] = ours
+    kinds = dict.fromkeys(block.type for block in mesh.cells)
+    for kind in kinds:
+        mine = [i for i, block in enumerate(mesh.cells) if block.type == kind]
+        kinds[kind] = (numpy.concatenate([number[mesh.cells[i].data] for i in mine]),
+                       numpy.concatenate([mesh.cell_data["gmsh:physical"][i] for i in mine]))
+    return kinds, {name: tuple(map(int, group)) for name, group in mesh.field_data.items()}
 
 
 def read_rows(path):

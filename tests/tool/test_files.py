@@ -17,7 +17,7 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 from command import COMMAND, DATA, FAILED, LAKE, SPACING_MISSED, SQUARE_AREA, CommandTest
-from readers import point_array, read_csv, read_ele, read_node, read_with_vtk
+from readers import point_array, read_csv, read_ele, read_msh, read_node, read_with_vtk
 
 
 def read_png(data):
@@ -46,7 +46,7 @@ class Agreement(CommandTest):
 
     def setUp(self):
         super().setUp()
-        names = ["a.vtu", "a.pvtu", "a.msh", "a.node", "a.ele", "a.csv", "a.svg", "a.png"]
+        names = ["a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.csv", "a.svg", "a.png"]
         outputs = [word for name in names for word in ("--output", name)]
         self.place(*outputs, "--report", "a.json", spacing="0.05 + 0.05*x")
         self.assertEqual(self.files(), sorted([*names, "a_0.vtu", "a.json", "square.poly"]))
@@ -58,7 +58,8 @@ class Agreement(CommandTest):
         self.check_vtu()
         self.check_meshio()
         self.check_pieces()
-        self.check_msh()
+        self.check_msh("a.msh", "4.1 0 8")
+        self.check_msh("a.msh2", "2.2 0 8")
         self.check_node()
         self.check_ele()
         self.check_csv()
@@ -109,18 +110,20 @@ class Agreement(CommandTest):
         self.assertFalse(point_array(whole, "vtkGhostType").any())
         self.assertEqual(whole.GetNumberOfCells(), self.grid.GetNumberOfCells())
 
-    def check_msh(self):
-        mesh = meshio.read(self.folder / "a.msh")
+    def check_msh(self, name, version):
+        self.assertEqual((self.folder / name).read_text().splitlines()[1], version)
         points = vtk_to_numpy(self.grid.GetPoints().GetData())
-        numpy.testing.assert_array_equal(mesh.points, points)
-        lines, triangles = mesh.cells
-        self.assertEqual((lines.type, triangles.type), ("line", "triangle"))
-        numpy.testing.assert_array_equal(triangles.data, self.corners())
+        cells, groups = read_msh(self.folder / name, points)
+        self.assertEqual(list(cells), ["line", "triangle"])
+        self.assertEqual(groups, {"tag_1": (1, 1), "tag_2": (2, 1), "domain": (1, 2)})
+        triangles, inside = cells["triangle"]
+        numpy.testing.assert_array_equal(triangles, self.corners())
+        self.assertEqual(set(inside), {1})
         # The outer square has tag 1, the inner one 2; edges go from node to node on them.
-        tags = mesh.cell_data["gmsh:physical"][0]
+        lines, tags = cells["line"]
         self.assertEqual(len(tags), self.report["boundary_nodes"])
         self.assertEqual(set(tags), {1, 2})
-        lengths = numpy.linalg.norm(points[lines.data[:, 1]] - points[lines.data[:, 0]], axis=1)
+        lengths = numpy.linalg.norm(points[lines[:, 1]] - points[lines[:, 0]], axis=1)
         self.assertAlmostEqual(lengths[tags == 1].sum(), 4.0, places=9)
         self.assertAlmostEqual(lengths[tags == 2].sum(), 0.8, places=9)
 
@@ -311,16 +314,21 @@ class StandardStreams(CommandTest):
 
 class NodesOnly(CommandTest):
     def test_no_triangles(self):
-        self.place("-o", "a.vtu", "-o", "a.msh", "--nodes-only")
+        self.place("-o", "a.vtu", "-o", "a.msh", "-o", "a.msh2", "--nodes-only")
         grid = read_with_vtk(self.folder / "a.vtu")
         nodes = grid.GetNumberOfPoints()
         corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
         numpy.testing.assert_array_equal(corners, numpy.arange(nodes))
-        mesh = meshio.read(self.folder / "a.msh")
-        numpy.testing.assert_array_equal(mesh.points, vtk_to_numpy(grid.GetPoints().GetData()))
-        self.assertEqual([block.type for block in mesh.cells], ["vertex"])
-        numpy.testing.assert_array_equal(mesh.cell_data["gmsh:physical"][0],
-                                         point_array(grid, "tag"))
+        points, tags = vtk_to_numpy(grid.GetPoints().GetData()), point_array(grid, "tag")
+        # Groups are numbered from 1 in version 4.1: the inner nodes have the first that is free.
+        for name, inner in (("a.msh", 3), ("a.msh2", 0)):
+            cells, groups = read_msh(self.folder / name, points)
+            self.assertEqual(list(cells), ["vertex"])
+            corners, numbers = cells["vertex"]
+            self.assertEqual(sorted(corners[:, 0]), list(range(nodes)))
+            numpy.testing.assert_array_equal(
+                numbers, numpy.where(tags == 0, inner, tags)[corners[:, 0]])
+            self.assertEqual(groups["tag_1"], (1, 0))
 
     def test_pieces_are_no_stream(self):
         self.assertIn("pvtu", self.refuse("--domain", self.square, "--spacing", "0.1", "-o", "-",

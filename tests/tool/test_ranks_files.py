@@ -12,7 +12,7 @@ from command import LAKE, NOT_CONVERGED
 from ranks import RanksTest
 from readers import point_array, read_with_vtk
 
-SAME_BYTES = ("a.vtu", "a.msh", "a.node", "a.ele", "a.csv", "a.svg")
+SAME_BYTES = ("a.vtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.csv", "a.svg")
 
 
 def grid_by_ids(grid):

@@ -12,12 +12,13 @@ import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-from readers import point_array, read_csv, read_ele, read_face, read_node, read_with_vtk
+from readers import (point_array, read_csv, read_ele, read_face, read_msh, read_node,
+                     read_with_vtk)
 
 PROGRAM = os.environ["PNPBS_WRITE_VOLUMES"]
 MPIEXEC = os.environ.get("PNPBS_MPIEXEC")
 SIZE = numpy.array([1.0, 0.8, 0.6])
-SAME_BYTES = ("a.vtu", "a.msh", "a.node", "a.ele", "a.face", "a.csv")
+SAME_BYTES = ("a.vtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.face", "a.csv")
 FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # of a tetrahedron, as seen from outside
 
 
@@ -89,7 +90,7 @@ class VolumeTest(unittest.TestCase):
 
 class Alone(VolumeTest):
     def place(self, body, spacing):
-        self.write(body, spacing, "a.vtu", "a.pvtu", "a.msh", "a.node", "a.csv")
+        self.write(body, spacing, "a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.node", "a.csv")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
                          sorted([*SAME_BYTES, "a.pvtu", "a_0.vtu"]))
         self.vtu = self.grid()
@@ -99,7 +100,8 @@ class Alone(VolumeTest):
         self.assertGreater(len(self.points), 3000)
         self.check_cells()
         self.check_meshio()
-        self.check_msh()
+        for name in ("a.msh", "a.msh2"):
+            self.check_msh(name)
         self.check_node_files()
         self.check_csv()
         self.check_pieces()
@@ -128,16 +130,17 @@ class Alone(VolumeTest):
         numpy.testing.assert_array_equal(mesh.cells[1].data, self.triangles)
         numpy.testing.assert_array_equal(mesh.cell_data["tag"][1], self.tags)
 
-    def check_msh(self):
-        mesh = meshio.read(self.folder / "a.msh")
-        numpy.testing.assert_array_equal(mesh.points, self.points)
-        triangles, tetrahedra = mesh.cells
-        self.assertEqual((triangles.type, tetrahedra.type), ("triangle", "tetra"))
-        numpy.testing.assert_array_equal(triangles.data, self.triangles)
-        numpy.testing.assert_array_equal(tetrahedra.data, self.tetrahedra)
-        groups = mesh.cell_data["gmsh:physical"]
-        numpy.testing.assert_array_equal(groups[0], self.tags)
-        self.assertEqual(set(groups[1]), {1})
+    def check_msh(self, name):
+        cells, groups = read_msh(self.folder / name, self.points)
+        self.assertEqual(list(cells), ["triangle", "tetra"])
+        triangles, tags = cells["triangle"]
+        rows = lambda corners, tags: sorted(zip(corners.tolist(), tags.tolist()))
+        self.assertEqual(rows(triangles, tags), rows(self.triangles, self.tags))
+        tetrahedra, inside = cells["tetra"]
+        numpy.testing.assert_array_equal(tetrahedra, self.tetrahedra)
+        self.assertEqual(set(inside), {1})
+        expected = {f"tag_{tag}": (tag, 2) for tag in set(self.tags.tolist())}
+        self.assertEqual(groups, {**expected, "domain": (1, 3)})
 
     def check_node_files(self):
         points, markers = read_node(self.folder / "a.node", dimension=3)
@@ -193,15 +196,14 @@ class NodesOnly(VolumeTest):
         points = vtk_to_numpy(grid.GetPoints().GetData())
         self.assertEqual(grid.GetNumberOfCells(), len(points))
         self.assertEqual(set(point_array(grid, "tag")), set(range(7)))
-        mesh = meshio.read(self.folder / "a.msh")
-        self.assertEqual([block.type for block in mesh.cells], ["vertex"])
-        numpy.testing.assert_array_equal(mesh.points, points)
+        cells, _ = read_msh(self.folder / "a.msh", points)
+        self.assertEqual(list(cells), ["vertex"])
 
 
 @unittest.skipUnless(MPIEXEC, "no MPI")
 class OverRanks(VolumeTest):
     def test_same_files(self):
-        names = ("a.vtu", "a.pvtu", "a.msh", "a.node", "a.csv")
+        names = ("a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.node", "a.csv")
         self.write("box", 0.06, *names)
         expected = {name: (self.folder / name).read_bytes() for name in SAME_BYTES}
         grid = self.grid()

@@ -42,7 +42,7 @@ end
     @test Set(row.type for row in statistic_table()) == Set(["integer", "real", "string"])
     formats = Dict(row.name => row for row in format_table())
     @test formats["vtu"].binary && formats["vtu"].elements
-    @test !formats["msh"].binary && formats["msh"].elements && occursin("gmsh", formats["msh"].help)
+    @test !formats["msh"].binary && formats["msh"].elements && occursin("Gmsh", formats["msh"].help)
     @test !formats["csv"].binary && !formats["csv"].elements
 end
 
