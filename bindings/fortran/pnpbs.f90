@@ -45,6 +45,7 @@ module pnpbs
   public :: pnpbs_context, pnpbs_domain, pnpbs_placement
   public :: pnpbs_status_string, pnpbs_last_error, pnpbs_version, pnpbs_build_info
   public :: pnpbs_mpi_library, pnpbs_finalize, pnpbs_discard_unfinished_files
+  public :: pnpbs_file_dimension
   public :: pnpbs_option_count, pnpbs_option_info, pnpbs_statistic_count, pnpbs_statistic_info
   public :: pnpbs_format_count, pnpbs_format_info
 
@@ -79,6 +80,11 @@ module pnpbs
     procedure :: add_polyline => domain_add_polyline
     procedure :: add_surface => domain_add_surface
     procedure :: read_surface => domain_read_surface
+    procedure :: set_role => domain_set_role
+    procedure :: read_msh => domain_read_msh
+    procedure :: set_tag_name => domain_set_tag_name
+    procedure :: tag_name_count => domain_tag_name_count
+    procedure :: get_tag_name => domain_get_tag_name
     procedure :: add_box => domain_add_box
     procedure :: add_ball => domain_add_ball
     procedure :: add_cylinder => domain_add_cylinder
@@ -537,8 +543,8 @@ contains
   end subroutine
 
   !> The same from a file: .stl (text or binary), .off, .obj, .ply, or .poly and .smesh as TetGen
-  !> has them. Groups, materials and facet markers become tags, hole points holes of the domain in
-  !> space. Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected.
+  !> has them. Solids, groups, materials and facet markers become tags, with their names
+  !> (get_tag_name), hole points holes of the domain in space. Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected.
   !>   role           PNPBS_BOUNDARY or PNPBS_INNER
   !>   path           blanks at its end do not count
   !>   feature_angle  optional, as add_surface has it
@@ -552,6 +558,90 @@ contains
     call conclude('domain%read_surface', &
                   c_domain_read_surface(self%c, role, c_text(path), angle_or_40(feature_angle)), &
                   stat, errmsg)
+  end subroutine
+
+  !> The role of all triangles in a domain in space that have this tag, whatever role they are added
+  !> with, before or after: so single groups of a file can be inner surfaces. Local. Checking the
+  !> domain fails if no triangle has the tag.
+  !>   tag   nonzero
+  !>   role  PNPBS_BOUNDARY or PNPBS_INNER
+  subroutine domain_set_role(self, tag, role, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(in) :: tag, role
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%set_role', c_domain_set_role(self%c, tag, role), stat, errmsg)
+  end subroutine
+
+  !> Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds what bounds it and what
+  !> lies in it to the domain: see pnpbs_domain_read_msh in pnpbs.h. The tag of a physical group
+  !> becomes the tag, its name stays with it (get_tag_name). Local. Errors: PNPBS_ERROR_FILE with
+  !> file, line or byte, and what was expected.
+  !>   path           blanks at its end do not count
+  !>   feature_angle  optional, as add_surface has it, in the plane the corner_angle of add_polyline
+  subroutine domain_read_msh(self, path, feature_angle, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    character(len=*), intent(in) :: path
+    real(c_double), intent(in), optional :: feature_angle
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%read_msh', &
+                  c_domain_read_msh(self%c, c_text(path), angle_or_40(feature_angle)), stat, errmsg)
+  end subroutine
+
+  !> The dimension of the domain that a file describes, 2 or 3: by the ending of its name, of .poly
+  !> by the second number in it, of .msh by whether it lies in a plane of constant z. Local.
+  !>   path  blanks at its end do not count
+  subroutine pnpbs_file_dimension(path, dim, stat, errmsg)
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: dim
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('pnpbs_file_dimension', c_file_dimension(c_text(path), dim), stat, errmsg)
+  end subroutine
+
+  !> Names a tag: files that have physical groups (.msh) are written with it. Replaces the name that
+  !> it has. Local.
+  !>   dim   of what has the tag: 0 points, 1 curves, 2 surfaces, 3 bodies; the inside of the domain
+  !>         has the domain's dimension
+  !>   tag   nonzero
+  !>   name  blanks at its end do not count
+  subroutine domain_set_tag_name(self, dim, tag, name, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(in) :: dim, tag
+    character(len=*), intent(in) :: name
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%set_tag_name', c_domain_set_tag_name(self%c, dim, tag, c_text(name)), &
+                  stat, errmsg)
+  end subroutine
+
+  !> Number of tags that have names, given or from files. Local.
+  subroutine domain_tag_name_count(self, count, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%tag_name_count', c_domain_tag_name_count(self%c, count), stat, errmsg)
+  end subroutine
+
+  !> One of the names, by dimension, then by tag. Local.
+  !>   index  1 .. count
+  subroutine domain_get_tag_name(self, index, dim, tag, name, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(in) :: index
+    integer(c_int32_t), intent(out) :: dim, tag
+    character(len=:), allocatable, intent(out) :: name
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: c
+    integer(c_int) :: status
+    dim = -1
+    tag = 0
+    name = ''
+    status = c_domain_get_tag_name(self%c, index - 1_c_int32_t, dim, tag, c)
+    call conclude('domain%get_tag_name', status, stat, errmsg)
+    if (status >= 0) name = text_of(c)
   end subroutine
 
   !> Adds a box to a domain in space; its sides bound the domain. Local.
@@ -1738,7 +1828,7 @@ contains
   ! ------------------------------------------------------------ placement: files --------------
 
   !> Writes the nodes of all ranks into one file, at the same time, in the format of its extension:
-  !> .vtu, .pvtu, .msh, .node, .ele, .face, .csv (see pnpbs_placement_write in pnpbs.h). A file
+  !> .vtu, .pvtu, .msh, .msh2, .node, .ele, .face, .csv (see pnpbs_placement_write in pnpbs.h). A file
   !> appears under its name only when it is complete; after an error, what was there before is still
   !> there. The folder must be the same one for all ranks, and so must path. The monitor, if there
   !> is one, is asked now and then. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors:

@@ -316,6 +316,60 @@ module pnpbs_c
       integer(c_int) :: c_domain_read_surface
     end function
 
+    function c_domain_set_role(domain, tag, role) bind(C, name="pnpbs_domain_set_role")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: tag, role
+      integer(c_int) :: c_domain_set_role
+    end function
+
+    function c_domain_read_msh(domain, path, feature_angle) bind(C, name="pnpbs_domain_read_msh")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      character(kind=c_char), intent(in) :: path(*)
+      real(c_double), value :: feature_angle
+      integer(c_int) :: c_domain_read_msh
+    end function
+
+    function c_file_dimension(path, dim) bind(C, name="pnpbs_file_dimension")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t), intent(out) :: dim
+      integer(c_int) :: c_file_dimension
+    end function
+
+    function c_domain_set_tag_name(domain, dim, tag, name) bind(C, &
+      name="pnpbs_domain_set_tag_name")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: dim, tag
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int) :: c_domain_set_tag_name
+    end function
+
+    function c_domain_tag_name_count(domain, count) bind(C, name="pnpbs_domain_tag_name_count")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), intent(out) :: count
+      integer(c_int) :: c_domain_tag_name_count
+    end function
+
+    function c_domain_get_tag_name(domain, index, dim, tag, name) bind(C, &
+      name="pnpbs_domain_get_tag_name")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: index
+      integer(c_int32_t), intent(out) :: dim, tag
+      type(c_ptr), intent(out) :: name
+      integer(c_int) :: c_domain_get_tag_name
+    end function
+
     function c_domain_add_box(domain, low, high, tag) bind(C, name="pnpbs_domain_add_box")
       import
       implicit none

@@ -266,10 +266,58 @@ PNPBS_API pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t rol
                                                 double feature_angle);
 
 /** The same from a file: .stl (text or binary), .off, .obj, .ply, or .poly and .smesh as TetGen has
- *  them. Groups, materials and facet markers become tags, hole points holes of the domain in space.
+ *  them. Solids, groups, materials and facet markers become tags, with their names
+ *  (pnpbs_domain_get_tag_name), hole points holes of the domain in space.
  *  Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role,
                                                  const char *path, double feature_angle);
+
+/** The role of all triangles in a domain in space that have this tag, whatever role they are added
+ *  with, before or after: so single groups of a file can be inner surfaces. Local. Checking the
+ *  domain fails if no triangle has the tag.
+ *  @param[in] tag   nonzero
+ *  @param[in] role  PNPBS_BOUNDARY or PNPBS_INNER */
+PNPBS_API pnpbs_status pnpbs_domain_set_role(pnpbs_domain domain, int32_t tag, int32_t role);
+
+/** Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds what bounds it to the
+ *  domain. In space these are its triangles and quadrangles: where elements of volumes, or the
+ *  geometry that the file tells of, are on both sides, they are inner surfaces, else boundary; where
+ *  the file tells of neither, closed surfaces are boundary (within each other, too: cavities), and
+ *  sheets and what divides a body are inner. Lines and points in physical groups are inner curves
+ *  and fixed nodes. In the plane they are its lines, and the edges that bound triangles and
+ *  quadrangles; points as in space. Without elements that fill the domain, closed lines are
+ *  boundary and open ones inner. The tag of a physical group becomes the tag, its name stays with it
+ *  (pnpbs_domain_get_tag_name); where the file has no physical groups, the entities' numbers are the
+ *  tags. Elements of higher order are taken for straight ones, with a warning. Local. Errors:
+ *  PNPBS_ERROR_FILE with file, line or byte, and what was expected.
+ *  @param[in] feature_angle  degrees, 0 .. 180: as pnpbs_domain_add_surface has it, in the plane as
+ *                            the corner_angle of pnpbs_domain_add_polyline, but 0 only makes every
+ *                            vertex a node there */
+PNPBS_API pnpbs_status pnpbs_domain_read_msh(pnpbs_domain domain, const char *path,
+                                             double feature_angle);
+
+/** The dimension of the domain that a file describes: by the ending of its name, of .poly by the
+ *  second number in it, of .msh by whether it lies in a plane of constant z. Local. Errors:
+ *  PNPBS_ERROR_FILE if a .msh cannot be read; other files are not checked.
+ *  @param[out] dim  2: in the plane, 3: in space */
+PNPBS_API pnpbs_status pnpbs_file_dimension(const char *path, int32_t *dim);
+
+/** Names a tag, copied: files that have physical groups (.msh) are written with it. Replaces the
+ *  name that it has. Local.
+ *  @param[in] dim   of what has the tag: 0 points, 1 curves, 2 surfaces, 3 bodies; the inside of
+ *                   the domain has the domain's dimension
+ *  @param[in] tag   nonzero */
+PNPBS_API pnpbs_status pnpbs_domain_set_tag_name(pnpbs_domain domain, int32_t dim, int32_t tag,
+                                                 const char *name);
+
+/** Number of tags that have names, given or from files. Local. */
+PNPBS_API pnpbs_status pnpbs_domain_tag_name_count(pnpbs_domain domain, int32_t *count);
+
+/** One of the names, by dimension, then by tag. Local; any output may be NULL; the string is valid
+ *  until the names change.
+ *  @param[in] index  0 .. count-1 */
+PNPBS_API pnpbs_status pnpbs_domain_get_tag_name(pnpbs_domain domain, int32_t index, int32_t *dim,
+                                                 int32_t *tag, const char **name);
 
 /** Adds a box to a domain in space; its sides bound the domain. Local.
  *  @param[in] low,high  [3] */
@@ -714,9 +762,10 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
  *    .pvtu  the same as a file that names one piece per rank, written by that rank beside it:
  *           mesh_0.vtu, mesh_1.vtu, ... for mesh.pvtu. Nodes of other ranks that a piece's elements
  *           need are in it, too, marked by vtkGhostType.
- *    .msh   gmsh's format 2.2: nodes, triangles and boundary edges or tetrahedra and boundary
- *           triangles, the tags of the boundary as physical groups (without elements: one point per
- *           node)
+ *    .msh   Gmsh's format 4.1: nodes, triangles and boundary edges or tetrahedra and boundary
+ *           triangles, the tags of the boundary as physical groups with their names, or "tag_7"
+ *           (without elements: one point per node)
+ *    .msh2  the same in Gmsh's format 2.2
  *    .node  Triangle's or TetGen's nodes, numbered from 1, tags as markers; with elements, these in
  *           a second file of the same name, .ele, and in space the boundary triangles in a third,
  *           .face

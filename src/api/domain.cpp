@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "api/guard.hpp"
+#include "api/domain_calls.hpp"
 #include "domain/plane/poly_reader.hpp"
 #include "domain/volume/surface_triangles.hpp"
 
@@ -11,46 +11,6 @@ using namespace pnpbs;
 using namespace pnpbs::api;
 
 namespace {
-
-PlaneDomain& plane_of(const DomainObject& object) {
-  if (!object.plane)
-    throw Error(ErrorKind::argument,
-                "argument domain has three dimensions; this function is for domains in the plane");
-  return *object.plane;
-}
-
-VolumeDomain& volume_of(const DomainObject& object) {
-  if (!object.volume)
-    throw Error(ErrorKind::argument,
-                "argument domain has two dimensions; this function is for domains in space");
-  return *object.volume;
-}
-
-// Calls work(domain) with it as what it is.
-template <class Work>
-auto in_its_dimension(const DomainObject& object, const Work& work) {
-  return object.plane ? work(*object.plane) : work(*object.volume);
-}
-
-// A change of the domain's description, whatever its dimension.
-template <class Change>
-pnpbs_status change_domain(pnpbs_domain domain, const Change& change) {
-  return guarded(domain, [&](DomainObject& object) {
-    const Computing computing(*object.context);
-    change(object);
-    return PNPBS_OK;
-  });
-}
-
-template <class Change>
-pnpbs_status change_plane(pnpbs_domain domain, const Change& change) {
-  return change_domain(domain, [&](DomainObject& object) { change(plane_of(object)); });
-}
-
-template <class Change>
-pnpbs_status change_volume(pnpbs_domain domain, const Change& change) {
-  return change_domain(domain, [&](DomainObject& object) { change(volume_of(object)); });
-}
 
 // A question that needs the checked domain. Checking may ask curve callbacks, so from inside a
 // callback it must have been done before.
@@ -70,26 +30,8 @@ pnpbs_status ask_domain(pnpbs_domain domain, const Question& question) {
 double whole_measure(const PlaneDomain& domain) { return domain.area(); }
 double whole_measure(const VolumeDomain& domain) { return domain.measure(); }
 
-CurveRole role_from(int32_t role) {
-  if (role == PNPBS_BOUNDARY) return CurveRole::boundary;
-  if (role == PNPBS_INNER) return CurveRole::inner;
-  throw Error(ErrorKind::argument, "role is " + std::to_string(role) +
-                                       ", expected PNPBS_BOUNDARY (0) or PNPBS_INNER (1)");
-}
-
 Point<2> point_from(const double* x) { return {x[0], x[1]}; }
 Point<3> space_point_from(const double* x) { return {x[0], x[1], x[2]}; }
-
-SurfaceRole surface_role_from(int32_t role) {
-  return role_from(role) == CurveRole::boundary ? SurfaceRole::boundary : SurfaceRole::inner;
-}
-
-std::vector<std::int64_t> flat_corners(const SurfaceTriangles& surface) {
-  std::vector<std::int64_t> flat;
-  for (const std::array<std::int32_t, 3>& triangle : surface.triangles)
-    flat.insert(flat.end(), triangle.begin(), triangle.end());
-  return flat;
-}
 
 }  // namespace
 
@@ -168,11 +110,7 @@ pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role, const 
   return change_volume(domain, [&](VolumeDomain& volume) {
     require_pointer(path, "path");
     const SurfaceRole as = surface_role_from(role);
-    const SurfaceTriangles read = read_surface(path);
-    const std::vector<std::int64_t> corners = flat_corners(read);
-    volume.add_surface(as, std::ssize(read.vertices), read.vertices.data()->data(),
-                       std::ssize(read.triangles), corners.data(), read.tags.data(), feature_angle);
-    for (const Point<3>& hole : read.holes) volume.add_hole(hole);
+    volume.add_surface(as, read_surface(path), feature_angle);
   });
 }
 

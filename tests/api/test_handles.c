@@ -67,6 +67,11 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_add_polyline, (handle, PNPBS_BOUNDARY, 1, 4, xy, NULL, 0.0))               \
   X(domain_add_surface, (handle, PNPBS_BOUNDARY, 4, xyz, 4, faces, NULL, 40.0))       \
   X(domain_read_surface, (handle, PNPBS_BOUNDARY, "unread.stl", 40.0))                \
+  X(domain_set_role, (handle, 1, PNPBS_INNER))                                        \
+  X(domain_read_msh, (handle, "unread.msh", 40.0))                                    \
+  X(domain_set_tag_name, (handle, 1, 7, "rim"))                                       \
+  X(domain_tag_name_count, (handle, out.small + 2))                                   \
+  X(domain_get_tag_name, (handle, 0, out.small + 2, out.small + 3, out.texts + 2))    \
   X(domain_add_box, (handle, xyz, xyz + 3, 1))                                        \
   X(domain_add_ball, (handle, xyz, 1.0, 1))                                           \
   X(domain_add_cylinder, (handle, xyz, xyz + 3, 1.0, 1))                              \

@@ -19,6 +19,7 @@ program test_space
   call context%create_serial
   call about_shapes
   call about_surfaces
+  call about_groups
   call about_level_sets
   call about_a_box
   call about_a_ball_in_a_box
@@ -83,8 +84,48 @@ contains
     call domain%create(context, 3)
     call domain%read_surface(PNPBS_BOUNDARY, 'fortran_tetrahedron.off   ')
     call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'volume of a tetrahedron from a file')
+    call domain%set_role(1, PNPBS_INNER)
+    call domain%check(stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_DOMAIN, errmsg, 'no boundary')
+    call domain%set_role(0, PNPBS_INNER, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'tag')
     call domain%read_surface(PNPBS_INNER, 'no/such/file.stl', 20d0, stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'no/such/file.stl')
+    call domain%destroy
+  end subroutine
+
+  !> A tetrahedron of Gmsh's, one side of which has a name.
+  subroutine about_groups
+    type(pnpbs_domain) :: domain
+    character(len=:), allocatable :: name
+    integer(c_int32_t) :: dim, tag, count
+    integer :: i
+    open (19, file='fortran_tetrahedron.msh', status='replace')
+    write (19, '(a)') '$MeshFormat', '2.2 0 8', '$EndMeshFormat', '$PhysicalNames', '1', &
+      '2 3 "inlet"', '$EndPhysicalNames', '$Nodes', '4'
+    write (19, '(i2, 3f4.1)') (i, vertices(:, i), i = 1, 4)
+    write (19, '(a)') '$EndNodes', '$Elements', '4'
+    write (19, '(8i2)') (i, 2, 2, i, i, faces(:, i), i = 1, 4)
+    write (19, '(a)') '$EndElements'
+    close (19)
+    call pnpbs_file_dimension('fortran_tetrahedron.msh  ', dim)
+    call expect(dim == 3, 'a body')
+    call domain%create(context, 3)
+    call domain%read_msh('fortran_tetrahedron.msh  ')
+    call expect(abs(volume(domain) - 1d0 / 6) < 1d-15, 'volume of a tetrahedron of Gmsh''s')
+    call domain%set_tag_name(2, 4, 'outlet  ')
+    call domain%tag_name_count(count)
+    call expect(count == 2, 'two names')
+    call domain%get_tag_name(1, dim, tag, name)
+    call expect(dim == 2 .and. tag == 3 .and. name == 'inlet', 'the name in the file')
+    call domain%get_tag_name(2, dim, tag, name)
+    call expect(dim == 2 .and. tag == 4 .and. name == 'outlet', 'the name given')
+    call domain%get_tag_name(3, dim, tag, name, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '2 names')
+    call domain%set_tag_name(4, 1, 'none', stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'dim = 4')
+    call domain%read_msh('no/such/file.msh', 20d0, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'no/such/file.msh')
     call domain%destroy
   end subroutine
 

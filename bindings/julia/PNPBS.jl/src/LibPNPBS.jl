@@ -142,6 +142,30 @@ pnpbs_domain_read_surface(domain, role, path, feature_angle) =
     @ccall $(symbol(:pnpbs_domain_read_surface))(
         domain::pnpbs_domain, role::Int32, path::Cstring, feature_angle::Cdouble)::pnpbs_status
 
+pnpbs_domain_set_role(domain, tag, role) =
+    @ccall $(symbol(:pnpbs_domain_set_role))(
+        domain::pnpbs_domain, tag::Int32, role::Int32)::pnpbs_status
+
+pnpbs_domain_read_msh(domain, path, feature_angle) =
+    @ccall $(symbol(:pnpbs_domain_read_msh))(
+        domain::pnpbs_domain, path::Cstring, feature_angle::Cdouble)::pnpbs_status
+
+pnpbs_file_dimension(path, dim) =
+    @ccall $(symbol(:pnpbs_file_dimension))(path::Cstring, dim::Ptr{Int32})::pnpbs_status
+
+pnpbs_domain_set_tag_name(domain, dim, tag, name) =
+    @ccall $(symbol(:pnpbs_domain_set_tag_name))(
+        domain::pnpbs_domain, dim::Int32, tag::Int32, name::Cstring)::pnpbs_status
+
+pnpbs_domain_tag_name_count(domain, count) =
+    @ccall $(symbol(:pnpbs_domain_tag_name_count))(
+        domain::pnpbs_domain, count::Ptr{Int32})::pnpbs_status
+
+pnpbs_domain_get_tag_name(domain, index, dim, tag, name) =
+    @ccall $(symbol(:pnpbs_domain_get_tag_name))(
+        domain::pnpbs_domain, index::Int32, dim::Ptr{Int32}, tag::Ptr{Int32},
+        name::Ptr{Cstring})::pnpbs_status
+
 pnpbs_domain_add_box(domain, low, high, tag) =
     @ccall $(symbol(:pnpbs_domain_add_box))(
         domain::pnpbs_domain, low::Ptr{Cdouble}, high::Ptr{Cdouble}, tag::Int32)::pnpbs_status

@@ -106,14 +106,80 @@ end
     read_surface!(domain, path; role = :boundary, feature_angle = 40)
 
 Adds the surface of a file to a domain in space: .stl (text or binary), .off, .obj, .ply, or .poly
-and .smesh as TetGen has them. Groups, materials and facet markers become tags, hole points holes of
-the domain. Otherwise as [`add_surface!`](@ref).
+and .smesh as TetGen has them. Solids, groups, materials and facet markers become tags, with their
+names ([`tag_names`](@ref)), hole points holes of the domain. Otherwise as [`add_surface!`](@ref).
 """
 function read_surface!(domain::Domain, path::AbstractString; role::Symbol = :boundary,
                        feature_angle::Real = 40)
     check(domain.context,
           LibPNPBS.pnpbs_domain_read_surface(live(domain), role_number(role), path, feature_angle))
     return domain
+end
+
+"""
+    set_role!(domain, tag, role)
+
+The role, `:boundary` or `:inner`, of all triangles in a domain in space that have this tag, whatever
+role they are added with, before or after: so single groups of a file can be inner surfaces.
+"""
+function set_role!(domain::Domain, tag::Integer, role::Symbol)
+    check(domain.context, LibPNPBS.pnpbs_domain_set_role(live(domain), tag, role_number(role)))
+    return domain
+end
+
+"""
+    read_msh!(domain, path; feature_angle = 40)
+
+Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds what bounds it and what lies
+in it to the domain. In space triangles and quadrangles are boundary, or inner surfaces where the
+domain is on both sides, lines and points in physical groups inner curves and fixed nodes; in the
+plane the same of lines and of the edges that bound triangles. The tag of a physical group becomes
+the tag, its name stays with it ([`tag_names`](@ref)). `feature_angle` is that of
+[`add_surface!`](@ref), in the plane the `corner_angle` of [`add_polyline!`](@ref).
+"""
+function read_msh!(domain::Domain, path::AbstractString; feature_angle::Real = 40)
+    check(domain.context, LibPNPBS.pnpbs_domain_read_msh(live(domain), path, feature_angle))
+    return domain
+end
+
+"""
+    file_dimension(path)
+
+The dimension of the domain that a file describes, 2 or 3: by the ending of its name, of .poly by the
+second number in it, of .msh by whether it lies in a plane of constant z.
+"""
+function file_dimension(path::AbstractString)
+    dim = Ref{Int32}(0)
+    check_without_context(LibPNPBS.pnpbs_file_dimension(path, dim))
+    return Int(dim[])
+end
+
+"""
+    set_tag_name!(domain, dim, tag, name)
+
+Names a tag of points (`dim` 0), curves (1), surfaces (2) or bodies (3); the inside of the domain has
+the domain's dimension. Files that have physical groups (.msh) are written with it.
+"""
+function set_tag_name!(domain::Domain, dim::Integer, tag::Integer, name::AbstractString)
+    check(domain.context, LibPNPBS.pnpbs_domain_set_tag_name(live(domain), dim, tag, name))
+    return domain
+end
+
+"""
+    tag_names(domain)
+
+The names of tags, given or from files: a vector of named tuples `(dim, tag, name)`.
+"""
+function tag_names(domain::Domain)
+    count = Ref{Int32}(0)
+    check(domain.context, LibPNPBS.pnpbs_domain_tag_name_count(live(domain), count))
+    return [tag_name(domain, i) for i in 0:(count[] - 1)]
+end
+
+function tag_name(domain, i)
+    dim, tag, name = Ref{Int32}(0), Ref{Int32}(0), Ref{Cstring}()
+    check(domain.context, LibPNPBS.pnpbs_domain_get_tag_name(live(domain), i, dim, tag, name))
+    return (dim = Int(dim[]), tag = Int(tag[]), name = unsafe_string(name[]))
 end
 
 """

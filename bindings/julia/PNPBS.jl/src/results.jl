@@ -300,7 +300,7 @@ end
     write_file(placement, path; elements = false) -> Symbol
 
 Writes the nodes of all ranks, and the triangles or tetrahedra if `elements`, into one file whose
-extension is its format ([`format_table`](@ref)): .vtu, .pvtu, .msh, .node, .ele, .face, .csv. The
+extension is its format ([`format_table`](@ref)): .vtu, .pvtu, .msh, .msh2, .node, .ele, .face, .csv. The
 file appears when it is complete. The outcome is `:ok`, or `:stopped` by the monitor, which leaves
 the old file. Collective.
 """

@@ -74,6 +74,28 @@ end
             @test measure(read_surface!(Domain(context; dim = 3), path)) ≈ 1 / 6
         end
         @test fails(() -> read_surface!(body, "/none.stl"; role = :inner), :error_file, "/none.stl")
+        # One of Gmsh's, with a named side; the sides of an inner surface are told by their tag.
+        mktempdir() do folder
+            path = joinpath(folder, "body.msh")
+            row(columns) = join(columns, " ")
+            write(path, "\$MeshFormat\n2.2 0 8\n\$EndMeshFormat\n\$PhysicalNames\n1\n2 3 \"inlet\"\n",
+                  "\$EndPhysicalNames\n\$Nodes\n4\n",
+                  [row((i, VERTICES[:, i]...)) * "\n" for i in 1:4]...,
+                  "\$EndNodes\n\$Elements\n4\n",
+                  [row((i, 2, 2, i, i, FACES[:, i]...)) * "\n" for i in 1:4]...,
+                  "\$EndElements\n")
+            @test file_dimension(path) == 3
+            named = read_msh!(Domain(context; dim = 3), path)
+            @test measure(named) ≈ 1 / 6
+            set_tag_name!(named, 2, 4, "outlet")
+            @test tag_names(named) == [(dim = 2, tag = 3, name = "inlet"),
+                                       (dim = 2, tag = 4, name = "outlet")]
+            add_surface!(named, 0.25 .* VERTICES .+ 0.1, FACES; tags = fill(9, 4))
+            @test measure(named) ≈ (1 - 0.25^3) / 6
+            @test measure(set_role!(named, 9, :inner)) ≈ 1 / 6
+        end
+        @test fails(() -> set_role!(body, 0, :inner), :error_argument, "tag")
+        @test fails(() -> read_msh!(body, "/none.msh"), :error_file, "/none.msh")
         # Every face has its tag.
         placement = placed_in(add_surface!(Domain(context; dim = 3), VERTICES, FACES; tags = 1:4),
                               0.3)

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the functions of domains have in common.
+#pragma once
+
+#include <string>
+
+#include "api/guard.hpp"
+
+namespace pnpbs::api {
+
+inline PlaneDomain& plane_of(const DomainObject& object) {
+  if (!object.plane)
+    throw Error(ErrorKind::argument,
+                "argument domain has three dimensions; this function is for domains in the plane");
+  return *object.plane;
+}
+
+inline VolumeDomain& volume_of(const DomainObject& object) {
+  if (!object.volume)
+    throw Error(ErrorKind::argument,
+                "argument domain has two dimensions; this function is for domains in space");
+  return *object.volume;
+}
+
+// Calls work(domain) with it as what it is.
+template <class Work>
+auto in_its_dimension(const DomainObject& object, const Work& work) {
+  return object.plane ? work(*object.plane) : work(*object.volume);
+}
+
+// A change of the domain's description, whatever its dimension.
+template <class Change>
+pnpbs_status change_domain(pnpbs_domain domain, const Change& change) {
+  return guarded(domain, [&](DomainObject& object) {
+    const Computing computing(*object.context);
+    change(object);
+    return PNPBS_OK;
+  });
+}
+
+template <class Change>
+pnpbs_status change_plane(pnpbs_domain domain, const Change& change) {
+  return change_domain(domain, [&](DomainObject& object) { change(plane_of(object)); });
+}
+
+template <class Change>
+pnpbs_status change_volume(pnpbs_domain domain, const Change& change) {
+  return change_domain(domain, [&](DomainObject& object) { change(volume_of(object)); });
+}
+
+inline CurveRole role_from(int32_t role) {
+  if (role == PNPBS_BOUNDARY) return CurveRole::boundary;
+  if (role == PNPBS_INNER) return CurveRole::inner;
+  throw Error(ErrorKind::argument, "role is " + std::to_string(role) +
+                                       ", expected PNPBS_BOUNDARY (0) or PNPBS_INNER (1)");
+}
+
+inline SurfaceRole surface_role_from(int32_t role) {
+  return role_from(role) == CurveRole::boundary ? SurfaceRole::boundary : SurfaceRole::inner;
+}
+
+}  // namespace pnpbs::api
