@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 
+#include "io/extension.hpp"
 #include "tool/cut.hpp"
 #include "tool/exit.hpp"
 #include "tool/help.hpp"
@@ -41,7 +43,8 @@ void add_input(CLI::App& app, Arguments& arguments) {
          "--domain", arguments.domain,
          "the domain: in the plane, a file in Triangle's .poly format, -\nfor standard "
          "input; in space, a closed surface as .stl, .off,\n.obj, .ply, or .poly or "
-         ".smesh as TetGen has them, or\n'box(x0,y0,z0, x1,y1,z1)', 'ball(x,y,z, r)',\n"
+         ".smesh as TetGen has them; of either, a\nmesh in Gmsh's .msh format; or\n'box(x0,y0,z0, "
+         "x1,y1,z1)', 'ball(x,y,z, r)',\n"
          "'cylinder(x0,y0,z0, x1,y1,z1, r)', or in a box, to the resolution\nh, where a formula is "
          "negative: 'levelset(x0,y0,z0, x1,y1,z1, h, f)'")
       ->type_name("FILE")
@@ -58,10 +61,33 @@ void add_input(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::string>(
          "--feature-angle",
          [&arguments](const std::string& text) { take_feature_angle(text, arguments); },
-         "nodes follow a surface's edges where its normals turn by\nmore than this; default: 40 "
-         "degrees")
+         "nodes follow a surface's edges where its normals turn by\nmore than this, and corners of "
+         "curves in a .msh; default: 40\ndegrees")
       ->type_name("DEGREES")
       ->group(group);
+}
+
+void take_name(const std::string& text, Arguments& arguments) {
+  const std::size_t equals = text.find('=');
+  const std::string name = equals == std::string::npos ? "" : text.substr(equals + 1);
+  std::int32_t tag = 0;
+  const char* end = text.data() + std::min(equals, text.size());
+  const auto read = std::from_chars(text.data(), end, tag);
+  if (name.empty() || read.ec != std::errc() || read.ptr != end || tag == 0)
+    refuse("--name: expected TAG=NAME with a tag other than 0, found '" + text + "'");
+  arguments.names.emplace_back(tag, name);
+}
+
+void add_groups(CLI::App& app, Arguments& arguments, std::vector<std::string>& names) {
+  add_repeatable(app, "--inner", arguments.inner,
+                 "in space: nodes follow the triangles of this group, which lie\ninside and bound "
+                 "nothing; may be given several times");
+  app.get_option("--inner")->type_name("NAME|TAG")->group("What to fill");
+  add_repeatable(
+      app, "--name", names,
+      "name of a tag of the boundary, for files with named groups\n(.msh, .msh2); may be "
+      "given several times");
+  app.get_option("--name")->type_name("TAG=NAME")->group("What to fill");
 }
 
 void add_surfaces_only(CLI::App& app, Arguments& arguments) {
@@ -95,8 +121,9 @@ void add_output(CLI::App& app, Arguments& arguments) {
   app.add_option("--report", arguments.report, "statistics as JSON, - for standard output")
       ->type_name("FILE")
       ->group(group);
-  app.add_flag("--nodes-only", arguments.nodes_only,
-               "no triangles or tetrahedra in files that may be without\n(.vtu, .pvtu, .msh)")
+  app.add_flag(
+         "--nodes-only", arguments.nodes_only,
+         "no triangles or tetrahedra in files that may be without\n(.vtu, .pvtu, .msh, .msh2)")
       ->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
   app.add_option_function<std::string>(
@@ -208,11 +235,12 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
       "function.",
       "pnpbs");
   Questions questions;
-  std::vector<std::string> settings;
+  std::vector<std::string> settings, names;
   app.allow_extras();
   app.get_formatter()->column_width(28);
   add_input(app, arguments);
   add_surfaces_only(app, arguments);
+  add_groups(app, arguments, names);
   add_output(app, arguments);
   add_library_options(app, arguments, settings);
   add_general(app, arguments, questions);
@@ -228,13 +256,18 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   if (questions.statistics) answer += statistics_text();
   if (!answer.empty()) return answer;
   take_settings(settings, arguments);
+  for (const std::string& name : names) take_name(name, arguments);
   check_input(arguments);
   return "";
 }
 
 void refuse_other_dimension(const Arguments& arguments, int dimension) {
   const std::string plane = ", and this domain is in the plane";
-  if (dimension == 2 && arguments.feature_angle) refuse("--feature-angle is for bodies" + plane);
+  const bool is_msh = io::extension_of(arguments.domain) == "msh";
+  if (dimension == 2 && arguments.feature_angle && !is_msh)
+    refuse("--feature-angle is for bodies and .msh files" + plane);
+  if (dimension == 2 && !arguments.inner.empty())
+    refuse("--inner is for surfaces in space" + plane);
   if (dimension == 2 && arguments.surfaces_only)
     refuse("--surfaces-only is for surfaces in space" + plane);
   if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);

@@ -2,6 +2,7 @@
 // What the user asks for.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,6 +23,8 @@ struct Arguments {
   std::string report;  // a file, "-", or empty
   std::vector<std::pair<std::string, std::string>> options;  // key and value for the library
   std::optional<double> feature_angle;                       // of surfaces, degrees
+  std::vector<std::string> inner;                            // groups of triangles, by name or tag
+  std::vector<std::pair<std::int32_t, std::string>> names;   // of tags
   std::optional<picture::ElementColour> colour;              // of elements in pictures
   std::string cut;             // where pictures cut a body open; empty: through its middle
   bool surfaces_only = false;  // nothing inside them

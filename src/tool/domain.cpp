@@ -3,17 +3,14 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string_view>
 
 #include "io/extension.hpp"
 #include "tool/exit.hpp"
+#include "tool/names.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -34,23 +31,32 @@ std::string standard_input() {
   }
 }
 
-bool is_surface(const std::string& extension) {
-  constexpr std::array<std::string_view, 5> surfaces{"stl", "off", "obj", "ply", "smesh"};
-  return std::ranges::find(surfaces, extension) != surfaces.end();
+// 3 for surfaces, TetGen's .poly and a .msh that is not in a plane.
+int dimension_of(const std::string& path, bool surfaces_only) {
+  if (path == "-") return 2;
+  if (surfaces_only && io::extension_of(path) == "msh") return 3;
+  std::int32_t dimension = 2;
+  check(pnpbs_file_dimension(path.c_str(), &dimension), nullptr);
+  return dimension;
 }
 
-// A .poly is Triangle's or TetGen's: the second number of both is the dimension. Only what is
-// certainly a body's is said to be one; all else, pipes too, is for the reader of plane domains.
-bool has_three_dimensions(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
-  std::ifstream file(path);
-  std::string line, vertices, dimension;
-  while (std::getline(file, line)) {
-    std::istringstream words(line.substr(0, line.find('#')));
-    if (words >> vertices) return words >> dimension && dimension == "3";
+// A group by its name or its number.
+std::int32_t tag_of(const std::string& group, const std::vector<GroupName>& names) {
+  std::vector<std::string> known;
+  for (const GroupName& each : names) {
+    if (each.dimension != 2) continue;
+    if (each.name == group) return each.tag;
+    known.push_back(each.name);
   }
-  return false;
+  std::int32_t tag = 0;
+  const char* end = group.data() + group.size();
+  const auto read = std::from_chars(group.data(), end, tag);
+  if (read.ec == std::errc() && read.ptr == end && tag != 0) return tag;
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  throw BadInput("--inner: '" + group + "' is neither a tag nor the name of a group of triangles" +
+                 did_you_mean(group, known) +
+                 (known.empty() ? " (the domain has no named ones)" : " (known: " + list + ")"));
 }
 
 }  // namespace
@@ -60,11 +66,10 @@ DomainSource::DomainSource(const Arguments& arguments)
       level_set_(LevelSet::in(path_)),
       primitive_(level_set_ ? std::nullopt : primitive_in(path_)),
       feature_angle_(arguments.feature_angle.value_or(default_feature_angle)),
-      filled_(!arguments.surfaces_only) {
-  const std::string extension = io::extension_of(path_);
-  if (level_set_ || primitive_ || is_surface(extension) ||
-      (extension == "poly" && has_three_dimensions(path_)))
-    dimension_ = 3;
+      filled_(!arguments.surfaces_only),
+      inner_(arguments.inner),
+      names_(arguments.names) {
+  dimension_ = level_set_ || primitive_ ? 3 : dimension_of(path_, arguments.surfaces_only);
 }
 
 void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks& ranks) const {
@@ -78,20 +83,37 @@ void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks&
     } else {
       add_to(domain, context);
     }
+    name_groups(domain, context);
     check(pnpbs_domain_check(domain), context);
   });
+}
+
+void DomainSource::name_groups(pnpbs_domain domain, pnpbs_context context) const {
+  for (const auto& [tag, name] : names_)
+    check(pnpbs_domain_set_tag_name(domain, dimension_ - 1, tag, name.c_str()), context);
+  const std::vector<GroupName> names = group_names(domain, context);
+  for (const std::string& group : inner_)
+    check(pnpbs_domain_set_role(domain, tag_of(group, names), PNPBS_INNER), context);
 }
 
 void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
   if (dimension_ == 2) return read_plane(domain, context);
   check(pnpbs_domain_set_filled(domain, filled_ ? 1 : 0), context);
+  if (is_msh()) return read_msh(domain, context);
   if (level_set_) return level_set_->add_to(domain, context);
   if (primitive_) return add(*primitive_, domain, context);
   check(pnpbs_domain_read_surface(domain, PNPBS_BOUNDARY, path_.c_str(), feature_angle_), context);
 }
 
+bool DomainSource::is_msh() const { return io::extension_of(path_) == "msh"; }
+
+void DomainSource::read_msh(pnpbs_domain domain, pnpbs_context context) const {
+  check(pnpbs_domain_read_msh(domain, path_.c_str(), feature_angle_), context);
+}
+
 // Whatever its name. But who gives a file that is none needs to know how it was taken.
 void DomainSource::read_plane(pnpbs_domain domain, pnpbs_context context) const {
+  if (is_msh()) return read_msh(domain, context);
   try {
     check(pnpbs_domain_read_poly(domain, path_.c_str()), context);
   } catch (const Failure& error) {
@@ -99,7 +121,7 @@ void DomainSource::read_plane(pnpbs_domain domain, pnpbs_context context) const 
     std::error_code none;
     if (extension == "poly" || !std::filesystem::is_regular_file(path_, none)) throw;
     throw BadInput(std::string(error.what()) + "\nIt was read as a .poly file: its name does not " +
-                   "end in .stl, .off, .obj, .ply or .smesh.");
+                   "end in .stl, .off, .obj, .ply, .smesh or .msh.");
   }
 }
 

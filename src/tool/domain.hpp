@@ -2,9 +2,12 @@
 // The domain that the user names: a file, standard input, or a simple body in words.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tool/arguments.hpp"
 #include "tool/level_set.hpp"
@@ -28,6 +31,9 @@ class DomainSource {
  private:
   void add_to(pnpbs_domain domain, pnpbs_context context) const;
   void read_plane(pnpbs_domain domain, pnpbs_context context) const;
+  void read_msh(pnpbs_domain domain, pnpbs_context context) const;
+  void name_groups(pnpbs_domain domain, pnpbs_context context) const;
+  bool is_msh() const;
 
   std::string path_;  // "-" is standard input
   std::unique_ptr<LevelSet> level_set_;
@@ -35,6 +41,8 @@ class DomainSource {
   int dimension_ = 2;
   double feature_angle_;
   bool filled_;
+  std::vector<std::string> inner_;                           // groups
+  std::vector<std::pair<std::int32_t, std::string>> names_;  // of tags
 };
 
 }  // namespace pnpbs::tool

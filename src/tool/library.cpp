@@ -65,6 +65,20 @@ std::vector<LibraryFormat> library_formats() {
   return formats;
 }
 
+std::vector<GroupName> group_names(pnpbs_domain domain, pnpbs_context context) {
+  std::int32_t count = 0;
+  check(pnpbs_domain_tag_name_count(domain, &count), context);
+  std::vector<GroupName> names;
+  for (std::int32_t i = 0; i < count; ++i) {
+    GroupName group{};
+    const char* name = nullptr;
+    check(pnpbs_domain_get_tag_name(domain, i, &group.dimension, &group.tag, &name), context);
+    group.name = name;
+    names.push_back(group);
+  }
+  return names;
+}
+
 std::vector<std::string> warnings_of(pnpbs_context context, pnpbs_placement placement) {
   std::int32_t count = 0;
   check(pnpbs_placement_warning_count(placement, &count), context);

@@ -2,6 +2,7 @@
 // The C interface with owned handles, and errors as exceptions.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,12 @@ struct LibraryFormat {
   bool binary, elements;  // elements: on request
 };
 std::vector<LibraryFormat> library_formats();
+
+struct GroupName {
+  std::int32_t dimension, tag;
+  std::string name;
+};
+std::vector<GroupName> group_names(pnpbs_domain domain, pnpbs_context context);
 
 std::vector<std::string> warnings_of(pnpbs_context context, pnpbs_placement placement);
 

@@ -160,11 +160,12 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   if (outputs->has_pictures()) outputs->write_pictures({placement, domain, context, ranks, look});
   if (body) body->area = boundary_area(placement, context, ranks);
   const std::vector<std::string> warnings = warnings_of(context, placement);
-  outputs->write_report(report_text(arguments, statistics, warnings));
+  const std::vector<GroupName> groups = group_names(domain, context);
+  outputs->write_report(report_text(arguments, statistics, groups, warnings));
   give_up_if_any_is_interrupted(ranks);
   outputs->write_nodes(placement, context);
   statistics.renew_memory(placement);  // files take some, too
-  outputs->replace_report(report_text(arguments, statistics, warnings));
+  outputs->replace_report(report_text(arguments, statistics, groups, warnings));
   if (ranks.is_first() && !arguments.quiet && !outputs->use_standard_output()) {
     std::cout << summary_text(statistics, body, outputs->files());
   }

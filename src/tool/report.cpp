@@ -49,14 +49,24 @@ Json bands_of(const Statistics& statistics) {
   return bands;
 }
 
+Json groups_of(const std::vector<GroupName>& groups) {
+  Json list = Json::array();
+  for (const GroupName& group : groups)
+    list.push_back({{"dimension", group.dimension}, {"tag", group.tag}, {"name", group.name}});
+  return list;
+}
+
 }  // namespace
 
 std::string report_text(const Arguments& arguments, const Statistics& statistics,
+                        const std::vector<GroupName>& groups,
                         const std::vector<std::string>& warnings) {
   Json report;
   report["domain"] = arguments.domain;
   if (arguments.feature_angle) report["feature_angle"] = *arguments.feature_angle;
   if (arguments.surfaces_only) report["surfaces_only"] = true;
+  if (!arguments.inner.empty()) report["inner"] = arguments.inner;
+  if (!groups.empty()) report["groups"] = groups_of(groups);
   if (arguments.spacing_grid.empty()) {
     report["spacing"] = arguments.spacing;
   } else {

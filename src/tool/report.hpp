@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "tool/arguments.hpp"
+#include "tool/library.hpp"
 #include "tool/statistics.hpp"
 
 namespace pnpbs::tool {
 
 std::string report_text(const Arguments& arguments, const Statistics& statistics,
+                        const std::vector<GroupName>& groups,
                         const std::vector<std::string>& warnings);
 
 }  // namespace pnpbs::tool

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Named groups: Gmsh's files as domains, inner surfaces of files, names from input to output."""
+
+import json
+import unittest
+
+import meshio
+import numpy
+
+from command import SQUARE_AREA, CommandTest
+
+# Corners of a unit cube, and of its sides, as seen from outside.
+CORNERS = numpy.array([(i & 1, i >> 1 & 1, i >> 2) for i in range(8)], float)
+SIDES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
+SHEET = numpy.array([(0.3, 0.3, 0.5), (0.7, 0.3, 0.5), (0.7, 0.7, 0.5), (0.3, 0.7, 0.5)])
+
+
+def two_triangles(a, b, c, d):
+    return [(a, b, c), (a, c, d)]
+
+
+def stl(**solids):
+    """Solids of text, each of squares."""
+    lines = []
+    for name, squares in solids.items():
+        lines.append(f"solid {name}")
+        for square in squares:
+            for triangle in two_triangles(*square):
+                lines += ["facet normal 0 0 0", "outer loop"]
+                lines += ["vertex {} {} {}".format(*corner) for corner in triangle]
+                lines += ["endloop", "endfacet"]
+        lines.append(f"endsolid {name}")
+    return "\n".join(lines) + "\n"
+
+
+def areas(mesh, kind):
+    """Of the triangles, or lengths of lines, by the names of their groups."""
+    name_of = {group[0]: name for name, group in mesh.field_data.items()
+               if group[1] == {"line": 1, "triangle": 2}[kind]}
+    sums = {}
+    for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
+        if block.type != kind:
+            continue
+        x = mesh.points[block.data]
+        size = numpy.linalg.norm(x[:, 1] - x[:, 0], axis=1)
+        if kind == "triangle":
+            size = numpy.linalg.norm(numpy.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), axis=1) / 2
+        for tag in set(tags):
+            name = name_of[tag]
+            sums[name] = sums.get(name, 0) + size[tags == tag].sum()
+    return {name: round(size, 9) for name, size in sums.items()}
+
+
+class GroupTest(CommandTest):
+    def fill(self, domain, *arguments, spacing="0.2", **more):
+        return self.place("--report", "r.json", *arguments, domain=self.folder / domain,
+                          spacing=spacing, **more)
+
+    def report(self):
+        return json.loads((self.folder / "r.json").read_text())
+
+    def groups(self):
+        return {(group["dimension"], group["tag"]): group["name"]
+                for group in self.report()["groups"]}
+
+    def mesh(self, name):
+        return meshio.read(self.folder / name, file_format="gmsh")
+
+    def node_tags(self):
+        rows = numpy.loadtxt(self.folder / "a.csv", delimiter=",", skiprows=1)
+        return rows[:, 1:4], rows[:, 4].astype(int)
+
+
+class Gmsh(GroupTest):
+    def test_there_and_back_in_the_plane(self):
+        """What is written is a domain again, with the same groups, by both versions."""
+        self.place("-o", "a.msh", "-o", "a.msh2", "--name", "1=outer wall", "--name", "2=hole",
+                   spacing="0.1")
+        (self.folder / "b.msh").write_bytes((self.folder / "a.msh2").read_bytes())
+        expected = {"outer wall": 4.0, "hole": 0.8}
+        for name in ("a.msh", "b.msh"):
+            self.assertEqual(areas(self.mesh(name), "line"), expected)
+            self.fill(name, "-o", "c.msh", spacing="0.07")
+            self.assertEqual(areas(self.mesh("c.msh"), "line"), expected)
+            self.assertEqual(areas(self.mesh("c.msh"), "triangle"), {"domain": SQUARE_AREA})
+            self.assertEqual(self.groups(),
+                             {(1, 1): "outer wall", (1, 2): "hole", (2, 1): "domain"})
+
+    def test_there_and_back_in_space(self):
+        names = [word for k in range(6) for word in ("--name", f"{k + 1}=side {k}")]
+        (self.folder / "cube.stl").write_text(
+            stl(**{f"s{k}": [CORNERS[list(side)]] for k, side in enumerate(SIDES)}))
+        self.fill("cube.stl", "-o", "a.msh", *names)
+        expected = {f"side {k}": 1.0 for k in range(6)}
+        self.assertEqual(areas(self.mesh("a.msh"), "triangle"), expected)
+        self.fill("a.msh", "-o", "b.msh", "-o", "b.msh2", spacing="0.25")
+        for name in ("b.msh", "b.msh2"):
+            self.assertEqual(areas(self.mesh(name), "triangle"), expected)
+        self.assertIn(((3, 1), "domain"), self.groups().items())
+
+    def test_meshio_writes_them(self):
+        """A body of tetrahedra in other people's hand, text and binary."""
+        tetrahedra = [(0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7),
+                      (0, 5, 1, 7)]
+        triangles = sum((two_triangles(*side) for side in SIDES), [])
+        # Those of meshio's sides that are split the other way are left to the tetrahedra.
+        mesh = meshio.Mesh(CORNERS, [("triangle", triangles), ("tetra", tetrahedra)],
+                           cell_data={"gmsh:physical": [numpy.repeat(range(1, 7), 2),
+                                                        numpy.full(6, 9)],
+                                      "gmsh:geometrical": [numpy.repeat(range(1, 7), 2),
+                                                           numpy.full(6, 1)]},
+                           field_data={"left": numpy.array([1, 2]), "meat": numpy.array([9, 3])})
+        for binary in (False, True):
+            meshio.write(self.folder / "m.msh", mesh, file_format="gmsh22", binary=binary)
+            self.fill("m.msh", "-o", "a.msh", spacing="0.3")
+            self.assertEqual(self.groups(), {(2, 1): "left", (3, 9): "meat"})
+            sizes = areas(self.mesh("a.msh"), "triangle")
+            self.assertEqual(sizes["left"], 1.0)
+            self.assertAlmostEqual(sum(sizes.values()), 6.0)
+
+    def test_surfaces_alone(self):
+        mesh = meshio.Mesh(CORNERS, [("triangle", two_triangles(*SIDES[4]))],
+                           cell_data={"gmsh:physical": [numpy.array([5, 5])],
+                                      "gmsh:geometrical": [numpy.array([1, 1])]})
+        meshio.write(self.folder / "m.msh", mesh, file_format="gmsh22", binary=False)
+        self.fill("m.msh", "-o", "a.msh")  # in a plane: a domain in it
+        self.assertEqual(areas(self.mesh("a.msh"), "triangle"), {"domain": 1.0})
+        self.fill("m.msh", "-o", "a.msh", "--surfaces-only")
+        self.assertEqual(areas(self.mesh("a.msh"), "triangle"), {"tag_5": 1.0})
+
+    def test_refusals(self):
+        (self.folder / "m.msh").write_text("$MeshFormat\n1.0 0 8\n")
+        self.assertIn("m.msh:2: found '1.0', expected version 4.1", self.refuse(
+            "--domain", "m.msh", "--spacing", "1"))
+        self.assertIn("no.msh: cannot be read", self.refuse(
+            "--domain", "no.msh", "--spacing", "1"))
+        for name in ("x=a", "0=a", "3=", "3"):
+            self.assertIn("--name: expected TAG=NAME", self.refuse(
+                "--domain", self.square, "--spacing", "1", "--name", name))
+
+
+class InnerSurfaces(GroupTest):
+    def setUp(self):
+        super().setUp()
+        cube = [CORNERS[list(side)] for side in SIDES]
+        (self.folder / "cube.stl").write_text(stl(shell=cube, membrane=[SHEET]))
+
+    def test_by_name_and_by_tag(self):
+        for group in ("membrane", "2"):
+            self.fill("cube.stl", "--inner", group, "-o", "a.csv")
+            self.assertEqual(self.groups(), {(2, 1): "shell", (2, 2): "membrane"})
+            self.assertEqual(self.report()["inner"], [group])
+            points, tags = self.node_tags()
+            on_sheet = points[tags == 2]
+            self.assertGreater(len(on_sheet), 7)
+            self.assertTrue((on_sheet[:, 2] == 0.5).all())
+            self.assertTrue((abs(on_sheet[:, :2] - 0.5) <= 0.2).all())
+
+    def test_of_other_formats(self):
+        vertices = [*CORNERS, *SHEET]
+        squares = [*SIDES, (8, 9, 10, 11)]
+        (self.folder / "m.obj").write_text(
+            "".join("v {} {} {}\n".format(*x) for x in vertices) + "g shell\n" +
+            "".join("{}f {} {} {} {}\n".format("g membrane\n" if k == 6 else "",
+                                               *(i + 1 for i in square))
+                    for k, square in enumerate(squares)))
+        self.fill("m.obj", "--inner", "membrane")
+        nodes = self.report()["nodes"]
+        (self.folder / "m.poly").write_text(
+            f"{len(vertices)} 3 0 0\n" +
+            "".join("{} {} {} {}\n".format(i, *x) for i, x in enumerate(vertices)) + "7 1\n" +
+            "".join("1 0 {}\n4 {} {} {} {}\n".format(2 if k == 6 else 1, *square)
+                    for k, square in enumerate(squares)) + "0\n0\n")
+        self.fill("m.poly", "--inner", "2")
+        self.assertEqual(self.report()["nodes"], nodes)
+        # A mesh of Gmsh's finds it by its place.
+        triangles = sum((two_triangles(*square) for square in squares), [])
+        groups = numpy.repeat((1, 2), (12, 2))
+        mesh = meshio.Mesh(numpy.array(vertices), [("triangle", triangles)],
+                           cell_data={"gmsh:physical": [groups], "gmsh:geometrical": [groups]})
+        meshio.write(self.folder / "m.msh", mesh, file_format="gmsh22", binary=True)
+        self.fill("m.msh")
+        self.assertEqual(self.report()["nodes"], nodes)
+
+    def test_refusals(self):
+        ask = ("--domain", "cube.stl", "--spacing", "0.2")
+        self.assertIn("not closed", self.refuse(*ask))
+        self.assertIn("'membran' is neither a tag nor the name of a group of triangles; did you "
+                      "mean membrane? (known: shell, membrane)",
+                      self.refuse(*ask, "--inner", "membran"))
+        self.assertIn("the tag 7", self.refuse(*ask, "--inner", "membrane", "--inner", "7"))
+        self.assertIn("--inner is for surfaces in space", self.refuse(
+            "--domain", self.square, "--spacing", "0.2", "--inner", "2"))
+
+
+if __name__ == "__main__":
+    unittest.main()
