@@ -144,6 +144,23 @@ module pnpbs
     procedure :: exchange_sizes => placement_exchange_sizes
     procedure :: get_exchange => placement_get_exchange
     procedure :: get_numbering => placement_get_numbering
+    procedure, private :: placement_update_ghosts
+    procedure, private :: placement_update_ghosts_columns
+    generic :: update_ghosts => placement_update_ghosts, placement_update_ghosts_columns
+    procedure, private :: placement_begin_update_ghosts
+    procedure, private :: placement_begin_update_ghosts_columns
+    generic :: begin_update_ghosts => placement_begin_update_ghosts, &
+      placement_begin_update_ghosts_columns
+    procedure, private :: placement_end_update_ghosts
+    procedure, private :: placement_end_update_ghosts_columns
+    generic :: end_update_ghosts => placement_end_update_ghosts, &
+      placement_end_update_ghosts_columns
+    procedure, private :: placement_sum
+    procedure, private :: placement_sum_columns
+    generic :: sum => placement_sum, placement_sum_columns
+    procedure, private :: placement_dot
+    procedure, private :: placement_dot_columns
+    generic :: dot => placement_dot, placement_dot_columns
     procedure :: adjacency_size => placement_adjacency_size
     procedure :: get_adjacency => placement_get_adjacency
     procedure :: star_size => placement_star_size
@@ -1462,6 +1479,152 @@ contains
     call conclude('placement%get_numbering', status, stat, errmsg, given)
     if (present(first)) first = begin
     if (present(count)) count = nodes
+  end subroutine
+
+  !> Gives the ghosts the values that their owners have. The plan of the exchange is made at the first
+  !> call after nodes have moved, and kept. Collective. Errors: PNPBS_ERROR_ARGUMENT for another
+  !> number of values, or numbers of components that differ between ranks; PNPBS_ERROR_STATE without
+  !> nodes, or while an update that was begun has not ended.
+  !>   values  (nodes + ghosts), or (components, nodes + ghosts): those of this rank's nodes, then
+  !>           those of its ghosts, which are filled
+  subroutine placement_update_ghosts(self, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout) :: values(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%update_ghosts', &
+                  c_placement_update_ghosts(self%c, size(values, kind=c_int64_t), 1_c_int32_t, &
+                                            values), stat, errmsg)
+  end subroutine
+
+  subroutine placement_update_ghosts_columns(self, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout) :: values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%update_ghosts', &
+                  c_placement_update_ghosts(self%c, size(values, 2, c_int64_t), &
+                                            size(values, 1, c_int32_t), values), stat, errmsg)
+  end subroutine
+
+  !> The first half of update_ghosts, for a solver that computes while messages travel: copies the
+  !> values of this rank's nodes that others need, and sends them on their way. The array may change
+  !> or go as soon as it returns. One update at a time is under way for a placement; other calls may
+  !> come before it is ended. Collective. Errors: as there.
+  !>   values  as in update_ghosts
+  subroutine placement_begin_update_ghosts(self, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: values(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%begin_update_ghosts', &
+                  c_placement_begin_update_ghosts(self%c, size(values, kind=c_int64_t), &
+                                                  1_c_int32_t, values), stat, errmsg)
+  end subroutine
+
+  subroutine placement_begin_update_ghosts_columns(self, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%begin_update_ghosts', &
+                  c_placement_begin_update_ghosts(self%c, size(values, 2, c_int64_t), &
+                                                  size(values, 1, c_int32_t), values), stat, errmsg)
+  end subroutine
+
+  !> The second half: waits for the values that the other ranks sent when they began, and fills those
+  !> of the ghosts; those of this rank's nodes are not touched. Local: it waits for no other rank to
+  !> end. Errors: PNPBS_ERROR_STATE without an update under way, or if nodes have moved since it
+  !> began, which ends it; PNPBS_ERROR_ARGUMENT for another shape, after which the update is still
+  !> under way.
+  !>   values  as in update_ghosts; need not be the array that the update began with
+  subroutine placement_end_update_ghosts(self, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout) :: values(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%end_update_ghosts', &
+                  c_placement_end_update_ghosts(self%c, size(values, kind=c_int64_t), 1_c_int32_t, &
+                                                values), stat, errmsg)
+  end subroutine
+
+  subroutine placement_end_update_ghosts_columns(self, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout) :: values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%end_update_ghosts', &
+                  c_placement_end_update_ghosts(self%c, size(values, 2, c_int64_t), &
+                                                size(values, 1, c_int32_t), values), stat, errmsg)
+  end subroutine
+
+  !> Sums of a field over the nodes of all ranks, of each component by itself: the exact sum, rounded
+  !> once, to the nearest number. So it has the same bits for any number of ranks and threads and
+  !> any order of nodes. NaN where a value is NaN or where there are infinities of both signs;
+  !> otherwise an infinity where a value is, or where the sum is beyond the largest number.
+  !> Collective. Errors: as update_ghosts, but for updates under way.
+  !>   values  (n), or (components, n): of this rank's nodes at least; what is behind, its ghosts',
+  !>           does not count
+  !>   total   a number, or (components): the same on all ranks
+  subroutine placement_sum(self, values, total, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: values(:)
+    real(c_double), intent(inout) :: total
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double) :: found(1)
+    integer(c_int) :: status
+    status = c_placement_sum(self%c, size(values, kind=c_int64_t), 1_c_int32_t, values, found)
+    call conclude('placement%sum', status, stat, errmsg)
+    if (status >= 0) total = found(1)
+  end subroutine
+
+  subroutine placement_sum_columns(self, values, total, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: values(:,:)
+    real(c_double), intent(inout) :: total(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    call given%check_rows('total', size(total), size(values, 1))
+    call conclude('placement%sum', &
+                  c_placement_sum(self%c, given%capacity(size(values, 2, c_int64_t)), &
+                                  size(values, 1, c_int32_t), values, total), stat, errmsg, given)
+  end subroutine
+
+  !> Dot products of two fields over the nodes of all ranks, of each component by itself: the sum of
+  !> the exact products, rounded once, with all that sum says of its own. No product overflows or
+  !> underflows; one of an infinity and 0 is NaN. Collective.
+  !>   x, y     (n), or (components, n): of this rank's nodes at least
+  !>   product  a number, or (components): the same on all ranks
+  subroutine placement_dot(self, x, y, product, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: x(:), y(:)
+    real(c_double), intent(inout) :: product
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double) :: found(1)
+    integer(c_int) :: status
+    status = c_placement_dot(self%c, min(size(x, kind=c_int64_t), size(y, kind=c_int64_t)), &
+                             1_c_int32_t, x, y, found)
+    call conclude('placement%dot', status, stat, errmsg)
+    if (status >= 0) product = found(1)
+  end subroutine
+
+  subroutine placement_dot_columns(self, x, y, product, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: x(:,:), y(:,:)
+    real(c_double), intent(inout) :: product(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: n
+    call given%check_rows('y', size(y, 1), size(x, 1))
+    call given%check_rows('product', size(product), size(x, 1))
+    n = min(size(x, 2, c_int64_t), size(y, 2, c_int64_t))
+    call conclude('placement%dot', &
+                  c_placement_dot(self%c, given%capacity(n), size(x, 1, c_int32_t), x, y, product), &
+                  stat, errmsg, given)
   end subroutine
 
   !> Number of entries of all adjacency lists of this rank's nodes. Collective.

@@ -776,6 +776,63 @@ module pnpbs_c
       integer(c_int) :: c_placement_get_numbering
     end function
 
+    function c_placement_update_ghosts(placement, n, components, values) bind(C, &
+      name="pnpbs_placement_update_ghosts")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(inout) :: values(*)
+      integer(c_int) :: c_placement_update_ghosts
+    end function
+
+    function c_placement_begin_update_ghosts(placement, n, components, values) bind(C, &
+      name="pnpbs_placement_begin_update_ghosts")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(in) :: values(*)
+      integer(c_int) :: c_placement_begin_update_ghosts
+    end function
+
+    function c_placement_end_update_ghosts(placement, n, components, values) bind(C, &
+      name="pnpbs_placement_end_update_ghosts")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(inout) :: values(*)
+      integer(c_int) :: c_placement_end_update_ghosts
+    end function
+
+    function c_placement_sum(placement, n, components, values, sums) bind(C, &
+      name="pnpbs_placement_sum")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(in) :: values(*)
+      real(c_double), intent(inout) :: sums(*)
+      integer(c_int) :: c_placement_sum
+    end function
+
+    function c_placement_dot(placement, n, components, x, y, products) bind(C, &
+      name="pnpbs_placement_dot")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(in) :: x(*), y(*)
+      real(c_double), intent(inout) :: products(*)
+      integer(c_int) :: c_placement_dot
+    end function
+
     function c_placement_adjacency_size(placement, entries) bind(C, &
       name="pnpbs_placement_adjacency_size")
       import

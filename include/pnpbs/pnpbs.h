@@ -641,6 +641,59 @@ PNPBS_API pnpbs_status pnpbs_placement_get_numbering(pnpbs_placement placement, 
                                                      int64_t *first, int64_t *count,
                                                      int64_t *ghost_numbers);
 
+/** Gives the ghosts the values that their owners have, of a field of `components` numbers at each
+ *  node. The plan of the exchange is made at the first call after nodes have moved, and kept.
+ *  Collective. Errors: PNPBS_ERROR_ARGUMENT for another n, fewer than one component, or numbers of
+ *  components that differ between ranks; PNPBS_ERROR_STATE without nodes, or while an update that
+ *  was begun has not ended.
+ *  @param[in] n           nodes and ghosts of this rank (pnpbs_placement_count, _ghost_count)
+ *  @param[in] components  numbers at each node, the same on all ranks
+ *  @param[out] values     [n][components] those of this rank's nodes, which are read, then those
+ *                         of its ghosts, which are filled */
+PNPBS_API pnpbs_status pnpbs_placement_update_ghosts(pnpbs_placement placement, int64_t n,
+                                                     int32_t components, double *values);
+
+/** The first half of pnpbs_placement_update_ghosts, for a solver that computes while messages
+ *  travel: copies the values of this rank's nodes that others need, and sends them on their way.
+ *  The array may change or go as soon as it returns. One update at a time is under way for a
+ *  placement; other calls may come before it is ended. Collective. Errors: as there. */
+PNPBS_API pnpbs_status pnpbs_placement_begin_update_ghosts(pnpbs_placement placement, int64_t n,
+                                                           int32_t components,
+                                                           const double *values);
+
+/** The second half: waits for the values that the other ranks sent when they began, and fills those
+ *  of the ghosts; those of this rank's nodes are not touched. Local: it waits for no other rank to
+ *  end. Errors: PNPBS_ERROR_STATE without an update under way, or if nodes have moved since it
+ *  began, which ends it; PNPBS_ERROR_ARGUMENT for another n or number of components, after which
+ *  the update is still under way.
+ *  @param[out] values     [n][components] of which those of the ghosts are filled; need not be
+ *                         the array that the update began with */
+PNPBS_API pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_t n,
+                                                         int32_t components, double *values);
+
+/** Sums of a field over the nodes of all ranks, of each component by itself: the exact sum, rounded
+ *  once, to the nearest double. So it has the same bits for any number of ranks and threads and any
+ *  order of nodes. NaN where a value is NaN or where there are infinities of both signs; otherwise
+ *  an infinity where a value is, or where the sum is beyond the largest double. A sum that is 0 is
+ *  +0. Collective. Errors: as pnpbs_placement_update_ghosts, but for updates under way.
+ *  @param[in] n           entries of the array: at least this rank's nodes; those behind, its
+ *                         ghosts', do not count
+ *  @param[in] components  numbers at each node, the same on all ranks
+ *  @param[in] values      [n][components]
+ *  @param[out] sums       [components] the same on all ranks */
+PNPBS_API pnpbs_status pnpbs_placement_sum(pnpbs_placement placement, int64_t n, int32_t components,
+                                           const double *values, double *sums);
+
+/** Dot products of two fields over the nodes of all ranks, of each component by itself: the sum of
+ *  the exact products, rounded once, with all that pnpbs_placement_sum says of its own. No product
+ *  overflows or underflows; one of an infinity and 0 is NaN. Collective.
+ *  @param[in] n           entries of the arrays: at least this rank's nodes
+ *  @param[in] components  numbers at each node, the same on all ranks
+ *  @param[in] x, y        [n][components]; may be the same array
+ *  @param[out] products   [components] the same on all ranks */
+PNPBS_API pnpbs_status pnpbs_placement_dot(pnpbs_placement placement, int64_t n, int32_t components,
+                                           const double *x, const double *y, double *products);
+
 /** Number of entries of all adjacency lists of this rank's nodes. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t *entries);
 

@@ -11,6 +11,13 @@ namespace pnpbs {
 
 namespace {
 
+// Nobody to talk to.
+class NoExchange : public KnownExchange {
+ public:
+  void start() override {}
+  void wait() override {}
+};
+
 class SerialCommunicator : public Communicator {
  public:
   int rank() const override { return 0; }
@@ -24,6 +31,10 @@ class SerialCommunicator : public Communicator {
   }
   void exchange_known(const std::vector<int>&, const std::vector<Bytes>&,
                       std::vector<Bytes>&) const override {}
+  std::unique_ptr<KnownExchange> known_exchange(const std::vector<int>&, const std::vector<Bytes>&,
+                                                std::vector<Bytes>&) const override {
+    return std::make_unique<NoExchange>();
+  }
   std::unique_ptr<RankFile> open_file(const std::string& path,
                                       const std::string& name) const override {
     return open_alone(path, name);

@@ -36,6 +36,16 @@ struct Message {
   Bytes bytes;
 };
 
+// One exchange between neighbours that can be done again and again: messages of known sizes from
+// and to buffers that stay where they are. Between start() and wait() these belong to it. Goes only
+// when its messages have arrived.
+class KnownExchange {
+ public:
+  virtual ~KnownExchange() = default;
+  virtual void start() = 0;  // needs no memory
+  virtual void wait() = 0;   // for this rank's messages; those of others do not matter
+};
+
 class Communicator {
  public:
   virtual ~Communicator() = default;
@@ -67,6 +77,11 @@ class Communicator {
   virtual void exchange_known(const std::vector<int>& neighbours,
                               const std::vector<Bytes>& outgoing,
                               std::vector<Bytes>& incoming) const = 0;
+  // The same, to be started and waited for apart. Several may be under way at a time; ranks start
+  // them in the same order. Local.
+  virtual std::unique_ptr<KnownExchange> known_exchange(const std::vector<int>& neighbours,
+                                                        const std::vector<Bytes>& outgoing,
+                                                        std::vector<Bytes>& incoming) const = 0;
 
   // Opens an existing file for all ranks to write parts of. Collective; agreed. `name` stands for
   // the file in messages.

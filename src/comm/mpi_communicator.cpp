@@ -37,6 +37,56 @@ void require_mpi_runs() {
                 "MPI is already finalised: what is computed over its ranks must come before");
 }
 
+void wait_for(std::vector<MPI_Request>& requests) {
+  check(MPI_Waitall(count(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+}
+
+class MpiKnownExchange : public KnownExchange {
+ public:
+  MpiKnownExchange(MPI_Comm comm, int tag, const std::vector<int>& neighbours,
+                   const std::vector<Bytes>& outgoing, std::vector<Bytes>& incoming)
+      : comm_(comm), tag_(tag), neighbours_(neighbours), outgoing_(outgoing), incoming_(incoming) {
+    std::uint64_t messages = 0;
+    for (const Bytes& bytes : outgoing) messages += mpi::pieces(bytes.size());
+    for (const Bytes& bytes : incoming) messages += mpi::pieces(bytes.size());
+    requests_.reserve(messages);
+  }
+  MpiKnownExchange(const MpiKnownExchange&) = delete;
+  MpiKnownExchange& operator=(const MpiKnownExchange&) = delete;
+  ~MpiKnownExchange() override {
+    int finalized = 0;
+    MPI_Finalized(&finalized);
+    if (!finalized && !requests_.empty())
+      MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+  }
+
+  void start() override {
+    for (std::size_t k = 0; k < neighbours_.size(); ++k)
+      for_pieces(incoming_[k].size(), [&](std::uint64_t at, int length) {
+        MPI_Irecv(incoming_[k].data() + at, length, MPI_BYTE, neighbours_[k], tag_, comm_,
+                  &requests_.emplace_back());
+      });
+    for (std::size_t k = 0; k < neighbours_.size(); ++k)
+      for_pieces(outgoing_[k].size(), [&](std::uint64_t at, int length) {
+        MPI_Isend(outgoing_[k].data() + at, length, MPI_BYTE, neighbours_[k], tag_, comm_,
+                  &requests_.emplace_back());
+      });
+  }
+  void wait() override {
+    require_mpi_runs();
+    wait_for(requests_);
+    requests_.clear();
+  }
+
+ private:
+  MPI_Comm comm_;
+  int tag_;
+  const std::vector<int> neighbours_;
+  const std::vector<Bytes>& outgoing_;
+  std::vector<Bytes>& incoming_;
+  std::vector<MPI_Request> requests_;  // under way
+};
+
 class MpiCommunicator : public Communicator {
  public:
   explicit MpiCommunicator(MPI_Comm parent) {
@@ -127,6 +177,12 @@ class MpiCommunicator : public Communicator {
     wait_for(requests_);
   }
 
+  std::unique_ptr<KnownExchange> known_exchange(const std::vector<int>& neighbours,
+                                                const std::vector<Bytes>& outgoing,
+                                                std::vector<Bytes>& incoming) const override {
+    return std::make_unique<MpiKnownExchange>(comm_, kKnownTag, neighbours, outgoing, incoming);
+  }
+
   // The agreement at its end keeps the next exchange from mixing with this one: nobody begins that
   // before all have stopped receiving.
   std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const override {
@@ -196,11 +252,8 @@ class MpiCommunicator : public Communicator {
   }
 
  private:
-  static constexpr int kSizeTag = 1, kDataTag = 2;  // and those of sparse exchanges
-
-  static void wait_for(std::vector<MPI_Request>& requests) {
-    check(MPI_Waitall(count(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
-  }
+  // And those of sparse exchanges. What is waited for later must not meet what comes between.
+  static constexpr int kSizeTag = 1, kDataTag = 2, kKnownTag = 6;
 
   static void combine(void* in, void* in_out, int* length, MPI_Datatype*) {
     const auto* from = static_cast<const Reduction*>(in);

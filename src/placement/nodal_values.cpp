@@ -55,7 +55,7 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_from(std::vector<d
                 "nodes again, and give the values at them");
   const Nodes<Dim>& nodes = level_->nodes;
   values.resize(static_cast<std::size_t>(nodes.count));
-  fill_ghosts(*comm_, exchange_pattern(), values);
+  fill_ghosts(*comm_, *exchange_pattern(), values);
 
   Patch<Dim> patch;
   for (std::int64_t p = 0; p < nodes.count; ++p) {

@@ -12,6 +12,7 @@
 
 #include "comm/communicator.hpp"
 #include "comm/exchange_pattern.hpp"
+#include "comm/ghost_update.hpp"
 #include "level/finish.hpp"
 #include "level/population_events.hpp"
 #include "level/speeds.hpp"
@@ -107,9 +108,21 @@ class Placement {
   virtual void prepare_stars() = 0;
   std::int64_t node_at(std::int64_t place) const { return by_id_[static_cast<std::size_t>(place)]; }
   std::int64_t place_of(std::int64_t node) const { return place_[static_cast<std::size_t>(node)]; }
-  // In places. Collective.
-  virtual ExchangePattern exchange_pattern() = 0;
+  // In places; the same object until nodes move. Collective.
+  virtual std::shared_ptr<const ExchangePattern> exchange_pattern() = 0;
   std::int64_t nodes_on_ranks_before() const;
+
+  // --- fields: values at nodes, [places][components], owned nodes first, then ghosts ---
+  // Starts to bring the values of owned nodes to their ghosts. n: places there are values for.
+  // Collective, and agreed.
+  void begin_ghost_update(std::int64_t n, std::int64_t components, const double* values);
+  // Waits for what the other ranks have started to send, and fills the ghosts. Local.
+  void end_ghost_update(std::int64_t n, std::int64_t components, double* values);
+  // Over the owned nodes of all ranks, of each component by itself: the exact sum of the values, or
+  // of the products of two fields, rounded once. Collective, and agreed.
+  void sum(std::int64_t n, std::int64_t components, const double* values, double* sums);
+  void dot(std::int64_t n, std::int64_t components, const double* x, const double* y,
+           double* products);
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   // --- statistics ---
@@ -135,6 +148,12 @@ class Placement {
   virtual std::uint64_t hash() const = 0;
 
  protected:
+  // Of the nodes there are; -1 if there are none.
+  virtual std::int64_t node_version() const = 0;
+  void require_places(std::int64_t n) const;  // of all nodes and ghosts
+  void require_owned(std::int64_t n) const;   // of all nodes at least
+  void gather_terms(std::int64_t components, const double* x, const double* y);
+  void finish_sums(double* sums);
   bool monitor_stops(double fraction);
   bool monitor_stops_by_clock(double fraction);
   bool monitor_is_due() const;
@@ -148,7 +167,7 @@ class Placement {
   double bytes_allowed() const;
   PopulationCounts count_population_change(PopulationCounts change);
   void forget_results() {
-    order_version_ = lists_version_ = stars_version_ = quality_version_ = -1;
+    order_version_ = lists_version_ = stars_version_ = quality_version_ = exchange_version_ = -1;
   }
 
   std::shared_ptr<const Communicator> comm_;
@@ -168,10 +187,14 @@ class Placement {
   Timers timers_;
 
   // Versions of the level for which these were prepared last.
-  std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1, quality_version_ = -1;
+  std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1, quality_version_ = -1,
+               exchange_version_ = -1;
   std::vector<std::int32_t> by_id_, place_;
-  std::vector<EdgeBand> edge_bands_;  // of the level's finish
-  SurfaceFit surface_fit_;            // likewise
+  std::shared_ptr<const ExchangePattern> exchange_pattern_;
+  GhostUpdate ghost_update_;
+  std::vector<std::int64_t> sum_entries_;  // of the sums in progress, on their way over the ranks
+  std::vector<EdgeBand> edge_bands_;       // of the level's finish
+  SurfaceFit surface_fit_;                 // likewise
   ElementQuality quality_;
 };
 

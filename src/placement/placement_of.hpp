@@ -79,7 +79,7 @@ class PlacementOf : public Placement {
   int owner_of(std::int64_t node) const {
     return level_->tree->owner_at(level_->nodes.position(node));
   }
-  ExchangePattern exchange_pattern() override;
+  std::shared_ptr<const ExchangePattern> exchange_pattern() override;
   // d by its values at this rank's nodes, in places. Collective.
   std::shared_ptr<const Spacing<Dim>> spacing_from(std::vector<double> values);
 
@@ -98,6 +98,7 @@ class PlacementOf : public Placement {
   std::uint64_t hash() const override;
 
  private:
+  std::int64_t node_version() const override { return level_ ? level_->version() : -1; }
   Outcome prepare_level();
   Outcome make_level();
   // Whether the domain is surfaces alone, and of what its bubbles fill.

@@ -88,8 +88,9 @@ void PlacementOf<Dim>::prepare_stars() {
 }
 
 template <int Dim>
-ExchangePattern PlacementOf<Dim>::exchange_pattern() {
+std::shared_ptr<const ExchangePattern> PlacementOf<Dim>::exchange_pattern() {
   prepare_lists();
+  if (exchange_version_ == level_->version()) return exchange_pattern_;
   const Nodes<Dim>& nodes = level_->nodes;
   const std::int64_t owned = count();
   std::vector<std::int64_t> ids;
@@ -98,7 +99,10 @@ ExchangePattern PlacementOf<Dim>::exchange_pattern() {
     ids.push_back(nodes.id(node_at(place)));
     if (place >= owned) owners.push_back(level_->tree->owner_at(nodes.position(node_at(place))));
   }
-  return make_exchange_pattern(*comm_, owned, ids, owners);
+  exchange_pattern_ =
+      std::make_shared<const ExchangePattern>(make_exchange_pattern(*comm_, owned, ids, owners));
+  exchange_version_ = level_->version();
+  return exchange_pattern_;
 }
 
 std::int64_t Placement::nodes_on_ranks_before() const { return comm_->sum_before(count()); }

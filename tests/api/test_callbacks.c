@@ -534,6 +534,11 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_placement_exchange_sizes(p, NULL, NULL, &entries));
   REFUSED(pnpbs_placement_get_exchange(p, 0, 0, 0, NULL, NULL, NULL, NULL, NULL));
   REFUSED(pnpbs_placement_get_numbering(p, 0, &entries, NULL, NULL));
+  REFUSED(pnpbs_placement_update_ghosts(p, 1, 1, &real));
+  REFUSED(pnpbs_placement_begin_update_ghosts(p, 1, 1, xy));
+  REFUSED(pnpbs_placement_end_update_ghosts(p, 1, 1, &real));
+  REFUSED(pnpbs_placement_sum(p, 1, 1, xy, &real));
+  REFUSED(pnpbs_placement_dot(p, 1, 1, xy, xy, &real));
   REFUSED(pnpbs_placement_get_double(p, "d_error.mean", &real));
   REFUSED(pnpbs_placement_destroy(&inside.placement));
 #undef REFUSED

@@ -125,6 +125,11 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_get_exchange, (handle, 1, 1, 1, out.small + 2, out.integers + 2, out.integers + 4,  \
                              out.integers + 5, out.integers + 7))                                 \
   X(placement_get_numbering, (handle, 1, out.integers + 1, out.integers + 2, out.integers + 3))   \
+  X(placement_update_ghosts, (handle, 1, 1, out.reals + 1))                                       \
+  X(placement_begin_update_ghosts, (handle, 1, 1, grid))                                          \
+  X(placement_end_update_ghosts, (handle, 1, 1, out.reals + 1))                                   \
+  X(placement_sum, (handle, 1, 1, grid, out.reals + 1))                                           \
+  X(placement_dot, (handle, 1, 1, grid, grid + 1, out.reals + 1))                                 \
   X(placement_check, (handle))                                                                    \
   X(placement_get_int64, (handle, "nodes", out.integers + 1))                                     \
   X(placement_get_double, (handle, "d_error.mean", out.reals + 1))                                \

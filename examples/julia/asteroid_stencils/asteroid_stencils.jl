@@ -131,10 +131,10 @@ end
 # Solves Laplacian u = f at inner nodes, from the values that u has; those on the surface stay, for
 # there the residual counts as zero. The matrix is not symmetric: BiCGSTAB (H. van der Vorst, SIAM J.
 # Sci. Stat. Comput. 13 (1992) 631-644), rows divided by their diagonal.
-function solve_poisson!(u, f, inner, stencils, pattern, comm; tolerance = 1e-12, most = 2000)
+function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-12, most = 2000)
     n = length(inner)
     scale = [inner[i] ? 1 / stencils.centre[i] : 0.0 for i in 1:n]
-    apply!(out, v) = (laplacian!(out, stencils, update_ghosts!(v, pattern, comm)); out .*= scale)
+    apply!(out, v) = (laplacian!(out, stencils, update_ghosts!(v, placement)); out .*= scale)
     dot(v, w) = dot_over_ranks(v, w, n, comm)
 
     r = scale .* f[1:n] .- apply!(zeros(n), u)
@@ -159,7 +159,7 @@ function solve_poisson!(u, f, inner, stencils, pattern, comm; tolerance = 1e-12,
             u[i] += alpha * p[i] + omega * s[i]
             r[i] = s[i] - omega * As[i]
         end
-        dot(r, r) <= goal && return update_ghosts!(u, pattern, comm)
+        dot(r, r) <= goal && return update_ghosts!(u, placement)
     end
     error("BiCGSTAB did not converge in $most steps")
 end
@@ -182,9 +182,8 @@ function solve(context, comm, h, folder)
     laplacian_errors = laplacian!(zeros(n), stencils, exact) .- f[1:n]
 
     # The surface's values are given; inside, the solver starts from zero.
-    pattern = exchange_pattern(placement)
     u = [own.tags .!= 0; falses(length(others.ids))] .* exact
-    solve_poisson!(u, f, inner, stencils, pattern, comm)
+    solve_poisson!(u, f, inner, stencils, placement, comm)
     errors = u .- exact
     isempty(folder) || write_piece(folder, comm, points, tetrahedra(placement), u, abs.(errors))
     close(placement)

@@ -89,8 +89,8 @@ function dot(mesh, x, y)
 end
 
 # y = A x at this rank's nodes, after the ghosts of x have got the values that their owners have.
-function multiply!(y, a, x, mesh, exchange)
-    update_ghosts!(x, exchange, mesh.comm)
+function multiply!(y, a, x, mesh, placement)
+    update_ghosts!(x, placement)
     for i in 1:mesh.owned
         s = a.diagonal[i] * x[i]
         for k in a.offsets[i]:(a.offsets[i + 1] - 1)
@@ -103,16 +103,16 @@ end
 
 # Conjugate gradients: A u = 0 at the inner nodes. On the boundary u stays as it is, because the
 # residual there counts as zero.
-function solve!(u, a, mesh, exchange)
+function solve!(u, a, mesh, placement)
     inner = mesh.tags[1:mesh.owned] .== 0
     q = zeros(mesh.owned)
-    r = -inner .* multiply!(q, a, u, mesh, exchange)
+    r = -inner .* multiply!(q, a, u, mesh, placement)
     p = zero(u)
     p[1:mesh.owned] = r
     rr = dot(mesh, r, r)
     enough = 1e-20 * rr
     while rr > enough
-        multiply!(q, a, p, mesh, exchange)
+        multiply!(q, a, p, mesh, placement)
         alpha = rr / dot(mesh, p, q)
         for i in 1:mesh.owned
             u[i] += alpha * p[i]
@@ -123,7 +123,7 @@ function solve!(u, a, mesh, exchange)
             p[i] = r[i] + rr / rr_before * p[i]
         end
     end
-    return update_ghosts!(u, exchange, mesh.comm)
+    return update_ghosts!(u, placement)
 end
 
 # ---------------------------------------------------------------- the results -------------------
@@ -150,18 +150,18 @@ triangle_area(xy, a, b, c) = ((xy[1, b] - xy[1, a]) * (xy[2, c] - xy[2, a]) -
                               (xy[2, b] - xy[2, a]) * (xy[1, c] - xy[1, a])) / 2
 
 # The integral of the normal derivative over the outer circle: what A u leaves there.
-function outer_flux(a, u, mesh, exchange)
-    q = multiply!(zeros(mesh.owned), a, u, mesh, exchange)
+function outer_flux(a, u, mesh, placement)
+    q = multiply!(zeros(mesh.owned), a, u, mesh, placement)
     return sum_over_ranks(mesh, sum(q[mesh.tags[1:mesh.owned] .== OUTER_CIRCLE]))
 end
 
-function print_results(a, u, mesh, exchange)
+function print_results(a, u, mesh, placement)
     area = pi * (outer_radius^2 - inner_radius^2)
     bound = d^2 / 6 / inner_radius^2
     n = sum_over_ranks(mesh, mesh.owned)
     n_triangles = sum_over_ranks(mesh, size(mesh.corners, 2))
     boundary = sum_over_ranks(mesh, count(!=(0), mesh.tags[1:mesh.owned]))
-    flux = outer_flux(a, u, mesh, exchange)
+    flux = outer_flux(a, u, mesh, placement)
     largest, l2 = largest_error(mesh, u), l2_error(mesh, u)
     my_rank(mesh.comm) == 0 || return
     @printf("nodes: %d, expected about %.0f\n", n, 2 * area / sqrt(3) / d^2 + boundary / 2)
@@ -204,11 +204,10 @@ function main(comm, folder)
     run!(placement)
 
     mesh = get_mesh(placement, comm)
-    exchange = exchange_pattern(placement)
     a = assemble(placement, mesh)
     u = [tag == 0 ? 0.0 : known_solution(mesh.xy, i) for (i, tag) in enumerate(mesh.tags)]
-    solve!(u, a, mesh, exchange)
-    print_results(a, u, mesh, exchange)
+    solve!(u, a, mesh, placement)
+    print_results(a, u, mesh, placement)
     folder === nothing || write_piece(folder, mesh, u)
     close(context)
 end

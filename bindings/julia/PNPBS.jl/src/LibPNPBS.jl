@@ -348,6 +348,31 @@ pnpbs_placement_get_numbering(placement, capacity, first, count, ghost_numbers) 
         placement::pnpbs_placement, capacity::Int64, first::Ptr{Int64}, count::Ptr{Int64},
         ghost_numbers::Ptr{Int64})::pnpbs_status
 
+pnpbs_placement_update_ghosts(placement, n, components, values) =
+    @ccall $(symbol(:pnpbs_placement_update_ghosts))(
+        placement::pnpbs_placement, n::Int64, components::Int32,
+        values::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_begin_update_ghosts(placement, n, components, values) =
+    @ccall $(symbol(:pnpbs_placement_begin_update_ghosts))(
+        placement::pnpbs_placement, n::Int64, components::Int32,
+        values::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_end_update_ghosts(placement, n, components, values) =
+    @ccall $(symbol(:pnpbs_placement_end_update_ghosts))(
+        placement::pnpbs_placement, n::Int64, components::Int32,
+        values::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_sum(placement, n, components, values, sums) =
+    @ccall $(symbol(:pnpbs_placement_sum))(
+        placement::pnpbs_placement, n::Int64, components::Int32, values::Ptr{Cdouble},
+        sums::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_dot(placement, n, components, x, y, products) =
+    @ccall $(symbol(:pnpbs_placement_dot))(
+        placement::pnpbs_placement, n::Int64, components::Int32, x::Ptr{Cdouble},
+        y::Ptr{Cdouble}, products::Ptr{Cdouble})::pnpbs_status
+
 pnpbs_placement_adjacency_size(placement, entries) =
     @ccall $(symbol(:pnpbs_placement_adjacency_size))(
         placement::pnpbs_placement, entries::Ptr{Int64})::pnpbs_status

@@ -31,7 +31,8 @@ export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_leve
 export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names
 export read_poly!, parse_poly!, check_domain, bounds, measure, outline
 export estimate, initialise!, run!, step!, adjust_population!, rebalance!
-export node_count, nodes, normals, ghost_count, ghosts, exchange_pattern, update_ghosts!, numbering
+export node_count, nodes, normals, ghost_count, ghosts, exchange_pattern, numbering
+export update_ghosts!, begin_update_ghosts, end_update_ghosts!, sum_over_nodes, dot_over_nodes
 export adjacency, stars, triangles, boundary_edges, tetrahedra, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library
@@ -44,6 +45,7 @@ include("context.jl")
 include("domain.jl")
 include("placement.jl")
 include("results.jl")
+include("fields.jl")
 include("tables.jl")
 include("mpi.jl")
 

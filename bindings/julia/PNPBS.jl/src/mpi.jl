@@ -53,39 +53,3 @@ function mpi_of(comm)
         "a communicator of MPI.jl or a Fortran handle was expected, not a $(typeof(comm))"))
     return MPI
 end
-
-# ---------------------------------------------------------------- ghosts ------------------------
-"""
-    update_ghosts!(values, pattern, comm = nothing; tag = 0) -> values
-
-Gives the ghosts the values that their owners have. `values` is a vector with an entry for each node
-of this rank and each ghost behind them, or an array whose last index is that; `pattern` is what
-[`exchange_pattern`](@ref) returned; `comm` is the communicator of MPI.jl on which the context was
-made, and the messages have this `tag` on it. On one process there are no ghosts, and `comm` may be
-`nothing`. Collective.
-
-    pattern = exchange_pattern(placement)
-    u = zeros(node_count(placement) + ghost_count(placement))
-    ...
-    update_ghosts!(u, pattern, MPI.COMM_WORLD)
-"""
-function update_ghosts!(values::AbstractArray, pattern, comm = nothing; tag::Integer = 0)
-    isempty(pattern.ranks) && return values
-    MPI = mpi_of(comm)
-    at(places) = selectdim(values, ndims(values), places)
-    received = [Array{eltype(values)}(undef, size(at(places))) for places in pattern.receive]
-    requests = MPI.Request[]
-    for (k, rank) in enumerate(pattern.ranks)
-        push!(requests, MPI.Irecv!(received[k], rank, tag, comm))
-        push!(requests, MPI.Isend(Array(at(pattern.send[k])), rank, tag, comm))
-    end
-    wait_all(MPI, requests)
-    for (places, from_there) in zip(pattern.receive, received)
-        at(places) .= from_there
-    end
-    return values
-end
-
-# Renamed in MPI.jl 0.20.
-wait_all(MPI::Module, requests) =
-    isdefined(MPI, :Waitall) ? MPI.Waitall(requests) : MPI.Waitall!(requests)

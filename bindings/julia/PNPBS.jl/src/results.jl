@@ -60,8 +60,8 @@ end
 
 How values at nodes reach their ghosts on other ranks: send the values at the nodes `send[k]` to
 `ranks[k]`, and put what comes from there into `receive[k]`, in the same order. `send` and
-`receive` are [`CompressedRows`](@ref) of local indices; ranks count from 0, as MPI's do. With
-MPI.jl [`update_ghosts!`](@ref) does so. Right until nodes move. Collective.
+`receive` are [`CompressedRows`](@ref) of local indices; ranks count from 0, as MPI's do.
+[`update_ghosts!`](@ref) does so for numbers. Right until nodes move. Collective.
 """
 function exchange_pattern(placement::Placement)
     neighbours, sends, receives = Ref{Int32}(0), Ref{Int64}(0), Ref{Int64}(0)

@@ -35,31 +35,6 @@ end
     @test_throws ArgumentError Context("world")
 end
 
-# Values that their owners have arrive at the ghosts: numbers, integers, several for each node.
-@testset "ghosts" begin
-    context = Context(MPI.COMM_WORLD)
-    placement = placed_square(context)
-    own, others, pattern = nodes(placement), ghosts(placement), exchange_pattern(placement)
-    n, g = node_count(placement), ghost_count(placement)
-    @test g > 0
-    update!(values; options...) = update_ghosts!(values, pattern, MPI.COMM_WORLD; options...)
-    @test update!([own.ids; zeros(Int64, g)]) == [own.ids; others.ids]
-    @test update!([own.spacing; zeros(g)]; tag = 7) == [own.spacing; others.spacing]
-    @test update!([own.points zeros(2, g)]) == [own.points others.points]
-    @test_throws ArgumentError update_ghosts!(zeros(n + g), pattern)
-    close(context)
-    alone = Context(context -> exchange_pattern(placed_square(context)))
-    @test update_ghosts!([1.0, 2.0], alone) == [1.0, 2.0]
-end
-
-module Older
-Waitall!(requests) = "waited for $(length(requests))"
-end
-
-@testset "MPI.jl before 0.20" begin
-    @test PNPBS.wait_all(Older, [1, 2]) == "waited for 2"
-end
-
 # The kinds of handles that MPI.jl has with different MPIs.
 @testset "handles" begin
     handle = MPI.OpenMPI.fortran_handle(MPI.COMM_WORLD.val)

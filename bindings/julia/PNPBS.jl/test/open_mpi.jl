@@ -52,7 +52,7 @@ function exchange(values::Vector{Int64}, rank, count)
     return received
 end
 
-# The datatype of an array's elements, and the operation of a function.
+# The datatype of a number, and the operation of a function.
 datatype(::Type{Int64}) = int64()
 datatype(::Type{Float64}) = mpi(:ompi_mpi_double)
 operation(::typeof(+)) = mpi(:ompi_mpi_op_sum)
@@ -68,21 +68,5 @@ function reduce_over_ranks(value::T, op, comm) where {T}
 end
 
 sum_over_ranks(value::Int64) = reduce_over_ranks(value, +, world())
-
-# Begin to send or receive an array, and return the request. The array must live until the request
-# has been waited for.
-start_send(values::Array, rank, tag, comm) = start(mpi(:MPI_Isend), values, rank, tag, comm)
-start_receive(values::Array, rank, tag, comm) = start(mpi(:MPI_Irecv), values, rank, tag, comm)
-
-function start(call, values::Array{T}, rank, tag, comm) where {T}
-    request = Ref{Ptr{Cvoid}}(C_NULL)
-    @ccall $call(values::Ptr{T}, length(values)::Cint, datatype(T)::Ptr{Cvoid}, rank::Cint,
-                 tag::Cint, comm::Ptr{Cvoid}, request::Ptr{Ptr{Cvoid}})::Cint
-    return request[]
-end
-
-wait_all(requests::Vector{Ptr{Cvoid}}) =
-    @ccall $(mpi(:MPI_Waitall))(length(requests)::Cint, requests::Ptr{Ptr{Cvoid}},
-                                C_NULL::Ptr{Cvoid})::Cint
 
 end

@@ -56,6 +56,38 @@ end
     close(context)
 end
 
+# Values that their owners have arrive at the ghosts; sums have the bits of one process.
+@testset "fields" begin
+    context = Context(world)
+    placement = placed_square(context)
+    own, others = nodes(placement), ghosts(placement)
+    n, g = node_count(placement), ghost_count(placement)
+    @test update_ghosts!([own.spacing; zeros(g)], placement) == [own.spacing; others.spacing]
+    @test update_ghosts!([own.points zeros(2, g)], placement) == [own.points others.points]
+    wide = fill(-1.0, 4, n + g)
+    wide[2:3, 1:n] = own.points
+    @test update_ghosts!(view(wide, 2:3, :), placement) == [own.points others.points]
+    @test all(wide[[1, 4], :] .== -1)
+
+    values = [own.points zeros(2, g)]
+    begin_update_ghosts(values, placement)
+    @test fails(() -> begin_update_ghosts(values, placement), :error_state, "under way")
+    values[:, 1:n] .= 0
+    @test end_update_ghosts!(values, placement) == [zero(own.points) others.points]
+    @test fails(() -> end_update_ghosts!(values, placement), :error_state, "under way")
+    e = thrown(() -> update_ghosts!(zeros(n + g + (rank == 0)), placement))
+    @test e isa PNPBSError && e.status === :error_argument && occursin("argument n", e.message)
+
+    sums(placement) = (sum_over_nodes(nodes(placement).spacing, placement),
+                       sum_over_nodes(nodes(placement).points, placement),
+                       dot_over_nodes(nodes(placement).spacing, nodes(placement).ids, placement),
+                       dot_over_nodes(nodes(placement).points, nodes(placement).points, placement))
+    @test sums(placement) == Context(context -> sums(placed_square(context)))
+    @test sum_over_nodes(ones(n), placement) === Float64(statistic(placement, "nodes"))
+    @test fails(() -> dot_over_nodes(zeros(2, n), zeros(n), placement), :error_argument, "n = -1")
+    close(context)
+end
+
 @testset "what fails on one rank fails on all" begin
     context = Context(world)
     placement = Placement(square_domain(context); steps = 20)

@@ -31,23 +31,6 @@ Get_library_version() = OpenMPI.version()
 # A reduction of one number, and messages, in forms without keywords, which MPI.jl 0.15 to 0.20 have.
 Allreduce(value, op, comm) = OpenMPI.reduce_over_ranks(value, op, comm.val)
 
-# A request keeps its array alive.
-struct Request
-    val::Ptr{Cvoid}
-    buffer::Array
-end
-
-Isend(buffer::Array, dest::Integer, tag::Integer, comm::Comm) =
-    Request(OpenMPI.start_send(buffer, dest, tag, comm.val), buffer)
-Irecv!(buffer::Array, source::Integer, tag::Integer, comm::Comm) =
-    Request(OpenMPI.start_receive(buffer, source, tag, comm.val), buffer)
-
-# MPI.jl has it by this name since 0.20.
-function Waitall(requests::Vector{Request})
-    GC.@preserve requests OpenMPI.wait_all([request.val for request in requests])
-    return nothing
-end
-
 add_finalize_hook!(f) = push!(finalize_hooks, f)
 
 function Finalize()

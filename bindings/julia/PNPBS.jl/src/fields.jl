@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Values of a solver at nodes: a vector with an entry for each node, or an array whose last index is
+# that of the node; the others count components.
+
+components_of(values::AbstractArray) = prod(size(values)[1:(end - 1)])
+places_of(values::AbstractArray) = size(values, ndims(values))
+
+# As the library reads it: without gaps.
+dense(values::Array{Float64}) = values
+dense(values::AbstractArray) = Array{Float64}(values)
+
+"""
+    update_ghosts!(values, placement) -> values
+
+Gives the ghosts the values that their owners have. `values` is a vector of `Float64` with an entry
+for each node of this rank and each ghost behind them, or an array whose last index is that. On one
+process there are no ghosts, and nothing happens. Collective.
+
+    u = zeros(node_count(placement) + ghost_count(placement))
+    ...
+    update_ghosts!(u, placement)
+"""
+function update_ghosts!(values::AbstractArray{Float64}, placement::Placement)
+    filled = dense(values)
+    check(placement, LibPNPBS.pnpbs_placement_update_ghosts(live(placement), places_of(values),
+                                                            components_of(values), filled))
+    return filled === values ? values : copyto!(values, filled)
+end
+
+"""
+    begin_update_ghosts(values, placement)
+    end_update_ghosts!(values, placement) -> values
+
+The two halves of [`update_ghosts!`](@ref), for a solver that computes while messages travel. The
+first sends the values of this rank's nodes on their way; `values` may change as soon as it returns.
+The second waits for what comes and fills the ghosts. One update at a time is under way for a
+placement; other calls may come between. The first is collective; the second is local, and waits for
+no other rank to end.
+
+    begin_update_ghosts(u, placement)
+    multiply!(q, inner_rows, u)
+    end_update_ghosts!(u, placement)
+    multiply!(q, rows_with_ghosts, u)
+"""
+function begin_update_ghosts(values::AbstractArray{Float64}, placement::Placement)
+    check(placement,
+          LibPNPBS.pnpbs_placement_begin_update_ghosts(live(placement), places_of(values),
+                                                       components_of(values), dense(values)))
+    return nothing
+end
+
+function end_update_ghosts!(values::AbstractArray{Float64}, placement::Placement)
+    filled = dense(values)
+    check(placement,
+          LibPNPBS.pnpbs_placement_end_update_ghosts(live(placement), places_of(values),
+                                                     components_of(values), filled))
+    return filled === values ? values : copyto!(values, filled)
+end
+
+"""
+    sum_over_nodes(values, placement)
+
+The sum of a field over the nodes of all ranks: a number for a vector, and for an array with more
+than one index an array of the sums of each component. It is the exact sum, rounded once, so it has
+the same bits for any number of ranks and threads. NaN where a value is NaN or where there are
+infinities of both signs; otherwise an infinity where a value is, or where the sum is beyond the
+largest number. Entries behind those of this rank's nodes, its ghosts', do not count. Collective.
+"""
+function sum_over_nodes(values::AbstractArray{<:Real}, placement::Placement)
+    sums = zeros(size(values)[1:(end - 1)])
+    check(placement, LibPNPBS.pnpbs_placement_sum(live(placement), places_of(values),
+                                                  components_of(values), dense(values), sums))
+    return ndims(sums) == 0 ? sums[] : sums
+end
+
+"""
+    dot_over_nodes(x, y, placement)
+
+The dot product of two fields over the nodes of all ranks, of each component by itself: the sum of
+the exact products, rounded once, otherwise as [`sum_over_nodes`](@ref). No product overflows or
+underflows; one of an infinity and 0 is NaN. Collective.
+"""
+function dot_over_nodes(x::AbstractArray{<:Real}, y::AbstractArray{<:Real}, placement::Placement)
+    products = zeros(size(x)[1:(end - 1)])
+    # Of different shapes, no length at all: an error on all ranks.
+    n = components_of(x) == components_of(y) ? min(places_of(x), places_of(y)) : -1
+    check(placement, LibPNPBS.pnpbs_placement_dot(live(placement), n, components_of(x), dense(x),
+                                                  dense(y), products))
+    return ndims(products) == 0 ? products[] : products
+end

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values that a solver has at nodes, through the C interface.
+#include "api/placement_calls.hpp"
+
+using namespace pnpbs;
+using namespace pnpbs::api;
+
+pnpbs_status pnpbs_placement_update_ghosts(pnpbs_placement placement, int64_t n, int32_t components,
+                                           double* values) {
+  return local_change(placement, [&](Placement& p) {
+    p.begin_ghost_update(n, components, values);
+    p.end_ghost_update(n, components, values);
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_begin_update_ghosts(pnpbs_placement placement, int64_t n,
+                                                 int32_t components, const double* values) {
+  return local_change(placement, [&](Placement& p) {
+    p.begin_ghost_update(n, components, values);
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_t n,
+                                               int32_t components, double* values) {
+  return local_change(placement, [&](Placement& p) {
+    p.end_ghost_update(n, components, values);
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_sum(pnpbs_placement placement, int64_t n, int32_t components,
+                                 const double* values, double* sums) {
+  return local_change(placement, [&](Placement& p) {
+    p.sum(n, components, values, sums);
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_dot(pnpbs_placement placement, int64_t n, int32_t components,
+                                 const double* x, const double* y, double* products) {
+  return local_change(placement, [&](Placement& p) {
+    p.dot(n, components, x, y, products);
+    return PNPBS_OK;
+  });
+}
