@@ -3,12 +3,12 @@
 # An installed example, as its readers build it: with its Makefile, which knows pkg-config alone,
 # and with its CMakeLists.txt, which knows find_package alone. Every number that it checks must be
 # right, and the same from both builds and, if it is on MPI, on any number of ranks.
-# usage: example.sh <settings> <c or fortran> <name>
+# usage: example.sh <settings> <c or fortran> <name> [numbers of ranks]
 # shellcheck disable=SC1090,SC1091,SC2154  # what settings.sh and common.sh define
 set -eu
 . "$1"
 . "$scripts/common.sh"
-language=$2 name=$3
+language=$2 name=$3 rank_counts=${4:-1 2 4}
 folder=$prefix/$datadir/pnpbs/examples/$language/$name
 
 on_mpi=no
@@ -57,7 +57,7 @@ say "$name with CMake"
 
 if [ $on_mpi = yes ]; then
   export OMP_NUM_THREADS=1
-  for ranks in 1 2 4; do
+  for ranks in $rank_counts; do
     say "on $ranks ranks"
     run_and_compare on_ranks $ranks "$work/make/$name"
   done

@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Conjugate gradients that take the same way, bit for bit, on any number of ranks: -Laplace u = 1
+ * in the unit disc with u = 0 on its boundary, by linear finite elements. Three things make it so.
+ * The nodes are the same. Every row of the matrix is made and multiplied in the order of the nodes'
+ * ids. And dot products are those of the library, which adds without rounding. Ghosts get their
+ * values while the rows that need none are multiplied.
+ *
+ *   mpirun -np 4 ./conjugate_gradients
+ *
+ * What to check: all digits of the residuals are the same on any number of ranks. The solution is
+ * u = (1 - r^2) / 4, whose integral is pi / 8; with second derivatives of 1/2, linear interpolation
+ * on equilateral triangles is wrong by at most d^2 / 12, and the chords of the boundary, d^2 / 8
+ * off it where u has a slope of 1/2, add d^2 / 16.
+ */
+#include <math.h>
+#include <mpi.h>
+#include <pnpbs/pnpbs_mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define PI 3.14159265358979323846
+static const double d = 0.04;
+
+/* This rank's nodes, followed by its ghosts: the nodes of other ranks next to them. */
+typedef struct {
+  int64_t owned, all; /* all: with the ghosts */
+  double *xy;         /* [all][2] */
+  int64_t *ids;       /* [all] */
+  int32_t *tags;      /* [all] */
+} mesh;
+
+/* One entry of a row: how node `column` counts, and a sixth of the area on both sides of the edge
+ * to it. */
+typedef struct {
+  int64_t id, column;
+  double value, area;
+} entry;
+
+/* The rows of this rank's nodes. Those that need no ghost come first in `order`. */
+typedef struct {
+  int64_t *offsets, *order, without_ghosts;
+  entry *entries;
+  double *diagonal, *load;
+} matrix;
+
+static pnpbs_context context;
+static pnpbs_placement placement;
+
+static void check(pnpbs_status status) {
+  if (status < 0) {
+    fprintf(stderr, "%s: %s\n", pnpbs_status_string(status), pnpbs_last_error(context));
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+}
+
+static void *room(int64_t n, size_t size) {
+  void *memory = calloc((size_t)n + 1, size);
+  if (memory == NULL) MPI_Abort(MPI_COMM_WORLD, 1);
+  return memory;
+}
+
+/* ---------------------------------------------------------------- the matrix ------------- */
+
+static void get_mesh(mesh *m) {
+  int64_t ghosts;
+  check(pnpbs_placement_count(placement, &m->owned));
+  check(pnpbs_placement_ghost_count(placement, &ghosts));
+  m->all = m->owned + ghosts;
+  m->xy = room(2 * m->all, sizeof(double));
+  m->ids = room(m->all, sizeof(int64_t));
+  m->tags = room(m->all, sizeof(int32_t));
+  check(pnpbs_placement_get_nodes(placement, m->owned, m->xy, m->ids, m->tags, NULL));
+  check(pnpbs_placement_get_ghosts(placement, ghosts, m->xy + 2 * m->owned, m->ids + m->owned,
+                                   m->tags + m->owned, NULL, NULL));
+}
+
+/* Cotangent of the angle at a, and the area, of the triangle a, b, c: to the bit the same for a, c,
+ * b, for products and sums of two do not depend on their order. */
+static double cotangent(const double *a, const double *b, const double *c, double *area) {
+  const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+  const double twice_area = fabs(bx * cy - by * cx);
+  *area = twice_area / 2;
+  return (bx * cx + by * cy) / twice_area;
+}
+
+/* What the triangle i, k, other adds to the entry of row i for node k: two triangles at most do so,
+ * in any order the same. */
+static void add_triangle(const mesh *m, int64_t i, entry *k, int64_t other) {
+  double area;
+  k->value -= cotangent(m->xy + 2 * other, m->xy + 2 * i, m->xy + 2 * k->column, &area) / 2;
+  k->area += area / 6;
+}
+
+static int by_id(const void *a, const void *b) {
+  const int64_t i = ((const entry *)a)->id, j = ((const entry *)b)->id;
+  return (i > j) - (i < j);
+}
+
+/* For linear elements the integral of grad phi_i . grad phi_j over a triangle is -1/2 times the
+ * cotangent of the angle opposite to the edge from i to j, every row sums to zero, and the integral
+ * of phi_i is a third of the area around node i. */
+static void assemble(const mesh *m, matrix *a) {
+  int64_t entries, i, k, *columns;
+  int8_t *triangle;
+  check(pnpbs_placement_star_size(placement, &entries));
+  a->offsets = room(m->owned + 1, sizeof(int64_t));
+  a->order = room(m->owned, sizeof(int64_t));
+  a->entries = room(entries, sizeof(entry));
+  a->diagonal = room(m->owned, sizeof(double));
+  a->load = room(m->owned, sizeof(double));
+  columns = room(entries, sizeof(int64_t));
+  triangle = room(entries, sizeof(int8_t));
+  check(pnpbs_placement_get_stars(placement, entries, a->offsets, columns, triangle));
+  for (k = 0; k < entries; ++k) {
+    a->entries[k].column = columns[k];
+    a->entries[k].id = m->ids[columns[k]];
+  }
+  for (i = 0; i < m->owned; ++i) {
+    const int64_t begin = a->offsets[i], end = a->offsets[i + 1];
+    for (k = begin; k < end; ++k) {
+      const int64_t next = k + 1 < end ? k + 1 : begin;
+      if (!triangle[k]) continue; /* a gap outside the domain */
+      add_triangle(m, i, &a->entries[k], columns[next]);
+      add_triangle(m, i, &a->entries[next], columns[k]);
+    }
+    qsort(a->entries + begin, (size_t)(end - begin), sizeof(entry), by_id);
+    for (k = begin; k < end; ++k) {
+      a->diagonal[i] -= a->entries[k].value;
+      a->load[i] += a->entries[k].area;
+    }
+  }
+  free(columns);
+  free(triangle);
+}
+
+static int needs_ghosts(const mesh *m, const matrix *a, int64_t i) {
+  int64_t k;
+  for (k = a->offsets[i]; k < a->offsets[i + 1]; ++k)
+    if (a->entries[k].column >= m->owned) return 1;
+  return 0;
+}
+
+static void order_rows(const mesh *m, matrix *a) {
+  int64_t i, at = 0;
+  int ghosts;
+  for (ghosts = 0; ghosts < 2; ++ghosts) {
+    for (i = 0; i < m->owned; ++i)
+      if (needs_ghosts(m, a, i) == ghosts) a->order[at++] = i;
+    if (ghosts == 0) a->without_ghosts = at;
+  }
+}
+
+/* ---------------------------------------------------------------- the solver ------------- */
+
+/* Some rows of y = A x, each by increasing ids. On the boundary, where u does not change, 0. */
+static void multiply_rows(const mesh *m, const matrix *a, int64_t begin, int64_t end,
+                          const double *x, double *y) {
+  int64_t r, k;
+  for (r = begin; r < end; ++r) {
+    const int64_t i = a->order[r];
+    double sum = a->diagonal[i] * x[i];
+    for (k = a->offsets[i]; k < a->offsets[i + 1]; ++k)
+      sum += a->entries[k].value * x[a->entries[k].column];
+    y[i] = m->tags[i] != 0 ? 0 : sum;
+  }
+}
+
+/* y = A x at this rank's nodes; the values at ghosts are on their way meanwhile. */
+static void multiply(const mesh *m, const matrix *a, double *x, double *y) {
+  check(pnpbs_placement_begin_update_ghosts(placement, m->all, 1, x));
+  multiply_rows(m, a, 0, a->without_ghosts, x, y);
+  check(pnpbs_placement_end_update_ghosts(placement, m->all, 1, x));
+  multiply_rows(m, a, a->without_ghosts, m->owned, x, y);
+}
+
+static double dot(const mesh *m, const double *x, const double *y) {
+  double product;
+  check(pnpbs_placement_dot(placement, m->owned, 1, x, y, &product));
+  return product;
+}
+
+/* A u = load from u = 0; returns the steps it took. */
+static int solve(const mesh *m, const matrix *a, double *u, int rank) {
+  double *r = room(m->owned, sizeof(double)), *q = room(m->owned, sizeof(double));
+  double *p = room(m->all, sizeof(double)), rr, rr_before, start, alpha;
+  int64_t i;
+  int steps = 0;
+  for (i = 0; i < m->owned; ++i) p[i] = r[i] = m->tags[i] != 0 ? 0 : a->load[i];
+  start = rr = dot(m, r, r);
+  while (rr > 1e-20 * start && steps < 1000) {
+    ++steps;
+    multiply(m, a, p, q);
+    alpha = rr / dot(m, p, q);
+    for (i = 0; i < m->owned; ++i) {
+      u[i] += alpha * p[i];
+      r[i] -= alpha * q[i];
+    }
+    rr_before = rr;
+    rr = dot(m, r, r);
+    for (i = 0; i < m->owned; ++i) p[i] = r[i] + rr / rr_before * p[i];
+    if (rank == 0)
+      printf("residual after step %d: %.17g, expected at most %g\n", steps, sqrt(rr / start), 20.0);
+  }
+  free(r);
+  free(q);
+  free(p);
+  return steps;
+}
+
+/* ---------------------------------------------------------------- the program ------------ */
+
+static double largest_error(const mesh *m, const double *u) {
+  double part = 0, largest;
+  int64_t i;
+  for (i = 0; i < m->owned; ++i) {
+    const double *x = m->xy + 2 * i;
+    part = fmax(part, fabs(u[i] - (1 - x[0] * x[0] - x[1] * x[1]) / 4));
+  }
+  MPI_Allreduce(&part, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return largest;
+}
+
+int main(int argc, char **argv) {
+  const double centre[2] = {0, 0};
+  pnpbs_domain domain;
+  mesh m;
+  matrix a;
+  double *u, integral, error;
+  int64_t nodes;
+  int rank, steps;
+
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  check(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context));
+  check(pnpbs_domain_create(context, 2, &domain));
+  check(pnpbs_domain_add_arc(domain, PNPBS_BOUNDARY, centre, 1, 0, 2 * PI, 1));
+  check(pnpbs_placement_create(context, domain, &placement));
+  check(pnpbs_placement_set_spacing_constant(placement, d));
+  check(pnpbs_placement_run(placement));
+
+  get_mesh(&m);
+  assemble(&m, &a);
+  order_rows(&m, &a);
+  u = room(m.all, sizeof(double));
+  steps = solve(&m, &a, u, rank);
+  integral = dot(&m, a.load, u);
+  error = largest_error(&m, u);
+  check(pnpbs_placement_get_int64(placement, "nodes", &nodes));
+  if (rank == 0) {
+    /* Triangles of d fill the disc; half a node more for each on the boundary. */
+    printf("nodes: %ld, expected about %.0f\n", (long)nodes, 2 * PI / sqrt(3) / (d * d) + PI / d);
+    printf("steps: %d, expected at most %d\n", steps, 200);
+    printf("integral: %.17g, expected about %.5f\n", integral, PI / 8);
+    printf("largest error: %.17g, expected at most %.8f\n", error, d * d / 12 + d * d / 16);
+  }
+
+  free(u), free(m.xy), free(m.ids), free(m.tags);
+  free(a.offsets), free(a.order), free(a.entries), free(a.diagonal), free(a.load);
+  pnpbs_placement_destroy(&placement);
+  pnpbs_domain_destroy(&domain);
+  pnpbs_context_destroy(&context);
+  MPI_Finalize();
+  return 0;
+}
