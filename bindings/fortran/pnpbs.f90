@@ -42,7 +42,7 @@ module pnpbs
   public :: PNPBS_BOUNDARY, PNPBS_INNER
   public :: PNPBS_VERSION_MAJOR, PNPBS_VERSION_MINOR, PNPBS_VERSION_PATCH
   public :: pnpbs_curve_fn, pnpbs_level_set_fn, pnpbs_spacing_fn, pnpbs_monitor_fn
-  public :: pnpbs_context, pnpbs_domain, pnpbs_placement
+  public :: pnpbs_context, pnpbs_domain, pnpbs_placement, pnpbs_transfer
   public :: pnpbs_status_string, pnpbs_last_error, pnpbs_version, pnpbs_build_info
   public :: pnpbs_mpi_library, pnpbs_finalize, pnpbs_discard_unfinished_files
   public :: pnpbs_file_dimension
@@ -188,6 +188,26 @@ module pnpbs
     procedure :: write_files => placement_write_files
     procedure :: handle => placement_handle
     procedure :: from_handle => placement_from_handle
+  end type
+
+  !> A field on its way to other nodes.
+  type :: pnpbs_transfer
+    private
+    type(c_ptr) :: c = c_null_ptr
+  contains
+    procedure, private :: transfer_create
+    procedure, private :: transfer_create_columns
+    generic :: create => transfer_create, transfer_create_columns
+    procedure :: destroy => transfer_destroy
+    procedure :: sizes => transfer_sizes
+    procedure, private :: transfer_at_nodes
+    procedure, private :: transfer_at_nodes_columns
+    generic :: at_nodes => transfer_at_nodes, transfer_at_nodes_columns
+    procedure, private :: transfer_at_points
+    procedure, private :: transfer_at_points_columns
+    generic :: at_points => transfer_at_points, transfer_at_points_columns
+    procedure :: handle => transfer_handle
+    procedure :: from_handle => transfer_from_handle
   end type
 
 contains
@@ -1986,6 +2006,190 @@ contains
     text = ''
     call conclude('placement%get_warning', status, stat, errmsg)
     if (status >= 0) text = text_of(c)
+  end subroutine
+
+  ! ------------------------------------------------------------ transfer ----------------------
+
+  !> Takes a field to the nodes that will be: copies the values of all ranks at the nodes that the
+  !> placement has now, together with these nodes and their triangles or tetrahedra, each rank its
+  !> own. The nodes may then move, be replaced or change their ranks, and the placement may go. The
+  !> field is linear on each triangle or tetrahedron; beyond their rim, next to curved boundaries,
+  !> it goes on as on the one behind the nearest place of the rim. So fields that are linear stay
+  !> what they are, and others change by a part of the second order in d. On surfaces alone it is
+  !> linear on each triangle between their nodes, and elsewhere what it is at the nearest place of
+  !> these. Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for another
+  !> number of values, or one that is not finite: the message names the rank, the component (from 0)
+  !> and the node's id.
+  !>   placement  whose nodes there are values for
+  !>   values     (nodes), or (components, nodes), in the order of get_nodes
+  subroutine transfer_create(self, placement, values, stat, errmsg)
+    class(pnpbs_transfer), intent(inout) :: self
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), intent(in) :: values(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('transfer%create', &
+                  c_transfer_create(placement%c, size(values, kind=c_int64_t), 1_c_int32_t, &
+                                    values, self%c), stat, errmsg)
+  end subroutine
+
+  subroutine transfer_create_columns(self, placement, values, stat, errmsg)
+    class(pnpbs_transfer), intent(inout) :: self
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), intent(in) :: values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('transfer%create', &
+                  c_transfer_create(placement%c, size(values, 2, c_int64_t), &
+                                    size(values, 1, c_int32_t), values, self%c), stat, errmsg)
+  end subroutine
+
+  !> Destroys it; does nothing where there is none. Local.
+  subroutine transfer_destroy(self, stat, errmsg)
+    class(pnpbs_transfer), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('transfer%destroy', c_transfer_destroy(self%c), stat, errmsg)
+  end subroutine
+
+  !> What shape its arrays have. Local; all are optional.
+  !>   dim         2: in the plane, 3: in space
+  !>   components  numbers at each node
+  subroutine transfer_sizes(self, dim, components, stat, errmsg)
+    class(pnpbs_transfer), intent(in) :: self
+    integer(c_int32_t), intent(out), optional :: dim, components
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: found_dim, found_components
+    found_dim = 0
+    found_components = 0
+    call conclude('transfer%sizes', &
+                  c_transfer_sizes(self%c, found_dim, found_components), stat, errmsg)
+    if (present(dim)) dim = found_dim
+    if (present(components)) components = found_components
+  end subroutine
+
+  !> The field at the nodes that a placement has now: the same bits for any number of ranks and
+  !> threads, then and now. A node where there was one before gets its value as it was. The placement
+  !> may be another one of the same context, in the same dimension. Collective. Errors:
+  !> PNPBS_ERROR_CAPACITY; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for a placement of
+  !> another context or dimension.
+  !>   values    (nodes), or (components, nodes), in the order of get_nodes; those of ghosts are for
+  !>             update_ghosts
+  !>   conserve  optional: if it is true, to the values of each component the same number is added,
+  !>             so that the integral of the field that is linear on the triangles or tetrahedra (on
+  !>             surfaces alone, triangles) there are now is the integral that it had on those
+  !>             before, to rounding. Where these fill the same domain the number is of the second
+  !>             order in d, and rounding for a linear field; next to curved boundaries, where they
+  !>             do not, it also makes up for what they fill more or less. Values may thereby leave
+  !>             the range they had.
+  subroutine transfer_at_nodes(self, placement, values, conserve, stat, errmsg)
+    class(pnpbs_transfer), intent(in) :: self
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), intent(inout) :: values(:)
+    logical, intent(in), optional :: conserve
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    call check_components(self, 1, given)
+    call conclude('transfer%at_nodes', &
+                  c_transfer_at_nodes(self%c, placement%c, flag_of(conserve), &
+                                      given%capacity(size(values, kind=c_int64_t)), values), &
+                  stat, errmsg, given)
+  end subroutine
+
+  subroutine transfer_at_nodes_columns(self, placement, values, conserve, stat, errmsg)
+    class(pnpbs_transfer), intent(in) :: self
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), intent(inout) :: values(:,:)
+    logical, intent(in), optional :: conserve
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    call check_components(self, size(values, 1), given)
+    call conclude('transfer%at_nodes', &
+                  c_transfer_at_nodes(self%c, placement%c, flag_of(conserve), &
+                                      given%capacity(size(values, 2, c_int64_t)), values), &
+                  stat, errmsg, given)
+  end subroutine
+
+  !> The field at any points, of which each rank asks those it wants, 0 or more. Collective. Errors:
+  !> PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
+  !>   coordinates  (dim, n)
+  !>   values       (n), or (components, n)
+  subroutine transfer_at_points(self, coordinates, values, stat, errmsg)
+    class(pnpbs_transfer), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    real(c_double), intent(inout) :: values(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: n
+    n = size(coordinates, 2, c_int64_t)
+    call check_components(self, 1, given)
+    call check_points(self, size(coordinates, 1), size(values, kind=c_int64_t), n, given)
+    call conclude('transfer%at_points', &
+                  c_transfer_at_points(self%c, given%capacity(n), coordinates, values), stat, &
+                  errmsg, given)
+  end subroutine
+
+  subroutine transfer_at_points_columns(self, coordinates, values, stat, errmsg)
+    class(pnpbs_transfer), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    real(c_double), intent(inout) :: values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: n
+    n = size(coordinates, 2, c_int64_t)
+    call check_components(self, size(values, 1), given)
+    call check_points(self, size(coordinates, 1), size(values, 2, c_int64_t), n, given)
+    call conclude('transfer%at_points', &
+                  c_transfer_at_points(self%c, given%capacity(n), coordinates, values), stat, &
+                  errmsg, given)
+  end subroutine
+
+  ! Refuses values with another number of components than the field has.
+  subroutine check_components(self, components, given)
+    class(pnpbs_transfer), intent(in) :: self
+    integer, intent(in) :: components
+    type(arguments), intent(inout) :: given
+    integer(c_int32_t) :: dim, right
+    if (c_transfer_sizes(self%c, dim, right) < 0) return ! which the call that follows finds, too
+    call given%check_rows('values', components, int(right))
+  end subroutine
+
+  ! Refuses points of another dimension, and values without room for all of them.
+  subroutine check_points(self, rows, room, points, given)
+    class(pnpbs_transfer), intent(in) :: self
+    integer, intent(in) :: rows
+    integer(c_int64_t), intent(in) :: room, points
+    type(arguments), intent(inout) :: given
+    integer(c_int32_t) :: right, components
+    if (c_transfer_sizes(self%c, right, components) < 0) return
+    call given%check_rows('coordinates', rows, int(right))
+    call given%require('values', room, points)
+  end subroutine
+
+  function flag_of(choice) result(flag)
+    logical, intent(in), optional :: choice
+    integer(c_int32_t) :: flag
+    flag = 0
+    if (present(choice)) flag = merge(1_c_int32_t, 0_c_int32_t, choice)
+  end function
+
+  !> The handle as an integer, for code that cannot hold the type; 0 if there is none. Local.
+  function transfer_handle(self) result(handle)
+    class(pnpbs_transfer), intent(in) :: self
+    integer(c_int64_t) :: handle
+    handle = integer_of(self%c)
+  end function
+
+  !> Makes this the transfer that has the handle. Local; checks nothing.
+  subroutine transfer_from_handle(self, handle)
+    class(pnpbs_transfer), intent(inout) :: self
+    integer(c_int64_t), intent(in) :: handle
+    self%c = pointer_of(handle)
   end subroutine
 
   ! ------------------------------------------------------------ placement: files --------------

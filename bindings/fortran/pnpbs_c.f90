@@ -1000,6 +1000,55 @@ module pnpbs_c
       integer(c_int) :: c_placement_get_warning
     end function
 
+    function c_transfer_create(placement, n, components, values, transfer) bind(C, &
+      name="pnpbs_transfer_create")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(in) :: values(*)
+      type(c_ptr), intent(out) :: transfer
+      integer(c_int) :: c_transfer_create
+    end function
+
+    function c_transfer_destroy(transfer) bind(C, name="pnpbs_transfer_destroy")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: transfer
+      integer(c_int) :: c_transfer_destroy
+    end function
+
+    function c_transfer_sizes(transfer, dim, components) bind(C, name="pnpbs_transfer_sizes")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      integer(c_int32_t), intent(out) :: dim, components
+      integer(c_int) :: c_transfer_sizes
+    end function
+
+    function c_transfer_at_nodes(transfer, placement, conserve, capacity, values) bind(C, &
+      name="pnpbs_transfer_at_nodes")
+      import
+      implicit none
+      type(c_ptr), value :: transfer, placement
+      integer(c_int32_t), value :: conserve
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: values(*)
+      integer(c_int) :: c_transfer_at_nodes
+    end function
+
+    function c_transfer_at_points(transfer, n, coordinates, values) bind(C, &
+      name="pnpbs_transfer_at_points")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*)
+      real(c_double), intent(inout) :: values(*)
+      integer(c_int) :: c_transfer_at_points
+    end function
+
     function c_placement_write(placement, path, elements) bind(C, name="pnpbs_placement_write")
       import
       implicit none

@@ -129,7 +129,8 @@ contains
   recursive function in_fortran(message) result(text)
     character(len=*), intent(in) :: message
     character(len=:), allocatable :: text
-    character(len=*), parameter :: objects(3) = ['context  ', 'domain   ', 'placement']
+    character(len=*), parameter :: objects(4) = &
+      ['context  ', 'domain   ', 'placement', 'transfer ']
     character(len=:), allocatable :: prefix
     integer :: i, at
     text = message

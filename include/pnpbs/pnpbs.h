@@ -103,6 +103,7 @@ typedef enum pnpbs_status {
 typedef struct pnpbs_context_handle *pnpbs_context;
 typedef struct pnpbs_domain_handle *pnpbs_domain;
 typedef struct pnpbs_placement_handle *pnpbs_placement;
+typedef struct pnpbs_transfer_handle *pnpbs_transfer;
 
 /** What a status means, in a few words. Local. Never NULL. */
 PNPBS_API const char *pnpbs_status_string(pnpbs_status status);
@@ -805,6 +806,62 @@ PNPBS_API pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement,
 PNPBS_API pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t *count);
 PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
                                                    const char **text);
+
+/* ---------------------------------------------------------------- transfer -------------- */
+
+/** Takes a field to the nodes that will be: copies the values of all ranks at the nodes that the
+ *  placement has now, together with these nodes and their triangles or tetrahedra, each rank its
+ *  own. The nodes may then move, be replaced or change their ranks, and the placement may go. The
+ *  field is linear on each triangle or tetrahedron; beyond their rim, next to curved boundaries, it
+ *  goes on as on the one behind the nearest place of the rim. So fields that are linear stay what
+ *  they are, and others change by a part of the second order in d. On surfaces alone it is linear
+ *  on each triangle between their nodes, and elsewhere what it is at the nearest place of these.
+ *  Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for another n, fewer
+ *  than one component, or a value that is not finite: the message names the rank, the component and
+ *  the node's id.
+ *  @param[in] placement   whose nodes there are values for
+ *  @param[in] n           number of nodes of this rank (pnpbs_placement_count)
+ *  @param[in] components  numbers at each node, the same on all ranks
+ *  @param[in] values      [n][components] in the order of pnpbs_placement_get_nodes
+ *  @param[out] transfer   the handle */
+PNPBS_API pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t n,
+                                             int32_t components, const double *values,
+                                             pnpbs_transfer *transfer);
+
+/** Destroys the handle and sets it to NULL; takes NULL. Local. */
+PNPBS_API pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer *transfer);
+
+/** What shape its arrays have; outputs may be NULL. Local.
+ *  @param[out] dim         2: in the plane, 3: in space
+ *  @param[out] components  numbers at each node */
+PNPBS_API pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t *dim,
+                                            int32_t *components);
+
+/** The field at the nodes that a placement has now: the same bits for any number of ranks and
+ *  threads, then and now. A node where there was one before gets its value as it was. The placement
+ *  may be another one of the same context, in the same dimension. Collective. Errors:
+ *  PNPBS_ERROR_CAPACITY; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for a placement of
+ *  another context or dimension.
+ *  @param[in] conserve  nonzero: to the values of each component the same number is added, so that
+ *                       the integral of the field that is linear on the triangles or tetrahedra
+ *                       (on surfaces alone, triangles) there are now is the integral that it had on
+ *                       those before, to rounding. Where these fill the same domain the number is
+ *                       of the second order in d, and rounding for a linear field; next to curved
+ *                       boundaries, where they do not, it also makes up for what they fill more or
+ *                       less. Values may thereby leave the range they had.
+ *  @param[in] capacity  nodes the array has room for, at least those of this rank
+ *  @param[out] values   [nodes][components] in the order of pnpbs_placement_get_nodes; those of
+ *                       ghosts are for pnpbs_placement_update_ghosts */
+PNPBS_API pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement placement,
+                                               int32_t conserve, int64_t capacity, double *values);
+
+/** The field at any points, of which each rank asks those it wants, 0 or more. Collective. Errors:
+ *  PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
+ *  @param[in] n            points of this rank
+ *  @param[in] coordinates  [n][dim]
+ *  @param[out] values      [n][components] */
+PNPBS_API pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n,
+                                                const double *coordinates, double *values);
 
 /* ---------------------------------------------------------------- files ----------------- */
 

@@ -25,6 +25,10 @@ Registry<PlacementObject, pnpbs_placement>& placements() {
   static auto* registry = new Registry<PlacementObject, pnpbs_placement>;
   return *registry;
 }
+Registry<TransferObject, pnpbs_transfer>& transfers() {
+  static auto* registry = new Registry<TransferObject, pnpbs_transfer>;
+  return *registry;
+}
 
 namespace {
 
@@ -47,6 +51,9 @@ std::shared_ptr<DomainObject> require(pnpbs_domain handle) {
 }
 std::shared_ptr<PlacementObject> require(pnpbs_placement handle) {
   return require_live(placements().find(handle), "placement");
+}
+std::shared_ptr<TransferObject> require(pnpbs_transfer handle) {
+  return require_live(transfers().find(handle), "transfer");
 }
 
 }  // namespace pnpbs::api

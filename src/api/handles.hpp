@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "comm/communicator.hpp"
 #include "domain/domain.hpp"
+#include "placement/field_transfer.hpp"
 #include "placement/placement_of.hpp"
 #include "pnpbs/pnpbs.h"
 #include "settings/options.hpp"
@@ -36,6 +37,11 @@ struct DomainObject {
 struct PlacementObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<Placement> placement;
+};
+
+struct TransferObject {
+  std::shared_ptr<Context> context;
+  std::unique_ptr<FieldTransfer> transfer;
 };
 
 // One for each kind of object. All keys of the process come from one counter, so that a handle of
@@ -78,9 +84,11 @@ class Registry {
 Registry<Context, pnpbs_context>& contexts();
 Registry<DomainObject, pnpbs_domain>& domains();
 Registry<PlacementObject, pnpbs_placement>& placements();
+Registry<TransferObject, pnpbs_transfer>& transfers();
 
 std::shared_ptr<Context> require(pnpbs_context handle);
 std::shared_ptr<DomainObject> require(pnpbs_domain handle);
 std::shared_ptr<PlacementObject> require(pnpbs_placement handle);
+std::shared_ptr<TransferObject> require(pnpbs_transfer handle);
 
 }  // namespace pnpbs::api

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A spacing made of the nodes there are and values at them.
+// The triangulation of the nodes there are as a patch, and a spacing made of values at them.
 #include <algorithm>
 #include <array>
 #include <type_traits>
@@ -12,8 +12,8 @@ namespace pnpbs {
 
 namespace {
 
-// Calls visit(places) for the facets of stars beside a gap, each at the owner of its node with the
-// least id.
+// Calls visit(places, behind) for the facets of stars beside a gap, each at the owner of its node
+// with the least id; behind: the place of the other corner of its simplex, or -1.
 template <class Visit>
 void for_rim_facets(const PlacementOf<2>& placement, const Visit& visit) {
   const Level<2>& level = placement.level();
@@ -25,22 +25,42 @@ void for_rim_facets(const PlacementOf<2>& placement, const Visit& visit) {
     level.stars.for_neighbours_in_order(
         i, [&](std::int64_t j, bool triangle) { star.emplace_back(j, triangle); });
     for (std::size_t k = 0; k < star.size(); ++k) {
-      const bool closed = star[k].second && star[k > 0 ? k - 1 : star.size() - 1].second;
-      if (!closed && nodes.id(i) < nodes.id(star[k].first))
-        visit(std::array<std::int64_t, 2>{p, placement.place_of(star[k].first)});
+      const auto& before = star[k > 0 ? k - 1 : star.size() - 1];
+      const auto& after = star[k + 1 < star.size() ? k + 1 : 0];
+      if ((star[k].second && before.second) || nodes.id(star[k].first) < nodes.id(i)) continue;
+      const std::int64_t behind = star[k].second  ? placement.place_of(after.first)
+                                  : before.second ? placement.place_of(before.first)
+                                                  : -1;
+      visit(std::array<std::int64_t, 2>{p, placement.place_of(star[k].first)}, behind);
     }
   }
 }
 
 template <class Visit>
 void for_rim_facets(const PlacementOf<3>& placement, const Visit& visit) {
-  placement.for_open_facets([&](const std::array<std::int64_t, 3>& places) { visit(places); });
+  const Level<3>& level = placement.level();
+  placement.for_open_facets([&](const std::array<std::int64_t, 3>& places) {
+    std::int64_t behind = -1;
+    const std::int64_t a = placement.node_at(places[1]), b = placement.node_at(places[2]);
+    if (!placement.surfaces_alone())
+      level.stars.for_simplices(placement.node_at(places[0]), [&](const auto& others) {
+        std::int64_t third = -1;
+        int shared = 0;
+        for (const std::int64_t other : others)
+          if (other == a || other == b)
+            ++shared;
+          else
+            third = other;
+        if (shared == 2) behind = placement.place_of(third);
+      });
+    visit(places, behind);
+  });
 }
 
 }  // namespace
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_from(std::vector<double> values) {
+Patch<Dim> PlacementOf<Dim>::patch() {
   const auto ids = [this] {
     std::vector<std::int64_t> all;
     for (std::int64_t p = 0; p < count(); ++p) all.push_back(level_->nodes.id(node_at(p)));
@@ -54,14 +74,9 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_from(std::vector<d
                 "nodes have changed their ranks since the computation before failed: ask for the "
                 "nodes again, and give the values at them");
   const Nodes<Dim>& nodes = level_->nodes;
-  values.resize(static_cast<std::size_t>(nodes.count));
-  fill_ghosts(*comm_, *exchange_pattern(), values);
-
   Patch<Dim> patch;
-  for (std::int64_t p = 0; p < nodes.count; ++p) {
-    const std::int64_t i = node_at(p);
-    patch.nodes.push_back({nodes.position(i), nodes.id(i), values[static_cast<std::size_t>(p)]});
-  }
+  for (std::int64_t p = 0; p < nodes.count; ++p)
+    patch.nodes.push_back({nodes.position(node_at(p)), nodes.id(node_at(p)), 0});
   const auto row = [&](const auto& places) {
     std::array<std::int32_t, std::tuple_size_v<std::decay_t<decltype(places)>>> corners;
     std::copy(places.begin(), places.end(), corners.begin());
@@ -72,7 +87,19 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_from(std::vector<d
     return corners;
   };
   for_elements([&](const auto& places) { patch.simplices.push_back(row(places)); });
-  for_rim_facets(*this, [&](const auto& places) { patch.border.push_back(row(places)); });
+  for_rim_facets(*this, [&](const auto& places, std::int64_t behind) {
+    patch.border.push_back(row(places));
+    patch.behind.push_back(static_cast<std::int32_t>(behind));
+  });
+  return patch;
+}
+
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_from(std::vector<double> values) {
+  Patch<Dim> patch = this->patch();
+  values.resize(patch.nodes.size());
+  fill_ghosts(*comm_, *exchange_pattern(), values);
+  for (std::size_t p = 0; p < values.size(); ++p) patch.nodes[p].value = values[p];
   return std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch));
 }
 

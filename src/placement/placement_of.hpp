@@ -16,6 +16,7 @@
 #include "level/taken_nodes.hpp"
 #include "placement/facet_tag.hpp"
 #include "placement/placement.hpp"
+#include "spacing/nodal_patch.hpp"
 #include "spacing/steepest_growth.hpp"
 
 namespace pnpbs {
@@ -76,10 +77,18 @@ class PlacementOf : public Placement {
   template <class Visit>
   void for_open_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
       requires(Dim == 3);
+  // Whether the domain is surfaces alone, and of what its bubbles fill.
+  bool surfaces_alone() const {
+    if constexpr (Dim == 3) return !domain_->filled();
+    return false;
+  }
   int owner_of(std::int64_t node) const {
     return level_->tree->owner_at(level_->nodes.position(node));
   }
   std::shared_ptr<const ExchangePattern> exchange_pattern() override;
+  // The triangulation there is, with one node for each place of this rank, and no values.
+  // Collective.
+  Patch<Dim> patch();
   // d by its values at this rank's nodes, in places. Collective.
   std::shared_ptr<const Spacing<Dim>> spacing_from(std::vector<double> values);
 
@@ -101,11 +110,6 @@ class PlacementOf : public Placement {
   std::int64_t node_version() const override { return level_ ? level_->version() : -1; }
   Outcome prepare_level();
   Outcome make_level();
-  // Whether the domain is surfaces alone, and of what its bubbles fill.
-  bool surfaces_alone() const {
-    if constexpr (Dim == 3) return !domain_->filled();
-    return false;
-  }
   Settings present_settings() const;
   Settings settings_for_new_level() const;
   std::shared_ptr<const Spacing<Dim>> spacing_to_place(const Settings& settings) const;

@@ -488,6 +488,7 @@ static void try_what_is_not_allowed(void) {
   pnpbs_placement p = inside.placement, new_placement = NULL;
   int64_t offsets[500], entries = -1;
   double real = NAN;
+  pnpbs_transfer transfer = NULL;
 #define REFUSED(call) MUST_FAIL(PNPBS_ERROR_STATE, call, "callback", "")
   REFUSED(pnpbs_finalize());
   REFUSED(pnpbs_context_set(c, "steps", "10"));
@@ -539,11 +540,13 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_placement_end_update_ghosts(p, 1, 1, &real));
   REFUSED(pnpbs_placement_sum(p, 1, 1, xy, &real));
   REFUSED(pnpbs_placement_dot(p, 1, 1, xy, xy, &real));
+  REFUSED(pnpbs_transfer_create(p, 1, 1, xy, &transfer));
   REFUSED(pnpbs_placement_get_double(p, "d_error.mean", &real));
   REFUSED(pnpbs_placement_destroy(&inside.placement));
 #undef REFUSED
   ck_assert_ptr_null(new_domain);
   ck_assert_ptr_null(new_placement);
+  ck_assert_ptr_null(transfer);
   ck_assert_int_eq(entries, -1);
   ck_assert(isnan(real));
 }

@@ -15,6 +15,7 @@ static union {
   const char* texts[64];
   pnpbs_domain domain;
   pnpbs_placement placement;
+  pnpbs_transfer transfer;
 } out;
 
 static void prepare_outputs(void) {
@@ -141,6 +142,14 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_write, (handle, "unwritten.csv", 0))                                                \
   X(placement_write_files, (handle, 0, NULL, NULL, NULL))
 
+#define TRANSFER_CALLS(X)                                     \
+  X(transfer_sizes, (handle, out.small + 2, out.small + 3))   \
+  X(transfer_at_nodes, (handle, target, 0, 1, out.reals + 1)) \
+  X(transfer_at_points, (handle, 1, grid, out.reals + 1))
+
+/* Where fields are carried to. */
+static pnpbs_placement target;
+
 /* Each call as a function of something that may be no handle at all. */
 #define CALL_IT(Handle, name, arguments)            \
   static pnpbs_status call_##name(void* anything) { \
@@ -150,12 +159,14 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
 #define CALL_CONTEXT(name, arguments) CALL_IT(pnpbs_context, name, arguments)
 #define CALL_DOMAIN(name, arguments) CALL_IT(pnpbs_domain, name, arguments)
 #define CALL_PLACEMENT(name, arguments) CALL_IT(pnpbs_placement, name, arguments)
+#define CALL_TRANSFER(name, arguments) CALL_IT(pnpbs_transfer, name, arguments)
 CONTEXT_CALLS(CALL_CONTEXT)
 DOMAIN_CALLS(CALL_DOMAIN)
 PLACEMENT_CALLS(CALL_PLACEMENT)
+TRANSFER_CALLS(CALL_TRANSFER)
 
 /* What these functions take first. */
-typedef enum { CONTEXT, DOMAIN, PLACEMENT } kind;
+typedef enum { CONTEXT, DOMAIN, PLACEMENT, TRANSFER } kind;
 
 static const struct {
   const char* name;
@@ -165,7 +176,9 @@ static const struct {
 #define ROW_CONTEXT(name, arguments) {"pnpbs_" #name, CONTEXT, call_##name},
 #define ROW_DOMAIN(name, arguments) {"pnpbs_" #name, DOMAIN, call_##name},
 #define ROW_PLACEMENT(name, arguments) {"pnpbs_" #name, PLACEMENT, call_##name},
-    CONTEXT_CALLS(ROW_CONTEXT) DOMAIN_CALLS(ROW_DOMAIN) PLACEMENT_CALLS(ROW_PLACEMENT)};
+#define ROW_TRANSFER(name, arguments) {"pnpbs_" #name, TRANSFER, call_##name},
+    CONTEXT_CALLS(ROW_CONTEXT) DOMAIN_CALLS(ROW_DOMAIN) PLACEMENT_CALLS(ROW_PLACEMENT)
+        TRANSFER_CALLS(ROW_TRANSFER)};
 
 /* Nothing that the header declares is missing above, but for what creates and destroys. */
 START_TEST(every_function_is_here) {
@@ -179,7 +192,7 @@ START_TEST(every_function_is_here) {
     if (sscanf(line, "PNPBS_API pnpbs_status %99[a-z0-9_](pnpbs_", name) != 1) continue;
     if (strstr(name, "_create") != NULL || strstr(name, "_destroy") != NULL) continue;
     if (strncmp(name, "pnpbs_context_", 14) != 0 && strncmp(name, "pnpbs_domain_", 13) != 0 &&
-        strncmp(name, "pnpbs_placement_", 16) != 0) {
+        strncmp(name, "pnpbs_placement_", 16) != 0 && strncmp(name, "pnpbs_transfer_", 15) != 0) {
       continue;
     }
     ++found;
@@ -196,7 +209,7 @@ END_TEST
 
 static void must_be_refused(int row, void* handle, const char* what) {
   pnpbs_status status;
-  const char* kinds[] = {"context", "domain", "placement"};
+  const char* kinds[] = {"context", "domain", "placement", "transfer"};
   prepare_outputs();
   MUST_BE(PNPBS_ERROR_ARGUMENT, pnpbs_option_count(NULL)); /* leaves another message behind */
   status = calls[row].call(handle);
@@ -207,11 +220,32 @@ static void must_be_refused(int row, void* handle, const char* what) {
   check_outputs(calls[row].name);
 }
 
+/* Of the nodes of a job, which are placed if there are none. */
+static pnpbs_transfer some_transfer(const job* it) {
+  double values[300] = {0};
+  pnpbs_transfer transfer = NULL;
+  int64_t n;
+  MUST(pnpbs_placement_count(it->placement, &n));
+  if (n == 0) {
+    MUST(pnpbs_placement_set_spacing_constant(it->placement, 0.3));
+    MUST_COMPUTE(pnpbs_placement_run(it->placement));
+    MUST(pnpbs_placement_count(it->placement, &n));
+  }
+  ck_assert_int_lt(n, COUNT_OF(values));
+  MUST(pnpbs_transfer_create(it->placement, n, 1, values, &transfer));
+  return transfer;
+}
+
 START_TEST(handles_that_are_not_live) {
   job live = square_job(1), dead = square_job(1);
   job copy = dead;
+  pnpbs_transfer transfer = some_transfer(&live), dead_transfer = some_transfer(&live);
+  const pnpbs_transfer dead_copy = dead_transfer;
   int never = 0;
   job_end(&dead);
+  MUST(pnpbs_transfer_destroy(&dead_transfer));
+  ck_assert_ptr_null(dead_transfer);
+  target = live.placement;
   must_be_refused(_i, NULL, "NULL");
   must_be_refused(_i, &never, "an address");
   must_be_refused(_i, (void*)(intptr_t)1, "1");
@@ -219,9 +253,12 @@ START_TEST(handles_that_are_not_live) {
   must_be_refused(_i, copy.context, "a destroyed context");
   must_be_refused(_i, copy.domain, "a destroyed domain");
   must_be_refused(_i, copy.placement, "a destroyed placement");
+  must_be_refused(_i, dead_copy, "a destroyed transfer");
   if (calls[_i].takes != CONTEXT) must_be_refused(_i, live.context, "a context");
   if (calls[_i].takes != DOMAIN) must_be_refused(_i, live.domain, "a domain");
   if (calls[_i].takes != PLACEMENT) must_be_refused(_i, live.placement, "a placement");
+  if (calls[_i].takes != TRANSFER) must_be_refused(_i, transfer, "a transfer");
+  MUST(pnpbs_transfer_destroy(&transfer));
   job_end(&live);
 }
 END_TEST
@@ -261,12 +298,40 @@ START_TEST(a_domain_of_another_context) {
 }
 END_TEST
 
+/* It needs a placement that is live, of the same context. */
+START_TEST(transfers_to_nothing) {
+  job one = square_job(1), other = square_job(1);
+  pnpbs_transfer transfer = some_transfer(&one), elsewhere = some_transfer(&other);
+  double value = 0;
+  MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_transfer_at_nodes(transfer, NULL, 0, 0, &value), "placement",
+            "not live");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_transfer_at_nodes(transfer, other.placement, 0, 0, &value),
+            "placement", "context");
+  MUST(pnpbs_transfer_destroy(&transfer));
+  MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_transfer_create(NULL, 0, 1, &value, &transfer), "placement",
+            "not live");
+  ck_assert_ptr_null(transfer);
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_transfer_create(one.placement, 0, 1, &value, NULL),
+            "transfer", "NULL");
+  /* What it was made from may go, and even its context. */
+  job_end(&other);
+  value = 1;
+  MUST(pnpbs_transfer_at_points(elsewhere, 1, xy, &value));
+  ck_assert_double_eq(value, 0);
+  MUST(pnpbs_transfer_destroy(&elsewhere));
+  job_end(&one);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- destroying ------------ */
 
 START_TEST(destroying_nothing) {
   pnpbs_context context = NULL;
   pnpbs_domain domain = NULL;
   pnpbs_placement placement = NULL;
+  pnpbs_transfer transfer = NULL;
+  MUST(pnpbs_transfer_destroy(NULL));
+  MUST(pnpbs_transfer_destroy(&transfer));
   MUST(pnpbs_context_destroy(NULL));
   MUST(pnpbs_context_destroy(&context));
   MUST(pnpbs_domain_destroy(NULL));
@@ -384,6 +449,7 @@ int main(void) {
   tcase_add_loop_test(live, handles_that_are_not_live, 0, COUNT_OF(calls));
   tcase_add_test(live, placements_of_nothing);
   tcase_add_test(live, a_domain_of_another_context);
+  tcase_add_test(live, transfers_to_nothing);
   suite_add_tcase(suite, live);
   tcase_add_test(ends_of, destroying_nothing);
   tcase_add_test(ends_of, destroying_twice);

@@ -22,6 +22,7 @@ program test_ranks
   call compare_with_serial(half)
   call MPI_Comm_free(half, ierror)
   call about_space
+  call about_fields
   call about_errors
   call MPI_Finalize(ierror)
   call finish
@@ -93,6 +94,98 @@ contains
       call contexts(k)%destroy
     end do
     call expect(hash == hash_alone, 'the same nodes in space on any number of ranks')
+  end subroutine
+
+  !> Fields of one and two components: ghosts, sums, and the way to other nodes.
+  subroutine about_fields
+    type(pnpbs_context) :: context, alone
+    type(pnpbs_domain) :: domain, domain_alone
+    type(pnpbs_placement) :: placement, placement_alone
+    type(pnpbs_transfer) :: line, plane, same
+    integer(c_int64_t) :: n, g
+    integer(c_int32_t) :: dim, components
+    real(c_double), allocatable :: xy(:,:), x(:), values(:,:), there(:), pairs(:,:)
+    real(c_double) :: total, total_alone, square, sums(2), squares(2), points(2, 3), at(3), both(2, 3)
+    integer(c_int) :: stat
+    character(len=300) :: errmsg
+    call context%create_mpi(MPI_COMM_WORLD)
+    call place(context, domain, placement)
+    call placement%count(n)
+    call placement%ghost_count(g)
+    allocate (xy(2, n + g), values(2, n + g), x(n + g))
+    call placement%get_nodes(xy(:, :n))
+    call placement%get_ghosts(xy(:, n+1:))
+    values = -1
+    values(:, :n) = xy(:, :n)
+    x = values(1, :)
+    call placement%update_ghosts(values)
+    call expect(all(values == xy), 'two components of ghosts')
+    call placement%begin_update_ghosts(x)
+    call placement%begin_update_ghosts(x, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_STATE, errmsg, 'under way')
+    call placement%end_update_ghosts(x)
+    call expect(all(x == xy(1, :)), 'one component of ghosts')
+    call placement%begin_update_ghosts(values)
+    call placement%end_update_ghosts(values)
+    call expect(all(values == xy), 'two components of ghosts, begun and ended')
+    call placement%update_ghosts(x(2:), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'argument n')
+
+    call alone%create_serial
+    call place(alone, domain_alone, placement_alone)
+    call placement_alone%count(n)
+    allocate (pairs(2, n))
+    call placement_alone%get_nodes(pairs)
+    call placement%sum(x, total)
+    call placement%sum(values, sums)
+    call placement_alone%sum(pairs(1, :), total_alone)
+    call expect(total == total_alone .and. sums(1) == total, 'sums of one process')
+    call placement%dot(x, x, square)
+    call placement%dot(values, values, squares)
+    call placement_alone%dot(pairs(1, :), pairs(1, :), total_alone)
+    call expect(square == total_alone .and. squares(1) == square, 'dot products of one process')
+    call placement%sum(values, sums(:1), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'total has an extent of 1')
+
+    call placement%count(n)
+    call line%create(placement, 3 * xy(1, :n) - xy(2, :n))
+    call plane%create(placement, xy(:, :n))
+    call plane%sizes(dim, components)
+    call expect(dim == 2 .and. components == 2, 'sizes of a transfer')
+    call placement%set_spacing_constant(0.08d0)
+    call placement%run
+    deallocate (xy)
+    call placement%count(n)
+    allocate (xy(2, n), there(n))
+    call placement%get_nodes(xy)
+    call line%at_nodes(placement, there)
+    call expect(all(abs(there - 3 * xy(1, :) + xy(2, :)) < 1d-13), 'a linear field at new nodes')
+    call line%at_nodes(placement, there, .true.)
+    call expect(all(abs(there - 3 * xy(1, :) + xy(2, :)) < 1d-13), 'and with its integral')
+    deallocate (values)
+    allocate (values(2, n))
+    call plane%at_nodes(placement, values)
+    call expect(all(abs(values - xy) < 1d-13), 'two linear fields at new nodes')
+    points = reshape([0.1d0, 0.2d0, 0.5d0, 0.5d0, 1d0, 0.7d0], [2, 3])
+    call line%at_points(points, at)
+    call expect(all(abs(at - 3 * points(1, :) + points(2, :)) < 1d-13), 'a field at points')
+    call same%from_handle(plane%handle())
+    call same%at_points(points, both)
+    call expect(all(abs(both - points) < 1d-13), 'two fields at points')
+    call plane%at_points(points, at, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'values has an extent of 1')
+    call line%at_nodes(placement, there(2:), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'capacity')
+    call line%destroy
+    call plane%destroy
+    call same%at_points(points, both, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_HANDLE, errmsg, 'transfer')
+    call placement%destroy
+    call placement_alone%destroy
+    call domain%destroy
+    call domain_alone%destroy
+    call context%destroy
+    call alone%destroy
   end subroutine
 
   subroutine about_errors

@@ -14,6 +14,7 @@ const pnpbs_status = Int32
 const pnpbs_context = Ptr{Cvoid}
 const pnpbs_domain = Ptr{Cvoid}
 const pnpbs_placement = Ptr{Cvoid}
+const pnpbs_transfer = Ptr{Cvoid}
 const pnpbs_curve_fn = Ptr{Cvoid}
 const pnpbs_level_set_fn = Ptr{Cvoid}
 const pnpbs_spacing_fn = Ptr{Cvoid}
@@ -444,6 +445,29 @@ pnpbs_placement_warning_count(placement, count) =
 pnpbs_placement_get_warning(placement, index, text) =
     @ccall $(symbol(:pnpbs_placement_get_warning))(
         placement::pnpbs_placement, index::Int32, text::Ptr{Cstring})::pnpbs_status
+
+# ---------------------------------------------------------------- transfer -------------------
+pnpbs_transfer_create(placement, n, components, values, transfer) =
+    @ccall $(symbol(:pnpbs_transfer_create))(
+        placement::pnpbs_placement, n::Int64, components::Int32, values::Ptr{Cdouble},
+        transfer::Ptr{pnpbs_transfer})::pnpbs_status
+
+pnpbs_transfer_destroy(transfer) =
+    @ccall $(symbol(:pnpbs_transfer_destroy))(transfer::Ptr{pnpbs_transfer})::pnpbs_status
+
+pnpbs_transfer_sizes(transfer, dim, components) =
+    @ccall $(symbol(:pnpbs_transfer_sizes))(
+        transfer::pnpbs_transfer, dim::Ptr{Int32}, components::Ptr{Int32})::pnpbs_status
+
+pnpbs_transfer_at_nodes(transfer, placement, conserve, capacity, values) =
+    @ccall $(symbol(:pnpbs_transfer_at_nodes))(
+        transfer::pnpbs_transfer, placement::pnpbs_placement, conserve::Int32,
+        capacity::Int64, values::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_transfer_at_points(transfer, n, coordinates, values) =
+    @ccall $(symbol(:pnpbs_transfer_at_points))(
+        transfer::pnpbs_transfer, n::Int64, coordinates::Ptr{Cdouble},
+        values::Ptr{Cdouble})::pnpbs_status
 
 # ---------------------------------------------------------------- files ----------------------
 pnpbs_placement_write(placement, path, elements) =

@@ -33,6 +33,7 @@ export read_poly!, parse_poly!, check_domain, bounds, measure, outline
 export estimate, initialise!, run!, step!, adjust_population!, rebalance!
 export node_count, nodes, normals, ghost_count, ghosts, exchange_pattern, numbering
 export update_ghosts!, begin_update_ghosts, end_update_ghosts!, sum_over_nodes, dot_over_nodes
+export Transfer, at_nodes, at_points
 export adjacency, stars, triangles, boundary_edges, tetrahedra, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library
@@ -46,6 +47,7 @@ include("domain.jl")
 include("placement.jl")
 include("results.jl")
 include("fields.jl")
+include("transfer.jl")
 include("tables.jl")
 include("mpi.jl")
 

@@ -28,7 +28,7 @@ context on several ranks is not closed, for the others might never come to close
 mutable struct Context
     handle::LibPNPBS.pnpbs_context
     on_ranks::Bool
-    # Open domains and placements. They are kept here because the library holds pointers to their
+    # Open domains, placements and transfers. They are kept here because the library holds pointers to their
     # callbacks until they are closed.
     children::Vector{Any}
     # What a callback has thrown during the call in progress, and where.
@@ -70,11 +70,12 @@ end
     close(context::Context)
     close(domain::Domain)
     close(placement::Placement)
+    close(transfer::Transfer)
 
 Releases what the library holds. Closing twice is allowed; using what is closed is a
 [`PNPBSError`](@ref) with status `:error_handle`. Closing a context is collective and closes the
-domains and placements made on it; closing those is local. A placement keeps what it needs of its
-domain, so the domain may be closed first.
+domains, placements and transfers made on it; closing those is local. A placement keeps what it needs
+of its domain, so the domain may be closed first.
 """
 function Base.close(context::Context)
     isopen(context) || return nothing
@@ -86,7 +87,7 @@ function Base.close(context::Context)
 end
 
 """
-    isopen(context), isopen(domain), isopen(placement)
+    isopen(context), isopen(domain), isopen(placement), isopen(transfer)
 
 Whether it has not been closed.
 """

@@ -38,7 +38,7 @@ function Base.close(domain::Domain)
 end
 
 """
-    ndims(domain), ndims(placement)
+    ndims(domain), ndims(placement), ndims(transfer)
 
 The dimension: 2 in the plane, 3 in space. Local.
 """

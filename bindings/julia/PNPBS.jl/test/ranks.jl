@@ -88,6 +88,36 @@ end
     close(context)
 end
 
+@testset "fields on other nodes" begin
+    context = Context(world)
+    placement = placed_square(context)
+    linear(x) = [1 .+ 2 .* x[1:1, :] .- x[2:2, :]; fill(0.5, 1, size(x, 2))]
+    moved(placement) = begin
+        points = nodes(placement).points
+        curved = Transfer(placement, sin.(points[1, :]))
+        straight = Transfer(placement, linear(points))
+        set_spacing!(placement, 0.06)
+        run!(placement)
+        points = nodes(placement).points
+        @test at_nodes(straight, placement) ≈ linear(points)
+        @test at_nodes(straight, placement; conserve = true) ≈ linear(points)
+        @test at_points(straight, [0.3 0.5; 0.3 1.0]) ≈ linear([0.3 0.5; 0.3 1.0])
+        @test maximum(abs, at_nodes(curved, placement) - sin.(points[1, :])) < 0.01
+        @test fails(() -> at_points(straight, zeros(3, 1)), :error_argument, "n = -1")
+        total = sum_over_nodes(at_nodes(curved, placement; conserve = true), placement)
+        @test occursin("2", string(straight))
+        close(straight)
+        @test !isopen(straight) && fails(() -> at_nodes(straight, placement), :error_handle)
+        total
+    end
+    @test moved(placement) == Context(context -> moved(placed_square(context)))
+    values = zeros(node_count(placement))
+    rank == 0 && (values[1] = NaN)
+    e = thrown(() -> Transfer(placement, values))
+    @test e isa PNPBSError && occursin("component 0 at node", e.message)
+    close(context)
+end
+
 @testset "what fails on one rank fails on all" begin
     context = Context(world)
     placement = Placement(square_domain(context); steps = 20)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spacing/nodal_spacing.hpp"
+#include "spacing/nodal_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,14 +56,14 @@ void sort_once(std::vector<std::int32_t>& ranks) {
 }  // namespace
 
 template <int Dim>
-NodalSpacing<Dim>::NodalSpacing(std::shared_ptr<const Communicator> comm, Patch<Dim> patch)
+NodalSearch<Dim>::NodalSearch(std::shared_ptr<const Communicator> comm, Patch<Dim> patch)
     : comm_(std::move(comm)),
       patch_(std::move(patch)),
       simplices_(gather_boxes(patch_.simplices_cover(kBoxesPerRank))),
       borders_(gather_boxes(patch_.border_cover(kBoxesPerRank))) {}
 
 template <int Dim>
-typename NodalSpacing<Dim>::Directory NodalSpacing<Dim>::gather_boxes(
+typename NodalSearch<Dim>::Directory NodalSearch<Dim>::gather_boxes(
     const std::vector<Box<Dim>>& mine) const {
   Bytes bytes;
   for (const Box<Dim>& box : mine) pack(bytes, OwnedBox<Dim>{box, comm_->rank()});
@@ -77,7 +77,7 @@ typename NodalSpacing<Dim>::Directory NodalSpacing<Dim>::gather_boxes(
 }
 
 template <int Dim>
-std::vector<std::int32_t> NodalSpacing<Dim>::ranks_holding(const Point<Dim>& x) const {
+std::vector<std::int32_t> NodalSearch<Dim>::ranks_holding(const Point<Dim>& x) const {
   std::vector<std::int32_t> ranks;
   simplices_.tree.for_holding(
       x, [&](std::int32_t b) { ranks.push_back(simplices_.ranks[static_cast<std::size_t>(b)]); });
@@ -88,7 +88,7 @@ std::vector<std::int32_t> NodalSpacing<Dim>::ranks_holding(const Point<Dim>& x) 
 // No facet of the border is nearer than its box, and some facet in a box is no farther than the
 // box's far corner.
 template <int Dim>
-std::vector<std::int32_t> NodalSpacing<Dim>::ranks_nearest(const Point<Dim>& x) const {
+std::vector<std::int32_t> NodalSearch<Dim>::ranks_nearest(const Point<Dim>& x) const {
   constexpr double kRounding = 1 + 1e-6;
   double bound = std::numeric_limits<double>::infinity();
   std::vector<std::int32_t> near;
@@ -110,8 +110,8 @@ std::vector<std::int32_t> NodalSpacing<Dim>::ranks_nearest(const Point<Dim>& x) 
 // Asks for all points without an answer.
 template <int Dim>
 template <class Ranks>
-void NodalSpacing<Dim>::look(std::int64_t n, const Point<Dim>* x, bool same, const Ranks& ranks_for,
-                             Find find, std::vector<PatchAnswer<Dim>>& answers) const {
+void NodalSearch<Dim>::look(std::int64_t n, const Point<Dim>* x, bool same, const Ranks& ranks_for,
+                            Find how, std::vector<PatchAnswer<Dim>>& answers) const {
   const std::int32_t me = comm_->rank();
   std::vector<OwnerQuestion<Dim>> questions;
   for (std::int64_t i = 0; i < n; ++i) {
@@ -124,13 +124,14 @@ void NodalSpacing<Dim>::look(std::int64_t n, const Point<Dim>* x, bool same, con
         *comm_, questions, [](const OwnerQuestion<Dim>& q) { return static_cast<int>(q.asked); });
 
   std::vector<Reply<Dim>> replies(questions.size());
-  for_each("pnpbs::NodalSpacing::look", static_cast<std::int64_t>(questions.size()),
+  for_each("pnpbs::NodalSearch::look", static_cast<std::int64_t>(questions.size()),
            [&](std::int64_t k) {
              const OwnerQuestion<Dim>& question = questions[static_cast<std::size_t>(k)];
              Reply<Dim>& reply = replies[static_cast<std::size_t>(k)];
              reply.index = question.index;
              reply.asker = question.asker;
-             (patch_.*find)(question.x, reply.answer);
+             (patch_.*how)(question.x, reply.answer);
+             reply.answer.rank = comm_->rank();
            });
   std::erase_if(replies, [](const Reply<Dim>& reply) { return !reply.answer.found(); });
 
@@ -150,14 +151,14 @@ void NodalSpacing<Dim>::look(std::int64_t n, const Point<Dim>* x, bool same, con
 }
 
 template <int Dim>
-std::int64_t NodalSpacing<Dim>::open_on_all(const std::vector<PatchAnswer<Dim>>& answers) const {
+std::int64_t NodalSearch<Dim>::open_on_all(const std::vector<PatchAnswer<Dim>>& answers) const {
   const auto open = std::count_if(answers.begin(), answers.end(),
                                   [](const PatchAnswer<Dim>& answer) { return !answer.found(); });
   return static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(open)));
 }
 
 template <int Dim>
-void NodalSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
+std::vector<PatchAnswer<Dim>> NodalSearch<Dim>::find(std::int64_t n, const Point<Dim>* x) const {
   const bool same = same_points<Dim>(*comm_, n, x);
   std::vector<PatchAnswer<Dim>> answers(static_cast<std::size_t>(n));
   look(
@@ -167,16 +168,13 @@ void NodalSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d)
     look(
         n, x, same, [this](const Point<Dim>& p) { return ranks_nearest(p); },
         &NodalPatch<Dim>::extend, answers);
-  for (std::int64_t i = 0; i < n; ++i) {
-    const PatchAnswer<Dim>& answer = answers[static_cast<std::size_t>(i)];
-    if (!answer.found())
-      throw Error(ErrorKind::internal,
-                  "the values at nodes say nothing about the spacing at " + point_text(x[i]));
-    d[i] = answer.value;
-  }
+  for (std::int64_t i = 0; i < n; ++i)
+    if (!answers[static_cast<std::size_t>(i)].found())
+      throw Error(ErrorKind::internal, "the values at nodes say nothing about " + point_text(x[i]));
+  return answers;
 }
 
-template class NodalSpacing<2>;
-template class NodalSpacing<3>;
+template class NodalSearch<2>;
+template class NodalSearch<3>;
 
 }  // namespace pnpbs

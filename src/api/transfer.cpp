@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields carried from nodes that were to nodes that are, through the C interface.
+#include <cmath>
+#include <string>
+
+#include "api/placement_calls.hpp"
+#include "base/kokkos_runtime.hpp"
+
+using namespace pnpbs;
+using namespace pnpbs::api;
+
+namespace {
+
+// A collective call on a transfer: what fails on one rank fails on all.
+template <class Body>
+pnpbs_status collective(pnpbs_transfer transfer, const Body& body) {
+  return guarded(transfer, [&](TransferObject& object) {
+    const Computing computing(*object.context);
+    agreed(*object.context->communicator, [&] { body(object); });
+    return PNPBS_OK;
+  });
+}
+
+void require_field(Placement& p, std::int64_t n, std::int64_t components, const double* values) {
+  p.prepare_order();
+  if (components < 1)
+    throw Error(ErrorKind::argument,
+                "argument components = " + std::to_string(components) + "; there is at least 1");
+  if (n != p.count())
+    throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
+                                         std::to_string(p.count()) +
+                                         " nodes, and every one has its values");
+  if (n > 0) require_pointer(values, "values");
+  for (std::int64_t k = 0; k < n * components; ++k)
+    if (!std::isfinite(values[k]))
+      throw Error(ErrorKind::argument,
+                  "argument values: component " + std::to_string(k % components) + " at node " +
+                      std::to_string(p.nodes().id(p.node_at(k / components))) + " is " +
+                      number_text(values[k]) + "; all must be finite");
+}
+
+}  // namespace
+
+pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t n, int32_t components,
+                                   const double* values, pnpbs_transfer* transfer) {
+  if (transfer) *transfer = nullptr;
+  return guarded(placement, [&](PlacementObject& object) {
+    const Computing computing(*object.context);
+    Placement& p = *object.placement;
+    agreed(p.communicator(), [&] {
+      require_pointer(transfer, "transfer");
+      require_field(p, n, components, values);
+    });
+    agreed(p.communicator(), [&] {
+      if (!p.communicator().same_on_all(static_cast<std::uint64_t>(components)))
+        throw Error(ErrorKind::argument, "argument components = " + std::to_string(components) +
+                                             " here; all ranks must give the same");
+      auto made = std::make_shared<TransferObject>();
+      made->context = object.context;
+      made->transfer = make_field_transfer(p, components, values);
+      *transfer = transfers().add(std::move(made));
+    });
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer* transfer) {
+  if (!transfer || !*transfer) return PNPBS_OK;
+  return guarded(*transfer, [&](TransferObject& object) {
+    require_not_in_callback(*object.context);
+    transfers().remove(*transfer);
+    *transfer = nullptr;
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t* dim, int32_t* components) {
+  return guarded(transfer, [&](TransferObject& object) {
+    if (dim) *dim = object.transfer->dimension();
+    if (components) *components = static_cast<std::int32_t>(object.transfer->components());
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n, const double* coordinates,
+                                      double* values) {
+  return collective(transfer, [&](TransferObject& object) {
+    require_count(n, "n");
+    if (n > 0) require_pointer(coordinates, "coordinates");
+    if (n > 0) require_pointer(values, "values");
+    require_kokkos();
+    object.transfer->evaluate(n, coordinates, values);
+  });
+}
+
+pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement placement,
+                                     int32_t conserve, int64_t capacity, double* values) {
+  return guarded(transfer, [&](TransferObject& object) {
+    const auto target = require(placement);
+    const Computing computing(*object.context);
+    agreed(*object.context->communicator, [&] {
+      if (target->context != object.context)
+        throw Error(ErrorKind::argument,
+                    "argument placement belongs to another context than the transfer");
+      Placement& p = *target->placement;
+      if (p.dimension() != object.transfer->dimension())
+        throw Error(ErrorKind::argument, "argument placement has " + std::to_string(p.dimension()) +
+                                             " dimensions; the transfer's nodes had " +
+                                             std::to_string(object.transfer->dimension()));
+      p.prepare_order();
+      require_capacity(capacity, p.count());
+      if (p.count() > 0) require_pointer(values, "values");
+      object.transfer->evaluate_at_nodes(p, conserve != 0, values);
+    });
+    return PNPBS_OK;
+  });
+}

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "placement/field_transfer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "base/exact_sum.hpp"
+#include "base/execution.hpp"
+#include "base/point_text.hpp"
+#include "comm/ghost_update.hpp"
+#include "comm/records.hpp"
+#include "placement/placement_of.hpp"
+#include "spacing/nodal_search.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// [places][components], of which the owned ones are given.
+std::vector<double> with_ghosts(Placement& placement, std::int64_t components,
+                                const double* values) {
+  const Communicator& comm = placement.communicator();
+  const auto pattern = placement.exchange_pattern();
+  std::vector<double> all;
+  GhostUpdate update;
+  agreed(comm, [&] {
+    all.assign(values, values + placement.count() * components);
+    all.resize(static_cast<std::size_t>(placement.nodes().count * components));
+    update.pack(comm, pattern, components, all.data());
+  });
+  update.start();
+  update.wait();
+  update.unpack(all.data());
+  return all;
+}
+
+double measure(const std::array<Point<2>, 3>& c) {
+  return std::fabs((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) -
+                   (c[1][1] - c[0][1]) * (c[2][0] - c[0][0])) /
+         2;
+}
+
+std::array<double, 3> cross(const Point<3>& origin, const Point<3>& a, const Point<3>& b) {
+  const double u[3] = {a[0] - origin[0], a[1] - origin[1], a[2] - origin[2]};
+  const double v[3] = {b[0] - origin[0], b[1] - origin[1], b[2] - origin[2]};
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+double measure(const std::array<Point<3>, 3>& c) {
+  const auto [x, y, z] = cross(c[0], c[1], c[2]);
+  return std::sqrt(x * x + y * y + z * z) / 2;
+}
+
+double measure(const std::array<Point<3>, 4>& c) {
+  const auto [x, y, z] = cross(c[0], c[1], c[2]);
+  return std::fabs(x * (c[3][0] - c[0][0]) + y * (c[3][1] - c[0][1]) + z * (c[3][2] - c[0][2])) / 6;
+}
+
+// Of a field that is linear on each element: integrals of its components, and last of 1.
+template <int Dim, std::size_t Corners>
+std::vector<ExactSum> integrals_here(const Patch<Dim>& patch,
+                                     const std::vector<std::array<std::int32_t, Corners>>& elements,
+                                     std::int64_t components, const std::vector<double>& values) {
+  std::vector<ExactSum> sums(static_cast<std::size_t>(components) + 1);
+  for (const auto& element : elements) {
+    std::array<Point<Dim>, Corners> corners;
+    for (std::size_t k = 0; k < Corners; ++k)
+      corners[k] = patch.nodes[static_cast<std::size_t>(element[k])].x;
+    const double size = measure(corners);
+    for (std::int64_t c = 0; c < components; ++c) {
+      double sum = 0;
+      for (const std::int32_t node : element)
+        sum += values[static_cast<std::size_t>(node * components + c)];
+      sums[static_cast<std::size_t>(c)].add_product(size / Corners, sum);
+    }
+    sums.back().add(size);
+  }
+  return sums;
+}
+
+// Over the elements of all ranks, by exact sums: in any order they come out the same. Collective.
+template <int Dim>
+std::vector<double> integrals(const Communicator& comm, const Patch<Dim>& patch, bool on_border,
+                              std::int64_t components, const std::vector<double>& values) {
+  std::vector<ExactSum> sums;
+  std::vector<std::int64_t> entries;
+  agreed(comm, [&] {
+    if constexpr (Dim == 3) {
+      if (on_border) sums = integrals_here(patch, patch.border, components, values);
+    }
+    if (!on_border) sums = integrals_here(patch, patch.simplices, components, values);
+    for (ExactSum& sum : sums) {
+      sum.carry();
+      entries.insert(entries.end(), sum.entries().begin(), sum.entries().end());
+    }
+  });
+  comm.allreduce_sum(entries);
+  std::vector<double> results;
+  auto next = entries.begin();
+  for (ExactSum& sum : sums) {
+    std::copy_n(next, ExactSum::kEntries, sum.entries().begin());
+    next += ExactSum::kEntries;
+    results.push_back(sum.value());
+  }
+  return results;
+}
+
+template <int Dim>
+class FieldTransferOf : public FieldTransfer {
+ public:
+  FieldTransferOf(PlacementOf<Dim>& placement, std::int64_t components, const double* values)
+      : search_(placement.ranks(), placement.patch()),
+        values_(with_ghosts(placement, components, values)),
+        integrals_(integrals(placement.communicator(), search_.patch().patch(),
+                             placement.surfaces_alone(), components, values_)) {
+    components_ = components;
+  }
+
+  int dimension() const override { return Dim; }
+  void evaluate(std::int64_t n, const double* x, double* values) const override;
+  void evaluate_at_nodes(Placement& placement, bool conserve, double* values) const override;
+
+ private:
+  // A place on a simplex or facet of the rank that is asked.
+  struct Question {
+    Point<Dim> x;
+    std::int64_t row;
+  };
+
+  std::vector<Message> answered(const std::vector<Message>& asked) const;
+  void answer(const Question& question, double* values) const;
+  void conserve_integrals(PlacementOf<Dim>& placement, double* values) const;
+
+  NodalSearch<Dim> search_;
+  std::vector<double> values_;     // at the nodes of the patch
+  std::vector<double> integrals_;  // of the components, and the size of all elements
+};
+
+// Between the values of the corners inside of a simplex, whatever is rounded; beyond the border the
+// simplex behind it goes on.
+template <int Dim>
+void FieldTransferOf<Dim>::answer(const Question& question, double* values) const {
+  const PatchWeights<Dim> w =
+      search_.patch().weights(question.x, static_cast<std::int32_t>(question.row));
+  for (std::int64_t c = 0; c < components_; ++c) {
+    std::array<double, Dim + 1> corner;
+    for (std::size_t k = 0; k <= Dim; ++k)
+      corner[k] = values_[static_cast<std::size_t>(w.nodes[k] * components_ + c)];
+    double value = w.inside ? w.weights[0] * corner[0] : corner[0];
+    for (std::size_t k = 1; k <= Dim; ++k)
+      value += w.weights[k] * (w.inside ? corner[k] : corner[k] - corner[0]);
+    if (w.inside) {
+      const auto [min, max] = std::minmax_element(corner.begin(), corner.end());
+      value = std::clamp(value, *min, *max);
+    }
+    values[c] = value;
+  }
+}
+
+template <int Dim>
+std::vector<Message> FieldTransferOf<Dim>::answered(const std::vector<Message>& asked) const {
+  std::vector<Message> answers;
+  for (const Message& message : asked) {
+    const std::size_t n = message.bytes.size() / sizeof(Question);
+    std::vector<double> found(n * static_cast<std::size_t>(components_));
+    for_each("pnpbs::FieldTransfer::answered", static_cast<std::int64_t>(n), [&](std::int64_t k) {
+      Question question;
+      std::memcpy(&question, message.bytes.data() + static_cast<std::size_t>(k) * sizeof question,
+                  sizeof question);
+      answer(question, found.data() + k * components_);
+    });
+    answers.push_back({message.rank, Bytes(found.size() * sizeof(double))});
+    if (n > 0) std::memcpy(answers.back().bytes.data(), found.data(), answers.back().bytes.size());
+  }
+  return answers;
+}
+
+template <int Dim>
+void FieldTransferOf<Dim>::evaluate(std::int64_t n, const double* x, double* values) const {
+  const Communicator& comm = search_.communicator();
+  std::vector<Point<Dim>> points;
+  agreed(comm, [&] {
+    points.resize(static_cast<std::size_t>(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+      Point<Dim>& point = points[static_cast<std::size_t>(i)];
+      std::copy_n(x + Dim * i, Dim, point.begin());
+      if (!std::all_of(point.begin(), point.end(), [](double c) { return std::isfinite(c); }))
+        throw Error(ErrorKind::argument, "argument coordinates: point " + std::to_string(i) +
+                                             " is " + point_text(point) + ", which is nowhere");
+    }
+  });
+  const std::vector<PatchAnswer<Dim>> found = search_.find(n, points.data());
+  Outbox questions;
+  agreed(comm, [&] {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      pack(questions.to(found[i].rank), Question{points[i], found[i].row});
+  });
+  const std::vector<Message> asked = comm.sparse_all_to_all(questions.messages());
+  std::vector<Message> answers;
+  agreed(comm, [&] { answers = answered(asked); });
+  const std::vector<Message> told = comm.sparse_all_to_all(answers);
+  agreed(comm, [&] {
+    RankPlaces places;
+    for (const Message& theirs : told) places.add(theirs.rank);
+    std::vector<std::size_t> at(told.size());  // answers come in the order of the questions
+    const std::size_t bytes = static_cast<std::size_t>(components_) * sizeof(double);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto k = static_cast<std::size_t>(places.of(found[i].rank));
+      std::memcpy(values + static_cast<std::int64_t>(i) * components_, told[k].bytes.data() + at[k],
+                  bytes);
+      at[k] += bytes;
+    }
+  });
+}
+
+template <int Dim>
+void FieldTransferOf<Dim>::conserve_integrals(PlacementOf<Dim>& placement, double* values) const {
+  const Communicator& comm = search_.communicator();
+  const std::vector<double> all = with_ghosts(placement, components_, values);
+  const std::vector<double> now =
+      integrals(comm, placement.patch(), placement.surfaces_alone(), components_, all);
+  for (std::int64_t c = 0; c < components_; ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    const double lacking = (integrals_[k] - now[k]) / now.back();
+    for (std::int64_t i = 0; i < placement.count(); ++i) values[i * components_ + c] += lacking;
+  }
+}
+
+template <int Dim>
+void FieldTransferOf<Dim>::evaluate_at_nodes(Placement& placement, bool conserve,
+                                             double* values) const {
+  auto& in = static_cast<PlacementOf<Dim>&>(placement);
+  std::vector<double> x;
+  agreed(search_.communicator(), [&] {
+    in.prepare_order();
+    for (std::int64_t p = 0; p < in.count(); ++p) {
+      const Point<Dim> at = in.level().nodes.position(in.node_at(p));
+      x.insert(x.end(), at.begin(), at.end());
+    }
+  });
+  evaluate(in.count(), x.data(), values);
+  if (conserve) conserve_integrals(in, values);
+}
+
+}  // namespace
+
+std::unique_ptr<FieldTransfer> make_field_transfer(Placement& placement, std::int64_t components,
+                                                   const double* values) {
+  if (placement.dimension() == 2)
+    return std::make_unique<FieldTransferOf<2>>(static_cast<PlacementOf<2>&>(placement), components,
+                                                values);
+  return std::make_unique<FieldTransferOf<3>>(static_cast<PlacementOf<3>&>(placement), components,
+                                              values);
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values at the nodes there were, for the nodes there will be: the field that is linear on each of
+// the old elements, which stay with the ranks that owned them, told at any points.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "placement/placement.hpp"
+
+namespace pnpbs {
+
+class FieldTransfer {
+ public:
+  virtual ~FieldTransfer() = default;
+  virtual int dimension() const = 0;
+  std::int64_t components() const { return components_; }
+
+  // x: [n][dimension], values: [n][components]. Collective; each rank asks what it wants.
+  virtual void evaluate(std::int64_t n, const double* x, double* values) const = 0;
+  // At this rank's nodes, in places. With `conserve` the field that is linear on the placement's
+  // elements has the integral that the old one had on the old elements: every value is changed by
+  // the same number. Collective.
+  virtual void evaluate_at_nodes(Placement& placement, bool conserve, double* values) const = 0;
+
+ protected:
+  std::int64_t components_ = 0;
+};
+
+// values: [nodes of this rank][components]. Collective.
+std::unique_ptr<FieldTransfer> make_field_transfer(Placement& placement, std::int64_t components,
+                                                   const double* values);
+
+}  // namespace pnpbs
