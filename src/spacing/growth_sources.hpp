@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points that limit d around them, and what they limit it to anywhere: the least of d + g |x - y|.
+// What limits d around it, points or facets, and what all of it limits d to anywhere: the least of
+// d + g |x - y|.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +15,15 @@
 namespace pnpbs {
 
 template <int Dim>
+Box<Dim> box_of(const GrowthSource<Dim>& source) {
+  return {source.x, source.x};
+}
+
+template <int Dim, class Source = GrowthSource<Dim>>
 class GrowthSources {
  public:
   GrowthSources() = default;
-  GrowthSources(std::vector<GrowthSource<Dim>> sources, double growth)
+  GrowthSources(std::vector<Source> sources, double growth)
       : sources_(std::move(sources)), growth_(growth) {
     if (sources_.empty()) return;
     cells_.push_back({{}, 0, 0, sources_.size(), 0});
@@ -41,10 +47,10 @@ class GrowthSources {
     constexpr std::size_t kLeafSize = 8;
     const auto begin = sources_.begin() + static_cast<std::ptrdiff_t>(cells_[c].begin),
                end = sources_.begin() + static_cast<std::ptrdiff_t>(cells_[c].end);
-    cells_[c].box = {begin->x, begin->x};
+    cells_[c].box = box_of(*begin);
     cells_[c].min = begin->d;
     for (auto source = begin; source != end; ++source) {
-      cells_[c].box = joined(cells_[c].box, Box<Dim>{source->x, source->x});
+      cells_[c].box = joined(cells_[c].box, box_of(*source));
       cells_[c].min = std::min(cells_[c].min, source->d);
     }
     if (cells_[c].end - cells_[c].begin <= kLeafSize) return;
@@ -54,8 +60,10 @@ class GrowthSources {
       if (box.high[longest] - box.low[longest] < box.high[k] - box.low[k]) longest = k;
     const std::size_t middle = (cells_[c].begin + cells_[c].end) / 2;
     std::nth_element(begin, sources_.begin() + static_cast<std::ptrdiff_t>(middle), end,
-                     [longest](const GrowthSource<Dim>& a, const GrowthSource<Dim>& b) {
-                       return a.x[longest] < b.x[longest];
+                     [longest](const Source& a, const Source& b) {
+                       const Box<Dim> of_a = box_of(a), of_b = box_of(b);
+                       return of_a.low[longest] + of_a.high[longest] <
+                              of_b.low[longest] + of_b.high[longest];
                      });
     cells_[c].child = cells_.size();
     cells_.push_back({{}, 0, cells_[c].begin, middle, 0});
@@ -87,7 +95,7 @@ class GrowthSources {
     look_into(second, by_second, x, bound);
   }
 
-  std::vector<GrowthSource<Dim>> sources_;
+  std::vector<Source> sources_;
   double growth_ = 0;
   std::vector<Cell> cells_;
 };

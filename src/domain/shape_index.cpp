@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/shape_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/space_vectors.hpp"
+#include "domain/plane/edges.hpp"
+#include "domain/volume/triangles.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// A wedge of twice this angle is a corner, and no gap.
+constexpr double kCosAhead = 0.93969262078590838, kSinAhead = 0.34202014332566873;  // 20 degrees
+constexpr double kCosNear = 0.5;                                                    // 60 degrees
+
+template <int Dim>
+double product(const Point<Dim>& a, const Point<Dim>& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < Dim; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+template <int Dim>
+Point<Dim> away(const Point<Dim>& x, double by, const Point<Dim>& direction) {
+  Point<Dim> y;
+  for (std::size_t k = 0; k < Dim; ++k) y[k] = x[k] + by * direction[k];
+  return y;
+}
+
+template <int Dim>
+Point<Dim> way_from(const Point<Dim>& a, const Point<Dim>& b) {
+  return away<Dim>(b, -1, a);
+}
+
+Point<2> across(const FacetCorners<2>& f) { return {f[0][1] - f[1][1], f[1][0] - f[0][0]}; }
+Point<3> across(const FacetCorners<3>& f) {
+  return cross(difference(f[1], f[0]), difference(f[2], f[0]));
+}
+
+template <int Dim>
+Box<Dim> box_of(const FacetCorners<Dim>& corners) {
+  Box<Dim> box{corners[0], corners[0]};
+  for (const Point<Dim>& corner : corners) box = joined(box, Box<Dim>{corner, corner});
+  return box;
+}
+
+template <std::size_t Size>
+bool share_one(const std::array<std::int32_t, Size>& a, const std::array<std::int32_t, Size>& b) {
+  return std::ranges::find_first_of(a, b) != a.end();
+}
+
+// May anything of the box lie within the angle ahead?
+template <int Dim>
+bool may_be_ahead(const Box<Dim>& box, const typename ShapeIndex<Dim>::Place& place) {
+  const Point<Dim> middle = away<Dim>(box.low, 0.5, way_from<Dim>(box.low, box.high)),
+                   way = way_from<Dim>(place.x, middle);
+  const double radius = 0.5 * distance<Dim>(box.low, box.high);
+  const double along = product<Dim>(way, place.ahead);
+  const double aside = std::sqrt(std::max(0.0, product<Dim>(way, way) - along * along));
+  return aside * kCosAhead - along * kSinAhead <= radius * (1 + 1e-12);
+}
+
+}  // namespace
+
+template <int Dim>
+ShapeIndex<Dim>::ShapeIndex(Shape<Dim> shape) : shape_(std::move(shape)) {
+  if (shape_.empty()) return;
+  const bool any = std::ranges::any_of(shape_, &ShapePiece<Dim>::bounds);
+  boundary_ = select([any](const ShapePiece<Dim>& piece) { return piece.bounds() || !any; });
+  facets_ = select([](const ShapePiece<Dim>& piece) { return piece.is_facet(); });
+  for (const ShapePiece<Dim>& piece : shape_) tagged_[piece.tag];
+  for (auto& [tag, selection] : tagged_)
+    selection = select([tag](const ShapePiece<Dim>& piece) { return piece.tag == tag; });
+  Box<Dim> all = box_of<Dim>(shape_[0].corners);
+  for (const ShapePiece<Dim>& piece : shape_) all = joined(all, box_of<Dim>(piece.corners));
+  size_ = distance<Dim>(all.low, all.high);
+}
+
+template <int Dim>
+template <class Wanted>
+typename ShapeIndex<Dim>::Selection ShapeIndex<Dim>::select(const Wanted& wanted) const {
+  Selection selection;
+  std::vector<Box<Dim>> boxes;
+  for (std::size_t p = 0; p < shape_.size(); ++p) {
+    if (!wanted(shape_[p])) continue;
+    selection.pieces.push_back(p);
+    boxes.push_back(box_of<Dim>(shape_[p].corners));
+  }
+  selection.tree = BoxTree<Dim>(std::move(boxes));
+  return selection;
+}
+
+template <int Dim>
+std::vector<std::int32_t> ShapeIndex<Dim>::tags() const {
+  std::vector<std::int32_t> tags;
+  for (const auto& [tag, selection] : tagged_) tags.push_back(tag);
+  return tags;
+}
+
+template <int Dim>
+double ShapeIndex<Dim>::distance_to(const Selection& selection, const Point<Dim>& x) const {
+  constexpr double kRounding = 1 + 1e-12;  // lest one equally near is missed
+  double best = kInfinity;
+  selection.tree.for_near(
+      x, [&] { return kRounding * best * best; },
+      [&](std::int32_t i) {
+        const ShapePiece<Dim>& piece = shape_[selection.pieces[static_cast<std::size_t>(i)]];
+        best = std::min(best, distance<Dim>(nearest_on(piece.corners, x), x));
+      });
+  return best;
+}
+
+// Balls grow until one touches.
+template <int Dim>
+double ShapeIndex<Dim>::width(const Place& place) const {
+  constexpr double kFirst = 1.0 / 1024;
+  for (double reach = kFirst * size_; reach < 4 * size_; reach *= 2) {
+    double best = reach;
+    const double radius = 0.5 * reach, square = radius * radius;
+    const auto limit = [square] { return square; };
+    facets_.tree.for_near(away<Dim>(place.x, radius, place.ahead), limit, [&](std::int32_t i) {
+      const ShapePiece<Dim>& piece = shape_[facets_.pieces[static_cast<std::size_t>(i)]];
+      if (share_one(piece.ends, place.ends)) return;
+      if (!may_be_ahead<Dim>(box_of<Dim>(piece.corners), place)) return;
+      best = std::min(best, width_below(place, piece.corners, best));
+    });
+    if (best < reach) return best;
+  }
+  return kInfinity;
+}
+
+// As width() with a single facet, if it is below a bound; else the bound. The ball shrinks until it
+// holds nothing of the facet (Ma, Bae and Choi, The Visual Computer 28 (2012) 7).
+template <int Dim>
+double ShapeIndex<Dim>::width_below(const Place& place, const FacetCorners<Dim>& facet,
+                                    double max) const {
+  constexpr int kMaxSteps = 60;
+  constexpr double kStill = 1 - 1e-14;
+  double radius = 0.5 * max, along = 0;
+  Point<Dim> way;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    way = way_from<Dim>(place.x, nearest_on(facet, away<Dim>(place.x, radius, place.ahead)));
+    along = product<Dim>(way, place.ahead);
+    const double touching = along > 0 ? 0.5 * product<Dim>(way, way) / along : kInfinity;
+    if (!(touching < kStill * radius)) break;
+    radius = touching;
+  }
+  if (!(2 * radius < max)) return max;
+  const double far = std::sqrt(product<Dim>(way, way));
+  if (along >= kCosAhead * far) return 2 * radius;
+  // It touches aside. But the facet may still lie straight ahead.
+  const Point<Dim> normal = across(facet);
+  const double slope = product<Dim>(normal, place.ahead);
+  const double hit = product<Dim>(normal, way_from<Dim>(place.x, facet[0])) / slope;
+  if (slope == 0 || !(hit > 0 && hit < max)) return max;
+  const Point<Dim> there = away<Dim>(place.x, hit, place.ahead);
+  return distance<Dim>(nearest_on(facet, there), there) <= 1e-12 * size_ ? hit : max;
+}
+
+template <int Dim>
+double ShapeIndex<Dim>::clearance_ahead(const Place& place, double reach) const {
+  double best = reach;
+  facets_.tree.for_near(
+      place.x, [&] { return best * best; },
+      [&](std::int32_t i) {
+        const ShapePiece<Dim>& piece = shape_[facets_.pieces[static_cast<std::size_t>(i)]];
+        if (share_one(piece.ends, place.ends)) return;
+        const Point<Dim> way = way_from<Dim>(place.x, nearest_on(piece.corners, place.x));
+        const double far = std::sqrt(product<Dim>(way, way));
+        if (product<Dim>(way, place.ahead) > kCosNear * far) best = std::min(best, far);
+      });
+  return best;
+}
+
+template <int Dim>
+typename ShapeIndex<Dim>::Foot ShapeIndex<Dim>::foot_of(const Point<Dim>& x,
+                                                        const std::array<std::int32_t, Dim>& ends,
+                                                        double reach) const {
+  Foot foot{reach, kInfinity};
+  facets_.tree.for_near(
+      x, [&] { return foot.gap * foot.gap; },
+      [&](std::int32_t i) {
+        const ShapePiece<Dim>& piece = shape_[facets_.pieces[static_cast<std::size_t>(i)]];
+        if (share_one(piece.ends, ends)) return;
+        const Point<Dim> on = nearest_on(piece.corners, x), way = way_from<Dim>(on, x),
+                         normal = across(piece.corners);
+        const double gap = std::sqrt(product<Dim>(way, way)), slope = product<Dim>(way, normal);
+        if (!(slope > 0 ? piece.front_inside : piece.back_inside)) return;
+        const double along = std::fabs(slope) / std::sqrt(product<Dim>(normal, normal));
+        if (along < kCosAhead * gap || !(along > 0)) return;
+        if (gap < foot.gap || (gap == foot.gap && on < foot.x)) foot = {gap, gap * gap / along, on};
+      });
+  return foot;
+}
+
+template class ShapeIndex<2>;
+template class ShapeIndex<3>;
+
+}  // namespace pnpbs

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the pieces of a shape ask d to be at them: by curvature, by the width of the domain, and by
+// the lengths of the input's edges.
+#pragma once
+
+#include <vector>
+
+#include "domain/shape_index.hpp"
+
+namespace pnpbs {
+
+// What is asked for; 0: not at all.
+struct ShapeDemands {
+  double nodes_per_turn = 0;  // of a circle with the radius of curvature
+  double nodes_across = 0;    // the width of the domain
+  double nodes_per_edge = 0;  // of the input
+
+  bool operator==(const ShapeDemands&) const = default;
+};
+
+// A piece that limits d around it: d is at most this, and more with the distance from it.
+template <int Dim>
+struct ShapeSource {
+  FacetCorners<Dim> corners;
+  double d;
+
+  double limit(const Point<Dim>& at, double growth) const;
+};
+
+template <int Dim>
+Box<Dim> box_of(const ShapeSource<Dim>& source) {
+  Box<Dim> box{source.corners[0], source.corners[0]};
+  for (const Point<Dim>& corner : source.corners) box = joined(box, Box<Dim>{corner, corner});
+  return box;
+}
+
+// Those with a d below `max`. Where the width counts, pieces are halved until nothing that is ahead
+// of them, or has their corners ahead, is nearer than twice their length. Throws
+// Error(ErrorKind::spacing) if that makes too many.
+template <int Dim>
+std::vector<ShapeSource<Dim>> shape_sources(const ShapeIndex<Dim>& index,
+                                            const ShapeDemands& demands, double max);
+
+}  // namespace pnpbs

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/shape_spacing.hpp"
+
+#include <algorithm>
+
+#include "base/started_execution.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+ShapeSpacing<Dim>::ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeDemands& demands,
+                                const ShapeLimits& limits)
+    : min_(limits.min),
+      max_(limits.max > 0 ? limits.max : index.size()),
+      sources_(shape_sources(index, demands, max_), limits.growth) {}
+
+template <int Dim>
+void ShapeSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
+  for_each_if_started("pnpbs::ShapeSpacing", n,
+                      [&](std::int64_t i) { d[i] = std::max(min_, sources_.limit(x[i], max_)); });
+}
+
+template class ShapeSpacing<2>;
+template class ShapeSpacing<3>;
+
+}  // namespace pnpbs

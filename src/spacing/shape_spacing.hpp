@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A spacing that follows the shape of a domain: the least that its pieces ask for, each growing
+// with the distance from it.
+#pragma once
+
+#include "spacing/growth_sources.hpp"
+#include "spacing/shape_sources.hpp"
+#include "spacing/spacing.hpp"
+
+namespace pnpbs {
+
+struct ShapeLimits {
+  double growth = 0.15;  // of d per unit of distance from a piece
+  double min = 0;
+  double max = 0;  // 0: the size of the domain
+
+  bool operator==(const ShapeLimits&) const = default;
+};
+
+template <int Dim>
+class ShapeSpacing : public Spacing<Dim> {
+ public:
+  // The index is looked at here alone.
+  ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeDemands& demands,
+               const ShapeLimits& limits);
+
+  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+
+ private:
+  double min_, max_;
+  GrowthSources<Dim, ShapeSource<Dim>> sources_;
+};
+
+extern template class ShapeSpacing<2>;
+extern template class ShapeSpacing<3>;
+
+}  // namespace pnpbs
