@@ -100,6 +100,8 @@ module pnpbs
     procedure :: check => domain_check
     procedure :: bounds => domain_bounds
     procedure :: measure => domain_measure
+    procedure :: distance => domain_distance
+    procedure :: shape_spacing => domain_shape_spacing
     procedure :: segment_count => domain_segment_count
     procedure :: get_segments => domain_get_segments
     procedure :: handle => domain_handle
@@ -124,6 +126,7 @@ module pnpbs
     procedure, private :: placement_set_spacing_grid
     procedure, private :: placement_set_spacing_grid_in_space
     generic :: set_spacing_grid => placement_set_spacing_grid, placement_set_spacing_grid_in_space
+    procedure :: set_spacing_from_shape => placement_set_spacing_from_shape
     procedure :: set_spacing_at_nodes => placement_set_spacing_at_nodes
     procedure :: set_monitor => placement_set_monitor
     procedure :: set_nodes => placement_set_nodes
@@ -972,6 +975,79 @@ contains
     call conclude('domain%measure', c_domain_measure(self%c, measure), stat, errmsg)
   end subroutine
 
+  !> Distances to the shape of the domain: exact to segments and triangles, to arcs and curves by
+  !> callback within 1e-7 of the domain's size. Local; checks the domain first. The first question
+  !> after a change of the domain builds a tree of its pieces, for which curves by callback are
+  !> asked: ask one before asking from inside a callback (as a spacing callback may). Errors:
+  !> PNPBS_ERROR_ARGUMENT if nothing has the tag.
+  !>   coordinates  (dim, n)
+  !>   distances    (n)
+  !>   tag          optional: of curves, surfaces or nodes; without, to what bounds the domain
+  subroutine domain_distance(self, coordinates, distances, tag, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    real(c_double), intent(inout) :: distances(:)
+    integer, intent(in), optional :: tag
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int32_t) :: which
+    integer(c_int) :: status
+    call check_places(self, coordinates, size(distances, kind=c_int64_t), 'distances', given)
+    which = 0
+    if (present(tag)) which = int(tag, c_int32_t)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_distance(self%c, which, size(distances, kind=c_int64_t), coordinates, &
+                                 distances)
+    call conclude('domain%distance', status, stat, errmsg, given)
+  end subroutine
+
+  !> The spacing that placement%set_spacing_from_shape would set, without its bounds: for a spacing
+  !> callback that has its own use for it. Local; checks the domain first. What the shape asks for is
+  !> found at the first question and kept: ask one before asking from inside a callback.
+  !>   coordinates  (dim, n)
+  !>   d            (n)
+  !>   nodes_per_turn, nodes_across, nodes_per_edge, growth  optional, as there
+  subroutine domain_shape_spacing(self, coordinates, d, nodes_per_turn, nodes_across, &
+                                  nodes_per_edge, growth, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    real(c_double), intent(inout) :: d(:)
+    real(c_double), intent(in), optional :: nodes_per_turn, nodes_across, nodes_per_edge, growth
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call check_places(self, coordinates, size(d, kind=c_int64_t), 'd', given)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_shape_spacing(self%c, or_none(nodes_per_turn), or_none(nodes_across), &
+                                      or_none(nodes_per_edge), or_none(growth), &
+                                      size(d, kind=c_int64_t), coordinates, d)
+    call conclude('domain%shape_spacing', status, stat, errmsg, given)
+  end subroutine
+
+  ! Refuses places of another dimension, and as many values as there are not places.
+  subroutine check_places(self, coordinates, values, name, given)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    integer(c_int64_t), intent(in) :: values
+    character(len=*), intent(in) :: name
+    type(arguments), intent(inout) :: given
+    integer :: dim
+    dim = dimension_of(self, given)
+    call given%check_rows('coordinates', size(coordinates, 1), dim)
+    call given%check_rows(name, int(values), size(coordinates, 2))
+  end subroutine
+
+  function or_none(value)
+    real(c_double), intent(in), optional :: value
+    real(c_double) :: or_none
+    or_none = 0
+    if (present(value)) or_none = value
+  end function
+
   !> Number of segments that get_segments has. Local.
   subroutine domain_segment_count(self, count, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1147,6 +1223,34 @@ contains
     call given%check_rank('values', rank_of_values, dim)
     call given%check_rows('origin', origins, rank_of_values)
     call given%check_rows('step', steps, rank_of_values)
+  end subroutine
+
+  !> The spacing from the shape of the domain as it is now: the least that its curves and surfaces
+  !> ask for, each growing with the distance from it. Collective. The same on any number of ranks.
+  !> Errors: PNPBS_ERROR_DOMAIN as domain%check, PNPBS_ERROR_ARGUMENT for negative numbers,
+  !> PNPBS_ERROR_SPACING where the domain is too narrow to take its width all along.
+  !>   nodes_per_turn  optional: by curvature, nodes on a full circle of its radius; without, it does
+  !>                   not count
+  !>   nodes_across    optional: by width, nodes across the diameter of the largest ball that touches
+  !>                   the boundary and meets nothing ahead; without, it does not count
+  !>   nodes_per_edge  optional: by the input, nodes along its segments and the mean edge of its
+  !>                   triangles; without, it does not count
+  !>   growth          optional: of d per unit of distance; without, 0.15
+  !>   min_spacing     optional: d is at least this
+  !>   max_spacing     optional: d is at most this; without, the size of the domain
+  subroutine placement_set_spacing_from_shape(self, nodes_per_turn, nodes_across, nodes_per_edge, &
+                                              growth, min_spacing, max_spacing, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in), optional :: nodes_per_turn, nodes_across, nodes_per_edge, growth
+    real(c_double), intent(in), optional :: min_spacing, max_spacing
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%set_spacing_from_shape', &
+                  c_placement_set_spacing_from_shape(self%c, or_none(nodes_per_turn), &
+                                                     or_none(nodes_across), &
+                                                     or_none(nodes_per_edge), or_none(growth), &
+                                                     or_none(min_spacing), or_none(max_spacing)), &
+                  stat, errmsg)
   end subroutine
 
   !> The spacing from values at the nodes there are: d is linear on each triangle or tetrahedron of

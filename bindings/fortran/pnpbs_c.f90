@@ -523,6 +523,30 @@ module pnpbs_c
       integer(c_int) :: c_domain_measure
     end function
 
+    function c_domain_distance(domain, tag, n, coordinates, distances) bind(C, &
+      name="pnpbs_domain_distance")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: tag
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*)
+      real(c_double), intent(inout) :: distances(*)
+      integer(c_int) :: c_domain_distance
+    end function
+
+    function c_domain_shape_spacing(domain, nodes_per_turn, nodes_across, nodes_per_edge, growth, &
+      n, coordinates, d) bind(C, name="pnpbs_domain_shape_spacing")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), value :: nodes_per_turn, nodes_across, nodes_per_edge, growth
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*)
+      real(c_double), intent(inout) :: d(*)
+      integer(c_int) :: c_domain_shape_spacing
+    end function
+
     function c_domain_get_segments(domain, capacity, count, segments, tags) bind(C, &
       name="pnpbs_domain_get_segments")
       import
@@ -605,6 +629,17 @@ module pnpbs_c
       integer(c_int64_t), intent(in) :: size(*)
       real(c_double), intent(in) :: origin(*), step(*), values(*)
       integer(c_int) :: c_placement_set_spacing_grid
+    end function
+
+    function c_placement_set_spacing_from_shape(placement, nodes_per_turn, nodes_across, &
+      nodes_per_edge, growth, min_spacing, max_spacing) bind(C, &
+      name="pnpbs_placement_set_spacing_from_shape")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      real(c_double), value :: nodes_per_turn, nodes_across, nodes_per_edge, growth
+      real(c_double), value :: min_spacing, max_spacing
+      integer(c_int) :: c_placement_set_spacing_from_shape
     end function
 
     function c_placement_set_spacing_at_nodes(placement, n, d) bind(C, &

@@ -426,6 +426,28 @@ PNPBS_API pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, dou
  *  first. */
 PNPBS_API pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);
 
+/** Distances to the shape of the domain: exact to segments and triangles, to arcs and curves by
+ *  callback within 1e-7 of the domain's size. Local; checks the domain first. The first question
+ *  after a change of the domain builds a tree of its pieces, for which curves by callback are
+ *  asked: ask one before asking from inside a callback (as a spacing callback may).
+ *  Errors: PNPBS_ERROR_ARGUMENT if nothing has the tag.
+ *  @param[in]  tag          of curves, surfaces or nodes; 0: to what bounds the domain
+ *  @param[in]  coordinates  [n][dim]
+ *  @param[out] distances    [n] */
+PNPBS_API pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
+                                             const double *coordinates, double *distances);
+
+/** The spacing that pnpbs_placement_set_spacing_from_shape would set, without its bounds: for a
+ *  spacing callback that has its own use for it. Local; checks the domain first. What the shape
+ *  asks for is found at the first question and kept: ask one before asking from inside a callback.
+ *  @param[in]  nodes_per_turn,nodes_across,nodes_per_edge,growth  as there
+ *  @param[in]  coordinates  [n][dim]
+ *  @param[out] d            [n] at most the size of the domain */
+PNPBS_API pnpbs_status pnpbs_domain_shape_spacing(pnpbs_domain domain, double nodes_per_turn,
+                                                  double nodes_across, double nodes_per_edge,
+                                                  double growth, int64_t n,
+                                                  const double *coordinates, double *d);
+
 /** Straight segments that show a domain in the plane (curves finely sampled), for pictures. Local.
  *  Ask with capacity 0 for the count.
  *  @param[out] count     number of segments
@@ -491,6 +513,25 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement plac
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement,
                                                         const int64_t *size, const double *origin,
                                                         const double *step, const double *values);
+
+/** The spacing from the shape of the domain as it is now: the least that its curves and surfaces
+ * ask for, each growing with the distance from it. Collective. The same on any number of ranks.
+ *  Errors: PNPBS_ERROR_DOMAIN as pnpbs_domain_check, PNPBS_ERROR_ARGUMENT for negative numbers,
+ *  PNPBS_ERROR_SPACING where the domain is too narrow to take its width all along.
+ *  @param[in] nodes_per_turn  by curvature: nodes on a full circle of its radius. That of polylines
+ *                             is of the circle through neighbouring vertices, that of triangulated
+ *                             surfaces is by how normals turn, where they turn by less than 40
+ *                             degrees from one to the next. 0: does not count
+ *  @param[in] nodes_across    by width: d at a place of the boundary is this part of the diameter
+ * of the largest ball that touches it there and meets nothing ahead. 0: does not count
+ *  @param[in] nodes_per_edge  by the input: d at a segment is this part of its length, at a
+ * triangle of the mean length of its edges. Arcs and curves have none. 0: does not count
+ *  @param[in] growth          of d per unit of distance; 0: 0.15
+ *  @param[in] min_spacing     d is at least this; 0: no bound
+ *  @param[in] max_spacing     d is at most this; 0: the size of the domain */
+PNPBS_API pnpbs_status pnpbs_placement_set_spacing_from_shape(
+    pnpbs_placement placement, double nodes_per_turn, double nodes_across, double nodes_per_edge,
+    double growth, double min_spacing, double max_spacing);
 
 /** The spacing from values at the nodes there are: d is linear on each triangle or tetrahedron of
  *  their Delaunay triangulation (pnpbs_placement_get_triangles, pnpbs_placement_get_tetrahedra),

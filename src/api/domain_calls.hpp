@@ -34,6 +34,8 @@ pnpbs_status change_domain(pnpbs_domain domain, const Change& change) {
   return guarded(domain, [&](DomainObject& object) {
     const Computing computing(*object.context);
     change(object);
+    object.plane_shapes.reset();
+    object.volume_shapes.reset();
     return PNPBS_OK;
   });
 }

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string>
 
+#include "api/shape.hpp"
 #include "base/error.hpp"
 #include "comm/communicator.hpp"
 #include "domain/domain.hpp"
@@ -32,6 +33,9 @@ struct DomainObject {
   std::shared_ptr<Context> context;
   std::shared_ptr<PlaneDomain> plane;
   std::shared_ptr<VolumeDomain> volume;
+  // Of the domain as it is, once something was asked of its shape.
+  std::shared_ptr<DomainShapes<2>> plane_shapes;
+  std::shared_ptr<DomainShapes<3>> volume_shapes;
 };
 
 struct PlacementObject {

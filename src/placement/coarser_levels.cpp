@@ -11,26 +11,11 @@
 #include "level/taken_nodes.hpp"
 #include "level/volume/gaps.hpp"
 #include "placement/placement_of.hpp"
+#include "spacing/multiplied_spacing.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-template <int Dim>
-class MultipliedSpacing : public Spacing<Dim> {
- public:
-  MultipliedSpacing(std::shared_ptr<const Spacing<Dim>> spacing, double factor)
-      : spacing_(std::move(spacing)), factor_(factor) {}
-
-  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override {
-    spacing_->evaluate(n, x, d);
-    for (std::int64_t i = 0; i < n; ++i) d[i] *= factor_;
-  }
-
- private:
-  std::shared_ptr<const Spacing<Dim>> spacing_;
-  double factor_;
-};
 
 double coarser_by(int level) { return std::ldexp(1.0, level); }
 

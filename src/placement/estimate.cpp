@@ -30,7 +30,7 @@ Estimate PlacementOf<Dim>::estimate() {
   require_same_options();
   const Settings settings = settings_for_new_level();
   const double ranks = comm_->size();
-  const double nodes = estimated_nodes(settings);
+  const double nodes = estimated_nodes(spacing_to_place(settings), settings);
   const double threads = from_fixed_point(comm_->allreduce_sum(
       static_cast<std::uint64_t>(fixed_point(static_cast<double>(thread_count())))));
   return {static_cast<std::int64_t>(std::round(nodes)),
@@ -41,16 +41,16 @@ Estimate PlacementOf<Dim>::estimate() {
 // With the growth of d limited as the run limits it, which takes a tree as the run does; so it is
 // refused where that would be.
 template <int Dim>
-double PlacementOf<Dim>::estimated_nodes(const Settings& settings) const {
+double PlacementOf<Dim>::estimated_nodes(std::shared_ptr<const Spacing<Dim>> spacing,
+                                         const Settings& settings) const {
   const auto estimate_with = [&](const Spacing<Dim>& d) {
     return estimate_nodes<Dim>(*comm_, *domain_, d, settings.max_nodes);
   };
-  const std::shared_ptr<const Spacing<Dim>> spacing = spacing_to_place(settings);
   if (!settings.user_limits_growth()) {
     const NodeEstimate<Dim> estimate = estimate_with(*spacing);
     if (settings.growth_limit == 0 || !too_steep(estimate.steepest)) return estimate.nodes;
   }
-  return estimate_with(*growth_limited(spacing, settings, [] {})).nodes;
+  return estimate_with(*growth_limited(std::move(spacing), settings, [] {})).nodes;
 }
 
 // Of memory, for the nodes of all ranks: these share what their machines have, and hold equal

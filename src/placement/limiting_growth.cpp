@@ -2,10 +2,13 @@
 // The spacing as it counts: as given, no larger than makes sense or, if the user wants it so, than
 // resolves the shape, or with its growth limited, because the user wants that or because nodes
 // could not follow d as given.
+#include <cmath>
+
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "placement/placement_of.hpp"
 #include "spacing/growth_limit.hpp"
+#include "spacing/multiplied_spacing.hpp"
 #include "spacing/resolved_spacing.hpp"
 
 namespace pnpbs {
@@ -24,10 +27,34 @@ constexpr double kMaxFollowed = 0.3, kTooSteep = 1.05 * kMaxFollowed;
 template <int Dim>
 std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_to_place(
     const Settings& settings) const {
-  std::shared_ptr<const Spacing<Dim>> spacing;
+  const double wanted = options_.real("wanted_nodes");
+  if (wanted == 0) return bounded(spacing_, settings);
+  const double factor = factor_for(wanted, settings);
+  return bounded(std::make_shared<MultipliedSpacing<Dim>>(spacing_, factor), settings);
+}
+
+// The factor on d with which a run is expected to come to so many nodes. Their number goes with the
+// factor to the power of the dimension, nearly: few rounds do.
+template <int Dim>
+double PlacementOf<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
+  constexpr int kMaxRounds = 10;
+  constexpr double kNear = 1e-3;
+  double factor = 1;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const auto spacing = std::make_shared<MultipliedSpacing<Dim>>(spacing_, factor);
+    const double more = estimated_nodes(bounded(spacing, settings), settings) / wanted_nodes;
+    if (!(more > 0) || std::fabs(more - 1) < kNear) break;
+    factor *= std::pow(more, 1.0 / settings.dimension);
+  }
+  return factor;
+}
+
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::bounded(
+    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) const {
   agreed(*comm_, [&] {
-    spacing =
-        std::make_shared<BoundedSpacing<Dim>>(spacing_, kMaxSizes * size_of(domain_->bounds()));
+    spacing = std::make_shared<BoundedSpacing<Dim>>(std::move(spacing),
+                                                    kMaxSizes * size_of(domain_->bounds()));
     if constexpr (Dim == 3) {
       const double growth = settings.growth_limit > 0 ? settings.growth_limit : kMaxFollowed;
       if (settings.resolve)

@@ -29,6 +29,7 @@ class PlacementOf : public Placement {
       : Placement(std::move(comm), std::move(options)), domain_(std::move(domain)) {}
 
   int dimension() const override { return Dim; }
+  Domain<Dim>& domain() { return *domain_; }
   void set_spacing(std::shared_ptr<const Spacing<Dim>> spacing);
   void set_nodes(GivenNodes<Dim> nodes);
   void forget_nodes() override { level_.reset(); }
@@ -121,7 +122,11 @@ class PlacementOf : public Placement {
   void warn_of_coarse_spacing() requires(Dim == 3);
   static bool too_steep(const SteepestGrowth<Dim>& steepest);
   static std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
-  double estimated_nodes(const Settings& settings) const;
+  std::shared_ptr<const Spacing<Dim>> bounded(std::shared_ptr<const Spacing<Dim>> spacing,
+                                              const Settings& settings) const;
+  double factor_for(double wanted_nodes, const Settings& settings) const;
+  double estimated_nodes(std::shared_ptr<const Spacing<Dim>> spacing,
+                         const Settings& settings) const;
   std::unique_ptr<Level<Dim>> empty_level(std::shared_ptr<const Spacing<Dim>> spacing,
                                           const Settings& settings,
                                           const Level<Dim>* like = nullptr);

@@ -129,6 +129,9 @@ const std::vector<OptionRow>& option_table() {
       {"resolve", T::integer, "0", nullptr, nullptr, 0, 1, nullptr,
        "1, in space alone: d is held down where it does not resolve the shape, to half of a wall's "
        "thickness, 3/4 of a gap's width, and at sharp edges; from there it grows by growth_limit"},
+      {"wanted_nodes", T::real, "0", nullptr, nullptr, 0, 2e9, nullptr,
+       "d is multiplied by the factor with which a run is expected to come to so many nodes; 0: d "
+       "is taken as it is"},
       {"exchange_interval", T::integer, "5", nullptr, nullptr, 1, 64, nullptr,
        "steps between exchanges of ghosts between ranks"},
       {"rebalance_above", T::real, "1.1", nullptr, nullptr, 1, 1e6, nullptr,

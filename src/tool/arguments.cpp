@@ -37,6 +37,46 @@ void take_feature_angle(const std::string& text, Arguments& arguments) {
   arguments.feature_angle = numbers->front();
 }
 
+void take_bound(const std::string& option, const std::string& text, std::optional<double>& bound) {
+  const auto numbers = numbers_between_commas(text);
+  if (!numbers || numbers->size() != 1 || !(numbers->front() > 0))
+    refuse(option + ": expected a number greater than 0, found '" + text + "'");
+  bound = numbers->front();
+}
+
+// An option of the library, but one that is a number of nodes: 1e6 will do.
+void take_nodes(const std::string& text, Arguments& arguments) {
+  std::optional<double> nodes;
+  take_bound("--nodes", text, nodes);
+  arguments.options.emplace_back("wanted_nodes", text);
+}
+
+void add_spacing_bounds(CLI::App& app, Arguments& arguments) {
+  const std::string group = "What to fill";
+  app.add_option_function<std::string>(
+         "--min-spacing",
+         [&arguments](const std::string& text) {
+           take_bound("--min-spacing", text, arguments.min_spacing);
+         },
+         "with --spacing auto: d is at least this")
+      ->type_name("D")
+      ->group(group);
+  app.add_option_function<std::string>(
+         "--max-spacing",
+         [&arguments](const std::string& text) {
+           take_bound("--max-spacing", text, arguments.max_spacing);
+         },
+         "with --spacing auto: d is at most this")
+      ->type_name("D")
+      ->group(group);
+  app.add_option_function<std::string>(
+         "--nodes", [&arguments](const std::string& text) { take_nodes(text, arguments); },
+         "d times the factor with which there are about so many nodes;\nthe same as --set "
+         "wanted_nodes=NUMBER")
+      ->type_name("NUMBER")
+      ->group(group);
+}
+
 void add_input(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to fill";
   app.add_option(
@@ -51,7 +91,9 @@ void add_input(CLI::App& app, Arguments& arguments) {
       ->group(group);
   app.add_option("--spacing", arguments.spacing,
                  "wanted distance d between neighbouring nodes: a number, or\na formula in x and y "
-                 "(and z) such as '1 + 0.02*hypot(x,y)'")
+                 "(and z) such as '1 + 0.02*hypot(x,y)' or\n'0.5 + 0.15*dist', with what the shape "
+                 "is there: dist, dist(TAG),\nseglen, curvature(NODES), gap(NODES); or auto: what "
+                 "the shape asks\nfor")
       ->type_name("EXPR")
       ->group(group);
   app.add_option("--spacing-grid", arguments.spacing_grid,
@@ -214,6 +256,15 @@ void check_input(const Arguments& arguments) {
   if (!arguments.spacing.empty() && !arguments.spacing_grid.empty()) {
     refuse("--spacing and --spacing-grid exclude each other");
   }
+  if (arguments.spacing != "auto" && (arguments.min_spacing || arguments.max_spacing)) {
+    refuse(
+        "--min-spacing and --max-spacing are for --spacing auto; in a formula, min(...) and "
+        "max(...) do it");
+  }
+  if (arguments.min_spacing && arguments.max_spacing &&
+      *arguments.min_spacing > *arguments.max_spacing) {
+    refuse("--min-spacing is above --max-spacing");
+  }
   const auto colour = arguments.colour.value_or(picture::ElementColour::none);
   if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");
@@ -239,6 +290,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   app.allow_extras();
   app.get_formatter()->column_width(28);
   add_input(app, arguments);
+  add_spacing_bounds(app, arguments);
   add_surfaces_only(app, arguments);
   add_groups(app, arguments, names);
   add_output(app, arguments);

@@ -15,9 +15,10 @@ namespace pnpbs::tool {
 constexpr double default_feature_angle = 40;  // degrees
 
 struct Arguments {
-  std::string domain;        // a file, "-", or a body in words
-  std::string spacing;       // a formula; empty if spacing_grid is set
-  std::string spacing_grid;  // a file
+  std::string domain;                              // a file, "-", or a body in words
+  std::string spacing;                             // a formula; empty if spacing_grid is set
+  std::string spacing_grid;                        // a file
+  std::optional<double> min_spacing, max_spacing;  // of --spacing auto
   std::vector<std::string> outputs;
   std::string format;  // of standard output and of unknown extensions
   std::string report;  // a file, "-", or empty

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "tool/exit.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/names.hpp"
+#include "tool/numbers.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -22,6 +25,97 @@ double mod_of(double a, double b) { return std::fmod(a, b); }
 double floor_of(double a) { return std::floor(a); }
 double ceil_of(double a) { return std::ceil(a); }
 double cbrt_of(double a) { return std::cbrt(a); }
+
+// What a formula has been told of the shape at all places of a batch: found when it is first asked
+// for. Functions of muParser's have no other way to know.
+struct ShapeAtPlaces {
+  using Question =
+      std::function<void(double number, std::int64_t n, const double* coordinates, double* values)>;
+  struct Answers {
+    std::string_view name;
+    double number;
+    std::vector<double> values;
+  };
+
+  std::int64_t n;
+  const double* coordinates;
+  pnpbs_domain domain;
+  std::int64_t place = 0;
+  std::vector<Answers> known{};
+
+  double value(std::string_view name, double number, const Question& ask) {
+    for (const Answers& answers : known)
+      if (answers.name == name && answers.number == number)
+        return answers.values[static_cast<std::size_t>(place)];
+    constexpr std::size_t many = 32;
+    if (known.size() == many)
+      throw BadInput("--spacing: what " + std::string(name) +
+                     "(...) is given must be a number, the same everywhere");
+    std::vector<double> values(static_cast<std::size_t>(n));
+    ask(number, n, coordinates, values.data());
+    known.push_back({name, number, std::move(values)});
+    return known.back().values[static_cast<std::size_t>(place)];
+  }
+};
+
+thread_local ShapeAtPlaces* shape_at_places = nullptr;
+thread_local bool shape_was_asked = false;
+thread_local pnpbs_context shape_context = nullptr;
+
+// Before there is a domain, some value.
+double shape_value(const char* name, double number, const ShapeAtPlaces::Question& ask) {
+  shape_was_asked = true;
+  return shape_at_places ? shape_at_places->value(name, number, ask) : 1;
+}
+
+// For the length of a batch.
+class ShapeForBatch {
+ public:
+  ShapeForBatch(ShapeAtPlaces& shape, pnpbs_context context) {
+    shape_at_places = &shape;
+    shape_context = context;
+  }
+  ShapeForBatch(const ShapeForBatch&) = delete;
+  ShapeForBatch& operator=(const ShapeForBatch&) = delete;
+  ~ShapeForBatch() { shape_at_places = nullptr; }
+};
+
+double distance_to(double tag) {
+  return shape_value("dist", tag, [](double number, std::int64_t n, const double* x, double* d) {
+    check(
+        pnpbs_domain_distance(shape_at_places->domain, static_cast<std::int32_t>(number), n, x, d),
+        shape_context);
+  });
+}
+
+double dist_of(double tag) {
+  if (!(tag == std::floor(tag)) || tag == 0 || std::fabs(tag) > 2e9)
+    throw BadInput("--spacing: dist(" + short_number(tag) +
+                   "): expected a tag, a whole number but 0");
+  return distance_to(tag);
+}
+
+double shape_spacing(const char* name, double number, double per_turn, double across,
+                     double per_edge) {
+  if (!(number > 0))
+    throw BadInput(std::string("--spacing: ") + name + "(" + short_number(number) +
+                   "): expected a number of nodes greater than 0");
+  return shape_value(name, number, [=](double, std::int64_t n, const double* x, double* d) {
+    check(
+        pnpbs_domain_shape_spacing(shape_at_places->domain, per_turn, across, per_edge, 0, n, x, d),
+        shape_context);
+  });
+}
+
+double curvature_of(double nodes) { return shape_spacing("curvature", nodes, nodes, 0, 0); }
+double gap_of(double nodes) { return shape_spacing("gap", nodes, 0, nodes, 0); }
+
+void define_shape_functions(mu::Parser& parser) {
+  constexpr bool fold_constants = false;  // they depend on the place
+  parser.DefineFun("dist", dist_of, fold_constants);
+  parser.DefineFun("curvature", curvature_of, fold_constants);
+  parser.DefineFun("gap", gap_of, fold_constants);
+}
 
 void define_names(mu::Parser& parser) {
   parser.DefineFun("hypot", hypot_of);
@@ -131,9 +225,27 @@ struct Expression::Parser {
   mu::Parser parser;
   int dimension;
   double place[3] = {0, 0, 0};
+  double dist = 1, seglen = 1;  // there
+  bool asks_for_shape = false;
+  bool asks_dist = false, asks_seglen = false;
+  pnpbs_domain domain = nullptr;
+  pnpbs_context context = nullptr;
+
+  void find_out() {
+    const auto& used = parser.GetUsedVar();
+    asks_dist = used.contains("dist");
+    asks_seglen = used.contains("seglen");
+    asks_for_shape = shape_was_asked || asks_dist || asks_seglen;
+  }
+  double value() {
+    if (asks_dist) dist = distance_to(0);
+    if (asks_seglen) seglen = shape_spacing("seglen", 1, 0, 0, 1);
+    return parser.Eval();
+  }
 };
 
-Expression::Expression(const std::string& text, int dimension, const std::string& option)
+Expression::Expression(const std::string& text, int dimension, const std::string& option,
+                       Names names)
     : parser_(std::make_unique<Parser>()) {
   const Source source{option, text};
   refuse_what_is_no_formula(source);
@@ -143,8 +255,15 @@ Expression::Expression(const std::string& text, int dimension, const std::string
     define_names(parser);
     for (int k = 0; k < dimension; ++k)
       parser.DefineVar(std::string(1, "xyz"[k]), &parser_->place[k]);
+    if (names == Names::shape_too) {
+      define_shape_functions(parser);
+      parser.DefineVar("dist", &parser_->dist);
+      parser.DefineVar("seglen", &parser_->seglen);
+    }
+    shape_was_asked = false;
     parser.SetExpr(text);
     parser.Eval();
+    parser_->find_out();
   } catch (const mu::Parser::exception_type& error) {
     fail(source, static_cast<std::size_t>(std::max(0, error.GetPos())), in_words(error, parser));
   }
@@ -155,7 +274,18 @@ Expression::Expression(const std::string& text, int dimension, const std::string
 
 Expression::~Expression() = default;
 
-bool Expression::is_constant() const { return parser_->parser.GetUsedVar().empty(); }
+void Expression::ask_shape_of(pnpbs_domain domain, pnpbs_context context) {
+  parser_->domain = domain;
+  parser_->context = context;
+  if (!parser_->asks_for_shape) return;
+  constexpr double anywhere[3] = {0, 0, 0};
+  double value;
+  at(1, anywhere, &value);
+}
+
+bool Expression::is_constant() const {
+  return parser_->parser.GetUsedVar().empty() && !parser_->asks_for_shape;
+}
 
 double Expression::at(const double* place) const {
   std::copy_n(place, parser_->dimension, parser_->place);
@@ -165,7 +295,17 @@ double Expression::at(const double* place) const {
 // One by one on purpose: muParser's own bulk mode is no faster on one thread, and starts OpenMP
 // threads that get in the way of the library's.
 void Expression::at(std::int64_t n, const double* coordinates, double* values) const {
-  for (std::int64_t i = 0; i < n; ++i) values[i] = at(coordinates + parser_->dimension * i);
+  if (!parser_->asks_for_shape) {
+    for (std::int64_t i = 0; i < n; ++i) values[i] = at(coordinates + parser_->dimension * i);
+    return;
+  }
+  ShapeAtPlaces shape{n, coordinates, parser_->domain};
+  const ShapeForBatch telling(shape, parser_->context);
+  for (std::int64_t i = 0; i < n; ++i) {
+    shape.place = i;
+    std::copy_n(coordinates + parser_->dimension * i, parser_->dimension, parser_->place);
+    values[i] = parser_->value();
+  }
 }
 
 std::int32_t call_expression(std::int64_t n, std::int32_t /*dim*/, const double* coordinates,
@@ -186,7 +326,10 @@ std::string expression_help() {
   for (const auto& [name, function] : parser.GetFunDef()) list += (list.empty() ? "" : " ") + name;
   return "x, y, z (of bodies), pi, e, numbers, + - * / ^ ( ), comparisons, a ? b : c, and the "
          "functions " +
-         list;
+         list +
+         "; in --spacing also dist, the distance to the boundary, dist(TAG), to what has the tag, "
+         "seglen, the length of the input's edges, curvature(N), the d for N nodes per turn, and "
+         "gap(N), the d for N nodes across, which grow by 0.15 per unit of distance";
 }
 
 }  // namespace pnpbs::tool

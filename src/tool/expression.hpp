@@ -1,21 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the user writes as a formula in x and y, and z for bodies: a spacing, a level set.
+// What the user writes as a formula in x and y, and z for bodies: a spacing, a level set. A spacing
+// may ask for the shape of the domain, too.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <string>
 
+#include "tool/library.hpp"
+
 namespace pnpbs::tool {
 
 class Expression {
  public:
+  enum class Names { coordinates, shape_too };
+
   // `option` is the one that it was given by. Throws BadInput with the text and a mark below the
   // place of the error.
-  Expression(const std::string& text, int dimension, const std::string& option);
+  Expression(const std::string& text, int dimension, const std::string& option,
+             Names names = Names::coordinates);
   ~Expression();
 
-  bool is_constant() const;  // no coordinate occurs in it
+  // The domain whose shape it asks for, if it does; it must outlive its use. Asks for all of that
+  // at one place. Local. Throws Failure if the domain does not have it.
+  void ask_shape_of(pnpbs_domain domain, pnpbs_context context);
+
+  bool is_constant() const;  // neither a coordinate nor the shape occurs in it
   double at(const double* place) const;
   // coordinates: [n][dimension]
   void at(std::int64_t n, const double* coordinates, double* values) const;

@@ -148,7 +148,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   defer_interrupts();
   Placement placement;
   check(pnpbs_placement_create(context, domain, placement.out()), context);
-  wishes.spacing->give_to(placement, context);
+  wishes.spacing->give_to(placement, domain, context, ranks);
   if (arguments.dry_run) {
     tell_estimate(context, placement, body, arguments, ranks);
     return ExitCode::done;

@@ -2,16 +2,33 @@
 #include "tool/spacing.hpp"
 
 namespace pnpbs::tool {
+namespace {
 
-Spacing::Spacing(const Arguments& arguments, int dimension) {
+// What --spacing auto asks for.
+constexpr double nodes_per_turn = 20, nodes_across = 3, nodes_per_edge = 1, growth = 0.15;
+
+}  // namespace
+
+Spacing::Spacing(const Arguments& arguments, int dimension)
+    : min_(arguments.min_spacing.value_or(0)), max_(arguments.max_spacing.value_or(0)) {
+  if (arguments.spacing == "auto") return;
   if (arguments.spacing_grid.empty()) {
-    expression_ = std::make_unique<Expression>(arguments.spacing, dimension, "--spacing");
+    expression_ = std::make_unique<Expression>(arguments.spacing, dimension, "--spacing",
+                                               Expression::Names::shape_too);
   } else {
     grid_ = std::make_unique<Grid>(read_grid(arguments.spacing_grid, dimension));
   }
 }
 
-void Spacing::give_to(pnpbs_placement placement, pnpbs_context context) const {
+void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
+                      const Ranks& ranks) {
+  if (!grid_ && !expression_) {
+    check(pnpbs_placement_set_spacing_from_shape(placement, nodes_per_turn, nodes_across,
+                                                 nodes_per_edge, growth, min_, max_),
+          context);
+    return;
+  }
+  if (expression_) ranks.agreed([&] { expression_->ask_shape_of(domain, context); });
   if (grid_) {
     check(pnpbs_placement_set_spacing_grid(placement, grid_->size, grid_->origin, grid_->step,
                                            grid_->values.data()),

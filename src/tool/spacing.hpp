@@ -8,6 +8,7 @@
 #include "tool/expression.hpp"
 #include "tool/grid_file.hpp"
 #include "tool/library.hpp"
+#include "tool/ranks.hpp"
 
 namespace pnpbs::tool {
 
@@ -15,11 +16,14 @@ class Spacing {
  public:
   Spacing(const Arguments& arguments, int dimension);
 
-  // This object must outlive the placement.
-  void give_to(pnpbs_placement placement, pnpbs_context context) const;
+  // This object must outlive the placement, and the domain, whose shape a formula may ask for.
+  // Collective. Throws Failure.
+  void give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
+               const Ranks& ranks);
 
  private:
-  std::unique_ptr<Expression> expression_;
+  double min_, max_;                        // of auto, 0: none
+  std::unique_ptr<Expression> expression_;  // neither this nor a grid: auto
   std::unique_ptr<Grid> grid_;
 };
 

@@ -89,6 +89,8 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_dimension, (handle, out.small + 2))                                        \
   X(domain_bounds, (handle, out.reals + 1, out.reals + 3))                            \
   X(domain_measure, (handle, out.reals + 1))                                          \
+  X(domain_distance, (handle, 0, 1, grid, out.reals + 1))                             \
+  X(domain_shape_spacing, (handle, 20, 3, 1, 0, 1, grid, out.reals + 1))              \
   X(domain_get_segments, (handle, 4, out.integers + 1, out.reals + 2, out.small + 40))
 #define PLACEMENT_CALLS(X)                                                                        \
   X(placement_set, (handle, "steps", "10"))                                                       \
@@ -97,6 +99,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_set_spacing_constant, (handle, 0.1))                                                \
   X(placement_set_spacing_callback, (handle, cone_spacing, &a_cone))                              \
   X(placement_set_spacing_grid, (handle, grid_size, grid, grid + 2, grid + 4))                    \
+  X(placement_set_spacing_from_shape, (handle, 20, 3, 1, 0, 0, 0))                                \
   X(placement_set_spacing_at_nodes, (handle, 1, grid))                                            \
   X(placement_set_monitor, (handle, no_stop, NULL))                                               \
   X(placement_set_nodes, (handle, 1, grid, NULL))                                                 \

@@ -233,6 +233,18 @@ pnpbs_domain_measure(domain, measure) =
     @ccall $(symbol(:pnpbs_domain_measure))(
         domain::pnpbs_domain, measure::Ptr{Cdouble})::pnpbs_status
 
+pnpbs_domain_distance(domain, tag, n, coordinates, distances) =
+    @ccall $(symbol(:pnpbs_domain_distance))(
+        domain::pnpbs_domain, tag::Int32, n::Int64, coordinates::Ptr{Cdouble},
+        distances::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_domain_shape_spacing(domain, nodes_per_turn, nodes_across, nodes_per_edge, growth, n,
+                           coordinates, d) =
+    @ccall $(symbol(:pnpbs_domain_shape_spacing))(
+        domain::pnpbs_domain, nodes_per_turn::Cdouble, nodes_across::Cdouble,
+        nodes_per_edge::Cdouble, growth::Cdouble, n::Int64, coordinates::Ptr{Cdouble},
+        d::Ptr{Cdouble})::pnpbs_status
+
 pnpbs_domain_get_segments(domain, capacity, count, segments, tags) =
     @ccall $(symbol(:pnpbs_domain_get_segments))(
         domain::pnpbs_domain, capacity::Int64, count::Ptr{Int64}, segments::Ptr{Cdouble},
@@ -273,6 +285,13 @@ pnpbs_placement_set_spacing_grid(placement, size, origin, step, values) =
     @ccall $(symbol(:pnpbs_placement_set_spacing_grid))(
         placement::pnpbs_placement, size::Ptr{Int64}, origin::Ptr{Cdouble},
         step::Ptr{Cdouble}, values::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_set_spacing_from_shape(placement, nodes_per_turn, nodes_across, nodes_per_edge,
+                                       growth, min_spacing, max_spacing) =
+    @ccall $(symbol(:pnpbs_placement_set_spacing_from_shape))(
+        placement::pnpbs_placement, nodes_per_turn::Cdouble, nodes_across::Cdouble,
+        nodes_per_edge::Cdouble, growth::Cdouble, min_spacing::Cdouble,
+        max_spacing::Cdouble)::pnpbs_status
 
 pnpbs_placement_set_spacing_at_nodes(placement, n, d) =
     @ccall $(symbol(:pnpbs_placement_set_spacing_at_nodes))(

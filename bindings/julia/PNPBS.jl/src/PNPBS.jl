@@ -25,11 +25,11 @@ using Libdl
 using Base: disable_sigint, reenable_sigint
 
 export Context, Domain, Placement, CompressedRows, PNPBSError
-export set!, set_spacing!, set_monitor!, set_nodes!
+export set!, set_spacing!, set_spacing_from_shape!, set_monitor!, set_nodes!
 export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_fixed_nodes!
 export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_level_set!, set_filled!
 export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names
-export read_poly!, parse_poly!, check_domain, bounds, measure, outline
+export read_poly!, parse_poly!, check_domain, bounds, measure, distances, shape_spacing, outline
 export estimate, initialise!, run!, step!, adjust_population!, rebalance!
 export node_count, nodes, normals, ghost_count, ghosts, exchange_pattern, numbering
 export update_ghosts!, begin_update_ghosts, end_update_ghosts!, sum_over_nodes, dot_over_nodes

@@ -405,6 +405,43 @@ function measure(domain::Domain)
 end
 
 """
+    distances(domain, x; tag = 0) -> Vector{Float64}
+
+From points, the columns of `x`, to what bounds the domain, or to the curves, surfaces and nodes with
+a tag: exact to segments and triangles, to arcs and curves by callback within 1e-7 of the domain's
+size. Ask once before asking from inside a callback, as a spacing callback may.
+"""
+function distances(domain::Domain, x::AbstractMatrix{<:Real}; tag::Integer = 0)
+    d = zeros(size(x, 2))
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_distance(live(domain), tag, length(d), places(domain, x), d))
+    return d
+end
+
+"""
+    shape_spacing(domain, x; nodes_per_turn = 0, nodes_across = 0, nodes_per_edge = 0,
+                  growth = 0) -> Vector{Float64}
+
+What [`set_spacing_from_shape!`](@ref) would set, without its bounds, at points, the columns of `x`:
+for a spacing of your own. Ask once before asking from inside a callback.
+"""
+function shape_spacing(domain::Domain, x::AbstractMatrix{<:Real}; nodes_per_turn::Real = 0,
+                       nodes_across::Real = 0, nodes_per_edge::Real = 0, growth::Real = 0)
+    d = zeros(size(x, 2))
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_shape_spacing(live(domain), nodes_per_turn, nodes_across,
+                                              nodes_per_edge, growth, length(d),
+                                              places(domain, x), d))
+    return d
+end
+
+function places(domain, x)
+    size(x, 1) == ndims(domain) || throw(DimensionMismatch(
+        "x has $(size(x, 1)) rows; $(ndims(domain)) were expected"))
+    return convert(Matrix{Float64}, x)
+end
+
+"""
     outline(domain) -> (segments, tags)
 
 Straight segments that show a domain in the plane, curves finely sampled, for pictures:

@@ -132,6 +132,30 @@ function set_spacing!(placement::Placement, d::AbstractVector{<:Real})
     return keep_spacing!(placement, nothing)
 end
 
+"""
+    set_spacing_from_shape!(placement; nodes_per_turn = 0, nodes_across = 0, nodes_per_edge = 0,
+                            growth = 0, min_spacing = 0, max_spacing = 0)
+
+The spacing from the shape of the domain as it is now: the least that its curves and surfaces ask
+for, each growing with the distance from it. What is 0 does not count. Collective.
+
+- `nodes_per_turn`: by curvature, nodes on a full circle of its radius.
+- `nodes_across`: by width, nodes across the diameter of the largest ball that touches the boundary
+  there and meets nothing ahead.
+- `nodes_per_edge`: by the input, nodes along its segments and the mean edge of its triangles.
+- `growth`: of d per unit of distance; 0 is 0.15.
+- `min_spacing`, `max_spacing`: bounds of d.
+"""
+function set_spacing_from_shape!(placement::Placement; nodes_per_turn::Real = 0,
+                                 nodes_across::Real = 0, nodes_per_edge::Real = 0,
+                                 growth::Real = 0, min_spacing::Real = 0, max_spacing::Real = 0)
+    check(placement,
+          LibPNPBS.pnpbs_placement_set_spacing_from_shape(live(placement), nodes_per_turn,
+                                                          nodes_across, nodes_per_edge, growth,
+                                                          min_spacing, max_spacing))
+    return keep_spacing!(placement, nothing)
+end
+
 function keep_spacing!(placement, callback)
     placement.spacing === nothing || push!(placement.spacings_before, placement.spacing)
     placement.spacing = callback

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A spacing times a factor.
+#pragma once
+
+#include <memory>
+
+#include "spacing/spacing.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class MultipliedSpacing : public Spacing<Dim> {
+ public:
+  MultipliedSpacing(std::shared_ptr<const Spacing<Dim>> spacing, double factor)
+      : spacing_(std::move(spacing)), factor_(factor) {}
+
+  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override {
+    spacing_->evaluate(n, x, d);
+    for (std::int64_t i = 0; i < n; ++i) d[i] *= factor_;
+  }
+
+ private:
+  std::shared_ptr<const Spacing<Dim>> spacing_;
+  double factor_;
+};
+
+}  // namespace pnpbs

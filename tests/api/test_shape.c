@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Spacing from the shape of a domain, and spacing for a wanted number of nodes.
+ */
+#include "volume_support.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* A ring between circles of radius 1 and 2, tagged 1 and 2. */
+static job ring_job(void) {
+  static const double centre[] = {3, 4};
+  job it = job_begin();
+  MUST(pnpbs_domain_add_arc(it.domain, PNPBS_BOUNDARY, centre, 2, 0, 2 * pi, 2));
+  MUST(pnpbs_domain_add_arc(it.domain, PNPBS_BOUNDARY, centre, 1, 0, 2 * pi, 1));
+  job_place(&it);
+  return it;
+}
+
+START_TEST(distances) {
+  static const double x[] = {3, 5.25, 4.5, 4, 3, 8};
+  double all[3], inner[3];
+  job it = ring_job();
+  MUST(pnpbs_domain_distance(it.domain, 0, 3, x, all));
+  MUST(pnpbs_domain_distance(it.domain, 1, 3, x, inner));
+  ck_assert_double_eq_tol(all[0], 0.25, 1e-6);
+  ck_assert_double_eq_tol(all[1], 0.5, 1e-6);
+  ck_assert_double_eq_tol(all[2], 2, 1e-6);
+  ck_assert_double_eq_tol(inner[2], 3, 1e-6);
+  MUST(pnpbs_domain_distance(it.domain, 0, 0, NULL, NULL));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_distance(it.domain, 5, 3, x, all), "tag = 5",
+            "1, 2");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_distance(it.domain, 0, -1, x, all), "n = -1",
+            "negative");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_distance(it.domain, 0, 3, NULL, all), "coordinates",
+            "NULL");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_distance(it.domain, 0, 3, x, NULL), "distances",
+            "NULL");
+  job_end(&it);
+}
+END_TEST
+
+/* A change of the domain is seen. */
+START_TEST(distances_after_a_change) {
+  static const double x[] = {0.5, 0.5}, hole[] = {0.2, 0.2, 0.4, 0.2, 0.4, 0.4, 0.2, 0.4};
+  double d;
+  job it = square_job(1);
+  MUST(pnpbs_domain_distance(it.domain, 0, 1, x, &d));
+  ck_assert_double_eq(d, 0.5);
+  MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 4, hole, NULL, 0));
+  MUST(pnpbs_domain_distance(it.domain, 0, 1, x, &d));
+  ck_assert_double_eq_tol(d, hypot(0.1, 0.1), 1e-15);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(spacing_of_a_ring) {
+  static const double x[] = {3, 5, 3, 6, 3, 5.5};
+  double d[3];
+  job it = ring_job();
+  MUST(pnpbs_domain_shape_spacing(it.domain, 20, 0, 0, 0, 3, x, d));
+  ck_assert_double_eq_tol(d[0], 2 * pi / 20, 1e-6);
+  ck_assert_double_eq_tol(d[1], 2 * pi / 20 + 0.15, 1e-6);
+  ck_assert_double_eq_tol(d[2], 2 * pi / 20 + 0.075, 1e-6);
+  MUST(pnpbs_domain_shape_spacing(it.domain, 20, 4, 0, 0.3, 3, x, d));
+  ck_assert_double_eq_tol(d[0], 0.25, 1e-5);
+  ck_assert_double_eq_tol(d[2], 0.25 + 0.3 * 0.5, 1e-5);
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_shape_spacing(it.domain, -1, 0, 0, 0, 3, x, d),
+            "nodes_per_turn = -1", "positive");
+  job_end(&it);
+}
+END_TEST
+
+/* The nodes have the spacing that the domain tells. */
+START_TEST(nodes_of_a_ring) {
+  int64_t nodes, i;
+  double *x, *d, *wanted;
+  job it = ring_job();
+  MUST(pnpbs_placement_set_spacing_from_shape(it.placement, 40, 5, 0, 0, 0, 0));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  nodes = integer_of(it.placement, "nodes");
+  x = malloc(sizeof *x * 2 * (size_t)nodes);
+  d = malloc(sizeof *d * (size_t)nodes);
+  wanted = malloc(sizeof *wanted * (size_t)nodes);
+  MUST(pnpbs_placement_get_nodes(it.placement, nodes, x, NULL, NULL, d));
+  MUST(pnpbs_domain_shape_spacing(it.domain, 40, 5, 0, 0, nodes, x, wanted));
+  for (i = 0; i < nodes; ++i) ck_assert_double_eq(d[i], wanted[i]);
+  free(x);
+  free(d);
+  free(wanted);
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_set_spacing_from_shape(it.placement, 20, 3, 1, 0, 2, 1),
+            "min_spacing = 2", "max_spacing = 1");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_set_spacing_from_shape(it.placement, 20, 3, 1, NAN, 0, 0), "growth",
+            "positive");
+  job_end(&it);
+}
+END_TEST
+
+static void expect_wanted(job* it, const char* wanted) {
+  double placed;
+  MUST(pnpbs_placement_set(it->placement, "wanted_nodes", wanted));
+  MUST_COMPUTE(pnpbs_placement_run(it->placement));
+  placed = (double)integer_of(it->placement, "nodes");
+  ck_assert_msg(fabs(placed / strtod(wanted, NULL) - 1) < 0.01, "%s wanted, %g placed", wanted,
+                placed);
+  job_end(it);
+}
+
+START_TEST(as_many_as_wanted) {
+  job it = job_begin();
+  MUST(pnpbs_domain_read_poly(it.domain, PNPBS_SOURCE_DIR "/examples/data/lake_victoria.poly"));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_from_shape(it.placement, 20, 3, 1, 0, 0, 0));
+  expect_wanted(&it, "3e4");
+  it = square_job(1);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.5));
+  expect_wanted(&it, "2e4");
+}
+END_TEST
+
+START_TEST(as_many_as_wanted_in_space) {
+  job it = body_job(volume_unit_box);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.5));
+  expect_wanted(&it, "15000");
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("shape");
+  TCase* tests = tcase_create("shape");
+  tcase_add_test(tests, distances);
+  tcase_add_test(tests, distances_after_a_change);
+  tcase_add_test(tests, spacing_of_a_ring);
+  tcase_add_test(tests, nodes_of_a_ring);
+  tcase_add_test(tests, as_many_as_wanted);
+  tcase_add_test(tests, as_many_as_wanted_in_space);
+  tcase_set_timeout(tests, 0);
+  suite_add_tcase(suite, tests);
+  return run_suite(suite);
+}
