@@ -7,6 +7,7 @@
 #include "base/lattice.hpp"
 #include "domain/facets_for_tree.hpp"
 #include "initial/initial_fill.hpp"
+#include "initial/volume/cubic_lattice.hpp"
 #include "placement/surface_estimate.hpp"
 #include "spacing/domain_map.hpp"
 #include "tree/cell_samples.hpp"
@@ -91,18 +92,22 @@ double nodes_inside(const DomainMap<Dim>& map, double measure,
   return nodes_of_inside + share * nodes_of_crossed;
 }
 
-// Edges in the plane, and in space those of the lattice that fills a body with even d, are d in the
-// mean; where d varies in space they come to 1.03 d.
+// What is placed, of the nodes that Lattice<Dim> means. Edges in the plane are d in the mean. A
+// body with even d is filled by another lattice; where d varies in it, edges come to 1.008 d
+// (measured on a box and a ball, 10 000 nodes, d graded 1:7), on surfaces alone to 1.03 d.
 template <int Dim>
-double share_where_varied(const DomainMap<Dim>& map) {
-  constexpr double kEdges = 1.03;
+double share_placed(const DomainMap<Dim>& map, bool filled) {
+  constexpr double kEdgesInside = 1.008, kEdgesOnSurfaces = 1.03;
   double min = std::numeric_limits<double>::infinity(), max = 0;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
     if (map.leaf_outside(leaf)) continue;
     min = std::min(min, map.leaf_min_spacing(leaf));
     max = std::max(max, map.leaf_max_spacing(leaf));
   }
-  return Dim == 2 || max <= kPatchVariation * min ? 1 : 1 / power<Dim>(kEdges);
+  if (Dim == 2) return 1;
+  const bool varied = max > kPatchVariation * min;
+  if (!filled) return varied ? 1 / power<Dim>(kEdgesOnSurfaces) : 1;
+  return varied ? 1 / power<Dim>(kEdgesInside) : CubicLattice::kA15Density / Lattice<3>::kDensity;
 }
 
 // The same of surfaces alone, by their area.
@@ -127,6 +132,9 @@ double nodes_in(const DomainMap<3>& map, const VolumeDomain& domain,
   return domain.filled() ? nodes_inside<3>(map, measure_of(domain), evaluator)
                          : nodes_on_surfaces(map, domain.area());
 }
+
+bool is_filled(const PlaneDomain&) { return true; }
+bool is_filled(const VolumeDomain& domain) { return domain.filled(); }
 
 // A boundary node has half of its neighbours outside, and half of its own room.
 double nodes_beside(const PlaneDomain&, double on_boundary) { return 0.5 * on_boundary; }
@@ -172,7 +180,7 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
     agreed(comm, [&] { nodes = nodes_in(map, domain, evaluator); });
     max = nodes / kCells;
   }
-  nodes = share_where_varied(map) * nodes + nodes_beside(domain, on_boundary);
+  nodes = share_placed(map, is_filled(domain)) * nodes + nodes_beside(domain, on_boundary);
   return {nodes, steepest_growth<Dim>(
                      comm, map, [](std::int32_t) { return true; }, evaluator)};
 }

@@ -120,9 +120,10 @@ START_TEST(as_many_as_wanted) {
 END_TEST
 
 START_TEST(as_many_as_wanted_in_space) {
+  struct volume_spacing slope = VOLUME_GRADED(0.3, 1, 0, 0, 0);
   job it = body_job(volume_unit_box);
-  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.5));
-  expect_wanted(&it, "15000");
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, volume_spacing_at, &slope));
+  expect_wanted(&it, "10000");
 }
 END_TEST
 
