@@ -70,6 +70,14 @@ pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t role, int64_t
     double feature_angle);
 pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role, const char *path,
     double feature_angle);
+pnpbs_status pnpbs_domain_set_role(pnpbs_domain domain, int32_t tag, int32_t role);
+pnpbs_status pnpbs_domain_read_msh(pnpbs_domain domain, const char *path, double feature_angle);
+pnpbs_status pnpbs_file_dimension(const char *path, int32_t *dim);
+pnpbs_status pnpbs_domain_set_tag_name(pnpbs_domain domain, int32_t dim, int32_t tag,
+    const char *name);
+pnpbs_status pnpbs_domain_tag_name_count(pnpbs_domain domain, int32_t *count);
+pnpbs_status pnpbs_domain_get_tag_name(pnpbs_domain domain, int32_t index, int32_t *dim,
+    int32_t *tag, const char **name);
 pnpbs_status pnpbs_domain_add_box(pnpbs_domain domain, const double *low, const double *high,
     int32_t tag);
 pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double *centre, double radius,
@@ -95,6 +103,11 @@ pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text, int6
 pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
 pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high);
 pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);
+pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
+    const double *coordinates, double *distances);
+pnpbs_status pnpbs_domain_shape_spacing(pnpbs_domain domain, double nodes_per_turn,
+    double nodes_across, double nodes_per_edge, double growth, int64_t n,
+    const double *coordinates, double *d);
 pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t capacity, int64_t *count,
     double *segments, int32_t *tags);
 pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
@@ -108,6 +121,9 @@ pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
     pnpbs_spacing_fn spacing, void *user);
 pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const int64_t *size,
     const double *origin, const double *step, const double *values);
+pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
+    double nodes_per_turn, double nodes_across, double nodes_per_edge, double growth,
+    double min_spacing, double max_spacing);
 pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
     const double *d);
 pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monitor_fn monitor,
@@ -138,6 +154,16 @@ pnpbs_status pnpbs_placement_get_exchange(pnpbs_placement placement, int32_t nei
     int64_t *receive_offsets, int64_t *receive_nodes);
 pnpbs_status pnpbs_placement_get_numbering(pnpbs_placement placement, int64_t capacity,
     int64_t *first, int64_t *count, int64_t *ghost_numbers);
+pnpbs_status pnpbs_placement_update_ghosts(pnpbs_placement placement, int64_t n,
+    int32_t components, double *values);
+pnpbs_status pnpbs_placement_begin_update_ghosts(pnpbs_placement placement, int64_t n,
+    int32_t components, const double *values);
+pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_t n,
+    int32_t components, double *values);
+pnpbs_status pnpbs_placement_sum(pnpbs_placement placement, int64_t n, int32_t components,
+    const double *values, double *sums);
+pnpbs_status pnpbs_placement_dot(pnpbs_placement placement, int64_t n, int32_t components,
+    const double *x, const double *y, double *products);
 pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t *entries);
 pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t capacity,
     int64_t *offsets, int64_t *neighbours);
@@ -165,6 +191,14 @@ pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t c
 pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t *count);
 pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
     const char **text);
+pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t n, int32_t components,
+    const double *values, pnpbs_transfer *transfer);
+pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer *transfer);
+pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t *dim, int32_t *components);
+pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement placement,
+    int32_t conserve, int64_t capacity, double *values);
+pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n,
+    const double *coordinates, double *values);
 pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path, int32_t elements);
 pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     const char *const *paths, const char *const *formats, const int32_t *elements);
