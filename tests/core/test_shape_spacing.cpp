@@ -299,6 +299,18 @@ START_TEST(edges_of_the_input) {
 }
 END_TEST
 
+// Of triangles, and none where it had none.
+START_TEST(edges_of_surfaces) {
+  pnpbs::VolumeDomain domain;
+  domain.add_box({0, 0, 0}, {3, 4, 3}, 1);
+  domain.add_ball({1.5, 2, 1.5}, 0.5, 2);
+  const ShapeSpacing<3> spacing(index_of(domain), kEdge, {kGrowth, 0, 100});
+  const double least = (3 + 3 + std::sqrt(18.0)) / 3;  // of the triangles of a square side
+  ck_assert_double_eq_tol(at(spacing, {1, 0, 1}), least, 1e-14);
+  ck_assert_double_eq_tol(at(spacing, {1.5, 2, 1}), least + kGrowth * 2, 1e-14);
+}
+END_TEST
+
 START_TEST(growth_and_bounds) {
   pnpbs::PlaneDomain plane;
   add_polygon(plane, {0, 0, 1, 0, 1.03, 0.02, 1.05, 0.04, 2, 0, 2, 0.3, 0.9, 0.2, 0, 1});
@@ -327,5 +339,6 @@ int main() {
       "shape spacing",
       {distances_in_the_plane, distances_to_arcs, distances_in_space, curvature_of_circles,
        curvature_of_curves, curvature_of_surfaces, width_of_a_channel, width_of_an_annulus,
-       width_of_a_slab, width_under_a_tooth, edges_of_the_input, growth_and_bounds});
+       width_of_a_slab, width_under_a_tooth, edges_of_the_input, edges_of_surfaces,
+       growth_and_bounds});
 }

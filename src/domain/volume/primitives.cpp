@@ -90,6 +90,7 @@ SurfaceSource ball_surface(const Point<3>& centre, double radius, std::int32_t t
   UnitSphere sphere = icosahedron();
   for (int times = 0; times < kCuts; ++times) cut(sphere);
   SurfaceSource ball;
+  ball.approximates = true;
   for (const Point<3>& x : sphere.points) ball.vertices.push_back(shifted(centre, radius, x));
   ball.triangles = std::move(sphere.triangles);
   ball.tags.assign(ball.triangles.size(), tag);
@@ -105,6 +106,7 @@ SurfaceSource cylinder_surface(const Point<3>& begin, const Point<3>& end, doubl
   across[static_cast<std::size_t>(least - axis.begin())] = 1;
   const Point<3> u = unit_vector(cross(axis, across)), v = cross(axis, u);
   SurfaceSource cylinder;
+  cylinder.approximates = true;
   for (const Point<3>& centre : {begin, end}) {
     for (std::int32_t i = 0; i < kStrips; ++i) {
       const double angle = 2 * std::numbers::pi * i / kStrips;

@@ -140,6 +140,7 @@ void VolumeDomain::add_level_set(LevelSetFunction f, const Box<3>& box, double r
                                               std::move(f), box, resolution);
   SurfaceSource source = level_set_surface(*set, tag);
   source.level_set = set;
+  source.approximates = true;
   add_source(std::move(source), "level set", level_sets_given_, kFeatureAngle);
 }
 

@@ -62,6 +62,7 @@ struct ResolvedVolume {
   SurfaceIndex index;  // of the mesh
   Features features;
   LevelSetTriangles level_sets;
+  std::vector<char> approximate;  // of each triangle: see SurfaceSource
   std::vector<FixedNode3> fixed_nodes;
   std::vector<std::string> warnings;
   VolumeSummary summary;
@@ -122,6 +123,10 @@ class VolumeDomain {
   }
   const Features& features() const { return resolved_->features; }
   const LevelSetTriangles& level_sets() const { return resolved_->level_sets; }
+  // Is the facet one that approximates a curved surface given without triangles?
+  bool approximates(std::size_t facet) const {
+    return facet < resolved_->approximate.size() && resolved_->approximate[facet] != 0;
+  }
   const std::vector<FixedNode3>& fixed_nodes() const { return resolved_->fixed_nodes; }
   const std::vector<std::string>& warnings() const { return resolved_->warnings; }
   const VolumeSummary& summary() const { return resolved_->summary; }

@@ -269,6 +269,7 @@ class Resolver {
       BoundaryTriangle facet{{}, triangle.tag, front, back};
       for (int k = 0; k < 3; ++k) facet.nodes[k] = node_at(triangle.vertices[k], triangle.tag);
       result_.mesh.facets.push_back(facet);
+      result_.approximate.push_back(surfaces_[triangle.source].approximates);
       if (!result_.level_sets.sets.empty())
         result_.level_sets.of.push_back(surfaces_[triangle.source].level_set ? triangle.source
                                                                              : -1);

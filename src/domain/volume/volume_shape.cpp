@@ -77,7 +77,7 @@ class VolumeShape {
       const auto& [a, b, c] = piece.corners;
       const double around = distance<3>(a, b) + distance<3>(b, c) + distance<3>(c, a);
       if (piece.is_facet()) {
-        if (!domain_.level_sets().at(static_cast<std::int32_t>(f))) piece.edge = around / 3;
+        if (!domain_.approximates(f)) piece.edge = around / 3;
       } else if (around > 0) {
         piece.edge = around / 2;
       }
