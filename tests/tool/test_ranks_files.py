@@ -65,6 +65,17 @@ class SameFiles(RanksTest):
         nodes = json.loads((self.folder / "a.json").read_text())["nodes"]
         self.assertLess(max(held), nodes / 2)  # nobody has them all
 
+    # d from the shape, in the plane and in space, and for a number of nodes.
+    def test_spacing_from_the_shape(self):
+        for ask in (("--domain", LAKE, "--spacing", "auto", "--nodes", "1e3"),
+                    ("--domain", "box(0,0,0, 1,0.8,0.4)",
+                     "--spacing", "min(gap(4), 0.08 + 0.05*dist(1))")):
+            self.run_command(*ask, "-o", "a.csv")
+            expected = (self.folder / "a.csv").read_bytes()
+            for ranks in (2, 3):
+                self.run_ranks(ranks, *ask, "-o", "a.csv")
+                self.assertEqual((self.folder / "a.csv").read_bytes(), expected)
+
     def test_ranks_without_nodes(self):
         self.assertIn(0, self.check("0.5", (5,)))
 
