@@ -17,6 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A wedge of twice this angle is a corner, and no gap.
 constexpr double kCosAhead = 0.93969262078590838, kSinAhead = 0.34202014332566873;  // 20 degrees
+constexpr double kCosFacing = 0.70710678118654752;                                  // 45 degrees
 constexpr double kCosNear = 0.5;                                                    // 60 degrees
 
 template <int Dim>
@@ -153,14 +154,30 @@ double ShapeIndex<Dim>::width_below(const Place& place, const FacetCorners<Dim>&
   }
   if (!(2 * radius < max)) return max;
   const double far = std::sqrt(product<Dim>(way, way));
-  if (along >= kCosAhead * far) return 2 * radius;
-  // It touches aside. But the facet may still lie straight ahead.
   const Point<Dim> normal = across(facet);
+  const double steep = kCosFacing * std::sqrt(product<Dim>(normal, normal));
+  // Beside a corner the other side is ahead, too, but does not face this one.
+  if (along >= kCosAhead * far)
+    return std::fabs(product<Dim>(way, normal)) >= steep * far ? 2 * radius : max;
+  // It touches aside. But the facet may still lie straight ahead.
   const double slope = product<Dim>(normal, place.ahead);
   const double hit = product<Dim>(normal, way_from<Dim>(place.x, facet[0])) / slope;
-  if (slope == 0 || !(hit > 0 && hit < max)) return max;
+  if (!(std::fabs(slope) >= steep) || slope == 0 || !(hit > 0 && hit < max)) return max;
   const Point<Dim> there = away<Dim>(place.x, hit, place.ahead);
   return distance<Dim>(nearest_on(facet, there), there) <= 1e-12 * size_ ? hit : max;
+}
+
+// Does the ball hold nothing of the facets?
+template <int Dim>
+bool ShapeIndex<Dim>::is_empty(const Point<Dim>& centre, double radius) const {
+  bool empty = true;
+  facets_.tree.for_near(
+      centre, [&] { return empty ? radius * radius : -1; },
+      [&](std::int32_t i) {
+        const ShapePiece<Dim>& piece = shape_[facets_.pieces[static_cast<std::size_t>(i)]];
+        if (empty) empty = !(distance<Dim>(nearest_on(piece.corners, centre), centre) < radius);
+      });
+  return empty;
 }
 
 template <int Dim>
@@ -194,7 +211,13 @@ typename ShapeIndex<Dim>::Foot ShapeIndex<Dim>::foot_of(const Point<Dim>& x,
         if (!(slope > 0 ? piece.front_inside : piece.back_inside)) return;
         const double along = std::fabs(slope) / std::sqrt(product<Dim>(normal, normal));
         if (along < kCosAhead * gap || !(along > 0)) return;
-        if (gap < foot.gap || (gap == foot.gap && on < foot.x)) foot = {gap, gap * gap / along, on};
+        if (!(gap < foot.gap || (gap == foot.gap && on < foot.x))) return;
+        // Beside a corner, the ball between holds some of its sides.
+        constexpr double kRoom = 1 - 1e-6;
+        const double width = gap * gap / along, whole = std::fabs(slope) / along;
+        const double to_centre = std::copysign(0.5 * width / whole, slope);
+        const Point<Dim> centre = away<Dim>(on, to_centre, normal);
+        if (is_empty(centre, 0.5 * kRoom * width)) foot = {gap, width, on};
       });
   return foot;
 }

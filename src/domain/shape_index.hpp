@@ -37,13 +37,15 @@ class ShapeIndex {
   }
 
   // The diameter of the largest ball that touches the shape at the place, lies ahead of it, and
-  // holds nothing of what is ahead within 20 degrees; infinity if that is all of the domain. Pieces
-  // that touch that of the place do not count: in a sharp corner there is no room for anything.
+  // holds nothing of what is ahead within 20 degrees and faces it within 45; infinity if there is
+  // none. Pieces that touch that of the place do not count: in a sharp corner there is no room for
+  // anything.
   double width(const Place& place) const;
   // The distance to what is ahead within 60 degrees, but at most `reach`.
   double clearance_ahead(const Place& place, double reach) const;
 
-  // The same seen from the other side: a point of a facet that has x ahead within 20 degrees.
+  // The same seen from the other side: a point of a facet that has x ahead within 20 degrees, with
+  // nothing of the shape in the ball between.
   struct Foot {
     double gap;    // the distance from x, or `reach` if there is none so near
     double width;  // diameter of the ball that touches there and reaches x
@@ -61,6 +63,7 @@ class ShapeIndex {
   template <class Wanted>
   Selection select(const Wanted& wanted) const;
   double distance_to(const Selection& selection, const Point<Dim>& x) const;
+  bool is_empty(const Point<Dim>& centre, double radius) const;
   double width_below(const Place& place, const FacetCorners<Dim>& facet, double max) const;
 
   Shape<Dim> shape_;

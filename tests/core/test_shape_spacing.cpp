@@ -289,6 +289,23 @@ START_TEST(width_under_a_tooth) {
 }
 END_TEST
 
+// Beside corners nothing is narrow, however finely the sides are divided.
+START_TEST(width_at_corners) {
+  pnpbs::PlaneDomain square;
+  std::vector<double> xy;
+  constexpr int kParts = 20;
+  for (int side = 0; side < 4; ++side)
+    for (int k = 0; k < kParts; ++k) {
+      const double t = 1.0 * k / kParts;
+      const double x[] = {t, 1, 1 - t, 0}, y[] = {0, t, 1, 1 - t};
+      xy.insert(xy.end(), {x[side], y[side]});
+    }
+  add_polygon(square, xy);
+  const ShapeSpacing<2> spacing(index_of(square), kAcross, {kGrowth});
+  for (double t = 0; t <= 1; t += 0.01) ck_assert_double_ge(at(spacing, {t, 0}), 1.0 / 3 - 1e-12);
+}
+END_TEST
+
 START_TEST(edges_of_the_input) {
   pnpbs::PlaneDomain domain;
   add_polygon(domain, {0, 0, 1, 0, 1.25, 0, 3, 0, 3, 4, 0, 4});
@@ -339,6 +356,6 @@ int main() {
       "shape spacing",
       {distances_in_the_plane, distances_to_arcs, distances_in_space, curvature_of_circles,
        curvature_of_curves, curvature_of_surfaces, width_of_a_channel, width_of_an_annulus,
-       width_of_a_slab, width_under_a_tooth, edges_of_the_input, edges_of_surfaces,
-       growth_and_bounds});
+       width_of_a_slab, width_under_a_tooth, width_at_corners, edges_of_the_input,
+       edges_of_surfaces, growth_and_bounds});
 }
