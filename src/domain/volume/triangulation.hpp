@@ -25,7 +25,7 @@ struct SurfaceSource {
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> tags;             // of the triangles
   std::shared_ptr<const LevelSet> level_set;  // whose surface it is; null of others
-  bool approximates = false;  // a curved surface that was given without triangles
+  bool approximates = false;                  // a curved surface that was given without triangles
 };
 
 struct SurfaceTriangle {
