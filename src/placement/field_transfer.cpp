@@ -221,10 +221,11 @@ void FieldTransferOf<Dim>::conserve_integrals(PlacementOf<Dim>& placement, doubl
   const std::vector<double> all = with_ghosts(placement, components_, values);
   const std::vector<double> now =
       integrals(comm, placement.patch(), placement.surfaces_alone(), components_, all);
+  const std::int64_t owned = placement.count();
   for (std::int64_t c = 0; c < components_; ++c) {
     const auto k = static_cast<std::size_t>(c);
     const double lacking = (integrals_[k] - now[k]) / now.back();
-    for (std::int64_t i = 0; i < placement.count(); ++i) values[i * components_ + c] += lacking;
+    for (std::int64_t i = 0; i < owned; ++i) values[i * components_ + c] += lacking;
   }
 }
 
@@ -235,7 +236,8 @@ void FieldTransferOf<Dim>::evaluate_at_nodes(Placement& placement, bool conserve
   std::vector<double> x;
   agreed(search_.communicator(), [&] {
     in.prepare_order();
-    for (std::int64_t p = 0; p < in.count(); ++p) {
+    const std::int64_t owned = in.count();
+    for (std::int64_t p = 0; p < owned; ++p) {
       const Point<Dim> at = in.level().nodes.position(in.node_at(p));
       x.insert(x.end(), at.begin(), at.end());
     }

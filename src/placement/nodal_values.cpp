@@ -19,7 +19,8 @@ void for_rim_facets(const PlacementOf<2>& placement, const Visit& visit) {
   const Level<2>& level = placement.level();
   const Nodes<2>& nodes = level.nodes;
   std::vector<std::pair<std::int64_t, bool>> star;
-  for (std::int64_t p = 0; p < placement.count(); ++p) {
+  const std::int64_t owned = placement.count();  // which counts
+  for (std::int64_t p = 0; p < owned; ++p) {
     const std::int64_t i = placement.node_at(p);
     star.clear();
     level.stars.for_neighbours_in_order(
@@ -63,7 +64,8 @@ template <int Dim>
 Patch<Dim> PlacementOf<Dim>::patch() {
   const auto ids = [this] {
     std::vector<std::int64_t> all;
-    for (std::int64_t p = 0; p < count(); ++p) all.push_back(level_->nodes.id(node_at(p)));
+    const std::int64_t owned = count();
+    for (std::int64_t p = 0; p < owned; ++p) all.push_back(level_->nodes.id(node_at(p)));
     return all;
   };
   prepare_order();
