@@ -743,10 +743,12 @@ contains
   !> Adds the body where f < 0 to a domain in space; it must lie in the box. Its surface is found on
   !> an octree that is refined near f = 0 down to cells of side resolution: what is thinner can be
   !> lost, and so can a body that is small beside the box and towards which f does not fall. Nodes
-  !> on the surface lie where f = 0, however coarse the triangles are that lead them there; sharp
-  !> edges are rounded by the resolution, and no nodes are on them. The callback is called during
-  !> this procedure and whenever a placement is initialised, so it and user must outlive the
-  !> placements made on the domain. Local.
+  !> on the surface lie where f = 0, however coarse the triangles are that lead them there. Where
+  !> the gradient of f jumps by more than 40 degrees, as that of max(g, h) does, the surface has an
+  !> edge, with nodes on it; where triangles would cross, as they may at edges of less than 60
+  !> degrees, it stays rounded by the resolution, with a warning. The callback is called during
+  !> this procedure, whenever a placement is initialised or runs, and for its normals, so it and
+  !> user must outlive the placements made on the domain. Local.
   !>   low, high   (3), the box, in which alone f is asked
   !>   resolution  > 0, at most the box's shortest side; no more than the spacing at the surface, and
   !>               than half of the least radius to which it is bent

@@ -347,10 +347,12 @@ typedef int32_t (*pnpbs_level_set_fn)(int64_t n, int32_t dim, const double *coor
 /** Adds the body where f < 0 to a domain in space; it must lie in the box. Its surface is found on
  *  an octree that is refined near f = 0 down to cells of side `resolution`: what is thinner can be
  *  lost, and so can a body that is small beside the box and towards which f does not fall. Nodes on
- *  the surface lie where f = 0, however coarse the triangles are that lead them there; sharp edges
- *  are rounded by the resolution, and no nodes are on them. The callback is called during this
- *  function and whenever a placement is initialised, so it and `user` must outlive the placements
- *  made on the domain. Local. Errors: PNPBS_ERROR_DOMAIN with the place where f is not
+ *  the surface lie where f = 0, however coarse the triangles are that lead them there. Where the
+ *  gradient of f jumps by more than 40 degrees, as that of max(g, h) does, the surface has an edge,
+ *  with nodes on it, and where such edges meet a corner; where triangles would cross, as they may
+ *  at edges of less than 60 degrees, these stay rounded by the resolution, with a warning. The
+ *  callback is called during this function, whenever a placement is initialised or runs, and for
+ *  its normals, so it and `user` must outlive the placements made on the domain. Local. Errors: PNPBS_ERROR_DOMAIN with the place where f is not
  *  finite, or negative on the border of the box, or if it is negative nowhere.
  *  @param[in] level_set   not NULL
  *  @param[in] low,high    [3], the box, in which alone f is asked
@@ -625,8 +627,9 @@ PNPBS_API pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int6
 
 /** Copies out where the surfaces look at the nodes of this rank, of a placement in space: the unit
  *  normal of the triangle that a node lies on, on feature edges and in corners the mean of those on
- *  its sides (where these look against each other, and for inner nodes, 0). They point out of a
- *  filled domain. Local.
+ *  its sides (where these look against each other, and for inner nodes, 0). On level sets, but for
+ *  their corners, it is the gradient of f, by differences. They point out of a filled domain.
+ *  Local.
  *  @param[in]  capacity  nodes the array has room for; too small is PNPBS_ERROR_CAPACITY
  *  @param[out] normals   [nodes][3] */
 PNPBS_API pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capacity,

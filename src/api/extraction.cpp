@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nodes, ghosts, lists, stars and boundary edges, handed out through the C interface.
 #include <algorithm>
+#include <vector>
 
 #include "api/placement_calls.hpp"
 #include "placement/node_normal.hpp"
@@ -98,10 +99,10 @@ pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capa
     if (p.count() == 0) return PNPBS_OK;
     require_pointer(normals, "normals");
     p.prepare_order();
-    for_each("pnpbs::get_normals", p.count(), [&](std::int64_t place) {
-      const Point<3> normal = node_normal(in.level(), p.node_at(place));
-      std::copy(normal.begin(), normal.end(), normals + 3 * place);
-    });
+    std::vector<std::int64_t> nodes;
+    for (std::int64_t place = 0; place < p.count(); ++place) nodes.push_back(p.node_at(place));
+    for (const Point<3>& normal : node_normals(in.level(), nodes))
+      normals = std::copy(normal.begin(), normal.end(), normals);
     return PNPBS_OK;
   });
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Placements in bodies given by level sets: nodes lie where f = 0, callbacks fail, bad input.
+ * Placements in bodies given by level sets: nodes lie where f = 0 and on its edges, normals are its
+ * gradient, callbacks fail, bad input.
  */
 #include "volume_support.h"
 
@@ -79,6 +80,96 @@ START_TEST(a_ring) {
     volume_ring_at(1, 3, v.xyz + 3 * i, &f, NULL);
     ck_assert(v.tags[i] == 5 ? fabs(f) < 1e-12 : f < 0);
   }
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- edges ----------------- */
+
+/* Two unit balls, a unit apart. */
+static int32_t lens(int64_t n, int32_t dim, const double* x, double* f, void* user) {
+  int64_t i;
+  (void)user;
+  for (i = 0; i < n; ++i) {
+    const double* at = x + dim * i;
+    const double yz = at[1] * at[1] + at[2] * at[2];
+    const double left = at[0] + 0.5, right = at[0] - 0.5;
+    f[i] = fmax(sqrt(left * left + yz), sqrt(right * right + yz)) - 1;
+  }
+  return 0;
+}
+
+/* They are on both balls, as many as d asks for, with the mean of their normals. */
+START_TEST(nodes_lie_on_the_edge_of_a_lens) {
+  const double d = 0.2, rim = sqrt(0.75);
+  const int filled = _i == 0;
+  job it = {NULL, NULL, NULL};
+  int64_t i, on_rim = 0;
+  double* normals;
+  volume v;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_level_set(it.domain, lens, NULL, low, high, 0.2, 3));
+  MUST(pnpbs_domain_set_filled(it.domain, filled));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_check(it.placement));
+  v = volume_of(it.placement);
+  normals = malloc((size_t)v.n * 3 * sizeof *normals);
+  ck_assert_ptr_nonnull(normals);
+  MUST(pnpbs_placement_get_normals(it.placement, v.n, normals));
+  for (i = 0; i < v.n; ++i) {
+    const double *x = v.xyz + 3 * i, *normal = normals + 3 * i;
+    const double r = hypot(x[1], x[2]), side = x[0] > 0 ? 0.5 : -0.5;
+    double f;
+    if (v.tags[i] == 0) continue;
+    if (fabs(x[0]) < 0.1 * d) {
+      ++on_rim;
+      ck_assert_double_eq_tol(x[0], 0, 1e-8);
+      ck_assert_double_eq_tol(r, rim, 1e-8);
+      ck_assert_double_eq_tol(normal[0], 0, 1e-5);
+      ck_assert_double_eq_tol(normal[1], x[1] / rim, 1e-5);
+      ck_assert_double_eq_tol(normal[2], x[2] / rim, 1e-5);
+    } else {
+      lens(1, 3, x, &f, NULL);
+      ck_assert_double_eq_tol(f, 0, 1e-14);
+      ck_assert_double_eq_tol(normal[0], x[0] + side, 1e-8);
+      ck_assert_double_eq_tol(normal[1], x[1], 1e-8);
+      ck_assert_double_eq_tol(normal[2], x[2], 1e-8);
+    }
+  }
+  ck_assert_double_eq_tol((double)on_rim, 2 * PI * rim / d, 2);
+  free(normals);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
+/* A cavity in a box looks the other way. */
+START_TEST(normals_of_a_cavity) {
+  const double corner[3] = {2, 2, 2}, other[3] = {-2, -2, -2};
+  job it = {NULL, NULL, NULL};
+  int64_t i, asked = 0;
+  double* normals;
+  volume v;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_box(it.domain, other, corner, 1));
+  MUST(pnpbs_domain_add_level_set(it.domain, unit_ball, &asked, low, high, 0.3, 7));
+  MUST(pnpbs_domain_set_filled(it.domain, 1));
+  job_place(&it);
+  MUST(pnpbs_placement_set(it.placement, "steps", "5"));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.5));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  v = volume_of(it.placement);
+  normals = malloc((size_t)v.n * 3 * sizeof *normals);
+  ck_assert_ptr_nonnull(normals);
+  MUST(pnpbs_placement_get_normals(it.placement, v.n, normals));
+  for (i = 0; i < 3 * v.n; ++i)
+    if (v.tags[i / 3] == 7) ck_assert_double_eq_tol(normals[i], -v.xyz[i], 1e-8);
+  free(normals);
   volume_free(&v);
   job_end(&it);
 }
@@ -182,6 +273,8 @@ int main(void) {
   TCase* bad = tcase_create("bad");
   tcase_add_test(good, nodes_lie_on_the_ball);
   tcase_add_test(good, a_ring);
+  tcase_add_loop_test(good, nodes_lie_on_the_edge_of_a_lens, 0, 2);
+  tcase_add_test(good, normals_of_a_cavity);
   tcase_add_loop_test(bad, failing_at_every_call, 0, 2);
   tcase_add_test(bad, bad_input);
   tcase_set_timeout(good, 0);

@@ -55,8 +55,23 @@ double gyroid(const P& x) {
 double cube(const P& x) {
   return std::max({std::fabs(x[0]), std::fabs(x[1]), std::fabs(x[2])}) - 0.9;
 }
+double pierced_cube(const P& x) { return std::max(cube(x), 0.5 - std::hypot(x[0], x[1])); }
+// Two unit balls, a unit apart: with an edge of an angle of 60 degrees to either side.
+constexpr P kLeft{-0.5, 0, 0}, kRight{0.5, 0, 0};
+double lens(const P& x) { return std::max(radius(x, kLeft), radius(x, kRight)) - 1; }
+const double kLensVolume = 2 * pi * 0.25 * 2.5 / 3;
+// With an edge that is turned inwards.
+double both_balls(const P& x) { return std::min(radius(x, kLeft), radius(x, kRight)) - 0.9; }
 
 constexpr Box<3> kBox{{-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}};
+
+// Whatever warnings there are.
+VolumeDomain any_body(const Formula& f, double resolution) {
+  VolumeDomain domain;
+  domain.add_level_set(in_batches(f), kBox, resolution, 3);
+  domain.check();
+  return domain;
+}
 
 VolumeDomain body(const Formula& f, double resolution, const Box<3>& box = kBox) {
   VolumeDomain domain;
@@ -151,7 +166,7 @@ START_TEST(a_gyroid_in_a_ball) {
     inside += gyroid(x) < 0 ? 1 : 0;
   }
   const double volume = 27.0 * static_cast<double>(inside) / (kRow * kRow * kRow);
-  const VolumeDomain domain = body(gyroid, 0.05);
+  const VolumeDomain domain = any_body(gyroid, 0.05);
   ck_assert_int_lt(euler_characteristic(domain), -10);
   ck_assert_double_eq_tol(domain.volume() / volume, 1, 2e-2);
 }
@@ -177,11 +192,11 @@ START_TEST(surfaces_through_lattice_points) {
       const Formula box = moved([half](const P& x) {
         return std::max({std::fabs(x[0]), std::fabs(x[1]), std::fabs(x[2])}) - half;
       });
-      ck_assert_int_eq(euler_characteristic(body(box, h)), 2);
+      ck_assert_int_eq(euler_characteristic(any_body(box, h)), 2);
       const Formula diamond = moved([half](const P& x) {
         return std::fabs(x[0]) + std::fabs(x[1]) + std::fabs(x[2]) - half;
       });
-      ck_assert_int_eq(euler_characteristic(body(diamond, h)), 2);
+      ck_assert_int_eq(euler_characteristic(any_body(diamond, h)), 2);
     }
   }
 }
@@ -201,16 +216,115 @@ START_TEST(thin_shells) {
 }
 END_TEST
 
-// Nodes are on a surface wherever it is smooth; a box around it keeps its own edges.
-START_TEST(edges_are_no_features) {
+// ---------------------------------------------------------------- edges
+// Calls check(x) for the mesh's nodes on feature edges.
+static void for_nodes_on_edges(const VolumeDomain& domain,
+                               const std::function<void(const P&)>& check) {
+  for (const auto& curve : domain.features().curves)
+    for (const std::int32_t node : curve.nodes)
+      check(domain.mesh().nodes[static_cast<std::size_t>(node)].position);
+}
+
+START_TEST(the_edge_of_a_lens) {
+  double error[2];
+  const double steps[] = {0.2, 0.1};
+  for (int k = 0; k < 2; ++k) {
+    const VolumeDomain domain = body(lens, steps[k]);
+    ck_assert_int_eq(euler_characteristic(domain), 2);
+    ck_assert_int_eq(domain.summary().patches, 2);
+    ck_assert_uint_eq(domain.features().curves.size(), 1);
+    ck_assert(domain.features().curves[0].closed());
+    ck_assert_int_eq(domain.summary().corners, 0);
+    ck_assert_int_gt(domain.summary().feature_edges, 2 * pi * std::sqrt(0.75) / steps[k]);
+    for_nodes_on_edges(domain, [](const P& x) {
+      ck_assert_double_eq_tol(radius(x, kLeft), 1, 1e-8);
+      ck_assert_double_eq_tol(radius(x, kRight), 1, 1e-8);
+    });
+    error[k] = std::fabs(domain.volume() - kLensVolume);
+    ck_assert_double_lt(error[k], 0.6 * steps[k] * steps[k]);
+  }
+  ck_assert_double_lt(error[1], error[0] / 3);
+}
+END_TEST
+
+START_TEST(an_edge_turned_inwards) {
+  const double r = 0.9, cap = r - 0.5;
+  const VolumeDomain domain = body(both_balls, 0.1);
+  ck_assert_int_eq(domain.summary().patches, 2);
+  ck_assert_uint_eq(domain.features().curves.size(), 1);
+  for_nodes_on_edges(domain, [&](const P& x) {
+    ck_assert_double_eq_tol(radius(x, kLeft), r, 1e-8);
+    ck_assert_double_eq_tol(radius(x, kRight), r, 1e-8);
+  });
+  const double both = 2 * 4 * pi / 3 * r * r * r, common = 2 * pi * cap * cap * (3 * r - cap) / 3;
+  ck_assert_double_eq_tol(domain.volume() / (both - common), 1, 4e-3);
+}
+END_TEST
+
+// Of planes nothing is lost. What else there is has its own edges.
+START_TEST(edges_and_corners_of_a_box) {
   VolumeDomain domain = body(cube, 0.11);
-  ck_assert_int_eq(domain.summary().feature_edges, 0);
-  ck_assert_int_eq(domain.summary().patches, 1);
-  ck_assert_double_eq_tol(domain.volume() / std::pow(1.8, 3), 1, 2e-2);
+  ck_assert_int_eq(euler_characteristic(domain), 2);
+  ck_assert_int_eq(domain.summary().patches, 6);
+  ck_assert_int_eq(domain.summary().corners, 8);
+  ck_assert_uint_eq(domain.features().curves.size(), 12);
+  for (const std::int32_t corner : domain.features().corners)
+    for (const double x : domain.mesh().nodes[static_cast<std::size_t>(corner)].position)
+      ck_assert_double_eq_tol(std::fabs(x), 0.9, 1e-8);
+  for_nodes_on_edges(domain, [](const P& x) {
+    int at_end = 0;
+    for (const double each : x) at_end += std::fabs(std::fabs(each) - 0.9) < 1e-8 ? 1 : 0;
+    ck_assert_int_ge(at_end, 2);
+  });
+  ck_assert_double_eq_tol(domain.volume() / std::pow(1.8, 3), 1, 1e-8);
   domain.add_box({-2, -2, -2}, {2, 2, 2}, 1);
   domain.check();
-  ck_assert_int_eq(domain.summary().feature_edges, 12);
-  ck_assert_double_eq_tol(domain.volume() / (64 - std::pow(1.8, 3)), 1, 2e-2);
+  ck_assert_int_eq(domain.summary().patches, 12);
+  ck_assert_int_eq(domain.summary().corners, 16);
+  ck_assert_double_eq_tol(domain.volume() / (64 - std::pow(1.8, 3)), 1, 1e-8);
+}
+END_TEST
+
+START_TEST(a_hole_through_a_box) {
+  const double volume = std::pow(1.8, 3) - pi * 0.25 * 1.8;
+  double error[2];
+  const double steps[] = {0.2, 0.1};
+  for (int k = 0; k < 2; ++k) {
+    const VolumeDomain domain = body(pierced_cube, steps[k]);
+    ck_assert_int_eq(euler_characteristic(domain), 0);
+    ck_assert_int_eq(domain.summary().patches, 7);
+    ck_assert_uint_eq(domain.features().curves.size(), 14);
+    ck_assert_int_eq(domain.summary().corners, 8);
+    error[k] = std::fabs(domain.volume() - volume);
+    ck_assert_double_lt(error[k], 1.5 * steps[k] * steps[k]);
+  }
+  ck_assert_double_lt(error[1], error[0] / 3);
+}
+END_TEST
+
+// Whatever the lattice makes of them: triangles do not cross, and what is not found is told.
+START_TEST(edges_anywhere) {
+  for (int k = 0; k < 6; ++k) {
+    const P at{0.013 * k, 0.027 * k, -0.007 * k};
+    const double a = 0.3 * k, b = 0.2 * k;
+    const auto moved = [&](const Formula& f) {
+      return [f, at, a, b](const P& x) {
+        const P y = pnpbs::difference(x, at);
+        const double u = std::cos(a) * y[0] - std::sin(a) * y[1],
+                     v = std::sin(a) * y[0] + std::cos(a) * y[1];
+        return f({u, std::cos(b) * v - std::sin(b) * y[2], std::sin(b) * v + std::cos(b) * y[2]});
+      };
+    };
+    const VolumeDomain found = body(moved(lens), 0.15 + 0.01 * k);
+    ck_assert_int_eq(found.summary().patches, 2);
+    const Formula octahedron = [](const P& x) {
+      return std::fabs(x[0]) + std::fabs(x[1]) + std::fabs(x[2]) - 1;
+    };
+    const VolumeDomain tried = any_body(moved(octahedron), 0.15 + 0.01 * k);
+    ck_assert_int_eq(euler_characteristic(tried), 2);
+    ck_assert_double_eq_tol(tried.volume() / (4.0 / 3), 1, 5e-3);
+    ck_assert(tried.summary().patches == 8 || !tried.warnings().empty());
+  }
 }
 END_TEST
 
@@ -243,6 +357,36 @@ START_TEST(any_slope_will_do) {
   const VolumeDomain jump = body(step, 0.1);
   for (const auto& node : jump.mesh().nodes)
     ck_assert_double_eq_tol(radius(node.position), 1, 0.02);
+}
+END_TEST
+
+// Against the gradient of the distance, at two steps.
+START_TEST(slopes_to_second_order) {
+  const LevelSet set("level set 0", in_batches(torus), kBox, 0.1);
+  std::vector<P> x;
+  std::vector<P> exact;
+  for (int k = 0; k < 100; ++k) {
+    const double u = 0.37 * k, v = 1.1 * k;
+    exact.push_back({std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v)});
+    x.push_back(pnpbs::shifted({std::cos(u), std::sin(u), 0}, 0.4, exact.back()));
+  }
+  const auto error = [&](double step) {
+    const std::vector<pnpbs::LevelSetSlope> slopes = set.slopes(x, step);
+    double largest = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      ck_assert_double_eq_tol(slopes[k].f, 0, 1e-15);
+      largest = std::max(largest, pnpbs::distance<3>(slopes[k].normal(), exact[k]));
+    }
+    return largest;
+  };
+  ck_assert_double_lt(error(0.4), 0.01);
+  ck_assert_double_lt(error(0.2), error(0.4) / 3.5);
+  ck_assert_double_gt(error(0.2), error(0.4) / 4.5);
+  ck_assert_double_lt(error(LevelSet::kSlopeStep), 1e-9);
+  const P on_edge{0.9, 0.9, 0}, smooth{0.9, 0.1, 0};
+  const LevelSet box("level set 1", in_batches(cube), kBox, 0.1);
+  ck_assert_double_gt(box.slopes({&on_edge, 1})[0].kink, 0.5);
+  ck_assert_double_lt(box.slopes({&smooth, 1})[0].kink, 1e-6);
 }
 END_TEST
 
@@ -300,7 +444,8 @@ int main() {
   return run_suite(
       "level set",
       {a_ball_to_second_order, a_torus_has_a_hole, two_balls_apart, a_body_with_a_waist,
-       a_gyroid_in_a_ball, surfaces_through_lattice_points, thin_shells, edges_are_no_features,
-       boxes_of_any_sides, f_is_asked_near_the_surface, any_slope_will_do, bad_arguments,
-       bad_functions, points_are_put_on_the_surface});
+       a_gyroid_in_a_ball, surfaces_through_lattice_points, thin_shells, the_edge_of_a_lens,
+       an_edge_turned_inwards, edges_and_corners_of_a_box, a_hole_through_a_box, edges_anywhere,
+       boxes_of_any_sides, f_is_asked_near_the_surface, any_slope_will_do, slopes_to_second_order,
+       bad_arguments, bad_functions, points_are_put_on_the_surface});
 }

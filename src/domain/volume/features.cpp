@@ -45,11 +45,8 @@ std::array<std::int32_t, 2> ends_of_segment(const BoundaryTriangle& facet) {
 
 class FeatureFinder {
  public:
-  FeatureFinder(const BoundaryMesh<3>& mesh, double feature_angle,
-                const std::vector<std::int32_t>& smooth_source)
-      : mesh_(mesh),
-        cosine_(std::cos(feature_angle * std::numbers::pi / 180)),
-        smooth_source_(smooth_source) {}
+  FeatureFinder(const BoundaryMesh<3>& mesh, double feature_angle, const SmoothSurfaces& smooth)
+      : mesh_(mesh), cosine_(std::cos(feature_angle * std::numbers::pi / 180)), smooth_(smooth) {}
 
   Features run() {
     gather_sides();
@@ -115,7 +112,7 @@ class FeatureFinder {
 
   void add_edge(std::int32_t node, std::span<const FacetSide> sides) {
     const bool divides = !is_plain(sides);
-    if (divides || is_sharp(sides)) {
+    if (divides || is_sharp(node, sides)) {
       edges_.push_back({{node, sides[0].other}, sides, !divides});
     } else {
       join(sides);
@@ -139,10 +136,11 @@ class FeatureFinder {
     return alike && one_orientation;
   }
 
-  bool is_sharp(std::span<const FacetSide> sides) const {
-    if (smooth_source(sides[0].facet) >= 0 &&
-        smooth_source(sides[0].facet) == smooth_source(sides[1].facet))
-      return false;
+  bool is_sharp(std::int32_t node, std::span<const FacetSide> sides) const {
+    const std::int32_t smooth = smooth_surface(sides[0].facet);
+    if (smooth >= 0 && smooth == smooth_surface(sides[1].facet))
+      return std::binary_search(smooth_.creases.begin(), smooth_.creases.end(),
+                                std::array{node, sides[0].other});
     const Point<3>&p = normals_[index(sides[0].facet)], &q = normals_[index(sides[1].facet)];
     return p != Point<3>{} && q != Point<3>{} && dot(p, q) < cosine_;
   }
@@ -163,8 +161,8 @@ class FeatureFinder {
     edges_ = std::move(kept);
   }
 
-  std::int32_t smooth_source(std::int32_t f) const {
-    return index(f) < smooth_source_.size() ? smooth_source_[index(f)] : -1;
+  std::int32_t smooth_surface(std::int32_t f) const {
+    return index(f) < smooth_.of.size() ? smooth_.of[index(f)] : -1;
   }
 
   void flood_patches() {
@@ -275,7 +273,7 @@ class FeatureFinder {
 
   const BoundaryMesh<3>& mesh_;
   double cosine_;
-  const std::vector<std::int32_t>& smooth_source_;
+  const SmoothSurfaces& smooth_;
   std::vector<Point<3>> normals_;
   std::vector<std::size_t> side_begin_;  // of each node in sides_
   std::vector<FacetSide> sides_;
@@ -294,8 +292,8 @@ bool Features::is_corner(std::int32_t mesh_node) const {
 }
 
 Features find_features(const BoundaryMesh<3>& mesh, double feature_angle,
-                       const std::vector<std::int32_t>& smooth_source) {
-  return FeatureFinder(mesh, feature_angle, smooth_source).run();
+                       const SmoothSurfaces& smooth) {
+  return FeatureFinder(mesh, feature_angle, smooth).run();
 }
 
 Point<3> facet_normal(const BoundaryMesh<3>& mesh, const BoundaryTriangle& facet) {

@@ -50,11 +50,16 @@ struct Features {
   bool is_corner(std::int32_t mesh_node) const;
 };
 
-// Angles in degrees. `smooth_source`: of each facet -1, or a surface between whose facets normals
-// do not count; empty if there is none. What is found depends on the order of facets and nodes
+// Surfaces between whose facets normals do not count.
+struct SmoothSurfaces {
+  std::vector<std::int32_t> of;  // of each facet its surface, or -1; empty if there are none
+  std::vector<std::array<std::int32_t, 2>> creases;  // on them, by their nodes, both ascending
+};
+
+// Angles in degrees. What is found depends on the order of facets and nodes
 // alone; the time taken is linear in their number, but for sorting short creases.
 Features find_features(const BoundaryMesh<3>& mesh, double feature_angle,
-                       const std::vector<std::int32_t>& smooth_source = {});
+                       const SmoothSurfaces& smooth = {});
 
 // The unit normal of a facet; 0 if it has no area.
 Point<3> facet_normal(const BoundaryMesh<3>& mesh, const BoundaryTriangle& facet);

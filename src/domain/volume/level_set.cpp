@@ -15,7 +15,6 @@ namespace pnpbs {
 namespace {
 
 constexpr std::size_t kBatch = std::size_t{1} << 16;  // points asked for at a time
-constexpr double kDifference = 1e-4;  // of the resolution, to either side: for a direction only
 // Beyond where f is 0 by its slope; then twice as far, and so on.
 constexpr double kFirstStep = 1.25;
 
@@ -51,36 +50,48 @@ Point<3> LevelSet::in_box(Point<3> x) const {
   return x;
 }
 
-std::vector<Point<3>> LevelSet::gradients(std::span<const Point<3>> x) const {
+Point<3> LevelSetSlope::normal() const { return unit_vector(gradient); }
+
+std::vector<LevelSetSlope> LevelSet::slopes(std::span<const Point<3>> x, double step) const {
+  constexpr std::size_t kValues = 7;  // at the point, then below and above in each direction
   std::vector<Point<3>> around;
-  for (const Point<3>& place : x)
+  for (const Point<3>& place : x) {
+    const Point<3> middle = in_box(place);
+    around.push_back(middle);
     for (std::size_t k = 0; k < 3; ++k)
       for (const double side : {-1.0, 1.0}) {
-        Point<3> there = place;
-        there[k] += side * kDifference * resolution_;
+        Point<3> there = middle;
+        there[k] += side * step * resolution_;
         around.push_back(in_box(there));
       }
+  }
   const std::vector<double> f = values(around);
-  std::vector<Point<3>> gradients(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
+  std::vector<LevelSetSlope> slopes;
+  for (std::size_t i = 0; i < f.size(); i += kValues) {
+    LevelSetSlope slope{around[i], f[i], {}, 0};
+    double kink = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t low = 6 * i + 2 * k, high = low + 1;
-      const double way = around[high][k] - around[low][k];
-      if (way > 0) gradients[i][k] = (f[high] - f[low]) / way;
+      const std::size_t low = i + 1 + 2 * k, high = low + 1;
+      const double below = around[i][k] - around[low][k], above = around[high][k] - around[i][k];
+      if (below + above > 0) slope.gradient[k] = (f[high] - f[low]) / (below + above);
+      if (below > 0 && above > 0)
+        kink = std::max(kink, std::fabs((f[high] - f[i]) / above - (f[i] - f[low]) / below));
     }
-  return gradients;
+    const double whole = length(slope.gradient);
+    slope.kink = whole > 0 ? kink / whole : 0;
+    slopes.push_back(slope);
+  }
+  return slopes;
 }
 
 void LevelSet::project(std::span<Point<3>> x, double reach) const {
-  const std::vector<double> f = values(x);
-  const std::vector<Point<3>> gradient = gradients(x);
+  const std::vector<LevelSetSlope> slope = slopes(x);
   std::vector<Search> open;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double slope = length(gradient[i]), way = std::fabs(f[i]) / slope;
-    if (f[i] == 0 || !(way <= reach)) continue;
-    const Point<3> up = unit_vector(gradient[i]);
-    const Point<3> along = shifted({}, f[i] < 0 ? 1 : -1, up);
-    open.push_back({i, f[i], along, std::min(reach, kFirstStep * way)});
+    const double f = slope[i].f, way = std::fabs(f) / length(slope[i].gradient);
+    if (f == 0 || !(way <= reach)) continue;
+    const Point<3> along = shifted({}, f < 0 ? 1 : -1, slope[i].normal());
+    open.push_back({i, f, along, std::min(reach, kFirstStep * way)});
   }
   std::vector<std::size_t> crossing;
   std::vector<CrossedSegment> segments;

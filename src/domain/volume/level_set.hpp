@@ -15,6 +15,16 @@ namespace pnpbs {
 // Fills values[n] with f at x[n]; throws Error on failure.
 using LevelSetFunction = std::function<void(std::int64_t n, const Point<3>* x, double* values)>;
 
+// What f is like at a point.
+struct LevelSetSlope {
+  Point<3> x;  // the point, or the nearest one of the box
+  double f;
+  Point<3> gradient;
+  double kink;  // differences of the slopes to either side, over the slope: small where f is smooth
+
+  Point<3> normal() const;  // unit; 0 where there is no slope
+};
+
 class LevelSet {
  public:
   // `name` is for messages. f is asked in the box only. Features of the body that are thinner than
@@ -28,12 +38,18 @@ class LevelSet {
   // f at these points. Throws Error(ErrorKind::domain) where it is not finite.
   std::vector<double> values(std::span<const Point<3>> x) const;
 
+  // By differences to either side. Their error is of second order in `step`, which is in units of
+  // the resolution; at a kink they are of no use.
+  std::vector<LevelSetSlope> slopes(std::span<const Point<3>> x, double step = kSlopeStep) const;
+  // A third of the digits of f are lost to rounding, and as many to the bend of f, at a resolution
+  // of a hundredth of the size.
+  static constexpr double kSlopeStep = 1e-4;
+
   // Moves points to where f = 0, along the gradient of f that is found by differences. One that
   // does not come there within `reach` stays. What becomes of a point depends on it alone.
   void project(std::span<Point<3>> x, double reach) const;
 
  private:
-  std::vector<Point<3>> gradients(std::span<const Point<3>> x) const;
   Point<3> in_box(Point<3> x) const;
 
   std::string name_;

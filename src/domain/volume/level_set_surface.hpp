@@ -10,7 +10,7 @@
 namespace pnpbs {
 
 // Vertices are where f = 0, triangles within the order of the resolution squared of it. Sharp edges
-// are cut off. Throws Error(ErrorKind::domain).
+// are cut off: see level_set_creases.hpp. Throws Error(ErrorKind::domain).
 SurfaceSource level_set_surface(const LevelSet& set, std::int32_t tag);
 
 }  // namespace pnpbs

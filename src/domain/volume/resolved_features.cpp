@@ -23,8 +23,8 @@ void warn_of_short_creases(ResolvedVolume& resolved) {
 
 }  // namespace
 
-// Between triangles of one level set there are none: these turn where it has an edge or a bend that
-// they do not resolve.
+// Between triangles of one level set normals do not count: these turn where they do not resolve a
+// bend. Its edges are known by its gradient.
 void find_features_of(const std::vector<SurfaceSource>& surfaces,
                       const std::vector<double>& feature_angles, ResolvedVolume& resolved) {
   std::vector<double> angles;
@@ -35,7 +35,10 @@ void find_features_of(const std::vector<SurfaceSource>& surfaces,
   if (*smallest < *largest)
     resolved.warnings.push_back("the smallest feature_angle, " + number_text(*smallest) +
                                 " degrees, holds for all surfaces");
-  resolved.features = find_features(resolved.mesh, *smallest, resolved.level_sets.of);
+  SmoothSurfaces smooth{resolved.level_sets.of, {}};
+  for (const LevelSetCrease& crease : resolved.level_sets.creases)
+    smooth.creases.push_back(crease.nodes);
+  resolved.features = find_features(resolved.mesh, *smallest, smooth);
   const Features& features = resolved.features;
   resolved.summary.patches = features.patches;
   for (const FeatureCurve& curve : features.curves)

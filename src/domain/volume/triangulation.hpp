@@ -17,6 +17,12 @@ namespace pnpbs {
 
 class LevelSet;
 
+// A feature edge that is known as such, whatever its triangles' normals are.
+struct SurfaceCrease {
+  std::array<std::int32_t, 2> vertices;
+  std::array<Point<3>, 2> normals;  // unit, left and right of the way from the first to the second
+};
+
 // One surface as it was added.
 struct SurfaceSource {
   std::string name;  // for messages: "surface 0", "ball 1"
@@ -26,6 +32,8 @@ struct SurfaceSource {
   std::vector<std::int32_t> tags;             // of the triangles
   std::shared_ptr<const LevelSet> level_set;  // whose surface it is; null of others
   bool approximates = false;                  // a curved surface that was given without triangles
+  std::vector<SurfaceCrease> creases;         // of a level set
+  std::vector<std::string> warnings;
 };
 
 struct SurfaceTriangle {

@@ -9,6 +9,7 @@
 
 #include "base/limits.hpp"
 #include "domain/given_values.hpp"
+#include "domain/volume/level_set_creases.hpp"
 #include "domain/volume/level_set_surface.hpp"
 #include "domain/volume/primitives.hpp"
 #include "domain/volume/volume_resolver.hpp"
@@ -56,6 +57,14 @@ std::vector<std::array<std::int32_t, 3>> read_triangles(std::int64_t triangles,
 }
 
 }  // namespace
+
+const LevelSetCrease* LevelSetTriangles::crease(std::int32_t node, std::int32_t other) const {
+  const std::array<std::int32_t, 2> nodes{std::min(node, other), std::max(node, other)};
+  const auto found = std::lower_bound(
+      creases.begin(), creases.end(), nodes,
+      [](const LevelSetCrease& crease, const auto& wanted) { return crease.nodes < wanted; });
+  return found != creases.end() && found->nodes == nodes ? &*found : nullptr;
+}
 
 // Names it by its kind and how many of these there are, and counts it.
 void VolumeDomain::add_source(SurfaceSource source, const char* kind, std::int64_t& given,
@@ -139,6 +148,7 @@ void VolumeDomain::add_level_set(LevelSetFunction f, const Box<3>& box, double r
   const auto set = std::make_shared<LevelSet>("level set " + std::to_string(level_sets_given_),
                                               std::move(f), box, resolution);
   SurfaceSource source = level_set_surface(*set, tag);
+  add_creases(*set, source);
   source.level_set = set;
   source.approximates = true;
   add_source(std::move(source), "level set", level_sets_given_, kFeatureAngle);

@@ -45,11 +45,19 @@ struct VolumeSummary {
   std::int64_t corners = 0;
 };
 
+// An edge between nodes of the mesh over which the gradient of a level set jumps.
+struct LevelSetCrease {
+  std::array<std::int32_t, 2> nodes;  // ascending
+  std::array<Point<3>, 2> normals;    // unit, left and right of the way from the first
+};
+
 // The level sets whose surfaces triangles are of.
 struct LevelSetTriangles {
   std::vector<std::shared_ptr<const LevelSet>> sets;
-  std::vector<std::int32_t> of;  // of each facet its set, or -1; empty if there are no sets
+  std::vector<std::int32_t> of;         // of each facet its set, or -1; empty if there are no sets
+  std::vector<LevelSetCrease> creases;  // by their nodes
 
+  const LevelSetCrease* crease(std::int32_t node, std::int32_t other) const;
   const LevelSet* at(std::int32_t facet) const {
     const auto f = static_cast<std::size_t>(facet);
     return f < of.size() && of[f] >= 0 ? sets[static_cast<std::size_t>(of[f])].get() : nullptr;

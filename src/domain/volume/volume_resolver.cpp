@@ -10,6 +10,7 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/domain_error.hpp"
+#include "domain/volume/mesh_creases.hpp"
 #include "domain/volume/nesting.hpp"
 #include "domain/volume/resolved_features.hpp"
 #include "domain/volume/self_intersections.hpp"
@@ -38,6 +39,8 @@ class Resolver {
     require_surfaces();
     surface_ = join_surfaces(surfaces_);
     give_roles(surface_, given.roles);
+    for (const SurfaceSource& surface : surfaces_)
+      for (const std::string& warning : surface.warnings) result_.warnings.push_back(warning);
     if (!filled_)  // then they all divide nothing
       for (SurfaceTriangle& triangle : surface_.triangles) triangle.inner = true;
     measure();
@@ -113,6 +116,7 @@ class Resolver {
     const std::vector<std::int32_t> joined = weld_points(points, kSameVertex * size_);
     for (SurfaceTriangle& triangle : surface_.triangles)
       for (std::int32_t& v : triangle.vertices) v = joined[v];
+    creases_ = join_creases(surfaces_, joined);
     warn_of_near_vertices(joined, vertices);
     const auto first = joined.begin() + static_cast<std::ptrdiff_t>(vertices);
     curve_vertices_.assign(first, first + static_cast<std::ptrdiff_t>(curve_points));
@@ -231,6 +235,7 @@ class Resolver {
     number_.assign(surface_.vertices.size(), -1);
     on_surface_.assign(surface_.vertices.size(), 0);
     add_triangles();
+    result_.level_sets.creases = creases_between(creases_, number_);
     add_segments();
     add_fixed_nodes();
     const VolumeExtent extent = extent_of(result_.mesh);
@@ -367,6 +372,7 @@ class Resolver {
   Triangulation surface_;
   double size_ = 0;
   std::vector<std::int32_t> curve_vertices_, fixed_vertices_;  // of points as given
+  std::vector<SurfaceCrease> creases_;  // of all sources, by vertices of the surface
   std::vector<CurveSegment> segments_;
   BoxTree<3> tree_;  // of the triangles
   std::optional<SurfaceRegions> regions_;

@@ -82,6 +82,7 @@ FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps) {
   constexpr std::int64_t kSweepsBetween = 2;
   if (level.ground.surfaces_alone()) {
     sweep_on_surfaces(level, sweeps);
+    put_on_level_sets(level);
   } else {
     sweep_to_means(level, sweeps);
     if (level.settings.repair.rounds > 0) {

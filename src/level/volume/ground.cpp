@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "domain/volume/crease_nodes.hpp"
+
 namespace pnpbs {
 
 Ground<3>::Ground(std::shared_ptr<const VolumeDomain> domain,
@@ -11,6 +13,7 @@ Ground<3>::Ground(std::shared_ptr<const VolumeDomain> domain,
       spacing_(std::move(spacing)),
       surface_(domain_->mesh(), domain_->features()) {
   features_ = lay_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), max_nodes);
+  put_on_creases(*domain_, features_);
   const Features& features = domain_->features();
   patch_bounds_.assign(index(features.patches), 0);
   for (std::size_t f = 0; f < features.patch.size(); ++f)

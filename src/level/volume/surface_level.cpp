@@ -135,6 +135,22 @@ void put_on_level_sets(const Ground<3>& ground, GivenNodes<3>& nodes) {
   }
 }
 
+void put_on_level_sets(Level<3>& level) {
+  if (level.ground.domain().level_sets().sets.empty()) return;
+  Nodes<3>& nodes = level.nodes;
+  agreed(*level.comm, [&] {
+    GivenNodes<3> put = surface_nodes(level);
+    put_on_level_sets(level.ground, put);
+    std::size_t next = 0;
+    for (std::int64_t i = 0; i < nodes.count; ++i)
+      if (nodes.owned(i) && nodes.carrier(i) != Carrier::free)
+        nodes.set_position(i, put[next++].position);
+  });
+  nodes.moved();
+  nodes.set_reference_positions();
+  level.ghosts.choose_anew();
+}
+
 // ------------------------------------------------------------------ walks ----------------------
 
 namespace {

@@ -28,6 +28,8 @@ GivenNodes<3> surface_nodes(const Level<3>& level);
 // Those on triangles of a level set move to where it is 0, if that is as near as the triangle's
 // error.
 void put_on_level_sets(const Ground<3>& ground, GivenNodes<3>& nodes);
+// The same of the level's own. Collective.
+void put_on_level_sets(Level<3>& level);
 
 // The free place beside a sparse bubble on a surface: see free_place.
 Point<3> free_place_on_surface(const Level<3>& level, std::int64_t i);

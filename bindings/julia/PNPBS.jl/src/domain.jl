@@ -226,9 +226,10 @@ matrix and returns a vector of `n` values. It must always give the same value fo
 continuous, and be finite everywhere in the box between `low` and `high`, where the body must lie; it
 need not be a distance. Its surface is found on an octree that is refined near `f = 0` down to cells
 of side `resolution`: what is thinner can be lost, and so can a body that is small beside the box and
-towards which `f` does not fall. Nodes on the surface lie where `f = 0`; sharp edges are rounded by the
-resolution, which is to be no more than the spacing there, and than half of the least radius to which
-the surface is bent.
+towards which `f` does not fall. Nodes on the surface lie where `f = 0`, and on its edges, where the
+gradient of `f` jumps by more than 40 degrees; these stay rounded, with a warning, where triangles
+would cross. The resolution is to be no more than the spacing there, and than half of the least radius
+to which the surface is bent.
 
     add_level_set!(body, (-2, -2, -1), (2, 2, 1), 0.1) do x
         hypot.(hypot.(x[1, :], x[2, :]) .- 1, x[3, :]) .- 0.4

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The edges and corners of a level set's surface, where the gradient of f jumps, put into its
+// triangulation.
+#pragma once
+
+#include "domain/volume/level_set.hpp"
+#include "domain/volume/triangulation.hpp"
+
+namespace pnpbs {
+
+// Where triangles would turn over or cross, the surface stays rounded, with a warning.
+void add_creases(const LevelSet& set, SurfaceSource& surface);
+
+}  // namespace pnpbs
