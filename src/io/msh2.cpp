@@ -12,10 +12,10 @@ namespace pnpbs::io {
 namespace {
 
 // Kinds of elements, and that two tags follow.
-constexpr std::string_view point = " 15 2 ";
-constexpr std::string_view line = " 1 2 ";
-constexpr std::string_view triangle = " 2 2 ";
-constexpr std::string_view tetrahedron = " 4 2 ";
+constexpr std::string_view point_code = " 15 2 ";
+constexpr std::string_view line_code = " 1 2 ";
+constexpr std::string_view triangle_code = " 2 2 ";
+constexpr std::string_view tetrahedron_code = " 4 2 ";
 
 void write_points(const NodeSource& nodes, SharedFile& file) {
   file.append_text("$Nodes\n" + std::to_string(nodes.contents().nodes) + "\n");
@@ -31,7 +31,7 @@ void write_nodes_as_elements(const NodeSource& nodes, SharedFile& file) {
       std::int64_t number = rows.first;
       for (const std::int64_t tag : rows.tags) {
         sink.number(number + 1);
-        sink.text(point);
+        sink.text(point_code);
         sink.number(tag);  // physical group
         sink.text(" ");
         sink.number(std::abs(tag) + 1);  // geometric entity
@@ -51,7 +51,7 @@ void write_facets(const NodeSource& nodes, SharedFile& file) {
       for (std::size_t f = 0; f < rows.tags.size(); ++f) {
         const std::int64_t tag = rows.tags[f];
         sink.number(++number);
-        sink.text(all.dimension == 2 ? line : triangle);
+        sink.text(all.dimension == 2 ? line_code : triangle_code);
         sink.number(tag);  // physical group
         sink.text(" ");
         sink.number(std::abs(tag));  // geometric entity
@@ -70,7 +70,7 @@ void write_elements(const NodeSource& nodes, const MshGroup& inside, SharedFile&
       std::int64_t number = all.facets + rows.first;
       for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.number(++number);
-        sink.text(all.dimension == 2 ? triangle : tetrahedron);
+        sink.text(all.dimension == 2 ? triangle_code : tetrahedron_code);
         sink.text(group + " " + group);
         write_corners(rows.corners, e, all.element_corners(), sink);
         sink.text("\n");

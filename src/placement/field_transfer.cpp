@@ -42,19 +42,19 @@ double measure(const std::array<Point<2>, 3>& c) {
          2;
 }
 
-std::array<double, 3> cross(const Point<3>& origin, const Point<3>& a, const Point<3>& b) {
+std::array<double, 3> cross_from(const Point<3>& origin, const Point<3>& a, const Point<3>& b) {
   const double u[3] = {a[0] - origin[0], a[1] - origin[1], a[2] - origin[2]};
   const double v[3] = {b[0] - origin[0], b[1] - origin[1], b[2] - origin[2]};
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
 double measure(const std::array<Point<3>, 3>& c) {
-  const auto [x, y, z] = cross(c[0], c[1], c[2]);
+  const auto [x, y, z] = cross_from(c[0], c[1], c[2]);
   return std::sqrt(x * x + y * y + z * z) / 2;
 }
 
 double measure(const std::array<Point<3>, 4>& c) {
-  const auto [x, y, z] = cross(c[0], c[1], c[2]);
+  const auto [x, y, z] = cross_from(c[0], c[1], c[2]);
   return std::fabs(x * (c[3][0] - c[0][0]) + y * (c[3][1] - c[0][1]) + z * (c[3][2] - c[0][2])) / 6;
 }
 

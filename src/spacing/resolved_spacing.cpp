@@ -46,9 +46,10 @@ void append_halves(const Piece& piece, std::vector<Piece>& pieces) {
   }
 }
 
-class Shape {
+class ShapeToResolve {
  public:
-  explicit Shape(const VolumeDomain& domain) : mesh_(domain.mesh()), index_(domain.index()) {}
+  explicit ShapeToResolve(const VolumeDomain& domain)
+      : mesh_(domain.mesh()), index_(domain.index()) {}
 
   std::vector<Piece> facets() const {
     std::vector<Piece> pieces;
@@ -96,7 +97,7 @@ std::vector<GrowthSource<3>> sources_on_surfaces(const VolumeDomain& domain,
                                                  const SpacingEvaluator<3>& raw,
                                                  const NodeLimit& limit) {
   constexpr double kPieces = 1.5;  // length of their edges
-  const Shape shape(domain);
+  const ShapeToResolve shape(domain);
   std::vector<GrowthSource<3>> sources;
   std::vector<Piece> pieces = shape.facets();
   while (!pieces.empty()) {

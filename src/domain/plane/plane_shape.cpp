@@ -11,7 +11,7 @@ namespace pnpbs {
 namespace {
 
 constexpr double kFeatureTurn = kFeatureAngle * std::numbers::pi / 180;
-constexpr double kMaxSag = 1e-7;  // of a chord off its curve, in sizes of the domain
+constexpr double kMaxCurveSag = 1e-7;  // of a chord off its curve, in sizes of the domain
 
 // From a segment to the next, in radians.
 double turn_at(const Point<2>& before, const Point<2>& x, const Point<2>& after) {
@@ -107,7 +107,7 @@ class PlaneShape {
       const double sag = kSampleTurn / 8 * distance<2>(curve.points[p], curve.points[p + 1]);
       const auto count =
           std::max(std::int64_t{1},
-                   static_cast<std::int64_t>(std::ceil(std::sqrt(sag / (kMaxSag * size_)))));
+                   static_cast<std::int64_t>(std::ceil(std::sqrt(sag / (kMaxCurveSag * size_)))));
       parts.push_back(count);
       const double t = curve.parameters[p], step = curve.parameters[p + 1] - t;
       for (std::int64_t k = 1; k < count; ++k)

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/index.hpp"
 #include "base/space_vectors.hpp"
 
 namespace pnpbs {
@@ -17,8 +18,6 @@ namespace {
 
 using Triangle = std::array<std::int32_t, 3>;
 using Edge = std::array<std::int32_t, 2>;  // ascending
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Edge edge_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 

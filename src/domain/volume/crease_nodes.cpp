@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/index.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/volume/level_set_kinks.hpp"
 
@@ -16,8 +17,6 @@ struct CreaseAtNode {
   std::array<Point<3>, 2> normals;  // of the sides
   std::array<Point<3>, 2> ways;     // unit, along the surface, away from the edge
 };
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 CreaseAtNode crease_at(const VolumeDomain& domain, const FeatureNode& node) {
   CreaseAtNode at;

@@ -6,13 +6,12 @@
 #include <map>
 #include <utility>
 
+#include "base/index.hpp"
 #include "base/space_vectors.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // The corner of the facet that is this node; 3 if none is.
 std::size_t corner_at(const BoundaryTriangle& facet, std::int32_t node) {

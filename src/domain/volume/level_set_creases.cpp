@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
@@ -20,8 +21,6 @@ namespace pnpbs {
 namespace {
 
 using Triangle = std::array<std::int32_t, 3>;
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Point<3> twice_area(const CutSurface& cut, const Triangle& t) {
   const Point<3>& a = cut.vertices[index(t[0])];

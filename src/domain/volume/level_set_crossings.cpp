@@ -8,14 +8,13 @@
 #include <numbers>
 #include <utility>
 
+#include "base/index.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/volume/level_set_zeros.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class CrossingFinder {
  public:

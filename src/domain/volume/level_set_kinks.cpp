@@ -35,9 +35,9 @@ struct Line {
 
 double cross_2d(const Point<2>& a, const Point<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-class CreaseFinder {
+class KinkFinder {
  public:
-  CreaseFinder(std::size_t number, const CreaseSearch& search, const LevelSet& set)
+  KinkFinder(std::size_t number, const CreaseSearch& search, const LevelSet& set)
       : number_(number),
         origin_(search.sides[0]),
         least_(kKinkReach * set.resolution()),
@@ -152,12 +152,12 @@ bool turn_less(const Point<3>& normal, const Point<3>& other, double angle) {
 std::vector<std::optional<CreasePoint>> find_crease_points(
     const LevelSet& set, const std::vector<CreaseSearch>& searches) {
   std::vector<std::optional<CreasePoint>> found(searches.size());
-  std::vector<CreaseFinder> open;
+  std::vector<KinkFinder> open;
   for (std::size_t i = 0; i < searches.size(); ++i) open.emplace_back(i, searches[i], set);
   // Those that look equally far are asked for together.
   while (!open.empty()) {
-    std::vector<CreaseFinder> farther;
-    std::stable_sort(open.begin(), open.end(), [&](const CreaseFinder& a, const CreaseFinder& b) {
+    std::vector<KinkFinder> farther;
+    std::stable_sort(open.begin(), open.end(), [&](const KinkFinder& a, const KinkFinder& b) {
       return differences_at(a.reach(), set) > differences_at(b.reach(), set);
     });
     for (std::size_t begin = 0, end; begin < open.size(); begin = end) {
@@ -167,10 +167,10 @@ std::vector<std::optional<CreasePoint>> find_crease_points(
         x.insert(x.end(), open[end].next().begin(), open[end].next().end());
       const std::vector<LevelSetSlope> slopes = set.slopes(x, step);
       for (std::size_t k = begin; k < end; ++k) {
-        const CreaseFinder::State state =
+        const KinkFinder::State state =
             open[k].take(slopes[2 * (k - begin)], slopes[2 * (k - begin) + 1]);
-        if (state == CreaseFinder::State::found) found[open[k].number()] = open[k].result();
-        if (state == CreaseFinder::State::open) farther.push_back(open[k]);
+        if (state == KinkFinder::State::found) found[open[k].number()] = open[k].result();
+        if (state == KinkFinder::State::open) farther.push_back(open[k]);
       }
     }
     open = std::move(farther);

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/index.hpp"
+
 namespace pnpbs {
 
-namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<SurfaceCrease> join_creases(const std::vector<SurfaceSource>& surfaces,
                                         const std::vector<std::int32_t>& joined) {

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pnpbs {
+
+// A number of 32 bits as the index of a std::vector.
+inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace pnpbs
