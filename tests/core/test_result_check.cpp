@@ -15,15 +15,16 @@ using Placement = pnpbs::PlacementOf<2>;
 namespace {
 
 // A square with a slit: some of its edges are of the boundary, with triangles on both sides.
-Placement small_placement() {
+std::unique_ptr<Placement> small_placement() {
   auto domain = std::make_shared<pnpbs::PlaneDomain>();
   shapes::add_loop(*domain, shapes::rectangle(0, 0, 1, 1));
   const double slit[] = {0.3, 0.5, 0.7, 0.5};
   domain->add_polyline(pnpbs::CurveRole::inner, false, 2, slit, nullptr, 0);
-  Placement placement(pnpbs::serial_communicator(), domain, pnpbs::Options());
-  placement.set_spacing(spacing_of(constant(0.1)));
-  placement.run();
-  placement.prepare_stars();
+  auto placement =
+      std::make_unique<Placement>(pnpbs::serial_communicator(), domain, pnpbs::Options());
+  placement->set_spacing(spacing_of(constant(0.1)));
+  placement->run();
+  placement->prepare_stars();
   return placement;
 }
 
@@ -64,7 +65,8 @@ std::string complaint_of(Placement& placement) {
 
 // Spoils results; their check must say all of these words.
 void expect_complaint(const std::function<std::vector<std::string>(Placement&)>& spoil) {
-  Placement placement = small_placement();
+  const std::unique_ptr<Placement> placed = small_placement();
+  Placement& placement = *placed;
   const std::string before = complaint_of(placement);
   ck_assert_str_eq(before.c_str(), "");
   const std::vector<std::string> words = spoil(placement);
