@@ -18,6 +18,8 @@ CALLBACK_TYPES = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "double"
                   "double *": ctypes.POINTER(ctypes.c_double),
                   "const double *": ctypes.POINTER(ctypes.c_double), "void *": ctypes.c_void_p}
 
+HANDLES = ("pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer")
+
 
 def function_differences(functions, declared):
     for name in sorted(set(functions) | set(declared)):
@@ -58,8 +60,7 @@ def differences(text, interface):
     # What the declarations become when the library is called.
     for result, arguments in declared.values():
         for c_type in [result] + [c_type for c_type, _ in arguments]:
-            is_pointer = c_type.endswith(("*", "_fn")) or c_type in ("pnpbs_context", "pnpbs_domain",
-                                                                     "pnpbs_placement")
+            is_pointer = c_type.endswith(("*", "_fn")) or c_type in HANDLES
             simple = interface.ctypes_of(c_type) in interface._NUMBERS.values()
             if is_pointer == simple:
                 yield f"{c_type} becomes {interface.ctypes_of(c_type)}"

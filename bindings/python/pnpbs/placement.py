@@ -9,6 +9,7 @@ import numpy as np
 from ._arrays import as_point, as_points
 from ._callbacks import monitor_callback, spacing_callback
 from ._interface import library
+from ._signals import signals_kept_in
 from .context import Handle, _set_option
 from .errors import Status
 from .fields import Fields
@@ -70,7 +71,9 @@ class Placement(Results, Fields, Handle):
 
     def _call(self, name, *arguments):
         function = getattr(library(), f"pnpbs_placement_{name}")
-        return self.context._check(function(self._live(), *arguments))
+        with signals_kept_in(self.context):
+            code = function(self._live(), *arguments)
+        return self.context._check(code)
 
     # ------------------------------------------------------------ what is wanted ---------------
 

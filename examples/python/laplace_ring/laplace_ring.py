@@ -68,8 +68,8 @@ class Matrix:
 
 
 def solve(matrix, u, inner):
-    """Conjugate gradients: A u = 0 at the inner nodes. On the boundary u stays as it is, because the
-    residual there counts as zero."""
+    """Conjugate gradients: A u = 0 at the inner nodes, where `inner` is 1. On the boundary it is 0: u
+    stays as it is there, because the residual counts as zero."""
     dot = matrix.placement.dot
     n = len(inner)
     r = -inner * matrix.times(u)
@@ -101,7 +101,7 @@ def main(context, is_first, largest):
     tags = np.concatenate([own.tags, ghosts.tags])
     matrix = Matrix(placement, points)
     u = np.where(tags == 0, 0.0, known_solution(points))
-    steps = solve(matrix, u, own.tags == 0)
+    steps = solve(matrix, u, np.where(own.tags == 0, 1.0, 0.0))
 
     total = lambda values: placement.sum(np.asarray(values, float))
     n, boundary = total(np.ones(len(own.tags))), total(own.tags != 0)

@@ -42,6 +42,8 @@ no other rank to end.
     end_update_ghosts!(u, placement)
     multiply!(q, rows_with_ghosts, u)
 """
+begin_update_ghosts, end_update_ghosts!
+
 function begin_update_ghosts(values::AbstractArray{Float64}, placement::Placement)
     check(placement,
           LibPNPBS.pnpbs_placement_begin_update_ghosts(live(placement), places_of(values),

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Ctrl-C during a call of the library. Python handles a signal between any two instructions of a
+callback, so also where no `try` of ours stands yet, and ctypes drops what is raised there."""
+
+import contextlib
+import signal
+import threading
+
+
+@contextlib.contextmanager
+def signals_kept_in(context):
+    """What the program's handler of SIGINT raises in the block is kept in the context, as the
+    exceptions of callbacks are: the next callback ends the call. Nothing is changed in threads other
+    than the main one, where Python handles no signals, or where no handler of Python's is set."""
+    is_main = threading.current_thread() is threading.main_thread()
+    handler = signal.getsignal(signal.SIGINT) if is_main else None
+    if not callable(handler):
+        yield
+        return
+
+    def keep(number, frame):
+        try:
+            handler(number, frame)
+        except BaseException as error:
+            context._raised = context._raised or error
+
+    signal.signal(signal.SIGINT, keep)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
