@@ -370,7 +370,7 @@ int main(void) {
   tcase_add_loop_test(room, scales, 0, 6);
   tcase_add_test(room, more_nodes_than_allowed);
   tcase_add_test(room, a_spacing_larger_than_a_feature);
-  tcase_add_loop_test(room, a_crowded_corner, 0, 4);
+  tcase_add_loop_test(room, a_crowded_corner, 0, WHEN_SANITIZED(1, 4));
   tcase_add_test(room, rounds_of_repairs_end);
   suite_add_tcase(suite, room);
   tcase_add_loop_test(method_cases, methods_run, 0, COUNT_OF(methods));
