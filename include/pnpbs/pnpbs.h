@@ -415,6 +415,38 @@ PNPBS_API pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *p
 PNPBS_API pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text,
                                                int64_t length, const char *name);
 
+/** Spacing callback: fills d[n] for coordinates[n][dim]. n may be 0. Must be a pure function of the
+ *  point; may be asked anywhere in the domain's bounding box that lies inside the domain or on
+ *  its boundary. Return 0, or nonzero to fail the call with PNPBS_ERROR_CALLBACK. */
+typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *coordinates, double *d,
+                                    void *user);
+
+/** Where the graphs of a domain in the plane have corners (pnpbs_domain_add_pslg, _read_poly,
+ *  _parse_poly), those given before and those given after: at vertices where the direction turns by
+ *  more than this, where segments of different tags or other than two of them end, and at vertices
+ *  with a tag of their own. Nodes lie on corners; between them a graph stands for a smooth curve, and
+ *  nodes lie on it as d says, however fine its segments are. Local.
+ *  @param[in] corner_angle  degrees, 0 .. 180. 0, as it is at first: every vertex becomes a node */
+PNPBS_API pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle);
+
+/** Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs and
+ *  polylines given so far, vertices beside segments shorter than d, as long as the curve then passes
+ *  them within tolerance * d; and closed curves, islands and lakes, whose extent (the longer side of
+ *  their bounding box) is less than smallest * d. No other vertex, fixed node or hole point comes to
+ *  another side of a curve. Vertices stay where curves meet or end, where tags change or a vertex has
+ *  its own, and at fixed nodes. A curve with one of these, or around one that stays, is not left out,
+ *  nor is the largest; hole points within curves that are left out go with them. If it fails, the
+ *  domain stays as it was. Local; on several ranks all must do the same.
+ *  @param[in] spacing    d, called during this function alone; it may ask for the shape of the
+ *                        domain as it was, if that has been asked for before
+ *  @param[in] tolerance  >= 0; 0.25 suits most
+ *  @param[in] smallest   >= 0; 0 leaves no curve out
+ *  @param[out] vertices  how many were left out, those of the curves included; may be NULL
+ *  @param[out] curves    how many were left out; may be NULL */
+PNPBS_API pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing,
+                                             void *user, double tolerance, double smallest,
+                                             int64_t *vertices, int64_t *curves);
+
 /** Checks the whole geometry: duplicate vertices, self-intersections, boundary curves or surfaces
  *  that do not close, hole points outside or on one, fixed nodes outside or too close. Placements
  *  check too; asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the
@@ -459,12 +491,6 @@ PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t ca
                                                  int64_t *count, double *segments, int32_t *tags);
 
 /* ---------------------------------------------------------------- placement ------------- */
-
-/** Spacing callback: fills d[n] for coordinates[n][dim]. n may be 0. Must be a pure function of the
- *  point; may be asked anywhere in the domain's bounding box that lies inside the domain or on
- *  its boundary. Return 0, or nonzero to fail the call with PNPBS_ERROR_CALLBACK. */
-typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *coordinates, double *d,
-                                    void *user);
 
 /** Progress, told at fixed step numbers and, some times a second, while the first nodes are laid or
  *  the growth of the spacing is limited, between steps that take long (on one rank), and between

@@ -30,11 +30,22 @@ void add_repeatable(CLI::App& app, const std::string& name, std::vector<std::str
   app.add_option(name, values, help)->allow_extra_args(false)->take_all();
 }
 
-void take_feature_angle(const std::string& text, Arguments& arguments) {
+void take_angle(const std::string& option, const std::string& text, std::optional<double>& angle) {
   const auto numbers = numbers_between_commas(text);
   if (!numbers || numbers->size() != 1 || numbers->front() < 0 || numbers->front() > 180)
-    refuse("--feature-angle: expected degrees from 0 to 180, found '" + text + "'");
-  arguments.feature_angle = numbers->front();
+    refuse(option + ": expected degrees from 0 to 180, found '" + text + "'");
+  angle = numbers->front();
+}
+
+void take_simplify(const std::string& text, Arguments& arguments) {
+  const auto numbers = numbers_between_commas(text);
+  const auto is_bad = [](double number) { return !(number >= 0); };
+  if (!numbers || numbers->empty() || numbers->size() > 2 || std::ranges::any_of(*numbers, is_bad))
+    refuse(
+        "--simplify: expected TOLERANCE or TOLERANCE,EXTENT, both in d and not negative, found '" +
+        text + "'");
+  arguments.simplify = numbers->front();
+  arguments.smallest = numbers->size() == 2 ? numbers->back() : 0;
 }
 
 void take_bound(const std::string& option, const std::string& text, std::optional<double>& bound) {
@@ -102,10 +113,31 @@ void add_input(CLI::App& app, Arguments& arguments) {
       ->group(group);
   app.add_option_function<std::string>(
          "--feature-angle",
-         [&arguments](const std::string& text) { take_feature_angle(text, arguments); },
+         [&arguments](const std::string& text) {
+           take_angle("--feature-angle", text, arguments.feature_angle);
+         },
          "nodes follow a surface's edges where its normals turn by\nmore than this, and corners of "
          "curves in a .msh; default: 40\ndegrees")
       ->type_name("DEGREES")
+      ->group(group);
+}
+
+void add_curves(CLI::App& app, Arguments& arguments) {
+  const std::string group = "What to fill";
+  app.add_option_function<std::string>(
+         "--corner-angle",
+         [&arguments](const std::string& text) {
+           take_angle("--corner-angle", text, arguments.corner_angle);
+         },
+         "in the plane: nodes lie on vertices where the boundary turns by\nmore than this, between "
+         "them as far apart as d says; default: 0,\nevery vertex is a node")
+      ->type_name("DEGREES")
+      ->group(group);
+  app.add_option_function<std::string>(
+         "--simplify", [&arguments](const std::string& text) { take_simplify(text, arguments); },
+         "in the plane: vertices closer together than d are left out,\nwithin TOLERANCE times d of "
+         "the boundary, and islands and lakes\nof less extent than EXTENT times d, if it is given")
+      ->type_name("TOLERANCE[,EXTENT]")
       ->group(group);
 }
 
@@ -269,6 +301,8 @@ void check_input(const Arguments& arguments) {
   if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");
   }
+  if (arguments.simplify && arguments.spacing == "auto")
+    refuse("--simplify needs d as a formula or a grid: auto follows every vertex of the boundary");
   if (!arguments.cut.empty()) cut_plane_in(arguments.cut);
 }
 
@@ -291,6 +325,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   app.get_formatter()->column_width(28);
   add_input(app, arguments);
   add_spacing_bounds(app, arguments);
+  add_curves(app, arguments);
   add_surfaces_only(app, arguments);
   add_groups(app, arguments, names);
   add_output(app, arguments);
@@ -323,6 +358,10 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
   if (dimension == 2 && arguments.surfaces_only)
     refuse("--surfaces-only is for surfaces in space" + plane);
   if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);
+  if (dimension == 3 && arguments.corner_angle)
+    refuse("--corner-angle is for domains in the plane, and this one is a body: --feature-angle");
+  if (dimension == 3 && arguments.simplify)
+    refuse("--simplify is for domains in the plane, and this one is a body");
   if (arguments.surfaces_only && !arguments.cut.empty())
     refuse("--cut is for bodies, and with --surfaces-only nothing is inside");
   using picture::ElementColour;

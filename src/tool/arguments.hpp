@@ -24,6 +24,9 @@ struct Arguments {
   std::string report;  // a file, "-", or empty
   std::vector<std::pair<std::string, std::string>> options;  // key and value for the library
   std::optional<double> feature_angle;                       // of surfaces, degrees
+  std::optional<double> corner_angle;                        // of curves, degrees
+  std::optional<double> simplify;                            // tolerance, over d
+  double smallest = 0;                                       // extent of curves, over d
   std::vector<std::string> inner;                            // groups of triangles, by name or tag
   std::vector<std::pair<std::int32_t, std::string>> names;   // of tags
   std::optional<picture::ElementColour> colour;              // of elements in pictures

@@ -66,6 +66,7 @@ DomainSource::DomainSource(const Arguments& arguments)
       level_set_(LevelSet::in(path_)),
       primitive_(level_set_ ? std::nullopt : primitive_in(path_)),
       feature_angle_(arguments.feature_angle.value_or(default_feature_angle)),
+      corner_angle_(arguments.corner_angle.value_or(0)),
       filled_(!arguments.surfaces_only),
       inner_(arguments.inner),
       names_(arguments.names) {
@@ -84,6 +85,7 @@ void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks&
       add_to(domain, context);
     }
     name_groups(domain, context);
+    if (dimension_ == 2) check(pnpbs_domain_set_corner_angle(domain, corner_angle_), context);
     check(pnpbs_domain_check(domain), context);
   });
 }

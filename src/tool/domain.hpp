@@ -40,6 +40,7 @@ class DomainSource {
   std::optional<Primitive> primitive_;
   int dimension_ = 2;
   double feature_angle_;
+  double corner_angle_;  // in the plane
   bool filled_;
   std::vector<std::string> inner_;                           // groups
   std::vector<std::pair<std::int32_t, std::string>> names_;  // of tags

@@ -228,4 +228,22 @@ Grid read_grid(const std::string& path, int dimension) {
   return grid;
 }
 
+double value_at(const Grid& grid, const double* place) {
+  std::int64_t cell[2], next[2];
+  double fraction[2];
+  for (const int k : {0, 1}) {
+    const double last = static_cast<double>(grid.size[k] - 1);
+    const double at = std::clamp((place[k] - grid.origin[k]) / grid.step[k], 0.0, last);
+    cell[k] = static_cast<std::int64_t>(at);
+    next[k] = std::min(cell[k] + 1, grid.size[k] - 1);
+    fraction[k] = at - static_cast<double>(cell[k]);
+  }
+  const auto value = [&](std::int64_t i, std::int64_t j) {
+    return grid.values[static_cast<std::size_t>(i + grid.size[0] * j)];
+  };
+  return std::lerp(std::lerp(value(cell[0], cell[1]), value(next[0], cell[1]), fraction[0]),
+                   std::lerp(value(cell[0], next[1]), value(next[0], next[1]), fraction[0]),
+                   fraction[1]);
+}
+
 }  // namespace pnpbs::tool

@@ -138,6 +138,10 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
     check(pnpbs_domain_create(context, dimension, domain.out()), context);
   });
   wishes.source->read(domain, context, ranks);
+  if (arguments.simplify)
+    ranks.agreed([&] {
+      wishes.spacing->simplify(domain, context, *arguments.simplify, arguments.smallest);
+    });
   PictureLook look;
   std::optional<BodyFigures> body;
   ranks.agreed([&] {

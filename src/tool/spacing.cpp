@@ -7,6 +7,13 @@ namespace {
 // What --spacing auto asks for.
 constexpr double nodes_per_turn = 20, nodes_across = 3, nodes_per_edge = 1, growth = 0.15;
 
+std::int32_t call_grid(std::int64_t n, std::int32_t dim, const double* coordinates, double* d,
+                       void* user) {
+  const Grid& grid = *static_cast<const Grid*>(user);
+  for (std::int64_t i = 0; i < n; ++i) d[i] = value_at(grid, coordinates + dim * i);
+  return 0;
+}
+
 }  // namespace
 
 Spacing::Spacing(const Arguments& arguments, int dimension)
@@ -18,6 +25,15 @@ Spacing::Spacing(const Arguments& arguments, int dimension)
   } else {
     grid_ = std::make_unique<Grid>(read_grid(arguments.spacing_grid, dimension));
   }
+}
+
+void Spacing::simplify(pnpbs_domain domain, pnpbs_context context, double tolerance,
+                       double smallest) {
+  if (expression_) expression_->ask_shape_of(domain, context);
+  check(pnpbs_domain_simplify(domain, grid_ ? call_grid : call_expression,
+                              grid_ ? grid_.get() : expression_->as_user(), tolerance, smallest,
+                              nullptr, nullptr),
+        context);
 }
 
 void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,

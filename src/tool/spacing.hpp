@@ -16,6 +16,9 @@ class Spacing {
  public:
   Spacing(const Arguments& arguments, int dimension);
 
+  // Leaves out of a domain in the plane what is finer than d. Local. Throws Failure.
+  void simplify(pnpbs_domain domain, pnpbs_context context, double tolerance, double smallest);
+
   // This object must outlive the placement, and the domain, whose shape a formula may ask for.
   // Collective. Throws Failure.
   void give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,

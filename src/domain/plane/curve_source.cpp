@@ -32,13 +32,22 @@ std::int32_t CurveSource::segment_tag(std::int64_t segment) const {
   return kind == Kind::smooth ? tags[0] : tags[static_cast<std::size_t>(segment)];
 }
 
+std::int64_t CurveSource::point_number(std::int64_t point) const {
+  return point_numbers.empty() ? point : point_numbers[static_cast<std::size_t>(point)];
+}
+
+std::int64_t CurveSource::segment_number(std::int64_t segment) const {
+  return segment_numbers.empty() ? segment : segment_numbers[static_cast<std::size_t>(segment)];
+}
+
 bool CurveSource::ends_at(std::int64_t point) const {
   if (kind == Kind::graph || closed) return false;
   return point == 0 || point + 1 == static_cast<std::int64_t>(points.size());
 }
 
 std::string CurveSource::point_name(std::int64_t point) const {
-  if (kind != Kind::smooth) return prefix(*this) + "vertex " + std::to_string(first_number + point);
+  if (kind != Kind::smooth)
+    return prefix(*this) + "vertex " + std::to_string(first_number + point_number(point));
   if (point == 0) return prefix(*this) + "begin";
   if (ends_at(point)) return prefix(*this) + "end";
   return prefix(*this) + "t = " + number_text(parameters[static_cast<std::size_t>(point)]);
@@ -50,9 +59,10 @@ std::string CurveSource::segment_name(std::int64_t segment) const {
 
 std::string CurveSource::segments_name(std::int64_t first, std::int64_t last) const {
   if (kind == Kind::smooth) return "curve " + std::to_string(number);
-  if (first == last) return prefix(*this) + "segment " + std::to_string(first_number + first);
-  return prefix(*this) + "segments " + std::to_string(first_number + first) + " to " +
-         std::to_string(first_number + last);
+  const std::int64_t from = first_number + segment_number(first);
+  if (first == last) return prefix(*this) + "segment " + std::to_string(from);
+  return prefix(*this) + "segments " + std::to_string(from) + " to " +
+         std::to_string(first_number + segment_number(last));
 }
 
 }  // namespace pnpbs

@@ -40,11 +40,17 @@ struct CurveSource {
 
   std::vector<std::int32_t> point_tags;                   // graphs: 0 takes the segment's
   std::vector<std::array<std::int64_t, 2>> segment_ends;  // graphs
+  std::vector<char> corners;                              // graphs: of points; empty: all are
   std::int64_t first_number = 0;                          // graphs: what the user calls vertex 0
+
+  // What points and segments were when they were given; empty: they still are.
+  std::vector<std::int64_t> point_numbers, segment_numbers;
 
   std::int64_t segment_count() const;
   std::array<std::int64_t, 2> ends(std::int64_t segment) const;
   std::int32_t segment_tag(std::int64_t segment) const;
+  std::int64_t point_number(std::int64_t point) const;
+  std::int64_t segment_number(std::int64_t segment) const;
 
   // Does the curve end in this point (of an open polyline, or of a smooth curve)?
   bool ends_at(std::int64_t point) const;

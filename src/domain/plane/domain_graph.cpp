@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "base/point_text.hpp"
 #include "domain/domain_error.hpp"
 #include "domain/plane/point_tree.hpp"
+#include "domain/plane/smooth_graph.hpp"
 
 namespace pnpbs {
 
@@ -28,22 +28,16 @@ struct GivenPoint {
   bool curve_end;
 };
 
-// By how much the polyline turns at a point between two segments, in degrees.
-double turn(const Point<2>& before, const Point<2>& at, const Point<2>& after) {
-  const double ux = at[0] - before[0], uy = at[1] - before[1];
-  const double vx = after[0] - at[0], vy = after[1] - at[1];
-  return std::atan2(std::fabs(ux * vy - uy * vx), ux * vx + uy * vy) * 180 / std::numbers::pi;
-}
-
 bool is_corner(const CurveSource& source, std::int64_t point) {
-  if (source.kind == Kind::graph || source.ends_at(point)) return true;
+  if (source.kind == Kind::graph) return source.corners.empty() || source.corners[point];
+  if (source.ends_at(point)) return true;
   if (source.kind == Kind::smooth) return false;
   if (source.corner_angle == 0) return true;
   const auto count = static_cast<std::int64_t>(source.points.size());
   const std::int64_t before = point == 0 ? count - 1 : point - 1;
   if (source.segment_tag(before) != source.segment_tag(point)) return true;
   const std::int64_t after = point + 1 == count ? 0 : point + 1;
-  return turn(source.points[before], source.points[point], source.points[after]) >
+  return turn_in_degrees(source.points[before], source.points[point], source.points[after]) >
          source.corner_angle;
 }
 

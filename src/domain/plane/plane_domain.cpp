@@ -12,6 +12,8 @@
 #include "domain/given_values.hpp"
 #include "domain/plane/domain_resolver.hpp"
 #include "domain/plane/sampling.hpp"
+#include "domain/plane/simplify.hpp"
+#include "domain/plane/smooth_graph.hpp"
 
 namespace pnpbs {
 
@@ -25,6 +27,11 @@ void require_interval(double begin, double end) {
   require_number("begin", begin);
   require_number("end", end);
   if (begin == end) reject("begin and end are both " + number_text(begin));
+}
+
+void require_not_negative(const char* argument, double value) {
+  require_number(argument, value);
+  if (value < 0) reject(std::string(argument) + " is " + number_text(value) + ", less than 0");
 }
 
 // A full circle closes exactly.
@@ -166,8 +173,32 @@ void PlaneDomain::add_fixed_nodes(std::int64_t n, const double* xy, const std::i
   checked_ = false;
 }
 
+void PlaneDomain::set_corner_angle(double corner_angle) {
+  given_values::require_angle("corner_angle", corner_angle);
+  corner_angle_ = corner_angle;
+  checked_ = false;
+}
+
+LeftOut PlaneDomain::simplify(const SpacingEvaluator<2>& spacing, const SimplifyRule& rule) {
+  require_not_negative("tolerance", rule.tolerance);
+  require_not_negative("smallest", rule.smallest);
+  std::vector<CurveSource> sources = sources_;
+  std::vector<Hole> holes = holes_;
+  const LeftOut left_out = pnpbs::simplify(sources, holes, given_nodes_, spacing, rule);
+  sources_ = std::move(sources);
+  holes_ = std::move(holes);
+  if (left_out.vertices > 0)
+    given_warnings_.push_back("simplified: " + std::to_string(left_out.vertices) +
+                              " vertices were left out, of them those of " +
+                              std::to_string(left_out.curves) + " closed curves as a whole");
+  checked_ = false;
+  return left_out;
+}
+
 void PlaneDomain::check() {
   if (checked_) return;
+  for (CurveSource& source : sources_)
+    if (source.kind == CurveSource::Kind::graph) find_corners(source, corner_angle_);
   resolved_ = resolve_domain(sources_, holes_, given_nodes_);
   resolved_.warnings.insert(resolved_.warnings.begin(), given_warnings_.begin(),
                             given_warnings_.end());

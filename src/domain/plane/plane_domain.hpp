@@ -10,6 +10,7 @@
 #include "base/types.hpp"
 #include "domain/group_names.hpp"
 #include "domain/plane/curve_source.hpp"
+#include "domain/spacing_evaluator.hpp"
 
 namespace pnpbs {
 
@@ -35,6 +36,17 @@ struct Corner {
   Point<2> position;
   std::int32_t tag;
   std::string name;  // for messages: "vertex 17"
+};
+
+// Both times d where it is.
+struct SimplifyRule {
+  double tolerance;  // how far a vertex that is left out may lie from the curve
+  double smallest;   // closed curves of less extent are left out
+};
+
+struct LeftOut {
+  std::int64_t vertices = 0;  // those of curves left out included
+  std::int64_t curves = 0;
 };
 
 struct FixedNode {
@@ -75,6 +87,10 @@ class PlaneDomain {
                 const std::int32_t* segment_tags, std::int64_t holes, const double* hole_points,
                 std::int64_t first_number = 0);
   void add_hole(const Point<2>& point);
+  // Of all graphs, degrees.
+  void set_corner_angle(double corner_angle);
+  // Leaves out what is finer than d of what has been given so far; all or, if it throws, nothing.
+  LeftOut simplify(const SpacingEvaluator<2>& spacing, const SimplifyRule& rule);
   void add_fixed_nodes(std::int64_t n, const double* xy, const std::int32_t* tags);
   // To be told with those that check() finds.
   void add_warning(std::string warning) {
@@ -107,6 +123,7 @@ class PlaneDomain {
   std::vector<FixedNode> given_nodes_;
   std::vector<std::string> given_warnings_;
   GroupNames names_;
+  double corner_angle_ = 0;  // of graphs
   std::int64_t curves_given_ = 0, graphs_given_ = 0, holes_given_ = 0;
   bool checked_ = false;
   ResolvedDomain resolved_;

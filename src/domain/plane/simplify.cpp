@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vertices leave one at a time, those first that matter least (as M. Visvalingam and J. D. Whyatt,
+// "Line generalisation by repeated elimination of points", Cartogr. J. 30 (1993) 46-51, but
+// measured by distance). What is left out is swept over by triangles that hold no point, so nothing
+// changes its side.
+#include "domain/plane/simplify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+#include <set>
+#include <utility>
+
+#include "domain/plane/domain_graph.hpp"
+#include "domain/plane/point_tree.hpp"
+#include "domain/plane/segments.hpp"
+#include "domain/plane/small_loops.hpp"
+#include "predicates/plane.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using Kind = CurveSource::Kind;
+
+// A vertex's place in its chain: chains follow each other in one array, closed ones without the
+// vertex that comes again.
+struct Slot {
+  std::int32_t vertex;
+  std::int32_t chain;
+  std::int64_t before, after;  // of those that are left; -1 at the ends of open chains
+};
+
+class Simplifier {
+ public:
+  Simplifier(std::vector<CurveSource>& sources, std::vector<Hole>& holes,
+             const std::vector<FixedNode>& fixed_nodes, const SimplifyRule& rule)
+      : sources_(sources),
+        holes_(holes),
+        rule_(rule),
+        graph_(join_sources(sources, fixed_nodes, domain_size(sources))) {}
+
+  LeftOut run(const SpacingEvaluator<2>& spacing) {
+    std::vector<Point<2>> positions;
+    for (const GraphVertex& vertex : graph_.vertices) positions.push_back(vertex.position);
+    d_.resize(positions.size());
+    spacing(static_cast<std::int64_t>(positions.size()), positions.data(), d_.data());
+    find_chains();
+    gone_.assign(graph_.vertices.size(), 0);
+    leave_out_loops();
+    leave_out_vertices(std::move(positions));
+    rewrite_sources();
+    return left_out_;
+  }
+
+ private:
+  const Point<2>& position(std::int64_t slot) const {
+    return graph_.vertices[slots_[slot].vertex].position;
+  }
+  const GraphEdge& edge(std::int32_t e) const { return graph_.edges[e]; }
+  std::int32_t tag_of(std::int32_t e) const {
+    return sources_[edge(e).source].segment_tag(edge(e).segment);
+  }
+
+  // ------------------------------------------------------------ chains
+  void find_chains() {
+    std::vector<char> is_break(graph_.vertices.size(), 0);
+    may_go_.assign(graph_.vertices.size(), 1);
+    std::vector<std::int32_t> one(graph_.vertices.size(), -1);  // edge of each vertex
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e)
+      for (const std::int32_t v : graph_.ends[e]) {
+        const auto now = static_cast<std::int32_t>(e);
+        if (one[v] >= 0 && !are_alike(one[v], now)) is_break[v] = 1;
+        one[v] = now;
+      }
+    for (std::size_t v = 0; v < graph_.vertices.size(); ++v) {
+      const GraphVertex& vertex = graph_.vertices[v];
+      const bool own = vertex.tag != 0 && one[v] >= 0 && vertex.tag != tag_of(one[v]);
+      const bool ends_curve = vertex.source >= 0 && sources_[vertex.source].ends_at(vertex.index);
+      if (vertex.degree != 2 || vertex.fixed >= 0 || own || ends_curve) is_break[v] = 1;
+      may_go_[v] = !is_break[v] && sources_[edge(one[v]).source].kind != Kind::smooth;
+    }
+    chains_ = chains_between(is_break, graph_.ends);
+  }
+
+  bool are_alike(std::int32_t e, std::int32_t other) const {
+    return edge(e).source == edge(other).source && tag_of(e) == tag_of(other);
+  }
+
+  void leave_out_loops() {
+    loop_goes_ = small_loops(graph_, chains_, d_, may_go_, rule_.smallest);
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      if (!loop_goes_[c]) continue;
+      ++left_out_.curves;
+      left_out_.vertices += static_cast<std::int64_t>(chains_[c].edges.size());
+      for (const std::int32_t v : chains_[c].vertices) gone_[v] = 1;
+      std::erase_if(holes_,
+                    [&](const Hole& hole) { return is_within(hole.point, chains_[c], graph_); });
+    }
+  }
+
+  // ------------------------------------------------------------ vertices
+  void make_slots() {
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      first_slot_.push_back(static_cast<std::int64_t>(slots_.size()));
+      const Chain& chain = chains_[c];
+      const auto n = static_cast<std::int64_t>(chain.vertices.size()) - (chain.closed ? 1 : 0);
+      for (std::int64_t k = 0; k < n; ++k) {
+        const std::int64_t slot = first_slot_.back() + k;
+        slots_.push_back({chain.vertices[k], static_cast<std::int32_t>(c), k > 0 ? slot - 1 : -1,
+                          k + 1 < n ? slot + 1 : -1});
+      }
+      if (chain.closed) {
+        slots_[first_slot_.back()].before = static_cast<std::int64_t>(slots_.size()) - 1;
+        slots_.back().after = first_slot_.back();
+      } else if (n == 2) {
+        straight_.insert(pair_of(chain.vertices.front(), chain.vertices.back()));
+      }
+      left_in_chain_.push_back(n);
+    }
+    first_slot_.push_back(static_cast<std::int64_t>(slots_.size()));
+    turn_of_.assign(slots_.size(), 0);
+  }
+
+  static std::pair<std::int32_t, std::int32_t> pair_of(std::int32_t a, std::int32_t b) {
+    return std::minmax(a, b);
+  }
+
+  void leave_out_vertices(std::vector<Point<2>> positions) {
+    make_slots();
+    for (const Hole& hole : holes_) positions.push_back(hole.point);
+    const PointTree points(positions);
+    // What was in the way may have left, so all are asked again until none leaves.
+    for (std::int64_t before = -1; before != left_out_.vertices;) {
+      before = left_out_.vertices;
+      for (std::size_t s = 0; s < slots_.size(); ++s) offer(static_cast<std::int64_t>(s));
+      empty_queue(points, positions);
+    }
+  }
+
+  void empty_queue(const PointTree& points, const std::vector<Point<2>>& positions) {
+    while (!queue_.empty()) {
+      const auto [cost, slot, turn] = queue_.top();
+      queue_.pop();
+      if (turn != turn_of_[slot] || !may_leave(slot) || !sweeps_free(slot, points, positions))
+        continue;
+      leave_out(slot);
+    }
+  }
+
+  // Into the queue, if the tolerance allows it. What was said of the slot before no longer holds.
+  void offer(std::int64_t slot) {
+    if (slot < 0) return;
+    ++turn_of_[slot];
+    const Slot& here = slots_[slot];
+    if (!may_go_[here.vertex] || gone_[here.vertex]) return;
+    const Point<2>&a = position(here.before), &x = position(slot), &b = position(here.after);
+    if (std::min(distance<2>(a, x), distance<2>(x, b)) >= d_[here.vertex]) return;
+    const double cost = deviation(here);
+    if (cost <= rule_.tolerance) queue_.push({cost, slot, turn_of_[slot]});
+  }
+
+  // The largest distance over d that vertices given between the two next ones would have.
+  double deviation(const Slot& here) const {
+    const Point<2>&a = position(here.before), &b = position(here.after);
+    double largest = 0;
+    for (std::int64_t s = next_given(here.before, here.chain); s != here.after;
+         s = next_given(s, here.chain)) {
+      const double away = distance_to_segment(a, b, position(s));
+      largest = std::max(largest, away / d_[slots_[s].vertex]);
+    }
+    return largest;
+  }
+
+  std::int64_t next_given(std::int64_t slot, std::int32_t chain) const {
+    return slot + 1 == first_slot_[chain + 1] ? first_slot_[chain] : slot + 1;
+  }
+
+  // Curves stay curves: a closed one has three vertices or more, and two have not the same segment.
+  bool may_leave(std::int64_t slot) const {
+    const Slot& here = slots_[slot];
+    const std::int64_t left = left_in_chain_[here.chain];
+    if (chains_[here.chain].closed) return left > 3;
+    const bool ends_meet =
+        chains_[here.chain].vertices.front() == chains_[here.chain].vertices.back();
+    if (left > 3) return left > 4 || !ends_meet;
+    const std::int32_t a = slots_[here.before].vertex, b = slots_[here.after].vertex;
+    return a != b && straight_.count(pair_of(a, b)) == 0;
+  }
+
+  // Is no other point in the triangle that the curve sweeps over?
+  bool sweeps_free(std::int64_t slot, const PointTree& points,
+                   const std::vector<Point<2>>& positions) const {
+    const Slot& here = slots_[slot];
+    const Point<2>&a = position(here.before), &x = position(slot), &b = position(here.after);
+    const int side = orientation(a, x, b);
+    const double reach = distance_to_segment(a, b, x) * (1 + 1e-12);
+    bool free = true;
+    points.for_each_near(a, b, reach, [&](std::int32_t p, double) {
+      if (!free || p == here.vertex || p == slots_[here.before].vertex ||
+          p == slots_[here.after].vertex)
+        return;
+      if (p < static_cast<std::int32_t>(gone_.size()) && gone_[p]) return;
+      const Point<2>& y = positions[p];
+      free = orientation(a, x, y) * side < 0 || orientation(x, b, y) * side < 0 ||
+             orientation(b, a, y) * side < 0;
+    });
+    return free;
+  }
+
+  void leave_out(std::int64_t slot) {
+    const Slot here = slots_[slot];
+    gone_[here.vertex] = 1;
+    ++left_out_.vertices;
+    slots_[here.before].after = here.after;
+    slots_[here.after].before = here.before;
+    if (--left_in_chain_[here.chain] == 2)
+      straight_.insert(pair_of(slots_[here.before].vertex, slots_[here.after].vertex));
+    offer(here.before);
+    offer(here.after);
+  }
+
+  // ------------------------------------------------------------ sources
+  void rewrite_sources() {
+    std::vector<std::vector<std::int32_t>> edges_of(sources_.size()), chains_of(sources_.size());
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e)
+      edges_of[graph_.edges[e].source].push_back(static_cast<std::int32_t>(e));
+    for (std::size_t c = 0; c < chains_.size(); ++c)
+      if (!loop_goes_[c])
+        chains_of[edge(chains_[c].edges.front()).source].push_back(static_cast<std::int32_t>(c));
+    std::vector<CurveSource> left;
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      if (sources_[s].kind == Kind::graph) rewrite_graph(s, chains_of[s]);
+      if (sources_[s].kind == Kind::polyline) rewrite_polyline(sources_[s], edges_of[s]);
+      if (sources_[s].kind == Kind::graph || !chains_of[s].empty())
+        left.push_back(std::move(sources_[s]));
+    }
+    sources_ = std::move(left);
+  }
+
+  // The vertices left on its edges, in order: where others met it, it has vertices now.
+  void rewrite_polyline(CurveSource& source, const std::vector<std::int32_t>& edges) {
+    const CurveSource given = source;
+    source.points.clear();
+    source.tags.clear();
+    source.segment_numbers.clear();
+    source.point_numbers.clear();
+    for (const std::int32_t e : edges) {
+      const std::int32_t begin = graph_.ends[e][0];
+      if (gone_[begin]) continue;
+      source.points.push_back(graph_.vertices[begin].position);
+      source.tags.push_back(given.segment_tag(edge(e).segment));
+      source.segment_numbers.push_back(given.segment_number(edge(e).segment));
+      source.point_numbers.push_back(given.point_number(edge(e).segment));
+    }
+    if (given.closed || edges.empty()) return;
+    source.points.push_back(graph_.vertices[graph_.ends[edges.back()][1]].position);
+    source.point_numbers.push_back(
+        given.point_number(static_cast<std::int64_t>(given.points.size()) - 1));
+  }
+
+  void rewrite_graph(std::size_t s, const std::vector<std::int32_t>& chains) {
+    const CurveSource given = std::move(sources_[s]);
+    CurveSource& source = sources_[s];
+    source = CurveSource();
+    source.kind = Kind::graph;
+    source.number = given.number;
+    source.first_number = given.first_number;
+    std::map<std::int32_t, std::int64_t> point_of;
+    const auto point = [&](std::int32_t v) {
+      const auto [entry, is_new] = point_of.try_emplace(v, source.points.size());
+      if (is_new) add_point(source, given, s, v);
+      return entry->second;
+    };
+    for (const std::int32_t c : chains)
+      for (std::int64_t slot = first_slot_[c]; slot < first_slot_[c + 1]; ++slot) {
+        const Slot& here = slots_[slot];
+        if (gone_[here.vertex] || here.after < 0) continue;
+        const std::int64_t segment = edge(chains_[c].edges[slot - first_slot_[c]]).segment;
+        const std::int64_t begin = point(here.vertex), end = point(slots_[here.after].vertex);
+        source.segment_ends.push_back({begin, end});
+        source.tags.push_back(given.segment_tag(segment));
+        source.segment_numbers.push_back(given.segment_number(segment));
+      }
+    for (std::size_t v = 0; v < graph_.vertices.size(); ++v)
+      if (graph_.vertices[v].degree == 0 && graph_.vertices[v].source == static_cast<int>(s))
+        point(static_cast<std::int32_t>(v));
+  }
+
+  void add_point(CurveSource& source, const CurveSource& given, std::size_t s, std::int32_t v) {
+    const GraphVertex& vertex = graph_.vertices[v];
+    const bool own = vertex.source == static_cast<std::int32_t>(s);
+    source.points.push_back(vertex.position);
+    source.point_tags.push_back(own ? vertex.tag : 0);
+    source.point_numbers.push_back(own ? given.point_number(vertex.index) : 0);
+  }
+
+  using Candidate = std::tuple<double, std::int64_t, std::int32_t>;  // cost, slot, its turn
+
+  std::vector<CurveSource>& sources_;
+  std::vector<Hole>& holes_;
+  SimplifyRule rule_;
+  DomainGraph graph_;
+  std::vector<double> d_;  // of vertices, as the next two
+  std::vector<char> may_go_, gone_;
+  std::vector<Chain> chains_;
+  std::vector<char> loop_goes_;  // of chains, as the next two
+  std::vector<std::int64_t> first_slot_, left_in_chain_;
+  std::vector<Slot> slots_;
+  std::vector<std::int32_t> turn_of_;                         // of slots: how often offered
+  std::set<std::pair<std::int32_t, std::int32_t>> straight_;  // chains of one segment
+  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
+  LeftOut left_out_;
+};
+
+}  // namespace
+
+LeftOut simplify(std::vector<CurveSource>& sources, std::vector<Hole>& holes,
+                 const std::vector<FixedNode>& fixed_nodes, const SpacingEvaluator<2>& spacing,
+                 const SimplifyRule& rule) {
+  return Simplifier(sources, holes, fixed_nodes, rule).run(spacing);
+}
+
+}  // namespace pnpbs
