@@ -219,7 +219,7 @@ function add_cylinder!(domain::Domain, from, to, radius::Real; tag::Integer = 1)
 end
 
 """
-    add_level_set!(f, domain, low, high, resolution; tag = 1)
+    add_level_set!(f, domain, low, high, resolution; tag = 1, per_point = false)
 
 Adds the body where a function is negative to a domain in space: `f(x)` gets the points as a `(3, n)`
 matrix and returns a vector of `n` values. It must always give the same value for the same point, be
@@ -229,14 +229,16 @@ of side `resolution`: what is thinner can be lost, and so can a body that is sma
 towards which `f` does not fall. Nodes on the surface lie where `f = 0`, and on its edges, where the
 gradient of `f` jumps by more than 40 degrees; these stay rounded, with a warning, where triangles
 would cross. The resolution is to be no more than the spacing there, and than half of the least radius
-to which the surface is bent.
+to which the surface is bent. With `per_point` the function is called as `f(x, y, z)`, for each point
+by itself, and returns a number.
 
     add_level_set!(body, (-2, -2, -1), (2, 2, 1), 0.1) do x
         hypot.(hypot.(x[1, :], x[2, :]) .- 1, x[3, :]) .- 0.4
     end
 """
-function add_level_set!(f, domain::Domain, low, high, resolution::Real; tag::Integer = 1)
-    callback = Callback(f, domain.context)
+function add_level_set!(f, domain::Domain, low, high, resolution::Real; tag::Integer = 1,
+                        per_point::Bool = false)
+    callback = Callback(for_batches(f, "level set", per_point), domain.context)
     GC.@preserve callback begin
         code = LibPNPBS.pnpbs_domain_add_level_set(live(domain), level_set_pointer[],
                                                    user_pointer(callback),
@@ -263,19 +265,21 @@ function add_arc!(domain::Domain, centre, radius::Real; from::Real = 0, to::Real
 end
 
 """
-    add_curve!(f, domain, from, to; role = :boundary, tag = 1)
+    add_curve!(f, domain, from, to; role = :boundary, tag = 1, per_point = false)
 
 Adds the curve of a function to a domain in the plane: `f(t)` gets a vector of parameters between
 `from` and `to` and returns the points as a `(2, length(t))` matrix. It must always give the same
 point for the same parameter, be continuous, and not cross itself. Corners are where curves meet.
+With `per_point` it gets one parameter at a time and returns the two coordinates of the point.
 
     add_curve!(domain, 0, 2pi) do t
         [cos.(t) 0.5 .* sin.(t)]'
     end
+    add_curve!(t -> (cos(t), 0.5 * sin(t)), domain, 0, 2pi; per_point = true)
 """
 function add_curve!(f, domain::Domain, from::Real, to::Real; role::Symbol = :boundary,
-                    tag::Integer = 1)
-    callback = Callback(f, domain.context)
+                    tag::Integer = 1, per_point::Bool = false)
+    callback = Callback(for_batches(f, "curve", per_point), domain.context)
     GC.@preserve callback begin
         code = LibPNPBS.pnpbs_domain_add_curve(live(domain), role_number(role), curve_pointer[],
                                                user_pointer(callback), from, to, tag)

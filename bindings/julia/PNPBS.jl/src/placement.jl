@@ -73,7 +73,7 @@ set_placement_option(handle, key, value) =
 # ---------------------------------------------------------------- spacing -----------------------
 """
     set_spacing!(placement, d::Real)
-    set_spacing!(f, placement)
+    set_spacing!(f, placement; per_point = false)
     set_spacing!(placement, values::AbstractArray; origin, step)
     set_spacing!(placement, d::AbstractVector)
 
@@ -84,7 +84,8 @@ has nodes the spacing is replaced: the nodes stay, and the next run starts from 
 - A function: `f(x)` gets points as the columns of a `(dim, n)` matrix and returns a vector of n
   values. It must always give the same value for the same point, and is asked for different points
   on different ranks, so nothing collective may happen inside. An exception that it throws comes
-  out of the call in progress.
+  out of the call in progress. With `per_point` it is called for each point by itself, as `f(x, y)`
+  or, in space, `f(x, y, z)`, and returns a number.
 - A matrix, in space an array of three dimensions: values on a rectangular grid whose first point is
   `origin`, with distances `step`; the first index goes along x. Linear between the grid's points,
   constant beyond its edge.
@@ -96,14 +97,17 @@ For example
     set_spacing!(placement) do x
         0.01 .+ 0.05 .* hypot.(x[1, :], x[2, :])
     end
+    set_spacing!(placement; per_point = true) do x, y
+        0.01 + 0.05 * hypot(x, y)
+    end
 """
 function set_spacing!(placement::Placement, d::Real)
     check(placement, LibPNPBS.pnpbs_placement_set_spacing_constant(live(placement), d))
     return keep_spacing!(placement, nothing)
 end
 
-function set_spacing!(f, placement::Placement)
-    callback = Callback(f, placement.context)
+function set_spacing!(f, placement::Placement; per_point::Bool = false)
+    callback = Callback(for_batches(f, "spacing", per_point), placement.context)
     GC.@preserve callback begin
         code = LibPNPBS.pnpbs_placement_set_spacing_callback(live(placement), spacing_pointer[],
                                                              user_pointer(callback))

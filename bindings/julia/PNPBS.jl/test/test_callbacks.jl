@@ -27,6 +27,42 @@ end
     end
 end
 
+# The same numbers, asked for one by one.
+@testset "functions of one point" begin
+    Context() do context
+        hash(set!) = (placement = Placement(square_domain(context); steps = 10); set!(placement);
+                      run!(placement); statistic(placement, "hash"))
+        @test hash(placement -> set_spacing!((x, y) -> 0.1 + 0.05x * y, placement; per_point = true)) ==
+              hash(placement -> set_spacing!(x -> 0.1 .+ 0.05 .* x[1, :] .* x[2, :], placement))
+
+        curve(t) = (cos(t), 0.5 * sin(t))
+        ellipse = add_curve!(curve, Domain(context), 0, 2pi; per_point = true)
+        @test measure(ellipse) == measure(add_curve!(t -> [cos.(t) 0.5 .* sin.(t)]', Domain(context),
+                                                     0, 2pi))
+
+        ball(x, y, z) = x^2 + (y - 0.1)^2 + (z + 0.3)^2 - 1
+        balls(x) = [ball(x[:, k]...) for k in axes(x, 2)]
+        body(f; options...) = add_level_set!(f, Domain(context; dim = 3), (-2, -2, -2), (2, 2, 2),
+                                             0.5; options...)
+        @test bounds(body(ball; per_point = true)) == bounds(body(balls))
+        placement = Placement(body(balls))
+        seen = Set()
+        set_spacing!((x...) -> (push!(seen, typeof(x)); 0.5), placement; per_point = true)
+        initialise!(placement)
+        @test seen == Set([NTuple{3,Float64}])
+
+        # What is no number or no point, and what takes other arguments.
+        square = Placement(square_domain(context))
+        set_spacing!((x, y) -> [0.1], square; per_point = true)
+        wrong = thrown(() -> run!(square))
+        @test wrong isa ArgumentError && occursin("spacing function returned [0.1]", wrong.msg)
+        set_spacing!(x -> 0.1, square; per_point = true)
+        @test_throws MethodError run!(square)
+        @test_throws DimensionMismatch add_curve!(t -> 1.0, Domain(context), 0, 1; per_point = true)
+        @test_throws ArgumentError body((x...) -> "out"; per_point = true)
+    end
+end
+
 @testset "exceptions come out as they are" begin
     Context() do context
         placement = Placement(square_domain(context); steps = 20)
