@@ -32,6 +32,7 @@ export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names
 export read_poly!, parse_poly!, check_domain, bounds, measure, distances, shape_spacing, outline
 export estimate, initialise!, run!, step!, adjust_population!, rebalance!
 export node_count, nodes, normals, ghost_count, ghosts, exchange_pattern, numbering
+export reinterpret_columns
 export update_ghosts!, begin_update_ghosts, end_update_ghosts!, sum_over_nodes, dot_over_nodes
 export Transfer, at_nodes, at_points
 export adjacency, stars, triangles, boundary_edges, tetrahedra, boundary_triangles, check_results
@@ -41,6 +42,7 @@ export option_table, statistic_table, format_table, library_version, build_info,
 include("LibPNPBS.jl")
 include("errors.jl")
 include("rows.jl")
+include("columns.jl")
 include("callbacks.jl")
 include("per_point.jl")
 include("context.jl")

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""
+    reinterpret_columns(T, matrix) -> AbstractVector{T}
+
+The columns of a matrix as a vector of `T`, without a copy: what is written to one is written to the
+other. `T` is `NTuple{2,Float64}`, `SVector{2,Float64}` of StaticArrays, or any other type of plain
+bits (`isbitstype`) that consists of as many numbers of the matrix's type as a column has; other
+types are an `ArgumentError`. For points and normals, and with `NTuple{3,Int64}` for triangles.
+
+    x = reinterpret_columns(SVector{2,Float64}, nodes(placement).points)
+    norm(x[1] - x[2])
+"""
+function reinterpret_columns(::Type{T}, matrix::Matrix{S}) where {T,S}
+    rows = size(matrix, 1)
+    consists_of(T, S) && sizeof(T) == rows * sizeof(S) || throw(ArgumentError(
+        "columns of $rows numbers of type $S cannot be reinterpreted as $T"))
+    return reinterpret(T, vec(matrix))
+end
+
+# Nothing but numbers of one type, at any depth: an SVector is a structure that holds a tuple.
+consists_of(::Type{S}, ::Type{S}) where {S} = true
+consists_of(T::Type, S::Type) =
+    isbitstype(T) && fieldcount(T) > 0 && all(F -> consists_of(F, S), fieldtypes(T))
