@@ -31,11 +31,12 @@ export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_leve
 export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names
 export read_poly!, parse_poly!, check_domain, bounds, measure, distances, shape_spacing, outline
 export estimate, initialise!, run!, step!, adjust_population!, rebalance!
-export node_count, nodes, normals, ghost_count, ghosts, exchange_pattern, numbering
-export reinterpret_columns
+export node_count, nodes, nodes!, normals, ghost_count, ghosts, ghosts!
+export exchange_pattern, numbering, reinterpret_columns
 export update_ghosts!, begin_update_ghosts, end_update_ghosts!, sum_over_nodes, dot_over_nodes
 export Transfer, at_nodes, at_points
-export adjacency, stars, triangles, boundary_edges, tetrahedra, boundary_triangles, check_results
+export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
+export boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library
 

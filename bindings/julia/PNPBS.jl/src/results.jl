@@ -2,6 +2,15 @@
 # What a placement holds, copied out. Local indices count this rank's nodes from 1, then its ghosts;
 # global ids are the library's, from 0, the same for any number of ranks.
 
+# Arrays for n results: those of earlier ones, as far as they can be used again. Julia can change the
+# length of a vector, but not the size of a matrix.
+fitted!(values::Vector, n) = resize!(values, n)
+fitted!(values::Matrix{T}, rows, n) where {T} =
+    size(values) == (rows, n) ? values : zeros(T, rows, n)
+
+no_nodes() = (points = zeros(0, 0), ids = Int64[], tags = Int32[], spacing = Float64[])
+no_rows(T = Int64) = CompressedRows(Int64[1], T[])
+
 """
     node_count(placement) -> Int
 
@@ -15,15 +24,26 @@ end
 
 """
     nodes(placement) -> (points, ids, tags, spacing)
+    nodes!(placed, placement) -> placed
 
 The nodes of this rank in their local order: `points` is `(dim, n)`; `ids` are global; `tags` are 0
 for inner nodes and otherwise that of the curve, surface or fixed node; `spacing` is d at the node.
 Local.
+
+`nodes!` puts them into the arrays of an earlier result instead of new ones. Vectors get the length
+that is needed now; a matrix of another size is replaced, so go on with what is returned. After an
+exception the arrays hold nothing of use.
+
+    placed = nodes!(placed, placement)
 """
-function nodes(placement::Placement)
+nodes, nodes!
+
+nodes(placement::Placement) = nodes!(no_nodes(), placement)
+
+function nodes!(placed::NamedTuple, placement::Placement)
     n = node_count(placement)
-    points, ids = zeros(ndims(placement), n), zeros(Int64, n)
-    tags, spacing = zeros(Int32, n), zeros(n)
+    points, ids = fitted!(placed.points, ndims(placement), n), fitted!(placed.ids, n)
+    tags, spacing = fitted!(placed.tags, n), fitted!(placed.spacing, n)
     check(placement, LibPNPBS.pnpbs_placement_get_nodes(live(placement), n, points, ids, tags,
                                                         spacing))
     return (points = points, ids = ids, tags = tags, spacing = spacing)
@@ -42,14 +62,21 @@ end
 
 """
     ghosts(placement) -> (points, ids, tags, spacing, owners)
+    ghosts!(others, placement) -> others
 
 The ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars, triangles
-and tetrahedra ghost g has the local index `node_count(placement) + g`. Collective.
+and tetrahedra ghost g has the local index `node_count(placement) + g`. `ghosts!` uses the arrays of
+an earlier result again, as [`nodes!`](@ref) does. Collective.
 """
-function ghosts(placement::Placement)
+ghosts, ghosts!
+
+ghosts(placement::Placement) = ghosts!((; no_nodes()..., owners = Int32[]), placement)
+
+function ghosts!(others::NamedTuple, placement::Placement)
     n = ghost_count(placement)
-    points, ids = zeros(ndims(placement), n), zeros(Int64, n)
-    tags, spacing, owners = zeros(Int32, n), zeros(n), zeros(Int32, n)
+    points, ids = fitted!(others.points, ndims(placement), n), fitted!(others.ids, n)
+    tags, spacing = fitted!(others.tags, n), fitted!(others.spacing, n)
+    owners = fitted!(others.owners, n)
     check(placement, LibPNPBS.pnpbs_placement_get_ghosts(live(placement), n, points, ids, tags,
                                                          spacing, owners))
     return (points = points, ids = ids, tags = tags, spacing = spacing, owners = owners)
@@ -95,14 +122,21 @@ end
 
 """
     adjacency(placement) -> CompressedRows{Int64}
+    adjacency!(lists, placement) -> lists
 
 The adjacency lists: row i has the local indices of the nodes within `adjacency_radius` of node i,
-in the order of global ids. Pairs that a boundary separates are not neighbours. Collective.
+in the order of global ids. Pairs that a boundary separates are not neighbours. `adjacency!` puts
+them into earlier lists. Collective.
 """
-function adjacency(placement::Placement)
+adjacency, adjacency!
+
+adjacency(placement::Placement) = adjacency!(no_rows(), placement)
+
+function adjacency!(lists::CompressedRows{Int64}, placement::Placement)
     entries = Ref{Int64}(0)
     check(placement, LibPNPBS.pnpbs_placement_adjacency_size(live(placement), entries))
-    offsets, neighbours = zeros(Int64, node_count(placement) + 1), zeros(Int64, entries[])
+    offsets = fitted!(lists.offsets, node_count(placement) + 1)
+    neighbours = fitted!(lists.entries, entries[])
     check(placement, LibPNPBS.pnpbs_placement_get_adjacency(live(placement), entries[], offsets,
                                                             neighbours))
     return rows_of_indices(offsets, neighbours)
@@ -110,50 +144,70 @@ end
 
 """
     stars(placement) -> (neighbours, triangle)
+    stars!(around, placement) -> around
 
 Each node's star in the constrained Delaunay triangulation of the domain. `neighbours[i]` has the
 local indices of node i's neighbours, counter-clockwise; `triangle[i][k]` tells whether the node,
 its k-th neighbour and the next one around are a triangle of the domain, or whether a gap lies
 between them. In space the neighbours are all nodes that share a tetrahedron with node i, in no
-order that means anything, and `triangle[i][k]` is `false`. Both are [`CompressedRows`](@ref).
-Collective.
+order that means anything, and `triangle[i][k]` is `false`. Both are [`CompressedRows`](@ref), with
+the same offsets. `stars!` uses the arrays of an earlier result again. Collective.
 """
-function stars(placement::Placement)
+stars, stars!
+
+stars(placement::Placement) =
+    stars!((neighbours = no_rows(), triangle = no_rows(Bool)), placement)
+
+function stars!(around::NamedTuple, placement::Placement)
     entries = Ref{Int64}(0)
     check(placement, LibPNPBS.pnpbs_placement_star_size(live(placement), entries))
-    offsets, neighbours = zeros(Int64, node_count(placement) + 1), zeros(Int64, entries[])
-    triangle = zeros(Int8, entries[])
+    offsets = fitted!(around.neighbours.offsets, node_count(placement) + 1)
+    neighbours = fitted!(around.neighbours.entries, entries[])
+    triangle = fitted!(around.triangle.entries, entries[])
     check(placement, LibPNPBS.pnpbs_placement_get_stars(live(placement), entries[], offsets,
-                                                        neighbours, triangle))
+                                                        neighbours, reinterpret(Int8, triangle)))
     rows = rows_of_indices(offsets, neighbours)
-    flags = CompressedRows(rows.offsets, Vector{Bool}(triangle .!= 0))
-    return (neighbours = rows, triangle = flags)
+    return (neighbours = rows, triangle = CompressedRows(rows.offsets, triangle))
 end
 
 """
     triangles(placement) -> Matrix{Int64}
+    triangles!(corners, placement) -> corners
 
 The triangles of a placement in the plane, `(3, n)` local indices, counter-clockwise, each once: a
 triangle is the rank's that owns its node with the least id, other corners may be ghosts.
-Collective.
+`triangles!` fills the matrix of an earlier result if it has the size that is needed now, and
+otherwise returns a new one. Collective.
 """
-triangles(placement::Placement) = elements(placement, LibPNPBS.pnpbs_placement_get_triangles, 3)
+triangles, triangles!
+
+triangles(placement::Placement) = triangles!(zeros(Int64, 3, 0), placement)
+
+triangles!(corners::Matrix{Int64}, placement::Placement) =
+    elements!(corners, placement, LibPNPBS.pnpbs_placement_get_triangles, 3)
 
 """
     tetrahedra(placement) -> Matrix{Int64}
+    tetrahedra!(corners, placement) -> corners
 
 The tetrahedra of a placement in space, `(4, n)` local indices, each once: seen from the fourth
 corner, the first three turn counter-clockwise. A tetrahedron is the rank's that owns its node with
-the least id, other corners may be ghosts. Collective.
+the least id, other corners may be ghosts. `tetrahedra!` fills the matrix of an earlier result if it
+has the size that is needed now, and otherwise returns a new one. Collective.
 """
-tetrahedra(placement::Placement) = elements(placement, LibPNPBS.pnpbs_placement_get_tetrahedra, 4)
+tetrahedra, tetrahedra!
 
-function elements(placement, get, rows)
+tetrahedra(placement::Placement) = tetrahedra!(zeros(Int64, 4, 0), placement)
+
+tetrahedra!(corners::Matrix{Int64}, placement::Placement) =
+    elements!(corners, placement, LibPNPBS.pnpbs_placement_get_tetrahedra, 4)
+
+function elements!(corners, placement, get, rows)
     count = Ref{Int64}(0)
     check(placement, get(live(placement), 0, count, C_NULL))
-    corners = zeros(Int64, rows, count[])
-    check(placement, get(live(placement), count[], count, corners))
-    return corners .+= 1
+    fitted = fitted!(corners, rows, count[])
+    check(placement, get(live(placement), count[], count, fitted))
+    return fitted .+= 1
 end
 
 """

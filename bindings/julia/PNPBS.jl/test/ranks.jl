@@ -56,6 +56,16 @@ end
     close(context)
 end
 
+@testset "arrays of earlier results" begin
+    context = Context(world)
+    placement = placed_square(context)
+    others, lists = ghosts(placement), adjacency(placement)
+    again = ghosts!(others, placement)
+    @test again == ghosts(placement) && all(values(again) .=== values(others))
+    @test adjacency!(lists, placement) === lists && lists == adjacency(placement)
+    close(context)
+end
+
 # Values that their owners have arrive at the ghosts; sums have the bits of one process.
 @testset "fields" begin
     context = Context(world)

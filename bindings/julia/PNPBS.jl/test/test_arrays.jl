@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Results without copies.
+# Results without copies, and in arrays of earlier results.
 
 struct Site
     x::Float64
@@ -26,5 +26,56 @@ end
     @test wrong isa ArgumentError && occursin("columns of 2 numbers of type Float64", wrong.msg)
     for T in (NTuple{2,Int64}, NTuple{4,Float32}, Vector{Float64}, Tuple{Float64,Int64}, Float64)
         @test_throws ArgumentError reinterpret_columns(T, points)
+    end
+end
+
+vectors(result::Vector) = Any[result]
+vectors(result::Matrix) = []
+vectors(rows::CompressedRows) = Any[rows.offsets, rows.entries]
+vectors(result::NamedTuple) = reduce(vcat, vectors.(values(result)))
+
+matrices(result) = []
+matrices(result::Matrix) = Any[result]
+matrices(result::NamedTuple) = reduce(vcat, matrices.(values(result)))
+
+same(arrays, others) = length(arrays) == length(others) && all(arrays .=== others)
+
+allocated_by(get!, result, placement) = @allocated get!(result, placement)
+
+# Getters, and those that fill an earlier result.
+const IN_PLANE = [(nodes, nodes!), (ghosts, ghosts!), (adjacency, adjacency!), (stars, stars!),
+                  (triangles, triangles!)]
+const IN_SPACE = [(nodes, nodes!), (adjacency, adjacency!), (tetrahedra, tetrahedra!)]
+
+started(domain, d) = initialise!(set_spacing!(Placement(domain), d))
+
+@testset "results in arrays of earlier ones" begin
+    Context() do context
+        placement = started(square_domain(context), 0.05)
+        earlier = [get(placement) for (get, _) in IN_PLANE]
+        n = node_count(placement)
+        step!(placement)
+        @test node_count(placement) == n && nodes(placement).points != earlier[1].points
+        for ((get, get!), result) in zip(IN_PLANE, earlier)
+            again = get!(result, placement)
+            @test again == get(placement)
+            @test same(vectors(again), vectors(result)) && same(matrices(again), matrices(result))
+            @test allocated_by(get!, result, placement) < 2000
+        end
+    end
+end
+
+@testset "results in arrays for more and for fewer" begin
+    Context() do context
+        box = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
+        for (domain, getters) in ((square_domain(context), IN_PLANE), (box, IN_SPACE))
+            few, many = started(domain, 0.3), started(domain, 0.2)
+            for (get, get!) in getters, (one, other) in ((few, many), (many, few))
+                result = get(one)
+                again = get!(result, other)
+                @test again == get(other)
+                @test same(vectors(again), vectors(result))
+            end
+        end
     end
 end
