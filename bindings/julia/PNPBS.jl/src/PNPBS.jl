@@ -22,6 +22,7 @@ time may use a context.
 module PNPBS
 
 using Libdl
+using SparseArrays: SparseArrays, sparse
 using Base: disable_sigint, reenable_sigint
 
 export Context, Domain, Placement, CompressedRows, PNPBSError
@@ -43,6 +44,7 @@ export option_table, statistic_table, format_table, library_version, build_info,
 include("LibPNPBS.jl")
 include("errors.jl")
 include("rows.jl")
+include("sparse.jl")
 include("columns.jl")
 include("callbacks.jl")
 include("per_point.jl")

@@ -12,7 +12,7 @@ without a copy, so that
     end
 
 visits the neighbours of every node; `rows[i]` is one row, `length(rows)` their number.
-`rows.offsets` and `rows.entries` are what sparse matrices want.
+[`sparse`](@ref) makes a matrix of them.
 """
 struct CompressedRows{T} <: AbstractVector{SubArray{T,1,Vector{T},Tuple{UnitRange{Int64}},true}}
     offsets::Vector{Int64}

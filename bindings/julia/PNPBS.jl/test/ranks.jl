@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Over the ranks of MPI_COMM_WORLD, by its raw Fortran handle. Run by mpirun.
 using PNPBS
+using SparseArrays
 using Test
 
 include("support.jl")
@@ -56,10 +57,18 @@ end
     close(context)
 end
 
-@testset "arrays of earlier results" begin
+# The rows of this rank, over the columns of its nodes and its ghosts.
+@testset "sparse matrices and arrays of earlier results" begin
     context = Context(world)
     placement = placed_square(context)
-    others, lists = ghosts(placement), adjacency(placement)
+    own, others, lists = nodes(placement), ghosts(placement), adjacency(placement)
+    n, g = node_count(placement), ghost_count(placement)
+    A = sparse(lists, fill(0.5, length(lists.entries)); columns = n + g)
+    x = [own.points[1, :]; others.points[1, :]]
+    @test size(A) == (n, n + g)
+    @test A * x ≈ [sum(x[list]) / 2 for list in lists]
+    ranks > 1 && @test_throws ArgumentError sparse(lists)
+
     again = ghosts!(others, placement)
     @test again == ghosts(placement) && all(values(again) .=== values(others))
     @test adjacency!(lists, placement) === lists && lists == adjacency(placement)
