@@ -4,12 +4,17 @@
 
 const MPI_PACKAGE = Base.PkgId(Base.UUID("da04e1cc-30fd-572f-bb4f-1f8673147195"), "MPI")
 
-# A C int is the Fortran handle itself (MPICH). Anything else (a pointer in Open MPI, an unsigned
-# integer in MPItrampoline) MPI converts; all are passed as integers of a pointer's size are.
-fortran_handle(MPI::Module, value::Cint) = value
-
+# MPI.jl 0.20.19 and later have the conversion. For earlier ones: a C int is the Fortran handle itself
+# (MPICH). Anything else (a pointer in Open MPI, an unsigned integer in MPItrampoline) MPI converts;
+# all are passed as integers of a pointer's size are.
 function fortran_handle(MPI::Module, value)
-    library = isdefined(MPI, :API) ? MPI.API.libmpi : MPI.libmpi
+    api = isdefined(MPI, :API) ? MPI.API : MPI
+    isdefined(api, :MPI_Comm_c2f) && return api.MPI_Comm_c2f(value)
+    value isa Cint && return value
+    return converted_by_library(api.libmpi, value)
+end
+
+function converted_by_library(library, value)
     convert_handle = Libdl.dlsym(Libdl.dlopen(library), :MPI_Comm_c2f)
     return ccall(convert_handle, Cint, (UInt,), UInt(value))
 end

@@ -62,7 +62,23 @@ end
     end
 end
 
+# MPI.jl from 0.20.19 on, which has the conversion, and one for MPICH, whose handles are Fortran's.
+module Converting
+module API
+const libmpi = "/none"
+MPI_Comm_c2f(value) = Cint(value + 1)
+end
+end
+
+module Earlier
+const libmpi = "/none"
+end
+
 @testset "communicators" begin
+    @test PNPBS.fortran_handle(Converting, 41) === Cint(42)
+    @test PNPBS.fortran_handle(Converting, Cint(41)) === Cint(42)
+    @test PNPBS.fortran_handle(Earlier, Cint(41)) === Cint(41)
+    @test_throws ErrorException PNPBS.fortran_handle(Earlier, C_NULL)
     @test_throws ArgumentError Context("world")
     # MPI has not been started in this process, or the library has none.
     e = thrown(() -> Context(0))
