@@ -450,7 +450,8 @@ end
     outline(domain) -> (segments, tags)
 
 Straight segments that show a domain in the plane, curves finely sampled, for pictures:
-`segments[:, 1, k]` and `segments[:, 2, k]` are the ends of the k-th.
+`segments[:, 1, k]` and `segments[:, 2, k]` are the ends of the k-th. With Plots.jl and Julia 1.9 or
+later, `plot(domain)` draws them.
 """
 function outline(domain::Domain)
     count = Ref{Int64}(0)

@@ -6,6 +6,10 @@
 A placement of nodes in a domain, on the domain's context. Options are as in [`set!`](@ref); the
 others are those of the context. Set a spacing ([`set_spacing!`](@ref)), then [`run!`](@ref).
 Collective.
+
+With Plots.jl and Julia 1.9 or later, `plot(placement)` draws this rank's nodes, of a placement in
+the plane, and the edges between them: those of the triangles, or with `edges = :adjacency` the pairs
+of the adjacency lists, or with `edges = :none` none. Collective.
 """
 mutable struct Placement
     handle::LibPNPBS.pnpbs_placement

@@ -72,6 +72,10 @@ end
     again = ghosts!(others, placement)
     @test again == ghosts(placement) && all(values(again) .=== values(others))
     @test adjacency!(lists, placement) === lists && lists == adjacency(placement)
+
+    # The edges here that begin at a node of this rank, those to ghosts among them.
+    _, (along_x, _) = PNPBS.picture(placement, :adjacency)
+    @test length(along_x) == 3 * count(i < j for i in eachindex(lists) for j in lists[i])
     close(context)
 end
 

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What pictures of the plane consist of, for any plotting package.
+
+# Segments (2, 2, n) as one path for x and one for y, which breaks off behind each of them.
+function broken_path(segments)
+    coordinate(c) = vec([segments[c, :, :]; fill(NaN, 1, size(segments, 3))])
+    return coordinate(1), coordinate(2)
+end
+
+# The pairs in symmetric lists, each once, (2, n). Ghosts come behind all nodes and have no list.
+function pairs_in(lists)
+    pairs = [k for (i, list) in enumerate(lists) for j in list if i < j for k in (i, j)]
+    return reshape(pairs, 2, :)
+end
+
+function lists_to_draw(placement, edges)
+    edges === :triangles && return stars(placement).neighbours
+    edges === :adjacency && return adjacency(placement)
+    edges === :none && return no_rows()
+    throw(ArgumentError("edges is $(repr(edges)); :triangles, :adjacency or :none was expected"))
+end
+
+# This rank's nodes, and the path along its edges.
+function picture(placement::Placement, edges)
+    ndims(placement) == 2 || throw(ArgumentError("pictures are of placements in the plane"))
+    points = nodes(placement).points
+    ends = [points ghosts(placement).points]
+    return points, broken_path(ends[:, pairs_in(lists_to_draw(placement, edges))])
+end
