@@ -97,6 +97,8 @@ module pnpbs
     procedure :: add_fixed_nodes => domain_add_fixed_nodes
     procedure :: read_poly => domain_read_poly
     procedure :: parse_poly => domain_parse_poly
+    procedure :: set_corner_angle => domain_set_corner_angle
+    procedure :: simplify => domain_simplify
     procedure :: check => domain_check
     procedure :: bounds => domain_bounds
     procedure :: measure => domain_measure
@@ -937,6 +939,50 @@ contains
     call conclude('domain%parse_poly', &
                   c_domain_parse_poly(self%c, text // c_null_char, len(text, kind=c_int64_t), &
                                       c_text(name)), stat, errmsg)
+  end subroutine
+
+  !> Where the graphs of a domain in the plane have corners (add_pslg, read_poly, parse_poly), those
+  !> given before and those given after: at vertices where the direction turns by more than this,
+  !> where segments of different tags or other than two of them end, and at vertices with a tag of
+  !> their own. Nodes lie on corners; between them a graph stands for a smooth curve, and nodes lie
+  !> on it as d says. Local.
+  !>   corner_angle  degrees, 0 .. 180. 0, as it is at first: every vertex becomes a node
+  subroutine domain_set_corner_angle(self, corner_angle, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: corner_angle
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%set_corner_angle', c_domain_set_corner_angle(self%c, corner_angle), stat, &
+                  errmsg)
+  end subroutine
+
+  !> Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs and
+  !> polylines given so far, vertices beside segments shorter than d, as long as the curve then
+  !> passes them within tolerance * d; and closed curves, islands and lakes, whose extent (the longer
+  !> side of their bounding box) is less than smallest * d. No other vertex, fixed node or hole point
+  !> comes to another side of a curve. Vertices stay where curves meet or end, where tags change or a
+  !> vertex has its own, and at fixed nodes. Local; on several ranks all must do the same.
+  !>   spacing    d, called during this procedure alone
+  !>   tolerance  >= 0; 0.25 suits most
+  !>   smallest   >= 0; 0 leaves no curve out
+  !>   user       optional: what the callback gets as user
+  !>   vertices   optional: how many were left out, those of the curves included
+  !>   curves     optional: how many were left out
+  subroutine domain_simplify(self, spacing, tolerance, smallest, user, vertices, curves, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    procedure(pnpbs_spacing_fn) :: spacing
+    real(c_double), intent(in) :: tolerance, smallest
+    type(c_ptr), intent(in), optional :: user
+    integer(c_int64_t), intent(out), optional :: vertices, curves
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: left_out(2)
+    left_out = 0
+    call conclude('domain%simplify', &
+                  c_domain_simplify(self%c, c_funloc(spacing), pointer_or_null(user), tolerance, &
+                                    smallest, left_out(1), left_out(2)), stat, errmsg)
+    if (present(vertices)) vertices = left_out(1)
+    if (present(curves)) curves = left_out(2)
   end subroutine
 
   !> Checks the whole geometry: duplicate vertices, self-intersections, boundary curves or surfaces

@@ -500,6 +500,27 @@ module pnpbs_c
       integer(c_int) :: c_domain_parse_poly
     end function
 
+    function c_domain_set_corner_angle(domain, corner_angle) bind(C, &
+      name="pnpbs_domain_set_corner_angle")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), value :: corner_angle
+      integer(c_int) :: c_domain_set_corner_angle
+    end function
+
+    function c_domain_simplify(domain, spacing, user, tolerance, smallest, vertices, curves) bind(C, &
+      name="pnpbs_domain_simplify")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      type(c_funptr), value :: spacing ! pnpbs_spacing_fn
+      type(c_ptr), value :: user ! void *
+      real(c_double), value :: tolerance, smallest
+      integer(c_int64_t), intent(out) :: vertices, curves
+      integer(c_int) :: c_domain_simplify
+    end function
+
     function c_domain_check(domain) bind(C, name="pnpbs_domain_check")
       import
       implicit none

@@ -631,6 +631,103 @@ START_TEST(a_lake) {
 }
 END_TEST
 
+/* ---------------------------------------------------------------- finer than d ---------- */
+
+static job lake_job(void) {
+  job it = job_begin();
+  MUST(pnpbs_domain_read_poly(it.domain, PNPBS_SOURCE_DIR "/examples/data/lake_victoria.poly"));
+  return it;
+}
+
+static int shortest_over_d(const result* nodes) {
+  int64_t e;
+  int below = 0;
+  for (e = 0; e < nodes->edges; ++e)
+    below += edge_length(nodes, e) < 0.5 * nodes->d[nodes->ends[2 * e]];
+  return below;
+}
+
+static int32_t asking(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
+  const job* it = user;
+  int64_t i;
+  ck_assert_int_eq(dim, 2);
+  MUST(pnpbs_domain_distance(it->domain, 0, n, xyz, d));
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_domain_add_hole(it->domain, xyz), "callback", "");
+  for (i = 0; i < n; ++i) d[i] = 40 + 0.1 * d[i];
+  return 0;
+}
+
+static int32_t refusing(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
+  (void)n, (void)dim, (void)xyz, (void)d, (void)user;
+  return 3;
+}
+
+START_TEST(a_shore_finer_than_d) {
+  const double origin[2] = {0, 0};
+  double distance, area = 0, simpler = 0;
+  int64_t vertices = -1, curves = -1;
+  int below;
+  job it = lake_job();
+  result nodes;
+  MUST(pnpbs_domain_measure(it.domain, &area));
+  run(&it, 40);
+  nodes = result_of(it.placement);
+  below = shortest_over_d(&nodes);
+  result_free(&nodes);
+  job_end(&it);
+
+  it = lake_job();
+  MUST(pnpbs_domain_distance(it.domain, 0, 1, origin, &distance));
+  MUST_FAIL(PNPBS_ERROR_CALLBACK,
+            pnpbs_domain_simplify(it.domain, refusing, NULL, 0.25, 0, NULL, NULL), "3", "");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_simplify(it.domain, NULL, NULL, 0.25, 0, NULL, NULL),
+            "spacing", "");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_domain_simplify(it.domain, asking, &it, -0.25, 0, NULL, NULL), "tolerance", "");
+  MUST(pnpbs_domain_simplify(it.domain, asking, &it, 0.25, 2, &vertices, &curves));
+  ck_assert_int_gt(vertices, 20);
+  ck_assert_int_eq(curves, 0);
+  MUST(pnpbs_domain_set_corner_angle(it.domain, 45));
+  MUST(pnpbs_domain_measure(it.domain, &simpler));
+  ck_assert_double_eq_tol(simpler / area, 1, 0.02);
+  run(&it, 40);
+  nodes = result_of(it.placement);
+  check_result(&nodes, 1);
+  ck_assert_int_lt(shortest_over_d(&nodes), below / 2);
+  result_free(&nodes);
+  job_end(&it);
+}
+END_TEST
+
+/* Between corners nodes lie on a graph as d says, however fine it is. */
+START_TEST(a_graph_that_is_a_circle) {
+  double xy[2 * 720];
+  int64_t ends[2 * 720];
+  double length;
+  int i, edges;
+  job it = job_begin();
+  result nodes;
+  for (i = 0; i < 720; ++i) {
+    xy[2 * i] = cos(2 * PI * i / 720);
+    xy[2 * i + 1] = sin(2 * PI * i / 720);
+    ends[2 * i] = i;
+    ends[2 * i + 1] = (i + 1) % 720;
+  }
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_set_corner_angle(it.domain, -1), "corner_angle", "");
+  MUST(pnpbs_domain_set_corner_angle(it.domain, 30));
+  MUST(pnpbs_domain_add_pslg(it.domain, 720, xy, NULL, 720, ends, NULL, 0, NULL));
+  run(&it, 0.1);
+  nodes = result_of(it.placement);
+  check_result(&nodes, 1);
+  edges = edges_tagged(&nodes, 1, &length);
+  ck_assert_int_ge(edges, 61);
+  ck_assert_int_le(edges, 65);
+  ck_assert_double_eq_tol(length, 2 * PI, 0.01);
+  result_free(&nodes);
+  job_end(&it);
+}
+END_TEST
+
 int main(void) {
   Suite* suite = suite_create("boundary");
   TCase* cases = tcase_create("boundary");
@@ -653,6 +750,8 @@ int main(void) {
   tcase_add_test(cases, a_graph_by_text);
   tcase_add_test(cases, segments_show_the_domain);
   tcase_add_test(cases, a_lake);
+  tcase_add_test(cases, a_shore_finer_than_d);
+  tcase_add_test(cases, a_graph_that_is_a_circle);
   suite_add_tcase(suite, cases);
   return run_suite(suite);
 }

@@ -20,6 +20,7 @@ program test_domain
   call about_open_curves
   call about_graphs_with_tags
   call about_graphs
+  call about_graphs_finer_than_d
   call about_files
   call about_wrong_arguments
   call context%destroy
@@ -186,6 +187,40 @@ contains
       call expect(any(node_tags == i), 'tags of vertices')
     end do
     call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  subroutine about_graphs_finer_than_d
+    type(pnpbs_domain) :: domain
+    real(c_double) :: xy(2, 44)
+    real(c_double), target :: d
+    integer(c_int64_t) :: ends(2, 44), vertices, curves
+    integer :: i
+    ! A square of 40 segments, and a small one of four within it.
+    do i = 1, 10
+      xy(:, i) = [0.1d0 * (i - 1), 0d0]
+      xy(:, i + 10) = [1d0, 0.1d0 * (i - 1)]
+      xy(:, i + 20) = [1 - 0.1d0 * (i - 1), 1d0]
+      xy(:, i + 30) = [0d0, 1 - 0.1d0 * (i - 1)]
+    end do
+    xy(:, 41:44) = reshape([0.5d0, 0.5d0, 0.6d0, 0.5d0, 0.6d0, 0.6d0, 0.5d0, 0.6d0], [2, 4])
+    do i = 1, 44
+      ends(:, i) = [i, i + 1]
+    end do
+    ends(2, 40) = 1
+    ends(2, 44) = 41
+    call domain%create(context)
+    call domain%add_pslg(xy, ends, hole_points=reshape([0.55d0, 0.55d0], [2, 1]))
+    call domain%set_corner_angle(30d0)
+    call expect(abs(area(domain) - 0.99d0) < 1d-14, 'with its hole')
+    call domain%set_corner_angle(200d0, stat=stat, errmsg=errmsg)
+    call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'corner_angle') > 0, 'an angle of 200')
+    d = 0.3d0
+    call domain%simplify(constant_spacing, -1d0, 2d0, c_loc(d), stat=stat, errmsg=errmsg)
+    call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'tolerance') > 0, 'below zero')
+    call domain%simplify(constant_spacing, 1d-9, 2d0, c_loc(d), vertices, curves)
+    call expect(vertices > 20 .and. curves == 1, 'straight sides, and the small hole')
+    call expect(abs(area(domain) - 1) < 1d-14, 'without its hole')
     call domain%destroy
   end subroutine
 

@@ -190,6 +190,28 @@ class Domains(Case):
         self.assertEqual(pnpbs.Domain(self.context).parse_poly(text).measure(), lake.measure())
         self.assert_status(Status.ERROR_FILE, lake.read_poly, "nowhere.poly")
 
+    def test_graphs_finer_than_d(self):
+        turn = np.arange(400) * 2 * np.pi / 400
+        small = [(0.1, 0), (0, 0.1), (-0.1, 0), (0, -0.1)]
+        points = np.concatenate([np.stack([np.cos(turn), np.sin(turn)], axis=1), small])
+        after = np.concatenate([np.roll(np.arange(400), -1), [401, 402, 403, 400]])
+        ring = np.stack([np.arange(404), after], axis=1)
+
+        def graph():
+            return pnpbs.Domain(self.context).add_pslg(points, ring, holes=[(0, 0)])
+
+        domain = graph().set_corner_angle(30)
+        left_out = domain.simplify(lambda x: np.full(len(x), 0.2), tolerance=0.05, smallest=2)
+        self.assertEqual(left_out.curves, 1)
+        self.assertTrue(300 < left_out.vertices < 400)
+        self.assertAlmostEqual(domain.measure(), np.pi, delta=0.1)
+        self.assertEqual(graph().simplify(0.2, 0.05, 2), left_out)
+        self.assertEqual(graph().simplify(0.2, 0), (0, 0))
+        self.assert_status(Status.ERROR_ARGUMENT, domain.simplify, 0.2, -1)
+        self.assert_status(Status.ERROR_ARGUMENT, domain.set_corner_angle, 200)
+        with self.assertRaises(ZeroDivisionError):
+            domain.simplify(lambda x: 1 / 0)
+
     def test_wrong_arguments(self):
         domain = pnpbs.Domain(self.context)
         for wrong in ([1, 2, 3], [[1, 2, 3]], [["a", "b"]]):

@@ -19,7 +19,7 @@ of them or on none; "local" ones need not. One thread at a time may use a contex
 
 from ._library import library_path
 from .context import Context
-from .domain import Domain, Outline
+from .domain import Domain, LeftOut, Outline
 from .errors import PNPBSError, Status
 from .fields import Transfer
 from .placement import Estimate, Placement, PopulationChange
@@ -31,8 +31,8 @@ from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unf
 
 __all__ = [
     "CompressedRows", "Context", "Domain", "EdgeBands", "Estimate", "ExchangePattern", "Facets",
-    "FormatRow", "Ghosts", "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError", "Placement",
-    "PopulationChange", "Stars", "StatisticRow", "Status", "Transfer",
+    "FormatRow", "Ghosts", "LeftOut", "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError",
+    "Placement", "PopulationChange", "Stars", "StatisticRow", "Status", "Transfer",
     "build_info", "discard_unfinished_files", "format_table", "library_path", "library_version",
     "mpi_library", "option_table", "shutdown", "statistic_table",
 ]

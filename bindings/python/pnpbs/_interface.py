@@ -100,6 +100,9 @@ pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n,
 pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
 pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text, int64_t length,
     const char *name);
+pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle);
+pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing, void *user,
+    double tolerance, double smallest, int64_t *vertices, int64_t *curves);
 pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
 pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high);
 pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);

@@ -10,11 +10,16 @@ import numpy as np
 
 from . import _interface
 from ._arrays import as_indices, as_point, as_points, as_tags
-from ._callbacks import curve_callback, level_set_callback
+from ._callbacks import curve_callback, level_set_callback, spacing_callback
 from ._interface import library
 from .context import Handle
 
 _ROLES = {"boundary": _interface.BOUNDARY, "inner": _interface.INNER}
+
+
+class LeftOut(NamedTuple):
+    vertices: int
+    curves: int
 
 
 class Outline(NamedTuple):
@@ -167,6 +172,30 @@ class Domain(Handle):
                    as_point(high, 3, "high"), resolution, tag)
         self._callbacks.append(callback)
         return self
+
+    def set_corner_angle(self, corner_angle):
+        """Where the graphs of a domain in the plane have corners (`add_pslg`, `read_poly`,
+        `parse_poly`), those given before and those given after: at vertices where the direction turns
+        by more than this many degrees, where segments of different tags or other than two of them
+        end, and at vertices with a tag of their own. Nodes lie on corners; between them a graph
+        stands for a smooth curve, and nodes lie on it as d says. With 0, as it is at first, every
+        vertex becomes a node."""
+        return self._call("set_corner_angle", corner_angle)
+
+    def simplify(self, d, tolerance=0.25, smallest=0.0):
+        """Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs
+        and polylines given so far, vertices beside segments shorter than d, as long as the curve then
+        passes them within `tolerance` times d; and closed curves, islands and lakes, whose extent
+        (the longer side of their bounding box) is less than `smallest` times d. `d` is a number or a
+        function as `Placement.set_spacing` takes it. No other vertex, fixed node or hole point comes
+        to another side of a curve. Vertices stay where curves meet or end, where tags change or a
+        vertex has its own, and at fixed nodes. Returns how many vertices, those of the curves
+        included, and how many curves were left out. On several ranks all must do the same."""
+        given = d if callable(d) else lambda x: np.full(len(x), float(d))
+        vertices, curves = ctypes.c_int64(), ctypes.c_int64()
+        self._call("simplify", spacing_callback(given, self.context), None, tolerance, smallest,
+                   ctypes.byref(vertices), ctypes.byref(curves))
+        return LeftOut(vertices.value, curves.value)
 
     def set_filled(self, filled):
         """Whether a domain in space is what its surfaces enclose, as it is at first, or, with False,

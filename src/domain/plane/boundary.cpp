@@ -247,11 +247,12 @@ class Layer {
       ++fine;
     }
     if (work <= kMax) return;
-    throw Error(ErrorKind::spacing,
-                "the boundary is far finer than the spacing: " + std::to_string(fine) +
-                    " of its edges are " + rounded_text(sum / static_cast<double>(fine)) +
-                    " times shorter than d; use a smaller d, fewer vertices, or a polyline with a "
-                    "corner_angle, on which nodes are laid as d says");
+    throw Error(
+        ErrorKind::spacing,
+        "the boundary is far finer than the spacing: " + std::to_string(fine) +
+            " of its edges are " + rounded_text(sum / static_cast<double>(fine)) +
+            " times shorter than d; use a smaller d, leave out vertices (simplify), or tell "
+            "corners by their angle (corner_angle), between which nodes are laid as d says");
   }
 
   struct Worst {

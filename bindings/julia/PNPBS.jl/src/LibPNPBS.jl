@@ -222,6 +222,15 @@ pnpbs_domain_parse_poly(domain, text, length, name) =
     @ccall $(symbol(:pnpbs_domain_parse_poly))(
         domain::pnpbs_domain, text::Ptr{UInt8}, length::Int64, name::Cstring)::pnpbs_status
 
+pnpbs_domain_set_corner_angle(domain, corner_angle) =
+    @ccall $(symbol(:pnpbs_domain_set_corner_angle))(
+        domain::pnpbs_domain, corner_angle::Cdouble)::pnpbs_status
+
+pnpbs_domain_simplify(domain, spacing, user, tolerance, smallest, vertices, curves) =
+    @ccall $(symbol(:pnpbs_domain_simplify))(
+        domain::pnpbs_domain, spacing::pnpbs_spacing_fn, user::Ptr{Cvoid}, tolerance::Cdouble,
+        smallest::Cdouble, vertices::Ptr{Int64}, curves::Ptr{Int64})::pnpbs_status
+
 pnpbs_domain_check(domain) =
     @ccall $(symbol(:pnpbs_domain_check))(domain::pnpbs_domain)::pnpbs_status
 

@@ -328,6 +328,51 @@ function set_filled!(domain::Domain, filled::Bool)
 end
 
 """
+    set_corner_angle!(domain, corner_angle)
+
+Where the graphs of a domain in the plane have corners ([`add_pslg!`](@ref), [`read_poly!`](@ref),
+[`parse_poly!`](@ref)), those given before and those given after: at vertices where the direction
+turns by more than this many degrees, where segments of different tags or other than two of them end,
+and at vertices with a tag of their own. Nodes lie on corners; between them a graph stands for a
+smooth curve, and nodes lie on it as d says. With 0, as it is at first, every vertex becomes a node.
+"""
+function set_corner_angle!(domain::Domain, corner_angle::Real)
+    check(domain.context, LibPNPBS.pnpbs_domain_set_corner_angle(live(domain), corner_angle))
+    return domain
+end
+
+"""
+    simplify!(d, domain; tolerance = 0.25, smallest = 0, per_point = false) -> (vertices, curves)
+
+Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs and
+polylines given so far, vertices beside segments shorter than d, as long as the curve then passes them
+within `tolerance` times d; and closed curves, islands and lakes, whose extent (the longer side of
+their bounding box) is less than `smallest` times d. `d` is a number or a function as
+[`set_spacing!`](@ref) takes it. No other vertex, fixed node or hole point comes to another side of a
+curve. Vertices stay where curves meet or end, where tags change or a vertex has its own, and at fixed
+nodes. Returns how many vertices, those of the curves included, and how many curves were left out. On
+several ranks all must do the same.
+
+    simplify!(domain; smallest = 2) do x
+        0.2 .+ 0.05 .* hypot.(x[1, :], x[2, :])
+    end
+"""
+function simplify!(d, domain::Domain; tolerance::Real = 0.25, smallest::Real = 0,
+                   per_point::Bool = false)
+    callback = Callback(for_batches(d, "spacing", per_point), domain.context)
+    vertices, curves = Ref{Int64}(0), Ref{Int64}(0)
+    GC.@preserve callback begin
+        code = LibPNPBS.pnpbs_domain_simplify(live(domain), spacing_pointer[],
+                                              user_pointer(callback), tolerance, smallest,
+                                              vertices, curves)
+    end
+    check(domain.context, code)
+    return (vertices = vertices[], curves = curves[])
+end
+simplify!(d::Real, domain::Domain; options...) =
+    simplify!(x -> fill(Float64(d), size(x, 2)), domain; options...)
+
+"""
     add_hole!(domain, point)
 
 Removes the region around a point from the domain, as far as the next curves or surfaces.

@@ -59,6 +59,35 @@ end
     end
 end
 
+@testset "graphs finer than d" begin
+    Context() do context
+        # A circle of 400 segments, and one of four within it.
+        turn = 2pi .* (0:399) ./ 400
+        xy = hcat([cos.(turn) sin.(turn)]', [0.1 0 -0.1 0; 0 0.1 0 -0.1])
+        ends = [1:404 [2:400; 1; 402:404; 401]]'
+        graph(angle) = set_corner_angle!(add_pslg!(Domain(context), xy, ends;
+                                                   holes = zeros(2, 1)), angle)
+        boundary_nodes(domain) = begin
+            placement = Placement(domain; steps = 40)
+            set_spacing!(placement, 0.2)
+            run!(placement)
+            count(!=(0), nodes(placement).tags)
+        end
+        @test boundary_nodes(graph(0)) == 404
+        @test 33 <= boundary_nodes(graph(30)) <= 40
+        domain = graph(30)
+        left_out = simplify!(x -> fill(0.2, size(x, 2)), domain; tolerance = 0.05, smallest = 2)
+        @test left_out.curves == 1 && 300 < left_out.vertices < 400
+        @test measure(domain) ≈ pi atol = 0.1
+        @test simplify!(0.2, graph(0); tolerance = 0) == (vertices = 0, curves = 0)
+        @test simplify!((x, y) -> 0.2, graph(0); tolerance = 0.05, smallest = 2,
+                        per_point = true) == left_out
+        @test_throws DomainError simplify!(x -> throw(DomainError(1)), domain)
+        @test fails(() -> simplify!(0.2, domain; tolerance = -1), :error_argument, "tolerance")
+        @test fails(() -> set_corner_angle!(domain, 200), :error_argument, "corner_angle")
+    end
+end
+
 @testset "graphs and .poly" begin
     Context() do context
         # A square with a square hole; the graph's indices count from 1.

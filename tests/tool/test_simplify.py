@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Shores finer than d: corners by angle, and what is left out."""
+
+import json
+import unittest
+
+from command import DATA, CommandTest
+
+ISLANDS = DATA / "great_lakes_islands.poly"
+
+
+class Shores(CommandTest):
+    def report(self, *arguments, spacing="10"):
+        self.run_command("--domain", ISLANDS, "--spacing", spacing, "--steps", "40", "--report",
+                         "report.json", "--quiet", "--check", "--set", "tolerance_mean=1",
+                         *arguments)
+        report = json.loads((self.folder / "report.json").read_text())
+        left_out = [text for text in report["warnings"] if text.startswith("simplified: ")]
+        return report, left_out
+
+    def test_simplify(self):
+        given, none = self.report()
+        self.assertEqual(none, [])
+        simpler, told = self.report("--simplify", "0.25")
+        self.assertRegex(told[0], r"simplified: [0-9]+ vertices were left out.* 0 closed curves")
+        self.assertLess(simpler["boundary_nodes"], 0.75 * given["boundary_nodes"])
+        bare, told = self.report("--simplify", "0.25,2", "--corner-angle", "40")
+        self.assertRegex(told[0], "of [1-9][0-9]+ closed curves")
+        self.assertLess(bare["boundary_nodes"], 0.75 * simpler["boundary_nodes"])
+
+    def test_where_d_is_a_grid_or_asks_for_the_shape(self):
+        grid = self.folder / "grid.asc"
+        grid.write_text("ncols 2\nnrows 2\nxllcenter -900\nyllcenter -600\ndx 1800\ndy 1200\n"
+                        "10 10\n10 10\n")
+        by_number = self.report("--simplify", "0.25")
+        self.run_command("--domain", ISLANDS, "--spacing-grid", grid, "--steps", "40", "--report",
+                         "report.json", "--quiet", "--set", "tolerance_mean=1", "--simplify", "0.25")
+        by_grid = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(by_grid["boundary_nodes"], by_number[0]["boundary_nodes"])
+        self.assertIn(by_number[1][0], by_grid["warnings"])
+        self.assertEqual(self.report("--simplify", "0.25", spacing="10 + 0*dist")[1], by_number[1])
+
+    def test_corner_angle(self):
+        given, _ = self.report()
+        smooth, _ = self.report("--corner-angle", "60")
+        self.assertLess(smooth["boundary_nodes"], given["boundary_nodes"])
+
+    def test_bad_arguments(self):
+        ask = ("--domain", ISLANDS, "--spacing", "10")
+        for wrong in ("-1", "x", "", "0.1,-2", "1,2,3", "nan"):
+            with self.subTest(wrong):
+                self.assertIn("--simplify: expected", self.refuse(*ask, "--simplify", wrong))
+        self.assertIn("--corner-angle: expected", self.refuse(*ask, "--corner-angle", "181"))
+        self.assertIn("--simplify needs d", self.refuse("--domain", ISLANDS, "--spacing", "auto",
+                                                        "--simplify", "0.25"))
+        body = ("--domain", "ball(0,0,0, 1)", "--spacing", "0.3")
+        self.assertIn("plane", self.refuse(*body, "--simplify", "0.25"))
+        self.assertIn("--feature-angle", self.refuse(*body, "--corner-angle", "30"))
+
+
+if __name__ == "__main__":
+    unittest.main()
