@@ -12,8 +12,9 @@
 /* Check's old name for ck_abort_msg, a macro; the C++ library has functions of that name. */
 #undef fail
 
-/* With every assertion that holds, Check writes the line to a file, in case the process is killed: in
- * tests of all pairs that takes most of the time. Sanitizers and debuggers tell the line as well. */
+/* With every assertion that holds, Check writes the line to a file, in case the process is killed:
+ * in tests of all pairs that takes most of the time. Sanitizers and debuggers tell the line as
+ * well. */
 #define _mark_point(file, line) ((void)0)
 
 /* Sanitized code is ten times slower, so some tests take fewer or smaller cases with it: those that

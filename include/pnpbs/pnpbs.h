@@ -282,14 +282,14 @@ PNPBS_API pnpbs_status pnpbs_domain_set_role(pnpbs_domain domain, int32_t tag, i
 
 /** Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds what bounds it to the
  *  domain. In space these are its triangles and quadrangles: where elements of volumes, or the
- *  geometry that the file tells of, are on both sides, they are inner surfaces, else boundary; where
- *  the file tells of neither, closed surfaces are boundary (within each other, too: cavities), and
- *  sheets and what divides a body are inner. Lines and points in physical groups are inner curves
- *  and fixed nodes. In the plane they are its lines, and the edges that bound triangles and
+ *  geometry that the file tells of, are on both sides, they are inner surfaces, else boundary;
+ * where the file tells of neither, closed surfaces are boundary (within each other, too: cavities),
+ * and sheets and what divides a body are inner. Lines and points in physical groups are inner
+ * curves and fixed nodes. In the plane they are its lines, and the edges that bound triangles and
  *  quadrangles; points as in space. Without elements that fill the domain, closed lines are
- *  boundary and open ones inner. The tag of a physical group becomes the tag, its name stays with it
- *  (pnpbs_domain_get_tag_name); where the file has no physical groups, the entities' numbers are the
- *  tags. Elements of higher order are taken for straight ones, with a warning. Local. Errors:
+ *  boundary and open ones inner. The tag of a physical group becomes the tag, its name stays with
+ * it (pnpbs_domain_get_tag_name); where the file has no physical groups, the entities' numbers are
+ * the tags. Elements of higher order are taken for straight ones, with a warning. Local. Errors:
  *  PNPBS_ERROR_FILE with file, line or byte, and what was expected.
  *  @param[in] feature_angle  degrees, 0 .. 180: as pnpbs_domain_add_surface has it, in the plane as
  *                            the corner_angle of pnpbs_domain_add_polyline, but 0 only makes every
@@ -352,8 +352,9 @@ typedef int32_t (*pnpbs_level_set_fn)(int64_t n, int32_t dim, const double *coor
  *  with nodes on it, and where such edges meet a corner; where triangles would cross, as they may
  *  at edges of less than 60 degrees, these stay rounded by the resolution, with a warning. The
  *  callback is called during this function, whenever a placement is initialised or runs, and for
- *  its normals, so it and `user` must outlive the placements made on the domain. Local. Errors: PNPBS_ERROR_DOMAIN with the place where f is not
- *  finite, or negative on the border of the box, or if it is negative nowhere.
+ *  its normals, so it and `user` must outlive the placements made on the domain. Local. Errors:
+ * PNPBS_ERROR_DOMAIN with the place where f is not finite, or negative on the border of the box, or
+ * if it is negative nowhere.
  *  @param[in] level_set   not NULL
  *  @param[in] low,high    [3], the box, in which alone f is asked
  *  @param[in] resolution  > 0, at most the box's shortest side; no more than the spacing at the
@@ -424,19 +425,19 @@ typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *coordi
 /** Where the graphs of a domain in the plane have corners (pnpbs_domain_add_pslg, _read_poly,
  *  _parse_poly), those given before and those given after: at vertices where the direction turns by
  *  more than this, where segments of different tags or other than two of them end, and at vertices
- *  with a tag of their own. Nodes lie on corners; between them a graph stands for a smooth curve, and
- *  nodes lie on it as d says, however fine its segments are. Local.
+ *  with a tag of their own. Nodes lie on corners; between them a graph stands for a smooth curve,
+ * and nodes lie on it as d says, however fine its segments are. Local.
  *  @param[in] corner_angle  degrees, 0 .. 180. 0, as it is at first: every vertex becomes a node */
 PNPBS_API pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle);
 
 /** Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs and
- *  polylines given so far, vertices beside segments shorter than d, as long as the curve then passes
- *  them within tolerance * d; and closed curves, islands and lakes, whose extent (the longer side of
- *  their bounding box) is less than smallest * d. No other vertex, fixed node or hole point comes to
- *  another side of a curve. Vertices stay where curves meet or end, where tags change or a vertex has
- *  its own, and at fixed nodes. A curve with one of these, or around one that stays, is not left out,
- *  nor is the largest; hole points within curves that are left out go with them. If it fails, the
- *  domain stays as it was. Local; on several ranks all must do the same.
+ *  polylines given so far, vertices beside segments shorter than d, as long as the curve then
+ * passes them within tolerance * d; and closed curves, islands and lakes, whose extent (the longer
+ * side of their bounding box) is less than smallest * d. No other vertex, fixed node or hole point
+ * comes to another side of a curve. Vertices stay where curves meet or end, where tags change or a
+ * vertex has its own, and at fixed nodes. A curve with one of these, or around one that stays, is
+ * not left out, nor is the largest; hole points within curves that are left out go with them. If it
+ * fails, the domain stays as it was. Local; on several ranks all must do the same.
  *  @param[in] spacing    d, called during this function alone; it may ask for the shape of the
  *                        domain as it was, if that has been asked for before
  *  @param[in] tolerance  >= 0; 0.25 suits most

@@ -26,6 +26,9 @@ cp "$prefix/$libdir/libpnpbs.a" "$work/lib"
 if readelf -d "$work/smallest" | grep libpnpbs; then
   fail "the shared library was taken"
 fi
+if [ "$kokkos_is_shared" = TRUE ]; then # which pkg-config does not tell the loader
+  export LD_LIBRARY_PATH="$kokkos_folder${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+fi
 run_and_compare "$work/smallest"
 
 if [ "$with_mpi" = 0 ] && [ "$kokkos_is_shared" = FALSE ]; then
