@@ -40,16 +40,16 @@ contains
   end function
 
   !> The same d everywhere, the number that user points to.
-  function constant_spacing(n, dim, coordinates, d, user) bind(C)
+  function given_spacing(n, dim, coordinates, d, user) bind(C)
     integer(c_int64_t), value :: n
     integer(c_int32_t), value :: dim
     real(c_double), intent(in) :: coordinates(dim, n)
     real(c_double), intent(out) :: d(n)
     type(c_ptr), value :: user
-    integer(c_int32_t) :: constant_spacing
+    integer(c_int32_t) :: given_spacing
     real(c_double), pointer :: given
     call c_f_pointer(user, given)
     d = given
-    constant_spacing = merge(0_c_int32_t, 1_c_int32_t, size(coordinates) >= 0)
+    given_spacing = merge(0_c_int32_t, 1_c_int32_t, size(coordinates) >= 0)
   end function
 end module curves

@@ -216,9 +216,9 @@ contains
     call domain%set_corner_angle(200d0, stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'corner_angle') > 0, 'an angle of 200')
     d = 0.3d0
-    call domain%simplify(constant_spacing, -1d0, 2d0, c_loc(d), stat=stat, errmsg=errmsg)
+    call domain%simplify(given_spacing, -1d0, 2d0, c_loc(d), stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'tolerance') > 0, 'below zero')
-    call domain%simplify(constant_spacing, 1d-9, 2d0, c_loc(d), vertices, curves)
+    call domain%simplify(given_spacing, 1d-9, 2d0, c_loc(d), vertices, curves)
     call expect(vertices > 20 .and. curves == 1, 'straight sides, and the small hole')
     call expect(abs(area(domain) - 1) < 1d-14, 'without its hole')
     call domain%destroy
