@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "base/space_vectors.hpp"
 #include "domain/volume/level_set_lattice.hpp"
 #include "domain/volume/level_set_zeros.hpp"
 
@@ -82,32 +84,117 @@ Polygon cut(const CellTetrahedron& t) {
 
 // ------------------------------------------------------------------ vertices -------------------
 
-struct EdgeVertices {
-  std::vector<std::int32_t> of;  // of each edge
-  std::vector<Point<3>> positions;
+// The zeros of f on edges of the lattice, and which of them are one vertex.
+class EdgeVertices {
+ public:
+  EdgeVertices(const LevelSet& set, const LevelSetLattice& lattice,
+               const std::vector<std::uint64_t>& edges)
+      : lattice_(lattice), edges_(edges), near_(kOneVertex * set.resolution()) {
+    std::vector<CrossedSegment> segments;
+    for (const std::uint64_t edge : edges) {
+      const auto [low, high] = ends_of(edge);
+      segments.push_back(
+          {lattice.position(low), lattice.position(high), lattice.value(low), lattice.value(high)});
+    }
+    zeros_ = zeros_on(set, segments);
+    join();
+  }
+
+  std::int32_t operator()(std::uint64_t edge) const {
+    const auto place = std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin();
+    return of_[static_cast<std::size_t>(place)];
+  }
+  const std::vector<Point<3>>& positions() const { return positions_; }
+
+  // No longer one: those that were joined to these vertices. Says whether there were any.
+  bool take_apart(const std::vector<std::int32_t>& vertices) {
+    const std::size_t before = apart_.size();
+    for (const std::int32_t v : vertices) {
+      const auto joined = point_of_.find(v);
+      if (joined != point_of_.end()) apart_.insert(joined->second);
+    }
+    if (apart_.size() == before) return false;
+    join();
+    return true;
+  }
+
+ private:
+  // The first of those that are one counts.
+  void join() {
+    of_.clear();
+    positions_.clear();
+    point_of_.clear();
+    std::unordered_map<std::uint64_t, std::int32_t> at;  // lattice points
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      auto vertex = static_cast<std::int32_t>(positions_.size());
+      Point<3> zero = zeros_[e];
+      for (const LatticePlace& end : ends_of(edges_[e])) {
+        if (distance<3>(lattice_.position(end), zero) > near_) continue;
+        const std::uint64_t point = LevelSetLattice::key(end);
+        if (apart_.contains(point)) {
+          zero = moved_off(end, e);
+          continue;
+        }
+        vertex = at.try_emplace(point, vertex).first->second;
+        point_of_[vertex] = point;
+      }
+      of_.push_back(vertex);
+      if (vertex == std::ssize(positions_)) positions_.push_back(zero);
+    }
+  }
+
+  // As far along the edge as vertices must be that are not one.
+  Point<3> moved_off(const LatticePlace& end, std::size_t e) const {
+    const auto [low, high] = ends_of(edges_[e]);
+    const Point<3> from = lattice_.position(end);
+    const Point<3> way = difference(lattice_.position(end == low ? high : low), from);
+    return shifted(from, near_ / length(way), way);
+  }
+
+  const LevelSetLattice& lattice_;
+  const std::vector<std::uint64_t>& edges_;
+  double near_;
+  std::vector<Point<3>> zeros_;                               // of each edge
+  std::unordered_set<std::uint64_t> apart_;                   // lattice points
+  std::unordered_map<std::int32_t, std::uint64_t> point_of_;  // of vertices, where they were joined
+  std::vector<std::int32_t> of_;                              // of each edge
+  std::vector<Point<3>> positions_;
 };
 
-// The first of those that are one counts.
-EdgeVertices vertices_on(const LevelSet& set, const LevelSetLattice& lattice,
-                         const std::vector<std::uint64_t>& edges) {
-  std::vector<CrossedSegment> segments;
-  for (const std::uint64_t edge : edges) {
-    const auto [low, high] = ends_of(edge);
-    segments.push_back(
-        {lattice.position(low), lattice.position(high), lattice.value(low), lattice.value(high)});
+using Triangles = std::vector<std::array<std::int32_t, 3>>;
+
+Triangles triangles_on(const LevelSetLattice& lattice, const EdgeVertices& vertex) {
+  const auto gap = [&](std::int32_t a, std::int32_t b) {
+    return squared_distance<3>(vertex.positions()[static_cast<std::size_t>(a)],
+                               vertex.positions()[static_cast<std::size_t>(b)]);
+  };
+  Triangles triangles;
+  for_tetrahedra(lattice, [&](const CellTetrahedron& t) {
+    std::vector<std::int32_t> v;
+    for (const std::uint64_t edge : cut(t))
+      if (v.empty() || v.back() != vertex(edge)) v.push_back(vertex(edge));
+    if (v.size() > 1 && v.front() == v.back()) v.pop_back();
+    if (v.size() == 4 && gap(v[1], v[3]) < gap(v[0], v[2]))  // along the shorter diagonal
+      std::rotate(v.begin(), v.begin() + 1, v.end());
+    for (std::size_t k = 2; k < v.size(); ++k) triangles.push_back({v[0], v[k - 1], v[k]});
+  });
+  return triangles;
+}
+
+// The ends of sides that are not of two triangles which turn against each other.
+std::vector<std::int32_t> ends_of_bad_sides(const Triangles& triangles) {
+  std::vector<std::array<std::int32_t, 2>> sides;
+  for (const auto& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) sides.push_back({t[k], t[(k + 1) % 3]});
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::int32_t> ends;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const auto [a, b] = sides[k];
+    const bool twice = k > 0 && sides[k - 1] == sides[k];
+    if (twice || !std::binary_search(sides.begin(), sides.end(), std::array{b, a}))
+      ends.insert(ends.end(), {a, b});
   }
-  const std::vector<Point<3>> zeros = zeros_on(set, segments);
-  EdgeVertices vertices;
-  std::unordered_map<std::uint64_t, std::int32_t> at;  // lattice points
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    auto vertex = static_cast<std::int32_t>(vertices.positions.size());
-    for (const LatticePlace& end : ends_of(edges[e]))
-      if (distance<3>(lattice.position(end), zeros[e]) <= kOneVertex * set.resolution())
-        vertex = at.try_emplace(LevelSetLattice::key(end), vertex).first->second;
-    vertices.of.push_back(vertex);
-    if (vertex == std::ssize(vertices.positions)) vertices.positions.push_back(zeros[e]);
-  }
-  return vertices;
+  return ends;
 }
 
 }  // namespace
@@ -120,26 +207,14 @@ SurfaceSource level_set_surface(const LevelSet& set, std::int32_t tag) {
   });
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  EdgeVertices vertices = vertices_on(set, lattice, edges);
-  const auto vertex = [&](std::uint64_t edge) {
-    const auto place = std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin();
-    return vertices.of[static_cast<std::size_t>(place)];
-  };
-  const auto gap = [&](std::int32_t a, std::int32_t b) {
-    return squared_distance<3>(vertices.positions[static_cast<std::size_t>(a)],
-                               vertices.positions[static_cast<std::size_t>(b)]);
-  };
+  EdgeVertices vertices(set, lattice, edges);
   SurfaceSource surface;
-  for_tetrahedra(lattice, [&](const CellTetrahedron& t) {
-    std::vector<std::int32_t> v;
-    for (const std::uint64_t edge : cut(t))
-      if (v.empty() || v.back() != vertex(edge)) v.push_back(vertex(edge));
-    if (v.size() > 1 && v.front() == v.back()) v.pop_back();
-    if (v.size() == 4 && gap(v[1], v[3]) < gap(v[0], v[2]))  // along the shorter diagonal
-      std::rotate(v.begin(), v.begin() + 1, v.end());
-    for (std::size_t k = 2; k < v.size(); ++k) surface.triangles.push_back({v[0], v[k - 1], v[k]});
-  });
-  surface.vertices = std::move(vertices.positions);
+  // Where only some of the vertices about a lattice point are near enough to be one, the surface
+  // may be pinched.
+  do {
+    surface.triangles = triangles_on(lattice, vertices);
+  } while (vertices.take_apart(ends_of_bad_sides(surface.triangles)));
+  surface.vertices = vertices.positions();
   surface.tags.assign(surface.triangles.size(), tag);
   return surface;
 }
