@@ -11,7 +11,7 @@ namespace pnpbs {
 template <int Dim>
 void prepare_finish(Level<Dim>& level) {
   level.nodes.set_reference_positions();
-  exchange(level, kRepairHops);
+  exchange(level, kRepairHops<Dim>);
   agreed(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });
 }
 
@@ -21,7 +21,7 @@ template <int Dim>
 bool prepared_for_finish(const Level<Dim>& level) {
   return level.nodes.referenced_here() &&
          level.neighbourhood.made_here(level.nodes, level.settings.list_radius) &&
-         (!level.distributed() || level.ghosts.are_exact(level.nodes, kRepairHops));
+         (!level.distributed() || level.ghosts.are_exact(level.nodes, kRepairHops<Dim>));
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ bool prepared_for_finish(const Level<Dim>& level) {
 template <int Dim>
 void make_finish_stars(Level<Dim>& level, int rings) {
   if (!prepared_for_finish(level)) prepare_finish(level);
-  make_stars(level, kRepairHops, level.settings.list_radius, rings);
+  make_stars(level, kRepairHops<Dim>, level.settings.list_radius, rings);
 }
 
 template void prepare_finish(Level<2>&);

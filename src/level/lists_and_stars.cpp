@@ -202,9 +202,9 @@ void make_stars(Level<Dim>& level, int hops, double radius, int rings) {
 
 template <int Dim>
 void prepare_lists(Level<Dim>& level) {
-  if (!level.ghosts.are_exact(level.nodes, kStarHops)) exchange(level, kStarHops);
+  if (!level.ghosts.are_exact(level.nodes, kStarHops<Dim>)) exchange(level, kStarHops<Dim>);
   if (level.distributed())
-    make_lists_and_stars(level, kStarHops, level.settings.adjacency_radius, 0);
+    make_lists_and_stars(level, kStarHops<Dim>, level.settings.adjacency_radius, 0);
   else
     rebuild_lists(level, level.settings.adjacency_radius);
 }

@@ -53,7 +53,8 @@ int runge_kutta_hops(const Settings& settings) {
 
 int deepest_hops(const Settings& settings) {
   // One more because nodes drift out of their leaves, and one to see who is beyond.
-  return std::max({step_hops(settings), runge_kutta_hops(settings), kPopulationHops, kRepairHops}) +
+  return std::max(
+             {step_hops(settings), runge_kutta_hops(settings), kPopulationHops, kRepairHops<3>}) +
          2;
 }
 

@@ -13,10 +13,13 @@ namespace pnpbs {
 // not act if a stronger one is within three. A hop of the leaf graph is the longer one.
 inline constexpr int kPopulationHops = 6;
 // For the stars of our nodes and their neighbours, and for lists of any radius, where d is even;
-// what they need farther away is asked for.
-inline constexpr int kStarHops = 3;
+// what they need farther away is asked for, and then all stars are found again. In space spheres
+// are larger over d than circles in the plane.
+template <int Dim>
+inline constexpr int kStarHops = Dim == 2 ? 3 : 5;
 // The same for the stars that sweeps and repairs look at, some neighbours farther away.
-inline constexpr int kRepairHops = 4;
+template <int Dim>
+inline constexpr int kRepairHops = Dim == 2 ? 4 : 6;
 
 // The larger one of the lists' radius and of that of the adjacency lists.
 double widest_radius(const Settings& settings);

@@ -107,11 +107,11 @@ template <int Dim>
 GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   constexpr std::int64_t kChunk = 512;
   level.nodes.set_reference_positions();
-  exchange(level, kStarHops);
+  exchange(level, kStarHops<Dim>);
   if (level.ground.surfaces_alone())
     agreed(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });
   else
-    make_lists_and_stars(level, kStarHops, level.settings.list_radius, 0);
+    make_lists_and_stars(level, kStarHops<Dim>, level.settings.list_radius, 0);
   const View<double> spacing = spacing_at_owned_nodes(level, next);
   const Nodes<Dim>& nodes = level.nodes;
   GivenNodes<Dim> refined;

@@ -56,7 +56,7 @@ template <class Work>
 auto PlacementOf<Dim>::while_moving(const Work& work) {
   try {
     const auto result = work();
-    if (!level_->ghosts.are_exact(level_->nodes, kStarHops)) exchange(*level_, kStarHops);
+    if (!level_->ghosts.are_exact(level_->nodes, kStarHops<Dim>)) exchange(*level_, kStarHops<Dim>);
     return result;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::memory) level_.reset();

@@ -41,7 +41,7 @@ bool is_covered(const Level<3>& level, std::int32_t leaf, const GivenNode<3>& ca
 }  // namespace
 
 GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates) {
-  exchange(level, kStarHops);
+  exchange(level, kStarHops<3>);
   GivenNodes<3> found;
   agreed(*level.comm, [&] {
     rebuild_lists(level, level.settings.list_radius);
