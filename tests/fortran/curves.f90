@@ -38,18 +38,4 @@ contains
     values = sum(coordinates**2, dim=1) - radius**2
     ball_level_set = 0
   end function
-
-  !> The same d everywhere, the number that user points to.
-  function given_spacing(n, dim, coordinates, d, user) bind(C)
-    integer(c_int64_t), value :: n
-    integer(c_int32_t), value :: dim
-    real(c_double), intent(in) :: coordinates(dim, n)
-    real(c_double), intent(out) :: d(n)
-    type(c_ptr), value :: user
-    integer(c_int32_t) :: given_spacing
-    real(c_double), pointer :: given
-    call c_f_pointer(user, given)
-    d = given
-    given_spacing = merge(0_c_int32_t, 1_c_int32_t, size(coordinates) >= 0)
-  end function
 end module curves

@@ -6,6 +6,7 @@ program test_domain
   use expectations
   use twins
   use curves
+  use watchers
   implicit none
   real(c_double), parameter :: pi = 3.14159265358979323846d0
   real(c_double), parameter :: corners(2, 4) = reshape([0d0, 0d0, 2d0, 0d0, 2d0, 1d0, 0d0, 1d0], &
@@ -193,7 +194,7 @@ contains
   subroutine about_graphs_finer_than_d
     type(pnpbs_domain) :: domain
     real(c_double) :: xy(2, 44)
-    real(c_double), target :: d
+    type(cone), target :: even
     integer(c_int64_t) :: ends(2, 44), vertices, curves
     integer :: i
     ! A square of 40 segments, and a small one of four within it.
@@ -215,10 +216,11 @@ contains
     call expect(abs(area(domain) - 0.99d0) < 1d-14, 'with its hole')
     call domain%set_corner_angle(200d0, stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'corner_angle') > 0, 'an angle of 200')
-    d = 0.3d0
-    call domain%simplify(given_spacing, -1d0, 2d0, c_loc(d), stat=stat, errmsg=errmsg)
+    even%finest = 0.3d0
+    even%growth = 0
+    call domain%simplify(cone_spacing, -1d0, 2d0, c_loc(even), stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'tolerance') > 0, 'below zero')
-    call domain%simplify(given_spacing, 1d-9, 2d0, c_loc(d), vertices, curves)
+    call domain%simplify(cone_spacing, 1d-9, 2d0, c_loc(even), vertices, curves)
     call expect(vertices > 20 .and. curves == 1, 'straight sides, and the small hole')
     call expect(abs(area(domain) - 1) < 1d-14, 'without its hole')
     call domain%destroy
