@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curves that are given finer than nodes should follow them, through the C interface.
 #include "api/domain_calls.hpp"
-#include "spacing/spacing.hpp"
+#include "api/spacing_callback.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -14,11 +14,7 @@ pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing
                                    double tolerance, double smallest, int64_t* vertices,
                                    int64_t* curves) {
   return change_plane(domain, [&](PlaneDomain& plane) {
-    if (!spacing) throw Error(ErrorKind::argument, "argument spacing is NULL");
-    const CallbackSpacing<2> given([=](std::int64_t n, const double* x, double* d) {
-      const HostArithmetic arithmetic;
-      return spacing(n, 2, x, d, user);
-    });
+    const CallbackSpacing<2> given = spacing_from<2>(spacing, user);
     const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
       evaluate_spacing<2>(given, 0, n, x, d);
     };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "api/placement_calls.hpp"
+#include "api/spacing_callback.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -77,12 +78,7 @@ pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, dou
 pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
                                                   pnpbs_spacing_fn spacing, void* user) {
   return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>&) {
-    if (!spacing) throw Error(ErrorKind::argument, "argument spacing is NULL");
-    return std::make_shared<CallbackSpacing<Dim>>(
-        [spacing, user](std::int64_t n, const double* x, double* d) {
-          const HostArithmetic arithmetic;
-          return spacing(n, Dim, x, d, user);
-        });
+    return std::make_shared<CallbackSpacing<Dim>>(spacing_from<Dim>(spacing, user));
   });
 }
 

@@ -9,6 +9,7 @@
 #include "base/exact_sum.hpp"
 #include "base/execution.hpp"
 #include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
 #include "comm/ghost_update.hpp"
 #include "comm/records.hpp"
 #include "placement/placement_of.hpp"
@@ -42,10 +43,8 @@ double measure(const std::array<Point<2>, 3>& c) {
          2;
 }
 
-std::array<double, 3> cross_from(const Point<3>& origin, const Point<3>& a, const Point<3>& b) {
-  const double u[3] = {a[0] - origin[0], a[1] - origin[1], a[2] - origin[2]};
-  const double v[3] = {b[0] - origin[0], b[1] - origin[1], b[2] - origin[2]};
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+Point<3> cross_from(const Point<3>& origin, const Point<3>& a, const Point<3>& b) {
+  return cross(difference(a, origin), difference(b, origin));
 }
 
 double measure(const std::array<Point<3>, 3>& c) {

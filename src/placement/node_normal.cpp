@@ -3,14 +3,13 @@
 
 #include <cstddef>
 
+#include "base/index.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/volume/crease_nodes.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Point<3> mean_of(const Point<3>& sum) {
   constexpr double kAgainst = 1e-6;  // the length of what is left of unit vectors that cancel

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
@@ -19,8 +20,6 @@ namespace {
 
 constexpr double kParallel = 1e-4;   // radians
 constexpr double kRounding = 1e-12;  // of places, in units of a patch
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // Feature edges that follow each other in one direction.
 struct StraightRun {
