@@ -3,6 +3,7 @@
 // and memory is kept for the next time.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -30,6 +31,36 @@ class ChunkedRows {
         if (c * ChunkRows + k < rows) writer(c * ChunkRows + k, chunk.entries);
       }
       chunk.offset[ChunkRows] = static_cast<std::int32_t>(chunk.entries.size());
+      give_back(chunk.entries);
+    });
+  }
+
+  // Has those rows written again for which again(row) holds; the others stay as they are. There are
+  // as many as before.
+  template <class Again, class MakeWriter>
+  void rewrite(const char* label, std::int64_t rows, const Again& again,
+               const MakeWriter& make_writer) {
+    for_each_guarded(label, static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t c) {
+      const std::int64_t first = c * ChunkRows, last = std::min(first + ChunkRows, rows);
+      std::int64_t i = first;
+      while (i < last && !again(i)) ++i;
+      if (i == last) return;
+      std::vector<T> entries;
+      std::array<std::int32_t, ChunkRows + 1> offset{};
+      auto writer = make_writer();
+      for (i = first; i < last; ++i) {
+        offset[static_cast<std::size_t>(i - first)] = static_cast<std::int32_t>(entries.size());
+        const std::span<const T> there = std::as_const(*this).row(i);
+        if (again(i))
+          writer(i, entries);
+        else
+          entries.insert(entries.end(), there.begin(), there.end());
+      }
+      for (std::int64_t k = last - first; k <= ChunkRows; ++k)
+        offset[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(entries.size());
+      Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+      chunk.entries.swap(entries);
+      chunk.offset = offset;
       give_back(chunk.entries);
     });
   }

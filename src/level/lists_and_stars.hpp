@@ -14,9 +14,6 @@ void rebuild_lists_for_steps(Level<Dim>& level);
 // At the present positions.
 template <int Dim>
 void rebuild_lists(Level<Dim>& level, double radius);
-// From these, on one rank.
-template <int Dim>
-void rebuild_stars(Level<Dim>& level);
 
 // Right after an exchange that deep: lists, and the stars of the owned nodes and of the ghosts
 // around them, up to so many neighbours away. Collective.
@@ -25,9 +22,6 @@ void make_lists_and_stars(Level<Dim>& level, int hops, double radius, int rings)
 // The same where the lists are there. Collective.
 template <int Dim>
 void make_stars(Level<Dim>& level, int hops, double radius, int rings);
-
-// What the stars are made from; the region must outlive it.
-VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known);
 
 // The lists handed out. Over several ranks with the ghosts that the stars need, and the stars.
 // Collective.

@@ -52,9 +52,9 @@ int runge_kutta_hops(const Settings& settings) {
 }
 
 int deepest_hops(const Settings& settings) {
+  const int repair_hops = settings.dimension == 3 ? kRepairHops<3> : kRepairHops<2>;
   // One more because nodes drift out of their leaves, and one to see who is beyond.
-  return std::max(
-             {step_hops(settings), runge_kutta_hops(settings), kPopulationHops, kRepairHops<3>}) +
+  return std::max({step_hops(settings), runge_kutta_hops(settings), kPopulationHops, repair_hops}) +
          2;
 }
 

@@ -19,7 +19,7 @@ template <int Dim>
 inline constexpr int kStarHops = Dim == 2 ? 3 : 5;
 // The same for the stars that sweeps and repairs look at, some neighbours farther away.
 template <int Dim>
-inline constexpr int kRepairHops = Dim == 2 ? 4 : 6;
+inline constexpr int kRepairHops = Dim == 2 ? 4 : 7;
 
 // The larger one of the lists' radius and of that of the adjacency lists.
 double widest_radius(const Settings& settings);

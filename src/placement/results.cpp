@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
 #include "base/mixed_hash.hpp"
+#include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
 #include "placement/placement_of.hpp"
 

@@ -13,6 +13,7 @@
 #include "domain/plane/poly_reader.hpp"
 #include "geometry/shapes.hpp"
 #include "level/exchange.hpp"
+#include "level/finding_stars.hpp"
 #include "level/finish.hpp"
 #include "level/first_nodes.hpp"
 #include "level/level.hpp"

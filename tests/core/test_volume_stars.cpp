@@ -135,6 +135,31 @@ START_TEST(lists_do_not_matter) {
 }
 END_TEST
 
+// Some first, and then the others: all the same, and none before they are wanted.
+START_TEST(found_in_parts) {
+  const Bubbles<3> b = listed(graded_nodes(21, 20000), 1.5);
+  const pnpbs::VolumeStarInput input = input_of(b, kEverywhere);
+  VolumeStars all, parts;
+  all.build(input);
+  const std::int64_t n = b.nodes.count;
+  parts.build_none(input);
+  for (std::int64_t i = 0; i < n; ++i) quick_assert(parts.size(i) == 0 && !parts.closed(i));
+  constexpr std::int64_t kParts = 3;
+  for (std::int64_t part = 0; part < kParts; ++part) {
+    std::vector<char> wanted(static_cast<std::size_t>(n));
+    for (std::int64_t i = 0; i < n; ++i)
+      wanted[static_cast<std::size_t>(i)] = b.nodes.id(i) % kParts == part;
+    parts.add(input, wanted);
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (b.nodes.id(i) % kParts <= part)
+        quick_assert(star_by_ids(b.nodes, parts, i) == star_by_ids(b.nodes, all, i));
+      else
+        quick_assert(parts.size(i) == 0);
+    }
+  }
+}
+END_TEST
+
 // A rank knows the nodes in some leaves, asks for more, and ends with the same stars.
 START_TEST(what_is_not_known_is_asked_for) {
   const std::vector<Bubble<3>> nodes = graded_nodes(22, 20000);
@@ -265,7 +290,8 @@ START_TEST(tetrahedra_of_a_domain) {
 END_TEST
 
 int main() {
-  return run_kernel_suite("volume_stars", {shaken_lattice, cubic_lattice_fills_the_box,
-                                           lists_do_not_matter, what_is_not_known_is_asked_for,
-                                           very_many_neighbours, tetrahedra_of_a_domain});
+  return run_kernel_suite(
+      "volume_stars",
+      {shaken_lattice, cubic_lattice_fills_the_box, lists_do_not_matter, found_in_parts,
+       what_is_not_known_is_asked_for, very_many_neighbours, tetrahedra_of_a_domain});
 }

@@ -116,7 +116,7 @@ class StarWriter {
         reach_(input.nodes, input.tree, input.buckets, input.lists, input.known) {}
 
   void operator()(std::int64_t i, std::vector<std::int32_t>& out) {
-    if (i % VolumeStars::kChunk == 0) found_elements_.begin_at(i);
+    found_elements_.begin_at(i - i % VolumeStars::kChunk);
     const double needs = find_star(i);
     if (!needs_.empty()) needs_[static_cast<std::size_t>(i)] = needs;
     if (needs > 0) {
@@ -280,6 +280,22 @@ void VolumeStars::build(const VolumeStarInput& input) {
   needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(input.nodes.count), 0);
   rows_.build("pnpbs::VolumeStars::build", input.nodes.count,
               [&] { return StarWriter(input, needs_); });
+}
+
+void VolumeStars::build_none(const VolumeStarInput& input) {
+  on_surfaces_ = false;
+  needs_.assign(static_cast<std::size_t>(input.nodes.count), 0);
+  const auto write_none = [](std::int64_t, std::vector<std::int32_t>& out) {
+    out.push_back(header(0, false));
+  };
+  rows_.build("pnpbs::VolumeStars::build_none", input.nodes.count, [&] { return write_none; });
+}
+
+void VolumeStars::add(const VolumeStarInput& input, const std::vector<char>& wanted) {
+  rows_.rewrite(
+      "pnpbs::VolumeStars::add", input.nodes.count,
+      [&](std::int64_t i) { return wanted[static_cast<std::size_t>(i)] != 0; },
+      [&] { return StarWriter(input, needs_); });
 }
 
 }  // namespace pnpbs

@@ -44,6 +44,10 @@ class VolumeStars {
   using Corners = std::array<std::int32_t, 3>;
 
   void build(const VolumeStarInput& input);
+  // One after the other: none are there; those of the nodes for which wanted is set come to those
+  // that are there.
+  void build_none(const VolumeStarInput& input);
+  void add(const VolumeStarInput& input, const std::vector<char>& wanted);
   void build(const SurfaceStarInput& input);
 
   // Calls visit(j) for the neighbours of node i, the other corners of tetrahedra of the domain, or

@@ -5,6 +5,7 @@
 
 #include "delaunay/volume/domain_rule.hpp"
 #include "level/exchange.hpp"
+#include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
 #include "level/volume/surface_level.hpp"

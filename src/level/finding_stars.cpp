@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/finding_stars.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace pnpbs {
+
+namespace {
+
+StarInput star_input(const Level<2>& level, const KnownRegion<2>& known) {
+  const Neighbourhood<2>& neighbourhood = level.neighbourhood;
+  return {level.nodes,
+          level.map(),
+          level.ground.sectors(),
+          neighbourhood.buckets(),
+          neighbourhood.lists(),
+          neighbourhood.near_boundary().edges(),
+          known};
+}
+
+}  // namespace
+
+VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
+  const Neighbourhood<3>& neighbourhood = level.neighbourhood;
+  const auto complete = [&level](std::int64_t i) {
+    return level.neighbourhood.near_boundary().sees_all(i);
+  };
+  const auto room = [&level](std::int64_t i) {
+    const bool measured = level.nodes.moving == Carrier::free;
+    return measured ? level.neighbourhood.near_boundary().room(i, level.nodes) : 0;
+  };
+  const auto on_one_surface = [&level](const std::array<std::int64_t, 4>& corners) {
+    const auto place = [&](std::int64_t i) {
+      return level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i));
+    };
+    const Surface& surface = level.ground.surface();
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (!surface.sees(place(corners[a]), place(corners[b]))) return false;
+    return true;
+  };
+  return {level.nodes,
+          level.tree->tree(),
+          neighbourhood.buckets(),
+          neighbourhood.lists(),
+          known,
+          &level.ground.domain().index().sides(),
+          complete,
+          room,
+          on_one_surface};
+}
+
+namespace {
+
+SurfaceStarInput surface_star_input(const Level<3>& level, const KnownRegion<3>& known) {
+  return {level.nodes,
+          level.tree->tree(),
+          level.neighbourhood.buckets(),
+          known,
+          level.ground.surface(),
+          level.ground.features(),
+          [&level](std::int64_t i) {
+            return level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i));
+          }};
+}
+
+template <int Dim>
+void widen(Box<Dim>& box, const Box<Dim>& by) {
+  for (int k = 0; k < Dim; ++k) {
+    box.low[k] = std::min(box.low[k], by.low[k]);
+    box.high[k] = std::max(box.high[k], by.high[k]);
+  }
+}
+
+template <int Dim>
+void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known) {
+  const PhaseTimer timer(level.timers, Phase::stars);
+  if constexpr (Dim == 3)
+    if (level.ground.surfaces_alone()) return level.stars.build(surface_star_input(level, known));
+  level.stars.build(star_input(level, known));
+}
+
+// What must be known for stars that could not be found: one box for the nodes of each leaf.
+template <int Dim>
+class UnknownBoxes {
+ public:
+  explicit UnknownBoxes(const Level<Dim>& level) : level_(level) {}
+
+  void ask_around(std::int64_t i) {
+    const double reach = level_.stars.needs(i);
+    if (reach == 0) return;
+    const Box<Dim> box = box_around<Dim>(level_.nodes.position(i), reach);
+    widen(box_of_.try_emplace(level_.neighbourhood.buckets().bucket_of(i), box).first->second, box);
+  }
+  std::vector<Box<Dim>> boxes() const {
+    std::vector<Box<Dim>> boxes;
+    for (const auto& [leaf, box] : box_of_) boxes.push_back(box);
+    return boxes;
+  }
+
+ private:
+  const Level<Dim>& level_;
+  std::map<std::int32_t, Box<Dim>> box_of_;
+};
+
+// Those not reached yet.
+template <class Graph>
+std::vector<std::int64_t> neighbours_of(const Graph& stars, const std::vector<std::int64_t>& front,
+                                        std::vector<char>& reached) {
+  std::vector<std::int64_t> next;
+  for (const std::int64_t i : front)
+    stars.for_neighbours(i, [&](std::int64_t j) {
+      char& known = reached[static_cast<std::size_t>(j)];
+      if (!known) next.push_back(j);
+      known = 1;
+    });
+  return next;
+}
+
+template <int Dim>
+std::vector<char> owned_nodes(const Nodes<Dim>& nodes) {
+  return {nodes.owned.data(), nodes.owned.data() + nodes.count};
+}
+
+// Owned nodes beside a ghost, by the lists or the stars.
+template <int Dim, class Graph>
+std::vector<std::int64_t> nodes_at_border(const Nodes<Dim>& nodes, const Graph& graph) {
+  std::vector<std::int64_t> at_border;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (!nodes.owned(i)) continue;
+    bool is = false;
+    graph.for_neighbours(i, [&](std::int64_t j) { is = is || !nodes.owned(j); });
+    if (is) at_border.push_back(i);
+  }
+  return at_border;
+}
+
+// Finds the stars of all nodes, and returns what must be known for those that are needed.
+template <int Dim>
+std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings) {
+  build_stars(level, known);
+  UnknownBoxes<Dim> unknown(level);
+  if (known.is_everywhere()) return unknown.boxes();
+  const Nodes<Dim>& nodes = level.nodes;
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (nodes.owned(i)) unknown.ask_around(i);
+  std::vector<char> reached = owned_nodes(nodes);
+  std::vector<std::int64_t> front = nodes_at_border(nodes, level.stars);
+  for (int ring = 0; ring < rings; ++ring) {
+    front = neighbours_of(level.stars, front, reached);
+    for (const std::int64_t i : front) unknown.ask_around(i);
+  }
+  return unknown.boxes();
+}
+
+void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<char>& wanted) {
+  const PhaseTimer timer(level.timers, Phase::stars);
+  level.stars.add(star_input(level, known), wanted);
+}
+
+// The same in a volume, where a star costs much: first only those of owned nodes beside ghosts,
+// then ring by ring those of ghosts. They alone ask for more ghosts, but for rare ones inside.
+std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known, int rings) {
+  const Nodes<3>& nodes = level.nodes;
+  level.stars.build_none(star_input(level, known));
+  UnknownBoxes<3> unknown(level);
+  std::vector<char> reached = owned_nodes(nodes);
+  std::vector<std::int64_t> front = nodes_at_border(nodes, level.lists());
+  for (int ring = 0; ring <= rings; ++ring) {
+    if (ring > 0) front = neighbours_of(level.stars, front, reached);
+    std::vector<char> wanted(static_cast<std::size_t>(nodes.count), 0);
+    for (const std::int64_t i : front) wanted[static_cast<std::size_t>(i)] = 1;
+    add_stars(level, known, wanted);
+    for (const std::int64_t i : front) unknown.ask_around(i);
+  }
+  return unknown.boxes();
+}
+
+// After these, those of all other owned nodes.
+std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& known) {
+  const Nodes<3>& nodes = level.nodes;
+  std::vector<char> wanted = owned_nodes(nodes);
+  for (const std::int64_t i : nodes_at_border(nodes, level.lists()))
+    wanted[static_cast<std::size_t>(i)] = 0;
+  add_stars(level, known, wanted);
+  UnknownBoxes<3> unknown(level);
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (wanted[static_cast<std::size_t>(i)]) unknown.ask_around(i);
+  return unknown.boxes();
+}
+
+}  // namespace
+
+template <int Dim>
+void rebuild_stars(Level<Dim>& level) {
+  build_stars(level, KnownRegion<Dim>());
+}
+
+template <int Dim>
+std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings) {
+  std::vector<Box<Dim>> unknown;
+  if constexpr (Dim == 3)
+    if (level.distributed() && !level.ground.surfaces_alone()) {
+      agreed(*level.comm, [&] { unknown = find_border_stars(level, known, rings); });
+      if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
+      agreed(*level.comm, [&] { unknown = find_inner_stars(level, known); });
+      return unknown;
+    }
+  agreed(*level.comm, [&] { unknown = find_all_stars(level, known, rings); });
+  return unknown;
+}
+
+template std::vector<Box<2>> find_stars(Level<2>&, const KnownRegion<2>&, int);
+template std::vector<Box<3>> find_stars(Level<3>&, const KnownRegion<3>&, int);
+template void rebuild_stars(Level<2>&);
+template void rebuild_stars(Level<3>&);
+
+}  // namespace pnpbs

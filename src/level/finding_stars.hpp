@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Delaunay stars of a level from its lists: those of the owned nodes and of the ghosts around
+// them, as far as what is known of other ranks' nodes suffices.
+#pragma once
+
+#include <vector>
+
+#include "level/level.hpp"
+#include "partition/known_region.hpp"
+
+namespace pnpbs {
+
+// Finds the stars of the owned nodes and of the ghosts up to so many neighbours away. Returns what
+// must be known for those that it could not find; nothing on all ranks: they are all there.
+// Collective.
+template <int Dim>
+std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings);
+
+// Of all nodes, on one rank.
+template <int Dim>
+void rebuild_stars(Level<Dim>& level);
+
+// What the stars are made from; the region must outlive it.
+VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known);
+
+}  // namespace pnpbs
