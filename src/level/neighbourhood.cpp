@@ -49,7 +49,8 @@ template <int Dim>
 void Neighbourhood<Dim>::rebuild_here(Nodes<Dim>& nodes, const Ground<Dim>& ground,
                                       const LevelTree<Dim>& tree, double radius) {
   listed_ = {};
-  rebuild(nodes, ground, tree, radius, nodes.x);
+  // What is near was measured from there, also when nodes have moved on.
+  rebuild(nodes, ground, tree, radius, nodes.referenced_here() ? nodes.reference : nodes.x);
 }
 
 template <int Dim>

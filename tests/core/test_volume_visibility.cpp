@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "level/finish.hpp"
 #include "level/lists_and_stars.hpp"
 #include "placement/placement_of.hpp"
 #include "run_kernel_suite.hpp"
@@ -80,6 +81,36 @@ START_TEST(room_around_nodes) {
 }
 END_TEST
 
+// Also where they have come by several ways from where the lists were made.
+START_TEST(nodes_that_went_on) {
+  constexpr double kClearance = 0.6, kWay = 0.25;  // spacings
+  const std::unique_ptr<Placement> placement = cube_with_cavity();
+  auto& level = const_cast<Level&>(placement->level());
+  pnpbs::prepare_finish(level);
+  pnpbs::Nodes<3>& nodes = level.nodes;
+  int refused = 0;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (nodes.carrier(i) != Carrier::free) continue;
+    for (int go = 0; go < 12; ++go) {
+      const double d = nodes.d(i), before = distance_to_boundary(nodes.position(i));
+      pnpbs::Point<3> to = nodes.position(i);
+      to[2] -= kWay * d;
+      const double after = distance_to_boundary(to);
+      const bool clear = to[2] > 0 && (after >= kClearance * d || after >= before);
+      if (std::fabs(after - kClearance * d) < 1e-9 || std::fabs(after - before) < 1e-9) break;
+      ck_assert_int_eq(level.neighbourhood.near_boundary().stays_clear(i, nodes, level.ground, to,
+                                                                       kClearance * d),
+                       clear);
+      refused += clear ? 0 : 1;
+      if (!clear) break;
+      nodes.set_position(i, to);
+    }
+  }
+  ck_assert_int_gt(refused, 100);
+}
+END_TEST
+
 int main() {
-  return run_kernel_suite("volume_visibility", {lists_that_lack_a_node, room_around_nodes});
+  return run_kernel_suite("volume_visibility",
+                          {lists_that_lack_a_node, room_around_nodes, nodes_that_went_on});
 }
