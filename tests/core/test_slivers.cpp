@@ -13,6 +13,7 @@
 #include "quality/volume/tetrahedron_quality.hpp"
 #include "run_kernel_suite.hpp"
 #include "volume_box.hpp"
+#include "volume_tetrahedra.hpp"
 
 using Ids = std::array<std::int64_t, 4>;
 using Corners = std::array<Point<3>, 4>;
@@ -229,6 +230,27 @@ START_TEST(no_sliver_is_left) {
 }
 END_TEST
 
+// The stars that a repair leaves are those found anew, in the same order.
+START_TEST(stars_that_are_left) {
+  using volume_tetrahedra::Star;
+  Shaken s(9, 0.25);
+  const auto all = [&] {
+    std::map<std::int64_t, Star> stars;
+    for (std::int64_t i = 0; i < s.b.nodes.count; ++i)
+      stars[s.b.nodes.id(i)] = volume_tetrahedra::star_by_ids(s.b.nodes, s.stars, i);
+    return stars;
+  };
+  const std::map<std::int64_t, Star> before = all();
+  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
+  ck_assert_int_gt(repair(slivers), 50);
+  slivers.write_stars(s.stars);
+  const std::map<std::int64_t, Star> left = all();
+  quick_assert(left != before);
+  s.make_stars();
+  quick_assert(left == all());
+}
+END_TEST
+
 // Every round makes the sum of what small angles lack less, whatever goes at once.
 START_TEST(rounds_only_help) {
   Shaken s(9, 0.3);
@@ -364,6 +386,6 @@ END_TEST
 int main() {
   return run_kernel_suite(
       "slivers", {known_angles, angles_of_any_tetrahedron, stars_follow_nodes, no_sliver_is_left,
-                  rounds_only_help, nodes_keep_off_where_they_must, the_same_in_another_order,
-                  the_same_from_two_halves, sweeps_go_to_the_mean});
+                  stars_that_are_left, rounds_only_help, nodes_keep_off_where_they_must,
+                  the_same_in_another_order, the_same_from_two_halves, sweeps_go_to_the_mean});
 }

@@ -24,10 +24,9 @@ bool may_go(const Level<3>& level, std::int64_t i, const Point<3>& x) {
                                                          kFinishClearance * level.nodes.d(i));
 }
 
-// The few edges that have other nodes after the first sweep do not matter to the next. (Those after
-// a repair do.)
+// By the stars there are. The few edges that have other nodes after the first sweep do not matter
+// to the next. (Those after a repair do.)
 void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
-  if (sweeps > 0) make_finish_stars(level, 0);
   const PhaseTimer timer(level.timers, Phase::sweeps);
   for (std::int64_t s = 0; s < sweeps; ++s) {
     update_ghosts(level);
@@ -39,6 +38,7 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   }
 }
 
+// Leaves the stars of the owned nodes as they are then.
 void repair_slivers(Level<3>& level) {
   // Of all nodes within three reaches of a move (see SliverRepair), some 0.8 d from ring to ring.
   constexpr int kRings = 7;
@@ -74,6 +74,7 @@ void repair_slivers(Level<3>& level) {
     }
     if (level.comm->allreduce_sum(static_cast<std::uint64_t>(repair->slivers())) == 0) break;
   }
+  agreed(*level.comm, [&] { repair->write_stars(level.stars); });
   level.nodes.moved();
 }
 
@@ -85,6 +86,7 @@ FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps) {
     sweep_on_surfaces(level, sweeps);
     put_on_level_sets(level);
   } else {
+    if (sweeps > 0) make_finish_stars(level, 0);
     sweep_to_means(level, sweeps);
     if (level.settings.repair.rounds > 0) {
       repair_slivers(level);

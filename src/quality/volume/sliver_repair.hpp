@@ -67,6 +67,9 @@ class SliverRepair {
   std::vector<ChangedTetrahedron> changes_of(std::int32_t moved_node) const;
   void follow(const std::vector<ChangedTetrahedron>& news);
 
+  // The stars of the owned nodes where all are now, in place of those made before.
+  void write_stars(VolumeStars& stars) const { stars_.write_to(stars); }
+
   // Those left, with an owned node that can move.
   std::int64_t slivers() const;
 

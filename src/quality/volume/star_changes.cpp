@@ -19,6 +19,20 @@ StarChanges::Corners others(const TetrahedronNodes& t, std::int32_t i) {
   return {t[0], t[2], t[1]};
 }
 
+// Has each edge of the triangles another one of them on its other side?
+bool each_edge_comes_both_ways(const std::vector<StarChanges::Corners>& triangles) {
+  using Edge = std::array<std::int32_t, 2>;
+  std::vector<Edge> edges, back;
+  for (const StarChanges::Corners& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.push_back({t[k], t[(k + 1) % 3]});
+      back.push_back({t[(k + 1) % 3], t[k]});
+    }
+  std::sort(edges.begin(), edges.end());
+  std::sort(back.begin(), back.end());
+  return !edges.empty() && edges == back;
+}
+
 }  // namespace
 
 StarChanges::Corners StarChanges::least_first(const Corners& c) {
@@ -59,6 +73,32 @@ StarChanges::Star StarChanges::star_after(std::int32_t i, const StarChange& chan
       if (std::find(star.neighbours.begin(), star.neighbours.end(), j) == star.neighbours.end())
         star.neighbours.push_back(j);
   return star;
+}
+
+VolumeStars::NewStar StarChanges::in_order(const Star& star) const {
+  VolumeStars::NewStar ordered{star.neighbours, {}, each_edge_comes_both_ways(star.simplices)};
+  const auto by_id = [this](std::int32_t a, std::int32_t b) { return nodes_.id(a) < nodes_.id(b); };
+  std::sort(ordered.neighbours.begin(), ordered.neighbours.end(), by_id);
+  for (const auto& [a, b, c] : star.simplices) {
+    const bool b_first = by_id(b, a) && by_id(b, c), c_first = by_id(c, a) && by_id(c, b);
+    ordered.triangles.push_back(b_first   ? Corners{b, c, a}
+                                : c_first ? Corners{c, a, b}
+                                          : Corners{a, b, c});
+  }
+  std::sort(ordered.triangles.begin(), ordered.triangles.end(),
+            [&](const Corners& s, const Corners& t) {
+              return std::lexicographical_compare(s.begin(), s.end(), t.begin(), t.end(), by_id);
+            });
+  return ordered;
+}
+
+void StarChanges::write_to(VolumeStars& stars) const {
+  std::vector<char> changed(place_.size());
+  for (std::size_t i = 0; i < place_.size(); ++i) changed[i] = place_[i] != kUnchanged;
+  stars.replace(changed, [this](std::int64_t i) {
+    const std::int32_t place = place_[static_cast<std::size_t>(i)];
+    return in_order(changed_[static_cast<std::size_t>(place)]);
+  });
 }
 
 std::vector<std::int32_t> StarChanges::accept(const StarChange& change) {

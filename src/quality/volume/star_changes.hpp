@@ -79,6 +79,9 @@ class StarChanges {
   // The node has gone there. Returns the nodes whose stars have changed.
   std::vector<std::int32_t> accept(const StarChange& change);
 
+  // Puts the stars that have changed in place of those made before, which these are.
+  void write_to(VolumeStars& stars) const;
+
  private:
   struct Star {
     std::vector<std::int32_t> neighbours;
@@ -88,6 +91,7 @@ class StarChanges {
   static constexpr std::int32_t kUnchanged = -1;
 
   Star star_after(std::int32_t i, const StarChange& change) const;
+  VolumeStars::NewStar in_order(const Star& star) const;
 
   const Nodes<3>& nodes_;
   const VolumeStars& stars_;
