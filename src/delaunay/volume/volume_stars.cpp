@@ -291,22 +291,6 @@ void VolumeStars::build_none(const VolumeStarInput& input) {
   rows_.build("pnpbs::VolumeStars::build_none", input.nodes.count, [&] { return write_none; });
 }
 
-void VolumeStars::write(const NewStar& star, std::vector<std::int32_t>& out) {
-  const std::size_t n = star.neighbours.size();
-  out.push_back(header(n, star.closed));
-  out.insert(out.end(), star.neighbours.begin(), star.neighbours.end());
-  const auto place = [&](std::int32_t j) {
-    return static_cast<std::int32_t>(std::find(star.neighbours.begin(), star.neighbours.end(), j) -
-                                     star.neighbours.begin());
-  };
-  for (const Corners& t : star.triangles) {
-    if (n <= static_cast<std::size_t>(kMaxPlaces))
-      out.push_back(pack({place(t[0]), place(t[1]), place(t[2])}));
-    else
-      out.insert(out.end(), t.begin(), t.end());
-  }
-}
-
 void VolumeStars::add(const VolumeStarInput& input, const std::vector<char>& wanted) {
   rows_.rewrite(
       "pnpbs::VolumeStars::add", input.nodes.count,

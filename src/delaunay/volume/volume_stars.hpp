@@ -50,20 +50,14 @@ class VolumeStars {
   void add(const VolumeStarInput& input, const std::vector<char>& wanted);
   void build(const SurfaceStarInput& input);
 
-  // Nodes have moved: the stars of those for which changed is set are star_of(i) now.
-  struct NewStar {
-    std::vector<std::int32_t> neighbours;  // by increasing id
-    std::vector<Corners> triangles;        // nodes, in an order that only ids decide
-    bool closed;
-  };
-  template <class StarOf>
-  void replace(const std::vector<char>& changed, const StarOf& star_of) {
+  // Nodes have moved: the stars of those for which changed is set are written anew, write(i, out)
+  // as it is told below.
+  template <class Write>
+  void replace(const std::vector<char>& changed, const Write& write) {
     rows_.rewrite(
         "pnpbs::VolumeStars::replace", std::ssize(changed),
         [&](std::int64_t i) { return changed[static_cast<std::size_t>(i)] != 0; },
-        [&] {
-          return [&](std::int64_t i, std::vector<std::int32_t>& out) { write(star_of(i), out); };
-        });
+        [&] { return write; });
   }
 
   // Calls visit(j) for the neighbours of node i, the other corners of tetrahedra of the domain, or
@@ -132,7 +126,6 @@ class VolumeStars {
     const std::int32_t n = row[0] / 2;
     return {n, row[0] % 2 != 0, n > kMaxPlaces, row.data() + 1, row.data() + row.size()};
   }
-  static void write(const NewStar& star, std::vector<std::int32_t>& out);
   static Corners unpack(const Star& star, std::int32_t packed) {
     constexpr std::int32_t kMask = kMaxPlaces - 1;
     return {star.first[packed & kMask], star.first[packed >> kPlaceBits & kMask],

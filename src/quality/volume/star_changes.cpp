@@ -19,20 +19,6 @@ StarChanges::Corners others(const TetrahedronNodes& t, std::int32_t i) {
   return {t[0], t[2], t[1]};
 }
 
-// Has each edge of the triangles another one of them on its other side?
-bool each_edge_comes_both_ways(const std::vector<StarChanges::Corners>& triangles) {
-  using Edge = std::array<std::int32_t, 2>;
-  std::vector<Edge> edges, back;
-  for (const StarChanges::Corners& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      edges.push_back({t[k], t[(k + 1) % 3]});
-      back.push_back({t[(k + 1) % 3], t[k]});
-    }
-  std::sort(edges.begin(), edges.end());
-  std::sort(back.begin(), back.end());
-  return !edges.empty() && edges == back;
-}
-
 }  // namespace
 
 StarChanges::Corners StarChanges::least_first(const Corners& c) {
@@ -75,29 +61,41 @@ StarChanges::Star StarChanges::star_after(std::int32_t i, const StarChange& chan
   return star;
 }
 
-VolumeStars::NewStar StarChanges::in_order(const Star& star) const {
-  VolumeStars::NewStar ordered{star.neighbours, {}, each_edge_comes_both_ways(star.simplices)};
-  const auto by_id = [this](std::int32_t a, std::int32_t b) { return nodes_.id(a) < nodes_.id(b); };
-  std::sort(ordered.neighbours.begin(), ordered.neighbours.end(), by_id);
-  for (const auto& [a, b, c] : star.simplices) {
-    const bool b_first = by_id(b, a) && by_id(b, c), c_first = by_id(c, a) && by_id(c, b);
-    ordered.triangles.push_back(b_first   ? Corners{b, c, a}
-                                : c_first ? Corners{c, a, b}
-                                          : Corners{a, b, c});
+// As VolumeStars has it. By Euler's formula as many triangles are all around the node.
+void StarChanges::write_in_order(const Star& star, std::vector<std::int32_t>& out) const {
+  const std::size_t n = star.neighbours.size();
+  out.push_back(VolumeStars::header(n, star.simplices.size() + 4 == 2 * n));
+  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  out.insert(out.end(), star.neighbours.begin(), star.neighbours.end());
+  std::sort(out.begin() + first, out.end(),
+            [this](std::int32_t a, std::int32_t b) { return nodes_.id(a) < nodes_.id(b); });
+  std::vector<Corners> places;
+  places.reserve(star.simplices.size());
+  for (const Corners& corners : star.simplices) {
+    Corners triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::int32_t place = 0;
+      while (out[static_cast<std::size_t>(first + place)] != corners[k]) ++place;
+      triangle[k] = place;
+    }
+    places.push_back(least_first(triangle));
   }
-  std::sort(ordered.triangles.begin(), ordered.triangles.end(),
-            [&](const Corners& s, const Corners& t) {
-              return std::lexicographical_compare(s.begin(), s.end(), t.begin(), t.end(), by_id);
-            });
-  return ordered;
+  std::sort(places.begin(), places.end());
+  for (const Corners& triangle : places) {
+    if (n <= static_cast<std::size_t>(VolumeStars::kMaxPlaces))
+      out.push_back(VolumeStars::pack(triangle));
+    else
+      for (const std::int32_t place : triangle)
+        out.push_back(out[static_cast<std::size_t>(first + place)]);
+  }
 }
 
 void StarChanges::write_to(VolumeStars& stars) const {
   std::vector<char> changed(place_.size());
   for (std::size_t i = 0; i < place_.size(); ++i) changed[i] = place_[i] != kUnchanged;
-  stars.replace(changed, [this](std::int64_t i) {
+  stars.replace(changed, [this](std::int64_t i, std::vector<std::int32_t>& out) {
     const std::int32_t place = place_[static_cast<std::size_t>(i)];
-    return in_order(changed_[static_cast<std::size_t>(place)]);
+    write_in_order(changed_[static_cast<std::size_t>(place)], out);
   });
 }
 

@@ -91,7 +91,7 @@ class StarChanges {
   static constexpr std::int32_t kUnchanged = -1;
 
   Star star_after(std::int32_t i, const StarChange& change) const;
-  VolumeStars::NewStar in_order(const Star& star) const;
+  void write_in_order(const Star& star, std::vector<std::int32_t>& out) const;
 
   const Nodes<3>& nodes_;
   const VolumeStars& stars_;
