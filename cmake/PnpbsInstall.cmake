@@ -8,8 +8,12 @@ set(data_dir "${CMAKE_INSTALL_DATAROOTDIR}/pnpbs")
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pnpbs")
 
 # ------------------------------------------------------------------ library, headers, command ---
+set(headers_without_library "")
+if(NOT PNPBS_HAVE_GEO)
+  set(headers_without_library PATTERN "pnpbs_geo.h" EXCLUDE)
+endif()
 install(DIRECTORY include/pnpbs DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-        FILES_MATCHING PATTERN "*.h")
+        FILES_MATCHING PATTERN "*.h" ${headers_without_library})
 # A shared Kokkos or an MPI outside the system's folders is found again where it was linked.
 set_target_properties(pnpbs PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 if(PNPBS_KOKKOS_IS_SHARED)
@@ -22,6 +26,14 @@ install(
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 if(PNPBS_INSTALL_STATIC)
   install(TARGETS pnpbs_core ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+endif()
+
+if(PNPBS_HAVE_GEO)
+  # It finds libpnpbs beside it.
+  set_target_properties(pnpbs_geo PROPERTIES INSTALL_RPATH "$ORIGIN"
+                                             INSTALL_RPATH_USE_LINK_PATH ON)
+  install(TARGETS pnpbs_geo EXPORT pnpbsGeoTargets LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(EXPORT pnpbsGeoTargets NAMESPACE pnpbs:: DESTINATION "${package_dir}")
 endif()
 
 file(RELATIVE_PATH bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
@@ -118,6 +130,9 @@ function(pnpbs_install_pc module)
 endfunction()
 if(PNPBS_BUILD_FORTRAN)
   pnpbs_install_pc(pnpbs-fortran)
+endif()
+if(PNPBS_HAVE_GEO)
+  pnpbs_install_pc(pnpbs-geo)
 endif()
 if(PNPBS_HAVE_MPI)
   # Nothing where the compiler finds MPI by itself.

@@ -11,8 +11,8 @@ import sys
 import tempfile
 
 FLOORS = ("base comm predicates tree domain spacing initial partition neighbors dynamics "
-          "population delaunay quality settings level placement io picture api tool").split()
-PUBLIC_HEADER_FOR = "api", "tool"
+          "population delaunay quality settings level placement io picture api geo tool").split()
+PUBLIC_HEADER_FOR = "api", "geo", "tool"
 MAX_LINES = 400
 MAX_FUNCTION_LINES = 60
 OURS = re.compile(r'^\s*#\s*include\s*"((?:\w+/)+\w+\.hpp)"', re.M)

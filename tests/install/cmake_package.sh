@@ -57,7 +57,7 @@ is_refused C "find_package(pnpbs $next REQUIRED)" "version: $version"
 is_refused C "find_package(pnpbs $next REQUIRED)" "compatible with requested version \"$next\""
 is_refused C "find_package(pnpbs $((major + 1)) REQUIRED)" "version: $version"
 is_refused C "find_package(pnpbs REQUIRED COMPONENTS Pascal)" \
-  "pnpbs has no component Pascal; there are Fortran, MPI and Static"
+  "pnpbs has no component Pascal; there are Fortran, Geo, MPI and Static"
 works C "find_package(pnpbs REQUIRED OPTIONAL_COMPONENTS Pascal)
 $(require "NOT pnpbs_Pascal_FOUND AND pnpbs_FOUND" "an optional component is not optional")"
 
@@ -80,6 +80,26 @@ find_package(pnpbs REQUIRED COMPONENTS MPI)"
 find_package(pnpbs REQUIRED COMPONENTS MPI)" "The component MPI found no MPI"
 else
   is_refused C "find_package(pnpbs REQUIRED COMPONENTS MPI)" "was built without MPI"
+fi
+
+# ------------------------------------------------------------------ shapes ----------------------
+if [ "$with_geo" = 1 ]; then
+  works C "find_package(pnpbs REQUIRED COMPONENTS Geo)
+find_package(pnpbs REQUIRED COMPONENTS Geo)
+file(WRITE \"\${CMAKE_BINARY_DIR}/a.c\" \"#include <pnpbs/pnpbs_geo.h>
+#include <stdio.h>
+int main(void) {
+  printf(\\\"status: %d, expected 0\\\\n\\\", pnpbs_geo_destroy(NULL));
+  return pnpbs_geo_build_info() == NULL;
+}\")
+add_executable(a \"\${CMAKE_BINARY_DIR}/a.c\")
+target_link_libraries(a PRIVATE pnpbs::geo)"
+  quietly "$cmake" --build "$folder/build"
+  rm -f "$work/check_lines_before"
+  run_and_compare "$folder/build/a"
+  rm -f "$work/check_lines_before"
+else
+  is_refused C "find_package(pnpbs REQUIRED COMPONENTS Geo)" "was built without GDAL"
 fi
 
 # ------------------------------------------------------------------ the static library ----------

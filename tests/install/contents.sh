@@ -30,6 +30,16 @@ expected_files() {
   if [ "$with_mpi" = 1 ]; then
     echo "$libdir/pkgconfig/pnpbs-mpi.pc"
   fi
+  if [ "$with_geo" = 1 ]; then
+    echo "$includedir/pnpbs/pnpbs_geo.h"
+    for ending in "" ".$soversion" ".$version"; do
+      echo "$libdir/libpnpbs_geo.so$ending"
+    done
+    for file in GeoTargets "GeoTargets-$configuration"; do
+      echo "$libdir/cmake/pnpbs/pnpbs$file.cmake"
+    done
+    echo "$libdir/pkgconfig/pnpbs-geo.pc"
+  fi
   if [ "$with_static" = ON ]; then
     echo "$libdir/libpnpbs.a"
     echo "$libdir/cmake/pnpbs/pnpbsStatic.cmake"
@@ -72,7 +82,8 @@ diff "$work/expected" "$work/found" || fail "not the files that should be there"
 say "contents of what is copied"
 for pair in include/pnpbs:$includedir/pnpbs bindings/julia:$datadir/pnpbs/julia \
   bindings/python/pnpbs:$datadir/pnpbs/python/pnpbs examples:$datadir/pnpbs/examples docs:$datadir/doc/pnpbs/docs; do
-  same_files "${pair%%:*}" "${pair#*:}" | grep -v '/pnpbs\.1$' > "$work/copied"
+  same_files "${pair%%:*}" "${pair#*:}" | grep -v '/pnpbs\.1$' |
+    { [ "$with_geo" = 1 ] && cat || grep -v '/pnpbs_geo\.h$'; } > "$work/copied"
   [ -s "$work/copied" ] || fail "$pair: no files"
   while read -r file; do
     cmp "$source/${pair%%:*}/${file#"${pair#*:}"/}" "$file"

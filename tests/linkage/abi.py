@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a program that was linked with the library relies on, a line each: functions with their types
 and symbol versions, callbacks, constants, handles, and the keys of the tables. The lines of a
-promise are in abi/pnpbs-<SOVERSION>.abi; what is here now must still have all of them.
+promise are in abi/pnpbs-<SOVERSION>.abi; what is here now must still have all of them. The same of
+libpnpbs_geo, which has no tables.
 
-usage: abi.py --record <file> <header> <library>    adds to the file what is new
+usage: abi.py --check <file> <header> <library>     fails if the file is not what is here now
+       abi.py --record <file> <header> <library>    adds to the file what is new
        abi.py --show <header> <library>             prints what is here now"""
 
 import ctypes
@@ -99,8 +101,9 @@ def describe(header, name, versions, tables):
 
 
 def describe_files(header, library):
-    text = pathlib.Path(header).read_text()
-    return describe(text, soname(library), symbol_versions(library), of_tables(library))
+    text, versions = pathlib.Path(header).read_text(), symbol_versions(library)
+    tables = of_tables(library) if "pnpbs_option_count" in versions else []
+    return describe(text, soname(library), versions, tables)
 
 
 def recorded(path):
@@ -152,6 +155,10 @@ def main():
     if len(sys.argv) == 4 and sys.argv[1] == "--show":
         print("\n".join(describe_files(*sys.argv[2:])))
         return 0
+    if len(sys.argv) == 5 and sys.argv[1] == "--check":
+        broken, new = compare(recorded(sys.argv[2]), describe_files(*sys.argv[3:]))
+        print("\n".join(["broken: " + line for line in broken] + new))
+        return 1 if broken or new else 0
     if len(sys.argv) != 5 or sys.argv[1] != "--record":
         print(__doc__, file=sys.stderr)
         return 2

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geo/outlines.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+#include "base/error.hpp"
+#include "geo/chains.hpp"
+
+namespace pnpbs::geo {
+namespace {
+
+using Place = std::int64_t;
+
+// A segment of a route, from the lower place to the higher one or the other way round.
+struct Piece {
+  Place low, high;
+  bool upward;
+  bool of_line;
+  std::int64_t feature;
+  std::int32_t tag;
+  std::int64_t order;  // in the file
+  std::tuple<Place, Place, bool, std::int64_t> key() const { return {low, high, of_line, order}; }
+};
+
+// Twice the area, positive if the places go round against the clock.
+double turning_area(const std::vector<Place>& places, const std::vector<Point<2>>& points) {
+  const Point<2>& o = points[places.front()];
+  double area = 0;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const Point<2>&a = points[places[i]], &b = points[places[i + 1]];
+    area += (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+  }
+  return area;
+}
+
+// Each place once in a row; the inside on the left of outlines and holes.
+void straighten(Route& route, const std::vector<Point<2>>& points) {
+  std::vector<Place>& places = route.places;
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  if (route.kind == PathKind::line) return;
+  while (places.size() > 1 && places.front() == places.back()) places.pop_back();
+  if (places.empty()) return;
+  if ((turning_area(places, points) > 0) != (route.kind == PathKind::outline))
+    std::reverse(places.begin(), places.end());
+}
+
+std::vector<Piece> pieces_of(const std::vector<Route>& routes) {
+  std::vector<Piece> pieces;
+  for (const Route& route : routes) {
+    const bool line = route.kind == PathKind::line;
+    const std::size_t count = route.places.size();
+    if (count < 2) continue;
+    for (std::size_t i = 0; i < (line ? count - 1 : count); ++i) {
+      const Place a = route.places[i], b = route.places[(i + 1) % count];
+      pieces.push_back({std::min(a, b), std::max(a, b), a < b, line, route.feature, route.tag,
+                        static_cast<std::int64_t>(pieces.size())});
+    }
+  }
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& a, const Piece& b) { return a.key() < b.key(); });
+  return pieces;
+}
+
+class EdgeSorter {
+ public:
+  EdgeSorter(const WordsFor& where, Outlines& outlines, std::vector<Edge>& edges)
+      : where_(where), outlines_(outlines), edges_(edges) {}
+
+  // All pieces between two places, those of outlines first.
+  void take(std::vector<Piece> pieces) {
+    const std::size_t given = pieces.size();
+    cancel_within_features(pieces);
+    const auto first_line = std::find_if(pieces.begin(), pieces.end(), &is_line);
+    const auto outlines = first_line - pieces.begin();
+    if (outlines == 0 && !pieces.empty())
+      add(pieces.front(), EdgeRole::line);
+    else if (outlines == 1)
+      add(pieces.front(), EdgeRole::boundary);
+    else if (outlines == 2 && pieces[0].upward != pieces[1].upward)
+      add(pieces.front(), EdgeRole::inner), ++outlines_.shared_edges;
+    else if (outlines > 1)
+      reject_overlap(pieces[0], pieces[1]);
+    const std::size_t meant = outlines == 2 ? 2 : pieces.empty() ? 0 : 1;
+    outlines_.dropped_edges += static_cast<std::int64_t>(given - meant);
+  }
+
+ private:
+  static bool is_line(const Piece& piece) { return piece.of_line; }
+
+  // What one feature goes along there and back has its area on both sides: the cut at 180 degrees,
+  // the way to a pole, a spike.
+  static void cancel_within_features(std::vector<Piece>& pieces) {
+    std::vector<Piece> left;  // those of a feature stand together
+    for (const Piece& piece : pieces) {
+      const bool back = !left.empty() && !piece.of_line && !left.back().of_line &&
+                        left.back().feature == piece.feature && left.back().upward != piece.upward;
+      if (back)
+        left.pop_back();
+      else
+        left.push_back(piece);
+    }
+    pieces = std::move(left);
+  }
+
+  void add(const Piece& piece, EdgeRole role) {
+    edges_.push_back({piece.upward ? piece.low : piece.high, piece.upward ? piece.high : piece.low,
+                      role, piece.tag, piece.order});
+  }
+
+  [[noreturn]] void reject_overlap(const Piece& a, const Piece& b) const {
+    const std::string features =
+        a.feature == b.feature ? "feature " + std::to_string(a.feature) + " covers an area twice"
+                               : "features " + std::to_string(a.feature) + " and " +
+                                     std::to_string(b.feature) + " overlap";
+    throw Error(ErrorKind::domain, features + ", on the same side of the edge from " +
+                                       where_(a.low) + " to " + where_(a.high));
+  }
+
+  const WordsFor& where_;
+  Outlines& outlines_;
+  std::vector<Edge>& edges_;
+};
+
+}  // namespace
+
+std::size_t Places::Hash::operator()(const Point<2>& point) const {
+  // Any mixing of the bits will do: the numbers go by the order of points, not by this.
+  std::uint64_t mixed = std::bit_cast<std::uint64_t>(point[0]) * 0x9E3779B97F4A7C15u;
+  mixed = std::rotl(mixed, 29) ^ std::bit_cast<std::uint64_t>(point[1]);
+  mixed *= 0xBF58476D1CE4E5B9u;
+  return mixed ^ (mixed >> 32);
+}
+
+std::int64_t Places::add(const Point<2>& point) {
+  const Point<2> unsigned_zeros{point[0] + 0.0, point[1] + 0.0};
+  const auto next = static_cast<std::int64_t>(points_.size());
+  const auto [found, is_new] = numbers_.try_emplace(unsigned_zeros, next);
+  if (is_new) points_.push_back(unsigned_zeros);
+  return found->second;
+}
+
+Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,
+                     const WordsFor& where) {
+  for (Route& route : routes) straighten(route, points);
+  const std::vector<Piece> pieces = pieces_of(routes);
+  Outlines outlines;
+  std::vector<Edge> edges;
+  EdgeSorter sorter(where, outlines, edges);
+  for (std::size_t begin = 0, end; begin < pieces.size(); begin = end) {
+    for (end = begin; end < pieces.size() && pieces[end].low == pieces[begin].low &&
+                      pieces[end].high == pieces[begin].high;)
+      ++end;
+    sorter.take({pieces.begin() + static_cast<std::ptrdiff_t>(begin),
+                 pieces.begin() + static_cast<std::ptrdiff_t>(end)});
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& a, const Edge& b) { return a.order < b.order; });
+  const bool has_polygons = std::any_of(routes.begin(), routes.end(), [](const Route& route) {
+    return route.kind != PathKind::line;
+  });
+  settle_lines(edges, static_cast<std::int64_t>(points.size()), has_polygons, where);
+  outlines.curves = chains_of(edges, static_cast<std::int64_t>(points.size()));
+  return outlines;
+}
+
+}  // namespace pnpbs::geo

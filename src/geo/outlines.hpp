@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What bounds a domain, and what lies in it, of outlines of polygons and lines. Neighbouring
+// polygons have edges in common; these are inner curves, and the others bound their union.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "base/types.hpp"
+#include "geo/shape_file.hpp"
+
+namespace pnpbs::geo {
+
+// Points at the same place are one.
+class Places {
+ public:
+  std::int64_t add(const Point<2>& point);
+  const std::vector<Point<2>>& points() const { return points_; }
+
+ private:
+  struct Hash {
+    std::size_t operator()(const Point<2>& point) const;
+  };
+  std::unordered_map<Point<2>, std::int64_t, Hash> numbers_;
+  std::vector<Point<2>> points_;
+};
+
+// A path by the numbers of its places.
+struct Route {
+  PathKind kind;
+  std::int64_t feature;
+  std::int32_t tag;
+  std::vector<std::int64_t> places;
+};
+
+// Straight segments between places.
+struct Curve {
+  bool bounds;  // the domain; otherwise it lies in it
+  bool closed;
+  std::vector<std::int64_t> places;  // of closed ones, the first is not repeated
+  std::vector<std::int32_t> tags;    // of the segments
+};
+
+struct Outlines {
+  std::vector<Curve> curves;
+  std::int64_t shared_edges = 0;   // of neighbours
+  std::int64_t dropped_edges = 0;  // there and back in one feature, or twice the same line
+};
+
+// Outlines enclose areas that do not overlap. Without any, closed lines bound the domain. Throws
+// Error with the place, for which `where` finds words.
+using WordsFor = std::function<std::string(std::int64_t place)>;
+Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,
+                     const WordsFor& where);
+
+}  // namespace pnpbs::geo

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The C interface of libpnpbs_geo.
+#include "pnpbs/pnpbs_geo.h"
+
+#include <gdal.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <new>
+
+#include "api/floating_point.hpp"
+#include "base/error.hpp"
+#include "geo/shapes.hpp"
+
+using namespace pnpbs;
+using namespace pnpbs::geo;
+
+namespace {
+
+// With the texts that callers are given.
+struct Object {
+  explicit Object(const Request& request) : shapes(request) {
+    const ReferenceSystem& system = shapes.projection().system();
+    name = system.name(), unit = system.unit(), proj = system.proj();
+    wkt = system.wkt(), prj = system.prj();
+  }
+  Shapes shapes;
+  std::string name, unit, proj, wkt, prj;
+};
+
+// ------------------------------------------------------------------ handles --------------------
+// As libpnpbs has them: keys, never addresses; in numbers that none of its own has.
+class Registry {
+ public:
+  pnpbs_geo_shapes add(std::shared_ptr<Object> object) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::uintptr_t key = ++last_;
+    objects_[key] = std::move(object);
+    return reinterpret_cast<pnpbs_geo_shapes>(key);
+  }
+  std::shared_ptr<Object> require(pnpbs_geo_shapes handle) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = objects_.find(reinterpret_cast<std::uintptr_t>(handle));
+    if (found == objects_.end())
+      throw Error(ErrorKind::handle, handle ? "shapes: not a live handle" : "shapes: NULL");
+    return found->second;
+  }
+  void remove(pnpbs_geo_shapes handle) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    objects_.erase(reinterpret_cast<std::uintptr_t>(handle));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::uintptr_t last_ = std::uintptr_t{1} << (sizeof(std::uintptr_t) * 8 - 4);
+  std::map<std::uintptr_t, std::shared_ptr<Object>> objects_;
+};
+
+Registry& registry() {
+  static Registry registry;
+  return registry;
+}
+
+// ------------------------------------------------------------------ errors ---------------------
+std::string& last_error() {
+  static thread_local std::string message;
+  return message;
+}
+
+pnpbs_status status_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::argument:
+      return PNPBS_ERROR_ARGUMENT;
+    case ErrorKind::handle:
+      return PNPBS_ERROR_HANDLE;
+    case ErrorKind::state:
+      return PNPBS_ERROR_STATE;
+    case ErrorKind::domain:
+      return PNPBS_ERROR_DOMAIN;
+    case ErrorKind::file:
+      return PNPBS_ERROR_FILE;
+    case ErrorKind::memory:
+      return PNPBS_ERROR_MEMORY;
+    default:
+      return PNPBS_ERROR_INTERNAL;
+  }
+}
+
+pnpbs_status report(pnpbs_status status, const char* message) noexcept {
+  try {
+    last_error() = message;
+  } catch (...) {
+    last_error().clear();
+  }
+  return status;
+}
+
+template <class Body>
+pnpbs_status guarded(const Body& body) noexcept {
+  const api::DefaultArithmetic arithmetic;
+  try {
+    body();
+    return PNPBS_OK;
+  } catch (const Error& error) {
+    return report(status_of(error.kind()), error.what());
+  } catch (const std::bad_alloc&) {
+    return report(PNPBS_ERROR_MEMORY, "out of memory");
+  } catch (const std::exception& error) {
+    return report(PNPBS_ERROR_INTERNAL, error.what());
+  } catch (...) {
+    return report(PNPBS_ERROR_INTERNAL, "internal error");
+  }
+}
+
+template <class Body>
+pnpbs_status guarded(pnpbs_geo_shapes shapes, const Body& body) noexcept {
+  return guarded([&] { body(*registry().require(shapes)); });
+}
+
+void require_pointer(const void* pointer, const char* argument) {
+  if (!pointer) throw Error(ErrorKind::argument, std::string("argument ") + argument + " is NULL");
+}
+
+std::string text_of(const char* text) { return text ? text : ""; }
+
+template <class Value>
+void put(Value* output, const Value& value) {
+  if (output) *output = value;
+}
+
+// ------------------------------------------------------------------ files ----------------------
+void write_text(const std::string& path, const std::string& text) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (!file || std::fclose(file) != 0 || !written)
+    throw Error(ErrorKind::file, "cannot write '" + path + "'");
+}
+
+// As PROJ's transformations take them, to degrees or from them.
+template <class Way>
+pnpbs_status change_coordinates(pnpbs_geo_shapes shapes, std::int64_t n, double* coordinates,
+                                const Way& way) {
+  return guarded(shapes, [&](Object& object) {
+    if (n < 0)
+      throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + " is negative");
+    if (n > 0) require_pointer(coordinates, "coordinates");
+    std::vector<Point<2>> points(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      points[i] = {coordinates[2 * i], coordinates[2 * i + 1]};
+    way(object.shapes.projection(), points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      coordinates[2 * i] = points[i][0], coordinates[2 * i + 1] = points[i][1];
+  });
+}
+
+}  // namespace
+
+const char* pnpbs_geo_last_error(void) { return last_error().c_str(); }
+
+const char* pnpbs_geo_build_info(void) {
+  static const std::string info = [] {
+    int major = 0, minor = 0, patch = 0;
+    OSRGetPROJVersion(&major, &minor, &patch);
+    return "GDAL: " + std::string(GDALVersionInfo("RELEASE_NAME")) +
+           "\nPROJ: " + std::to_string(major) + "." + std::to_string(minor) + "." +
+           std::to_string(patch) + "\n";
+  }();
+  return info.c_str();
+}
+
+pnpbs_status pnpbs_geo_read(const char* path, const char* layer, const char* projection,
+                            const char* unit, const char* tag_field, pnpbs_geo_shapes* shapes) {
+  return guarded([&] {
+    require_pointer(shapes, "shapes");
+    *shapes = nullptr;
+    require_pointer(path, "path");
+    const Request request{path, text_of(layer), text_of(projection), text_of(unit),
+                          text_of(tag_field)};
+    *shapes = registry().add(std::make_shared<Object>(request));
+  });
+}
+
+pnpbs_status pnpbs_geo_destroy(pnpbs_geo_shapes* shapes) {
+  if (!shapes || !*shapes) return PNPBS_OK;
+  return guarded(*shapes, [&](Object&) {
+    registry().remove(*shapes);
+    *shapes = nullptr;
+  });
+}
+
+pnpbs_status pnpbs_geo_add_to_domain(pnpbs_geo_shapes shapes, pnpbs_context context,
+                                     pnpbs_domain domain, double corner_angle) {
+  return guarded(shapes,
+                 [&](Object& object) { object.shapes.add_to(domain, context, corner_angle); });
+}
+
+pnpbs_status pnpbs_geo_counts(pnpbs_geo_shapes shapes, int64_t* vertices, int64_t* boundary,
+                              int64_t* inner, int64_t* points) {
+  return guarded(shapes, [&](Object& object) {
+    put(vertices, object.shapes.vertices());
+    put(boundary, object.shapes.boundary_curves());
+    put(inner, object.shapes.inner_curves());
+    put(points, object.shapes.points());
+  });
+}
+
+pnpbs_status pnpbs_geo_projection(pnpbs_geo_shapes shapes, const char** name, const char** unit,
+                                  const char** proj, const char** wkt, const char** prj) {
+  return guarded(shapes, [&](Object& object) {
+    put(name, object.name.c_str());
+    put(unit, object.unit.c_str());
+    put(proj, object.proj.c_str());
+    put(wkt, object.wkt.c_str());
+    put(prj, object.prj.c_str());
+  });
+}
+
+pnpbs_status pnpbs_geo_scale(pnpbs_geo_shapes shapes, double* least, double* greatest) {
+  return guarded(shapes, [&](Object& object) {
+    put(least, object.shapes.scale().least);
+    put(greatest, object.shapes.scale().greatest);
+  });
+}
+
+pnpbs_status pnpbs_geo_write_prj(pnpbs_geo_shapes shapes, const char* results) {
+  return guarded(shapes, [&](Object& object) {
+    require_pointer(results, "results");
+    if (object.prj.empty())
+      throw Error(ErrorKind::state, "the file does not say what its coordinates are");
+    write_text(std::filesystem::path(results).replace_extension(".prj").string(), object.prj);
+  });
+}
+
+pnpbs_status pnpbs_geo_to_degrees(pnpbs_geo_shapes shapes, int64_t n, double* coordinates) {
+  return change_coordinates(shapes, n, coordinates, [](const Projection& projection, auto& points) {
+    projection.to_degrees(points);
+  });
+}
+
+pnpbs_status pnpbs_geo_from_degrees(pnpbs_geo_shapes shapes, int64_t n, double* coordinates) {
+  return change_coordinates(shapes, n, coordinates, [](const Projection& projection, auto& points) {
+    projection.from_degrees(points);
+  });
+}
+
+const char* pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char* message) {
+  static thread_local std::string text;
+  const std::string given = text_of(message);
+  const pnpbs_status status =
+      guarded(shapes, [&](Object& object) { text = object.shapes.with_degrees(given); });
+  if (status != PNPBS_OK) text = given;
+  return text.c_str();
+}
+
+pnpbs_status pnpbs_geo_note_count(pnpbs_geo_shapes shapes, int32_t* count) {
+  return guarded(shapes, [&](Object& object) {
+    require_pointer(count, "count");
+    *count = static_cast<std::int32_t>(object.shapes.notes().size());
+  });
+}
+
+pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index, const char** note) {
+  return guarded(shapes, [&](Object& object) {
+    require_pointer(note, "note");
+    const auto& notes = object.shapes.notes();
+    if (index < 0 || static_cast<std::size_t>(index) >= notes.size())
+      throw Error(ErrorKind::argument, "argument index = " + std::to_string(index) +
+                                           ": there are " + std::to_string(notes.size()) +
+                                           " notes");
+    *note = notes[static_cast<std::size_t>(index)].c_str();
+  });
+}

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geo/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "base/point_text.hpp"
+
+namespace pnpbs::geo {
+namespace {
+
+// UTM zones are 6 degrees wide. This far beyond its edge lengths are off by 0.2 % at most, about as
+// much as on its central meridian and its edge.
+constexpr double half_zone = 3.5;
+// Where UTM ends.
+constexpr double most_northern = 84, most_southern = -80;
+// Projected and back, a point is where it was; this many degrees, 0.1 m, are for tables that are
+// only inverted approximately.
+constexpr double same_degrees = 1e-6;
+
+// For the scale: so many points, and so far to both sides of each.
+constexpr std::size_t scale_samples = 1000;
+constexpr double scale_step = 1e-4;  // degrees
+constexpr double radian = std::numbers::pi / 180;
+
+// What longitudes the points take, the shorter way round: from `west`, over `width` degrees.
+struct LongitudeRange {
+  double west, width;
+  double middle() const { return std::remainder(west + width / 2, 360); }
+};
+
+LongitudeRange longitudes_of(const std::vector<Point<2>>& degrees) {
+  std::vector<double> longitudes;
+  for (const Point<2>& point : degrees) longitudes.push_back(std::remainder(point[0], 360));
+  std::sort(longitudes.begin(), longitudes.end());
+  double gap = longitudes.front() + 360 - longitudes.back();
+  double west = longitudes.front();
+  for (std::size_t i = 1; i < longitudes.size(); ++i) {
+    if (longitudes[i] - longitudes[i - 1] <= gap) continue;
+    gap = longitudes[i] - longitudes[i - 1];
+    west = longitudes[i];
+  }
+  return {west, 360 - gap};
+}
+
+ReferenceSystem local_projection(const ReferenceSystem& data,
+                                 const std::vector<Point<2>>& degrees) {
+  const LongitudeRange range = longitudes_of(degrees);
+  double south = 90, north = -90;
+  for (const Point<2>& point : degrees) {
+    south = std::min(south, point[1]);
+    north = std::max(north, point[1]);
+  }
+  if (range.width > 180) {
+    if (south < 0 && north > 0)
+      throw Error(
+          ErrorKind::argument,
+          "argument projection: auto is for a part of the Earth, and the file reaches over " +
+              rounded_text(range.width) +
+              " degrees of longitude on both sides of the "
+              "equator; name a projection");
+    return ReferenceSystem::azimuthal(data, 0, south >= 0 ? 90 : -90);
+  }
+  const int zone = std::clamp(static_cast<int>(std::floor((range.middle() + 180) / 6)) + 1, 1, 60);
+  const double meridian = 6 * zone - 183;
+  const double reach = std::fabs(std::remainder(range.middle() - meridian, 360)) + range.width / 2;
+  if (reach <= half_zone && south >= most_southern && north <= most_northern)
+    return ReferenceSystem::utm(data, zone, south + north >= 0);
+  // Whole degrees, so that files that differ little have the same projection.
+  return ReferenceSystem::azimuthal(data, std::round(range.middle()),
+                                    std::round((south + north) / 2));
+}
+
+}  // namespace
+
+Projection::Projection(const ReferenceSystem& data, const std::vector<Point<2>>& points,
+                       const std::string& wish, const std::string& unit) {
+  if (data) data_ = ReferenceSystem::copy_of(data.get());
+  choose_target(points, wish);
+  take_unit(unit);
+  if (target_ && !OSRIsSame(target_.get(), data_.get())) {
+    forward_.emplace(data_, target_);
+    backward_.emplace(target_, data_);
+  }
+  wraps_ = forward_ && data_.is_geographic() && data_.has_degrees();
+  if (!target_ || OSRIsLocal(target_.get())) return;
+  const ReferenceSystem degrees = data_.geographic();
+  degrees_.emplace(target_, degrees);
+  of_degrees_.emplace(degrees, target_);
+}
+
+void Projection::choose_target(const std::vector<Point<2>>& points, const std::string& wish) {
+  const bool as_it_is = wish == "none" || (wish.empty() && !data_.is_geographic());
+  if (as_it_is) {
+    if (data_) target_ = ReferenceSystem::copy_of(data_.get());
+    return;
+  }
+  if (!data_)
+    throw Error(
+        ErrorKind::file,
+        "argument projection = '" + wish +
+            "': the file does not say what its coordinates "
+            "are, so they cannot be projected; for a shapefile a .prj beside it says it, for "
+            "others ogr2ogr -a_srs EPSG:4326, if they are longitude and latitude");
+  if (!wish.empty() && wish != "auto") {
+    target_ = ReferenceSystem::called(wish);
+    if (target_.is_geographic())
+      throw Error(ErrorKind::argument,
+                  "argument projection = '" + wish +
+                      "' is longitude and "
+                      "latitude, which are no distances: name a projection, auto, or none");
+    return;
+  }
+  std::vector<Point<2>> degrees = points;
+  const Transformation to_degrees(data_, data_.geographic());
+  to_degrees.apply(degrees);
+  std::erase_if(degrees, [](const Point<2>& p) { return !std::isfinite(p[0] + p[1]); });
+  std::erase_if(degrees, [](const Point<2>& p) { return std::fabs(p[1]) > 90; });
+  if (degrees.empty())
+    throw Error(ErrorKind::file, "none of the coordinates is a longitude and latitude on '" +
+                                     data_.geographic().name() + "'");
+  target_ = local_projection(data_, degrees);
+}
+
+void Projection::take_unit(const std::string& unit) {
+  if (unit.empty()) return;
+  if (unit != "m" && unit != "km")
+    throw Error(ErrorKind::argument, "argument unit = '" + unit + "' must be m or km");
+  if (!target_ || target_.is_geographic())
+    throw Error(
+        ErrorKind::argument,
+        "argument unit = '" + unit +
+            "' needs coordinates that are projected, and these stay as they are in the file");
+  target_ = unit == "km" ? target_.in_unit("kilometre", 1000) : target_.in_unit("metre", 1);
+}
+
+Point<2> Projection::canonical(const Point<2>& point) const {
+  if (!wraps_) return point;
+  auto [longitude, latitude] = point;
+  if (longitude <= -180 && longitude > -540) longitude += 360;
+  if (longitude > 180 && longitude <= 540) longitude -= 360;
+  if (std::fabs(latitude) == 90) longitude = 0;
+  return {longitude, latitude};
+}
+
+std::optional<Projection::Fault> Projection::project(std::vector<Point<2>>& points) const {
+  if (!forward_) return std::nullopt;
+  std::vector<Point<2>> back = points;
+  const std::string reason = forward_->apply(back);
+  for (std::size_t i = 0; i < back.size(); ++i)
+    if (!std::isfinite(back[i][0]) || !std::isfinite(back[i][1])) return Fault{i, reason};
+  points.swap(back);
+  std::vector<Point<2>>& given = back;
+  std::vector<Point<2>> returned = points;
+  backward_->apply(returned);
+  if (!wraps_) return std::nullopt;
+  // Far from where a projection is meant for it may give some place, which is another point's.
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const double shrink = std::max(std::cos(given[i][1] * radian), 1e-9);
+    const double off =
+        std::max(std::fabs(std::remainder(returned[i][0] - given[i][0], 360)) * shrink,
+                 std::fabs(returned[i][1] - given[i][1]));
+    if (!(off <= same_degrees))
+      return Fault{i, "projected and back it would be " + point_text(returned[i])};
+  }
+  return std::nullopt;
+}
+
+Projection::Scale Projection::scale_at(const std::vector<Point<2>>& points) const {
+  Scale scale;
+  if (!degrees_ || target_.is_geographic() || points.empty()) return scale;
+  std::vector<Point<2>> centres;
+  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / scale_samples)
+    centres.push_back(points[i]);
+  degrees_->apply(centres);
+  std::vector<Point<2>> around;
+  for (const auto& [longitude, latitude] : centres)
+    for (const double step : {-scale_step, scale_step}) {
+      around.push_back({longitude + step, latitude});
+      around.push_back({longitude, latitude + step});
+    }
+  of_degrees_->apply(around);
+  const double metres = OSRGetLinearUnits(target_.get(), nullptr);
+  const double a = OSRGetSemiMajor(target_.get(), nullptr),
+               b = OSRGetSemiMinor(target_.get(), nullptr);
+  scale = {HUGE_VAL, 0};
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const double c = std::cos(centres[i][1] * radian), s = std::sin(centres[i][1] * radian);
+    if (c < 1e-3) continue;  // at a pole there are no parallels
+    // Radii of curvature: of the parallel, and of the meridian.
+    const double w = std::sqrt(a * a * c * c + b * b * s * s);
+    const double radii[2] = {a * a / w * c, a * a * b * b / (w * w * w)};
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      const Point<2>&low = around[4 * i + k], &high = around[4 * i + 2 + k];
+      const double length = std::hypot(high[0] - low[0], high[1] - low[1]) * metres;
+      const double ratio = length / (2 * scale_step * radian * radii[k]);
+      if (!std::isfinite(ratio)) continue;
+      scale.least = std::min(scale.least, ratio);
+      scale.greatest = std::max(scale.greatest, ratio);
+    }
+  }
+  return scale.greatest > 0 ? scale : Scale{};
+}
+
+void Projection::to_degrees(std::vector<Point<2>>& points) const {
+  if (!degrees_)
+    throw Error(ErrorKind::state, "the file does not say where on the Earth its coordinates are");
+  degrees_->apply(points);
+}
+
+void Projection::from_degrees(std::vector<Point<2>>& points) const {
+  if (!of_degrees_)
+    throw Error(ErrorKind::state, "the file does not say where on the Earth its coordinates are");
+  of_degrees_->apply(points);
+}
+
+}  // namespace pnpbs::geo

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the coordinates of a file to those that nodes are placed in.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+#include "geo/reference_system.hpp"
+
+namespace pnpbs::geo {
+
+class Projection {
+ public:
+  // What `wish` makes of points in the system of `data`: "" longitude and latitude projected as
+  // auto does, anything else as it is; "none" as they are; "auto" the UTM zone that they lie in, or
+  // else Lambert's azimuthal equal-area projection about their middle; or a name, see
+  // ReferenceSystem::called. `unit` is "", "m" or "km". Throws Error.
+  Projection(const ReferenceSystem& data, const std::vector<Point<2>>& points,
+             const std::string& wish, const std::string& unit);
+
+  bool is_identity() const { return !forward_; }
+  const ReferenceSystem& system() const { return target_; }  // none if the data's is none
+  // Which of two ways to write the same place on the ellipsoid is used for points that are to be
+  // projected.
+  Point<2> canonical(const Point<2>& point) const;
+  // From canonical points of the data. Where one cannot be projected, its index, and why.
+  struct Fault {
+    std::size_t index;
+    std::string reason;
+  };
+  std::optional<Fault> project(std::vector<Point<2>>& points) const;
+  // Degrees on the ellipsoid of the data, from projected points or back; infinite where there are
+  // none. Throws Error if the system of the data is not known.
+  void to_degrees(std::vector<Point<2>>& points) const;
+  void from_degrees(std::vector<Point<2>>& points) const;
+  // How long lengths on the ellipsoid are once projected, along meridians and parallels, at some of
+  // the points, which are projected. 1 and 1 if the system of the data is not known.
+  struct Scale {
+    double least = 1, greatest = 1;
+  };
+  Scale scale_at(const std::vector<Point<2>>& points) const;
+
+ private:
+  void choose_target(const std::vector<Point<2>>& points, const std::string& wish);
+  void take_unit(const std::string& unit);
+
+  ReferenceSystem data_, target_;
+  bool wraps_ = false;  // the data are degrees on an ellipsoid, to be projected
+  std::optional<Transformation> forward_, backward_;    // none: the same coordinates
+  std::optional<Transformation> degrees_, of_degrees_;  // from and to the target
+};
+
+}  // namespace pnpbs::geo

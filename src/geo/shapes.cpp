@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geo/shapes.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <regex>
+
+#include "base/error.hpp"
+#include "base/point_text.hpp"
+
+namespace pnpbs::geo {
+namespace {
+
+std::vector<Point<2>> all_points(const LayerShapes& layer) {
+  std::vector<Point<2>> points;
+  for (const Path& path : layer.paths)
+    points.insert(points.end(), path.points.begin(), path.points.end());
+  for (const Spot& spot : layer.spots) points.push_back(spot.point);
+  return points;
+}
+
+ErrorKind kind_of(pnpbs_status status) {
+  switch (status) {
+    case PNPBS_ERROR_HANDLE:
+      return ErrorKind::handle;
+    case PNPBS_ERROR_STATE:
+      return ErrorKind::state;
+    case PNPBS_ERROR_MEMORY:
+      return ErrorKind::memory;
+    case PNPBS_ERROR_DOMAIN:
+      return ErrorKind::domain;
+    default:
+      return ErrorKind::argument;
+  }
+}
+
+void check(pnpbs_status status, pnpbs_context context) {
+  if (status < 0) throw Error(kind_of(status), pnpbs_last_error(context));
+}
+
+// Lengths that are off by more than this are told.
+constexpr double told_scale = 0.02;
+
+double number_in(const std::string& text) {
+  double number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+// Seven digits after the point are a centimetre.
+std::string degrees_text(const Point<2>& degrees) {
+  const auto rounded = [](double value) { return number_text(std::round(value * 1e7) / 1e7); };
+  return "longitude " + rounded(degrees[0]) + ", latitude " + rounded(degrees[1]);
+}
+
+}  // namespace
+
+Shapes::Shapes(const Request& request)
+    : layer_(read_layer(request.path, request.layer, request.tag_field)),
+      projection_(layer_.system, all_points(layer_), request.projection, request.unit) {
+  project();
+  take_notes();
+}
+
+std::string Shapes::words_for(const Point<2>& given, std::int64_t feature) const {
+  return layer_.name + ": feature " + std::to_string(feature) + ": " + point_text(given);
+}
+
+void Shapes::project() {
+  Places given;
+  std::vector<Route> routes;
+  std::vector<std::int64_t> features;  // that a place was given with first
+  const auto number_of = [&](const Point<2>& point, std::int64_t feature) {
+    const std::int64_t number = given.add(projection_.canonical(point));
+    if (number == static_cast<std::int64_t>(features.size())) features.push_back(feature);
+    return number;
+  };
+  for (Path& path : layer_.paths) {
+    Route route{path.kind, path.feature, path.tag, {}};
+    for (const Point<2>& point : path.points)
+      route.places.push_back(number_of(point, path.feature));
+    routes.push_back(std::move(route));
+    path.points = {};
+  }
+  std::vector<std::int64_t> spots;
+  for (const Spot& spot : layer_.spots) spots.push_back(number_of(spot.point, spot.feature));
+
+  std::vector<Point<2>> projected = given.points();
+  if (const auto fault = projection_.project(projected))
+    throw Error(ErrorKind::file, words_for(given.points()[fault->index], features[fault->index]) +
+                                     " has no place in the projection '" +
+                                     projection_.system().name() + "': " + fault->reason);
+  Places places;
+  std::vector<std::int64_t> place_of;
+  for (const Point<2>& point : projected) place_of.push_back(places.add(point));
+  for (Route& route : routes)
+    for (std::int64_t& place : route.places) place = place_of[place];
+  for (std::size_t s = 0; s < spots.size(); ++s) layer_.spots[s].point = projected[spots[s]];
+  places_ = places.points();
+  scale_ = projection_.scale_at(places_);
+  outlines_ = outlines_of(std::move(routes), places_, [&](std::int64_t place) {
+    return with_degrees(point_text(places_[place]));
+  });
+}
+
+void Shapes::take_notes() {
+  std::vector<std::string>& notes = layer_.notes;
+  if (!layer_.system)
+    notes.emplace_back(
+        "the file does not say what its coordinates are (there is no .prj beside it, say): they "
+        "are taken as x and y in a plane");
+  if (projection_.is_identity() && projection_.system().is_geographic())
+    notes.emplace_back("longitude and latitude are taken as x and y in a plane, as asked");
+  if (scale_.least < 1 - told_scale || scale_.greatest > 1 + told_scale)
+    notes.push_back("in the projection '" + projection_.system().name() + "' lengths are " +
+                    rounded_text(scale_.least) + " to " + rounded_text(scale_.greatest) +
+                    " times what they are on the Earth, and d is meant in the projection");
+  if (outlines_.dropped_edges > 0)
+    notes.push_back(std::to_string(outlines_.dropped_edges) +
+                    " segments were left out that only repeat others or lead there and back "
+                    "within a feature, as along 180 degrees");
+}
+
+// ------------------------------------------------------------------ into a domain --------------
+void Shapes::add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const {
+  std::int32_t dimension = 0;
+  check(pnpbs_domain_dimension(domain, &dimension), context);
+  if (dimension != 2)
+    throw Error(ErrorKind::argument,
+                "argument domain: shapes are for domains in the plane, and "
+                "this one is in space");
+  if (!(corner_angle >= 0 && corner_angle <= 180))
+    throw Error(ErrorKind::argument, "argument corner_angle is " + number_text(corner_angle) +
+                                         ", expected degrees from 0 to 180");
+  for (const auto& [tag, name] : layer_.tag_names)
+    check(pnpbs_domain_set_tag_name(domain, 1, tag, name.c_str()), context);
+  add_curves(domain, context, corner_angle);
+  std::vector<Point<2>> points;
+  std::vector<std::int32_t> tags;
+  for (const Spot& spot : layer_.spots) {
+    points.push_back(spot.point);
+    tags.push_back(spot.tag);
+  }
+  if (!points.empty())
+    check(pnpbs_domain_add_fixed_nodes(domain, static_cast<std::int64_t>(points.size()),
+                                       points.front().data(), tags.data()),
+          context);
+}
+
+void Shapes::add_curves(pnpbs_domain domain, pnpbs_context context, double corner_angle) const {
+  std::vector<Point<2>> points;
+  for (const Curve& curve : outlines_.curves) {
+    points.clear();
+    for (const std::int64_t place : curve.places) points.push_back(places_[place]);
+    check(pnpbs_domain_add_polyline(domain, curve.bounds ? PNPBS_BOUNDARY : PNPBS_INNER,
+                                    curve.closed, static_cast<std::int64_t>(points.size()),
+                                    points.front().data(), curve.tags.data(), corner_angle),
+          context);
+  }
+}
+
+// ------------------------------------------------------------------ what there is --------------
+std::int64_t Shapes::vertices() const { return static_cast<std::int64_t>(places_.size()); }
+
+std::int64_t Shapes::boundary_curves() const {
+  return std::ranges::count_if(outlines_.curves, [](const Curve& curve) { return curve.bounds; });
+}
+
+std::int64_t Shapes::inner_curves() const {
+  return static_cast<std::int64_t>(outlines_.curves.size()) - boundary_curves();
+}
+
+std::string Shapes::with_degrees(const std::string& text) const {
+  const ReferenceSystem& system = projection_.system();
+  if (!system || system.is_geographic()) return text;
+  static const std::regex place(R"(\((-?[0-9][-+.e0-9]*), (-?[0-9][-+.e0-9]*)\))");
+  std::string result;
+  auto rest = text.cbegin();
+  for (std::sregex_iterator found(text.begin(), text.end(), place), none; found != none; ++found) {
+    const std::smatch& match = *found;
+    result.append(rest, match[0].second);
+    rest = match[0].second;
+    std::vector<Point<2>> degrees{{number_in(match[1]), number_in(match[2])}};
+    projection_.to_degrees(degrees);
+    if (std::isfinite(degrees[0][0] + degrees[0][1]))
+      result += " [" + degrees_text(degrees[0]) + "]";
+  }
+  result.append(rest, text.cend());
+  return result;
+}
+
+}  // namespace pnpbs::geo

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shapes of one layer as a domain can take them: projected, and sorted into what bounds it and
+// what lies in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geo/outlines.hpp"
+#include "geo/projection.hpp"
+#include "geo/shape_file.hpp"
+#include "pnpbs/pnpbs.h"
+
+namespace pnpbs::geo {
+
+struct Request {
+  std::string path, layer, projection, unit, tag_field;
+};
+
+class Shapes {
+ public:
+  explicit Shapes(const Request& request);  // reads. Throws Error
+
+  // What the library says, with the places in it in degrees, too, is the message of the Error that
+  // is thrown if it says no.
+  void add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
+
+  const Projection& projection() const { return projection_; }
+  const std::vector<std::string>& notes() const { return layer_.notes; }
+  const Projection::Scale& scale() const { return scale_; }
+  std::int64_t vertices() const;
+  std::int64_t boundary_curves() const;
+  std::int64_t inner_curves() const;
+  std::int64_t points() const { return static_cast<std::int64_t>(layer_.spots.size()); }
+
+  // The text, and after each place "(x, y)" in it where on the Earth that is.
+  std::string with_degrees(const std::string& text) const;
+
+ private:
+  void project();
+  void take_notes();
+  void add_curves(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
+  std::string words_for(const Point<2>& given, std::int64_t feature) const;
+
+  LayerShapes layer_;  // its paths are empty once they are outlines
+  Projection projection_;
+  Projection::Scale scale_;
+  std::vector<Point<2>> places_;
+  Outlines outlines_;
+};
+
+}  // namespace pnpbs::geo

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * What tests of shapes share: files of GeoJSON, and a domain of what is read from them.
+ */
+#ifndef PNPBS_TESTS_GEO_GEO_SUPPORT_H
+#define PNPBS_TESTS_GEO_GEO_SUPPORT_H
+
+#include <math.h>
+#include <pnpbs/pnpbs_geo.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "check_runner.h"
+
+#define GEO_MUST(call)                                                           \
+  do {                                                                           \
+    const pnpbs_status status_ = (call);                                         \
+    ck_assert_msg(status_ == PNPBS_OK, "%s: %s", #call, pnpbs_geo_last_error()); \
+  } while (0)
+
+/* The message must have both parts. */
+#define GEO_MUST_FAIL(expected, call, part, other_part)                                   \
+  do {                                                                                    \
+    const pnpbs_status status_ = (call);                                                  \
+    const char* const message_ = pnpbs_geo_last_error();                                  \
+    ck_assert_msg(status_ == (expected), "%s: %d, %s", #call, status_, message_);         \
+    ck_assert_msg(strstr(message_, part) != NULL, "'%s' is not in: %s", part, message_);  \
+    ck_assert_msg(strstr(message_, other_part) != NULL, "'%s' is not in: %s", other_part, \
+                  message_);                                                              \
+  } while (0)
+
+/* Writes a file into the tests' folder and returns its path, valid until the next call. */
+const char* write_file(const char* name, const char* text, size_t length);
+/* The same of a FeatureCollection with these features. */
+const char* write_geojson(const char* name, const char* features);
+
+/* A feature of this type with these coordinates, and a name; as an argument of write_geojson. */
+#define FEATURE(type, coordinates)                         \
+  "{\"type\":\"Feature\",\"properties\":{\"land\":\"" type \
+  "\",\"code\":7},\"geometry\":{\"type\":\"" type "\",\"coordinates\":" coordinates "}}"
+
+typedef struct geo_case {
+  pnpbs_geo_shapes shapes;
+  pnpbs_context context;
+  pnpbs_domain domain;
+} geo_case;
+
+/* Read and in a domain that is checked. */
+geo_case geo_begin(const char* path, const char* projection, const char* unit, const char* field);
+void geo_end(geo_case* it);
+
+double geo_area(const geo_case* it);
+void expect_counts(pnpbs_geo_shapes shapes, int64_t vertices, int64_t boundary, int64_t inner,
+                   int64_t points);
+/* Whether one of the notes has this in it. */
+int has_note(pnpbs_geo_shapes shapes, const char* part);
+
+#endif
