@@ -94,7 +94,8 @@ void add_input(CLI::App& app, Arguments& arguments) {
          "--domain", arguments.domain,
          "the domain: in the plane, a file in Triangle's .poly format, -\nfor standard "
          "input; in space, a closed surface as .stl, .off,\n.obj, .ply, or .poly or "
-         ".smesh as TetGen has them; of either, a\nmesh in Gmsh's .msh format; or\n'box(x0,y0,z0, "
+         ".smesh as TetGen has them; of either, a\nmesh in Gmsh's .msh format; in the plane, what "
+         "GDAL reads:\n.geojson, .shp, .gpkg and others; or\n'box(x0,y0,z0, "
          "x1,y1,z1)', 'ball(x,y,z, r)',\n"
          "'cylinder(x0,y0,z0, x1,y1,z1, r)', or in a box, to the resolution\nh, where a formula is "
          "negative: 'levelset(x0,y0,z0, x1,y1,z1, h, f)'")
@@ -138,6 +139,26 @@ void add_curves(CLI::App& app, Arguments& arguments) {
          "in the plane: vertices closer together than d are left out,\nwithin TOLERANCE times d of "
          "the boundary, and islands and lakes\nof less extent than EXTENT times d, if it is given")
       ->type_name("TOLERANCE[,EXTENT]")
+      ->group(group);
+}
+
+// Of files that GDAL reads.
+void add_geo(CLI::App& app, Arguments& arguments) {
+  const std::string group = "What to fill";
+  app.add_option("--projection", arguments.projection,
+                 "of GeoJSON, shapefiles and the like: what x and y are, as a\ncode (EPSG:2180), a "
+                 "string of PROJ's or a .prj file; auto, a\nlocal one, the default for longitude "
+                 "and latitude; or none")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--unit", arguments.unit, "of that projection: m or km, default: its own")
+      ->type_name("UNIT")
+      ->group(group);
+  app.add_option("--layer", arguments.layer, "the layer to read, of files that have several")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--tag-field", arguments.tag_field, "the attribute that becomes the tag")
+      ->type_name("NAME")
       ->group(group);
 }
 
@@ -326,6 +347,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   add_input(app, arguments);
   add_spacing_bounds(app, arguments);
   add_curves(app, arguments);
+  add_geo(app, arguments);
   add_surfaces_only(app, arguments);
   add_groups(app, arguments, names);
   add_output(app, arguments);

@@ -27,6 +27,7 @@ struct Arguments {
   std::optional<double> corner_angle;                        // of curves, degrees
   std::optional<double> simplify;                            // tolerance, over d
   double smallest = 0;                                       // extent of curves, over d
+  std::string layer, projection, unit, tag_field;            // of files that GDAL reads
   std::vector<std::string> inner;                            // groups of triangles, by name or tag
   std::vector<std::pair<std::int32_t, std::string>> names;   // of tags
   std::optional<picture::ElementColour> colour;              // of elements in pictures

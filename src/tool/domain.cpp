@@ -63,6 +63,7 @@ std::int32_t tag_of(const std::string& group, const std::vector<GroupName>& name
 
 DomainSource::DomainSource(const Arguments& arguments)
     : path_(arguments.domain),
+      geo_(GeoFile::is_meant_by(arguments) ? std::make_unique<GeoFile>(arguments) : nullptr),
       level_set_(LevelSet::in(path_)),
       primitive_(level_set_ ? std::nullopt : primitive_in(path_)),
       feature_angle_(arguments.feature_angle.value_or(default_feature_angle)),
@@ -70,6 +71,7 @@ DomainSource::DomainSource(const Arguments& arguments)
       filled_(!arguments.surfaces_only),
       inner_(arguments.inner),
       names_(arguments.names) {
+  if (geo_) return;
   dimension_ = level_set_ || primitive_ ? 3 : dimension_of(path_, arguments.surfaces_only);
 }
 
@@ -86,8 +88,15 @@ void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks&
     }
     name_groups(domain, context);
     if (dimension_ == 2) check(pnpbs_domain_set_corner_angle(domain, corner_angle_), context);
-    check(pnpbs_domain_check(domain), context);
+    check_domain(domain, context);
   });
+}
+
+void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context) const {
+  const pnpbs_status status = pnpbs_domain_check(domain);
+  if (geo_ && status < 0)
+    throw Failure(exit_code_of(status), geo_->explained(pnpbs_last_error(context)));
+  check(status, context);
 }
 
 void DomainSource::name_groups(pnpbs_domain domain, pnpbs_context context) const {
@@ -99,6 +108,10 @@ void DomainSource::name_groups(pnpbs_domain domain, pnpbs_context context) const
 }
 
 void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
+  if (geo_) {
+    geo_->read();
+    return geo_->add_to(domain, context, corner_angle_);
+  }
   if (dimension_ == 2) return read_plane(domain, context);
   check(pnpbs_domain_set_filled(domain, filled_ ? 1 : 0), context);
   if (is_msh()) return read_msh(domain, context);
@@ -123,7 +136,7 @@ void DomainSource::read_plane(pnpbs_domain domain, pnpbs_context context) const 
     std::error_code none;
     if (extension == "poly" || !std::filesystem::is_regular_file(path_, none)) throw;
     throw BadInput(std::string(error.what()) + "\nIt was read as a .poly file: its name does not " +
-                   "end in .stl, .off, .obj, .ply, .smesh or .msh.");
+                   "end in .stl, .off, .obj, .ply, .smesh, .msh, .geojson, .shp or .gpkg.");
   }
 }
 

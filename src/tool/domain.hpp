@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tool/arguments.hpp"
+#include "tool/geo_file.hpp"
 #include "tool/level_set.hpp"
 #include "tool/library.hpp"
 #include "tool/primitive.hpp"
@@ -22,6 +23,8 @@ class DomainSource {
   // Local: finds out what it is. Throws BadInput.
   explicit DomainSource(const Arguments& arguments);
 
+  // nullptr if it is no file of geographers.
+  const GeoFile* geo() const { return geo_.get(); }
   int dimension() const { return dimension_; }  // 2: in the plane, 3: a body
 
   // Standard input is the first rank's; files are read by every rank. This object must outlive the
@@ -30,12 +33,14 @@ class DomainSource {
 
  private:
   void add_to(pnpbs_domain domain, pnpbs_context context) const;
+  void check_domain(pnpbs_domain domain, pnpbs_context context) const;
   void read_plane(pnpbs_domain domain, pnpbs_context context) const;
   void read_msh(pnpbs_domain domain, pnpbs_context context) const;
   void name_groups(pnpbs_domain domain, pnpbs_context context) const;
   bool is_msh() const;
 
   std::string path_;  // "-" is standard input
+  std::unique_ptr<GeoFile> geo_;
   std::unique_ptr<LevelSet> level_set_;
   std::optional<Primitive> primitive_;
   int dimension_ = 2;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/build_config.hpp"
 #include "tool/expression.hpp"
 #include "tool/file_format.hpp"
 #include "tool/library.hpp"
@@ -84,7 +85,8 @@ std::string version_text() {
   std::string text = "pnpbs " + std::to_string(major) + "." + std::to_string(minor) + "." +
                      std::to_string(patch) + "\n" + pnpbs_build_info();
   if (!text.ends_with('\n')) text += '\n';
-  return text;
+  const std::string gdal = PNPBS_GDAL_VERSION_TEXT;
+  return text + "GDAL: " + (gdal.empty() ? "none: no GeoJSON, no shapefiles" : gdal) + "\n";
 }
 
 }  // namespace pnpbs::tool

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/library.hpp"
 
-#include "tool/exit.hpp"
-
 namespace pnpbs::tool {
-namespace {
 
 ExitCode exit_code_of(pnpbs_status error) {
   switch (error) {
@@ -18,8 +15,6 @@ ExitCode exit_code_of(pnpbs_status error) {
       return ExitCode::failed;
   }
 }
-
-}  // namespace
 
 pnpbs_status check(pnpbs_status status, pnpbs_context context) {
   if (status >= 0) return status;

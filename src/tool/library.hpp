@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pnpbs/pnpbs.h"
+#include "tool/exit.hpp"
 
 namespace pnpbs::tool {
 
@@ -27,6 +28,9 @@ class Owned {
 using Context = Owned<pnpbs_context, pnpbs_context_destroy>;
 using Domain = Owned<pnpbs_domain, pnpbs_domain_destroy>;
 using Placement = Owned<pnpbs_placement, pnpbs_placement_destroy>;
+
+// How the command ends after an error of the library.
+ExitCode exit_code_of(pnpbs_status error);
 
 // Throws Failure with the library's message if status is an error; returns outcomes.
 pnpbs_status check(pnpbs_status status, pnpbs_context context);

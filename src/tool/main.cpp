@@ -55,6 +55,15 @@ ExitCode exit_code_of_run(pnpbs_status status) {
   }
 }
 
+// How a file of geographers was taken: before d is asked for, since its unit hangs on it.
+void tell_projection(const GeoFile& geo) {
+  const GeoFile::Projection projection = geo.projection();
+  if (!projection.name.empty())
+    std::cerr << "pnpbs: x and y are in '" << projection.name << "', in " << projection.unit
+              << " (--projection, --unit)\n";
+  for (const std::string& note : geo.notes()) std::cerr << "pnpbs: note: " << note << "\n";
+}
+
 void give_up_if_any_is_interrupted(const Ranks& ranks) {
   if (ranks.any(interrupted())) throw Interrupted();
 }
@@ -138,6 +147,8 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
     check(pnpbs_domain_create(context, dimension, domain.out()), context);
   });
   wishes.source->read(domain, context, ranks);
+  const GeoFile* geo = wishes.source->geo();
+  if (geo && ranks.is_first() && !arguments.quiet) tell_projection(*geo);
   if (arguments.simplify)
     ranks.agreed([&] {
       wishes.spacing->simplify(domain, context, *arguments.simplify, arguments.smallest);
@@ -163,13 +174,18 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   Statistics statistics(placement);
   if (outputs->has_pictures()) outputs->write_pictures({placement, domain, context, ranks, look});
   if (body) body->area = boundary_area(placement, context, ranks);
-  const std::vector<std::string> warnings = warnings_of(context, placement);
+  std::vector<std::string> warnings = warnings_of(context, placement);
+  if (geo) {
+    const std::vector<std::string> notes = geo->notes();
+    warnings.insert(warnings.begin(), notes.begin(), notes.end());
+    outputs->write_projection(geo->projection().prj);
+  }
   const std::vector<GroupName> groups = group_names(domain, context);
-  outputs->write_report(report_text(arguments, statistics, groups, warnings));
+  outputs->write_report(report_text(arguments, geo, statistics, groups, warnings));
   give_up_if_any_is_interrupted(ranks);
   outputs->write_nodes(placement, context);
   statistics.renew_memory(placement);  // files take some, too
-  outputs->replace_report(report_text(arguments, statistics, groups, warnings));
+  outputs->replace_report(report_text(arguments, geo, statistics, groups, warnings));
   if (ranks.is_first() && !arguments.quiet && !outputs->use_standard_output()) {
     std::cout << summary_text(statistics, body, outputs->files());
   }

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "tool/exit.hpp"
+#include "tool/geo_file.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/names.hpp"
 
@@ -40,6 +41,10 @@ bool same_file(const std::string& a, const std::string& b) {
   return !special && (full(a) == full(b) || std::filesystem::equivalent(a, b, error));
 }
 
+std::string projection_beside(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".prj").string();
+}
+
 void refuse_to_replace(const std::string& input, const std::string& path) {
   if (!input.empty() && input != "-" && same_file(input, path))
     throw BadInput("'" + path + "' would replace what is read: write to another file");
@@ -52,8 +57,10 @@ Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
   const FileFormat* otherwise = format_called(arguments.format);
   for (const std::string& path : arguments.outputs) add(path, format_of(path, otherwise));
   if (!arguments.report.empty()) add(arguments.report, nullptr);
+  if (GeoFile::is_meant_by(arguments)) add_projections(arguments.domain);
   for (const Output& output : outputs_)
-    for (const std::string& input : {arguments.domain, arguments.spacing_grid})
+    for (const std::string& input :
+         {arguments.domain, arguments.spacing_grid, arguments.projection})
       refuse_to_replace(input, output.file.path());
   check_pictures(arguments);
   if (ranks_.is_first()) check_writable();
@@ -66,7 +73,20 @@ void Outputs::add(const std::string& path, const FileFormat* format) {
   }
   if (path == "-" && format && format->name == "pvtu")
     throw BadInput("--output: a .pvtu file and its pieces cannot go to standard output");
-  outputs_.push_back({io::OutputFile(path), format});
+  outputs_.push_back({io::OutputFile(path), format, false});
+}
+
+void Outputs::add_projections(const std::string& input) {
+  std::vector<std::string> paths;
+  for (const Output& output : outputs_)
+    if (output.is_nodes() && !output.file.is_standard_output())
+      paths.push_back(projection_beside(output.file.path()));
+  for (const std::string& path : paths) {
+    refuse_to_replace(projection_beside(input), path);
+    const auto is_it = [&](const Output& other) { return same_file(other.file.path(), path); };
+    if (std::ranges::none_of(outputs_, is_it))
+      outputs_.push_back({io::OutputFile(path), nullptr, true});
+  }
 }
 
 void Outputs::check_pictures(const Arguments& arguments) const {
@@ -109,15 +129,24 @@ void Outputs::write_pictures(const GatheredPicture& picture) {
   });
 }
 
-void Outputs::write_report(const std::string& text) {
+void Outputs::write_text(bool is_projection, const std::string& text) {
   ranks_.agreed([&] {
     if (!ranks_.is_first()) return;
     for (Output& output : outputs_) {
-      if (output.format) continue;
+      if (output.format || output.is_projection != is_projection) continue;
       give_up_if_interrupted();
       output.file.write([&](io::Sink& sink) { sink.text(text); }, give_up_if_interrupted);
     }
   });
+}
+
+void Outputs::write_report(const std::string& text) { write_text(false, text); }
+
+void Outputs::write_projection(const std::string& text) {
+  if (text.empty())
+    std::erase_if(outputs_, [](const Output& output) { return output.is_projection; });
+  else
+    write_text(true, text);
 }
 
 void Outputs::write_nodes(pnpbs_placement placement, pnpbs_context context) {
@@ -147,7 +176,7 @@ void Outputs::write_nodes(pnpbs_placement placement, pnpbs_context context) {
 void Outputs::replace_report(const std::string& text) {
   if (!ranks_.is_first()) return;
   for (const Output& output : outputs_) {
-    if (output.format || !output.file.written_aside()) continue;
+    if (!output.is_report() || !output.file.written_aside()) continue;
     try {
       io::OutputFile replacement(output.file.path());
       replacement.write([&](io::Sink& sink) { sink.text(text); }, [] {});

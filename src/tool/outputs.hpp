@@ -29,6 +29,9 @@ class Outputs {
   // appears with write_nodes, when all of it is complete.
   void write_pictures(const GatheredPicture& picture);
   void write_report(const std::string& text);
+  // In a .prj file beside each file of nodes, as shapefiles have it. Without a text there are none.
+  // Before the others; of domains that GDAL reads alone.
+  void write_projection(const std::string& text);
   void write_nodes(pnpbs_placement placement, pnpbs_context context);
   // Afterwards: puts another text into the report, unless that has gone where nothing can be taken
   // back. If it cannot be written the text there is stays, as all files are there already.
@@ -40,10 +43,14 @@ class Outputs {
  private:
   struct Output {
     io::OutputFile file;
-    const FileFormat* format;  // nullptr: the report
+    const FileFormat* format;  // nullptr: the report, or a projection
+    bool is_projection = false;
     bool is_picture() const { return format && format->picture; }
+    bool is_report() const { return !format && !is_projection; }
     bool is_nodes() const { return format && !format->picture; }
   };
+  void add_projections(const std::string& input);
+  void write_text(bool is_projection, const std::string& text);
   void add(const std::string& path, const FileFormat* format);
   void check_pictures(const Arguments& arguments) const;
   void check_writable() const;

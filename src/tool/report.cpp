@@ -49,6 +49,19 @@ Json bands_of(const Statistics& statistics) {
   return bands;
 }
 
+// What the file was read as.
+void describe(const GeoFile& geo, const Arguments& arguments, Json& report) {
+  if (!arguments.layer.empty()) report["layer"] = arguments.layer;
+  if (!arguments.tag_field.empty()) report["tag_field"] = arguments.tag_field;
+  const GeoFile::Projection projection = geo.projection();
+  if (projection.name.empty()) return;
+  report["projection"] = {{"name", projection.name},
+                          {"unit", projection.unit},
+                          {"scale", {projection.least_scale, projection.greatest_scale}},
+                          {"proj", projection.proj},
+                          {"wkt", projection.wkt}};
+}
+
 Json groups_of(const std::vector<GroupName>& groups) {
   Json list = Json::array();
   for (const GroupName& group : groups)
@@ -58,11 +71,12 @@ Json groups_of(const std::vector<GroupName>& groups) {
 
 }  // namespace
 
-std::string report_text(const Arguments& arguments, const Statistics& statistics,
-                        const std::vector<GroupName>& groups,
+std::string report_text(const Arguments& arguments, const GeoFile* geo,
+                        const Statistics& statistics, const std::vector<GroupName>& groups,
                         const std::vector<std::string>& warnings) {
   Json report;
   report["domain"] = arguments.domain;
+  if (geo) describe(*geo, arguments, report);
   if (arguments.feature_angle) report["feature_angle"] = *arguments.feature_angle;
   if (arguments.surfaces_only) report["surfaces_only"] = true;
   if (!arguments.inner.empty()) report["inner"] = arguments.inner;

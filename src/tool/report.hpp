@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "tool/arguments.hpp"
+#include "tool/geo_file.hpp"
 #include "tool/library.hpp"
 #include "tool/statistics.hpp"
 
 namespace pnpbs::tool {
 
-std::string report_text(const Arguments& arguments, const Statistics& statistics,
-                        const std::vector<GroupName>& groups,
+// `geo` is nullptr for domains from other files.
+std::string report_text(const Arguments& arguments, const GeoFile* geo,
+                        const Statistics& statistics, const std::vector<GroupName>& groups,
                         const std::vector<std::string>& warnings);
 
 }  // namespace pnpbs::tool

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/geo_file.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+
+#include "base/build_config.hpp"
+#include "io/extension.hpp"
+#include "tool/exit.hpp"
+#include "tool/library.hpp"
+
+namespace pnpbs::tool {
+namespace {
+
+// What GDAL reads besides is read with one of the options.
+constexpr const char* geo_endings[] = {"geojson", "json", "shp", "gpkg", "fgb", "gml", "kml"};
+constexpr const char* other_endings[] = {"poly", "msh", "stl", "off", "obj", "ply", "smesh"};
+
+template <class List>
+bool is_in(const std::string& word, const List& list) {
+  return std::ranges::find(list, word) != std::end(list);
+}
+
+const char* or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
+
+}  // namespace
+
+// The functions of the library, by their names.
+struct GeoFile::Library {
+  Library() : handle(::dlopen(PNPBS_GEO_LIBRARY, RTLD_NOW | RTLD_LOCAL)) {
+    if (handle) return;
+    const char* reason = ::dlerror();
+    throw Failure(ExitCode::failed,
+                  std::string("GeoJSON, shapefiles and the like are read by GDAL, and the library "
+                              "that calls it is not there (") +
+                      (reason ? reason : PNPBS_GEO_LIBRARY) +
+                      "). Install GDAL (Debian: libgdal-dev), configure PNPBS again "
+                      "(PNPBS_ENABLE_GEO) and build it.");
+  }
+
+  template <class Function>
+  void find(Function& function, const char* name) const {
+    function = reinterpret_cast<Function>(::dlsym(handle, name));
+    if (!function)
+      throw Failure(ExitCode::failed, std::string(PNPBS_GEO_LIBRARY) + " has no " + name +
+                                          ": it is older than this command");
+  }
+
+  void* handle;  // never closed: GDAL leaves behind what runs at the end of the process
+#define PNPBS_TOOL_FUNCTION(name)             \
+  decltype(&pnpbs_geo_##name) name = [this] { \
+    decltype(&pnpbs_geo_##name) found;        \
+    find(found, "pnpbs_geo_" #name);          \
+    return found;                             \
+  }()
+  PNPBS_TOOL_FUNCTION(last_error);
+  PNPBS_TOOL_FUNCTION(read);
+  PNPBS_TOOL_FUNCTION(destroy);
+  PNPBS_TOOL_FUNCTION(add_to_domain);
+  PNPBS_TOOL_FUNCTION(explain);
+  PNPBS_TOOL_FUNCTION(projection);
+  PNPBS_TOOL_FUNCTION(scale);
+  PNPBS_TOOL_FUNCTION(note_count);
+  PNPBS_TOOL_FUNCTION(get_note);
+#undef PNPBS_TOOL_FUNCTION
+};
+
+bool GeoFile::is_meant_by(const Arguments& arguments) {
+  const std::string ending = io::extension_of(arguments.domain);
+  std::string option;
+  for (const auto& [name, value] :
+       {std::pair{"--projection", arguments.projection}, std::pair{"--layer", arguments.layer},
+        std::pair{"--unit", arguments.unit}, std::pair{"--tag-field", arguments.tag_field}})
+    if (!value.empty()) option = name;
+  const bool is_other =
+      arguments.domain == "-" || arguments.domain.ends_with(')') || is_in(ending, other_endings);
+  if (!option.empty() && is_other)
+    throw BadInput(option + " is for GeoJSON, shapefiles and what else GDAL reads, and '" +
+                   arguments.domain + "' is none of these");
+  return !option.empty() || is_in(ending, geo_endings);
+}
+
+GeoFile::GeoFile(const Arguments& arguments)
+    : path_(arguments.domain),
+      layer_(arguments.layer),
+      projection_(arguments.projection),
+      unit_(arguments.unit),
+      tag_field_(arguments.tag_field) {}
+
+GeoFile::~GeoFile() {
+  if (shapes_) library_->destroy(&shapes_);
+}
+
+void GeoFile::check(pnpbs_status status) const {
+  if (status >= 0) return;
+  std::string message = library_->last_error();
+  // The library speaks of its arguments, which users of the command know as options.
+  for (const char* name : {"projection", "unit"}) {
+    const std::string argument = std::string("argument ") + name;
+    if (message.starts_with(argument))
+      message.replace(0, argument.size(), std::string("--") + name);
+  }
+  throw Failure(exit_code_of(status), message);
+}
+
+void GeoFile::read() {
+  library_ = std::make_unique<Library>();
+  check(library_->read(path_.c_str(), or_null(layer_), or_null(projection_), or_null(unit_),
+                       or_null(tag_field_), &shapes_));
+}
+
+void GeoFile::add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const {
+  check(library_->add_to_domain(shapes_, context, domain, corner_angle));
+}
+
+std::string GeoFile::explained(const std::string& message) const {
+  return shapes_ ? library_->explain(shapes_, message.c_str()) : message;
+}
+
+GeoFile::Projection GeoFile::projection() const {
+  const char *name, *unit, *proj, *wkt, *prj;
+  check(library_->projection(shapes_, &name, &unit, &proj, &wkt, &prj));
+  Projection projection{name, unit, proj, wkt, prj};
+  check(library_->scale(shapes_, &projection.least_scale, &projection.greatest_scale));
+  return projection;
+}
+
+std::vector<std::string> GeoFile::notes() const {
+  std::int32_t count = 0;
+  check(library_->note_count(shapes_, &count));
+  std::vector<std::string> notes;
+  for (std::int32_t k = 0; k < count; ++k) {
+    const char* note = "";
+    check(library_->get_note(shapes_, k, &note));
+    notes.emplace_back(note);
+  }
+  return notes;
+}
+
+}  // namespace pnpbs::tool

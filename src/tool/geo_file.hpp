@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Domains in files of geographers: GeoJSON, shapefiles and whatever else GDAL reads, by
+// libpnpbs_geo. That is opened when such a file is named and not before: with the hundred libraries
+// behind GDAL, every start would take a tenth of a second longer.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pnpbs/pnpbs_geo.h"
+#include "tool/arguments.hpp"
+
+namespace pnpbs::tool {
+
+class GeoFile {
+ public:
+  // Whether the domain is such a file: by its name, or by options that only such files have.
+  // Throws BadInput if it is another one with such options.
+  static bool is_meant_by(const Arguments& arguments);
+
+  explicit GeoFile(const Arguments& arguments);
+  ~GeoFile();
+  GeoFile(const GeoFile&) = delete;
+  GeoFile& operator=(const GeoFile&) = delete;
+
+  // All of these throw Failure. First of all, read().
+  void read();
+  void add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
+  std::string explained(const std::string& message) const;  // places in degrees, too
+
+  // The projection in words; empty ones where it is not known.
+  struct Projection {
+    std::string name, unit, proj, wkt, prj;
+    double least_scale = 1, greatest_scale = 1;
+  };
+  Projection projection() const;
+  std::vector<std::string> notes() const;
+
+ private:
+  struct Library;
+  void check(pnpbs_status status) const;
+
+  std::string path_, layer_, projection_, unit_, tag_field_;
+  std::unique_ptr<Library> library_;
+  pnpbs_geo_shapes shapes_ = nullptr;
+};
+
+}  // namespace pnpbs::tool
