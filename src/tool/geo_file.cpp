@@ -22,23 +22,24 @@ bool is_in(const std::string& word, const List& list) {
   return std::ranges::find(list, word) != std::end(list);
 }
 
+void* open_library() {
+  void* const handle = ::dlopen(PNPBS_GEO_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+  if (handle) return handle;
+  const char* reason = ::dlerror();
+  throw Failure(ExitCode::failed,
+                std::string("GeoJSON, shapefiles and the like are read by GDAL, and the library "
+                            "that calls it cannot be opened (") +
+                    (reason ? reason : PNPBS_GEO_LIBRARY) +
+                    "). Install GDAL (Debian: libgdal-dev), configure PNPBS again "
+                    "(PNPBS_ENABLE_GEO) and build it.");
+}
+
 const char* or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
 
 }  // namespace
 
 // The functions of the library, by their names.
 struct GeoFile::Library {
-  Library() : handle(::dlopen(PNPBS_GEO_LIBRARY, RTLD_NOW | RTLD_LOCAL)) {
-    if (handle) return;
-    const char* reason = ::dlerror();
-    throw Failure(ExitCode::failed,
-                  std::string("GeoJSON, shapefiles and the like are read by GDAL, and the library "
-                              "that calls it is not there (") +
-                      (reason ? reason : PNPBS_GEO_LIBRARY) +
-                      "). Install GDAL (Debian: libgdal-dev), configure PNPBS again "
-                      "(PNPBS_ENABLE_GEO) and build it.");
-  }
-
   template <class Function>
   void find(Function& function, const char* name) const {
     function = reinterpret_cast<Function>(::dlsym(handle, name));
@@ -47,7 +48,8 @@ struct GeoFile::Library {
                                           ": it is older than this command");
   }
 
-  void* handle;  // never closed: GDAL leaves behind what runs at the end of the process
+  // Never closed: GDAL leaves behind what runs at the end of the process.
+  void* const handle = open_library();
 #define PNPBS_TOOL_FUNCTION(name)             \
   decltype(&pnpbs_geo_##name) name = [this] { \
     decltype(&pnpbs_geo_##name) found;        \
