@@ -10,17 +10,23 @@
  *   pnpbs_geo_write_prj(shapes, "nodes.vtu");                       writes nodes.prj
  *
  * What becomes of the shapes
- *   polygons    their outlines bound the domain: it is what lies behind an odd number of them, so a
- *               polygon within another one's outline is a hole, as a hole of the other is. Edges
- * that neighbours have in common are inner curves, on the tag of the first; edges that one feature
- * goes along there and back, as where it was cut at 180 degrees, are left out lines       inner
- * curves; in a layer without polygons the closed ones bound the domain points      fixed nodes
- *   vertices    at the same place, bit for bit in the file, are one; segments are straight in the
- *               projection. Heights are left out
  *
- * Conventions are those of pnpbs.h, but that messages are in pnpbs_geo_last_error. All functions
- * are local; on several ranks all must do the same. NULL and "" are the same for what may be left
- * out.
+ *   polygons    their outlines bound the domain: it is what lies behind an odd number of them, so
+ *               a polygon within another one's outline is a hole, as a hole of the other is.
+ *
+ *               Edges that neighbours have in common are inner curves, with the tag of the first;
+ *               edges that one feature goes along there and back are left out, as where it was
+ *               cut at 180 degrees.
+ *
+ *   lines       inner curves; in a layer without polygons the closed ones bound the domain.
+ *
+ *   points      fixed nodes.
+ *
+ *   vertices    at the same place, bit for bit in the file, are one; segments are straight in
+ *               the projection. Heights are left out.
+ *
+ * Conventions are those of pnpbs.h, but that messages are in pnpbs_geo_last_error. On several
+ * ranks all must do the same. NULL and "" are the same for what may be left out.
  */
 #ifndef PNPBS_PNPBS_GEO_H
 #define PNPBS_PNPBS_GEO_H
@@ -34,50 +40,54 @@ extern "C" {
 /** Shapes of one layer of a file, projected. Opaque, as the handles of pnpbs.h are. */
 typedef struct pnpbs_geo_shapes_handle *pnpbs_geo_shapes;
 
-/** The message of the last error of this library on the calling thread; "" if there was none. Valid
- *  until the next call of this library on this thread. */
+/** The message of the last error of this library on the calling thread; "" if there was none.
+ *  Local; valid until the next call of this library on this thread. */
 PNPBS_API const char *pnpbs_geo_last_error(void);
 
-/** The versions of GDAL and PROJ that it runs with, one "name: version" per line. Valid for ever.
- */
+/** The versions of GDAL and PROJ that it runs with, one "name: version" per line. Local; valid for
+ *  ever. */
 PNPBS_API const char *pnpbs_geo_build_info(void);
 
-/** Reads one layer of a file and projects it. The file stays as it is. Errors: PNPBS_ERROR_FILE if
- *  it cannot be read, a layer or field is not there (the message lists those that are), or a point
- *  cannot be projected (the message names the feature and the point); PNPBS_ERROR_ARGUMENT for a
- *  projection or unit that is none; PNPBS_ERROR_DOMAIN with the place where polygons overlap.
+/** Reads one layer of a file and projects it. The file stays as it is. Local. Errors:
+ *  PNPBS_ERROR_FILE if it cannot be read, a layer or field is not there (the message lists those
+ *  that are), or a point cannot be projected (the message names the feature and the point);
+ *  PNPBS_ERROR_ARGUMENT for a projection or unit that is none; PNPBS_ERROR_DOMAIN with the place
+ *  where polygons overlap.
  *  @param[in] path        a file, or anything else that GDAL opens
  *  @param[in] layer       its name; NULL if the file has only one
  *  @param[in] projection  what x and y shall be. NULL: longitude and latitude are projected as by
- *                         "auto", projected coordinates stay as they are. "auto": a projection made
- *                         for the data, on their own ellipsoid: the UTM zone that they lie in, to
- *                         half a degree beyond its edges, else Lambert's azimuthal equal-area
- *                         projection about their middle, in whole degrees. "none": the coordinates
- *                         as they are, be they degrees. Otherwise a code ("EPSG:2180"), a string of
- *                         PROJ's, WKT, or the path of a .prj file. x leads east and y north,
- * whatever order the register has
+ *                         "auto", projected coordinates stay as they are. "auto": a projection
+ *                         made for the data, on their own ellipsoid: the UTM zone that they lie
+ *                         in, to half a degree beyond its edges, else Lambert's azimuthal
+ *                         equal-area projection about their middle, in whole degrees. "none": the
+ *                         coordinates as they are, be they degrees. Otherwise a code
+ *                         ("EPSG:2180"), a string of PROJ's, WKT, or the path of a .prj file. x
+ *                         leads east and y north, whatever order the register has
  *  @param[in] unit        "m" or "km"; NULL: the projection's own, mostly metres
  *  @param[in] tag_field   the attribute that becomes the tag: integers as they are; texts as 1, 2
- * and so on in the order of the file, with their names; NULL: all tags are 1
+ *                         and so on in the order of the file, with their names; NULL: all tags
+ *                         are 1
  *  @param[out] shapes     the new handle; NULL on failure */
 PNPBS_API pnpbs_status pnpbs_geo_read(const char *path, const char *layer, const char *projection,
                                       const char *unit, const char *tag_field,
                                       pnpbs_geo_shapes *shapes);
 
-/** Destroys the handle and sets it to NULL; takes NULL. What was added to domains stays there. */
+/** Destroys the handle and sets it to NULL; takes NULL. What was added to domains stays there.
+ *  Local. */
 PNPBS_API pnpbs_status pnpbs_geo_destroy(pnpbs_geo_shapes *shapes);
 
 /** Adds the shapes to a domain in the plane: curves as by pnpbs_domain_add_polyline, points as by
  *  pnpbs_domain_add_fixed_nodes, names of tags for dimension 1. What crosses or does not close is
  *  found by pnpbs_domain_check; see pnpbs_geo_explain. May be called for several domains. For a
- *  second layer of the same domain, read that with this one's projection (pnpbs_geo_projection).
+ *  second layer of the same domain, read that with the projection of this one
+ *  (pnpbs_geo_projection). Local.
  *  @param[in] context       of the domain
- *  @param[in] corner_angle  degrees, 0 .. 180, as pnpbs_domain_add_polyline has it. 0: every vertex
- *                           becomes a node */
+ *  @param[in] corner_angle  degrees, 0 .. 180, as pnpbs_domain_add_polyline has it. 0: every
+ *                           vertex becomes a node */
 PNPBS_API pnpbs_status pnpbs_geo_add_to_domain(pnpbs_geo_shapes shapes, pnpbs_context context,
                                                pnpbs_domain domain, double corner_angle);
 
-/** What was read. Outputs may be NULL.
+/** What was read. Local; outputs may be NULL.
  *  @param[out] vertices  different places, those of points included
  *  @param[out] boundary  curves, closed or from where curves meet to where they meet
  *  @param[out] inner     likewise
@@ -86,7 +96,8 @@ PNPBS_API pnpbs_status pnpbs_geo_counts(pnpbs_geo_shapes shapes, int64_t *vertic
                                         int64_t *boundary, int64_t *inner, int64_t *points);
 
 /** The projection, as texts; "" where the file does not say what its coordinates are, or a form
- *  cannot tell it. Outputs may be NULL. The strings are valid until the shapes are destroyed.
+ *  cannot tell it. Local; outputs may be NULL. The strings are valid until the shapes are
+ *  destroyed.
  *  @param[out] name  e.g. "WGS 84 / UTM zone 34N"
  *  @param[out] unit  of x and y, e.g. "metre"
  *  @param[out] proj  PROJ's string, which leaves out what it has no words for
@@ -98,29 +109,29 @@ PNPBS_API pnpbs_status pnpbs_geo_projection(pnpbs_geo_shapes shapes, const char 
 
 /** How long lengths on the Earth are in the projection, along meridians and parallels, at the
  *  vertices (of many, at some thousand of them): d is off by so much. 1 and 1 where it is not
- * known. Outputs may be NULL. */
+ *  known. Local; outputs may be NULL. */
 PNPBS_API pnpbs_status pnpbs_geo_scale(pnpbs_geo_shapes shapes, double *least, double *greatest);
 
 /** Writes the projection beside a file of results, as shapefiles have it: for "out/nodes.vtu",
- *  "out/nodes.prj" is written anew. Of several ranks let one do it. Errors: PNPBS_ERROR_STATE if
- * the projection is not known, PNPBS_ERROR_FILE. */
+ *  "out/nodes.prj" is written anew. Local; of several ranks let one do it. Errors:
+ *  PNPBS_ERROR_STATE if the projection is not known, PNPBS_ERROR_FILE. */
 PNPBS_API pnpbs_status pnpbs_geo_write_prj(pnpbs_geo_shapes shapes, const char *results);
 
 /** Longitude and latitude in degrees, on the ellipsoid of the file, from x and y, or x and y from
- *  them; in place. Where there are none they become infinite. Errors: PNPBS_ERROR_STATE if the file
- *  does not say where on the Earth it is.
- *  @param[in,out] coordinates  [n][2] */
+ *  them; in place. Where there are none they become infinite. Local. Errors: PNPBS_ERROR_STATE if
+ *  the file does not say where on the Earth it is.
+ *  @param coordinates  [n][2], in and out */
 PNPBS_API pnpbs_status pnpbs_geo_to_degrees(pnpbs_geo_shapes shapes, int64_t n,
                                             double *coordinates);
 PNPBS_API pnpbs_status pnpbs_geo_from_degrees(pnpbs_geo_shapes shapes, int64_t n,
                                               double *coordinates);
 
 /** A message about a domain of these shapes, and after each place "(x, y)" in it its longitude and
- *  latitude. Valid until the next call of this library on this thread. Never NULL. */
+ *  latitude. Local; valid until the next call of this library on this thread. Never NULL. */
 PNPBS_API const char *pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char *message);
 
 /** What the user should know about how the file was taken: number of notes, and one of them, valid
- *  until the shapes are destroyed.
+ *  until the shapes are destroyed. Local.
  *  @param[in] index  0 .. count-1 */
 PNPBS_API pnpbs_status pnpbs_geo_note_count(pnpbs_geo_shapes shapes, int32_t *count);
 PNPBS_API pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index,

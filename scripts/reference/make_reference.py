@@ -35,6 +35,10 @@ class Sources:
         self.statuses = re.findall(r'X\((PNPBS_\w+), (-?\d+), "([^"]*)"\)', header)
         self.sections = list(header_comments.sections(header))
         self.sections.append(header_comments.Section("MPI", header_comments.entries_of(mpi)))
+        geo = (root / "include/pnpbs/pnpbs_geo.h").read_text()
+        shapes = header_comments.Section("shapes", header_comments.entries_of(geo))
+        self.sections.append(shapes)
+        self.only_c = {name for entry in shapes.entries for name in entry.functions}
         self.functions = {name: entry for section in self.sections for entry in section.entries
                           for name in entry.functions}
         exported = frozenset(header_comments.c_header.functions(header))
@@ -62,6 +66,8 @@ class Sources:
         for name, entry in self.functions.items():
             if not entry.comment.reach:
                 yield f"{name}: the comment does not say whether it is collective or local"
+            if name in self.only_c:
+                continue
             if not self.fortran_of(name):
                 yield f"{name}: no procedure of the Fortran module calls it"
             if not all(c in self.julia.raw for c in self.underlying(name)):
@@ -223,12 +229,12 @@ def entry_text(entry, section, sources, links, shown):
     if entry.comment.reach:
         lines.append(f"**{entry.comment.reach}.**\n")
     lines.append(description(entry.comment, links))
-    if entry.functions:
+    if entry.functions and not sources.only_c.intersection(names):
         lines.append(fortran_part([one for name in names for one in sources.fortran_of(name)]))
         here = links.c[names[0]]
         lines.append(julia_part([one for name in names for one in sources.julia_of(name)], here,
                                 shown, links, names))
-    elif "(*" in entry.declaration:
+    elif not entry.functions and "(*" in entry.declaration:
         lines.append(f"**Fortran**\n\n```fortran\n"
                      f"{fortran_interface(names[0], sources.interfaces)}\n```\n")
     return "\n".join(lines)
@@ -293,7 +299,8 @@ def index_table(sources, links):
         julia = [re.match(r"[\w.]+!?", line)[0] for one in sources.julia_of(name)
                  for line in one.signatures]
         rows.append([f"[`{name}`]({links.c[name]})", entry.comment.reach.lower(),
-                     language_cell(fortran), language_cell(julia) or "raw layer only"])
+                     language_cell(fortran), language_cell(julia) or
+                     ("" if name in sources.only_c else "raw layer only")])
     return table(["C", "", "Fortran", "Julia"], rows)
 
 
@@ -316,7 +323,8 @@ def index_page(sources, links):
     text = NOTE + """# Reference
 
 Every function in C, Fortran and Julia, made from the comments of
-[include/pnpbs/pnpbs.h](../../include/pnpbs/pnpbs.h), of the Fortran module and of the Julia package.
+[include/pnpbs/pnpbs.h](../../include/pnpbs/pnpbs.h), of the Fortran module and of the Julia package; those
+that read shapes, in C alone.
 How to use them for a task: [the guides](../README.md#guides).
 
 | page | holds |
