@@ -101,6 +101,8 @@ missing() {
     have "${FC:-gfortran}" || echo gfortran
     # Its Fortran module files, which some distributions have apart from mpicc.
     have mpifort || echo libopenmpi-dev
+    # Optional to build; in the tests GeoJSON and shapefiles are read.
+    have gdal-config || echo libgdal-dev
     header CGAL/Constrained_Delaunay_triangulation_2.h || echo libcgal-dev
   fi
   if [ $with_tests = yes ] || [ ${#more_kokkos[@]} -gt 0 ] || no_kokkos; then

@@ -74,7 +74,7 @@ for configuration in "${wanted[@]}"; do
       ;;
     no-mpi)
       configure_and_build no-mpi -DPNPBS_BUILD_TESTS=ON -DPNPBS_ENABLE_MPI=OFF \
-        -DPNPBS_INSTALL_STATIC=ON -DPNPBS_TEST_FOLDERS="api;fortran;linkage;julia;python;install" \
+        -DPNPBS_INSTALL_STATIC=ON -DPNPBS_TEST_FOLDERS="api;geo;fortran;linkage;julia;python;install" \
         -DKokkos_ROOT="$root/.deps/kokkos-4.7.0-shared"
       run_tests no-mpi
       ;;
