@@ -88,6 +88,12 @@ def main():
     if len(c_header.functions(text)) != len(re.findall(r"^PNPBS_API ", text, re.M)):
         found.append("not every declaration of the header was understood")
     print("\n".join(found) or f"{len(c_header.functions(text))} functions agree")
+    # Of the library of shapes, functions alone.
+    geo = c_header.functions(Path(sys.argv[1]).with_name("pnpbs_geo.h").read_text())
+    shapes = importlib.import_module(f"{folder.name}.shapes")
+    of_shapes = list(function_differences(geo, interface.declarations(shapes.DECLARATIONS)))
+    print("\n".join(of_shapes) or f"{len(geo)} functions of shapes agree")
+    found += of_shapes
     for old, new in MUTATIONS if "--self-test" in sys.argv else ():
         changed = text.replace(old, new, 1)
         if changed == text or not list(differences(changed, interface)):

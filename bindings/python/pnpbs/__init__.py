@@ -25,6 +25,7 @@ from .fields import Transfer
 from .placement import Estimate, Placement, PopulationChange
 from .results import EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering, Stars
 from .rows import CompressedRows
+from .shapes import Projection, Shapes
 from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unfinished_files,
                      format_table, library_version, mpi_library, option_table, shutdown,
                      statistic_table)
@@ -32,7 +33,7 @@ from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unf
 __all__ = [
     "CompressedRows", "Context", "Domain", "EdgeBands", "Estimate", "ExchangePattern", "Facets",
     "FormatRow", "Ghosts", "LeftOut", "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError",
-    "Placement", "PopulationChange", "Stars", "StatisticRow", "Status", "Transfer",
+    "Placement", "PopulationChange", "Projection", "Shapes", "Stars", "StatisticRow", "Status", "Transfer",
     "build_info", "discard_unfinished_files", "format_table", "library_path", "library_version",
     "mpi_library", "option_table", "shutdown", "statistic_table",
 ]

@@ -24,7 +24,8 @@ def _candidates():
                prefix / "lib" / f"{os.uname().machine}-linux-gnu"]
     for folder in folders:
         for path in sorted(folder.glob(f"libpnpbs*.{suffix}*")):
-            yield str(path)
+            if not path.name.startswith("libpnpbs_"):
+                yield str(path)
     # By the name its users are linked with: the one without a number comes with development only.
     yield "libpnpbs.so.0" if suffix == "so" else "libpnpbs.dylib"
 

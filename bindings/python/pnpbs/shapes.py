@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Shapes as geographers have them: GeoJSON, shapefiles and what else GDAL reads, projected. Their
+library, libpnpbs_geo, is opened when it is first needed; PNPBS has it where it was built with GDAL."""
+
+import ctypes
+import os
+import pathlib
+from typing import NamedTuple
+
+from ._arrays import as_points
+from ._interface import ctypes_of, declarations, library
+from ._library import library_path
+from .context import Handle
+from .errors import PNPBSError, Status
+
+# A test compares them with pnpbs_geo.h.
+DECLARATIONS = """
+const char *pnpbs_geo_last_error(void);
+const char *pnpbs_geo_build_info(void);
+pnpbs_status pnpbs_geo_read(const char *path, const char *layer, const char *projection,
+    const char *unit, const char *tag_field, pnpbs_geo_shapes *shapes);
+pnpbs_status pnpbs_geo_destroy(pnpbs_geo_shapes *shapes);
+pnpbs_status pnpbs_geo_add_to_domain(pnpbs_geo_shapes shapes, pnpbs_context context,
+    pnpbs_domain domain, double corner_angle);
+pnpbs_status pnpbs_geo_counts(pnpbs_geo_shapes shapes, int64_t *vertices, int64_t *boundary,
+    int64_t *inner, int64_t *points);
+pnpbs_status pnpbs_geo_projection(pnpbs_geo_shapes shapes, const char **name, const char **unit,
+    const char **proj, const char **wkt, const char **prj);
+pnpbs_status pnpbs_geo_scale(pnpbs_geo_shapes shapes, double *least, double *greatest);
+pnpbs_status pnpbs_geo_write_prj(pnpbs_geo_shapes shapes, const char *results);
+pnpbs_status pnpbs_geo_to_degrees(pnpbs_geo_shapes shapes, int64_t n, double *coordinates);
+pnpbs_status pnpbs_geo_from_degrees(pnpbs_geo_shapes shapes, int64_t n, double *coordinates);
+const char *pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char *message);
+pnpbs_status pnpbs_geo_note_count(pnpbs_geo_shapes shapes, int32_t *count);
+pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index, const char **note);
+"""
+
+_SONAME = "libpnpbs_geo.so.0"
+_opened = None
+
+
+def _library():
+    global _opened
+    if _opened is None:
+        library()  # the one that it calls, first
+        beside = pathlib.Path(library_path()).parent / _SONAME
+        try:
+            opened = ctypes.CDLL(str(beside) if beside.exists() else _SONAME)
+        except OSError as error:
+            raise ImportError(f"the library that reads shapes could not be opened: {error}; it is "
+                              "there where PNPBS was built with GDAL") from error
+        for name, (result, arguments) in declarations(DECLARATIONS).items():
+            function = getattr(opened, name)
+            function.restype = ctypes_of(result)
+            function.argtypes = [ctypes_of(c_type) for c_type, _ in arguments]
+        _opened = opened
+    return _opened
+
+
+def _check(code):
+    if code < 0:
+        raise PNPBSError(Status(code), _library().pnpbs_geo_last_error().decode())
+
+
+def _text(value):
+    return None if value is None else os.fsencode(value)
+
+
+class Projection(NamedTuple):
+    """Texts, "" where the file does not say what its coordinates are: a name, the unit of x and y,
+    PROJ's string, WKT 2, and what .prj files contain; and the least and the greatest length in the
+    projection over that on the Earth."""
+    name: str
+    unit: str
+    proj: str
+    wkt: str
+    prj: str
+    scale: tuple
+
+
+class Shapes(Handle):
+    """One layer of a file, projected; all methods are local.
+
+    Polygons bound a domain, edges that neighbours share and lines are inner curves, points are
+    fixed nodes. `projection` is a code ("EPSG:2180"), a string of PROJ's, WKT, the path of a .prj
+    file, "auto", a projection made for the data, or "none", the coordinates as they are; by
+    default longitude and latitude are projected as by "auto", and anything else stays. `unit` is
+    "m" or "km", `tag_field` the attribute that becomes the tag. `pnpbs_geo.h` says more.
+
+        with pnpbs.Shapes("coast.geojson", unit="km") as shapes:
+            shapes.add_to(domain, corner_angle=45)
+    """
+
+    def __init__(self, path, layer=None, projection=None, unit=None, tag_field=None):
+        super().__init__()
+        handle = ctypes.c_void_p()
+        _check(_library().pnpbs_geo_read(os.fsencode(path), _text(layer), _text(projection),
+                                         _text(unit), _text(tag_field), ctypes.byref(handle)))
+        self._handle = handle.value
+
+    def close(self):
+        """Releases what the library holds. What was added to domains stays there. Closing twice is
+        allowed."""
+        if self.is_open:
+            _check(self._destroy(_library().pnpbs_geo_destroy))
+
+    def __repr__(self):
+        return f"<pnpbs.Shapes, {self.projection.name if self.is_open else 'closed'}>"
+
+    def _call(self, name, *arguments):
+        _check(getattr(_library(), f"pnpbs_geo_{name}")(self._live(), *arguments))
+
+    def add_to(self, domain, corner_angle=0.0):
+        """Adds them to a domain in the plane and returns it. With `corner_angle=0` every vertex
+        becomes a node; otherwise those where the direction turns by more than so many degrees."""
+        self._call("add_to_domain", domain.context._live(), domain._live(), corner_angle)
+        return domain
+
+    @property
+    def projection(self) -> Projection:
+        """What x and y are."""
+        texts = [ctypes.c_char_p() for _ in range(5)]
+        self._call("projection", *(ctypes.byref(text) for text in texts))
+        scale = ctypes.c_double(), ctypes.c_double()
+        self._call("scale", *(ctypes.byref(number) for number in scale))
+        return Projection(*(text.value.decode() for text in texts),
+                          tuple(number.value for number in scale))
+
+    @property
+    def notes(self) -> list:
+        """What you should know about how the file was taken."""
+        count, note = ctypes.c_int32(), ctypes.c_char_p()
+        self._call("note_count", ctypes.byref(count))
+        notes = []
+        for index in range(count.value):
+            self._call("get_note", index, ctypes.byref(note))
+            notes.append(note.value.decode())
+        return notes
+
+    def write_prj(self, results):
+        """Writes the projection beside a file of results: "nodes.prj" for "nodes.vtu"."""
+        self._call("write_prj", os.fsencode(results))
+
+    def to_degrees(self, points):
+        """Longitudes and latitudes of points, (n, 2); infinite where there are none."""
+        return self._changed("to_degrees", points)
+
+    def from_degrees(self, degrees):
+        """x and y of longitudes and latitudes, (n, 2); infinite where there are none."""
+        return self._changed("from_degrees", degrees)
+
+    def _changed(self, name, points):
+        changed = as_points(points, 2, "points").copy()
+        self._call(name, len(changed), changed)
+        return changed
+
+    def explain(self, message):
+        """A message about a domain of these shapes, with longitude and latitude of its places."""
+        return _library().pnpbs_geo_explain(self._live(), str(message).encode()).decode()

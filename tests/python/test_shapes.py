@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Shapes that GDAL reads, from Python."""
+import json
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+import pnpbs
+from pnpbs import PNPBSError, Status
+
+SQUARE = [[18, 54], [20, 54], [20, 55], [18, 55], [18, 54]]
+
+
+class Shapes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.path = self.folder / "land.geojson"
+        self.path.write_text(json.dumps({
+            "type": "Feature", "properties": {"name": "shore"},
+            "geometry": {"type": "Polygon", "coordinates": [SQUARE]}}))
+
+    def test_nodes(self):
+        with pnpbs.Context() as context, pnpbs.Shapes(self.path, projection="EPSG:2180", unit="km",
+                                                      tag_field="name") as shapes:
+            domain = shapes.add_to(pnpbs.Domain(context), corner_angle=45)
+            self.assertEqual(shapes.notes, [])
+            projection = shapes.projection
+            self.assertEqual((projection.name, projection.unit),
+                             ("ETRF2000-PL / CS92 in kilometre", "kilometre"))
+            self.assertTrue(0.999 < projection.scale[0] < projection.scale[1] < 1)
+            placement = pnpbs.Placement(domain).set_spacing(5)
+            placement.run()
+            # Sides are straight in the projection: the northern one bows to 55.004 degrees.
+            degrees = shapes.to_degrees(placement.nodes().points)
+            self.assertTrue(np.all((degrees > (17.999, 53.98)) & (degrees < (20.001, 55.01))))
+            corners = shapes.from_degrees(SQUARE[:4])
+            gaps = [np.hypot(*(placement.nodes().points - corner).T).min() for corner in corners]
+            self.assertLess(max(gaps), 1e-9)
+            shapes.write_prj(self.folder / "nodes.vtu")
+            self.assertEqual((self.folder / "nodes.prj").read_text(), projection.prj)
+            self.assertIn("[longitude", shapes.explain("at (500, 700)"))
+        self.assertFalse(shapes.is_open)
+        with self.assertRaises(PNPBSError):
+            shapes.to_degrees(SQUARE)
+
+    def test_errors(self):
+        for arguments, status, words in (
+                ({"layer": "sea"}, Status.ERROR_FILE, "no layer 'sea'"),
+                ({"projection": "EPSG:1"}, Status.ERROR_ARGUMENT, "EPSG:1"),
+                ({"unit": "mile"}, Status.ERROR_ARGUMENT, "m or km")):
+            with self.subTest(arguments), self.assertRaisesRegex(PNPBSError, words) as caught:
+                pnpbs.Shapes(self.path, **arguments)
+            self.assertEqual(caught.exception.status, status)
+
+
+if __name__ == "__main__":
+    unittest.main()
