@@ -22,8 +22,9 @@
  *
  *   points      fixed nodes.
  *
- *   vertices    at the same place, bit for bit in the file, are one; segments are straight in
- *               the projection. Heights are left out.
+ *   vertices    at the same place, bit for bit in the file, are one, and those on a segment of
+ *               another curve, to 1e-9 of the extent, become that one's, too. Segments are straight
+ *               in the projection. Heights are left out.
  *
  * Conventions are those of pnpbs.h, but that messages are in pnpbs_geo_last_error. On several
  * ranks all must do the same. NULL and "" are the same for what may be left out.

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
+#include "geo/touching.hpp"
 
 namespace pnpbs::geo {
 namespace {
@@ -86,6 +87,12 @@ void Shapes::project() {
   std::vector<std::int64_t> spots;
   for (const Spot& spot : layer_.spots) spots.push_back(number_of(spot.point, spot.feature));
 
+  if (const auto miss = split_where_touched(routes, given.points()))
+    layer_.notes.push_back("features " + std::to_string(miss->feature) + " and " +
+                           std::to_string(miss->other) + " all but touch at " +
+                           point_text(given.points()[miss->place]) +
+                           " (and maybe elsewhere): if they are neighbours, give the edge between "
+                           "them the same vertices");
   std::vector<Point<2>> projected = given.points();
   if (const auto fault = projection_.project(projected))
     throw Error(ErrorKind::file, words_for(given.points()[fault->index], features[fault->index]) +

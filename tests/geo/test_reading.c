@@ -74,6 +74,34 @@ START_TEST(neighbours) {
 }
 END_TEST
 
+/* A vertex of one on a straight side of the other: on it to the last digit, and a metre off. */
+START_TEST(vertices_that_only_one_neighbour_has) {
+  const char* const projections[] = {"none", "EPSG:2180"};
+  int k;
+  for (k = 0; k < 2; ++k) {
+    geo_case it = geo_begin(
+        write_geojson(
+            "sides.geojson",
+            FEATURE("Polygon", "[[[18,54],[19,54],[19.1,55],[18,55]]]") "," FEATURE(
+                "Polygon",
+                "[[[19,54],[20,54],[20,55],[19.1,55],[19.05,54.5]]]") "," FEATURE("LineString",
+                                                                                  "[[18.5,54],[18."
+                                                                                  "5,54.5]]")),
+        projections[k], NULL, NULL);
+    /* The line's end, too, is on a side. */
+    expect_counts(it.shapes, 9, 3, 2, 0);
+    ck_assert(!has_note(it.shapes, "all but touch"));
+    geo_end(&it);
+  }
+  {
+    geo_case it = begin(FEATURE("Polygon", "[[[18,54],[19,54],[19,55],[18,55]]]") "," FEATURE(
+        "Polygon", "[[[19,54],[20,54],[20,55],[19,55],[19.000001,54.5]]]"));
+    ck_assert(has_note(it.shapes, "features 1 and 0 all but touch at (19.000001, 54.5)"));
+    geo_end(&it);
+  }
+}
+END_TEST
+
 START_TEST(spike_and_seam) {
   geo_case it = begin(FEATURE("Polygon", "[[[0,0],[4,0],[6,0],[4,0],[4,4],[0,4]]]"));
   ck_assert_double_eq_tol(geo_area(&it), 16, 1e-12);
@@ -351,6 +379,7 @@ int main(void) {
   tcase_add_test(cases, hole_and_repeated_vertices);
   tcase_add_test(cases, islands_in_lakes);
   tcase_add_test(cases, neighbours);
+  tcase_add_test(cases, vertices_that_only_one_neighbour_has);
   tcase_add_test(cases, spike_and_seam);
   tcase_add_test(cases, overlaps);
   tcase_add_test(cases, crosses_itself);
