@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <regex>
+#include <optional>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
@@ -43,10 +44,25 @@ void check(pnpbs_status status, pnpbs_context context) {
 // Lengths that are off by more than this are told.
 constexpr double told_scale = 0.02;
 
-double number_in(const std::string& text) {
-  double number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
+// A place as messages show it: "x, y)", and where in the text that ends.
+struct PlaceInText {
+  Point<2> point;
+  std::size_t end;
+};
+
+std::optional<PlaceInText> place_in(const std::string& text, std::size_t begin) {
+  PlaceInText place{};
+  const char* at = text.data() + begin;
+  const char* const end = text.data() + text.size();
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const auto read = std::from_chars(at, end, place.point[k]);
+    const std::string_view behind = k == 0 ? ", " : ")";
+    if (read.ec != std::errc() || !std::string_view(read.ptr, end).starts_with(behind))
+      return std::nullopt;
+    at = read.ptr + behind.size();
+  }
+  place.end = static_cast<std::size_t>(at - text.data());
+  return place;
 }
 
 // Seven digits after the point are a centimetre.
@@ -181,19 +197,21 @@ std::int64_t Shapes::inner_curves() const {
 std::string Shapes::with_degrees(const std::string& text) const {
   const ReferenceSystem& system = projection_.system();
   if (!system || system.is_geographic()) return text;
-  static const std::regex place(R"(\((-?[0-9][-+.e0-9]*), (-?[0-9][-+.e0-9]*)\))");
   std::string result;
-  auto rest = text.cbegin();
-  for (std::sregex_iterator found(text.begin(), text.end(), place), none; found != none; ++found) {
-    const std::smatch& match = *found;
-    result.append(rest, match[0].second);
-    rest = match[0].second;
-    std::vector<Point<2>> degrees{{number_in(match[1]), number_in(match[2])}};
+  std::size_t at = 0;
+  for (std::size_t begin; (begin = text.find('(', at)) != std::string::npos;) {
+    result.append(text, at, begin + 1 - at);
+    at = begin + 1;
+    const auto place = place_in(text, at);
+    if (!place) continue;
+    result.append(text, at, place->end - at);
+    at = place->end;
+    std::vector<Point<2>> degrees{place->point};
     projection_.to_degrees(degrees);
     if (std::isfinite(degrees[0][0] + degrees[0][1]))
       result += " [" + degrees_text(degrees[0]) + "]";
   }
-  result.append(rest, text.cend());
+  result.append(text, at);
   return result;
 }
 

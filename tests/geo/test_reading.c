@@ -142,7 +142,12 @@ START_TEST(crosses_itself) {
                    2);
   ck_assert_double_eq_tol(longitude, 18.5, 0.51);
   ck_assert_double_eq_tol(latitude, 54.5, 0.51);
-  ck_assert_str_eq(pnpbs_geo_explain(shapes, "no place (a, b)"), "no place (a, b)");
+  ck_assert_str_eq(pnpbs_geo_explain(shapes, "no place (a, b) (1) (1, 2, 3) ( ("),
+                   "no place (a, b) (1) (1, 2, 3) ( (");
+  message = pnpbs_geo_explain(shapes, "(5e5, 6.5e5) and (500000, 650000)");
+  ck_assert_msg(strncmp(message, "(5e5, 6.5e5) [longitude 19, latitude 53.", 40) == 0 &&
+                    strstr(message, "and (500000, 650000) [longitude 19, ") != NULL,
+                "%s", message);
   ck_assert_str_eq(pnpbs_geo_explain(NULL, "as it is (1, 2)"), "as it is (1, 2)");
   GEO_MUST(pnpbs_geo_destroy(&shapes));
   pnpbs_domain_destroy(&domain);
