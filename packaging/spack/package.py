@@ -24,6 +24,7 @@ class Pnpbs(CMakePackage):
     variant("openmp", default=True, description="Threads")
     variant("fortran", default=True, description="The Fortran module")
     variant("cli", default=True, description="The command pnpbs")
+    variant("geo", default=False, description="GeoJSON and shapefiles, by GDAL")
     variant("static", default=False, description="The static library, beside the shared one")
 
     depends_on("c", type="build")
@@ -44,6 +45,8 @@ class Pnpbs(CMakePackage):
     depends_on("mpi@3:", when="+mpi")
     depends_on("metis@5:", when="+mpi")
 
+    depends_on("gdal@3.2:", when="+geo")
+
     with when("+cli"):
         depends_on("cli11", type="build")
         depends_on("nlohmann-json@3:", type="build")
@@ -58,5 +61,6 @@ class Pnpbs(CMakePackage):
             self.define_from_variant("PNPBS_ENABLE_MPI", "mpi"),
             self.define_from_variant("PNPBS_BUILD_FORTRAN", "fortran"),
             self.define_from_variant("PNPBS_BUILD_CLI", "cli"),
+            self.define_from_variant("PNPBS_ENABLE_GEO", "geo"),
             self.define_from_variant("PNPBS_INSTALL_STATIC", "static"),
         ]

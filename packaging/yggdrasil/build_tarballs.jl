@@ -42,6 +42,7 @@ cmake -S pnpbs-* -B build-pnpbs \
     -DKokkos_DIR=$(dirname ${kokkos}/lib*/cmake/Kokkos/KokkosConfig.cmake) \
     -DMETIS_ROOT=${prefix} \
     -DPNPBS_ENABLE_MPI=ON \
+    -DPNPBS_ENABLE_GEO=OFF \
     -DPNPBS_BUILD_CLI=OFF \
     -DPNPBS_BUILD_FORTRAN=OFF \
     -DPNPBS_BUILD_TESTS=OFF

@@ -225,8 +225,8 @@ void read_features(OGRLayerH layer, const std::string& tag_field, GdalMessages& 
   }
   // The end of the layer and a failure look the same.
   if (messages.failed())
-    reject_file("cannot read " + shapes.name + " to its end: after " + std::to_string(features) +
-                " features: " + messages.failure());
+    reject_file("cannot read " + shapes.name + " to its end; features read: " +
+                std::to_string(features) + "; " + messages.failure());
   if (features == 0) reject_file(shapes.name + " is empty");
   if (shapes.paths.empty() && shapes.spots.empty())
     reject_file(shapes.name + " has no shapes: none of its " + std::to_string(features) +

@@ -333,6 +333,18 @@ START_TEST(shapefile_without_its_companions) {
 }
 END_TEST
 
+START_TEST(shapefile_that_ends_too_early) {
+  char bytes[160];
+  FILE* file;
+  write_layers("ESRI Shapefile", in_folder("short.shp"), 1, 1);
+  file = fopen(in_folder("short.shp"), "rb");
+  ck_assert_uint_eq(fread(bytes, 1, sizeof bytes, file), sizeof bytes);
+  fclose(file);
+  refuse(write_file("short.shp", bytes, sizeof bytes), NULL, NULL, PNPBS_ERROR_FILE, "to its end",
+         "short.shp");
+}
+END_TEST
+
 START_TEST(what_cannot_be_read) {
   refuse(in_folder("nothing.geojson"), NULL, NULL, PNPBS_ERROR_FILE, "nothing.geojson",
          "no such file");
@@ -395,6 +407,7 @@ int main(void) {
   tcase_add_test(cases, layers);
   tcase_add_test(cases, shapefile);
   tcase_add_test(cases, shapefile_without_its_companions);
+  tcase_add_test(cases, shapefile_that_ends_too_early);
   tcase_add_test(cases, what_cannot_be_read);
   tcase_add_test(cases, handles);
   suite_add_tcase(suite, cases);

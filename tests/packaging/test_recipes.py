@@ -75,6 +75,7 @@ class Spack(unittest.TestCase):
             self.assertLessEqual(ours, options())
             for option, variant in (("PNPBS_ENABLE_MPI", "mpi"), ("PNPBS_BUILD_CLI", "cli"),
                                     ("PNPBS_BUILD_FORTRAN", "fortran"),
+                                    ("PNPBS_ENABLE_GEO", "geo"),
                                     ("PNPBS_INSTALL_STATIC", "static")):
                 self.assertEqual(told[option], "ON" if variants[variant] else "OFF", option)
 
@@ -93,6 +94,8 @@ class Spack(unittest.TestCase):
         self.assertLessEqual(command | {"mpi", "metis", "kokkos", "fortran"}, needed())
         self.assertFalse(command & needed(cli=False))
         self.assertFalse({"mpi", "metis"} & needed(mpi=False))
+        self.assertNotIn("gdal", needed(geo=False))
+        self.assertIn("gdal", needed(geo=True))
         self.assertNotIn("fortran", needed(fortran=False))
         self.assertIn("kokkos@4.5:5", " ".join(spec for spec, _ in self.recipe.dependencies))
 
