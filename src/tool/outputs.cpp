@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/extension.hpp"
 #include "tool/exit.hpp"
 #include "tool/geo_file.hpp"
 #include "tool/interrupt.hpp"
@@ -82,7 +83,8 @@ void Outputs::add_projections(const std::string& input) {
     if (output.is_nodes() && !output.file.is_standard_output())
       paths.push_back(projection_beside(output.file.path()));
   for (const std::string& path : paths) {
-    refuse_to_replace(projection_beside(input), path);
+    // A shapefile has one of its own.
+    if (io::extension_of(input) == "shp") refuse_to_replace(projection_beside(input), path);
     const auto is_it = [&](const Output& other) { return same_file(other.file.path(), path); };
     if (std::ranges::none_of(outputs_, is_it))
       outputs_.push_back({io::OutputFile(path), nullptr, true});

@@ -135,12 +135,14 @@ class Shapes(ShapesTest):
         return str(folder)
 
     def test_the_projection_of_the_input_stays(self):
-        path = self.geojson(LAND)
         prj = self.folder / "land.prj"
         prj.write_text("the input's")
-        message = self.refuse("--domain", path, "--spacing", "20", "--output", "land.vtu")
+        message = self.refuse("--domain", "land.shp", "--spacing", "20", "--output", "land.vtu")
         self.assertIn("land.prj' would replace what is read", message)
         self.assertEqual(prj.read_text(), "the input's")
+        # What a file of GeoJSON has beside it is our own, of the run before.
+        self.run_command("--domain", self.geojson(LAND), "--spacing", "20000", "--output", "land.vtu")
+        self.assertIn("UTM", prj.read_text())
 
     def test_one_projection_beside_several_files(self):
         out, _ = self.run_command("--domain", self.geojson(LAND), "--spacing", "20000", "--output",
