@@ -116,7 +116,7 @@ PNPBS_API const char *pnpbs_last_error(pnpbs_context context);
 PNPBS_API pnpbs_status pnpbs_version(int32_t *major, int32_t *minor, int32_t *patch);
 
 /** What the library was built with, one "name: value" per line: version, compiler, Kokkos and
- *  its back ends, linkage, MPI. Local; valid for ever. */
+ *  its back ends, linkage, MPI, HDF5. Local; valid for ever. */
 PNPBS_API const char *pnpbs_build_info(void);
 
 /** The MPI library we were built with, e.g. "Open MPI 4.1.4"; "" in a build without MPI.
@@ -978,6 +978,39 @@ PNPBS_API pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, in
                                                    const char *const *paths,
                                                    const char *const *formats,
                                                    const int32_t *elements);
+
+/** Writes a checkpoint: one file from which pnpbs_placement_read_checkpoint goes on, in another
+ *  process and on any number of ranks, as if there had been no interruption: bit for bit. It holds
+ *  the nodes with their velocities, where the run is in its schedule, and what tells another
+ * domain, other options and another spacing; the spacing itself only where it is given by values at
+ * nodes (pnpbs_placement_set_spacing_at_nodes). d is asked at every node. The file is VTKHDF, which
+ *  ParaView opens (name it .vtkhdf): nodes with id, tag and spacing. All ranks write their own
+ * nodes at the same time (MPI-IO), beside the file that is there, which is replaced only when all
+ * is complete and on the disk. Changes nothing of the placement. May be called at any time when
+ * there are nodes, after pnpbs_placement_step as after a whole run, and from the monitor of
+ * pnpbs_placement_run and pnpbs_placement_step: at an event, and on one rank at every turn between
+ * two steps. There it must be called on all ranks; it is PNPBS_ERROR_STATE in the monitor's other
+ * turns, before the first nodes are laid, on coarser levels, and in the finish. Collective. Errors:
+ * PNPBS_ERROR_STATE, also where the spacing or the options growth_limit, resolve or wanted_nodes
+ * have been set since the nodes were placed; PNPBS_ERROR_FILE naming the file;
+ *  PNPBS_ERROR_UNSUPPORTED if the library was built without HDF5; PNPBS_ERROR_ARGUMENT.
+ *  @param[in] path  the same on all ranks, in a folder that all of them see */
+PNPBS_API pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement,
+                                                        const char *path);
+
+/** Goes on from a checkpoint. Beforehand the placement is given what it was given for the first
+ * run: domain, options and spacing (unless that was given by values at nodes: the checkpoint brings
+ * it; its nodes, too, where it was given some). Then the next pnpbs_placement_run or _step does
+ * what it would have done where the checkpoint was written, and so do later calls, such as another
+ * spacing with another run. Options may be changed afterwards; those that decide on no node
+ * (threads, exchange_interval, rebalance_above, metis_seed, adjacency_radius, max_nodes,
+ * max_memory) are free. After an error the placement is as it was. Collective. Errors:
+ * PNPBS_ERROR_FILE naming the file if it is damaged, no checkpoint, or of a newer format;
+ *  PNPBS_ERROR_DOMAIN, PNPBS_ERROR_SPACING (with the first place found) or PNPBS_ERROR_ARGUMENT
+ *  (other options, or the other dimension) if it is of another run; PNPBS_ERROR_UNSUPPORTED if the
+ *  library was built without HDF5.
+ *  @param[in] path  the same on all ranks */
+PNPBS_API pnpbs_status pnpbs_placement_read_checkpoint(pnpbs_placement placement, const char *path);
 
 /** Removes what unfinished calls of this process have written aside so far, unless it is just
  *  getting its name. For signal handlers that end the program; async-signal-safe. Local. */

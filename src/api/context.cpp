@@ -150,7 +150,8 @@ const char* pnpbs_build_info(void) {
       std::string("version: ") + PNPBS_VERSION_STRING + "\ncompiler: " + PNPBS_BUILD_COMPILER +
       "\nbuild: " + PNPBS_BUILD_TYPE + "\nKokkos: " + PNPBS_KOKKOS_VERSION_TEXT +
       "\nKokkos back end: " + Exec::name() + "\nKokkos linkage: " + PNPBS_KOKKOS_LINKAGE +
-      "\nMPI: " + (PNPBS_HAVE_MPI ? PNPBS_MPI_LIBRARY_TEXT : "none") + "\n";
+      "\nMPI: " + (PNPBS_HAVE_MPI ? PNPBS_MPI_LIBRARY_TEXT : "none") +
+      "\nHDF5: " + (PNPBS_HAVE_HDF5 ? PNPBS_HDF5_TEXT : "none") + "\n";
   return text.c_str();
 }
 

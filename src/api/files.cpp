@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of the C interface.
-#include "api/guard.hpp"
+#include <optional>
+
+#include "api/placement_calls.hpp"
+#include "io/checkpoint.hpp"
 #include "io/temporaries.hpp"
 #include "io/write_files.hpp"
 
@@ -57,6 +60,32 @@ pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
 
 pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char* path, int32_t elements) {
   return pnpbs_placement_write_files(placement, 1, &path, nullptr, &elements);
+}
+
+// From a monitor, too, where that is asked between two steps.
+pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement, const char* path) {
+  return guarded(placement, [&](PlacementObject& object) {
+    std::optional<Computing> computing;
+    if (!object.context->computing)
+      computing.emplace(*object.context);
+    else if (!object.placement->between_steps())
+      throw Error(
+          ErrorKind::state,
+          "from inside a callback, a checkpoint can be written by the monitor alone, in its "
+          "turns between two steps of this placement: not before its first nodes are laid, "
+          "on coarser levels, or in the finish");
+    agreed(object.placement->communicator(), [&] { require_pointer(path, "path"); });
+    io::write_checkpoint(*object.placement, path);
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_read_checkpoint(pnpbs_placement placement, const char* path) {
+  return collective(placement, [&](Placement& p) {
+    agreed(p.communicator(), [&] { require_pointer(path, "path"); });
+    io::read_checkpoint(p, path);
+    return PNPBS_OK;
+  });
 }
 
 pnpbs_status pnpbs_discard_unfinished_files(void) {

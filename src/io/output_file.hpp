@@ -31,6 +31,7 @@ class OutputFile {
   void close(int descriptor) const;
   bool written_aside() const;
   const char* name_aside() const { return temporary_->path(); }
+  bool removed() const { return temporary_ && temporary_->removed(); }  // by remove_temporaries
 
   // Giving the complete file its name, in steps. All files that belong together take a step before
   // any of them takes the next: see publish_together.

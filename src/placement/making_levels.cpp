@@ -78,15 +78,15 @@ std::unique_ptr<Level<Dim>> PlacementOf<Dim>::empty_level(
   return level;
 }
 
-// Lays the boundary at the present spacing and puts in the inner nodes: those of the level before,
-// refined where it was coarser, those given, those that coarser levels lead to, or a fill.
+// A level without nodes for the present spacing, whose growth is limited where the user wants it so
+// or, by how steep it is, where nodes could not follow it.
 template <int Dim>
-Outcome PlacementOf<Dim>::make_level() {
-  const Settings settings = settings_for_new_level();
-  std::shared_ptr<const Spacing<Dim>> spacing = spacing_to_place(settings);
+std::unique_ptr<Level<Dim>> PlacementOf<Dim>::level_to_place(
+    const Settings& settings, std::shared_ptr<const Spacing<Dim>>& spacing,
+    SteepestGrowth<Dim>& steepest) {
+  spacing = spacing_to_place(settings);
   if (settings.user_limits_growth()) spacing = growth_limited(std::move(spacing), settings);
   std::unique_ptr<Level<Dim>> next = empty_level(spacing, settings);
-  SteepestGrowth<Dim> steepest;  // none where the user limits it
   if (!settings.user_limits_growth()) {
     const PhaseTimer timer(timers_, Phase::spacing);
     steepest = steepest_growth<Dim>(
@@ -99,6 +99,17 @@ Outcome PlacementOf<Dim>::make_level() {
     next = empty_level(spacing, settings);
   }
   settings.node_limit().require_memory_for(expected_nodes(*next));
+  return next;
+}
+
+// Lays the boundary at the present spacing and puts in the inner nodes: those of the level before,
+// refined where it was coarser, those given, those that coarser levels lead to, or a fill.
+template <int Dim>
+Outcome PlacementOf<Dim>::make_level() {
+  const Settings settings = settings_for_new_level();
+  std::shared_ptr<const Spacing<Dim>> spacing;
+  SteepestGrowth<Dim> steepest;  // none where the user limits it
+  std::unique_ptr<Level<Dim>> next = level_to_place(settings, spacing, steepest);
   const bool taken_over = level_ || start_from_given_;
   TakenNodes taken;
   std::int64_t inserted = 0;
@@ -131,6 +142,7 @@ Outcome PlacementOf<Dim>::make_level() {
   }
   // Nothing has failed: from here on the new level counts.
   adopt_level(std::move(next));
+  level_options_ = options_;
   dropped_ = taken.left_out;
   inserted_ += inserted;
   deleted_ += taken.thinned;

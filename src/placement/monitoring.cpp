@@ -26,11 +26,23 @@ bool Placement::monitor_stops_by_clock(double fraction) {
   return comm_->allreduce_max(monitor_is_due()) > 0 && monitor_stops(fraction);
 }
 
+// Between two steps of a level that stays, which is no coarser one, nodes can be saved.
+bool Placement::monitor_stops_between_steps(bool is_event, double fraction) {
+  struct Turn {
+    Placement& placement;
+    ~Turn() { placement.between_steps_ = placement.at_event_ = false; }
+  } turn{*this};
+  between_steps_ = !schedule_.coarser;
+  at_event_ = is_event;
+  return monitor_stops(fraction);
+}
+
 // The steps between two events of ten million nodes take some seconds. Several ranks have fewer
 // nodes each, and would have to agree every time: they are asked at events.
 template <int Dim>
-bool PlacementOf<Dim>::stops_between_events(double fraction) {
-  return !level_->distributed() && monitor_is_due() && monitor_stops(fraction);
+bool PlacementOf<Dim>::stops_after_step(bool is_event, double fraction) {
+  if (!is_event && (level_->distributed() || !monitor_is_due())) return false;
+  return monitor_stops_between_steps(is_event, fraction);
 }
 
 // Work that leads to first nodes, or to those of a new spacing, and takes long where they are many:
@@ -53,7 +65,7 @@ void Placement::while_monitored(const std::string& what,
   }
 }
 
-template bool PlacementOf<2>::stops_between_events(double);
-template bool PlacementOf<3>::stops_between_events(double);
+template bool PlacementOf<2>::stops_after_step(bool, double);
+template bool PlacementOf<3>::stops_after_step(bool, double);
 
 }  // namespace pnpbs

@@ -29,6 +29,7 @@ struct Schedule {
   bool coarser = false;     // it is one
   bool taken_over = false;  // it began with nodes given, or placed for another spacing
   bool ended = false;
+  bool at_event = false;  // restored as it was in the middle of one: is all at rest?
   bool population_settled = false;
   int quiet_events = 0;          // that changed too little to pay, in a row
   double imbalance_reached = 1;  // by the last rebalancing
@@ -92,6 +93,8 @@ class Placement {
   virtual Outcome run() = 0;
   virtual PopulationCounts adjust_population() = 0;
   virtual void rebalance() = 0;
+  // Is this a monitor's turn between two steps of a level that stays? Then the nodes can be saved.
+  bool between_steps() const { return between_steps_; }
   // Of a run from nothing; the nodes there are stay. Collective.
   virtual Estimate estimate() = 0;
 
@@ -155,6 +158,7 @@ class Placement {
   void gather_terms(std::int64_t components, const double* x, const double* y);
   void finish_sums(double* sums);
   bool monitor_stops(double fraction);
+  bool monitor_stops_between_steps(bool is_event, double fraction);
   bool monitor_stops_by_clock(double fraction);
   bool monitor_is_due() const;
   void while_monitored(const std::string& what,
@@ -176,8 +180,9 @@ class Placement {
   using Clock = std::chrono::steady_clock;
   Clock::time_point last_asked_ = Clock::now();  // of the monitor
 
-  int coarser_levels_ = 0;  // that the nodes came from
-  Schedule schedule_;       // of the level there is
+  bool between_steps_ = false, at_event_ = false;  // while a monitor is asked
+  int coarser_levels_ = 0;                         // that the nodes came from
+  Schedule schedule_;                              // of the level there is
   Speeds last_speeds_;
   std::int64_t steps_done_ = 0, inserted_ = 0, deleted_ = 0, dropped_ = 0, rebuilds_before_ = 0,
                rebalances_before_ = 0;

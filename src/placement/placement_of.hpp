@@ -16,10 +16,27 @@
 #include "level/taken_nodes.hpp"
 #include "placement/facet_tag.hpp"
 #include "placement/placement.hpp"
+#include "placement/saved_state.hpp"
 #include "spacing/nodal_patch.hpp"
 #include "spacing/steepest_growth.hpp"
 
 namespace pnpbs {
+
+// A placement as it is saved: of its nodes, those of this rank.
+template <int Dim>
+struct Saved {
+  SavedState state;
+  const Nodes<Dim>* nodes = nullptr;
+  std::vector<std::int32_t> owned;    // indices into these
+  View<double> spacing;               // by the same
+  const Patch<Dim>* patch = nullptr;  // of a spacing by values at nodes there were; else none
+
+  std::int64_t count() const { return static_cast<std::int64_t>(owned.size()); }
+  SavedNode<Dim> node(std::int64_t k) const {
+    const std::int32_t i = owned[static_cast<std::size_t>(k)];
+    return {packed(*nodes, i), spacing(i)};
+  }
+};
 
 template <int Dim>
 class PlacementOf : public Placement {
@@ -107,10 +124,26 @@ class PlacementOf : public Placement {
   const ElementQuality& element_quality() override;
   std::uint64_t hash() const override;
 
+  // --- checkpoints ---
+  // What is one for all, and the nodes of this rank; between two steps even in a monitor's turn.
+  // Throws Error(ErrorKind::state) where the nodes wait for something that they were not yet placed
+  // for. Collective.
+  Saved<Dim> saved();
+  // Throws unless it is of this dimension, domain and these options. Collective.
+  void require_same_as(const SavedState& saved);
+  // Goes on from there, if the spacing is that of then, too. `nodes`: anyone's, all of them over
+  // all ranks. If it fails, all stays as it was. Collective.
+  void restore(const SavedState& saved, std::vector<SavedNode<Dim>> nodes, Patch<Dim> patch);
+
  private:
   std::int64_t node_version() const override { return level_ ? level_->version() : -1; }
   Outcome prepare_level();
   Outcome make_level();
+  std::unique_ptr<Level<Dim>> level_to_place(const Settings& settings,
+                                             std::shared_ptr<const Spacing<Dim>>& spacing,
+                                             SteepestGrowth<Dim>& steepest);
+  void require_savable() const;
+  void adopt_state(const SavedState& saved);
   Settings present_settings() const;
   Settings settings_for_new_level() const;
   std::shared_ptr<const Spacing<Dim>> spacing_to_place(const Settings& settings) const;
@@ -161,7 +194,7 @@ class PlacementOf : public Placement {
   void keep_balance();
   void rebalance_now();
   bool far_too_few() const;
-  bool stops_between_events(double fraction);
+  bool stops_after_step(bool is_event, double fraction);
   void fill(Level<Dim>& level, LaidNodes<Dim> laid);
   void repair_defects();
   Outcome finish();
@@ -174,6 +207,7 @@ class PlacementOf : public Placement {
   int filled_level_ = 0;   // coarser levels whose inside was filled, the first of them by a lattice
   bool start_from_given_ = false;
   bool spacing_replaced_ = false;  // since the level was made
+  Options level_options_;          // with which it was
 };
 
 template <int Dim>

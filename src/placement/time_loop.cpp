@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <utility>
 
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
@@ -40,6 +41,10 @@ Outcome PlacementOf<Dim>::advance(std::int64_t until, ProgressPart part) {
   stop_reason_ = StopReason::step_limit;
   std::exception_ptr failure;  // of this rank: told to the others at the next event
   bool started = true;
+  if (std::exchange(schedule_.at_event, false) && bubbles_rest()) {
+    stop_reason_ = StopReason::rest;
+    return Outcome::converged;
+  }
   while (schedule_.step < until) {
     if (started || schedule_.step % settings.event_interval % settings.exchange_interval == 0)
       exchange_for_steps(*level_, failure);
@@ -54,7 +59,7 @@ Outcome PlacementOf<Dim>::advance(std::int64_t until, ProgressPart part) {
                         std::max(1.0, static_cast<double>(until) - first);
     const double fraction = part.begin + done * (part.end - part.begin);
     if (is_event) event();
-    if (is_event ? monitor_stops(fraction) : stops_between_events(fraction)) {
+    if (stops_after_step(is_event, fraction)) {
       if (!is_event) refresh_spacing(*level_);  // as d is at the nodes now
       outcome = Outcome::stopped;
       stop_reason_ = StopReason::monitor;

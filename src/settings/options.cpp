@@ -162,6 +162,12 @@ const std::vector<OptionRow>& hidden_table() {
   return table;
 }
 
+// Presets, whose values are those of other options, and what no node depends on.
+constexpr std::string_view kNotDeciding[] = {
+    "method",          "effort",     "adjacency_radius", "exchange_interval",
+    "rebalance_above", "metis_seed", "max_nodes",        "max_memory",
+    "threads"};
+
 struct RenamedOption {
   const char* before;
   const char* name;
@@ -307,6 +313,22 @@ std::size_t Options::fingerprint() const {
   std::string all;
   for (const auto& [key, value] : values_) all += key + "=" + value + ";";
   return std::hash<std::string>{}(all);
+}
+
+std::vector<std::pair<std::string, std::string>> Options::deciding() const {
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (const OptionRow& row : option_table()) {
+    if (std::ranges::find(kNotDeciding, std::string_view(row.name)) != std::end(kNotDeciding))
+      continue;
+    std::string value = row.type == OptionType::choice    ? choice(row.name)
+                        : row.type == OptionType::integer ? std::to_string(integer(row.name))
+                                                          : number_text(real(row.name));
+    // Another meaning than the same value set.
+    if (std::string_view(row.name) == "growth_limit" && !is_set("growth_limit"))
+      value += " (not set)";
+    rows.emplace_back(row.name, std::move(value));
+  }
+  return rows;
 }
 
 std::int64_t Options::integer(const char* key) const {

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pnpbs {
@@ -45,6 +46,9 @@ class Options {
   std::string choice(const char* key) const;
   // The same for the same options.
   std::size_t fingerprint() const;
+  // Name and value of every option that decides on the nodes; the others only on where and how fast
+  // they are found, or handed out.
+  std::vector<std::pair<std::string, std::string>> deciding() const;
   bool is_set(const char* key) const { return values_.count(key) != 0; }
 
  private:

@@ -23,6 +23,8 @@ class NodalSpacing : public Spacing<Dim> {
     for (std::size_t i = 0; i < answers.size(); ++i) d[i] = answers[i].value;
   }
 
+  const Patch<Dim>& patch() const { return search_.patch().patch(); }  // of this rank
+
  private:
   NodalSearch<Dim> search_;
 };

@@ -1,0 +1,512 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/hdf5.hpp"
+
+#include <sys/stat.h>
+
+#include "base/build_config.hpp"
+#include "base/error.hpp"
+
+#if PNPBS_HAVE_HDF5
+#include <dlfcn.h>
+#include <hdf5.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <mutex>
+
+// HDF5's constants call it by its name, which we do not link.
+#undef H5OPEN
+#define H5OPEN
+#undef H5CHECK
+#define H5CHECK
+#endif
+
+namespace pnpbs::io::hdf5 {
+
+std::size_t size_of(Type type) {
+  switch (type) {
+    case Type::real:
+    case Type::int64:
+      return 8;
+    case Type::int32:
+      return 4;
+    case Type::int8:
+    case Type::uint8:
+      return 1;
+  }
+  return 0;
+}
+
+#if PNPBS_HAVE_HDF5
+
+namespace {
+
+// ------------------------------------------------------------------ the library ----------------
+
+#define PNPBS_HDF5_FUNCTIONS(X) \
+  X(H5open)                     \
+  X(H5get_libversion)           \
+  X(H5Eget_auto2)               \
+  X(H5Eset_auto2)               \
+  X(H5Fcreate)                  \
+  X(H5Fopen)                    \
+  X(H5Fclose)                   \
+  X(H5Pcreate)                  \
+  X(H5Pclose)                   \
+  X(H5Pset_libver_bounds)       \
+  X(H5Pset_alloc_time)          \
+  X(H5Pset_fill_time)           \
+  X(H5Pget_layout)              \
+  X(H5Pget_external_count)      \
+  X(H5Gcreate2)                 \
+  X(H5Gclose)                   \
+  X(H5Lexists)                  \
+  X(H5Screate)                  \
+  X(H5Screate_simple)           \
+  X(H5Sclose)                   \
+  X(H5Sget_simple_extent_type)  \
+  X(H5Sget_simple_extent_ndims) \
+  X(H5Sget_simple_extent_dims)  \
+  X(H5Dcreate2)                 \
+  X(H5Dopen2)                   \
+  X(H5Dclose)                   \
+  X(H5Dwrite)                   \
+  X(H5Dget_offset)              \
+  X(H5Dget_space)               \
+  X(H5Dget_type)                \
+  X(H5Dget_create_plist)        \
+  X(H5Dget_storage_size)        \
+  X(H5Acreate_by_name)          \
+  X(H5Aopen_by_name)            \
+  X(H5Aclose)                   \
+  X(H5Awrite)                   \
+  X(H5Aread)                    \
+  X(H5Aget_type)                \
+  X(H5Aget_space)               \
+  X(H5Tcopy)                    \
+  X(H5Tclose)                   \
+  X(H5Tequal)                   \
+  X(H5Tset_size)                \
+  X(H5Tget_size)                \
+  X(H5Tget_class)               \
+  X(H5Tis_variable_str)
+
+struct Library {
+#define PNPBS_HDF5_MEMBER(name) decltype(&::name) name;
+  PNPBS_HDF5_FUNCTIONS(PNPBS_HDF5_MEMBER)
+#undef PNPBS_HDF5_MEMBER
+  std::array<hid_t, 5> types;  // by Type
+  hid_t text, file_access, dataset_creation;
+};
+
+// RTLD_DEEPBIND: HDF5 calls itself, too, by names that a host program may have. The sanitizers'
+// run-time libraries end the process at the sight of it.
+int hdf5_open_mode() {
+  int mode = RTLD_NOW | RTLD_LOCAL;
+#ifdef RTLD_DEEPBIND
+  if (!dlsym(RTLD_DEFAULT, "__sanitizer_set_death_callback")) mode |= RTLD_DEEPBIND;
+#endif
+  return mode;
+}
+
+void* open_hdf5() {
+  void* library = dlopen(PNPBS_HDF5_PATH, hdf5_open_mode());
+  if (!library) library = dlopen(PNPBS_HDF5_NAME, hdf5_open_mode());
+  if (library) return library;
+  const char* reason = dlerror();
+  throw Error(ErrorKind::unsupported,
+              std::string("HDF5, which writes and reads checkpoints, cannot be opened: neither "
+                          "\"" PNPBS_HDF5_PATH "\" nor \"" PNPBS_HDF5_NAME "\" (") +
+                  (reason ? reason : "no reason given") +
+                  "): install it, or add its folder to LD_LIBRARY_PATH");
+}
+
+void* symbol(void* library, const char* name) {
+  void* found = dlsym(library, name);
+  if (!found)
+    throw Error(ErrorKind::unsupported, std::string("the HDF5 that was opened has no ") + name +
+                                            ": PNPBS was built with \"" PNPBS_HDF5_PATH "\"");
+  return found;
+}
+
+Library opened_library() {
+  void* library = open_hdf5();
+  Library h{};
+#define PNPBS_HDF5_LOOK_UP(name) \
+  h.name = reinterpret_cast<decltype(h.name)>(symbol(library, #name));
+  PNPBS_HDF5_FUNCTIONS(PNPBS_HDF5_LOOK_UP)
+#undef PNPBS_HDF5_LOOK_UP
+  unsigned major = 0, minor = 0, release = 0;
+  if (h.H5get_libversion(&major, &minor, &release) < 0 || major != H5_VERS_MAJOR ||
+      minor != H5_VERS_MINOR || h.H5open() < 0)
+    throw Error(ErrorKind::unsupported, "the HDF5 that was opened is version " +
+                                            std::to_string(major) + "." + std::to_string(minor) +
+                                            ", not the " PNPBS_HDF5_TEXT
+                                            " that PNPBS was built "
+                                            "with: install that one");
+  // Identifiers that HDF5 has given its own types when it was opened.
+  const auto identifier = [&](const char* name) {
+    return *static_cast<const hid_t*>(symbol(library, name));
+  };
+  h.types = {identifier("H5T_NATIVE_DOUBLE_g"), identifier("H5T_NATIVE_INT64_g"),
+             identifier("H5T_NATIVE_INT32_g"), identifier("H5T_NATIVE_INT8_g"),
+             identifier("H5T_NATIVE_UINT8_g")};
+  h.text = identifier("H5T_C_S1_g");
+  h.file_access = identifier("H5P_CLS_FILE_ACCESS_ID_g");
+  h.dataset_creation = identifier("H5P_CLS_DATASET_CREATE_ID_g");
+  return h;
+}
+
+// One thread at a time: few builds of HDF5 stand more. It tells us what fails by what it returns,
+// and prints nothing of it; a host that has opened the same library finds its handler again.
+class Use {
+ public:
+  Use() : lock_(mutex()), h_(library()) {
+    h_.H5Eget_auto2(H5E_DEFAULT, &handler_, &data_);
+    h_.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  Use(const Use&) = delete;
+  Use& operator=(const Use&) = delete;
+  ~Use() { h_.H5Eset_auto2(H5E_DEFAULT, handler_, data_); }
+  const Library* operator->() const { return &h_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex the;
+    return the;
+  }
+  static const Library& library() {
+    static const Library the = opened_library();
+    return the;
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  const Library& h_;
+  H5E_auto2_t handler_ = nullptr;
+  void* data_ = nullptr;
+};
+
+// What HDF5 has opened for us, to be closed again; fails if it has opened nothing.
+class Owned {
+ public:
+  Owned(hid_t id, herr_t (*close)(hid_t), const std::string& failure) : id_(id), close_(close) {
+    if (id < 0) throw Error(ErrorKind::file, failure);
+  }
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  ~Owned() { close_(id_); }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void require(herr_t code, const std::string& failure) {
+  if (code < 0) throw Error(ErrorKind::file, failure);
+}
+
+hid_t type_of(const Use& use, Type type) { return use->types[static_cast<std::size_t>(type)]; }
+
+std::string cannot_write(const std::string& name) {
+  return "cannot write " + name + ": HDF5 has failed; is the disk full?";
+}
+
+void write_attribute(hid_t file, const std::string& name, const std::string& object,
+                     const std::string& attribute, hid_t type, std::int64_t count,
+                     const void* values) {
+  const Use use;
+  const std::string failure = cannot_write(name);
+  const auto size = static_cast<hsize_t>(count);
+  const Owned space(
+      count < 0 ? use->H5Screate(H5S_SCALAR) : use->H5Screate_simple(1, &size, nullptr),
+      use->H5Sclose, failure);
+  const Owned made(use->H5Acreate_by_name(file, object.c_str(), attribute.c_str(), type, space,
+                                          H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                   use->H5Aclose, failure);
+  require(use->H5Awrite(made, type, values), failure);
+}
+
+}  // namespace
+
+void require_hdf5() { const Use use; }
+
+// ------------------------------------------------------------------ writing --------------------
+
+// In the format since HDF5 1.8, which every reader of today knows, and in which all that tells
+// where things lie has checksums.
+NewFile::NewFile(const std::string& path, const std::string& name) : name_(name) {
+  const Use use;
+  const std::string failure = cannot_write(name_);
+  const Owned access(use->H5Pcreate(use->file_access), use->H5Pclose, failure);
+  require(use->H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), failure);
+  file_ = use->H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (file_ < 0) throw Error(ErrorKind::file, failure);
+}
+
+NewFile::~NewFile() {
+  if (file_ < 0) return;
+  const Use use;
+  use->H5Fclose(file_);
+}
+
+void NewFile::close() {
+  const Use use;
+  const hid_t file = file_;
+  file_ = -1;
+  require(use->H5Fclose(file), cannot_write(name_));
+}
+
+void NewFile::add_group(const std::string& path) {
+  const Use use;
+  const Owned group(use->H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                    use->H5Gclose, cannot_write(name_));
+}
+
+namespace {
+
+hid_t native(Type type) {
+  const Use use;
+  return type_of(use, type);
+}
+
+}  // namespace
+
+void NewFile::set(const std::string& object, const std::string& attribute, std::int64_t value) {
+  write_attribute(file_, name_, object, attribute, native(Type::int64), -1, &value);
+}
+
+void NewFile::set(const std::string& object, const std::string& attribute, double value) {
+  write_attribute(file_, name_, object, attribute, native(Type::real), -1, &value);
+}
+
+void NewFile::set(const std::string& object, const std::string& attribute,
+                  const std::vector<std::int64_t>& values) {
+  write_attribute(file_, name_, object, attribute, native(Type::int64),
+                  static_cast<std::int64_t>(values.size()), values.data());
+}
+
+void NewFile::set(const std::string& object, const std::string& attribute,
+                  const std::string& text) {
+  hid_t type;
+  {
+    const Use use;
+    type = use->H5Tcopy(use->text);
+    require(use->H5Tset_size(type, text.empty() ? 1 : text.size()), cannot_write(name_));
+  }
+  const std::string padded = text.empty() ? std::string(1, '\0') : text;
+  write_attribute(file_, name_, object, attribute, type, -1, padded.data());
+  const Use use;
+  use->H5Tclose(type);
+}
+
+std::int64_t NewFile::add(const Array& array) {
+  const Use use;
+  const std::string failure = cannot_write(name_);
+  const std::array<hsize_t, 2> size{static_cast<hsize_t>(array.rows),
+                                    static_cast<hsize_t>(array.columns)};
+  const Owned space(use->H5Screate_simple(array.columns > 0 ? 2 : 1, size.data(), nullptr),
+                    use->H5Sclose, failure);
+  const Owned how(use->H5Pcreate(use->dataset_creation), use->H5Pclose, failure);
+  require(use->H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY), failure);
+  require(use->H5Pset_fill_time(how, H5D_FILL_TIME_NEVER), failure);
+  const Owned made(use->H5Dcreate2(file_, array.path.c_str(), type_of(use, array.type), space,
+                                   H5P_DEFAULT, how, H5P_DEFAULT),
+                   use->H5Dclose, failure);
+  const haddr_t place = use->H5Dget_offset(made);
+  if (place == HADDR_UNDEF) throw Error(ErrorKind::file, failure);
+  return static_cast<std::int64_t>(place);
+}
+
+void NewFile::add(const std::string& path, const std::vector<std::int64_t>& values) {
+  const Use use;
+  const std::string failure = cannot_write(name_);
+  const hsize_t size = values.size();
+  const hid_t type = type_of(use, Type::int64);
+  const Owned space(use->H5Screate_simple(1, &size, nullptr), use->H5Sclose, failure);
+  const Owned made(
+      use->H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      use->H5Dclose, failure);
+  require(use->H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), failure);
+}
+
+// ------------------------------------------------------------------ reading --------------------
+
+namespace {
+
+// What is wrong with a file before HDF5 looks at it.
+std::int64_t size_if_hdf5(const std::string& path, const std::string& name) {
+  constexpr std::array<char, 8> kSignature{'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+  std::array<char, 8> begin{};
+  struct stat status;
+  errno = 0;
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (!file || ::fstat(::fileno(file), &status) != 0) {
+    const std::string reason = std::strerror(errno);
+    if (file) std::fclose(file);
+    throw Error(ErrorKind::file, "cannot read " + name + ": " + reason);
+  }
+  const bool regular = S_ISREG(status.st_mode);
+  const std::size_t got = regular ? std::fread(begin.data(), 1, begin.size(), file) : 0;
+  std::fclose(file);
+  if (got != begin.size() || begin != kSignature)
+    throw Error(ErrorKind::file, name + " is no HDF5 file, as checkpoints are");
+  return status.st_size;
+}
+
+std::string damaged(const std::string& name, const std::string& what) {
+  return name + " is damaged, or no checkpoint of PNPBS: " + what;
+}
+
+}  // namespace
+
+OldFile::OldFile(const std::string& path, const std::string& name)
+    : name_(name), size_(size_if_hdf5(path, name)) {
+  const Use use;
+  file_ = use->H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file_ < 0)
+    throw Error(ErrorKind::file, name_ +
+                                     " is damaged: it begins as an HDF5 file, but HDF5 cannot "
+                                     "open it");
+}
+
+OldFile::~OldFile() {
+  if (file_ < 0) return;
+  const Use use;
+  use->H5Fclose(file_);
+}
+
+bool OldFile::has(const std::string& path) const {
+  const Use use;
+  return use->H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
+}
+
+namespace {
+
+void read_attribute(hid_t file, const std::string& name, const std::string& object,
+                    const std::string& attribute, Type type, void* value) {
+  const Use use;
+  const std::string failure =
+      damaged(name, "it has no number \"" + attribute + "\" at \"" + object + "\"");
+  const Owned found(
+      use->H5Aopen_by_name(file, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+      use->H5Aclose, failure);
+  const Owned stored(use->H5Aget_type(found), use->H5Tclose, failure);
+  const Owned space(use->H5Aget_space(found), use->H5Sclose, failure);
+  if (use->H5Tequal(stored, type_of(use, type)) <= 0 ||
+      use->H5Sget_simple_extent_type(space) != H5S_SCALAR)
+    throw Error(ErrorKind::file, failure);
+  require(use->H5Aread(found, stored, value), failure);
+}
+
+}  // namespace
+
+void OldFile::get(const std::string& object, const std::string& attribute,
+                  std::int64_t& value) const {
+  read_attribute(file_, name_, object, attribute, Type::int64, &value);
+}
+
+void OldFile::get(const std::string& object, const std::string& attribute, double& value) const {
+  read_attribute(file_, name_, object, attribute, Type::real, &value);
+}
+
+void OldFile::get(const std::string& object, const std::string& attribute,
+                  std::string& text) const {
+  constexpr std::size_t kMax = 60000;  // what HDF5 has room for in an attribute
+  const Use use;
+  const std::string failure =
+      damaged(name_, "it has no text \"" + attribute + "\" at \"" + object + "\"");
+  const Owned found(
+      use->H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+      use->H5Aclose, failure);
+  const Owned stored(use->H5Aget_type(found), use->H5Tclose, failure);
+  const Owned space(use->H5Aget_space(found), use->H5Sclose, failure);
+  const std::size_t size = use->H5Tget_size(stored);
+  if (use->H5Tget_class(stored) != H5T_STRING || use->H5Tis_variable_str(stored) != 0 ||
+      use->H5Sget_simple_extent_type(space) != H5S_SCALAR || size < 1 || size > kMax)
+    throw Error(ErrorKind::file, failure);
+  text.assign(size, '\0');
+  require(use->H5Aread(found, stored, text.data()), failure);
+  if (const std::size_t end = text.find('\0'); end != std::string::npos) text.resize(end);
+}
+
+std::int64_t OldFile::place_of(const Array& array) const {
+  const Use use;
+  const std::string failure = damaged(name_, "it has no array \"" + array.path + "\"");
+  const std::string other = damaged(name_, "its array \"" + array.path +
+                                               "\" has another type or size, or was stored "
+                                               "anew by another program");
+  const Owned found(use->H5Dopen2(file_, array.path.c_str(), H5P_DEFAULT), use->H5Dclose, failure);
+  const Owned stored(use->H5Dget_type(found), use->H5Tclose, failure);
+  const Owned space(use->H5Dget_space(found), use->H5Sclose, failure);
+  const Owned how(use->H5Dget_create_plist(found), use->H5Pclose, failure);
+  std::array<hsize_t, 2> size{};
+  const int dimensions = array.columns > 0 ? 2 : 1;
+  if (use->H5Tequal(stored, type_of(use, array.type)) <= 0 ||
+      use->H5Sget_simple_extent_ndims(space) != dimensions ||
+      use->H5Sget_simple_extent_dims(space, size.data(), nullptr) != dimensions ||
+      size[0] != static_cast<hsize_t>(array.rows) ||
+      size[1] != static_cast<hsize_t>(array.columns) || use->H5Pget_layout(how) != H5D_CONTIGUOUS ||
+      use->H5Pget_external_count(how) != 0)
+    throw Error(ErrorKind::file, other);
+  const haddr_t place = use->H5Dget_offset(found);
+  const hsize_t bytes = use->H5Dget_storage_size(found);
+  const auto end = static_cast<hsize_t>(size_);
+  if (place == HADDR_UNDEF || place > end || bytes > end - place ||
+      bytes != static_cast<hsize_t>(array.rows * array.row_size()))
+    throw Error(ErrorKind::file, other);
+  return static_cast<std::int64_t>(place);
+}
+
+std::int64_t OldFile::rows_of(const std::string& path) const {
+  const Use use;
+  const std::string failure = damaged(name_, "it has no array \"" + path + "\"");
+  const Owned found(use->H5Dopen2(file_, path.c_str(), H5P_DEFAULT), use->H5Dclose, failure);
+  const Owned space(use->H5Dget_space(found), use->H5Sclose, failure);
+  hsize_t size = 0;
+  if (use->H5Sget_simple_extent_ndims(space) != 1 ||
+      use->H5Sget_simple_extent_dims(space, &size, nullptr) != 1 ||
+      size > static_cast<hsize_t>(size_))
+    throw Error(ErrorKind::file, failure);
+  return static_cast<std::int64_t>(size);
+}
+
+#else
+
+namespace {
+
+[[noreturn]] void fail() {
+  throw Error(ErrorKind::unsupported,
+              "this library was built without HDF5, which writes and reads checkpoints: build it "
+              "with -DPNPBS_WITH_HDF5=ON");
+}
+
+}  // namespace
+
+void require_hdf5() { fail(); }
+NewFile::NewFile(const std::string&, const std::string&) { fail(); }
+NewFile::~NewFile() = default;
+void NewFile::add_group(const std::string&) { fail(); }
+void NewFile::set(const std::string&, const std::string&, std::int64_t) { fail(); }
+void NewFile::set(const std::string&, const std::string&, double) { fail(); }
+void NewFile::set(const std::string&, const std::string&, const std::string&) { fail(); }
+void NewFile::set(const std::string&, const std::string&, const std::vector<std::int64_t>&) {
+  fail();
+}
+std::int64_t NewFile::add(const Array&) { fail(); }
+void NewFile::add(const std::string&, const std::vector<std::int64_t>&) { fail(); }
+void NewFile::close() { fail(); }
+OldFile::OldFile(const std::string&, const std::string&) { fail(); }
+OldFile::~OldFile() = default;
+bool OldFile::has(const std::string&) const { fail(); }
+void OldFile::get(const std::string&, const std::string&, std::int64_t&) const { fail(); }
+void OldFile::get(const std::string&, const std::string&, double&) const { fail(); }
+void OldFile::get(const std::string&, const std::string&, std::string&) const { fail(); }
+std::int64_t OldFile::place_of(const Array&) const { fail(); }
+std::int64_t OldFile::rows_of(const std::string&) const { fail(); }
+
+#endif
+
+}  // namespace pnpbs::io::hdf5

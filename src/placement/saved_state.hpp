@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All of a placement that decides on what comes later, as a checkpoint holds it: what is one for
+// all, and the nodes. What can be found again from the domain, the spacing and the options, such as
+// the tree and the discretized boundary, is not part of it; fingerprints tell that these are the
+// same.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/mixed_hash.hpp"
+#include "partition/packed_node.hpp"
+
+namespace pnpbs {
+
+struct SavedState {
+  std::int64_t dimension = 0, nodes = 0, next_id = 0, moving = 0;
+  // Schedule, and whether the step is one whose event has not been asked yet if bubbles rest.
+  std::int64_t step = 0, refined = 0, coarser = 0, taken_over = 0, ended = 0,
+               population_settled = 0, quiet_events = 0, at_event = 0;
+  std::int64_t coarser_levels = 0, steps_done = 0, inserted = 0, deleted = 0, dropped = 0,
+               rebuilds = 0, rebalances = 0, stop_reason = 0, missing_faces = 0, spacing_saved = 0;
+  double max_speed = 0, mean_speed = 0, meeting_radius = 0;
+  std::uint64_t domain_fingerprint = 0;
+  std::uint64_t checksum = 0;  // of the nodes, whatever their order
+  std::string options;         // those that decide, "name = value" in lines
+  std::string warnings;        // of the last run, in lines
+};
+
+// Calls visit(name, field) for each field: a number is an int64, a double or a fingerprint.
+template <class State, class Visit>
+void for_fields(State& state, const Visit& visit) {
+  visit("dimension", state.dimension);
+  visit("nodes", state.nodes);
+  visit("next_id", state.next_id);
+  visit("moving", state.moving);
+  visit("step", state.step);
+  visit("refined", state.refined);
+  visit("coarser", state.coarser);
+  visit("taken_over", state.taken_over);
+  visit("ended", state.ended);
+  visit("population_settled", state.population_settled);
+  visit("quiet_events", state.quiet_events);
+  visit("at_event", state.at_event);
+  visit("coarser_levels", state.coarser_levels);
+  visit("steps_done", state.steps_done);
+  visit("inserted", state.inserted);
+  visit("deleted", state.deleted);
+  visit("dropped", state.dropped);
+  visit("rebuilds", state.rebuilds);
+  visit("rebalances", state.rebalances);
+  visit("stop_reason", state.stop_reason);
+  visit("missing_faces", state.missing_faces);
+  visit("spacing_saved", state.spacing_saved);
+  visit("max_speed", state.max_speed);
+  visit("mean_speed", state.mean_speed);
+  visit("meeting_radius", state.meeting_radius);
+  visit("domain_fingerprint", state.domain_fingerprint);
+  visit("checksum", state.checksum);
+  visit("options", state.options);
+  visit("warnings", state.warnings);
+}
+
+template <int Dim>
+struct SavedNode {
+  PackedNode<Dim> node;
+  double spacing;  // that d would be refreshed to where the node is: to tell another spacing by
+};
+
+template <int Dim>
+std::uint64_t checksum_of(const SavedNode<Dim>& saved) {
+  const PackedNode<Dim>& node = saved.node;
+  const auto word = [](std::int32_t high, std::int32_t low) {
+    return std::uint64_t{static_cast<std::uint32_t>(high)} << 32 | static_cast<std::uint32_t>(low);
+  };
+  std::uint64_t h = mixed(static_cast<std::uint64_t>(node.id));
+  for (const Point<Dim>& at : {node.x, node.v, node.reference})
+    for (const double coordinate : at) h = mixed_with(h, coordinate);
+  h = mixed_with(mixed_with(h, node.d), saved.spacing);
+  h = mixed(h ^ word(node.tag, node.boundary_node));
+  return mixed(h ^ word(node.reference_on, static_cast<std::int32_t>(node.carrier)));
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Placements as they are saved, and as they go on from there.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "base/kokkos_runtime.hpp"
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "comm/records.hpp"
+#include "level/exchange.hpp"
+#include "level/node_spacing.hpp"
+#include "level/reach.hpp"
+#include "placement/domain_fingerprint.hpp"
+#include "placement/placement_of.hpp"
+#include "spacing/nodal_spacing.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+std::string lines_of(const std::vector<std::pair<std::string, std::string>>& rows) {
+  std::string lines;
+  for (const auto& [name, value] : rows) lines += name + " = " + value + "\n";
+  return lines;
+}
+
+// The first line that is not the same in both texts, of either.
+std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
+  std::istringstream in_a(a), in_b(b);
+  std::string line_a, line_b;
+  for (;;) {
+    const bool more_a = static_cast<bool>(std::getline(in_a, line_a));
+    const bool more_b = static_cast<bool>(std::getline(in_b, line_b));
+    if (!more_a) line_a.clear();
+    if (!more_b) line_b.clear();
+    if (line_a != line_b || (!more_a && !more_b)) return {line_a, line_b};
+  }
+}
+
+[[noreturn]] void damaged(const std::string& what) { throw Error(ErrorKind::file, what); }
+
+bool is_flag(std::int64_t value) { return value == 0 || value == 1; }
+
+// What no placement can have saved.
+void require_possible(const SavedState& s) {
+  const auto count = [](std::int64_t n) { return n >= 0; };
+  const bool flags = is_flag(s.refined) && is_flag(s.coarser) && is_flag(s.taken_over) &&
+                     is_flag(s.ended) && is_flag(s.population_settled) && is_flag(s.at_event) &&
+                     is_flag(s.spacing_saved);
+  const bool counts = s.nodes > 0 && count(s.next_id) && count(s.step) && count(s.steps_done) &&
+                      count(s.inserted) && count(s.deleted) && count(s.dropped) &&
+                      count(s.rebuilds) && count(s.rebalances) && count(s.missing_faces) &&
+                      count(s.quiet_events) && s.quiet_events < 1 << 30 &&
+                      count(s.coarser_levels) && s.coarser_levels < 1 << 10;
+  const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
+                      (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
+                     s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
+  if (!flags || !counts || !kinds || s.coarser)
+    damaged("what it tells of the run is impossible: it is damaged");
+}
+
+// Is this a node that a level with that ground can have?
+bool fits_ground(const Ground<2>& ground, const PackedNode<2>& node) {
+  if (node.carrier == Carrier::free) return node.boundary_node == -1;
+  return node.carrier == Carrier::fixed && node.boundary_node >= 0 &&
+         node.boundary_node < ground.boundary_nodes() &&
+         ground.boundary().nodes[static_cast<std::size_t>(node.boundary_node)].position == node.x;
+}
+bool fits_ground(const Ground<3>& ground, const PackedNode<3>& node) {
+  const auto in = [](std::int32_t index, std::size_t n) {
+    return index >= 0 && static_cast<std::size_t>(index) < n;
+  };
+  switch (node.carrier) {
+    case Carrier::free:
+      return node.boundary_node == -1 && node.reference_on == -1;
+    case Carrier::surface:
+      return in(node.boundary_node, ground.boundary().facets.size()) &&
+             in(node.reference_on, ground.boundary().facets.size());
+    case Carrier::fixed:
+    case Carrier::curve:
+      return in(node.boundary_node, ground.features().nodes.size()) &&
+             in(node.reference_on, ground.features().nodes.size());
+  }
+  return false;
+}
+
+template <int Dim>
+void require_possible_node(const Level<Dim>& level, const SavedState& state,
+                           const PackedNode<Dim>& node) {
+  const Box<Dim>& bounds = level.ground.bounds();
+  const double margin = size_of(bounds);  // nodes on a level set may lie a little outside
+  bool inside = true;
+  for (int k = 0; k < Dim; ++k)
+    inside = inside && node.x[k] >= bounds.low[k] - margin && node.x[k] <= bounds.high[k] + margin;
+  const std::string which = "node " + std::to_string(node.id) + " at " + point_text(node.x);
+  if (node.id < 0 || node.id >= state.next_id)
+    damaged(which + ": ids are from 0 up to " + std::to_string(state.next_id) +
+            " without it: it is damaged");
+  if (!inside || (node.carrier == Carrier::free &&
+                  level.map().leaf_outside(level.map().tree().leaf_at(node.x))))
+    damaged(which + " is outside of the domain: it is damaged");
+  if (!is_usable(node.v) || !is_usable(node.reference) || !(node.d > 0) || !is_usable(node.d))
+    damaged(which +
+            ": its velocity, reference position or spacing is no number that a node can "
+            "have: it is damaged");
+  if (!fits_ground(level.ground, node))
+    damaged(which +
+            " is not where the boundary of this domain has one, as it is discretized for "
+            "this spacing: give the domain and the spacing it was written with");
+}
+
+// No id twice. Collective.
+template <int Dim>
+void require_different_ids(const Communicator& comm, const std::vector<SavedNode<Dim>>& nodes) {
+  std::vector<std::int64_t> ids;
+  for (const SavedNode<Dim>& saved : nodes) ids.push_back(saved.node.id);
+  std::vector<std::int64_t> here = redistribute<std::int64_t>(comm, ids, [&](std::int64_t id) {
+    return static_cast<int>(static_cast<std::uint64_t>(id) %
+                            static_cast<std::uint64_t>(comm.size()));
+  });
+  agreed(comm, [&] {
+    std::sort(here.begin(), here.end());
+    const auto twice = std::adjacent_find(here.begin(), here.end());
+    if (twice != here.end())
+      damaged("node " + std::to_string(*twice) + " comes twice: it is damaged");
+  });
+}
+
+// Each to the rank that owns its place.
+template <int Dim>
+void put_saved_nodes(Level<Dim>& level, const SavedState& state,
+                     std::vector<SavedNode<Dim>>& saved) {
+  const Communicator& comm = *level.comm;
+  agreed(comm, [&] {
+    for (const SavedNode<Dim>& one : saved)
+      if (!is_usable(one.node.x))
+        damaged("node " + std::to_string(one.node.id) + " at " + point_text(one.node.x) +
+                " is nowhere: it is damaged");
+  });
+  if (level.distributed())
+    saved = redistribute(
+        comm, saved, [&](const SavedNode<Dim>& one) { return level.tree->owner_at(one.node.x); });
+  agreed(comm, [&] {
+    Nodes<Dim>& nodes = level.nodes;
+    nodes.reserve_with_room(std::ssize(saved));
+    for (const SavedNode<Dim>& one : saved) {
+      require_possible_node(level, state, one.node);
+      append(nodes, one.node, true);
+    }
+    nodes.moving = static_cast<Carrier>(state.moving);
+  });
+  require_different_ids(comm, saved);
+  level.next_id = state.next_id;
+}
+
+// At the nodes, before any of them has moved.
+template <int Dim>
+void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<Dim>>& saved) {
+  const View<double> d = spacing_at_owned_nodes(level, level.ground.spacing());
+  agreed(*level.comm, [&] {
+    for (std::size_t k = 0; k < saved.size(); ++k) {
+      const double here = d(static_cast<std::int64_t>(k));
+      if (here == saved[k].spacing) continue;
+      throw Error(ErrorKind::spacing, "the spacing is not the one it was written with: at " +
+                                          point_text(saved[k].node.x) + " it is " +
+                                          number_text(here) + ", and was " +
+                                          number_text(saved[k].spacing));
+    }
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+void PlacementOf<Dim>::require_savable() const {
+  if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
+  const Options now = options_, then = level_options_;
+  const char* changed = nullptr;
+  if (spacing_replaced_) changed = "spacing";
+  for (const char* option : {"growth_limit", "wanted_nodes"})
+    if (now.real(option) != then.real(option) || now.is_set(option) != then.is_set(option))
+      changed = option;
+  if (now.integer("resolve") != then.integer("resolve")) changed = "resolve";
+  if (changed)
+    throw Error(ErrorKind::state, std::string("the nodes are those of another ") +
+                                      (spacing_replaced_ ? "spacing" : "value of the option ") +
+                                      (spacing_replaced_ ? "" : changed) +
+                                      ": write the checkpoint before it is set, or after a run");
+}
+
+template <int Dim>
+Saved<Dim> PlacementOf<Dim>::saved() {
+  require_kokkos();
+  require_same_options();
+  agreed(*comm_, [this] { require_savable(); });
+  Saved<Dim> saved;
+  SavedState& s = saved.state;
+  saved.nodes = &level_->nodes;
+  saved.spacing = spacing_at_owned_nodes(*level_, level_->ground.spacing());
+  std::uint64_t checksum = 0;
+  agreed(*comm_, [&] {
+    for (std::int32_t i = 0; i < level_->nodes.count; ++i)
+      if (level_->nodes.owned(i)) saved.owned.push_back(i);
+    for (std::int64_t k = 0; k < saved.count(); ++k) checksum += checksum_of(saved.node(k));
+    for (std::size_t w = warnings_of_level_; w < warnings_.size(); ++w)
+      s.warnings += warnings_[w] + "\n";
+    s.options = lines_of(options_.in(Dim).deciding());
+    if (const auto* nodal = dynamic_cast<const NodalSpacing<Dim>*>(spacing_.get()))
+      saved.patch = &nodal->patch();
+  });
+  s.dimension = Dim;
+  s.nodes = global_count();
+  s.next_id = level_->next_id;
+  s.moving = static_cast<int>(level_->nodes.moving);
+  s.step = schedule_.step;
+  s.refined = schedule_.refined;
+  s.coarser = schedule_.coarser;
+  s.taken_over = schedule_.taken_over;
+  s.ended = schedule_.ended;
+  s.population_settled = schedule_.population_settled;
+  s.quiet_events = schedule_.quiet_events;
+  s.at_event = at_event_ || schedule_.at_event;
+  s.coarser_levels = coarser_levels_;
+  s.steps_done = steps_done_;
+  s.inserted = inserted_;
+  s.deleted = deleted_;
+  s.dropped = dropped_;
+  s.rebuilds = rebuilds();
+  s.rebalances = rebalances();
+  s.stop_reason = static_cast<int>(stop_reason_);
+  s.missing_faces = surface_fit_.missing_faces;
+  s.spacing_saved = saved.patch != nullptr;
+  s.max_speed = last_speeds_.max;
+  s.mean_speed = last_speeds_.mean;
+  s.meeting_radius = meeting_radius(level_->settings);
+  s.domain_fingerprint = fingerprint_of(level_->ground.domain());
+  s.checksum = comm_->allreduce_sum(checksum);
+  return saved;
+}
+
+template <int Dim>
+void PlacementOf<Dim>::require_same_as(const SavedState& saved) {
+  require_kokkos();
+  require_same_options();
+  agreed(*comm_, [this] { domain_->check(); });
+  require_same_domain();
+  if (saved.dimension != Dim)
+    throw Error(ErrorKind::argument, "it is of a placement in " + std::to_string(saved.dimension) +
+                                         " dimensions, not in " + std::to_string(Dim));
+  require_possible(saved);
+  if (saved.domain_fingerprint != fingerprint_of(*domain_))
+    throw Error(ErrorKind::domain, "the domain is not the one it was written with");
+  const auto [then, now] = first_difference(saved.options, lines_of(options_.in(Dim).deciding()));
+  if (then != now)
+    throw Error(ErrorKind::argument, "it was written with the option " + then +
+                                         ", and now there is " + now +
+                                         ": set the same options; they may be changed once it is "
+                                         "read");
+}
+
+template <int Dim>
+void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Dim>> nodes,
+                               Patch<Dim> patch) {
+  const PhaseTimer timer(timers_, Phase::total);
+  require_same_as(state);
+  const std::shared_ptr<const Spacing<Dim>> before = spacing_;
+  try {
+    if (state.spacing_saved)
+      spacing_ = std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch));
+    const Settings settings = settings_for_new_level();
+    std::shared_ptr<const Spacing<Dim>> spacing;
+    SteepestGrowth<Dim> steepest;
+    std::unique_ptr<Level<Dim>> next = level_to_place(settings, spacing, steepest);
+    put_saved_nodes(*next, state, nodes);
+    require_same_spacing(*next, nodes);
+    // As it would have been at the next step after the options were changed.
+    if (state.meeting_radius != meeting_radius(settings)) next->nodes.set_reference_positions();
+    exchange(*next, kStarHops<Dim>);
+    adopt_level(std::move(next));
+    gather_warnings(steepest);
+  } catch (...) {
+    spacing_ = before;
+    throw;
+  }
+  level_options_ = options_;
+  spacing_replaced_ = false;
+  adopt_state(state);
+}
+
+template <int Dim>
+void PlacementOf<Dim>::adopt_state(const SavedState& s) {
+  schedule_ = Schedule();
+  schedule_.step = s.step;
+  schedule_.refined = s.refined;
+  schedule_.taken_over = s.taken_over;
+  schedule_.ended = s.ended;
+  schedule_.population_settled = s.population_settled;
+  schedule_.quiet_events = static_cast<int>(s.quiet_events);
+  schedule_.at_event = s.at_event;
+  coarser_levels_ = static_cast<int>(s.coarser_levels);
+  last_speeds_ = {s.max_speed, s.mean_speed};
+  steps_done_ = s.steps_done;
+  inserted_ = s.inserted;
+  deleted_ = s.deleted;
+  dropped_ = s.dropped;
+  rebuilds_before_ = s.rebuilds;
+  rebalances_before_ = s.rebalances;
+  stop_reason_ = static_cast<StopReason>(s.stop_reason);
+  surface_fit_.missing_faces = s.missing_faces;
+  std::istringstream lines(s.warnings);
+  for (std::string line; std::getline(lines, line);) warnings_.push_back(line);
+}
+
+template Saved<2> PlacementOf<2>::saved();
+template Saved<3> PlacementOf<3>::saved();
+template void PlacementOf<2>::require_same_as(const SavedState&);
+template void PlacementOf<3>::require_same_as(const SavedState&);
+template void PlacementOf<2>::restore(const SavedState&, std::vector<SavedNode<2>>, Patch<2>);
+template void PlacementOf<3>::restore(const SavedState&, std::vector<SavedNode<3>>, Patch<3>);
+
+}  // namespace pnpbs
