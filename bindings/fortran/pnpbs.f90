@@ -191,6 +191,8 @@ module pnpbs
     procedure :: get_warning => placement_get_warning
     procedure :: write => placement_write
     procedure :: write_files => placement_write_files
+    procedure :: write_checkpoint => placement_write_checkpoint
+    procedure :: read_checkpoint => placement_read_checkpoint
     procedure :: handle => placement_handle
     procedure :: from_handle => placement_from_handle
   end type
@@ -2408,6 +2410,37 @@ contains
     status = c_placement_write_files(self%c, int(given%capacity(n), c_int32_t), a_paths, &
                                      all_formats, c_loc(with_elements(1)))
     call conclude('placement%write_files', status, stat, errmsg, given)
+  end subroutine
+
+  !> Writes a checkpoint: a file from which read_checkpoint goes on, in another process and on any
+  !> number of ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView
+  !> opens: name it .vtkhdf. It replaces the file that is there when it is complete. Also from a
+  !> monitor, on all ranks, in its turns between two steps (see pnpbs_placement_write_checkpoint in
+  !> pnpbs.h). Collective. Errors: PNPBS_ERROR_STATE, PNPBS_ERROR_FILE naming the file,
+  !> PNPBS_ERROR_UNSUPPORTED if the library was built without HDF5, PNPBS_ERROR_ARGUMENT.
+  !>   path  blanks at its end do not count
+  subroutine placement_write_checkpoint(self, path, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: path
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%write_checkpoint', &
+                  c_placement_write_checkpoint(self%c, c_text(path)), stat, errmsg)
+  end subroutine
+
+  !> Goes on from a checkpoint, in a placement with the domain, the options and the spacing of the
+  !> first run (unless that was given by values at nodes, which the file brings). The next run or step
+  !> does what it would have done there. After an error all is as it was. Collective. Errors:
+  !> PNPBS_ERROR_FILE naming the file if it is damaged or no checkpoint, PNPBS_ERROR_DOMAIN,
+  !> PNPBS_ERROR_SPACING or PNPBS_ERROR_ARGUMENT if it is of another run, PNPBS_ERROR_UNSUPPORTED.
+  !>   path  blanks at its end do not count
+  subroutine placement_read_checkpoint(self, path, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: path
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%read_checkpoint', &
+                  c_placement_read_checkpoint(self%c, c_text(path)), stat, errmsg)
   end subroutine
 
   !> The handle as an integer; 0 where there is no placement. Local.

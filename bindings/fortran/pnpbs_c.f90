@@ -1126,6 +1126,24 @@ module pnpbs_c
       integer(c_int) :: c_placement_write_files
     end function
 
+    function c_placement_write_checkpoint(placement, path) bind(C, &
+      name="pnpbs_placement_write_checkpoint")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int) :: c_placement_write_checkpoint
+    end function
+
+    function c_placement_read_checkpoint(placement, path) bind(C, &
+      name="pnpbs_placement_read_checkpoint")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int) :: c_placement_read_checkpoint
+    end function
+
     function c_discard_unfinished_files() bind(C, name="pnpbs_discard_unfinished_files")
       import
       implicit none

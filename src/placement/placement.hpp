@@ -141,6 +141,10 @@ class Placement {
   std::int64_t dropped() const { return dropped_; }
   std::int64_t missing_faces() const { return surface_fit_.missing_faces; }
   StopReason stop_reason() const { return stop_reason_; }
+  // Has a run come to its end, and no step been done since?
+  bool finished() const {
+    return has_nodes() && schedule_.ended && stop_reason_ != StopReason::monitor;
+  }
   virtual Speeds speeds() const = 0;
   virtual LevelFigures level_figures() const = 0;
   virtual std::int64_t boundary_nodes() const = 0;  // of all ranks; collective

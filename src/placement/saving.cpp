@@ -106,10 +106,6 @@ void require_possible_node(const Level<Dim>& level, const SavedState& state,
     damaged(which +
             ": its velocity, reference position or spacing is no number that a node can "
             "have: it is damaged");
-  if (!fits_ground(level.ground, node))
-    damaged(which +
-            " is not where the boundary of this domain has one, as it is discretized for "
-            "this spacing: give the domain and the spacing it was written with");
 }
 
 // No id twice. Collective.
@@ -154,6 +150,18 @@ void put_saved_nodes(Level<Dim>& level, const SavedState& state,
   });
   require_different_ids(comm, saved);
   level.next_id = state.next_id;
+}
+
+// By now the boundary is that of the same spacing.
+template <int Dim>
+void require_same_boundary(const Level<Dim>& level, const std::vector<SavedNode<Dim>>& saved) {
+  agreed(*level.comm, [&] {
+    for (const SavedNode<Dim>& one : saved)
+      if (!fits_ground(level.ground, one.node))
+        damaged("node " + std::to_string(one.node.id) + " at " + point_text(one.node.x) +
+                " is not where the boundary of this domain has one: it is damaged, or a curve that "
+                "a callback gives is another one");
+  });
 }
 
 // At the nodes, before any of them has moved.
@@ -276,6 +284,7 @@ void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Di
     std::unique_ptr<Level<Dim>> next = level_to_place(settings, spacing, steepest);
     put_saved_nodes(*next, state, nodes);
     require_same_spacing(*next, nodes);
+    require_same_boundary(*next, nodes);
     // As it would have been at the next step after the options were changed.
     if (state.meeting_radius != meeting_radius(settings)) next->nodes.set_reference_positions();
     exchange(*next, kStarHops<Dim>);

@@ -66,6 +66,9 @@ const std::vector<StatisticRow>& statistic_table() {
       integer(
           "steps", [](P p) { return p.steps_done(); }, "time steps done, on coarser levels, too"),
       integer(
+          "finished", [](P p) { return std::int64_t{p.finished()}; },
+          "1 if a run has come to its end and no step was done since, otherwise 0"),
+      integer(
           "levels", [](P p) { return std::int64_t{p.coarser_levels()}; },
           "coarser levels that the nodes came from"),
       integer(

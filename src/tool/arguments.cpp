@@ -235,6 +235,28 @@ void add_output(CLI::App& app, Arguments& arguments) {
       ->group(group);
 }
 
+void add_checkpoints(CLI::App& app, Arguments& arguments) {
+  const std::string group = "How to be interrupted";
+  app.add_option("--checkpoint", arguments.checkpoint,
+                 "write a file from which --restart goes on, at the end and when\nit is stopped "
+                 "(Ctrl-C); .vtkhdf, which ParaView opens")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option_function<std::string>(
+         "--checkpoint-every",
+         [&arguments](const std::string& text) {
+           arguments.checkpoint_interval = checkpoint_interval_in(text);
+         },
+         "and so often: after so many steps, or after a time as 90s,\n30min or 2h")
+      ->type_name("STEPS|TIME")
+      ->group(group);
+  app.add_option("--restart", arguments.restart,
+                 "go on from a checkpoint, with the same domain, spacing and\noptions, on any "
+                 "number of ranks: to the same nodes, bit for bit")
+      ->type_name("FILE")
+      ->group(group);
+}
+
 void add_general(CLI::App& app, Arguments& arguments, Questions& questions) {
   const std::string group = "Others";
   app.set_help_flag();
@@ -324,6 +346,9 @@ void check_input(const Arguments& arguments) {
   }
   if (arguments.simplify && arguments.spacing == "auto")
     refuse("--simplify needs d as a formula or a grid: auto follows every vertex of the boundary");
+  const CheckpointInterval& interval = arguments.checkpoint_interval;
+  if (arguments.checkpoint.empty() && (interval.steps > 0 || interval.time.count() > 0))
+    refuse("--checkpoint-every needs --checkpoint");
   if (!arguments.cut.empty()) cut_plane_in(arguments.cut);
 }
 
@@ -352,6 +377,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   add_groups(app, arguments, names);
   add_output(app, arguments);
   add_library_options(app, arguments, settings);
+  add_checkpoints(app, arguments);
   add_general(app, arguments, questions);
   try {
     app.parse(argc, argv);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "picture/element_colour.hpp"
+#include "tool/checkpoints.hpp"
 
 namespace pnpbs::tool {
 
@@ -20,8 +21,10 @@ struct Arguments {
   std::string spacing_grid;                        // a file
   std::optional<double> min_spacing, max_spacing;  // of --spacing auto
   std::vector<std::string> outputs;
-  std::string format;  // of standard output and of unknown extensions
-  std::string report;  // a file, "-", or empty
+  std::string format;               // of standard output and of unknown extensions
+  std::string report;               // a file, "-", or empty
+  std::string checkpoint, restart;  // files, or empty
+  CheckpointInterval checkpoint_interval;
   std::vector<std::pair<std::string, std::string>> options;  // key and value for the library
   std::optional<double> feature_angle;                       // of surfaces, degrees
   std::optional<double> corner_angle;                        // of curves, degrees

@@ -11,6 +11,7 @@
 
 #include "tool/arguments.hpp"
 #include "tool/body_figures.hpp"
+#include "tool/checkpoints.hpp"
 #include "tool/cut.hpp"
 #include "tool/domain.hpp"
 #include "tool/exit.hpp"
@@ -68,22 +69,38 @@ void give_up_if_any_is_interrupted(const Ranks& ranks) {
   if (ranks.any(interrupted())) throw Interrupted();
 }
 
-// Initialises, warns, runs.
+std::int64_t statistic(pnpbs_placement placement, const char* key, pnpbs_context context) {
+  std::int64_t value = 0;
+  check(pnpbs_placement_get_int64(placement, key, &value), context);
+  return value;
+}
+
+// Initialises, or goes on from a checkpoint; warns; runs, unless that was done already.
 pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Arguments& arguments,
                    const Ranks& ranks) {
   const bool talk = ranks.is_first() && !arguments.quiet;
   Progress progress(talk, arguments.progress);
-  progress.watch(placement);
+  Checkpoints checkpoints(arguments.checkpoint, arguments.checkpoint_interval, placement, context,
+                          ranks);
+  progress.watch(placement, [&](double fraction, std::int64_t step, bool stop) {
+    return checkpoints.turn(fraction, step, stop);
+  });
   progress.say("laying the first nodes ...");
-  check(pnpbs_placement_initialise(placement), context);
+  if (arguments.restart.empty())
+    check(pnpbs_placement_initialise(placement), context);
+  else
+    check(pnpbs_placement_read_checkpoint(placement, arguments.restart.c_str()), context);
   progress.clear();
   const std::vector<std::string> warnings = warnings_of(context, placement);
   if (talk) warn(warnings);
-  const pnpbs_status status = check(pnpbs_placement_run(placement), context);
+  pnpbs_status status = PNPBS_OK;
+  if (statistic(placement, "finished", context) == 0)
+    status = check(pnpbs_placement_run(placement), context);
   pnpbs_placement_set_monitor(placement, nullptr, nullptr);
   progress.clear();
   if (talk) warn(warnings_of(context, placement), warnings.size());
-  give_up_if_any_is_interrupted(ranks);
+  if (ranks.any(interrupted())) throw Failure(ExitCode::interrupted, checkpoints.words_at_stop());
+  checkpoints.write();
   return status;
 }
 
@@ -219,7 +236,8 @@ ExitCode fail(ExitCode code, const std::string& message) {
 // callbacks have failed for that reason.
 ExitCode end_together(const Failure& failure, const Ranks& ranks) {
   const bool stopped = ranks.any(interrupted());
-  const Failure reason = stopped ? Interrupted() : failure;
+  const Failure reason =
+      stopped && failure.code() != ExitCode::interrupted ? Interrupted() : failure;
   return ranks.is_first() ? fail(reason.code(), reason.what()) : reason.code();
 }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
+#include <utility>
 
 #include "tool/interrupt.hpp"
 #include "tool/numbers.hpp"
@@ -50,18 +51,20 @@ std::string percent(double fraction) {
 
 Progress::Progress(bool wanted, bool forced) : shown_(wanted && (forced || can_redraw_lines())) {}
 
-void Progress::watch(pnpbs_placement placement) {
+void Progress::watch(pnpbs_placement placement, Turn turn) {
+  turn_ = std::move(turn);
   pnpbs_placement_set_monitor(placement, monitor, this);
 }
 
 std::int32_t Progress::monitor(double fraction, std::int64_t step, std::int64_t nodes,
                                double max_speed, void* user) {
+  auto* const progress = static_cast<Progress*>(user);
   try {
-    static_cast<Progress*>(user)->update(fraction, step, nodes, max_speed);
+    progress->update(fraction, step, nodes, max_speed);
   } catch (...) {
     // A run is worth more than its progress bar.
   }
-  return interrupted() ? 1 : 0;
+  return progress->turn_(fraction, step, interrupted()) ? 1 : 0;
 }
 
 void Progress::update(double fraction, std::int64_t step, std::int64_t nodes, double max_speed) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "pnpbs/pnpbs.h"
@@ -18,8 +19,10 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Also lets an interrupt stop the run. This object must outlive the placement.
-  void watch(pnpbs_placement placement);
+  // Also lets an interrupt stop the run; turn(fraction, step, stop): what else is done in a turn of
+  // the monitor, and whether the run is to stop. This object must outlive the placement.
+  using Turn = std::function<bool(double fraction, std::int64_t step, bool stop)>;
+  void watch(pnpbs_placement placement, Turn turn);
 
   void say(const std::string& what);
   void clear();
@@ -32,6 +35,7 @@ class Progress {
   void update(double fraction, std::int64_t step, std::int64_t nodes, double max_speed);
   void draw(const std::string& line);
 
+  Turn turn_;
   bool shown_;
   bool drawn_ = false;
   Clock::time_point begin_ = Clock::now();

@@ -589,6 +589,7 @@ START_TEST(versions) {
   ck_assert_ptr_nonnull(strstr(pnpbs_build_info(), "version: " PNPBS_VERSION_STRING "\n"));
   ck_assert_ptr_nonnull(strstr(pnpbs_build_info(), "Kokkos: "));
   ck_assert_ptr_nonnull(strstr(pnpbs_build_info(), "MPI: "));
+  ck_assert_ptr_nonnull(strstr(pnpbs_build_info(), "HDF5: "));
   ck_assert_ptr_nonnull(pnpbs_mpi_library());
 }
 END_TEST

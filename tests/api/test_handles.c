@@ -145,7 +145,9 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_warning_count, (handle, out.small + 2))                                             \
   X(placement_get_warning, (handle, 0, out.texts + 1))                                            \
   X(placement_write, (handle, "unwritten.csv", 0))                                                \
-  X(placement_write_files, (handle, 0, NULL, NULL, NULL))
+  X(placement_write_files, (handle, 0, NULL, NULL, NULL))                                         \
+  X(placement_write_checkpoint, (handle, "unwritten.vtkhdf"))                                     \
+  X(placement_read_checkpoint, (handle, "unwritten.vtkhdf"))
 
 #define TRANSFER_CALLS(X)                                     \
   X(transfer_sizes, (handle, out.small + 2, out.small + 3))   \

@@ -252,3 +252,20 @@ class Results:
         wanted = np.full(len(paths), elements, np.int32)
         return self._call("write_files", len(paths), (ctypes.c_char_p * len(paths))(*encoded), None,
                           wanted)
+
+    def write_checkpoint(self, path):
+        """Writes a file from which `read_checkpoint` goes on, in another process and on any number of
+        ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView opens:
+        name it .vtkhdf. It replaces the file that is there when it is complete. Also from a monitor,
+        on all ranks, in its turns between two steps; in the others it raises with
+        `Status.ERROR_STATE`. Collective."""
+        self._call("write_checkpoint", os.fsencode(path))
+        return self
+
+    def read_checkpoint(self, path):
+        """Goes on from a checkpoint: for a placement with the domain, the options and the spacing of
+        the first run (unless that was given by values at nodes, which the file brings). The next
+        `run` or `step` does what it would have done there. If it raises, all is as it was.
+        Collective."""
+        self._call("read_checkpoint", os.fsencode(path))
+        return self

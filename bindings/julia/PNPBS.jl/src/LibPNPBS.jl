@@ -507,6 +507,14 @@ pnpbs_placement_write_files(placement, n, paths, formats, elements) =
         placement::pnpbs_placement, n::Int32, paths::Ptr{Cstring}, formats::Ptr{Cstring},
         elements::Ptr{Int32})::pnpbs_status
 
+pnpbs_placement_write_checkpoint(placement, path) =
+    @ccall $(symbol(:pnpbs_placement_write_checkpoint))(
+        placement::pnpbs_placement, path::Cstring)::pnpbs_status
+
+pnpbs_placement_read_checkpoint(placement, path) =
+    @ccall $(symbol(:pnpbs_placement_read_checkpoint))(
+        placement::pnpbs_placement, path::Cstring)::pnpbs_status
+
 pnpbs_discard_unfinished_files() =
     @ccall $(symbol(:pnpbs_discard_unfinished_files))()::pnpbs_status
 

@@ -40,6 +40,7 @@ export Transfer, at_nodes, at_points
 export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
 export boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
+export write_checkpoint, read_checkpoint!
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library
 
 include("LibPNPBS.jl")

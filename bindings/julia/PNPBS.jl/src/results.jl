@@ -387,5 +387,30 @@ function write_files(placement::Placement, paths::AbstractVector{<:AbstractStrin
     return check(placement, code)
 end
 
+"""
+    write_checkpoint(placement, path) -> Placement
+
+Writes a file from which [`read_checkpoint!`](@ref) goes on, in another process and on any number of
+ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView opens: name it
+`.vtkhdf`. It replaces the file that is there when it is complete. Also from a monitor, on all ranks,
+in its turns between two steps; in the others it throws `:error_state`. Collective.
+"""
+function write_checkpoint(placement::Placement, path::AbstractString)
+    check(placement, LibPNPBS.pnpbs_placement_write_checkpoint(live(placement), path))
+    return placement
+end
+
+"""
+    read_checkpoint!(placement, path) -> Placement
+
+Goes on from a checkpoint: for a placement with the domain, the options and the spacing of the first
+run (unless that was given by values at nodes, which the file brings). The next `run!` or `step!` does
+what it would have done there. If it throws, all is as it was. Collective.
+"""
+function read_checkpoint!(placement::Placement, path::AbstractString)
+    check(placement, LibPNPBS.pnpbs_placement_read_checkpoint(live(placement), path))
+    return placement
+end
+
 c_strings(texts) = Cstring[text === nothing ? Cstring(C_NULL) :
                            Base.unsafe_convert(Cstring, text) for text in texts]

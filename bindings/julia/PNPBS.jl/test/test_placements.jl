@@ -137,6 +137,17 @@ end
             @test fails(() -> write_file(placement, unknown), :error_argument, "xyz")
             @test fails(() -> write_file(placement, "/none/x.csv"), :error_file, "/none")
             @test_throws DimensionMismatch write_files(placement, [a, b]; formats = ["csv"])
+            saved = joinpath(folder, "saved.vtkhdf")
+            if occursin("HDF5: none", build_info())
+                @test fails(() -> write_checkpoint(placement, saved), :error_unsupported, "HDF5")
+            else
+                write_checkpoint(placement, saved)
+                again = placed_square(context)
+                step!(again, 5)
+                read_checkpoint!(again, saved)
+                @test statistic(again, "hash") == statistic(placement, "hash")
+                @test fails(() -> read_checkpoint!(again, path), :error_file, "nodes.csv")
+            end
         end
     end
 end
