@@ -16,6 +16,7 @@
 #include "comm/rank_span.hpp"
 #include "comm/records.hpp"
 #include "io/checkpoint_layout.hpp"
+#include "io/file_seal.hpp"
 #include "io/output_file.hpp"
 
 namespace pnpbs::io {
@@ -172,8 +173,13 @@ class CheckpointWriter {
       set(file, "spacing_checksum", patch_checksum_);
       file.add(std::string(kSpacing) + "/parts", patch_sizes_);
     }
-    for (const hdf5::Array& array : arrays()) places_.push_back(array.rows ? file.add(array) : 0);
+    std::vector<Extent> rows;
+    for (const hdf5::Array& array : arrays()) {
+      places_.push_back(array.rows ? file.add(array) : 0);
+      if (array.rows) rows.push_back({places_.back(), array.rows * array.row_size()});
+    }
     file.close();
+    add_seal(output_.name_aside(), quoted(path_), std::move(rows));
     if (!output_.removed()) return;
     ::unlink(output_.name_aside());  // a signal has removed it before HDF5 made it anew
     throw Error(ErrorKind::file, "cannot write " + quoted(path_) + ": " + std::strerror(EINTR));
@@ -346,6 +352,8 @@ class CheckpointReader {
   // On rank 0, by HDF5.
   void read_layout() {
     hdf5::require_hdf5();
+    hdf5::require_signature(path_, quoted(path_));
+    require_seal(path_, quoted(path_));
     const hdf5::OldFile file(path_, quoted(path_));
     if (!file.has(kOwn))
       throw Error(ErrorKind::file, quoted(path_) + " is an HDF5 file, but not of PNPBS");

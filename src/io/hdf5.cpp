@@ -3,6 +3,11 @@
 
 #include <sys/stat.h>
 
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
 #include "base/build_config.hpp"
 #include "base/error.hpp"
 
@@ -10,10 +15,6 @@
 #include <dlfcn.h>
 #include <hdf5.h>
 
-#include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <mutex>
 
 // HDF5's constants call it by its name, which we do not link.
@@ -37,6 +38,24 @@ std::size_t size_of(Type type) {
       return 1;
   }
   return 0;
+}
+
+void require_signature(const std::string& path, const std::string& name) {
+  constexpr std::array<char, 8> kSignature{'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+  std::array<char, 8> begin{};
+  struct stat status;
+  errno = 0;
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (!file || ::fstat(::fileno(file), &status) != 0) {
+    const std::string reason = std::strerror(errno);
+    if (file) std::fclose(file);
+    throw Error(ErrorKind::file, "cannot read " + name + ": " + reason);
+  }
+  const bool regular = S_ISREG(status.st_mode);
+  const std::size_t got = regular ? std::fread(begin.data(), 1, begin.size(), file) : 0;
+  std::fclose(file);
+  if (got != begin.size() || begin != kSignature)
+    throw Error(ErrorKind::file, name + " is no HDF5 file, as checkpoints are");
 }
 
 #if PNPBS_HAVE_HDF5
@@ -336,34 +355,15 @@ void NewFile::add(const std::string& path, const std::vector<std::int64_t>& valu
 
 namespace {
 
-// What is wrong with a file before HDF5 looks at it.
-std::int64_t size_if_hdf5(const std::string& path, const std::string& name) {
-  constexpr std::array<char, 8> kSignature{'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
-  std::array<char, 8> begin{};
-  struct stat status;
-  errno = 0;
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (!file || ::fstat(::fileno(file), &status) != 0) {
-    const std::string reason = std::strerror(errno);
-    if (file) std::fclose(file);
-    throw Error(ErrorKind::file, "cannot read " + name + ": " + reason);
-  }
-  const bool regular = S_ISREG(status.st_mode);
-  const std::size_t got = regular ? std::fread(begin.data(), 1, begin.size(), file) : 0;
-  std::fclose(file);
-  if (got != begin.size() || begin != kSignature)
-    throw Error(ErrorKind::file, name + " is no HDF5 file, as checkpoints are");
-  return status.st_size;
-}
-
 std::string damaged(const std::string& name, const std::string& what) {
   return name + " is damaged, or no checkpoint of PNPBS: " + what;
 }
 
 }  // namespace
 
-OldFile::OldFile(const std::string& path, const std::string& name)
-    : name_(name), size_(size_if_hdf5(path, name)) {
+OldFile::OldFile(const std::string& path, const std::string& name) : name_(name) {
+  struct stat status;
+  if (::stat(path.c_str(), &status) == 0) size_ = status.st_size;
   const Use use;
   file_ = use->H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0)

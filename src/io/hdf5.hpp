@@ -31,6 +31,8 @@ struct Array {
 };
 
 void require_hdf5();
+// Throws unless a regular file is there that begins as HDF5 files do.
+void require_signature(const std::string& path, const std::string& name);
 
 // A file in the making, in place of an empty one that is there.
 class NewFile {
