@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "tool/exit.hpp"
+#include "tool/interrupt.hpp"
 #include "tool/library.hpp"
 
 namespace pnpbs::tool {
@@ -46,6 +47,7 @@ bool Checkpoints::is_due(std::int64_t step) const {
 
 bool Checkpoints::turn(double fraction, std::int64_t step, bool stop) {
   if (path_.empty() || fraction == 0) return stop;  // not all ranks' turn then
+  finish_callbacks();
   if (first_step_ < 0) first_step_ = step;
   stop = ranks_.any(stop);
   if (ranks_.any(stop || is_due(step))) try_to_write(step);

@@ -310,7 +310,7 @@ void Expression::at(std::int64_t n, const double* coordinates, double* values) c
 
 std::int32_t call_expression(std::int64_t n, std::int32_t /*dim*/, const double* coordinates,
                              double* values, void* user) {
-  if (interrupted()) return 1;
+  if (callbacks_give_up()) return 1;
   try {
     static_cast<const Expression*>(user)->at(n, coordinates, values);
     return 0;

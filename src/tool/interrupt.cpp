@@ -17,6 +17,7 @@ std::atomic<bool> deferred{false};
 std::atomic<bool> asked{false};
 std::atomic<bool> killed_soon{false};
 std::atomic<bool> committing{false};
+std::atomic<bool> callbacks_finish{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void remove_unfinished_files() {
@@ -61,6 +62,10 @@ void handle_interrupts(bool launched) {
 void defer_interrupts() { deferred = true; }
 
 bool interrupted() { return asked; }
+
+bool callbacks_give_up() { return asked && !callbacks_finish; }
+
+void finish_callbacks() { callbacks_finish = true; }
 
 bool begin_commit() {
   committing = true;

@@ -16,6 +16,11 @@ void defer_interrupts();
 // Has a signal come to this process?
 bool interrupted();
 
+// Callbacks of the library give up once a signal has come; but from finish_callbacks on, they do
+// not: what is saved then needs them.
+bool callbacks_give_up();
+void finish_callbacks();
+
 // Throws Interrupted if so.
 void give_up_if_interrupted();
 

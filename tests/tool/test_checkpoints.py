@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checkpoints by the command: stopped anywhere and started again, a run comes to the same nodes; and
+the file is one that VTK opens."""
+
+import json
+import signal
+import time
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOHDF import vtkHDFReader
+
+from command import DONE, INTERRUPTED, NOT_CONVERGED, CommandTest
+
+PLANE = ("--spacing", "0.01 + 0.02*x", "--set", "effort=best")
+# Steps long enough that a signal comes between them.
+LONG = ("--spacing", "0.003 + 0.003*x", "--set", "effort=best", "--set", "tolerance_mean=0",
+        "--set", "steps=400", "--nodes-only")
+
+
+class Checkpoints(CommandTest):
+    def report(self, *arguments):
+        process = self.start(*arguments, "--report", "-", "-q")
+        out, err = process.communicate()
+        self.assertIn(process.returncode, (DONE, NOT_CONVERGED), err.decode())
+        return json.loads(out)
+
+    def test_a_finished_run_is_not_run_again(self):
+        square = ("--domain", self.square, *PLANE)
+        first = self.report(*square, "--checkpoint", "a.vtkhdf")
+        again = self.report(*square, "--restart", "a.vtkhdf", "-o", "a.csv")
+        self.assertEqual(first["finished"], 1)
+        for key in ("hash", "steps", "inserted", "deleted", "stop_reason", "warnings"):
+            self.assertEqual(first[key], again[key])
+        self.assertEqual(self.files(), ["a.csv", "a.vtkhdf", "square.poly"])
+
+    def test_stopped_again_and_again(self):
+        square = ("--domain", self.square, *LONG)
+        expected = self.report(*square)["hash"]
+        restart = ()
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            process = self.start(*square, *restart, "--checkpoint", "a.vtkhdf",
+                                 "--checkpoint-every", "30", "--report", "-", "-q")
+            path = self.folder / "a.vtkhdf"
+            before = path.stat().st_mtime_ns if path.exists() else 0
+            deadline = time.monotonic() + 60
+            while not path.exists() or path.stat().st_mtime_ns == before:
+                self.assertLess(time.monotonic(), deadline)
+                self.assertIsNone(process.poll(), "it should still be running")
+                time.sleep(0.005)
+            process.send_signal(number)
+            _, err = process.communicate(timeout=60)
+            if number != signal.SIGKILL:
+                self.assertEqual(process.returncode, INTERRUPTED, err)
+                self.assertIn(b"--restart 'a.vtkhdf' goes on from step", err)
+                self.assertEqual(self.files(), ["a.vtkhdf", "square.poly"])
+            restart = ("--restart", "a.vtkhdf")
+        self.assertEqual(self.report(*square, *restart)["hash"], expected)
+
+    def test_what_is_refused(self):
+        square = ("--domain", self.square, "--spacing", "0.2", "-o", "a.csv")
+        (self.folder / "text.vtkhdf").write_text("no HDF5")
+        for arguments, words in (
+                (("--checkpoint-every", "3"), "needs --checkpoint"),
+                (("--checkpoint", "a", "--checkpoint-every", "3d"), "30min"),
+                (("--checkpoint", "a", "--checkpoint-every", "-1"), "30min"),
+                (("--restart", "none.vtkhdf"), "none.vtkhdf"),
+                (("--restart", "text.vtkhdf"), "no HDF5 file"),
+                (("--checkpoint", "none/a.vtkhdf"), "none/a.vtkhdf")):
+            with self.subTest(words):
+                self.assertIn(words, self.refuse(*square, *arguments))
+
+    def check_file(self, domain, spacing, dimension):
+        report = self.report("--domain", domain, "--spacing", spacing, "--checkpoint", "a.vtkhdf",
+                             "-o", "a.csv")
+        reader = vtkHDFReader()
+        reader.SetFileName(str(self.folder / "a.vtkhdf"))
+        self.assertTrue(reader.CanReadFile(str(self.folder / "a.vtkhdf")))
+        reader.Update()
+        grid = reader.GetOutputDataObject(0)
+        self.assertEqual(grid.GetNumberOfPoints(), report["nodes"])
+        self.assertEqual(grid.GetNumberOfCells(), report["nodes"])
+        self.assertEqual({grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}, {1})
+        self.assertEqual([grid.GetCell(i).GetPointId(0) for i in range(grid.GetNumberOfCells())],
+                         list(range(report["nodes"])))
+        data = grid.GetPointData()
+        ids, tags, d = (vtk_to_numpy(data.GetArray(name)) for name in ("id", "tag", "spacing"))
+        points = vtk_to_numpy(grid.GetPoints().GetData())
+        order = np.argsort(ids)
+        rows = np.loadtxt(self.folder / "a.csv", delimiter=",", skiprows=1)
+        found = np.column_stack([ids, points[:, :dimension], tags, d])[order]
+        np.testing.assert_array_equal(found, rows)
+
+    def test_vtk_opens_it_in_the_plane(self):
+        self.check_file(self.square, "0.1", 2)
+
+    def test_vtk_opens_it_in_space(self):
+        self.check_file("box(0,0,0, 1,1,1)", "0.3", 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
