@@ -103,6 +103,7 @@ missing() {
     have mpifort || echo libopenmpi-dev
     # Optional to build; in the tests GeoJSON and shapefiles are read.
     have gdal-config || echo libgdal-dev
+    header hdf5.h || header hdf5/serial/hdf5.h || header hdf5/openmpi/hdf5.h || echo libhdf5-dev
     header CGAL/Constrained_Delaunay_triangulation_2.h || echo libcgal-dev
   fi
   if [ $with_tests = yes ] || [ ${#more_kokkos[@]} -gt 0 ] || no_kokkos; then

@@ -68,7 +68,7 @@ std::string help_tables() {
          option_table() +
          "\nExit codes: 0 done, 1 failed, 2 bad usage or input; 3 not converged, 4 somewhere the "
          "nodes do\nnot follow the spacing (files are written); 130 interrupted (no file is "
-         "written).\n";
+         "written but a checkpoint).\n";
 }
 
 std::string statistics_text() {

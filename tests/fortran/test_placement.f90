@@ -283,7 +283,30 @@ contains
     call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'no/such/folder')
     call placement%write_files(paths, ['csv'], stat=stat, errmsg=errmsg)
     call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'formats has room for 1; 3')
+    call about_checkpoints(placement)
     call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  subroutine about_checkpoints(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: again
+    character(len=:), allocatable :: before, after
+    if (index(pnpbs_build_info(), 'HDF5: none') > 0) then
+      call placement%write_checkpoint('fortran_a.vtkhdf', stat)
+      call expect(stat == PNPBS_ERROR_UNSUPPORTED, 'no checkpoints without HDF5')
+      return
+    end if
+    call placement%write_checkpoint('fortran_a.vtkhdf  ')
+    call square(context, domain, again, 0.2d0)
+    call again%read_checkpoint('fortran_a.vtkhdf')
+    call placement%get('hash', before)
+    call again%get('hash', after)
+    call expect(before == after, 'the nodes that were saved')
+    call again%read_checkpoint('fortran_b.node', stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'fortran_b.node')
+    call again%destroy
     call domain%destroy
   end subroutine
 

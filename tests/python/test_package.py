@@ -107,6 +107,33 @@ class Results(Case):
                                          pathlib.Path(folder, "none", "nodes.vtu"))
             self.assertIn("nodes.vtu", message)
 
+    def test_checkpoints(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "a.vtkhdf")
+            if "HDF5: none" in pnpbs.build_info():
+                self.assert_status(Status.ERROR_UNSUPPORTED, self.placement.write_checkpoint, path)
+                return
+            turns = []
+
+            def write_once(_fraction, step, _nodes, _max_speed):
+                if step > 0 and not turns:
+                    try:
+                        whole.write_checkpoint(path)
+                        turns.append(step)
+                    except pnpbs.PNPBSError as error:
+                        self.assertEqual(error.status, Status.ERROR_STATE)
+                return False
+
+            whole = self.square(levels=0).set_spacing(graded).set_monitor(write_once)
+            whole.run()
+            again = self.square(levels=0).set_spacing(graded).read_checkpoint(path)
+            self.assertEqual(again.statistic("steps"), turns[0])
+            again.run()
+            self.assertEqual(again.statistic("hash"), whole.statistic("hash"))
+            other = self.square(levels=0).set_spacing(0.2)
+            message = self.assert_status(Status.ERROR_SPACING, other.read_checkpoint, path)
+            self.assertIn("a.vtkhdf", message)
+
     def test_nodes_given_again_are_the_start(self):
         nodes = self.placement.nodes()
         inner = nodes.tags == 0
