@@ -543,6 +543,40 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placemen
                                                         const int64_t *size, const double *origin,
                                                         const double *step, const double *values);
 
+/** The spacing from values at the nodes of a background mesh, copied: linear on each triangle, in
+ *  space on each tetrahedron, and beyond the mesh what it is at the mesh's nearest point. Elements
+ *  may overlap (the one with the least node numbers counts) and need not share whole sides.
+ *  Collective; every rank gives the same arrays, and holds them. Checks the domain first. Errors:
+ *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and for a mesh whose box
+ *  does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node number out of range, an element
+ *  that is flat, ranks that differ; PNPBS_ERROR_DOMAIN as pnpbs_domain_check.
+ *  @param[in] n            number of nodes of the mesh, below 2^31
+ *  @param[in] coordinates  [n][dim]
+ *  @param[in] d            [n]
+ *  @param[in] elements     number of triangles or tetrahedra, >= 1
+ *  @param[in] corners      [elements][dim + 1] 0-based node numbers, whichever way round */
+PNPBS_API pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placement, int64_t n,
+                                                        const double *coordinates, const double *d,
+                                                        int64_t elements, const int64_t *corners);
+
+/** The spacing from values at scattered points, copied: at each of them its own value, elsewhere a
+ *  plane fitted to the 8 (in space 16) nearest ones by weighted least squares, never below the least
+ *  nor above the largest of their values. A linear function is met amid its points; far from all of
+ *  them d is near the values of the nearest. The weights are (1/r - 1/R)^2, r the distance of a
+ *  point and R that of the nearest one that does not count, so d is continuous (R. Franke,
+ *  G. Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704). The order of the points changes
+ *  nothing.
+ *  Collective; every rank gives the same arrays, and holds them. Checks the domain first. Errors:
+ *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for points in one place
+ *  with different values, and for points whose box does not meet the domain's;
+ *  PNPBS_ERROR_ARGUMENT for ranks that differ; PNPBS_ERROR_DOMAIN as pnpbs_domain_check.
+ *  @param[in] n            number of points, 1 .. 2^31 - 1
+ *  @param[in] coordinates  [n][dim]
+ *  @param[in] d            [n] */
+PNPBS_API pnpbs_status pnpbs_placement_set_spacing_points(pnpbs_placement placement, int64_t n,
+                                                          const double *coordinates,
+                                                          const double *d);
+
 /** The spacing from the shape of the domain as it is now: the least that its curves and surfaces
  * ask for, each growing with the distance from it. Collective. The same on any number of ranks.
  *  Errors: PNPBS_ERROR_DOMAIN as pnpbs_domain_check, PNPBS_ERROR_ARGUMENT for negative numbers,

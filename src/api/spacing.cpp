@@ -6,6 +6,8 @@
 
 #include "api/placement_calls.hpp"
 #include "api/spacing_callback.hpp"
+#include "domain/given_values.hpp"
+#include "spacing/given_field.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
@@ -27,9 +29,7 @@ pnpbs_status replace_spacing(pnpbs_placement placement, const Make& make) {
 }
 
 void require_spacing(double d, const std::string& what) {
-  if (!std::isfinite(d) || d <= 0)
-    throw Error(ErrorKind::spacing, "argument " + what + " = " + number_text(d) +
-                                        ": the spacing must be finite and greater than 0");
+  require_spacing_value("argument " + what, d);
 }
 
 // "[y][x]" of the i-th value on a grid, the direction that varies fastest last.
@@ -66,7 +66,77 @@ std::int64_t check_grid(const std::int64_t* size, const double* origin, const do
   return n;
 }
 
+template <int Dim>
+GivenField<Dim> field_from(std::int64_t n, const double* coordinates, const double* d) {
+  given_values::require_count("n", n, 1);
+  require_pointer(coordinates, "coordinates");
+  require_pointer(d, "d");
+  GivenField<Dim> field;
+  field.points = given_values::read_points<Dim>("coordinates", n, coordinates);
+  field.values.assign(d, d + n);
+  return field;
+}
+
+template <int Dim>
+void add_elements(GivenField<Dim>& field, std::int64_t elements, const std::int64_t* corners) {
+  given_values::require_count("elements", elements, 1);
+  require_pointer(corners, "corners");
+  const auto nodes = static_cast<std::int64_t>(field.points.size());
+  field.elements.resize(static_cast<std::size_t>(elements));
+  for (std::int64_t i = 0; i < elements * (Dim + 1); ++i) {
+    if (corners[i] < 0 || corners[i] >= nodes)
+      throw Error(ErrorKind::argument, "argument corners[" + std::to_string(i / (Dim + 1)) + "][" +
+                                           std::to_string(i % (Dim + 1)) +
+                                           "] = " + std::to_string(corners[i]) +
+                                           " is not one of the " + std::to_string(nodes) +
+                                           " nodes, 0 .. " + std::to_string(nodes - 1));
+    field.elements[static_cast<std::size_t>(i / (Dim + 1))]
+                  [static_cast<std::size_t>(i % (Dim + 1))] = static_cast<std::int32_t>(corners[i]);
+  }
+}
+
+// Collective: read(p) is the field that this rank gives, which all ranks must give.
+template <class Read>
+pnpbs_status take_field(pnpbs_placement placement, const Read& read) {
+  return local_change(placement, [&](Placement& p) {
+    in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& in) {
+      const Communicator& comm = p.communicator();
+      std::shared_ptr<const Spacing<Dim>> spacing;
+      std::uint64_t hash = 0;
+      agreed(comm, [&] {
+        GivenField<Dim> field = read(in);
+        hash = hash_of(field);
+        in.domain().check();
+        spacing = spacing_from_field(std::move(field), in.domain().bounds());
+      });
+      agreed(comm, [&] {
+        if (!comm.same_on_all(hash))
+          throw Error(ErrorKind::argument,
+                      "arguments of the spacing: all ranks must give the same points and values");
+      });
+      in.set_spacing(std::move(spacing));
+    });
+    return PNPBS_OK;
+  });
+}
+
 }  // namespace
+
+pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placement, int64_t n,
+                                              const double* coordinates, const double* d,
+                                              int64_t elements, const int64_t* corners) {
+  return take_field(placement, [&]<int Dim>(PlacementOf<Dim>&) {
+    GivenField<Dim> field = field_from<Dim>(n, coordinates, d);
+    add_elements(field, elements, corners);
+    return field;
+  });
+}
+
+pnpbs_status pnpbs_placement_set_spacing_points(pnpbs_placement placement, int64_t n,
+                                                const double* coordinates, const double* d) {
+  return take_field(placement,
+                    [&]<int Dim>(PlacementOf<Dim>&) { return field_from<Dim>(n, coordinates, d); });
+}
 
 pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d) {
   return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>&) {

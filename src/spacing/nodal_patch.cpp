@@ -129,7 +129,8 @@ void NodalPatch<Dim>::interpolate(const Point<Dim>& x, PatchAnswer<Dim>& best) c
       sum += share[k] * corners.value[k];
       all += share[k];
     }
-    answer.value = corners.within(sum / all);
+    // Of a simplex that is flat but for rounding, nothing may be left.
+    answer.value = corners.within(all != 0 ? sum / all : corners.value[0]);
     best = answer;
   });
 }

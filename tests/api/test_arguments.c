@@ -354,6 +354,40 @@ START_TEST(spacings) {
 }
 END_TEST
 
+START_TEST(spacings_from_fields) {
+  const double xy[8] = {0, 0, 1, 0, 1, 1, 0, 1}, flat[6] = {0, 0, 0.25, 0, 0.5, 0},
+               bad_xy[6] = {0, 0, 1, N, 1, 1}, far_xy[6] = {9, 9, 10, 9, 10, 11},
+               same[4] = {0.5, 0.5, 0.5, 0.5};
+  const double v[4] = {0.1, 0.2, 0.1, 0.1}, zero[3] = {0.1, 0, 0.1}, unknown[3] = {0.1, 0.1, N};
+  const int64_t c[6] = {0, 1, 2, 0, 2, 3}, over[3] = {0, 1, 3}, under[3] = {0, -1, 2};
+  pnpbs_placement p = it.placement;
+  REFUSE(ARGUMENT, "n is 0", "1", pnpbs_placement_set_spacing_mesh(p, 0, xy, v, 1, c));
+  REFUSE(ARGUMENT, "n is -7", "1", pnpbs_placement_set_spacing_points(p, -7, xy, v));
+  REFUSE(ARGUMENT, "n is 4294967296", "2^31",
+         pnpbs_placement_set_spacing_points(p, INT64_C(4294967296), xy, v));
+  REFUSE(ARGUMENT, "coordinates", "NULL", pnpbs_placement_set_spacing_mesh(p, 3, NULL, v, 1, c));
+  REFUSE(ARGUMENT, "coordinates", "NULL", pnpbs_placement_set_spacing_points(p, 3, NULL, v));
+  REFUSE(ARGUMENT, "argument d", "NULL", pnpbs_placement_set_spacing_mesh(p, 3, xy, NULL, 1, c));
+  REFUSE(ARGUMENT, "elements is 0", "1", pnpbs_placement_set_spacing_mesh(p, 3, xy, v, 0, c));
+  REFUSE(ARGUMENT, "corners", "NULL", pnpbs_placement_set_spacing_mesh(p, 3, xy, v, 1, NULL));
+  REFUSE(ARGUMENT, "corners[0][2] = 3", "0 .. 2",
+         pnpbs_placement_set_spacing_mesh(p, 3, xy, v, 1, over));
+  REFUSE(ARGUMENT, "corners[0][1] = -1", "0 .. 2",
+         pnpbs_placement_set_spacing_mesh(p, 3, xy, v, 1, under));
+  REFUSE(ARGUMENT, "corners[1][2] = 3", "3 nodes",
+         pnpbs_placement_set_spacing_mesh(p, 3, xy, v, 2, c));
+  REFUSE(ARGUMENT, "corners[0]", "flat", pnpbs_placement_set_spacing_mesh(p, 3, flat, v, 1, c));
+  REFUSE(ARGUMENT, "coordinates[1]", "nan",
+         pnpbs_placement_set_spacing_mesh(p, 3, bad_xy, v, 1, c));
+  REFUSE(SPACING, "d[1]", "= 0: ", pnpbs_placement_set_spacing_mesh(p, 3, xy, zero, 1, c));
+  REFUSE(SPACING, "d[2]", "nan", pnpbs_placement_set_spacing_points(p, 3, xy, unknown));
+  REFUSE(SPACING, "from (9, 9) to (10, 11)", "unit",
+         pnpbs_placement_set_spacing_mesh(p, 3, far_xy, v, 1, c));
+  REFUSE(SPACING, "d[0] = 0.1 and argument d[1] = 0.2", "(0.5, 0.5)",
+         pnpbs_placement_set_spacing_points(p, 2, same, v));
+}
+END_TEST
+
 START_TEST(given_nodes) {
   const double xy[4] = {0.25, 0.5, 0.75, 0.5}, bad[4] = {0.25, 0.5, I, 0.5};
   const int64_t same[2] = {7, 7}, below[2] = {7, -8}, last[2] = {3, INT64_MAX};
@@ -622,6 +656,8 @@ int main(void) {
   tcase_add_test(cases, points_and_files);
   tcase_add_test(cases, segments_of_the_domain);
   tcase_add_test(cases, spacings);
+  tcase_add_test(cases, spacings_from_fields);
+  tcase_add_test(cases, spacings_from_fields);
   tcase_add_test(cases, given_nodes);
   tcase_add_test(cases, computing);
   tcase_add_test(cases, getting_nodes);

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/cloud_spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "base/error.hpp"
+#include "base/execution.hpp"
+#include "base/point_text.hpp"
+#include "domain/given_values.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Solves a x = b for a symmetric matrix that is positive definite, in place of b.
+template <int Dim>
+void solve_cholesky(std::array<Point<Dim>, Dim>& a, Point<Dim>& b) {
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double sum = a[i][j];
+      for (int k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
+      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
+    }
+    for (int k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
+    b[i] /= a[i][i];
+  }
+  for (int i = Dim - 1; i >= 0; --i) {
+    for (int k = i + 1; k < Dim; ++k) b[i] -= a[k][i] * b[k];
+    b[i] /= a[i][i];
+  }
+}
+
+// What counts at a place, from there.
+template <int Dim>
+struct CloudSample {
+  Point<Dim> way;
+  double value, weight;
+};
+
+// Adds up to 1, where all weights are 0 with equal shares: then all are as far as the first that
+// does not count.
+template <int Dim>
+void share_out(std::span<CloudSample<Dim>> samples) {
+  double sum = 0;
+  for (const CloudSample<Dim>& sample : samples) sum += sample.weight;
+  const double equal = 1 / static_cast<double>(samples.size());
+  for (CloudSample<Dim>& sample : samples) sample.weight = sum > 0 ? sample.weight / sum : equal;
+}
+
+// The value at the origin of the plane that fits the samples best: around their means, so that
+// what is solved for is the slope alone.
+template <int Dim>
+double fitted_at_origin(std::span<CloudSample<Dim>> samples) {
+  share_out(samples);
+  Point<Dim> mean_way{};
+  double mean_value = 0;
+  for (const CloudSample<Dim>& sample : samples) {
+    for (int i = 0; i < Dim; ++i) mean_way[i] += sample.weight * sample.way[i];
+    mean_value += sample.weight * sample.value;
+  }
+  std::array<Point<Dim>, Dim> normal{};
+  Point<Dim> slope{};
+  double trace = 0;
+  for (const CloudSample<Dim>& sample : samples) {
+    Point<Dim> way = sample.way;
+    for (int i = 0; i < Dim; ++i) way[i] -= mean_way[i];
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j <= i; ++j) normal[i][j] += sample.weight * way[i] * way[j];
+      slope[i] += sample.weight * way[i] * (sample.value - mean_value);
+      trace += sample.weight * way[i] * way[i];
+    }
+  }
+  if (!(trace > 0)) return mean_value;
+  // Across points on a line the values tell no slope: it is 0 there.
+  constexpr double kFlat = 1e-10;
+  for (int i = 0; i < Dim; ++i) normal[i][i] += kFlat * trace;
+  solve_cholesky<Dim>(normal, slope);
+  for (int i = 0; i < Dim; ++i) mean_value -= slope[i] * mean_way[i];
+  return mean_value;
+}
+
+}  // namespace
+
+template <int Dim>
+CloudSpacing<Dim>::CloudSpacing(const GivenField<Dim>& field) {
+  std::vector<std::size_t> order(field.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return field.points[a] != field.points[b] ? field.points[a] < field.points[b] : a < b;
+  });
+  std::vector<Box<Dim>> boxes;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Point<Dim>& x = field.points[order[k]];
+    const double value = field.values[order[k]];
+    if (!points_.empty() && points_.back() == x) {
+      if (value == values_.back()) continue;
+      const auto name = [&](std::size_t i) {
+        return given_values::indexed(field.values_name, static_cast<std::int64_t>(i)) + " = " +
+               number_text(field.values[i]);
+      };
+      throw Error(ErrorKind::spacing, name(order[k - 1]) + " and " + name(order[k]) +
+                                          " are both at " + point_text(x) +
+                                          ": a place has one spacing");
+    }
+    points_.push_back(x);
+    values_.push_back(value);
+    boxes.push_back({x, x});
+  }
+  tree_ = BoxTree<Dim>(std::move(boxes));
+}
+
+template <int Dim>
+typename CloudSpacing<Dim>::Neighbours CloudSpacing<Dim>::nearest(const Point<Dim>& x) const {
+  Neighbours near;
+  const auto limit = [&] {
+    return near.found <= kNeighbours ? std::numeric_limits<double>::infinity()
+                                     : near.nearest[kNeighbours].square;
+  };
+  tree_.for_near(x, limit, [&](std::int32_t point) {
+    const Neighbour one{squared_distance<Dim>(points_[static_cast<std::size_t>(point)], x), point};
+    const auto begin = near.nearest.begin(), end = begin + near.found;
+    const auto place = std::upper_bound(begin, end, one);
+    if (place == near.nearest.end()) return;
+    const bool full = near.found > kNeighbours;
+    std::move_backward(place, full ? end - 1 : end, full ? end : end + 1);
+    *place = one;
+    if (!full) ++near.found;
+  });
+  return near;
+}
+
+template <int Dim>
+double CloudSpacing<Dim>::at(const Point<Dim>& x) const {
+  const Neighbours near = nearest(x);
+  const auto value = [&](int k) {
+    return values_[static_cast<std::size_t>(near.nearest[static_cast<std::size_t>(k)].point)];
+  };
+  const double nearest_square = near.nearest[0].square;
+  if (nearest_square == 0) return value(0);
+
+  const int n = near.counting();
+  const double beyond =
+      near.found > n ? std::sqrt(nearest_square / near.nearest[kNeighbours].square) : 0;
+  const double unit = std::sqrt(near.nearest[static_cast<std::size_t>(n - 1)].square);
+  std::array<CloudSample<Dim>, kNeighbours> samples;
+  double min = value(0), max = value(0);
+  for (int k = 0; k < n; ++k) {
+    const Neighbour& one = near.nearest[static_cast<std::size_t>(k)];
+    const double part = std::sqrt(nearest_square / one.square) - beyond;
+    CloudSample<Dim>& sample = samples[static_cast<std::size_t>(k)];
+    sample.weight = part * part;
+    for (int c = 0; c < Dim; ++c)
+      sample.way[c] = (points_[static_cast<std::size_t>(one.point)][c] - x[c]) / unit;
+    sample.value = value(k) - value(0);
+    min = std::min(min, value(k));
+    max = std::max(max, value(k));
+  }
+  const double rise = fitted_at_origin<Dim>({samples.data(), static_cast<std::size_t>(n)});
+  return std::clamp(value(0) + rise, min, max);
+}
+
+template <int Dim>
+void CloudSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
+  for_each("pnpbs::CloudSpacing::evaluate", n, [=, this](std::int64_t i) { d[i] = at(x[i]); });
+}
+
+template class CloudSpacing<2>;
+template class CloudSpacing<3>;
+
+}  // namespace pnpbs

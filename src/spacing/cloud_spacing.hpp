@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The spacing from values at scattered points, which every rank has whole: a plane through the
+// values of the points nearest to x, by least squares, held between the least and the largest of
+// them. A point counts by (1/r - 1/R)^2, r its distance from x and R that of the nearest one that
+// does not count any more (R. Franke, G. Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704):
+// so its own value is met at each point, and d is continuous where points begin and cease to count.
+// Values that are linear in space are met where the cloud surrounds x.
+//
+// Not by a triangulation of the cloud, which has long thin elements along its hull and none where
+// all points are on a line, and needs more than stars of nodes in a domain.
+#pragma once
+
+#include "spacing/given_field.hpp"
+#include "tree/box_tree.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class CloudSpacing : public Spacing<Dim> {
+ public:
+  // Of a checked field without elements. Throws Error(ErrorKind::spacing) where points in one place
+  // have different values.
+  explicit CloudSpacing(const GivenField<Dim>& field);
+  void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+
+  static constexpr int kNeighbours = Dim == 2 ? 8 : 16;
+
+ private:
+  // One of the points nearest to x.
+  struct Neighbour {
+    double square;  // of its distance
+    std::int32_t point;
+    bool operator<(const Neighbour& other) const {
+      return square != other.square ? square < other.square : point < other.point;
+    }
+  };
+  // One more than count.
+  struct Neighbours {
+    std::array<Neighbour, kNeighbours + 1> nearest;
+    int found = 0;
+    int counting() const { return found < kNeighbours ? found : kNeighbours; }
+  };
+
+  Neighbours nearest(const Point<Dim>& x) const;
+  double at(const Point<Dim>& x) const;
+
+  // By increasing coordinates, so that their order as given changes nothing.
+  std::vector<Point<Dim>> points_;
+  std::vector<double> values_;
+  BoxTree<Dim> tree_;
+};
+
+extern template class CloudSpacing<2>;
+extern template class CloudSpacing<3>;
+
+}  // namespace pnpbs

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/given_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/mixed_hash.hpp"
+#include "base/point_text.hpp"
+#include "domain/given_values.hpp"
+#include "predicates/plane.hpp"
+#include "predicates/space.hpp"
+#include "spacing/cloud_spacing.hpp"
+#include "spacing/mesh_spacing.hpp"
+
+namespace pnpbs {
+
+using given_values::indexed;
+
+void require_spacing_value(const std::string& name, double value) {
+  if (!std::isfinite(value) || value <= 0)
+    throw Error(ErrorKind::spacing, name + " = " + number_text(value) +
+                                        ": the spacing must be finite and greater than 0");
+}
+
+namespace {
+
+int turn(const std::array<Point<2>, 3>& x) { return orientation(x[0], x[1], x[2]); }
+int turn(const std::array<Point<3>, 4>& x) { return orientation(x[0], x[1], x[2], x[3]); }
+
+template <int Dim>
+void check_points(const GivenField<Dim>& field) {
+  for (std::size_t i = 0; i < field.points.size(); ++i) {
+    const auto at = static_cast<std::int64_t>(i);
+    const Point<Dim>& x = field.points[i];
+    if (!is_usable(x)) given_values::require_point<Dim>(indexed(field.points_name, at), x);
+    const double value = field.values[i];
+    if (!std::isfinite(value) || value <= 0)
+      require_spacing_value(indexed(field.values_name, at) + ", at " + point_text(x) + ",", value);
+  }
+}
+
+template <int Dim>
+void check_elements(const GivenField<Dim>& field) {
+  for (std::size_t e = 0; e < field.elements.size(); ++e) {
+    std::array<Point<Dim>, Dim + 1> corners;
+    for (std::size_t k = 0; k <= Dim; ++k)
+      corners[k] = field.points[static_cast<std::size_t>(field.elements[e][k])];
+    if (turn(corners) != 0) continue;
+    std::string places;
+    for (const Point<Dim>& corner : corners)
+      places += (places.empty() ? "" : ", ") + point_text(corner);
+    throw Error(ErrorKind::argument, indexed(field.elements_name, static_cast<std::int64_t>(e)) +
+                                         ": the " + (Dim == 2 ? "triangle" : "tetrahedron") +
+                                         " with corners at " + places + " is flat");
+  }
+}
+
+// What of the points counts: all of a cloud, of a mesh those of its elements.
+template <int Dim>
+Box<Dim> box_of(const GivenField<Dim>& field) {
+  const auto corner = [&](std::int32_t i) { return field.points[static_cast<std::size_t>(i)]; };
+  const Point<Dim> first =
+      field.elements.empty() ? field.points.front() : corner(field.elements.front()[0]);
+  Box<Dim> box{first, first};
+  if (field.elements.empty())
+    for (const Point<Dim>& x : field.points) box = joined(box, {x, x});
+  for (const auto& element : field.elements)
+    for (const std::int32_t i : element) box = joined(box, {corner(i), corner(i)});
+  return box;
+}
+
+template <int Dim>
+void require_near(const GivenField<Dim>& field, const Box<Dim>& domain) {
+  const Box<Dim> box = box_of(field);
+  if (boxes_meet(box, domain)) return;
+  double square = 0;
+  for (int k = 0; k < Dim; ++k) {
+    const double gap = std::max({0.0, domain.low[k] - box.high[k], box.low[k] - domain.high[k]});
+    square += gap * gap;
+  }
+  throw Error(ErrorKind::spacing,
+              field.points_name + ": they lie outside of the domain, from " +
+                  rounded_point_text<Dim>(box.low) + " to " + rounded_point_text<Dim>(box.high) +
+                  ", at least " + rounded_text(std::sqrt(square)) +
+                  " from it; the domain reaches from " + rounded_point_text<Dim>(domain.low) +
+                  " to " + rounded_point_text<Dim>(domain.high) + ": are they in its unit?");
+}
+
+}  // namespace
+
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> spacing_from_field(GivenField<Dim> field,
+                                                       const Box<Dim>& domain) {
+  if (field.points.empty())
+    throw Error(ErrorKind::argument,
+                field.points_name + ": there is no point, expected at least 1");
+  check_points(field);
+  check_elements(field);
+  require_near(field, domain);
+  if (field.elements.empty()) return std::make_shared<CloudSpacing<Dim>>(field);
+  return std::make_shared<MeshSpacing<Dim>>(field);
+}
+
+template <int Dim>
+std::uint64_t hash_of(const GivenField<Dim>& field) {
+  std::uint64_t hash = mixed(field.points.size());
+  for (const Point<Dim>& x : field.points)
+    for (const double coordinate : x) hash = mixed_with(hash, coordinate);
+  for (const double value : field.values) hash = mixed_with(hash, value);
+  for (const auto& element : field.elements)
+    for (const std::int32_t corner : element)
+      hash = mixed(hash ^ static_cast<std::uint64_t>(corner));
+  return hash;
+}
+
+template std::shared_ptr<const Spacing<2>> spacing_from_field(GivenField<2>, const Box<2>&);
+template std::shared_ptr<const Spacing<3>> spacing_from_field(GivenField<3>, const Box<3>&);
+template std::uint64_t hash_of(const GivenField<2>&);
+template std::uint64_t hash_of(const GivenField<3>&);
+
+}  // namespace pnpbs

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values at points, of a background mesh or scattered, that every rank gives whole: what they must
+// be, and the spacing made of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+#include "spacing/spacing.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+struct GivenField {
+  // What messages call its parts.
+  std::string points_name = "argument coordinates", values_name = "argument d",
+              elements_name = "argument corners";
+  std::vector<Point<Dim>> points;
+  std::vector<double> values;
+  // Triangles or tetrahedra, in any order of their corners; without any the points are scattered.
+  std::vector<std::array<std::int32_t, Dim + 1>> elements;
+};
+
+// Throws Error(ErrorKind::spacing) unless it is finite and greater than 0. `name`: "d[3]".
+void require_spacing_value(const std::string& name, double value);
+
+// Checks the field: coordinates and values are numbers, elements are not flat, points in one place
+// have one value, and what holds all of it meets the domain's box. Throws Error(ErrorKind::argument
+// or ::spacing), told by the first of what is wrong.
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> spacing_from_field(GivenField<Dim> field,
+                                                       const Box<Dim>& domain);
+
+// Of all that it holds: ranks that give the same have the same.
+template <int Dim>
+std::uint64_t hash_of(const GivenField<Dim>& field);
+
+}  // namespace pnpbs

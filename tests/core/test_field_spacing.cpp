@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A spacing from values that the user gives at the nodes of a mesh or at scattered points: linear
+// functions, values at the points, bounds by the neighbours' values, what is beyond, and what is
+// refused.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/error.hpp"
+#include "geometry/expect_error.hpp"
+#include "random.hpp"
+#include "run_kernel_suite.hpp"
+#include "spacing/cloud_spacing.hpp"
+#include "spacing/given_field.hpp"
+
+namespace {
+
+template <int Dim>
+using Field = pnpbs::GivenField<Dim>;
+template <int Dim>
+using P = pnpbs::Point<Dim>;
+
+template <int Dim>
+pnpbs::Box<Dim> unit_box() {
+  pnpbs::Box<Dim> box;
+  box.low.fill(0);
+  box.high.fill(1);
+  return box;
+}
+
+template <int Dim>
+double linear(const P<Dim>& x) {
+  double value = 2;
+  for (int k = 0; k < Dim; ++k) value += (0.5 - 0.3 * k) * x[k];
+  return value;
+}
+
+template <int Dim>
+double value_at(const pnpbs::Spacing<Dim>& spacing, const P<Dim>& x) {
+  double d = -1;
+  spacing.evaluate(1, &x, &d);
+  return d;
+}
+
+// The unit cube in n^Dim cells, inner nodes shaken, each cell cut into Dim! simplices along its
+// diagonal, which have their corners in any order.
+template <int Dim>
+Field<Dim> mesh_of_cube(Random& random, int n) {
+  Field<Dim> field;
+  std::array<std::int32_t, 3> step{1, n + 1, (n + 1) * (n + 1)};
+  const int layers = Dim == 3 ? n : 0;
+  for (int c = 0; c <= layers; ++c)
+    for (int b = 0; b <= n; ++b)
+      for (int a = 0; a <= n; ++a) {
+        const std::array<int, 3> at{a, b, c};
+        P<Dim> x;
+        for (int k = 0; k < Dim; ++k) {
+          const int i = at[static_cast<std::size_t>(k)];
+          x[k] = (i + (i > 0 && i < n ? random.between(-0.1, 0.1) : 0)) / n;
+        }
+        field.points.push_back(x);
+        field.values.push_back(linear<Dim>(x));
+      }
+  std::array<std::size_t, Dim> way;
+  for (int c = 0; c < std::max(layers, 1); ++c)
+    for (int b = 0; b < n; ++b)
+      for (int a = 0; a < n; ++a) {
+        for (std::size_t k = 0; k < Dim; ++k) way[k] = k;
+        do {
+          std::array<std::int32_t, Dim + 1> corners;
+          corners[0] = a + b * step[1] + c * step[2];
+          for (std::size_t k = 0; k < Dim; ++k) corners[k + 1] = corners[k] + step[way[k]];
+          random.shuffle(corners);
+          field.elements.push_back(corners);
+        } while (std::next_permutation(way.begin(), way.end()));
+      }
+  random.shuffle(field.elements);
+  return field;
+}
+
+template <int Dim>
+Field<Dim> cloud(Random& random, int n) {
+  Field<Dim> field;
+  for (int i = 0; i < n; ++i) {
+    field.points.push_back(random.point<Dim>(unit_box<Dim>()));
+    field.values.push_back(linear<Dim>(field.points.back()));
+  }
+  return field;
+}
+
+template <int Dim>
+auto spacing_from(const Field<Dim>& field) {
+  return pnpbs::spacing_from_field(field, unit_box<Dim>());
+}
+
+// ------------------------------------------------------------------ meshes ---------------------
+
+template <int Dim>
+void check_linear_in_mesh(int n) {
+  Random random(3);
+  const auto spacing = spacing_from(mesh_of_cube<Dim>(random, n));
+  for (int k = 0; k < 2000; ++k) {
+    const P<Dim> x = random.point<Dim>(unit_box<Dim>());
+    ck_assert_double_eq_tol(value_at<Dim>(*spacing, x), linear<Dim>(x), 1e-14);
+  }
+}
+
+START_TEST(a_linear_function_on_a_mesh) {
+  check_linear_in_mesh<2>(9);
+  check_linear_in_mesh<3>(5);
+}
+END_TEST
+
+// Beyond the cube the nearest point is where each coordinate is held inside.
+template <int Dim>
+void check_beyond_mesh(int n) {
+  Random random(4);
+  const auto spacing = spacing_from(mesh_of_cube<Dim>(random, n));
+  pnpbs::Box<Dim> wide;
+  wide.low.fill(-2);
+  wide.high.fill(3);
+  for (int k = 0; k < 2000; ++k) {
+    const P<Dim> x = random.point<Dim>(wide);
+    P<Dim> nearest = x;
+    for (double& c : nearest) c = std::clamp(c, 0.0, 1.0);
+    ck_assert_double_eq_tol(value_at<Dim>(*spacing, x), linear<Dim>(nearest), 1e-13);
+  }
+}
+
+START_TEST(beyond_a_mesh_its_nearest_point_counts) {
+  check_beyond_mesh<2>(7);
+  check_beyond_mesh<3>(4);
+}
+END_TEST
+
+// Two halves that share no nodes, with values that differ by a factor of ten: the jump stays sharp,
+// and on it the one of the least node counts.
+START_TEST(a_jump_between_parts_of_a_mesh) {
+  Field<2> field;
+  field.points = {{0, 0}, {0.5, 0}, {0.5, 1}, {0, 1}, {0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}};
+  field.values = {0.1, 0.1, 0.1, 0.1, 1, 1, 1, 1};
+  field.elements = {{4, 5, 6}, {0, 1, 2}, {4, 6, 7}, {0, 3, 2}};
+  const auto spacing = spacing_from(field);
+  const double below = std::nextafter(0.5, 0.0), above = std::nextafter(0.5, 1.0);
+  for (const double y : {0.0, 0.3, 0.7, 1.0}) {
+    ck_assert_double_eq(value_at<2>(*spacing, {below, y}), 0.1);
+    ck_assert_double_eq(value_at<2>(*spacing, {0.5, y}), 0.1);
+    ck_assert_double_eq(value_at<2>(*spacing, {above, y}), 1);
+  }
+}
+END_TEST
+
+// A sliver of the height of rounding: whatever is rounded, d stays between its corners' values.
+START_TEST(a_mesh_with_a_sliver) {
+  Field<2> field;
+  field.points = {{0, 0}, {1, 1}, {0.3, std::nextafter(0.3, 1.0)}, {1, 0}};
+  field.values = {1, 2, 3, 1};
+  field.elements = {{0, 1, 2}, {0, 1, 3}};
+  const auto spacing = spacing_from(field);
+  Random random(5);
+  for (int k = 0; k < 1000; ++k) {
+    const double t = random.between(-0.5, 1.5);
+    for (const double y : {t, std::nextafter(t, 2.0), std::nextafter(t, -2.0)}) {
+      const double d = value_at<2>(*spacing, {t, y});
+      ck_assert_msg(d >= 1 && d <= 3, "%g at %g", d, t);
+    }
+  }
+}
+END_TEST
+
+// ------------------------------------------------------------------ clouds ---------------------
+
+template <int Dim>
+void check_points_of_cloud(int n) {
+  Random random(6);
+  Field<Dim> field = cloud<Dim>(random, n);
+  for (double& value : field.values) value = random.between(0.1, 2);
+  const auto spacing = spacing_from(field);
+  for (std::size_t i = 0; i < field.points.size(); ++i)
+    ck_assert_double_eq(value_at<Dim>(*spacing, field.points[i]), field.values[i]);
+  // Next to them it is near that, as d is continuous.
+  for (std::size_t i = 0; i < field.points.size(); ++i) {
+    P<Dim> x = field.points[i];
+    x[0] += 1e-9;
+    ck_assert_double_eq_tol(value_at<Dim>(*spacing, x), field.values[i], 1e-5);
+  }
+}
+
+START_TEST(values_are_met_at_the_points) {
+  check_points_of_cloud<2>(400);
+  check_points_of_cloud<3>(300);
+}
+END_TEST
+
+// Between the values of the nearest ones, found here by looking at all.
+template <int Dim>
+void check_bounds_in_cloud(int n) {
+  Random random(7);
+  Field<Dim> field = cloud<Dim>(random, n);
+  for (double& value : field.values) value = random.between(0.1, 2);
+  const auto spacing = spacing_from(field);
+  pnpbs::Box<Dim> wide;
+  wide.low.fill(-1);
+  wide.high.fill(2);
+  for (int k = 0; k < 500; ++k) {
+    const P<Dim> x = random.point<Dim>(k % 2 == 0 ? unit_box<Dim>() : wide);
+    std::vector<std::pair<double, double>> near;
+    for (std::size_t i = 0; i < field.points.size(); ++i)
+      near.emplace_back(pnpbs::squared_distance<Dim>(field.points[i], x), field.values[i]);
+    std::sort(near.begin(), near.end());
+    double min = near[0].second, max = min;
+    for (std::size_t i = 0; i < pnpbs::CloudSpacing<Dim>::kNeighbours; ++i) {
+      min = std::min(min, near[i].second);
+      max = std::max(max, near[i].second);
+    }
+    const double d = value_at<Dim>(*spacing, x);
+    ck_assert_msg(d >= min && d <= max, "%g is not in %g .. %g", d, min, max);
+  }
+}
+
+START_TEST(values_stay_between_those_of_neighbours) {
+  check_bounds_in_cloud<2>(300);
+  check_bounds_in_cloud<3>(300);
+}
+END_TEST
+
+template <int Dim>
+void check_linear_in_cloud(int n) {
+  Random random(8);
+  const auto spacing = spacing_from(cloud<Dim>(random, n));
+  pnpbs::Box<Dim> amid;
+  amid.low.fill(0.2);
+  amid.high.fill(0.8);
+  int met = 0, all = 2000;
+  for (int k = 0; k < all; ++k) {
+    const P<Dim> x = random.point<Dim>(amid);
+    met += std::fabs(value_at<Dim>(*spacing, x) - linear<Dim>(x)) < 1e-8;
+  }
+  // Elsewhere all neighbours are on one side, and bound it.
+  ck_assert_msg(met > 0.97 * all, "%d of %d", met, all);
+}
+
+START_TEST(a_linear_function_amid_a_cloud) {
+  check_linear_in_cloud<2>(500);
+  check_linear_in_cloud<3>(2000);
+}
+END_TEST
+
+START_TEST(the_order_of_a_cloud_changes_nothing) {
+  Random random(9);
+  Field<3> field = cloud<3>(random, 200), other = field;
+  std::vector<std::size_t> order(field.points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  random.shuffle(order);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    other.points[i] = field.points[order[i]];
+    other.values[i] = field.values[order[i]];
+  }
+  const auto a = spacing_from(field), b = spacing_from(other);
+  for (int k = 0; k < 500; ++k) {
+    const P<3> x = random.point<3>(unit_box<3>());
+    ck_assert_double_eq(value_at<3>(*a, x), value_at<3>(*b, x));
+  }
+}
+END_TEST
+
+// Few points, on a line, on a circle around x, on a grid: all equally far, or with no slope across.
+START_TEST(clouds_without_an_inside) {
+  Field<2> one;
+  one.points = {{0.5, 0.5}};
+  one.values = {0.25};
+  ck_assert_double_eq(value_at<2>(*spacing_from(one), {7, 3}), 0.25);
+
+  Field<2> line;
+  for (int i = 0; i <= 20; ++i) {
+    line.points.push_back({i / 20.0, 0.5});
+    line.values.push_back(1 + i / 20.0);
+  }
+  const auto along = spacing_from(line);
+  for (int k = 0; k < 100; ++k) {
+    ck_assert_double_eq_tol(value_at<2>(*along, {0.3 + 0.004 * k, 0.5}), 1.3 + 0.004 * k, 1e-8);
+    const double aside = value_at<2>(*along, {0.3 + 0.004 * k, 0.7});
+    ck_assert_double_eq_tol(aside, 1.3 + 0.004 * k, 0.03);
+  }
+
+  Field<2> circle;
+  circle.points = {{3, 4},   {4, 3},   {-3, 4}, {-4, 3}, {3, -4}, {4, -3},
+                   {-3, -4}, {-4, -3}, {5, 0},  {-5, 0}, {0, 5},  {0, -5}};
+  circle.values.assign(12, 0.5);
+  circle.values[3] = 1;
+  const double amid = value_at<2>(*spacing_from(circle), {0, 0});
+  ck_assert_msg(amid >= 0.5 && amid <= 1, "%g", amid);
+
+  Field<3> grid;
+  for (int i = 0; i < 1000; ++i) {
+    grid.points.push_back({i % 10 / 8.0, i / 10 % 10 / 8.0, i / 100 / 8.0});
+    grid.values.push_back(linear<3>(grid.points.back()));
+  }
+  const auto spacing = spacing_from(grid);
+  Random random(10);
+  for (int i = 100; i < 800; ++i) {  // the middles of cells: the next points are all equally far
+    const P<3> x{(i % 8 + 0.5) / 8, (i / 8 % 8 + 0.5) / 8, (i / 100 + 0.5) / 8};
+    const double d = value_at<3>(*spacing, x);
+    ck_assert_double_eq_tol(d, linear<3>(x), 0.2);
+  }
+}
+END_TEST
+
+// ------------------------------------------------------------------ what is refused ------------
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+template <int Dim>
+void expect_refused(const Field<Dim>& field, pnpbs::ErrorKind kind, const char* text) {
+  expect_error(kind, {text}, [&] { spacing_from(field); });
+}
+
+START_TEST(what_is_refused) {
+  using pnpbs::ErrorKind;
+  Random random(11);
+  const Field<2> mesh = mesh_of_cube<2>(random, 3);
+  Field<2> bad = mesh;
+  bad.values[5] = kNan;
+  expect_refused(bad, ErrorKind::spacing, "d[5]");
+  bad.values[5] = -1;
+  expect_refused(bad, ErrorKind::spacing, "= -1");
+  bad.values[5] = 0;
+  expect_refused(bad, ErrorKind::spacing, "greater than 0");
+  bad = mesh;
+  bad.points[3][1] = kNan;
+  expect_refused(bad, ErrorKind::argument, "coordinates[3][1] is nan");
+  bad = mesh;
+  bad.elements[2] = {0, 1, 1};
+  expect_refused(bad, ErrorKind::argument, "corners[2]: the triangle");
+  bad.elements[2] = {0, 1, 2};
+  bad.points[0] = {0, 0}, bad.points[1] = {0.25, 0}, bad.points[2] = {0.5, 0};
+  expect_refused(bad, ErrorKind::argument, "flat");
+  bad = mesh;
+  for (P<2>& x : bad.points) x = {1000 * x[0] + 2000, x[1]};
+  expect_refused(bad, ErrorKind::spacing, "at least 1999 from it");
+  bad.elements.clear();
+  expect_refused(bad, ErrorKind::spacing, "outside of the domain");
+  bad.points = {{0.5, 0.5}, {0.25, 0.75}, {0.5, 0.5}};
+  bad.values = {1, 2, 1};
+  ck_assert_double_eq(value_at<2>(*spacing_from(bad), {0.5, 0.5}), 1);  // said twice
+  bad.values[2] = 3;
+  expect_refused(bad, ErrorKind::spacing, "d[0] = 1 and argument d[2] = 3 are both at (0.5, 0.5)");
+  bad.points.clear(), bad.values.clear();
+  expect_refused(bad, ErrorKind::argument, "no point");
+}
+END_TEST
+
+}  // namespace
+
+int main() {
+  return run_kernel_suite(
+      "spacing from given values",
+      {a_linear_function_on_a_mesh, beyond_a_mesh_its_nearest_point_counts,
+       a_jump_between_parts_of_a_mesh, a_mesh_with_a_sliver, values_are_met_at_the_points,
+       values_stay_between_those_of_neighbours, a_linear_function_amid_a_cloud,
+       the_order_of_a_cloud_changes_nothing, clouds_without_an_inside, what_is_refused});
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Spacing from a background mesh and from scattered points, over ranks: nodes are where one process
+ * has them, d is what was given, and ranks that do not give the same are told. */
+#include <math.h>
+#include <mpi.h>
+#include <pnpbs/pnpbs_mpi.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { N = 5, MAX_POINTS = N * N * N, MAX_ELEMENTS = 6 * (N - 1) * (N - 1) * (N - 1) };
+
+static pnpbs_context context;
+static int rank, size, failures;
+
+static void expect(int condition, const char* what) {
+  if (condition) return;
+  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
+  ++failures;
+}
+
+/* ---------------------------------------------------------------- what is given ---------- */
+
+struct field {
+  int64_t n, elements, corners[4 * MAX_ELEMENTS];
+  double x[3 * MAX_POINTS], d[MAX_POINTS];
+};
+
+/* A lattice a little larger than the unit cube or square, cut along the cells' diagonals. */
+static void fill(struct field* f, int dim) {
+  static const int ways[6][3] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  const int layers = dim == 3 ? N : 1, step[3] = {1, N, N * N};
+  int i, j, k, w, c;
+  f->n = f->elements = 0;
+  for (k = 0; k < layers; ++k)
+    for (j = 0; j < N; ++j)
+      for (i = 0; i < N; ++i) {
+        const int at[3] = {i, j, k};
+        double* x = f->x + dim * f->n;
+        for (c = 0; c < dim; ++c) x[c] = -0.0625 + 1.125 * at[c] / (N - 1);
+        f->d[f->n] = (dim == 3 ? 0.18 : 0.05) * (1 + (i == j ? 1 : 0.3 * i));
+        ++f->n;
+      }
+  for (k = 0; k < (dim == 3 ? N - 1 : 1); ++k)
+    for (j = 0; j < N - 1; ++j)
+      for (i = 0; i < N - 1; ++i)
+        for (w = 0; w < (dim == 3 ? 6 : 2); ++w) {
+          int64_t* corners = f->corners + (dim + 1) * f->elements++;
+          corners[0] = i + step[1] * j + step[2] * k;
+          for (c = 0; c < dim; ++c) corners[c + 1] = corners[c] + step[ways[w][c]];
+        }
+}
+
+static pnpbs_placement placement_in_cube(int dim) {
+  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, low[] = {0, 0, 0}, high[] = {1, 1, 1};
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+  expect(pnpbs_domain_create(context, dim, &domain) == PNPBS_OK, "domain");
+  if (dim == 2) pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0);
+  if (dim == 3) pnpbs_domain_add_box(domain, low, high, 1);
+  expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
+  pnpbs_placement_set_int64(placement, "steps", 15);
+  pnpbs_domain_destroy(&domain);
+  return placement;
+}
+
+static pnpbs_status give(pnpbs_placement placement, const struct field* f, int as_mesh) {
+  return as_mesh ? pnpbs_placement_set_spacing_mesh(placement, f->n, f->x, f->d, f->elements,
+                                                    f->corners)
+                 : pnpbs_placement_set_spacing_points(placement, f->n, f->x, f->d);
+}
+
+/* ---------------------------------------------------------------- checks ----------------- */
+
+static void place(const struct field* f, int dim, int as_mesh, char hash[80]) {
+  pnpbs_placement placement = placement_in_cube(dim);
+  struct field copy = *f;
+  const char* text = "";
+  expect(give(placement, &copy, as_mesh) == PNPBS_OK, "spacing");
+  memset(&copy, 0, sizeof copy); /* it was copied */
+  expect(pnpbs_placement_run(placement) >= 0, "run");
+  expect(pnpbs_placement_get_string(placement, "hash", &text) == PNPBS_OK, "hash");
+  snprintf(hash, 80, "%s", text);
+  pnpbs_placement_destroy(&placement);
+}
+
+static void check_same_nodes(int dim, int as_mesh) {
+  static struct field f;
+  char together[80], alone[80];
+  pnpbs_context all = context;
+  fill(&f, dim);
+  place(&f, dim, as_mesh, together);
+  expect(pnpbs_context_create_serial(&context) == PNPBS_OK, "serial context");
+  if (rank == 0) {
+    place(&f, dim, as_mesh, alone);
+    expect(strcmp(together, alone) == 0, "other nodes than one process has");
+  }
+  pnpbs_context_destroy(&context);
+  context = all;
+}
+
+static void check_ranks_that_differ(int as_mesh) {
+  static struct field f;
+  pnpbs_placement placement = placement_in_cube(2);
+  fill(&f, 2);
+  if (size > 1 && rank == size - 1) f.d[3] *= 1.5;
+  if (size > 1) {
+    expect(give(placement, &f, as_mesh) == PNPBS_ERROR_ARGUMENT, "ranks that differ");
+    expect(strstr(pnpbs_last_error(context), "all ranks") != NULL, "are told so");
+  }
+  fill(&f, 2);
+  if (rank == size - 1) f.d[3] = -1;
+  expect(give(placement, &f, as_mesh) == PNPBS_ERROR_SPACING, "one rank's bad value");
+  expect(strstr(pnpbs_last_error(context), "d[3]") != NULL, "is named");
+  pnpbs_placement_destroy(&placement);
+}
+
+int main(int argc, char** argv) {
+  int all, dim, as_mesh;
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  for (as_mesh = 0; as_mesh < 2; ++as_mesh) {
+    for (dim = 2; dim <= 3; ++dim) check_same_nodes(dim, as_mesh);
+    check_ranks_that_differ(as_mesh);
+  }
+  pnpbs_context_destroy(&context);
+  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  if (rank == 0) printf("%d failed\n", all);
+  MPI_Finalize();
+  return all != 0;
+}
