@@ -577,6 +577,21 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_points(pnpbs_placement placem
                                                           const double *coordinates,
                                                           const double *d);
 
+/** The spacing from a file with values at points, by the ending of its name:
+ *    .vtu   VTK's unstructured grid, as VTK, ParaView, meshio and pnpbs_placement_write write it:
+ *           text, base64 or raw, packed by zlib or not
+ *    .msh   Gmsh's, versions 4.1 and 2.2, text or binary, with $NodeData
+ *    .csv   a header with columns x, y, (z) and others, and a point in each line
+ *  Triangles and quadrangles, in space tetrahedra are a mesh as pnpbs_placement_set_spacing_mesh
+ *  takes it; without any the points are as for pnpbs_placement_set_spacing_points. In the plane z is
+ *  left out. Collective; every rank reads the file. Errors: PNPBS_ERROR_FILE for a file that cannot
+ *  be read, is none of these or has other elements, and for a field that is not there, with those
+ *  that are; those of the two functions above.
+ *  @param[in] path   the file
+ *  @param[in] field  its name in the file; NULL or "": the only one, or the one called "spacing" */
+PNPBS_API pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement,
+                                                        const char *path, const char *field);
+
 /** The spacing from the shape of the domain as it is now: the least that its curves and surfaces
  * ask for, each growing with the distance from it. Collective. The same on any number of ranks.
  *  Errors: PNPBS_ERROR_DOMAIN as pnpbs_domain_check, PNPBS_ERROR_ARGUMENT for negative numbers,

@@ -7,6 +7,7 @@
 #include "api/placement_calls.hpp"
 #include "api/spacing_callback.hpp"
 #include "domain/given_values.hpp"
+#include "spacing/files/field_file.hpp"
 #include "spacing/given_field.hpp"
 
 using namespace pnpbs;
@@ -72,7 +73,9 @@ GivenField<Dim> field_from(std::int64_t n, const double* coordinates, const doub
   require_pointer(coordinates, "coordinates");
   require_pointer(d, "d");
   GivenField<Dim> field;
-  field.points = given_values::read_points<Dim>("coordinates", n, coordinates);
+  field.points.resize(static_cast<std::size_t>(n));
+  for (std::int64_t i = 0; i < n; ++i)
+    std::copy_n(coordinates + Dim * i, Dim, field.points[static_cast<std::size_t>(i)].begin());
   field.values.assign(d, d + n);
   return field;
 }
@@ -136,6 +139,14 @@ pnpbs_status pnpbs_placement_set_spacing_points(pnpbs_placement placement, int64
                                                 const double* coordinates, const double* d) {
   return take_field(placement,
                     [&]<int Dim>(PlacementOf<Dim>&) { return field_from<Dim>(n, coordinates, d); });
+}
+
+pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement, const char* path,
+                                              const char* field) {
+  return take_field(placement, [&]<int Dim>(PlacementOf<Dim>&) {
+    require_pointer(path, "path");
+    return read_field<Dim>(path, field ? field : "");
+  });
 }
 
 pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d) {

@@ -34,6 +34,14 @@ struct MshCells {
   std::size_t count() const { return regions.size(); }
 };
 
+// Values at nodes, of one $NodeData section.
+struct MshNodeValues {
+  std::string name;
+  std::int32_t components;
+  std::vector<std::int64_t> node_tags;
+  std::vector<double> values;  // [node_tags][components]
+};
+
 struct MshMesh {
   std::string name;  // of the file
   std::vector<Point<3>> nodes;
@@ -41,6 +49,7 @@ struct MshMesh {
   std::vector<MshRegion> regions;
   std::array<MshCells, kMshShapes> cells;
   GroupNames names;
+  std::vector<MshNodeValues> node_values;  // if they are wanted
   std::vector<std::string> warnings;
 
   const MshCells& of(MshShape shape) const { return cells[static_cast<std::size_t>(shape)]; }
@@ -58,7 +67,9 @@ MshMesh read_msh(const std::string& path);
 bool is_msh(const std::string& path);
 
 // The same from memory. `name` stands for the file in messages.
-MshMesh parse_msh(std::string_view bytes, const std::string& name);
+enum class MshWanted { mesh, mesh_and_node_values };
+MshMesh parse_msh(std::string_view bytes, const std::string& name,
+                  MshWanted wanted = MshWanted::mesh);
 
 // Leaves one of each set of elements with the same corners, the first: in version 2.2 an element in
 // several physical groups is there once for each.

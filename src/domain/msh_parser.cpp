@@ -25,7 +25,8 @@ std::size_t index_of(MshShape shape) { return static_cast<std::size_t>(shape); }
 
 class MshParser {
  public:
-  MshParser(std::string_view bytes, const std::string& name) : fields_(bytes, name), name_(name) {}
+  MshParser(std::string_view bytes, const std::string& name, MshWanted wanted)
+      : fields_(bytes, name), name_(name), wanted_(wanted) {}
 
   MshMesh parse() {
     mesh_.name = name_;
@@ -88,6 +89,8 @@ class MshParser {
       if (!has_nodes_) fields_.fail("found $Elements before $Nodes");
       if (std::exchange(has_elements_, true)) fields_.fail("found a second section $Elements");
       is_old_ ? read_old_elements() : read_elements();
+    } else if (section == "NodeData" && wanted_ == MshWanted::mesh_and_node_values) {
+      read_node_values();
     } else {
       fields_.skip_section(section);
       return;
@@ -330,6 +333,39 @@ class MshParser {
     return any_group_[static_cast<std::size_t>(dimension) + 1] ? in_group : in_none + in_group;
   }
 
+  // ------------------------------------------------------------ values at nodes
+  // Names, times and counts stand in lines of text, in either kind of file.
+  void read_node_values() {
+    MshNodeValues field;
+    const std::int64_t texts = count_in_line("string tags");
+    for (std::int64_t i = 0; i < texts; ++i) {
+      const std::string_view line = fields_.required_line("a string tag");
+      if (i > 0) continue;
+      const std::size_t begin = line.find('"'), end = line.rfind('"');
+      field.name = begin == end ? line : line.substr(begin + 1, end - begin - 1);
+    }
+    const std::int64_t reals = count_in_line("real tags");
+    for (std::int64_t i = 0; i < reals; ++i) fields_.required_line("a real tag");
+    const std::int64_t integers = count_in_line("integer tags");
+    if (integers < 3) fields_.fail("expected at least 3 integer tags: step, components, nodes");
+    count_in_line("the time step");
+    const std::int64_t components = count_in_line("components");
+    const std::int64_t nodes = count_in_line("nodes");
+    for (std::int64_t i = 3; i < integers; ++i) count_in_line("an integer tag");
+    if (components < 1 || components > 9)
+      fields_.fail("found " + std::to_string(components) + " components, expected 1, 3 or 9");
+    require_nodes(nodes);
+    const auto each = static_cast<std::size_t>(components);
+    fields_.require_room(nodes, "values at nodes", (1 + each) * kTextNumber, kInt + each * kDouble);
+    field.components = static_cast<std::int32_t>(components);
+    for (std::int64_t i = 0; i < nodes; ++i) {
+      field.node_tags.push_back(fields_.int32("a node's number"));
+      for (std::size_t c = 0; c < each; ++c)
+        field.values.push_back(fields_.any_number("a value at the node"));
+    }
+    mesh_.node_values.push_back(std::move(field));
+  }
+
   void require_all(std::size_t found, std::int64_t announced, const std::string& what) const {
     if (static_cast<std::int64_t>(found) != announced)
       fields_.fail("found " + part_of(static_cast<std::int64_t>(found), announced, what));
@@ -347,6 +383,7 @@ class MshParser {
 
   MshFields fields_;
   std::string name_;
+  MshWanted wanted_;
   bool is_old_ = false, has_nodes_ = false, has_elements_ = false;
   MshMesh mesh_;
   MshNodeTable nodes_;
@@ -361,8 +398,8 @@ class MshParser {
 
 }  // namespace
 
-MshMesh parse_msh(std::string_view bytes, const std::string& name) {
-  return MshParser(bytes, name).parse();
+MshMesh parse_msh(std::string_view bytes, const std::string& name, MshWanted wanted) {
+  return MshParser(bytes, name, wanted).parse();
 }
 
 }  // namespace pnpbs

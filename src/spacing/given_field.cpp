@@ -29,14 +29,28 @@ int turn(const std::array<Point<2>, 3>& x) { return orientation(x[0], x[1], x[2]
 int turn(const std::array<Point<3>, 4>& x) { return orientation(x[0], x[1], x[2], x[3]); }
 
 template <int Dim>
+std::vector<bool> points_that_count(const GivenField<Dim>& field) {
+  const bool all = field.elements.empty() || !field.only_used;
+  std::vector<bool> count(field.points.size(), all);
+  if (all) return count;
+  for (const auto& element : field.elements)
+    for (const std::int32_t i : element) count[static_cast<std::size_t>(i)] = true;
+  return count;
+}
+
+template <int Dim>
 void check_points(const GivenField<Dim>& field) {
+  const std::vector<bool> counts = points_that_count(field);
   for (std::size_t i = 0; i < field.points.size(); ++i) {
+    if (!counts[i]) continue;
     const auto at = static_cast<std::int64_t>(i);
     const Point<Dim>& x = field.points[i];
-    if (!is_usable(x)) given_values::require_point<Dim>(indexed(field.points_name, at), x);
+    if (!is_usable(x))
+      throw Error(field.fault, indexed(field.points_name, at) + " is " + point_text(x) +
+                                   ", expected numbers between -1e60 and 1e60");
     const double value = field.values[i];
     if (!std::isfinite(value) || value <= 0)
-      require_spacing_value(indexed(field.values_name, at) + ", at " + point_text(x) + ",", value);
+      require_spacing_value(indexed(field.values_name, at) + " at " + point_text(x), value);
   }
 }
 
@@ -50,9 +64,9 @@ void check_elements(const GivenField<Dim>& field) {
     std::string places;
     for (const Point<Dim>& corner : corners)
       places += (places.empty() ? "" : ", ") + point_text(corner);
-    throw Error(ErrorKind::argument, indexed(field.elements_name, static_cast<std::int64_t>(e)) +
-                                         ": the " + (Dim == 2 ? "triangle" : "tetrahedron") +
-                                         " with corners at " + places + " is flat");
+    throw Error(field.fault, indexed(field.elements_name, static_cast<std::int64_t>(e)) + ": the " +
+                                 (Dim == 2 ? "triangle" : "tetrahedron") + " with corners at " +
+                                 places + " is flat");
   }
 }
 
@@ -93,8 +107,7 @@ template <int Dim>
 std::shared_ptr<const Spacing<Dim>> spacing_from_field(GivenField<Dim> field,
                                                        const Box<Dim>& domain) {
   if (field.points.empty())
-    throw Error(ErrorKind::argument,
-                field.points_name + ": there is no point, expected at least 1");
+    throw Error(field.fault, field.points_name + ": there is no point, expected at least 1");
   check_points(field);
   check_elements(field);
   require_near(field, domain);

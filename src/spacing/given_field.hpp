@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/types.hpp"
 #include "spacing/spacing.hpp"
 
@@ -22,14 +23,17 @@ struct GivenField {
   std::vector<double> values;
   // Triangles or tetrahedra, in any order of their corners; without any the points are scattered.
   std::vector<std::array<std::int32_t, Dim + 1>> elements;
+  ErrorKind fault = ErrorKind::argument;  // what it is if a part of it is wrong
+  // Points that no element has may be of any kind: files of meshes have such.
+  bool only_used = false;
 };
 
 // Throws Error(ErrorKind::spacing) unless it is finite and greater than 0. `name`: "d[3]".
 void require_spacing_value(const std::string& name, double value);
 
 // Checks the field: coordinates and values are numbers, elements are not flat, points in one place
-// have one value, and what holds all of it meets the domain's box. Throws Error(ErrorKind::argument
-// or ::spacing), told by the first of what is wrong.
+// have one value, and what holds all of it meets the domain's box. Throws Error(field.fault) or
+// Error(ErrorKind::spacing), told by the first of what is wrong.
 template <int Dim>
 std::shared_ptr<const Spacing<Dim>> spacing_from_field(GivenField<Dim> field,
                                                        const Box<Dim>& domain);

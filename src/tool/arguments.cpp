@@ -12,6 +12,7 @@
 #include "tool/library.hpp"
 #include "tool/names.hpp"
 #include "tool/numbers.hpp"
+#include "tool/spacing_file.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -105,7 +106,9 @@ void add_input(CLI::App& app, Arguments& arguments) {
                  "wanted distance d between neighbouring nodes: a number, or\na formula in x and y "
                  "(and z) such as '1 + 0.02*hypot(x,y)' or\n'0.5 + 0.15*dist', with what the shape "
                  "is there: dist, dist(TAG),\nseglen, curvature(NODES), gap(NODES); or auto: what "
-                 "the shape asks\nfor")
+                 "the shape asks\nfor; or FILE or FILE:FIELD with values at points: a mesh (.vtu "
+                 "or\n.msh), between whose nodes d is linear, or scattered points (.csv\nwith "
+                 "columns x, y and d)")
       ->type_name("EXPR")
       ->group(group);
   app.add_option("--spacing-grid", arguments.spacing_grid,
@@ -344,6 +347,8 @@ void check_input(const Arguments& arguments) {
   if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");
   }
+  if (arguments.simplify && spacing_file(arguments.spacing))
+    refuse("--simplify needs d as a formula or an ASCII grid, not from a mesh or points");
   if (arguments.simplify && arguments.spacing == "auto")
     refuse("--simplify needs d as a formula or a grid: auto follows every vertex of the boundary");
   const CheckpointInterval& interval = arguments.checkpoint_interval;

@@ -11,6 +11,7 @@
 #include "tool/geo_file.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/names.hpp"
+#include "tool/spacing_file.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -51,6 +52,11 @@ void refuse_to_replace(const std::string& input, const std::string& path) {
     throw BadInput("'" + path + "' would replace what is read: write to another file");
 }
 
+std::string file_of_spacing(const Arguments& arguments) {
+  const auto file = spacing_file(arguments.spacing);
+  return file ? file->path : "";
+}
+
 }  // namespace
 
 Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
@@ -60,8 +66,8 @@ Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
   if (!arguments.report.empty()) add(arguments.report, nullptr);
   if (GeoFile::is_meant_by(arguments)) add_projections(arguments.domain);
   for (const Output& output : outputs_)
-    for (const std::string& input :
-         {arguments.domain, arguments.spacing_grid, arguments.projection})
+    for (const std::string& input : {arguments.domain, arguments.spacing_grid,
+                                     file_of_spacing(arguments), arguments.projection})
       refuse_to_replace(input, output.file.path());
   check_pictures(arguments);
   if (ranks_.is_first()) check_writable();

@@ -19,6 +19,8 @@ std::int32_t call_grid(std::int64_t n, std::int32_t dim, const double* coordinat
 Spacing::Spacing(const Arguments& arguments, int dimension)
     : min_(arguments.min_spacing.value_or(0)), max_(arguments.max_spacing.value_or(0)) {
   if (arguments.spacing == "auto") return;
+  file_ = spacing_file(arguments.spacing);
+  if (file_) return;
   if (arguments.spacing_grid.empty()) {
     expression_ = std::make_unique<Expression>(arguments.spacing, dimension, "--spacing",
                                                Expression::Names::shape_too);
@@ -38,6 +40,11 @@ void Spacing::simplify(pnpbs_domain domain, pnpbs_context context, double tolera
 
 void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                       const Ranks& ranks) {
+  if (file_) {
+    check(pnpbs_placement_set_spacing_file(placement, file_->path.c_str(), file_->field.c_str()),
+          context);
+    return;
+  }
   if (!grid_ && !expression_) {
     check(pnpbs_placement_set_spacing_from_shape(placement, nodes_per_turn, nodes_across,
                                                  nodes_per_edge, growth, min_, max_),

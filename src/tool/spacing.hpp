@@ -3,12 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "tool/arguments.hpp"
 #include "tool/expression.hpp"
 #include "tool/grid_file.hpp"
 #include "tool/library.hpp"
 #include "tool/ranks.hpp"
+#include "tool/spacing_file.hpp"
 
 namespace pnpbs::tool {
 
@@ -26,8 +28,9 @@ class Spacing {
 
  private:
   double min_, max_;                        // of auto, 0: none
-  std::unique_ptr<Expression> expression_;  // neither this nor a grid: auto
+  std::unique_ptr<Expression> expression_;  // none of these: auto
   std::unique_ptr<Grid> grid_;
+  std::optional<SpacingFile> file_;
 };
 
 }  // namespace pnpbs::tool

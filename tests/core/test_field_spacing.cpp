@@ -329,7 +329,7 @@ START_TEST(what_is_refused) {
   expect_refused(bad, ErrorKind::spacing, "greater than 0");
   bad = mesh;
   bad.points[3][1] = kNan;
-  expect_refused(bad, ErrorKind::argument, "coordinates[3][1] is nan");
+  expect_refused(bad, ErrorKind::argument, "coordinates[3] is (1, nan)");
   bad = mesh;
   bad.elements[2] = {0, 1, 1};
   expect_refused(bad, ErrorKind::argument, "corners[2]: the triangle");

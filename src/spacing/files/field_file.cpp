@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spacing/files/field_file.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/point_text.hpp"
+#include "domain/whole_file.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+bool ends_in(const std::string& path, std::string_view ending) {
+  return path.size() > ending.size() &&
+         std::equal(
+             ending.begin(), ending.end(), path.end() - static_cast<std::ptrdiff_t>(ending.size()),
+             [](char a, char b) { return a == b || (b >= 'A' && b <= 'Z' && a == b - 'A' + 'a'); });
+}
+
+FileField parse(const std::string& path, const std::string& wanted) {
+  const auto parse = ends_in(path, ".vtu")   ? parse_vtu_field
+                     : ends_in(path, ".msh") ? parse_msh_field
+                     : ends_in(path, ".csv") ? parse_csv_field
+                                             : nullptr;
+  if (!parse)
+    throw Error(ErrorKind::file, path +
+                                     ": expected the name of a file that ends in .vtu, .msh or "
+                                     ".csv, for a spacing from its values");
+  return parse(read_whole_file(path), path, wanted);
+}
+
+std::string listed(const std::vector<FieldName>& fields) {
+  if (fields.empty()) return "it has none";
+  std::vector<std::string> names;
+  for (const FieldName& field : fields)
+    names.push_back(
+        "'" + field.name + "'" +
+        (field.components == 1 ? "" : " (" + std::to_string(field.components) + " components)"));
+  return "it has " + list_text(names, 20);
+}
+
+template <int Dim>
+void take_elements(const std::vector<std::int32_t>& corners, GivenField<Dim>& field) {
+  field.elements.resize(corners.size() / (Dim + 1));
+  for (std::size_t e = 0; e < field.elements.size(); ++e)
+    std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(e * (Dim + 1)), Dim + 1,
+                field.elements[e].begin());
+}
+
+}  // namespace
+
+std::size_t chosen_field(const std::vector<FieldName>& fields, const std::string& wanted,
+                         const std::string& file) {
+  const auto fail = [&](const std::string& why) {
+    throw Error(ErrorKind::file, file + ": " + why + "; of values at points " + listed(fields));
+  };
+  std::size_t found = fields.size(), meant = 0;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (wanted.empty() && fields[i].components == 1 && fields[i].may_be_meant) {
+      ++meant;
+      found = i;
+    }
+    if (fields[i].name == (wanted.empty() ? "spacing" : wanted)) {
+      if (!wanted.empty() && fields[i].components != 1)
+        fail("field '" + wanted + "' has " + std::to_string(fields[i].components) +
+             " components, expected one");
+      if (fields[i].components == 1) return i;
+    }
+  }
+  if (!wanted.empty()) fail("there is no field '" + wanted + "'");
+  if (meant == 0) fail("expected a field with one number at each point");
+  if (meant > 1) fail("expected the name of the field that is the spacing");
+  return found;
+}
+
+template <int Dim>
+GivenField<Dim> given_field(const FileField& file, const std::string& name) {
+  if (Dim == 3 && !file.has_z)
+    throw Error(ErrorKind::file, name + ": there is no column z, expected one in space");
+  GivenField<Dim> field;
+  field.points_name = name + ": points";
+  field.values_name = name + ": " + file.field;
+  field.elements_name = name + (Dim == 2 ? ": triangles" : ": tetrahedra");
+  field.points.resize(file.points.size());
+  for (std::size_t i = 0; i < file.points.size(); ++i)
+    std::copy_n(file.points[i].begin(), Dim, field.points[i].begin());
+  field.values = file.values;
+  field.fault = ErrorKind::file;
+  field.only_used = true;
+  const std::int64_t others = Dim == 2 ? file.other_faces : file.other_solids;
+  if (others > 0)
+    throw Error(ErrorKind::file,
+                name + ": " + std::to_string(others) + " elements are " +
+                    (Dim == 2 ? "neither triangles nor quadrangles" : "no tetrahedra") +
+                    ", expected a mesh of " +
+                    (Dim == 2 ? "these" : "these (ParaView's filter Tetrahedralize makes one)"));
+  take_elements(Dim == 2 ? file.triangles : file.tetrahedra, field);
+  return field;
+}
+
+template <int Dim>
+GivenField<Dim> read_field(const std::string& path, const std::string& wanted) {
+  return given_field<Dim>(parse(path, wanted), path);
+}
+
+template GivenField<2> given_field(const FileField&, const std::string&);
+template GivenField<3> given_field(const FileField&, const std::string&);
+template GivenField<2> read_field(const std::string&, const std::string&);
+template GivenField<3> read_field(const std::string&, const std::string&);
+
+}  // namespace pnpbs

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What zlib packed, unpacked: the formats of RFC 1950 and RFC 1951. Most VTK files are packed so,
+// and no library is needed for that little.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pnpbs {
+
+// The bytes, which must be as many as told; nothing if they are not, or are damaged. Takes memory
+// for no more than that.
+std::optional<std::string> inflated(std::string_view packed, std::size_t bytes);
+
+// No fewer bytes hold so many: at best a bit stands for 258 bytes, and two are needed for each such
+// copy.
+constexpr bool may_inflate_to(std::size_t packed, std::size_t bytes) {
+  constexpr std::size_t kBestRatio = 1032;
+  return bytes / kBestRatio <= packed;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arrays of a VTK XML file, found by name and read one by one: as text, base64 or raw bytes, in
+// place or appended, packed by zlib or not (VTK file formats, https://docs.vtk.org/en/latest/
+// design_documents/VTKFileFormats.html).
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace pnpbs {
+
+struct VtuArray {
+  std::string section, name, type;  // section: "Points", "PointData", ...
+  std::int64_t components = 1;
+  std::string format;
+  std::uint64_t offset = 0;
+  std::string_view content;
+};
+
+struct VtuPiece {
+  std::int64_t points = 0, cells = 0;
+  std::vector<VtuArray> arrays;
+};
+
+class VtuFile {
+ public:
+  // Keeps a reference to the bytes. Throws Error(ErrorKind::file).
+  VtuFile(std::string_view bytes, std::string name);
+
+  const std::vector<VtuPiece>& pieces() const { return pieces_; }
+
+  // Null if there is none.
+  const VtuArray* find(const VtuPiece& piece, std::string_view section,
+                       std::string_view name) const;
+  // Whatever the type in the file. Integers are exact up to 2^53.
+  std::vector<double> read(const VtuArray& array, std::int64_t tuples) const;
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error(ErrorKind::file, name_ + ": " + message);
+  }
+
+ private:
+  class Xml;
+  class ByteSource;
+
+  void take_header(const Xml& xml);
+  static VtuArray array_of(const Xml& xml, const std::string& section);
+  void take_appended(const Xml& xml);
+  std::vector<double> read_text(const VtuArray& array, std::size_t count) const;
+  std::string read_bytes(const VtuArray& array, std::size_t bytes) const;
+  std::string read_plain(const VtuArray& array, ByteSource& source, std::size_t bytes) const;
+  std::string read_packed(const VtuArray& array, ByteSource& source, std::size_t bytes) const;
+  std::uint64_t word(ByteSource& source, const VtuArray& array) const;
+  std::string called(const VtuArray& array) const;
+
+  std::string name_;
+  std::vector<VtuPiece> pieces_;
+  std::endian order_ = std::endian::little;
+  std::size_t word_size_ = 4;  // of headers
+  bool packed_ = false, appended_raw_ = true;
+  std::string_view appended_;
+};
+
+}  // namespace pnpbs
