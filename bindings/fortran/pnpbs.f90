@@ -128,6 +128,9 @@ module pnpbs
     procedure, private :: placement_set_spacing_grid
     procedure, private :: placement_set_spacing_grid_in_space
     generic :: set_spacing_grid => placement_set_spacing_grid, placement_set_spacing_grid_in_space
+    procedure :: set_spacing_mesh => placement_set_spacing_mesh
+    procedure :: set_spacing_points => placement_set_spacing_points
+    procedure :: set_spacing_file => placement_set_spacing_file
     procedure :: set_spacing_from_shape => placement_set_spacing_from_shape
     procedure :: set_spacing_at_nodes => placement_set_spacing_at_nodes
     procedure :: set_monitor => placement_set_monitor
@@ -1273,6 +1276,84 @@ contains
     call given%check_rank('values', rank_of_values, dim)
     call given%check_rows('origin', origins, rank_of_values)
     call given%check_rows('step', steps, rank_of_values)
+  end subroutine
+
+  !> The spacing from values at the nodes of a background mesh, copied: linear on each triangle, in
+  !> space on each tetrahedron, and beyond the mesh what it is at the mesh's nearest point.
+  !> Collective; every rank gives the same arrays, and holds them. Checks the domain first. Errors:
+  !> PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and for a mesh whose box
+  !> does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node number out of range, an element that
+  !> is flat, ranks that differ.
+  !>   coordinates  (dim, n)
+  !>   d            (n)
+  !>   corners      (dim + 1, elements) node numbers from 1 on, whichever way round
+  subroutine placement_set_spacing_mesh(self, coordinates, d, corners, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:), d(:)
+    integer(c_int64_t), intent(in) :: corners(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int64_t) :: n, elements
+    integer(c_int) :: status
+    call check_field(self, coordinates, d, given)
+    call given%check_rows('corners', size(corners, 1), size(coordinates, 1) + 1)
+    n = given%capacity(size(d, kind=c_int64_t))
+    elements = size(corners, 2, kind=c_int64_t)
+    status = c_placement_set_spacing_mesh(self%c, n, coordinates, d, elements, corners - 1)
+    call conclude('placement%set_spacing_mesh', status, stat, errmsg, given)
+  end subroutine
+
+  !> The spacing from values at scattered points, copied: at each of them its own value, elsewhere a
+  !> plane fitted to the 8 (in space 16) nearest ones by weighted least squares, never below the
+  !> least nor above the largest of their values. Collective; every rank gives the same arrays, and
+  !> holds them. Checks the domain first. Errors: PNPBS_ERROR_SPACING for a value that is zero,
+  !> negative or not finite, for points in one place with different values, and for points whose box
+  !> does not meet the domain's; PNPBS_ERROR_ARGUMENT for ranks that differ.
+  !>   coordinates  (dim, n)
+  !>   d            (n)
+  subroutine placement_set_spacing_points(self, coordinates, d, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:), d(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call check_field(self, coordinates, d, given)
+    status = c_placement_set_spacing_points(self%c, given%capacity(size(d, kind=c_int64_t)), &
+                                            coordinates, d)
+    call conclude('placement%set_spacing_points', status, stat, errmsg, given)
+  end subroutine
+
+  !> The spacing from a file with values at points, by the ending of its name: .vtu (VTK's
+  !> unstructured grid), .msh (Gmsh's, with $NodeData) or .csv (columns x, y, (z) and others).
+  !> Triangles and quadrangles, in space tetrahedra are a mesh as set_spacing_mesh takes it; without
+  !> any the points are as for set_spacing_points. In the plane z is left out. Collective; every rank
+  !> reads the file. Errors: PNPBS_ERROR_FILE, and as these two.
+  !>   path   blanks at its end do not count
+  !>   field  optional: its name in the file; without, the only one, or the one called "spacing"
+  subroutine placement_set_spacing_file(self, path, field, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: path
+    character(len=*), intent(in), optional :: field
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int) :: status
+    if (present(field)) then
+      status = c_placement_set_spacing_file(self%c, c_text(path), c_text(field))
+    else
+      status = c_placement_set_spacing_file(self%c, c_text(path), c_text(''))
+    end if
+    call conclude('placement%set_spacing_file', status, stat, errmsg)
+  end subroutine
+
+  ! Refuses points of another dimension, and values that are not theirs.
+  subroutine check_field(self, coordinates, d, given)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:), d(:)
+    type(arguments), intent(inout) :: given
+    call given%check_rows('coordinates', size(coordinates, 1), dimension_of(self, given))
+    call given%require('d', size(d, kind=c_int64_t), size(coordinates, 2, kind=c_int64_t))
   end subroutine
 
   !> The spacing from the shape of the domain as it is now: the least that its curves and surfaces

@@ -652,6 +652,37 @@ module pnpbs_c
       integer(c_int) :: c_placement_set_spacing_grid
     end function
 
+    function c_placement_set_spacing_mesh(placement, n, coordinates, d, elements, corners) bind(C, &
+      name="pnpbs_placement_set_spacing_mesh")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*), d(*)
+      integer(c_int64_t), value :: elements
+      integer(c_int64_t), intent(in) :: corners(*)
+      integer(c_int) :: c_placement_set_spacing_mesh
+    end function
+
+    function c_placement_set_spacing_points(placement, n, coordinates, d) bind(C, &
+      name="pnpbs_placement_set_spacing_points")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*), d(*)
+      integer(c_int) :: c_placement_set_spacing_points
+    end function
+
+    function c_placement_set_spacing_file(placement, path, field) bind(C, &
+      name="pnpbs_placement_set_spacing_file")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: path(*), field(*)
+      integer(c_int) :: c_placement_set_spacing_file
+    end function
+
     function c_placement_set_spacing_from_shape(placement, nodes_per_turn, nodes_across, &
       nodes_per_edge, growth, min_spacing, max_spacing) bind(C, &
       name="pnpbs_placement_set_spacing_from_shape")

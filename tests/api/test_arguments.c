@@ -383,6 +383,9 @@ START_TEST(spacings_from_fields) {
   REFUSE(SPACING, "d[2]", "nan", pnpbs_placement_set_spacing_points(p, 3, xy, unknown));
   REFUSE(SPACING, "from (9, 9) to (10, 11)", "unit",
          pnpbs_placement_set_spacing_mesh(p, 3, far_xy, v, 1, c));
+  REFUSE(ARGUMENT, "path", "NULL", pnpbs_placement_set_spacing_file(p, NULL, NULL));
+  REFUSE(FILE, "no.vtu", "No such", pnpbs_placement_set_spacing_file(p, "no.vtu", ""));
+  REFUSE(FILE, "no.stl", ".vtu, .msh or .csv", pnpbs_placement_set_spacing_file(p, "no.stl", ""));
   REFUSE(SPACING, "d[0] = 0.1 and argument d[1] = 0.2", "(0.5, 0.5)",
          pnpbs_placement_set_spacing_points(p, 2, same, v));
 }

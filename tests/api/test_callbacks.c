@@ -518,6 +518,7 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_placement_set_spacing_grid(p, size, xy, xy, xy));
   REFUSED(pnpbs_placement_set_spacing_mesh(p, 4, xy, xy, 1, ends));
   REFUSED(pnpbs_placement_set_spacing_points(p, 1, xy, xy));
+  REFUSED(pnpbs_placement_set_spacing_file(p, "unread.csv", NULL));
   REFUSED(pnpbs_placement_set_spacing_at_nodes(p, 1, xy));
   REFUSED(pnpbs_placement_set_monitor(p, no_stop, NULL));
   REFUSED(pnpbs_placement_set_nodes(p, 1, xy, NULL));

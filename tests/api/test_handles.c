@@ -103,6 +103,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_set_spacing_grid, (handle, grid_size, grid, grid + 2, grid + 4))                    \
   X(placement_set_spacing_mesh, (handle, 4, xy, grid + 1, 1, faces + 3))                          \
   X(placement_set_spacing_points, (handle, 2, xy, grid + 1))                                      \
+  X(placement_set_spacing_file, (handle, "unread.csv", NULL))                                     \
   X(placement_set_spacing_from_shape, (handle, 20, 3, 1, 0, 0, 0))                                \
   X(placement_set_spacing_at_nodes, (handle, 1, grid))                                            \
   X(placement_set_monitor, (handle, no_stop, NULL))                                               \

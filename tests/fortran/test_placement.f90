@@ -14,6 +14,7 @@ program test_placement
   call about_a_square
   call about_steps
   call about_spacings
+  call about_values_at_points
   call about_given_nodes
   call about_wrong_arguments
   call about_files
@@ -174,6 +175,58 @@ contains
     allocate (xy(2, nodes))
     call placement%get_nodes(xy)
     share = real(count(xy(1, :) < 0.5d0), c_double) / real(nodes, c_double)
+  end function
+
+  !> Linear ones, on two triangles, at their corners alone, and in a file.
+  subroutine about_values_at_points
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    real(c_double) :: x(2, 4), d(4)
+    integer(c_int64_t) :: corners(3, 2)
+    integer, parameter :: unit = 31
+    integer :: kind
+    x = reshape([-1d0, -1d0, 2d0, -1d0, 2d0, 2d0, -1d0, 2d0], [2, 4])
+    d = 0.05d0 + 0.02d0 * (x(1, :) + 1)
+    corners = reshape([1, 2, 3, 4, 3, 1], [3, 2])
+    open (unit=unit, file='points.csv', action='write')
+    write (unit, '(a)') 'x,y,d,other'
+    write (unit, '(3(es24.16, ","), i0)') (x(:, kind), d(kind), 7, kind=1, 4)
+    close (unit)
+    call square(context, domain, placement, 0.1d0)
+    call placement%set('steps', 20)
+    do kind = 1, 3
+      if (kind == 1) call placement%set_spacing_mesh(x, d, corners)
+      if (kind == 2) call placement%set_spacing_points(x, d)
+      if (kind == 3) call placement%set_spacing_file('points.csv', 'd')
+      call placement%run
+      call expect(has_linear_spacing(placement), 'values at given points')
+    end do
+    corners(2, 2) = 5
+    call placement%set_spacing_mesh(x, d, corners, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '4 nodes')
+    call placement%set_spacing_mesh(x, d(:3), corners, stat, errmsg)
+    call expect(stat < 0, 'values of other points')
+    call placement%set_spacing_mesh(x, d, corners(:2, :), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'corners')
+    call placement%set_spacing_points(x(:1, :), d, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates')
+    call placement%set_spacing_points(x, -d, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_SPACING, errmsg, '= -0.05')
+    call placement%set_spacing_file('points.csv', stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, "'d', 'other'")
+    call placement%destroy
+    call domain%destroy
+  end subroutine
+
+  function has_linear_spacing(placement) result(has)
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), allocatable :: xy(:,:), d(:)
+    integer(c_int64_t) :: nodes
+    logical :: has
+    call placement%count(nodes)
+    allocate (xy(2, nodes), d(nodes))
+    call placement%get_nodes(xy, spacing=d)
+    has = all(abs(d - 0.07d0 - 0.02d0 * xy(1, :)) < 1d-9)
   end function
 
   subroutine about_given_nodes

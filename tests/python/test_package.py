@@ -166,6 +166,31 @@ class Spacings(Case):
         self.assertEqual(len(hashes[0]), len(hashes[1]))
         np.testing.assert_allclose(hashes[0], hashes[1], atol=1e-6)
 
+    def test_values_at_given_points(self):
+        points = np.array([[-1, -1], [2, -1], [2, 2], [-1, 2.0]])
+        d = 0.05 + 0.02 * (points[:, 0] + 1)
+        corners = [[0, 1, 2], [3, 2, 0]]
+        rows = "".join(f"{x},{y},7,{v}\n" for (x, y), v in zip(points, d))
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name) / "points.csv"
+        path.write_text("x,y,other,d\n" + rows)
+        for set_spacing in (lambda p: p.set_spacing_mesh(points, d, corners),
+                            lambda p: p.set_spacing_points(points, d),
+                            lambda p: p.set_spacing_file(path, "d")):
+            placement = set_spacing(self.square(steps=20))
+            placement.run()
+            nodes = placement.nodes()
+            np.testing.assert_allclose(nodes.spacing, 0.07 + 0.02 * nodes.points[:, 0], atol=1e-9)
+        self.assert_status(Status.ERROR_ARGUMENT, placement.set_spacing_mesh, points, d, [[0, 1, 4]])
+        self.assert_status(Status.ERROR_SPACING, placement.set_spacing_points, points, -d)
+        self.assert_status(Status.ERROR_FILE, placement.set_spacing_file, path, "e")
+        self.assert_status(Status.ERROR_FILE, placement.set_spacing_file, path)
+        with self.assertRaises(ValueError):
+            placement.set_spacing_points(points, d[:3])
+        with self.assertRaises(ValueError):
+            placement.set_spacing_mesh(points, d, [[0, 1, 2, 3]])
+
     def test_adapting(self):
         placement = self.square().set_spacing(0.1)
         placement.run()

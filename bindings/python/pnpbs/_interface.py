@@ -124,6 +124,12 @@ pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
     pnpbs_spacing_fn spacing, void *user);
 pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const int64_t *size,
     const double *origin, const double *step, const double *values);
+pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placement, int64_t n,
+    const double *coordinates, const double *d, int64_t elements, const int64_t *corners);
+pnpbs_status pnpbs_placement_set_spacing_points(pnpbs_placement placement, int64_t n,
+    const double *coordinates, const double *d);
+pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement, const char *path,
+    const char *field);
 pnpbs_status pnpbs_placement_set_spacing_from_shape(pnpbs_placement placement,
     double nodes_per_turn, double nodes_across, double nodes_per_edge, double growth,
     double min_spacing, double max_spacing);

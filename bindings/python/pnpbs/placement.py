@@ -2,11 +2,12 @@
 """Placements: the nodes in a domain, and how they come to be."""
 
 import ctypes
+import os
 from typing import NamedTuple
 
 import numpy as np
 
-from ._arrays import as_point, as_points
+from ._arrays import as_indices, as_point, as_points
 from ._callbacks import monitor_callback, spacing_callback
 from ._interface import library
 from ._signals import signals_kept_in
@@ -119,6 +120,43 @@ class Placement(Results, Fields, Handle):
             self._spacings_before.append(self._spacing)
         self._spacing = callback
         return self
+
+    def set_spacing_mesh(self, points, d, corners):
+        """The spacing from values `d` at the nodes of a background mesh, the rows of `points`: linear
+        on each element, and beyond the mesh what it is at the mesh's nearest point. `corners` is (m,
+        dim + 1), indices of rows: triangles, in space tetrahedra. Collective; every rank gives the
+        same arrays, and holds a copy."""
+        coordinates, values = self._field(points, d)
+        elements = as_indices(corners, self.dim + 1, "corners")
+        self._call("set_spacing_mesh", len(values), coordinates, values, len(elements), elements)
+        return self._keep_spacing(None)
+
+    def set_spacing_points(self, points, d):
+        """The spacing from values `d` at scattered points, the rows of `points`: at each of them its
+        own value, elsewhere a plane fitted to the 8 (in space 16) nearest ones by weighted least
+        squares, never below the least nor above the largest of their values. Collective; every rank
+        gives the same arrays, and holds a copy."""
+        coordinates, values = self._field(points, d)
+        self._call("set_spacing_points", len(values), coordinates, values)
+        return self._keep_spacing(None)
+
+    def set_spacing_file(self, path, field=None):
+        """The spacing from a file with values at points: VTK's unstructured grid (.vtu), Gmsh's mesh
+        with values at nodes (.msh), or a table with columns x, y, (z) and others (.csv). Triangles
+        and quadrangles, in space tetrahedra are a mesh as `set_spacing_mesh` takes it; without any
+        the points are as for `set_spacing_points`. In the plane z is left out. `field` is the name of
+        the values in the file; without it they are the only ones, or those called "spacing".
+        Collective; every rank reads the file."""
+        self._call("set_spacing_file", os.fsencode(path),
+                   None if field is None else field.encode())
+        return self._keep_spacing(None)
+
+    def _field(self, points, d):
+        coordinates = as_points(points, self.dim, "points")
+        values = np.ascontiguousarray(d, np.float64)
+        if values.shape != (len(coordinates),):
+            raise ValueError(f"d has shape {values.shape}; ({len(coordinates)},) was expected")
+        return coordinates, values
 
     def set_spacing_from_shape(self, nodes_per_turn=0.0, nodes_across=0.0, nodes_per_edge=0.0,
                                growth=0.0, min_spacing=0.0, max_spacing=0.0):

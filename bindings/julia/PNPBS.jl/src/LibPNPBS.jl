@@ -295,6 +295,20 @@ pnpbs_placement_set_spacing_grid(placement, size, origin, step, values) =
         placement::pnpbs_placement, size::Ptr{Int64}, origin::Ptr{Cdouble},
         step::Ptr{Cdouble}, values::Ptr{Cdouble})::pnpbs_status
 
+pnpbs_placement_set_spacing_mesh(placement, n, coordinates, d, elements, corners) =
+    @ccall $(symbol(:pnpbs_placement_set_spacing_mesh))(
+        placement::pnpbs_placement, n::Int64, coordinates::Ptr{Cdouble}, d::Ptr{Cdouble},
+        elements::Int64, corners::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_set_spacing_points(placement, n, coordinates, d) =
+    @ccall $(symbol(:pnpbs_placement_set_spacing_points))(
+        placement::pnpbs_placement, n::Int64, coordinates::Ptr{Cdouble},
+        d::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_set_spacing_file(placement, path, field) =
+    @ccall $(symbol(:pnpbs_placement_set_spacing_file))(
+        placement::pnpbs_placement, path::Cstring, field::Cstring)::pnpbs_status
+
 pnpbs_placement_set_spacing_from_shape(placement, nodes_per_turn, nodes_across, nodes_per_edge,
                                        growth, min_spacing, max_spacing) =
     @ccall $(symbol(:pnpbs_placement_set_spacing_from_shape))(

@@ -141,6 +141,60 @@ function set_spacing!(placement::Placement, d::AbstractVector{<:Real})
 end
 
 """
+    set_spacing_mesh!(placement, points, d, corners)
+
+The spacing from values `d` at the nodes of a background mesh, the columns of `points`: linear on each
+element, and beyond the mesh what it is at the mesh's nearest point. The columns of `corners` are
+triangles, in space tetrahedra, by node numbers from 1 on. Collective; every rank gives the same
+arrays, and holds a copy.
+"""
+function set_spacing_mesh!(placement::Placement, points::AbstractMatrix{<:Real},
+                           d::AbstractVector{<:Real}, corners::AbstractMatrix{<:Integer})
+    dim = ndims(placement)
+    coordinates = as_points(points, dim, "points")
+    require_length(d, size(points, 2), "d")
+    require_columns(corners, dim + 1, "corners")
+    check(placement,
+          LibPNPBS.pnpbs_placement_set_spacing_mesh(live(placement), length(d), coordinates,
+                                                    convert(Vector{Float64}, d), size(corners, 2),
+                                                    Matrix{Int64}(corners) .- 1))
+    return keep_spacing!(placement, nothing)
+end
+
+"""
+    set_spacing_points!(placement, points, d)
+
+The spacing from values `d` at scattered points, the columns of `points`: at each of them its own
+value, elsewhere a plane fitted to the 8 (in space 16) nearest ones by weighted least squares, never
+below the least nor above the largest of their values. Collective; every rank gives the same arrays,
+and holds a copy.
+"""
+function set_spacing_points!(placement::Placement, points::AbstractMatrix{<:Real},
+                             d::AbstractVector{<:Real})
+    coordinates = as_points(points, ndims(placement), "points")
+    require_length(d, size(points, 2), "d")
+    check(placement,
+          LibPNPBS.pnpbs_placement_set_spacing_points(live(placement), length(d), coordinates,
+                                                      convert(Vector{Float64}, d)))
+    return keep_spacing!(placement, nothing)
+end
+
+"""
+    set_spacing_file!(placement, path; field = "")
+
+The spacing from a file with values at points: VTK's unstructured grid (.vtu), Gmsh's mesh with values
+at nodes (.msh), or a table with columns x, y, (z) and others (.csv). Triangles and quadrangles, in
+space tetrahedra are a mesh as [`set_spacing_mesh!`](@ref) takes it; without any the points are as for
+[`set_spacing_points!`](@ref). In the plane z is left out. `field` is the name of the values in the
+file; without it they are the only ones, or those called "spacing". Collective; every rank reads the
+file.
+"""
+function set_spacing_file!(placement::Placement, path::AbstractString; field::AbstractString = "")
+    check(placement, LibPNPBS.pnpbs_placement_set_spacing_file(live(placement), path, field))
+    return keep_spacing!(placement, nothing)
+end
+
+"""
     set_spacing_from_shape!(placement; nodes_per_turn = 0, nodes_across = 0, nodes_per_edge = 0,
                             growth = 0, min_spacing = 0, max_spacing = 0)
 

@@ -88,6 +88,35 @@ end
     end
 end
 
+@testset "spacing from values at given points" begin
+    Context() do context
+        points = [-1.0 2 2 -1; -1 -1 2 2]
+        d = 0.05 .+ 0.02 .* (points[1, :] .+ 1)
+        corners = [1 4; 2 3; 3 1]
+        mktempdir() do folder
+            path = joinpath(folder, "points.csv")
+            write(path, "x,y,other,d\n",
+                  join(("$(points[1, i]),$(points[2, i]),7,$(d[i])\n" for i in 1:4)))
+            for set! in (p -> set_spacing_mesh!(p, points, d, corners),
+                         p -> set_spacing_points!(p, points, d),
+                         p -> set_spacing_file!(p, path; field = "d"))
+                placement = Placement(square_domain(context); steps = 20)
+                @test set!(placement) === placement
+                run!(placement)
+                found = nodes(placement)
+                @test found.spacing ≈ 0.07 .+ 0.02 .* found.points[1, :]
+            end
+            placement = Placement(square_domain(context))
+            @test fails(() -> set_spacing_mesh!(placement, points, d, reshape([1, 2, 5], 3, 1)),
+                        :error_argument, "4 nodes")
+            @test fails(() -> set_spacing_points!(placement, points, -d), :error_spacing, "-0.05")
+            @test fails(() -> set_spacing_file!(placement, path), :error_file, "'other', 'd'")
+            @test_throws DimensionMismatch set_spacing_points!(placement, points, d[1:3])
+            @test_throws DimensionMismatch set_spacing_mesh!(placement, points, d, [1 2; 3 4])
+        end
+    end
+end
+
 @testset "steps and population" begin
     Context() do context
         placement = Placement(square_domain(context); steps = 20)
