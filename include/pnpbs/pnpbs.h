@@ -948,6 +948,25 @@ PNPBS_API pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t 
                                              int32_t components, const double *values,
                                              pnpbs_transfer *transfer);
 
+/** The same with a field of second order: at each node a polynomial of second order goes through its
+ *  value and is fitted by least squares to those of its neighbours and of their neighbours in the
+ *  stars (so across no boundary, and the same for all components); within an element those of its
+ *  corners count as much as in the linear field. So fields that are quadratic in the coordinates stay
+ *  what they are, and smooth ones change by a part of the third order in d. Next to jumps the field
+ *  may leave the range of the values there. Where a node has too few neighbours for that, its part
+ *  is linear (pnpbs_transfer_order tells at how many), as it is everywhere on surfaces alone.
+ *  Collective. Errors and parameters as there. */
+PNPBS_API pnpbs_status pnpbs_transfer_create_second_order(pnpbs_placement placement, int64_t n,
+                                                          int32_t components, const double *values,
+                                                          pnpbs_transfer *transfer);
+
+/** Of which order the field is. Outputs may be NULL. Local.
+ *  @param[out] order         1 or 2
+ *  @param[out] linear_nodes  nodes on all ranks without a polynomial of second order; with order 1
+ *                            all, told as -1 */
+PNPBS_API pnpbs_status pnpbs_transfer_order(pnpbs_transfer transfer, int32_t *order,
+                                            int64_t *linear_nodes);
+
 /** Destroys the handle and sets it to NULL; takes NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer *transfer);
 

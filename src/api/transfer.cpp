@@ -39,10 +39,9 @@ void require_field(Placement& p, std::int64_t n, std::int64_t components, const 
                       number_text(values[k]) + "; all must be finite");
 }
 
-}  // namespace
-
-pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t n, int32_t components,
-                                   const double* values, pnpbs_transfer* transfer) {
+// Ranks that ask for fields of different orders would wait for each other.
+pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t n,
+                    std::int32_t components, const double* values, pnpbs_transfer* transfer) {
   if (transfer) *transfer = nullptr;
   return guarded(placement, [&](PlacementObject& object) {
     const Computing computing(*object.context);
@@ -55,11 +54,35 @@ pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t n, int32_t
       if (!p.communicator().same_on_all(static_cast<std::uint64_t>(components)))
         throw Error(ErrorKind::argument, "argument components = " + std::to_string(components) +
                                              " here; all ranks must give the same");
+      if (!p.communicator().same_on_all(static_cast<std::uint64_t>(order)))
+        throw Error(ErrorKind::argument, "all ranks must ask for a transfer of the same order");
       auto made = std::make_shared<TransferObject>();
       made->context = object.context;
-      made->transfer = make_field_transfer(p, components, values);
+      made->transfer = make_field_transfer(p, order, components, values);
       *transfer = transfers().add(std::move(made));
     });
+    return PNPBS_OK;
+  });
+}
+
+}  // namespace
+
+pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t n, int32_t components,
+                                   const double* values, pnpbs_transfer* transfer) {
+  return create(placement, TransferOrder::first, n, components, values, transfer);
+}
+
+pnpbs_status pnpbs_transfer_create_second_order(pnpbs_placement placement, int64_t n,
+                                                int32_t components, const double* values,
+                                                pnpbs_transfer* transfer) {
+  return create(placement, TransferOrder::second, n, components, values, transfer);
+}
+
+pnpbs_status pnpbs_transfer_order(pnpbs_transfer transfer, int32_t* order, int64_t* linear_nodes) {
+  return guarded(transfer, [&](TransferObject& object) {
+    const std::int64_t linear = object.transfer->nodes_of_first_order();
+    if (order) *order = linear < 0 ? 1 : 2;
+    if (linear_nodes) *linear_nodes = linear;
     return PNPBS_OK;
   });
 }

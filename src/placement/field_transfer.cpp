@@ -4,38 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/exact_sum.hpp"
 #include "base/execution.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
-#include "comm/ghost_update.hpp"
 #include "comm/records.hpp"
+#include "placement/ghost_values.hpp"
+#include "placement/parabolic_fits.hpp"
 #include "placement/placement_of.hpp"
 #include "spacing/nodal_search.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-// [places][components], of which the owned ones are given.
-std::vector<double> with_ghosts(Placement& placement, std::int64_t components,
-                                const double* values) {
-  const Communicator& comm = placement.communicator();
-  const auto pattern = placement.exchange_pattern();
-  std::vector<double> all;
-  GhostUpdate update;
-  agreed(comm, [&] {
-    all.assign(values, values + placement.count() * components);
-    all.resize(static_cast<std::size_t>(placement.nodes().count * components));
-    update.pack(comm, pattern, components, all.data());
-  });
-  update.start();
-  update.wait();
-  update.unpack(all.data());
-  return all;
-}
 
 double measure(const std::array<Point<2>, 3>& c) {
   return std::fabs((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) -
@@ -109,15 +93,19 @@ std::vector<double> integrals(const Communicator& comm, const Patch<Dim>& patch,
 template <int Dim>
 class FieldTransferOf : public FieldTransfer {
  public:
-  FieldTransferOf(PlacementOf<Dim>& placement, std::int64_t components, const double* values)
+  FieldTransferOf(PlacementOf<Dim>& placement, TransferOrder order, std::int64_t components,
+                  const double* values)
       : search_(placement.ranks(), placement.patch()),
         values_(with_ghosts(placement, components, values)),
         integrals_(integrals(placement.communicator(), search_.patch().patch(),
                              placement.surfaces_alone(), components, values_)) {
     components_ = components;
+    if (order == TransferOrder::second)
+      fits_.emplace(placement, search_.patch().patch(), components, values_);
   }
 
   int dimension() const override { return Dim; }
+  std::int64_t nodes_of_first_order() const override { return fits_ ? fits_->nodes_without() : -1; }
   void evaluate(std::int64_t n, const double* x, double* values) const override;
   void evaluate_at_nodes(Placement& placement, bool conserve, double* values) const override;
 
@@ -130,11 +118,13 @@ class FieldTransferOf : public FieldTransfer {
 
   std::vector<Message> answered(const std::vector<Message>& asked) const;
   void answer(const Question& question, double* values) const;
+  void add_curvature(const Point<Dim>& x, const PatchWeights<Dim>& w, double* values) const;
   void conserve_integrals(PlacementOf<Dim>& placement, double* values) const;
 
   NodalSearch<Dim> search_;
   std::vector<double> values_;     // at the nodes of the patch
   std::vector<double> integrals_;  // of the components, and the size of all elements
+  std::optional<ParabolicFits<Dim>> fits_;
 };
 
 // Between the values of the corners inside of a simplex, whatever is rounded; beyond the border the
@@ -155,6 +145,26 @@ void FieldTransferOf<Dim>::answer(const Question& question, double* values) cons
       value = std::clamp(value, *min, *max);
     }
     values[c] = value;
+  }
+  if (fits_) add_curvature(question.x, w, values);
+}
+
+// From what is linear to the corners' polynomials, each of which counts as its corner does; so the
+// field is continuous, and one of second order is met. A corner without one stays linear.
+template <int Dim>
+void FieldTransferOf<Dim>::add_curvature(const Point<Dim>& x, const PatchWeights<Dim>& w,
+                                         double* values) const {
+  for (std::int64_t c = 0; c < components_; ++c) {
+    double sum = 0;
+    for (std::size_t k = 0; k <= Dim; ++k) {
+      if (w.weights[k] == 0 || !fits_->has(w.nodes[k])) continue;
+      Point<Dim> way;
+      for (std::size_t i = 0; i < Dim; ++i)
+        way[i] = x[i] - search_.patch().patch().nodes[static_cast<std::size_t>(w.nodes[k])].x[i];
+      const double at_corner = values_[static_cast<std::size_t>(w.nodes[k] * components_ + c)];
+      sum += w.weights[k] * (at_corner - values[c] + fits_->rise(w.nodes[k], c, way));
+    }
+    values[c] += sum;
   }
 }
 
@@ -247,13 +257,13 @@ void FieldTransferOf<Dim>::evaluate_at_nodes(Placement& placement, bool conserve
 
 }  // namespace
 
-std::unique_ptr<FieldTransfer> make_field_transfer(Placement& placement, std::int64_t components,
-                                                   const double* values) {
+std::unique_ptr<FieldTransfer> make_field_transfer(Placement& placement, TransferOrder order,
+                                                   std::int64_t components, const double* values) {
   if (placement.dimension() == 2)
-    return std::make_unique<FieldTransferOf<2>>(static_cast<PlacementOf<2>&>(placement), components,
-                                                values);
-  return std::make_unique<FieldTransferOf<3>>(static_cast<PlacementOf<3>&>(placement), components,
-                                              values);
+    return std::make_unique<FieldTransferOf<2>>(static_cast<PlacementOf<2>&>(placement), order,
+                                                components, values);
+  return std::make_unique<FieldTransferOf<3>>(static_cast<PlacementOf<3>&>(placement), order,
+                                              components, values);
 }
 
 }  // namespace pnpbs

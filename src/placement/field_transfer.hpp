@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values at the nodes there were, for the nodes there will be: the field that is linear on each of
-// the old elements, which stay with the ranks that owned them, told at any points.
+// the old elements, or of second order there, told at any points. The elements stay with the ranks
+// that owned them.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +12,15 @@
 
 namespace pnpbs {
 
+enum class TransferOrder { first, second };
+
 class FieldTransfer {
  public:
   virtual ~FieldTransfer() = default;
   virtual int dimension() const = 0;
   std::int64_t components() const { return components_; }
+  // Of a transfer of second order: nodes, on all ranks, about which it is linear. Otherwise -1.
+  virtual std::int64_t nodes_of_first_order() const = 0;
 
   // x: [n][dimension], values: [n][components]. Collective; each rank asks what it wants.
   virtual void evaluate(std::int64_t n, const double* x, double* values) const = 0;
@@ -29,7 +34,7 @@ class FieldTransfer {
 };
 
 // values: [nodes of this rank][components]. Collective.
-std::unique_ptr<FieldTransfer> make_field_transfer(Placement& placement, std::int64_t components,
-                                                   const double* values);
+std::unique_ptr<FieldTransfer> make_field_transfer(Placement& placement, TransferOrder order,
+                                                   std::int64_t components, const double* values);
 
 }  // namespace pnpbs
