@@ -208,6 +208,11 @@ module pnpbs
     procedure, private :: transfer_create
     procedure, private :: transfer_create_columns
     generic :: create => transfer_create, transfer_create_columns
+    procedure, private :: transfer_create_second_order
+    procedure, private :: transfer_create_second_order_columns
+    generic :: create_second_order => transfer_create_second_order, &
+      transfer_create_second_order_columns
+    procedure :: order => transfer_order
     procedure :: destroy => transfer_destroy
     procedure :: sizes => transfer_sizes
     procedure, private :: transfer_at_nodes
@@ -2277,6 +2282,55 @@ contains
     call conclude('transfer%create', &
                   c_transfer_create(placement%c, size(values, 2, c_int64_t), &
                                     size(values, 1, c_int32_t), values, self%c), stat, errmsg)
+  end subroutine
+
+  !> The same with a field of second order: at each node a polynomial of second order goes through its
+  !> value and is fitted by least squares to those of its neighbours and of their neighbours; within
+  !> an element those of its corners count as much as in the linear field. So fields that are
+  !> quadratic in the coordinates stay what they are, and smooth ones change by a part of the third
+  !> order in d. Next to jumps the field may leave the range of the values there. Where a node has too
+  !> few neighbours for that, its part is linear (order tells at how many), as it is everywhere on
+  !> surfaces alone. Collective.
+  !>   placement  whose nodes there are values for
+  !>   values     (nodes), or (components, nodes), in the order of get_nodes
+  subroutine transfer_create_second_order(self, placement, values, stat, errmsg)
+    class(pnpbs_transfer), intent(inout) :: self
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), intent(in) :: values(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('transfer%create_second_order', &
+                  c_transfer_create_second_order(placement%c, size(values, kind=c_int64_t), &
+                                                 1_c_int32_t, values, self%c), stat, errmsg)
+  end subroutine
+
+  subroutine transfer_create_second_order_columns(self, placement, values, stat, errmsg)
+    class(pnpbs_transfer), intent(inout) :: self
+    type(pnpbs_placement), intent(in) :: placement
+    real(c_double), intent(in) :: values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('transfer%create_second_order', &
+                  c_transfer_create_second_order(placement%c, size(values, 2, c_int64_t), &
+                                                 size(values, 1, c_int32_t), values, self%c), &
+                  stat, errmsg)
+  end subroutine
+
+  !> Of which order the field is. Local.
+  !>   order         1 or 2
+  !>   linear_nodes  optional: nodes on all ranks without a polynomial of second order; with order 1
+  !>                 all, told as -1
+  subroutine transfer_order(self, order, linear_nodes, stat, errmsg)
+    class(pnpbs_transfer), intent(in) :: self
+    integer(c_int32_t), intent(out) :: order
+    integer(c_int64_t), intent(out), optional :: linear_nodes
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: found
+    order = 0
+    found = 0
+    call conclude('transfer%order', c_transfer_order(self%c, order, found), stat, errmsg)
+    if (present(linear_nodes)) linear_nodes = found
   end subroutine
 
   !> Destroys it; does nothing where there is none. Local.

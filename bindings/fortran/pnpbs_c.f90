@@ -1099,6 +1099,27 @@ module pnpbs_c
       integer(c_int) :: c_transfer_create
     end function
 
+    function c_transfer_create_second_order(placement, n, components, values, transfer) bind(C, &
+      name="pnpbs_transfer_create_second_order")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(in) :: values(*)
+      type(c_ptr), intent(out) :: transfer
+      integer(c_int) :: c_transfer_create_second_order
+    end function
+
+    function c_transfer_order(transfer, order, linear_nodes) bind(C, name="pnpbs_transfer_order")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      integer(c_int32_t), intent(out) :: order
+      integer(c_int64_t), intent(out) :: linear_nodes
+      integer(c_int) :: c_transfer_order
+    end function
+
     function c_transfer_destroy(transfer) bind(C, name="pnpbs_transfer_destroy")
       import
       implicit none

@@ -544,6 +544,7 @@ static void try_what_is_not_allowed(void) {
   REFUSED(pnpbs_placement_sum(p, 1, 1, xy, &real));
   REFUSED(pnpbs_placement_dot(p, 1, 1, xy, xy, &real));
   REFUSED(pnpbs_transfer_create(p, 1, 1, xy, &transfer));
+  REFUSED(pnpbs_transfer_create_second_order(p, 1, 1, xy, &transfer));
   REFUSED(pnpbs_placement_get_double(p, "d_error.mean", &real));
   REFUSED(pnpbs_placement_destroy(&inside.placement));
 #undef REFUSED

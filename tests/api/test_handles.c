@@ -152,9 +152,10 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_write_checkpoint, (handle, "unwritten.vtkhdf"))                                     \
   X(placement_read_checkpoint, (handle, "unwritten.vtkhdf"))
 
-#define TRANSFER_CALLS(X)                                     \
-  X(transfer_sizes, (handle, out.small + 2, out.small + 3))   \
-  X(transfer_at_nodes, (handle, target, 0, 1, out.reals + 1)) \
+#define TRANSFER_CALLS(X)                                      \
+  X(transfer_sizes, (handle, out.small + 2, out.small + 3))    \
+  X(transfer_order, (handle, out.small + 2, out.integers + 2)) \
+  X(transfer_at_nodes, (handle, target, 0, 1, out.reals + 1))  \
   X(transfer_at_points, (handle, 1, grid, out.reals + 1))
 
 /* Where fields are carried to. */

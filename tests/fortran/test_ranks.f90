@@ -101,9 +101,10 @@ contains
     type(pnpbs_context) :: context, alone
     type(pnpbs_domain) :: domain, domain_alone
     type(pnpbs_placement) :: placement, placement_alone
-    type(pnpbs_transfer) :: line, plane, same
+    type(pnpbs_transfer) :: line, plane, same, bent, both_bent
     integer(c_int64_t) :: n, g
-    integer(c_int32_t) :: dim, components
+    integer(c_int32_t) :: dim, components, order
+    integer(c_int64_t) :: linear_nodes
     real(c_double), allocatable :: xy(:,:), x(:), values(:,:), there(:), pairs(:,:)
     real(c_double) :: total, total_alone, square, sums(2), squares(2), points(2, 3), at(3), both(2, 3)
     integer(c_int) :: stat
@@ -150,6 +151,12 @@ contains
     call placement%count(n)
     call line%create(placement, 3 * xy(1, :n) - xy(2, :n))
     call plane%create(placement, xy(:, :n))
+    call bent%create_second_order(placement, xy(1, :n)**2 - xy(1, :n) * xy(2, :n))
+    call both_bent%create_second_order(placement, xy(:, :n)**2)
+    call bent%order(order, linear_nodes)
+    call expect(order == 2 .and. linear_nodes == 0, 'second order at all nodes')
+    call line%order(order, linear_nodes)
+    call expect(order == 1 .and. linear_nodes == -1, 'first order')
     call plane%sizes(dim, components)
     call expect(dim == 2 .and. components == 2, 'sizes of a transfer')
     call placement%set_spacing_constant(0.08d0)
@@ -166,6 +173,12 @@ contains
     allocate (values(2, n))
     call plane%at_nodes(placement, values)
     call expect(all(abs(values - xy) < 1d-13), 'two linear fields at new nodes')
+    call bent%at_nodes(placement, there)
+    call expect(all(abs(there - xy(1, :)**2 + xy(1, :) * xy(2, :)) < 1d-12), 'a quadratic field')
+    call both_bent%at_nodes(placement, values)
+    call expect(all(abs(values - xy**2) < 1d-12), 'two quadratic fields')
+    call bent%destroy
+    call both_bent%destroy
     points = reshape([0.1d0, 0.2d0, 0.5d0, 0.5d0, 1d0, 0.7d0], [2, 3])
     call line%at_points(points, at)
     call expect(all(abs(at - 3 * points(1, :) + points(2, :)) < 1d-13), 'a field at points')

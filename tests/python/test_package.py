@@ -407,14 +407,25 @@ class Fields(Case):
         def linear(x):
             return np.stack([1 + 2 * x[:, 0] - x[:, 1], x[:, 1]], axis=1)
 
-        with pnpbs.Transfer(placement, linear(placement.nodes().points)) as field:
+        def quadratic(x):
+            return x[:, 0] ** 2 - 2 * x[:, 0] * x[:, 1] + 3
+
+        points = placement.nodes().points
+        bent = pnpbs.Transfer(placement, quadratic(points), order=2)
+        self.assertEqual(bent.linear_nodes, 0)
+        with pnpbs.Transfer(placement, linear(points)) as field:
+            self.assertEqual(field.linear_nodes, -1)
             placement.set_spacing(graded)
             placement.run()
             np.testing.assert_allclose(field.at_nodes(placement), linear(placement.nodes().points),
                                        atol=1e-12)
+            np.testing.assert_allclose(bent.at_nodes(placement), quadratic(placement.nodes().points),
+                                       atol=1e-12)
             asked = np.array([(0.3, 0.4), (0.9, 0.1)])
             np.testing.assert_allclose(field.at_points(asked), linear(asked), atol=1e-12)
         self.assertFalse(field.is_open)
+        with self.assertRaises(ValueError):
+            pnpbs.Transfer(placement, placement.nodes().spacing, order=3)
 
     def test_spacing_from_the_shape(self):
         domain = pnpbs.Domain(self.context).add_arc((0, 0), 1, tag=3)

@@ -202,6 +202,9 @@ pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t inde
     const char **text);
 pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t n, int32_t components,
     const double *values, pnpbs_transfer *transfer);
+pnpbs_status pnpbs_transfer_create_second_order(pnpbs_placement placement, int64_t n,
+    int32_t components, const double *values, pnpbs_transfer *transfer);
+pnpbs_status pnpbs_transfer_order(pnpbs_transfer transfer, int32_t *order, int64_t *linear_nodes);
 pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer *transfer);
 pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t *dim, int32_t *components);
 pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement placement,

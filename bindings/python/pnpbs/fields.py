@@ -85,20 +85,25 @@ class Transfer(Handle):
     has now, (n,) or (n, ...) in the order of `nodes`, together with these nodes and their triangles
     or tetrahedra, on which it is linear. The nodes may then move, be replaced or change their ranks.
     Fields that are linear stay what they are, and others change by a part of the second order in d.
-    Collective.
+    With `order=2` a polynomial of second order is fitted to the neighbours of each node: then fields
+    that are quadratic in the coordinates stay what they are, others change by a part of the third
+    order, and next to jumps they may leave the range of the values there. Collective.
 
         field = pnpbs.Transfer(placement, temperature)
         placement.set_spacing(finer).run()
         temperature = field.at_nodes(placement)"""
 
-    def __init__(self, placement, values):
+    def __init__(self, placement, values, order=1):
         super().__init__()
+        if order not in (1, 2):
+            raise ValueError(f"order is {order}; 1 or 2 was expected")
         self.context = placement.context
         field = _as_field(values)
         self._shape = field.shape[1:]
         handle = ctypes.c_void_p()
-        self.context._check(library().pnpbs_transfer_create(
-            placement._live(), *_sizes(field), field, ctypes.byref(handle)))
+        create = (library().pnpbs_transfer_create if order == 1 else
+                  library().pnpbs_transfer_create_second_order)
+        self.context._check(create(placement._live(), *_sizes(field), field, ctypes.byref(handle)))
         self._handle = handle.value
         self.context._children.append(self)
 
@@ -110,6 +115,15 @@ class Transfer(Handle):
 
     def __repr__(self):
         return f"<pnpbs.Transfer, {'open' if self.is_open else 'closed'}>"
+
+    @property
+    def linear_nodes(self) -> int:
+        """At how many nodes, on all ranks, a transfer of the second order has no polynomial of that
+        order: they had too few neighbours, or are on surfaces alone. -1 for one of the first
+        order. Local."""
+        count = ctypes.c_int64()
+        self.context._check(library().pnpbs_transfer_order(self._live(), None, ctypes.byref(count)))
+        return count.value
 
     def at_nodes(self, placement, conserve=False) -> np.ndarray:
         """The field at the nodes that a placement has now, the same bits for any number of ranks, then

@@ -494,6 +494,15 @@ pnpbs_transfer_create(placement, n, components, values, transfer) =
         placement::pnpbs_placement, n::Int64, components::Int32, values::Ptr{Cdouble},
         transfer::Ptr{pnpbs_transfer})::pnpbs_status
 
+pnpbs_transfer_create_second_order(placement, n, components, values, transfer) =
+    @ccall $(symbol(:pnpbs_transfer_create_second_order))(
+        placement::pnpbs_placement, n::Int64, components::Int32, values::Ptr{Cdouble},
+        transfer::Ptr{pnpbs_transfer})::pnpbs_status
+
+pnpbs_transfer_order(transfer, order, linear_nodes) =
+    @ccall $(symbol(:pnpbs_transfer_order))(
+        transfer::pnpbs_transfer, order::Ptr{Int32}, linear_nodes::Ptr{Int64})::pnpbs_status
+
 pnpbs_transfer_destroy(transfer) =
     @ccall $(symbol(:pnpbs_transfer_destroy))(transfer::Ptr{pnpbs_transfer})::pnpbs_status
 

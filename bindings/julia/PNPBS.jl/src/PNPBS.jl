@@ -37,7 +37,7 @@ export estimate, initialise!, run!, step!, adjust_population!, rebalance!
 export node_count, nodes, nodes!, normals, ghost_count, ghosts, ghosts!
 export exchange_pattern, numbering, reinterpret_columns
 export update_ghosts!, begin_update_ghosts, end_update_ghosts!, sum_over_nodes, dot_over_nodes
-export Transfer, at_nodes, at_points
+export Transfer, at_nodes, at_points, linear_nodes
 export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
 export boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """
-    Transfer(placement, values)
+    Transfer(placement, values; order = 1)
 
 A field on its way to other nodes: takes the values at the nodes that the placement has now, together
 with these nodes and their triangles or tetrahedra, each rank its own. `values` is a vector with an
@@ -9,7 +9,10 @@ entry for each node of this rank, or an array whose last index is that of the no
 move, be replaced or change their ranks, and the placement may be closed. The field is linear on each
 triangle or tetrahedron; beyond their rim, next to curved boundaries, it goes on as on the one behind
 the nearest place of the rim. So fields that are linear stay what they are, and others change by a
-part of the second order in d. A value that is not finite is a [`PNPBSError`](@ref) that names it.
+part of the second order in d. With `order = 2` a polynomial of second order is fitted to the
+neighbours of each node: then fields that are quadratic in the coordinates stay what they are, others
+change by a part of the third order, and next to jumps they may leave the range of the values there
+([`linear_nodes`](@ref) tells where that could not be done). A value that is not finite is a [`PNPBSError`](@ref) that names it.
 Collective.
 
     transfer = Transfer(placement, u)
@@ -24,11 +27,13 @@ mutable struct Transfer
     shape::Dims  # of the values at one node
 end
 
-function Transfer(placement::Placement, values::AbstractArray{<:Real})
+function Transfer(placement::Placement, values::AbstractArray{<:Real}; order::Integer = 1)
+    order in (1, 2) || throw(ArgumentError("order is $order; 1 or 2 was expected"))
     context = placement.context
     handle = Ref{LibPNPBS.pnpbs_transfer}(C_NULL)
-    check(context, LibPNPBS.pnpbs_transfer_create(live(placement), places_of(values),
-                                                  components_of(values), dense(values), handle))
+    create = order == 1 ? LibPNPBS.pnpbs_transfer_create : LibPNPBS.pnpbs_transfer_create_second_order
+    check(context, create(live(placement), places_of(values), components_of(values), dense(values),
+                          handle))
     transfer = Transfer(handle[], context, size(values)[1:(end - 1)])
     push!(context.children, transfer)
     return transfer
@@ -51,6 +56,18 @@ function Base.ndims(transfer::Transfer)
     dim = Ref{Int32}(0)
     check(transfer.context, LibPNPBS.pnpbs_transfer_sizes(live(transfer), dim, C_NULL))
     return Int(dim[])
+end
+
+"""
+    linear_nodes(transfer) -> Int
+
+At how many nodes, on all ranks, a transfer of the second order has no polynomial of that order: they
+had too few neighbours, or are on surfaces alone. -1 for one of the first order. Local.
+"""
+function linear_nodes(transfer::Transfer)
+    count = Ref{Int64}(0)
+    check(transfer.context, LibPNPBS.pnpbs_transfer_order(live(transfer), C_NULL, count))
+    return Int(count[])
 end
 
 """

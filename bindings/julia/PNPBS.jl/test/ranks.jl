@@ -119,9 +119,14 @@ end
         points = nodes(placement).points
         curved = Transfer(placement, sin.(points[1, :]))
         straight = Transfer(placement, linear(points))
+        quadratic(x) = x[1, :] .^ 2 .- 2 .* x[1, :] .* x[2, :] .+ 3
+        bent = Transfer(placement, quadratic(points); order = 2)
+        @test linear_nodes(bent) == 0 && linear_nodes(curved) == -1
         set_spacing!(placement, 0.06)
         run!(placement)
         points = nodes(placement).points
+        @test at_nodes(bent, placement) ≈ quadratic(points)
+        @test_throws ArgumentError Transfer(placement, points; order = 3)
         @test at_nodes(straight, placement) ≈ linear(points)
         @test at_nodes(straight, placement; conserve = true) ≈ linear(points)
         @test at_points(straight, [0.3 0.5; 0.3 1.0]) ≈ linear([0.3 0.5; 0.3 1.0])
