@@ -91,7 +91,7 @@ std::unique_ptr<Level<Dim>> PlacementOf<Dim>::level_to_place(
     const PhaseTimer timer(timers_, Phase::spacing);
     steepest = steepest_growth<Dim>(
         *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
-        next->ground.evaluator());
+        next->ground.evaluator(), spacing->known_values());
   }
   if (too_steep(steepest) && settings.growth_limit > 0) {
     next.reset();

@@ -181,8 +181,9 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
     max = nodes / kCells;
   }
   nodes = share_placed(map, is_filled(domain)) * nodes + nodes_beside(domain, on_boundary);
-  return {nodes, steepest_growth<Dim>(
-                     comm, map, [](std::int32_t) { return true; }, evaluator)};
+  return {nodes,
+          steepest_growth<Dim>(
+              comm, map, [](std::int32_t) { return true; }, evaluator, spacing.known_values())};
 }
 
 template NodeEstimate<2> estimate_nodes<2>(const Communicator&, const Domain<2>&, const Spacing<2>&,

@@ -168,6 +168,28 @@ void CloudSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d)
   for_each("pnpbs::CloudSpacing::evaluate", n, [=, this](std::int64_t i) { d[i] = at(x[i]); });
 }
 
+template <int Dim>
+KnownValues<Dim> CloudSpacing<Dim>::known_values() const {
+  constexpr int kNearest = Dim + 1;
+  KnownValues<Dim> known;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    known.values.push_back({points_[i], values_[i]});
+    const Neighbours near = nearest(points_[i]);  // the first one is itself
+    for (int k = 1; k <= std::min(kNearest, near.found - 1); ++k) {
+      const Neighbour& one = near.nearest[static_cast<std::size_t>(k)];
+      const auto other = static_cast<std::size_t>(one.point);
+      if (other < i) continue;
+      typename KnownValues<Dim>::Slope slope{
+          std::fabs(values_[other] - values_[i]) / std::sqrt(one.square),
+          std::min(values_[other], values_[i]),
+          {}};
+      for (int c = 0; c < Dim; ++c) slope.at[c] = (points_[i][c] + points_[other][c]) / 2;
+      known.slopes.push_back(slope);
+    }
+  }
+  return known;
+}
+
 template class CloudSpacing<2>;
 template class CloudSpacing<3>;
 

@@ -22,6 +22,8 @@ class CloudSpacing : public Spacing<Dim> {
   // have different values.
   explicit CloudSpacing(const GivenField<Dim>& field);
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+  // With slopes from each point to the nearest ones.
+  KnownValues<Dim> known_values() const override;
 
   static constexpr int kNeighbours = Dim == 2 ? 8 : 16;
 

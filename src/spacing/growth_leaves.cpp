@@ -124,6 +124,16 @@ void GrowthLeaves<Dim>::take_range(const Samples& samples) {
   }
 }
 
+// What is known to be fine near to a leaf is looked for in it, whatever its samples are.
+template <int Dim>
+void GrowthLeaves<Dim>::expect_known(const Samples& samples, const GrowthSources<Dim>& known) {
+  for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
+    GrowthLeaf<Dim>& leaf = leaves_[samples.leaves[k]];
+    for (std::size_t s = samples.first[k]; s < samples.first[k + 1]; ++s)
+      leaf.min = known.limit(samples.x[s], leaf.min);
+  }
+}
+
 template <int Dim>
 void GrowthLeaves<Dim>::take_sources(const Samples& samples) {
   for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
@@ -144,12 +154,18 @@ bool GrowthLeaves<Dim>::any_open() const {
 }
 
 template <int Dim>
-void GrowthLeaves<Dim>::refine(const SpacingEvaluator<Dim>& raw) {
+void GrowthLeaves<Dim>::refine(const SpacingEvaluator<Dim>& raw,
+                               const std::vector<GrowthSource<Dim>>& known) {
+  // A known value is below a quarter of the side of a leaf that is much too wide for it at one of
+  // the leaf's samples, none of which is farther than 0.44 sides from any place in it.
+  constexpr double kSeen = 0.3;
+  const GrowthSources<Dim> expected(known, kSeen);
   while (any_open()) {
     spread_evenly(comm_, leaves_);
     Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; });
     raw(std::ssize(samples.x), samples.x.data(), samples.d.data());
     take_range(samples);
+    expect_known(samples, expected);
     take_sources(samples);
     require_few_nodes();
     split_open(growth_);

@@ -11,6 +11,7 @@
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "spacing/growth_source.hpp"
+#include "spacing/growth_sources.hpp"
 #include "spacing/open_ways.hpp"
 #include "tree/leaf_cells.hpp"
 
@@ -43,7 +44,8 @@ class GrowthLeaves {
   // Splits leaves wider than some d, and those over which d grows faster than the limit, so that
   // the tips of steep funnels are found: down to a third of their least d. Keeps sources of d.
   // Leaves change their ranks. Collective, as all that follows.
-  void refine(const SpacingEvaluator<Dim>& raw);
+  // `known`: values elsewhere, so that leaves are split towards them though no sample meets them.
+  void refine(const SpacingEvaluator<Dim>& raw, const std::vector<GrowthSource<Dim>>& known);
   // Splits leaves wider than some of the limited d, which is asked in this rank's leaves alone.
   // Was there any on any rank?
   bool fit(const SpacingEvaluator<Dim>& limited);
@@ -70,6 +72,7 @@ class GrowthLeaves {
   Box<Dim> box_of(const LeafCell<Dim>& cell) const;
   void look_at_domain(GrowthLeaf<Dim>& leaf) const;
   void take_range(const Samples& samples);
+  void expect_known(const Samples& samples, const GrowthSources<Dim>& known);
   void take_sources(const Samples& samples);
   bool any_open() const;
   bool too_wide(const GrowthLeaf<Dim>& leaf, double steepest) const;

@@ -54,7 +54,7 @@ void GrowthLimitedSpacing<Dim>::find_labels(const SpacingEvaluator<Dim>& raw,
              [&](std::int64_t i) { d[i] = labels_.limit_at(*ways_, x[i]); });
   };
   GrowthLeaves<Dim> leaves(*comm_, *ways_, growth_, limit);
-  leaves.refine(raw);
+  leaves.refine(raw, raw_->known_values().values);
   labels_ = {*comm_, *ways_, leaves.own(), growth_, beat};
   for (int pass = 0; pass < kMaxPasses && leaves.fit(limited); ++pass) {
     leaves.look_into_new(raw);

@@ -14,6 +14,7 @@ class MeshSpacing : public Spacing<Dim> {
   // Of a checked field with elements.
   explicit MeshSpacing(const GivenField<Dim>& field);
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+  KnownValues<Dim> known_values() const override;
 
  private:
   NodalPatch<Dim> mesh_;

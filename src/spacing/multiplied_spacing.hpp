@@ -19,6 +19,13 @@ class MultipliedSpacing : public Spacing<Dim> {
     for (std::int64_t i = 0; i < n; ++i) d[i] *= factor_;
   }
 
+  KnownValues<Dim> known_values() const override {
+    KnownValues<Dim> known = spacing_->known_values();
+    for (GrowthSource<Dim>& value : known.values) value.d *= factor_;
+    for (auto& slope : known.slopes) slope.growth *= factor_, slope.d *= factor_;
+    return known;
+  }
+
  private:
   std::shared_ptr<const Spacing<Dim>> spacing_;
   double factor_;

@@ -22,6 +22,7 @@ class ResolvedSpacing : public Spacing<3> {
                   const NodeLimit& limit);
 
   void evaluate(std::int64_t n, const Point<3>* x, double* d) const override;
+  KnownValues<3> known_values() const override { return raw_->known_values(); }
 
  private:
   std::shared_ptr<const Spacing<3>> raw_;

@@ -8,8 +8,22 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "spacing/growth_source.hpp"
 
 namespace pnpbs {
+
+// Where a spacing has its values from, if from places of its own: samples of d in cells may miss
+// what is fine between them. The same on all ranks.
+template <int Dim>
+struct KnownValues {
+  struct Slope {
+    double growth, d;  // d at its lower end
+    Point<Dim> at;
+  };
+
+  std::vector<GrowthSource<Dim>> values;
+  std::vector<Slope> slopes;  // of what is linear between them
+};
 
 template <int Dim>
 class Spacing {
@@ -18,6 +32,7 @@ class Spacing {
   // Fills d[n] at x[n]. Throws Error if the user's callback fails. Values are as the user has
   // them: checked by evaluate_spacing.
   virtual void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const = 0;
+  virtual KnownValues<Dim> known_values() const { return {}; }
 };
 
 template <int Dim>
@@ -68,6 +83,7 @@ class BoundedSpacing : public Spacing<Dim> {
   BoundedSpacing(std::shared_ptr<const Spacing<Dim>> spacing, double bound)
       : spacing_(std::move(spacing)), bound_(bound) {}
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+  KnownValues<Dim> known_values() const override { return spacing_->known_values(); }
 
  private:
   std::shared_ptr<const Spacing<Dim>> spacing_;

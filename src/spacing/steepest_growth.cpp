@@ -79,9 +79,18 @@ std::vector<Slope<Dim>> slopes_of_own(const DomainMap<Dim>& map,
 template <int Dim>
 SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Dim>& map,
                                     const std::function<bool(std::int32_t)>& owns_leaf,
-                                    const SpacingEvaluator<Dim>& spacing) {
+                                    const SpacingEvaluator<Dim>& spacing,
+                                    const KnownValues<Dim>& known) {
   std::vector<Slope<Dim>> slopes;
-  agreed(comm, [&] { slopes = slopes_of_own<Dim>(map, owns_leaf, spacing); });
+  agreed(comm, [&] {
+    slopes = slopes_of_own<Dim>(map, owns_leaf, spacing);
+    for (const auto& [growth, d, at] : known.slopes) {
+      if (!in_closed_box(map.tree().cell_box(0), at)) continue;
+      const std::int32_t leaf = map.tree().leaf_at(at);
+      if (owns_leaf(leaf) && !map.leaf_outside(leaf) && map.inside_in_leaf(leaf, at))
+        slopes.push_back({growth, d, at});
+    }
+  });
   // Of the slopes that are left, over all ranks, those with the largest of something.
   const auto keep_max = [&](const auto& value) {
     double own = -std::numeric_limits<double>::infinity();
@@ -104,9 +113,9 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
 
 template SteepestGrowth<2> steepest_growth<2>(const Communicator&, const DomainMap<2>&,
                                               const std::function<bool(std::int32_t)>&,
-                                              const SpacingEvaluator<2>&);
+                                              const SpacingEvaluator<2>&, const KnownValues<2>&);
 template SteepestGrowth<3> steepest_growth<3>(const Communicator&, const DomainMap<3>&,
                                               const std::function<bool(std::int32_t)>&,
-                                              const SpacingEvaluator<3>&);
+                                              const SpacingEvaluator<3>&, const KnownValues<3>&);
 
 }  // namespace pnpbs

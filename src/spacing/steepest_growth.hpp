@@ -8,6 +8,7 @@
 
 #include "comm/communicator.hpp"
 #include "spacing/domain_map.hpp"
+#include "spacing/spacing.hpp"
 
 namespace pnpbs {
 
@@ -23,6 +24,7 @@ struct SteepestGrowth {
 template <int Dim>
 SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Dim>& map,
                                     const std::function<bool(std::int32_t)>& owns_leaf,
-                                    const SpacingEvaluator<Dim>& spacing);
+                                    const SpacingEvaluator<Dim>& spacing,
+                                    const KnownValues<Dim>& known = {});
 
 }  // namespace pnpbs

@@ -13,6 +13,7 @@
 #include "run_kernel_suite.hpp"
 #include "spacing/cloud_spacing.hpp"
 #include "spacing/given_field.hpp"
+#include "spacing/multiplied_spacing.hpp"
 
 namespace {
 
@@ -307,6 +308,40 @@ START_TEST(clouds_without_an_inside) {
 }
 END_TEST
 
+// ------------------------------------------------------------------ what is known --------------
+
+// A linear function has one slope, on each element.
+template <int Dim>
+void check_slopes(int n) {
+  Random random(12);
+  const auto spacing = spacing_from(mesh_of_cube<Dim>(random, n));
+  const pnpbs::MultipliedSpacing<Dim> twice(
+      std::make_shared<pnpbs::BoundedSpacing<Dim>>(spacing, 1e9), 2);
+  const pnpbs::KnownValues<Dim> known = twice.known_values();
+  double square = 0;
+  for (int k = 0; k < Dim; ++k) square += (0.5 - 0.3 * k) * (0.5 - 0.3 * k);
+  ck_assert(!known.slopes.empty());
+  for (const auto& slope : known.slopes)
+    ck_assert_double_eq_tol(slope.growth, 2 * std::sqrt(square), 1e-9);
+  for (const auto& value : known.values)
+    ck_assert_double_eq_tol(value.d, 2 * linear<Dim>(value.x), 1e-12);
+}
+
+START_TEST(slopes_of_a_mesh) {
+  check_slopes<2>(6);
+  check_slopes<3>(3);
+}
+END_TEST
+
+START_TEST(slopes_of_a_cloud) {
+  Random random(13);
+  const pnpbs::KnownValues<3> known = spacing_from(cloud<3>(random, 200))->known_values();
+  ck_assert_uint_eq(known.values.size(), 200);
+  for (const auto& slope : known.slopes)
+    ck_assert(slope.growth <= std::sqrt(0.25 + 0.04 + 0.01) + 1e-9);
+}
+END_TEST
+
 // ------------------------------------------------------------------ what is refused ------------
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -359,5 +394,6 @@ int main() {
       {a_linear_function_on_a_mesh, beyond_a_mesh_its_nearest_point_counts,
        a_jump_between_parts_of_a_mesh, a_mesh_with_a_sliver, values_are_met_at_the_points,
        values_stay_between_those_of_neighbours, a_linear_function_amid_a_cloud,
-       the_order_of_a_cloud_changes_nothing, clouds_without_an_inside, what_is_refused});
+       the_order_of_a_cloud_changes_nothing, clouds_without_an_inside, slopes_of_a_mesh,
+       slopes_of_a_cloud, what_is_refused});
 }

@@ -7,6 +7,7 @@ import unittest
 
 import meshio
 import numpy as np
+import scipy.spatial
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk
 
@@ -129,6 +130,27 @@ class SpacingFiles(CommandTest):
                                                         points[:, 1].tolist(), d.tolist())]
         (self.folder / "same.csv").write_text("\n".join(["x,y,d", *rows]))
         self.assertEqual(self.nodes("vertices.vtu"), self.nodes("same.csv"))
+
+    def test_a_small_fine_spot_is_found(self):
+        """Between all places where cells are sampled, in the middle of values 50 times as large."""
+        middle = np.array([0.637, 0.211])
+        random = np.random.default_rng(7)
+        points = np.concatenate([random.uniform(0, 1, (300, 2)),
+                                 middle + random.normal(0, 0.02, (1000, 2)),
+                                 [[0, 0], [1, 0], [1, 1], [0, 1]]])
+        d = np.where(np.hypot(*(points - middle).T) < 0.02, 0.004, 0.2)
+        triangles = scipy.spatial.Delaunay(points).simplices
+        meshio.Mesh(np.pad(points, ((0, 0), (0, 1))), [("triangle", triangles)],
+                    point_data={"d": d}).write(self.folder / "spot.vtu")
+        rows = [f"{x!r},{y!r},{v!r}" for (x, y), v in zip(points.tolist(), d.tolist())]
+        (self.folder / "spot.csv").write_text("\n".join(["x,y,d", *rows]))
+        wanted = 2 / 3**0.5 * np.pi * 0.02**2 / 0.004**2
+        for name in ("spot.vtu", "spot.csv"):
+            with self.subTest(name):
+                x, _ = self.spacing_of(self.nodes(name))
+                found = np.count_nonzero(np.hypot(*(x - middle).T) < 0.02)
+                self.assertGreater(found, 0.7 * wanted)
+                self.assertLess(found, 1.4 * wanted)
 
     def test_quadrangles_are_two_triangles(self):
         points = np.array([[-1, -1, 0], [2, -1, 0], [2, 2, 0], [-1, 2, 0.0]])
