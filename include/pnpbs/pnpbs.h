@@ -545,7 +545,8 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placemen
 
 /** The spacing from values at the nodes of a background mesh, copied: linear on each triangle, in
  *  space on each tetrahedron, and beyond the mesh what it is at the mesh's nearest point. Elements
- *  may overlap (the one with the least node numbers counts) and need not share whole sides.
+ *  may overlap (the one with the least node numbers counts) and need not share whole sides. Its
+ *  growth is limited as that of any spacing (option growth_limit).
  *  Collective; every rank gives the same arrays, and holds them. Checks the domain first. Errors:
  *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and for a mesh whose box
  *  does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node number out of range, an element

@@ -111,6 +111,7 @@ CloudSpacing<Dim>::CloudSpacing(const GivenField<Dim>& field) {
     boxes.push_back({x, x});
   }
   tree_ = BoxTree<Dim>(std::move(boxes));
+  find_known();
 }
 
 template <int Dim>
@@ -169,25 +170,31 @@ void CloudSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d)
 }
 
 template <int Dim>
-KnownValues<Dim> CloudSpacing<Dim>::known_values() const {
+void CloudSpacing<Dim>::find_known() {
   constexpr int kNearest = Dim + 1;
-  KnownValues<Dim> known;
+  const auto count = static_cast<std::int64_t>(points_.size());
+  std::vector<std::array<Neighbour, kNearest>> nearest_ones(points_.size());
+  for_each("pnpbs::CloudSpacing::find_known", count, [&](std::int64_t i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Neighbours near = nearest(points_[at]);  // the first one is itself
+    for (std::size_t k = 0; k < kNearest; ++k) {
+      const bool is_there = static_cast<int>(k) + 1 < near.found;
+      nearest_ones[at][k] = near.nearest[is_there ? k + 1 : 0];
+    }
+  });
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    known.values.push_back({points_[i], values_[i]});
-    const Neighbours near = nearest(points_[i]);  // the first one is itself
-    for (int k = 1; k <= std::min(kNearest, near.found - 1); ++k) {
-      const Neighbour& one = near.nearest[static_cast<std::size_t>(k)];
+    known_.values.push_back({points_[i], values_[i]});
+    for (const Neighbour& one : nearest_ones[i]) {
       const auto other = static_cast<std::size_t>(one.point);
-      if (other < i) continue;
+      if (!(one.square > 0)) continue;
       typename KnownValues<Dim>::Slope slope{
           std::fabs(values_[other] - values_[i]) / std::sqrt(one.square),
           std::min(values_[other], values_[i]),
           {}};
       for (int c = 0; c < Dim; ++c) slope.at[c] = (points_[i][c] + points_[other][c]) / 2;
-      known.slopes.push_back(slope);
+      known_.slopes.push_back(slope);
     }
   }
-  return known;
 }
 
 template class CloudSpacing<2>;

@@ -23,7 +23,7 @@ class CloudSpacing : public Spacing<Dim> {
   explicit CloudSpacing(const GivenField<Dim>& field);
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
   // With slopes from each point to the nearest ones.
-  KnownValues<Dim> known_values() const override;
+  KnownValues<Dim> known_values() const override { return known_; }
 
   static constexpr int kNeighbours = Dim == 2 ? 8 : 16;
 
@@ -43,6 +43,7 @@ class CloudSpacing : public Spacing<Dim> {
     int counting() const { return found < kNeighbours ? found : kNeighbours; }
   };
 
+  void find_known();
   Neighbours nearest(const Point<Dim>& x) const;
   double at(const Point<Dim>& x) const;
 
@@ -50,6 +51,7 @@ class CloudSpacing : public Spacing<Dim> {
   std::vector<Point<Dim>> points_;
   std::vector<double> values_;
   BoxTree<Dim> tree_;
+  KnownValues<Dim> known_;
 };
 
 extern template class CloudSpacing<2>;

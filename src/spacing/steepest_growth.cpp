@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace pnpbs {
@@ -74,6 +75,27 @@ std::vector<Slope<Dim>> slopes_of_own(const DomainMap<Dim>& map,
   return slopes;
 }
 
+// Most places are not asked whether they are this rank's.
+template <int Dim, class IsOwn>
+void add_steepest(std::vector<Slope<Dim>>& known, const IsOwn& is_own,
+                  std::vector<Slope<Dim>>& slopes) {
+  std::ranges::sort(known, std::ranges::greater(), &Slope<Dim>::growth);
+  const auto first = std::ranges::find_if(known, is_own);
+  if (first != known.end()) slopes.push_back(*first);
+}
+
+// Of those at least as steep as that; all that are equally fine.
+template <int Dim, class IsOwn>
+void add_finest(std::vector<Slope<Dim>>& known, double growth, const IsOwn& is_own,
+                std::vector<Slope<Dim>>& slopes) {
+  std::erase_if(known, [&](const Slope<Dim>& slope) { return slope.growth < growth; });
+  std::ranges::sort(known, {}, &Slope<Dim>::d);
+  auto slope = std::ranges::find_if(known, is_own);
+  if (slope == known.end()) return;
+  for (const double finest = slope->d; slope != known.end() && slope->d == finest; ++slope)
+    if (is_own(*slope)) slopes.push_back(*slope);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -82,14 +104,16 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
                                     const SpacingEvaluator<Dim>& spacing,
                                     const KnownValues<Dim>& known) {
   std::vector<Slope<Dim>> slopes;
+  std::vector<Slope<Dim>> known_slopes;
+  const auto is_own = [&](const Slope<Dim>& slope) {
+    if (!in_closed_box(map.tree().cell_box(0), slope.at)) return false;
+    const std::int32_t leaf = map.tree().leaf_at(slope.at);
+    return owns_leaf(leaf) && !map.leaf_outside(leaf) && map.inside_in_leaf(leaf, slope.at);
+  };
   agreed(comm, [&] {
     slopes = slopes_of_own<Dim>(map, owns_leaf, spacing);
-    for (const auto& [growth, d, at] : known.slopes) {
-      if (!in_closed_box(map.tree().cell_box(0), at)) continue;
-      const std::int32_t leaf = map.tree().leaf_at(at);
-      if (owns_leaf(leaf) && !map.leaf_outside(leaf) && map.inside_in_leaf(leaf, at))
-        slopes.push_back({growth, d, at});
-    }
+    for (const auto& [growth, d, at] : known.slopes) known_slopes.push_back({growth, d, at});
+    add_steepest<Dim>(known_slopes, is_own, slopes);
   });
   // Of the slopes that are left, over all ranks, those with the largest of something.
   const auto keep_max = [&](const auto& value) {
@@ -103,6 +127,7 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
   for (const Slope<Dim>& slope : slopes) max = std::max(max, slope.growth);
   SteepestGrowth<Dim> steepest;
   steepest.growth = comm.allreduce_max(max);
+  agreed(comm, [&] { add_finest<Dim>(known_slopes, 0.5 * steepest.growth, is_own, slopes); });
   std::erase_if(slopes,
                 [&](const Slope<Dim>& slope) { return slope.growth < 0.5 * steepest.growth; });
   keep_max([](const Slope<Dim>& slope) { return -slope.d; });
