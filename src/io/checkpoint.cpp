@@ -157,7 +157,7 @@ class CheckpointWriter {
                                            "\": a checkpoint is a file of its own, no stream and "
                                            "no device");
     hdf5::require_hdf5();
-    output_.close(output_.open());
+    reserve(output_.open());
     hdf5::NewFile file(output_.name_aside(), quoted(path_));
     for (const char* group : {kVtk, "/VTKHDF/PointData", kOwn}) file.add_group(group);
     file.set(kVtk, "Version", std::vector<std::int64_t>{1, 0});
@@ -183,6 +183,21 @@ class CheckpointWriter {
     if (!output_.removed()) return;
     ::unlink(output_.name_aside());  // a signal has removed it before HDF5 made it anew
     throw Error(ErrorKind::file, "cannot write " + quoted(path_) + ": " + std::strerror(EINTR));
+  }
+
+  // Whether the file may have its size, and HDF5 room for what it writes: where it has none, some
+  // versions end the process when that exits.
+  void reserve(int descriptor) const {
+    constexpr std::size_t kLayout = std::size_t{1} << 16;
+    std::int64_t size = kLayout;
+    for (const hdf5::Array& array : arrays()) size += array.rows * array.row_size();
+    const Bytes zeros(kLayout, 0);
+    const ssize_t wrote = ::write(descriptor, zeros.data(), zeros.size());
+    errno = wrote < 0 ? errno : wrote < std::ssize(zeros) ? ENOSPC : 0;
+    if (errno == 0 && ::ftruncate(descriptor, size) == 0) return output_.close(descriptor);
+    const int error = errno;
+    ::close(descriptor);
+    throw Error(ErrorKind::file, "cannot write " + quoted(path_) + ": " + std::strerror(error));
   }
 
   template <class Value>

@@ -4,6 +4,7 @@ the file is one that VTK opens."""
 
 import json
 import signal
+import subprocess
 import time
 import unittest
 
@@ -11,7 +12,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
-from command import DONE, INTERRUPTED, NOT_CONVERGED, CommandTest
+from command import COMMAND, DONE, INTERRUPTED, NOT_CONVERGED, CommandTest
 
 PLANE = ("--spacing", "0.01 + 0.02*x", "--set", "effort=best")
 # Steps long enough that a signal comes between them.
@@ -70,6 +71,20 @@ class Checkpoints(CommandTest):
                 (("--checkpoint", "none/a.vtkhdf"), "none/a.vtkhdf")):
             with self.subTest(words):
                 self.assertIn(words, self.refuse(*square, *arguments))
+
+    def test_what_finds_no_room_leaves_the_old_file(self):
+        path = self.folder / "a.vtkhdf"
+        path.write_text("old")
+        for blocks in (3, 50, 150):  # of 1024 bytes: none for the layout, or not for the nodes
+            with self.subTest(blocks):
+                process = subprocess.run(
+                    ["bash", "-c", f'ulimit -f {blocks}; exec "$0" "$@"', COMMAND, "--domain",
+                     self.square, "--spacing", "0.01", "-q", "--checkpoint", path],
+                    cwd=self.folder, capture_output=True, check=False)
+                self.assertIn(b"cannot write checkpoint", process.stderr)
+                self.assertGreater(process.returncode, 0, process.stderr)
+                self.assertEqual(path.read_text(), "old")
+                self.assertEqual(self.files(), ["a.vtkhdf", "square.poly"])
 
     def check_file(self, domain, spacing, dimension):
         report = self.report("--domain", domain, "--spacing", spacing, "--checkpoint", "a.vtkhdf",
