@@ -561,11 +561,11 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placemen
                                                         int64_t elements, const int64_t *corners);
 
 /** The spacing from values at scattered points, copied: at each of them its own value, elsewhere a
- *  plane fitted to the 8 (in space 16) nearest ones by weighted least squares, never below the least
- *  nor above the largest of their values. A linear function is met amid its points; far from all of
- *  them d is near the values of the nearest. The weights are (1/r - 1/R)^2, r the distance of a
- *  point and R that of the nearest one that does not count, so d is continuous (R. Franke,
- *  G. Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704). The order of the points changes
+ *  plane fitted to the 8 (in space 16) nearest ones by weighted least squares, never below the
+ * least nor above the largest of their values. A linear function is met amid its points; far from
+ * all of them d is near the values of the nearest. The weights are (1/r - 1/R)^2, r the distance of
+ * a point and R that of the nearest one that does not count, so d is continuous (R. Franke, G.
+ * Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704). The order of the points changes
  *  nothing.
  *  Collective; every rank gives the same arrays, and holds them. Checks the domain first. Errors:
  *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for points in one place
@@ -584,14 +584,14 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_points(pnpbs_placement placem
  *    .msh   Gmsh's, versions 4.1 and 2.2, text or binary, with $NodeData
  *    .csv   a header with columns x, y, (z) and others, and a point in each line
  *  Triangles and quadrangles, in space tetrahedra are a mesh as pnpbs_placement_set_spacing_mesh
- *  takes it; without any the points are as for pnpbs_placement_set_spacing_points. In the plane z is
- *  left out. Collective; every rank reads the file. Errors: PNPBS_ERROR_FILE for a file that cannot
- *  be read, is none of these or has other elements, and for a field that is not there, with those
- *  that are; those of the two functions above.
+ *  takes it; without any the points are as for pnpbs_placement_set_spacing_points. In the plane z
+ * is left out. Collective; every rank reads the file. Errors: PNPBS_ERROR_FILE for a file that
+ * cannot be read, is none of these or has other elements, and for a field that is not there, with
+ * those that are; those of the two functions above.
  *  @param[in] path   the file
  *  @param[in] field  its name in the file; NULL or "": the only one, or the one called "spacing" */
-PNPBS_API pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement,
-                                                        const char *path, const char *field);
+PNPBS_API pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement, const char *path,
+                                                        const char *field);
 
 /** The spacing from the shape of the domain as it is now: the least that its curves and surfaces
  * ask for, each growing with the distance from it. Collective. The same on any number of ranks.
@@ -949,13 +949,13 @@ PNPBS_API pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t 
                                              int32_t components, const double *values,
                                              pnpbs_transfer *transfer);
 
-/** The same with a field of second order: at each node a polynomial of second order goes through its
- *  value and is fitted by least squares to those of its neighbours and of their neighbours in the
- *  stars (so across no boundary, and the same for all components); within an element those of its
- *  corners count as much as in the linear field. So fields that are quadratic in the coordinates stay
- *  what they are, and smooth ones change by a part of the third order in d. Next to jumps the field
- *  may leave the range of the values there. Where a node has too few neighbours for that, its part
- *  is linear (pnpbs_transfer_order tells at how many), as it is everywhere on surfaces alone.
+/** The same with a field of second order: at each node a polynomial of second order goes through
+ * its value and is fitted by least squares to those of its neighbours and of their neighbours in
+ * the stars (so across no boundary, and the same for all components); within an element those of
+ * its corners count as much as in the linear field. So fields that are quadratic in the coordinates
+ * stay what they are, and smooth ones change by a part of the third order in d. Next to jumps the
+ * field may leave the range of the values there. Where a node has too few neighbours for that, its
+ * part is linear (pnpbs_transfer_order tells at how many), as it is everywhere on surfaces alone.
  *  Collective. Errors and parameters as there. */
 PNPBS_API pnpbs_status pnpbs_transfer_create_second_order(pnpbs_placement placement, int64_t n,
                                                           int32_t components, const double *values,
