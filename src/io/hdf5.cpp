@@ -10,6 +10,7 @@
 
 #include "base/build_config.hpp"
 #include "base/error.hpp"
+#include "base/opened_library.hpp"
 
 #if PNPBS_HAVE_HDF5
 #include <dlfcn.h>
@@ -120,20 +121,8 @@ struct Library {
   hid_t text, file_access, dataset_creation;
 };
 
-// RTLD_DEEPBIND: HDF5 calls itself, too, by names that a host program may have. The sanitizers'
-// run-time libraries end the process at the sight of it.
-int hdf5_open_mode() {
-  int mode = RTLD_NOW | RTLD_LOCAL;
-#ifdef RTLD_DEEPBIND
-  if (!dlsym(RTLD_DEFAULT, "__sanitizer_set_death_callback")) mode |= RTLD_DEEPBIND;
-#endif
-  return mode;
-}
-
 void* open_hdf5() {
-  void* library = dlopen(PNPBS_HDF5_PATH, hdf5_open_mode());
-  if (!library) library = dlopen(PNPBS_HDF5_NAME, hdf5_open_mode());
-  if (library) return library;
+  if (void* library = open_library({PNPBS_HDF5_PATH, PNPBS_HDF5_NAME})) return library;
   const char* reason = dlerror();
   throw Error(ErrorKind::unsupported,
               std::string("HDF5, which writes and reads checkpoints, cannot be opened: neither "

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/opened_library.hpp"
 #endif
 
 namespace pnpbs {
@@ -18,21 +19,9 @@ namespace pnpbs {
 
 namespace {
 
-// RTLD_DEEPBIND: METIS calls itself, too, by names that a host program may have. The sanitizers'
-// run-time libraries end the process at the sight of it.
-int open_mode() {
-  int mode = RTLD_NOW | RTLD_LOCAL;
-#ifdef RTLD_DEEPBIND
-  if (!dlsym(RTLD_DEFAULT, "__sanitizer_set_death_callback")) mode |= RTLD_DEEPBIND;
-#endif
-  return mode;
-}
-
 // By its path first: by its name alone, the linker would give us a host's of the same name.
 void* open_metis() {
-  void* library = dlopen(PNPBS_METIS_PATH, open_mode());
-  if (!library) library = dlopen(PNPBS_METIS_NAME, open_mode());
-  if (library) return library;
+  if (void* library = open_library({PNPBS_METIS_PATH, PNPBS_METIS_NAME})) return library;
   const char* reason = dlerror();
   throw Error(ErrorKind::unsupported,
               std::string("METIS, which distributes nodes over ranks, cannot be opened: neither "

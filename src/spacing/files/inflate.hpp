@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What zlib packed, unpacked: the formats of RFC 1950 and RFC 1951. Most VTK files are packed so,
-// and no library is needed for that little.
+// What zlib packed, unpacked, as most VTK files are packed. zlib is opened when it is needed:
+// nearly every system has it.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace pnpbs {
 
 // The bytes, which must be as many as told; nothing if they are not, or are damaged. Takes memory
-// for no more than that.
+// for no more than that. Throws Error where there is no zlib.
 std::optional<std::string> inflated(std::string_view packed, std::size_t bytes);
 
 // No fewer bytes hold so many: at best a bit stands for 258 bytes, and two are needed for each such
