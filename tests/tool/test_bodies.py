@@ -208,7 +208,7 @@ class Refusals(CommandTest):
         (self.folder / "a.step").write_text("ISO-10303-21;\nHEADER;\n")
         message = self.refuse_domain("a.step")
         self.assertIn("a.step:1:", message)
-        self.assertIn("does not end in .stl, .off, .obj, .ply, .smesh or .msh", message)
+        self.assertIn("does not end in .stl, .off, .obj, .ply, .smesh, .msh", message)
         self.assertIn("nowhere.stl", self.refuse_domain("nowhere.stl"))
         self.assertIn("folder.obj", self.refuse_domain(self.folder_called("folder.obj")))
 
