@@ -85,10 +85,10 @@ void add_seal(const std::string& path, const std::string& name, std::vector<Exte
   seal.extents = std::ssize(left_out);
   seal.checksum = checksum_without(file, left_out, end, name);
   errno = 0;
-  const bool done = ::fseeko(file.get(), end, SEEK_SET) == 0 &&
-                    std::fwrite(left_out.data(), sizeof(Extent), left_out.size(), file.get()) ==
-                        left_out.size() &&
-                    std::fwrite(&seal, sizeof seal, 1, file.get()) == 1;
+  bool done = ::fseeko(file.get(), end, SEEK_SET) == 0;
+  for (const Extent& extent : left_out)
+    done = done && std::fwrite(&extent, sizeof extent, 1, file.get()) == 1;
+  done = done && std::fwrite(&seal, sizeof seal, 1, file.get()) == 1;
   if (std::fclose(file.release()) != 0 || !done) fail_of_system(what, name);
 }
 
@@ -103,9 +103,9 @@ void require_seal(const std::string& path, const std::string& name) {
     throw Error(ErrorKind::file,
                 name + " is an HDF5 file, but no checkpoint of PNPBS, or its end is missing");
   const std::string damaged = name + " is damaged: its layout does not have its checksum";
+  if (seal.extents < 0 || seal.extents > kMostExtents) throw Error(ErrorKind::file, damaged);
   const std::int64_t end = size - kEnd - seal.extents * kExtent;
-  if (seal.extents < 0 || seal.extents > kMostExtents || end < 0)
-    throw Error(ErrorKind::file, damaged);
+  if (end < 0) throw Error(ErrorKind::file, damaged);
   std::vector<Extent> extents(static_cast<std::size_t>(seal.extents));
   if (!extents.empty()) read(file, end, extents.data(), extents.size() * sizeof(Extent), name);
   std::int64_t from = 0;
