@@ -31,14 +31,11 @@ VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
     return measured ? level.neighbourhood.near_boundary().room(i, level.nodes) : 0;
   };
   const auto on_one_surface = [&level](const std::array<std::int64_t, 4>& corners) {
-    const auto place = [&](std::int64_t i) {
-      return level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i));
-    };
-    const Surface& surface = level.ground.surface();
-    for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t b = 0; b < a; ++b)
-        if (!surface.sees(place(corners[a]), place(corners[b]))) return false;
-    return true;
+    std::array<SurfacePlace, 4> places;
+    for (std::size_t k = 0; k < 4; ++k)
+      places[k] = level.ground.place(level.nodes.carrier(corners[k]),
+                                     level.nodes.boundary_node(corners[k]));
+    return level.ground.surface().share_patch(places);
   };
   return {level.nodes,
           level.tree->tree(),

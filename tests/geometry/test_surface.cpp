@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a surface knows of its places: sides, who sees whom, and how far features are.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <set>
 #include <vector>
 
 #include "core/quick_assert.hpp"
+#include "core/random.hpp"
 #include "domain/volume/feature_nodes.hpp"
 #include "domain/volume/triangles.hpp"
 #include "run_suite.hpp"
@@ -108,28 +110,63 @@ START_TEST(test_flat_patches_have_one_normal) {
 }
 END_TEST
 
-START_TEST(test_sees_on_a_cube) {
-  const SurfaceCase c(space_shapes::cube(2).mesh());
-  const FeatureNodes laid = lay_feature_nodes(c.mesh, c.features, space_shapes::constant(0.5));
-  // Which of the six sides of the unit cube a point is on.
-  const auto faces = [](const P& x) {
+// The unit cube, and places on it with the numbers of the sides that they are on.
+struct PlacesOnCube {
+  SurfaceCase c{space_shapes::cube(2).mesh()};
+  std::vector<std::pair<SurfacePlace, std::set<int>>> places;
+
+  PlacesOnCube() {
+    const FeatureNodes laid = lay_feature_nodes(c.mesh, c.features, space_shapes::constant(0.5));
+    for (std::int32_t f = 0; f < c.facet_count(); ++f)
+      places.push_back({{On::facet, f}, sides(c.centre(f).position)});
+    for (const FeatureNode& node : laid.nodes)
+      places.push_back({place_of(node), sides(node.position)});
+  }
+  static std::set<int> sides(const P& x) {
     std::set<int> on;
     for (int k = 0; k < 3; ++k)
       for (const int side : {0, 1})
         if (std::fabs(x[static_cast<std::size_t>(k)] - side) < 1e-12) on.insert(2 * k + side);
     return on;
-  };
-  std::vector<std::pair<SurfacePlace, std::set<int>>> places;
-  for (std::int32_t f = 0; f < c.facet_count(); ++f)
-    places.push_back({{On::facet, f}, faces(c.centre(f).position)});
-  for (const FeatureNode& node : laid.nodes)
-    places.push_back({place_of(node), faces(node.position)});
-  for (const auto& [a, on_a] : places)
-    for (const auto& [b, on_b] : places) {
+  }
+};
+
+START_TEST(test_sees_on_a_cube) {
+  const PlacesOnCube cube;
+  for (const auto& [a, on_a] : cube.places)
+    for (const auto& [b, on_b] : cube.places) {
       const bool share =
-          std::any_of(on_a.begin(), on_a.end(), [&](int face) { return on_b.contains(face); });
-      quick_assert(c.surface.sees(a, b) == share);
+          std::any_of(on_a.begin(), on_a.end(), [&](int side) { return on_b.contains(side); });
+      quick_assert(cube.c.surface.sees(a, b) == share);
     }
+}
+END_TEST
+
+// At a corner each two of four nodes can be on one side, and no side has all of them.
+START_TEST(test_shares_a_patch_on_a_cube) {
+  const PlacesOnCube cube;
+  const Surface& surface = cube.c.surface;
+  Random random(1);
+  int shared = 0, only_in_pairs = 0;
+  for (int trial = 0; trial < 400000; ++trial) {
+    std::array<SurfacePlace, 4> places;
+    std::set<int> common{0, 1, 2, 3, 4, 5};
+    for (SurfacePlace& place : places) {
+      const auto& [at, on] =
+          cube.places[static_cast<std::size_t>(random.below(std::ssize(cube.places)))];
+      place = at;
+      std::erase_if(common, [&](int side) { return !on.contains(side); });
+    }
+    quick_assert(surface.share_patch(places) == !common.empty());
+    shared += !common.empty();
+    const bool in_pairs = std::all_of(places.begin(), places.end(), [&](const SurfacePlace& a) {
+      return std::all_of(places.begin(), places.end(),
+                         [&](const SurfacePlace& b) { return surface.sees(a, b); });
+    });
+    only_in_pairs += in_pairs && common.empty();
+  }
+  ck_assert_int_gt(shared, 100);
+  ck_assert_int_gt(only_in_pairs, 100);
 }
 END_TEST
 
@@ -195,7 +232,7 @@ END_TEST
 }  // namespace
 
 int main() {
-  return run_suite("surface",
-                   {test_sides_of_features, test_flat_patches_have_one_normal, test_sees_on_a_cube,
-                    test_sees_around_a_thin_body, test_feature_clearance});
+  return run_suite("surface", {test_sides_of_features, test_flat_patches_have_one_normal,
+                               test_sees_on_a_cube, test_shares_a_patch_on_a_cube,
+                               test_sees_around_a_thin_body, test_feature_clearance});
 }

@@ -86,6 +86,18 @@ bool Surface::sees(const SurfaceSide& side, const SurfacePlace& b) const {
   return seen;
 }
 
+bool Surface::share_patch(std::span<const SurfacePlace> places) const {
+  return std::all_of(places.begin(), places.end(), [&](const SurfacePlace& from) {
+    bool all_seen = false;
+    for_sides(from, [&](const SurfaceSide& side) {
+      all_seen = all_seen || std::all_of(places.begin(), places.end(), [&](const SurfacePlace& to) {
+                   return &to == &from || sees(side, to);
+                 });
+    });
+    return all_seen;
+  });
+}
+
 void Surface::build_rims() {
   rims_.resize(index(features_->patches));
   std::set<std::int32_t> on_curves;

@@ -65,6 +65,9 @@ class Surface {
   bool sees(const SurfacePlace& a, const SurfacePlace& b) const;
   // The same of one side of a place alone.
   bool sees(const SurfaceSide& side, const SurfacePlace& b) const;
+  // Do nodes at these places lie on one patch, side by side, so that each sees all others there? At
+  // a corner between three patches each two of them may do so, but not all on the same one.
+  bool share_patch(std::span<const SurfacePlace> places) const;
 
   // The distance to the nearest feature of the patch if it is less than `reach`, else `reach`.
   double feature_clearance(const SurfacePoint& at, double reach) const;
