@@ -77,7 +77,7 @@ bool NodeMove::in_sphere_now(const TetrahedronNodes& t) const {
 }
 
 bool NodeMove::is_gone(const TetrahedronNodes& t) const {
-  return std::find(gone_by_id_.begin(), gone_by_id_.end(), stars_.by_id(t)) != gone_by_id_.end();
+  return contains(gone_by_id_, stars_.by_id(t));
 }
 
 void NodeMove::find_gone() {
@@ -105,7 +105,7 @@ void NodeMove::find_gone() {
 // A face with a tetrahedron on either side, or one gone and one made on the same, is closed.
 void NodeMove::add_face(const Corners& corners) {
   const Corners face = StarChanges::least_first(corners), back{face[0], face[2], face[1]};
-  const auto found = std::find(open_.begin(), open_.end(), back);
+  const auto found = find_same(open_, back);
   if (found == open_.end()) {
     open_.push_back(face);
   } else {

@@ -46,7 +46,8 @@ SliverRepair::SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const Sliv
       rounds_(rule.rounds),
       allowed_(std::move(allowed)),
       along_surfaces_(std::move(along_surfaces)),
-      stars_(nodes, stars, along_surfaces_.walk != nullptr) {
+      stars_(nodes, stars, along_surfaces_.walk != nullptr),
+      is_affected_(static_cast<std::size_t>(nodes.count)) {
   bool any_ghost = false;
   for (std::int32_t i = 0; i < nodes.count; ++i) any_ghost = any_ghost || !nodes.owned(i);
   for (std::int32_t i = 0; any_ghost && i < nodes.count; ++i) place_of_id_[nodes.id(i)] = i;
@@ -99,13 +100,18 @@ void SliverRepair::accept(const std::vector<StarChange>& changes) {
   }
   std::sort(affected.begin(), affected.end());
   affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
-  const auto is_affected = [&](std::int32_t i) {
-    return std::binary_search(affected.begin(), affected.end(), i);
+  const auto mark = [&](char as) {
+    for (const std::int32_t i : affected) is_affected_[static_cast<std::size_t>(i)] = as;
   };
+  const auto is_affected = [&](std::int32_t i) {
+    return is_affected_[static_cast<std::size_t>(i)] != 0;
+  };
+  mark(1);
   std::erase_if(slivers_, [&](const TetrahedronNodes& sliver) {
     return std::any_of(sliver.begin(), sliver.end(), is_affected);
   });
   for (const std::int32_t i : affected) add_slivers_at(i, is_affected, slivers_);
+  mark(0);
 }
 
 // ------------------------------------------------------------------ over several ranks ---------
@@ -250,20 +256,24 @@ Point<3> SliverRepair::direction_to_try(const Attempt& attempt, int trial,
   return direction;
 }
 
-// The sum comes out the same whatever the order in which they are given.
-double SliverRepair::penalty(std::vector<TetrahedronNodes> tetrahedra, std::int32_t node,
+// The sum comes out the same whatever the order in which they are given. Most have no part in it.
+double SliverRepair::penalty(std::span<const TetrahedronNodes> tetrahedra, std::int32_t node,
                              const Point<3>& at) const {
-  std::erase_if(tetrahedra, [this](const auto& t) { return !stars_.any_movable(t); });
-  for (TetrahedronNodes& t : tetrahedra) t = stars_.by_id(t);
-  stars_.sort_by_id(tetrahedra);
-  tetrahedra.erase(std::unique(tetrahedra.begin(), tetrahedra.end()), tetrahedra.end());
-  double sum = 0;
-  for (const TetrahedronNodes& t : tetrahedra) {
+  std::vector<std::pair<TetrahedronNodes, double>> penalised;
+  for (const TetrahedronNodes& unordered : tetrahedra) {
+    if (!stars_.any_movable(unordered)) continue;
+    const TetrahedronNodes t = stars_.by_id(unordered);
     std::array<Point<3>, 4> x = corners_of(t);
     for (std::size_t k = 0; k < 4; ++k)
       if (t[k] == node) x[k] = at;
-    sum += penalised_.penalty(x);
+    const double own = penalised_.penalty(x);
+    if (own > 0) penalised.emplace_back(t, own);
   }
+  std::sort(penalised.begin(), penalised.end(),
+            [this](const auto& a, const auto& b) { return stars_.ids_less(a.first, b.first); });
+  double sum = 0;
+  for (std::size_t k = 0; k < penalised.size(); ++k)
+    if (k == 0 || penalised[k].first != penalised[k - 1].first) sum += penalised[k].second;
   return sum;
 }
 
@@ -279,7 +289,7 @@ double SliverRepair::penalty_around(std::int32_t i) const {
   for (const std::int32_t j : centres)
     stars_.for_simplices_first_at(j, is_centre,
                                   [&](const TetrahedronNodes& t) { around.push_back(t); });
-  return penalty(std::move(around), i, nodes_.position(i));
+  return penalty(around, i, nodes_.position(i));
 }
 
 bool SliverRepair::within_reach(const StarChange& change) const {

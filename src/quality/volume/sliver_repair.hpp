@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -101,7 +102,7 @@ class SliverRepair {
   bool helps(const StarChange& change) const;
   bool crowded(std::int32_t i, const Point<3>& x) const;
   bool within_reach(const StarChange& change) const;
-  double penalty(std::vector<TetrahedronNodes> tetrahedra, std::int32_t node,
+  double penalty(std::span<const TetrahedronNodes> tetrahedra, std::int32_t node,
                  const Point<3>& at) const;
   double penalty_around(std::int32_t i) const;
 
@@ -111,6 +112,7 @@ class SliverRepair {
   Allowed allowed_;
   AlongSurfaces along_surfaces_;
   StarChanges stars_;
+  std::vector<char> is_affected_;                               // while a change is accepted
   std::vector<TetrahedronNodes> slivers_;                       // in no order that matters
   std::vector<StarChange> changes_;                             // of the last round
   std::unordered_map<std::int64_t, std::int32_t> place_of_id_;  // where there are ghosts

@@ -38,19 +38,13 @@ bool StarChanges::ids_less(const TetrahedronNodes& a, const TetrahedronNodes& b)
       [this](std::int32_t i, std::int32_t j) { return nodes_.id(i) < nodes_.id(j); });
 }
 
-void StarChanges::sort_by_id(std::vector<TetrahedronNodes>& tetrahedra) const {
-  std::sort(tetrahedra.begin(), tetrahedra.end(),
-            [this](const auto& a, const auto& b) { return ids_less(a, b); });
-}
-
 StarChanges::Star StarChanges::star_after(std::int32_t i, const StarChange& change) const {
   Star star;
   std::vector<Corners> gone;
   for (const TetrahedronNodes& t : change.gone)
     if (has(t, i)) gone.push_back(least_first(others(t, i)));
   for_simplices(i, [&](const Corners& corners) {
-    if (std::find(gone.begin(), gone.end(), least_first(corners)) == gone.end())
-      star.simplices.push_back(corners);
+    if (!contains(gone, least_first(corners))) star.simplices.push_back(corners);
   });
   for (const TetrahedronNodes& t : change.made)
     if (has(t, i)) star.simplices.push_back(others(t, i));

@@ -16,6 +16,24 @@ namespace pnpbs {
 // Its corners, by id where that is said, so that what is computed from them is the same everywhere.
 using TetrahedronNodes = std::array<std::int32_t, 4>;
 
+// Without the call of memcmp that comparing arrays is.
+template <std::size_t N>
+bool same(const std::array<std::int32_t, N>& a, const std::array<std::int32_t, N>& b) {
+  std::int32_t differing = 0;
+  for (std::size_t k = 0; k < N; ++k) differing |= a[k] ^ b[k];
+  return differing == 0;
+}
+template <std::size_t N>
+auto find_same(std::vector<std::array<std::int32_t, N>>& list,
+               const std::array<std::int32_t, N>& corners) {
+  return std::find_if(list.begin(), list.end(), [&](const auto& c) { return same(c, corners); });
+}
+template <std::size_t N>
+bool contains(const std::vector<std::array<std::int32_t, N>>& list,
+              const std::array<std::int32_t, N>& corners) {
+  return std::any_of(list.begin(), list.end(), [&](const auto& c) { return same(c, corners); });
+}
+
 // What becomes of the triangulation if a node goes to x.
 struct StarChange {
   std::int32_t node;
@@ -74,7 +92,6 @@ class StarChanges {
   static Corners least_first(const Corners& c);
   TetrahedronNodes by_id(TetrahedronNodes corners) const;
   bool ids_less(const TetrahedronNodes& a, const TetrahedronNodes& b) const;
-  void sort_by_id(std::vector<TetrahedronNodes>& tetrahedra) const;
 
   // The node has gone there. Returns the nodes whose stars have changed.
   std::vector<std::int32_t> accept(const StarChange& change);
