@@ -119,7 +119,9 @@ Point<3> NearBoundary<3>::hold_off(std::int64_t i, const Nodes<3>& nodes, const 
   if (gap_(i) > kRounding * (distance<3>(point_at<3>(at_, i), to) + way)) return to;
   const SurfaceIndex& index = ground.domain().index();
   const NearestPoint<3> nearest = index.nearest(to, clearance);
-  const bool inside = index.inside(to);
+  // Inside as before where the way is too short to lead to any facet.
+  const double facet_free = nearest.facet < 0 ? clearance : nearest.gap;
+  const bool inside = facet_free > kRounding * distance<3>(from, to) || index.inside(to);
   if (inside && nearest.facet < 0) return to;
   if (!inside || nearest.gap == 0) return from;
   const Point<3> kept = shifted(nearest.x, clearance / nearest.gap, difference(to, nearest.x));
