@@ -65,6 +65,9 @@ class ChunkedRows {
     });
   }
 
+  // The rows of a chunk are needed no longer, nor its memory.
+  void drop_chunk(std::int64_t c) { chunks_[static_cast<std::size_t>(c)] = {}; }
+
   std::span<T> row(std::int64_t i) {
     const std::span<const T> row = std::as_const(*this).row(i);
     return {const_cast<T*>(row.data()), row.size()};

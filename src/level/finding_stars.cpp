@@ -71,10 +71,21 @@ void widen(Box<Dim>& box, const Box<Dim>& by) {
 }
 
 template <int Dim>
+std::vector<char> owned_nodes(const Nodes<Dim>& nodes) {
+  return {nodes.owned.data(), nodes.owned.data() + nodes.count};
+}
+
+template <int Dim>
 void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known) {
   const PhaseTimer timer(level.timers, Phase::stars);
-  if constexpr (Dim == 3)
+  if constexpr (Dim == 3) {
     if (level.ground.surfaces_alone()) return level.stars.build(surface_star_input(level, known));
+    if (level.stars_before.any() && known.is_everywhere()) {
+      const VolumeStarInput input = star_input(level, known);
+      level.stars.build_none(input);
+      return level.stars_before.find_stars(input, owned_nodes(level.nodes), level.stars);
+    }
+  }
   level.stars.build(star_input(level, known));
 }
 
@@ -113,11 +124,6 @@ std::vector<std::int64_t> neighbours_of(const Graph& stars, const std::vector<st
       known = 1;
     });
   return next;
-}
-
-template <int Dim>
-std::vector<char> owned_nodes(const Nodes<Dim>& nodes) {
-  return {nodes.owned.data(), nodes.owned.data() + nodes.count};
 }
 
 // Owned nodes beside a ghost, by the lists or the stars.
@@ -180,7 +186,12 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
   std::vector<char> wanted = owned_nodes(nodes);
   for (const std::int64_t i : nodes_at_border(nodes, level.lists()))
     wanted[static_cast<std::size_t>(i)] = 0;
-  add_stars(level, known, wanted);
+  if (level.stars_before.any()) {
+    const PhaseTimer timer(level.timers, Phase::stars);
+    level.stars_before.find_stars(star_input(level, known), wanted, level.stars);
+  } else {
+    add_stars(level, known, wanted);
+  }
   UnknownBoxes<3> unknown(level);
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (wanted[static_cast<std::size_t>(i)]) unknown.ask_around(i);
@@ -192,6 +203,7 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
 template <int Dim>
 void rebuild_stars(Level<Dim>& level) {
   build_stars(level, KnownRegion<Dim>());
+  level.stars_before.forget();
 }
 
 template <int Dim>

@@ -10,6 +10,7 @@ namespace pnpbs {
 // Lists of the present positions, from which visibility is judged from now on.
 template <int Dim>
 void prepare_finish(Level<Dim>& level) {
+  agreed(*level.comm, [&] { level.stars_before.take(level.nodes, level.stars); });
   level.nodes.set_reference_positions();
   exchange(level, kRepairHops<Dim>);
   agreed(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });

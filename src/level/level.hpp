@@ -55,6 +55,7 @@ struct Level {
   Ghosts<Dim> ghosts;
   Neighbourhood<Dim> neighbourhood;
   Stars<Dim> stars;
+  KeptStarsBefore<Dim> stars_before;
   TimeIntegration<Dim> time_integration;
 
   std::int64_t settings_version = 0, rebalances = 0;

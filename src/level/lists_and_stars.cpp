@@ -70,10 +70,12 @@ void make_stars(Level<Dim>& level, int hops, double radius, int rings) {
     for (const Box<Dim>& box : unknown) known.add(box);
     agreed(*level.comm, [&] { rebuild_lists(level, radius); });
   }
+  level.stars_before.forget();
 }
 
 template <int Dim>
 void prepare_lists(Level<Dim>& level) {
+  agreed(*level.comm, [&] { level.stars_before.take(level.nodes, level.stars); });
   if (!level.ghosts.are_exact(level.nodes, kStarHops<Dim>)) exchange(level, kStarHops<Dim>);
   if (level.distributed())
     make_lists_and_stars(level, kStarHops<Dim>, level.settings.adjacency_radius, 0);

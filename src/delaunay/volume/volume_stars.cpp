@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <iterator>
 
 #include "delaunay/listed_reach.hpp"
 #include "delaunay/volume/domain_rule.hpp"
@@ -277,6 +278,7 @@ class StarWriter {
 
 void VolumeStars::build(const VolumeStarInput& input) {
   on_surfaces_ = false;
+  arrangement_ = input.nodes.arrangement();
   needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(input.nodes.count), 0);
   rows_.build("pnpbs::VolumeStars::build", input.nodes.count,
               [&] { return StarWriter(input, needs_); });
@@ -284,7 +286,8 @@ void VolumeStars::build(const VolumeStarInput& input) {
 
 void VolumeStars::build_none(const VolumeStarInput& input) {
   on_surfaces_ = false;
-  needs_.assign(static_cast<std::size_t>(input.nodes.count), 0);
+  arrangement_ = input.nodes.arrangement();
+  needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(input.nodes.count), 0);
   const auto write_none = [](std::int64_t, std::vector<std::int32_t>& out) {
     out.push_back(header(0, false));
   };
@@ -296,6 +299,16 @@ void VolumeStars::add(const VolumeStarInput& input, const std::vector<char>& wan
       "pnpbs::VolumeStars::add", input.nodes.count,
       [&](std::int64_t i) { return wanted[static_cast<std::size_t>(i)] != 0; },
       [&] { return StarWriter(input, needs_); });
+}
+
+void VolumeStars::copy_star(std::int64_t i, const std::vector<std::int32_t>& place,
+                            std::vector<std::int32_t>& out) const {
+  const Star star = star_of(i);
+  const auto now = [&](std::int32_t j) { return place[static_cast<std::size_t>(j)]; };
+  const std::int32_t* const triangles = star.first + star.neighbours;
+  out.push_back(header(static_cast<std::size_t>(star.neighbours), star.closed));
+  std::transform(star.first, star.wide ? star.last : triangles, std::back_inserter(out), now);
+  if (!star.wide) out.insert(out.end(), triangles, star.last);
 }
 
 }  // namespace pnpbs

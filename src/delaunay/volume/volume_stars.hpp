@@ -50,6 +50,9 @@ class VolumeStars {
   void add(const VolumeStarInput& input, const std::vector<char>& wanted);
   void build(const SurfaceStarInput& input);
 
+  // Are they of these nodes, in the order that they have now?
+  bool are_of(const Nodes<3>& nodes) const { return arrangement_ == nodes.arrangement(); }
+
   // Nodes have moved: the stars of those for which changed is set are written anew, write(i, out)
   // as it is told below.
   template <class Write>
@@ -91,6 +94,21 @@ class VolumeStars {
   }
   bool are_on_surfaces() const { return on_surfaces_; }
 
+  // Calls visit(places) for the tetrahedra around node i: places of their other corners among its
+  // neighbours. Of no more than kMaxPlaces neighbours.
+  template <class Visit>
+  void for_triangles_of_places(std::int64_t i, const Visit& visit) const {
+    const Star star = star_of(i);
+    for (const std::int32_t* t = star.first + star.neighbours; t < star.last; ++t)
+      visit(places_in(*t));
+  }
+  // Writes the star of node i down for nodes in another order: node j is at place[j] now.
+  void copy_star(std::int64_t i, const std::vector<std::int32_t>& place,
+                 std::vector<std::int32_t>& out) const;
+
+  // The stars of nodes c * kChunk and those after it, so many, are needed no longer.
+  void drop_chunk(std::int64_t c) { rows_.drop_chunk(c); }
+
   // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
   double needs(std::int64_t i) const {
     return needs_.empty() ? 0 : needs_[static_cast<std::size_t>(i)];
@@ -126,15 +144,19 @@ class VolumeStars {
     const std::int32_t n = row[0] / 2;
     return {n, row[0] % 2 != 0, n > kMaxPlaces, row.data() + 1, row.data() + row.size()};
   }
-  static Corners unpack(const Star& star, std::int32_t packed) {
+  static Corners places_in(std::int32_t packed) {
     constexpr std::int32_t kMask = kMaxPlaces - 1;
-    return {star.first[packed & kMask], star.first[packed >> kPlaceBits & kMask],
-            star.first[packed >> 2 * kPlaceBits]};
+    return {packed & kMask, packed >> kPlaceBits & kMask, packed >> 2 * kPlaceBits};
+  }
+  static Corners unpack(const Star& star, std::int32_t packed) {
+    const Corners places = places_in(packed);
+    return {star.first[places[0]], star.first[places[1]], star.first[places[2]]};
   }
 
   ChunkedRows<std::int32_t, kChunk> rows_;
   bool on_surfaces_ = false;
-  std::vector<double> needs_;  // of the nodes; empty where everything is known
+  std::int64_t arrangement_ = -1;  // of the nodes, when they were found
+  std::vector<double> needs_;      // of the nodes; empty where everything is known
 };
 
 }  // namespace pnpbs

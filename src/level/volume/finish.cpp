@@ -38,8 +38,8 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   }
 }
 
-// With the stars of the owned nodes as they are then, if sweeps follow.
-void repair_slivers(Level<3>& level, bool sweeps_follow) {
+// With the stars of the owned nodes as they are then.
+void repair_slivers(Level<3>& level) {
   // Of all nodes within three reaches of a move (see SliverRepair), some 0.8 d from ring to ring.
   constexpr int kRings = 7;
   make_finish_stars(level, kRings);
@@ -74,7 +74,7 @@ void repair_slivers(Level<3>& level, bool sweeps_follow) {
     }
     if (level.comm->allreduce_sum(static_cast<std::uint64_t>(repair->slivers())) == 0) break;
   }
-  if (sweeps_follow) agreed(*level.comm, [&] { repair->write_stars(level.stars); });
+  agreed(*level.comm, [&] { repair->write_stars(level.stars); });
   level.nodes.moved();
 }
 
@@ -89,10 +89,10 @@ FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps) {
     if (sweeps > 0) make_finish_stars(level, 0);
     sweep_to_means(level, sweeps);
     if (level.settings.repair.rounds > 0) {
-      repair_slivers(level, sweeps > 0);
+      repair_slivers(level);
       if (sweeps > 0) {
         sweep_to_means(level, kSweepsBetween);
-        repair_slivers(level, false);
+        repair_slivers(level);
       }
     }
   }

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "delaunay/volume/stars_before.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <unordered_map>
+#include <utility>
+
+#include "delaunay/volume/kept_star.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::int64_t kChunk = VolumeStars::kChunk;
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// Several threads may do so.
+void clear(std::vector<char>& flags, std::int64_t i) {
+  std::atomic_ref<char>(flags[index(i)]).store(0, std::memory_order_relaxed);
+}
+
+template <class Body>
+void for_chunks(const char* label, std::int64_t count, const Body& body) {
+  for_each_guarded(label, (count + kChunk - 1) / kChunk,
+                   [&](std::int64_t c) { body(c * kChunk, std::min((c + 1) * kChunk, count)); });
+}
+
+// Where owned nodes are, by their ids: in a table where these are dense.
+class PlacesById {
+ public:
+  explicit PlacesById(const Nodes<3>& nodes) {
+    std::int64_t end = 0, owned = 0;
+    for (std::int64_t i = 0; i < nodes.count; ++i) {
+      if (!nodes.owned(i)) continue;
+      end = std::max(end, nodes.id(i) + 1);
+      ++owned;
+    }
+    const bool dense = end <= 4 * owned;
+    if (dense) table_.assign(index(end), -1);
+    for (std::int32_t i = 0; i < nodes.count; ++i) {
+      if (!nodes.owned(i)) continue;
+      if (dense)
+        table_[index(nodes.id(i))] = i;
+      else
+        map_.emplace(nodes.id(i), i);
+    }
+  }
+  // -1: of another rank's, or of none.
+  std::int32_t place_of(std::int64_t id) const {
+    if (!table_.empty()) return id >= 0 && id < std::ssize(table_) ? table_[index(id)] : -1;
+    const auto found = map_.find(id);
+    return found == map_.end() ? -1 : found->second;
+  }
+
+ private:
+  std::vector<std::int32_t> table_;
+  std::unordered_map<std::int64_t, std::int32_t> map_;
+};
+
+// How many rows of each chunk are yet to be used, by several threads.
+class Uses {
+ public:
+  explicit Uses(std::int64_t rows) : left_(index((rows + kChunk - 1) / kChunk)) {}
+  void add(std::int64_t row) { ++left_[index(row / kChunk)]; }
+  bool was_last(std::int64_t row) {
+    return std::atomic_ref<std::int32_t>(left_[index(row / kChunk)]).fetch_sub(1) == 1;
+  }
+
+ private:
+  std::vector<std::int32_t> left_;
+};
+
+// Of the nodes whose stars are kept, those that stay so.
+void check(const VolumeStarInput& input, const VolumeStars& stars, std::vector<char>& kept) {
+  std::vector<char> holds(kept);
+  for_chunks("pnpbs::StarsBefore::check", input.nodes.count, [&](std::int64_t i, std::int64_t end) {
+    KeptStar star(input, stars);
+    for (; i < end; ++i)
+      if (kept[index(i)]) star.check(i, [&](std::int32_t j) { clear(holds, j); });
+  });
+  kept.swap(holds);
+}
+
+bool has_tetrahedron(const VolumeStars& stars, std::int64_t i,
+                     const std::array<std::int64_t, 4>& t) {
+  const auto is_corner = [&](std::int32_t j) {
+    return std::find(t.begin(), t.end(), j) != t.end();
+  };
+  bool has = false;
+  stars.for_simplices(i, [&](const VolumeStars::Corners& corners) {
+    has = has || std::all_of(corners.begin(), corners.end(), is_corner);
+  });
+  return has;
+}
+
+// Where a star kept has a tetrahedron that one found has not, or the other way round, the one kept
+// was wrong. Returns those.
+std::vector<char> contradicted(const VolumeStarInput& input, const VolumeStars& stars,
+                               const std::vector<char>& kept) {
+  const Nodes<3>& nodes = input.nodes;
+  std::vector<char> agrees(kept);
+  const auto is_found = [&](std::int64_t j) {
+    return nodes.owned(j) && !kept[index(j)] && stars.needs(j) == 0;
+  };
+  const auto compare = [&](std::int64_t i) {
+    stars.for_simplices(i, [&](const VolumeStars::Corners& c) {
+      for (const std::int32_t j : c) {
+        if (kept[index(i)] ? !is_found(j) : !kept[index(j)]) continue;
+        if (!has_tetrahedron(stars, j, {i, c[0], c[1], c[2]}))
+          clear(agrees, kept[index(i)] ? i : j);
+      }
+    });
+  };
+  for_chunks("pnpbs::StarsBefore::compare", nodes.count, [&](std::int64_t i, std::int64_t end) {
+    for (; i < end; ++i)
+      if (kept[index(i)] || is_found(i)) compare(i);
+  });
+  std::vector<char> wrong(kept);
+  for (std::size_t i = 0; i < kept.size(); ++i) wrong[i] = kept[i] && !agrees[i];
+  return wrong;
+}
+
+bool any_set(const std::vector<char>& flags) {
+  return std::find(flags.begin(), flags.end(), 1) != flags.end();
+}
+
+}  // namespace
+
+void StarsBefore::take(const Nodes<3>& nodes, VolumeStars& stars) {
+  if (!stars.are_of(nodes)) return;
+  ids_.resize(index(nodes.count));
+  for (std::int64_t i = 0; i < nodes.count; ++i) ids_[index(i)] = nodes.owned(i) ? nodes.id(i) : -1;
+  stars_ = std::exchange(stars, VolumeStars());
+}
+
+void StarsBefore::forget() { *this = StarsBefore(); }
+
+// Returns for which nodes. Only such that have owned nodes around them.
+std::vector<char> StarsBefore::put_in_place(const VolumeStarInput& input,
+                                            const std::vector<char>& wanted, VolumeStars& stars) {
+  const PlacesById owned(input.nodes);
+  std::vector<std::int32_t> place(ids_.size()), before(index(input.nodes.count), -1);
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    place[k] = owned.place_of(ids_[k]);
+    if (place[k] >= 0) before[index(place[k])] = static_cast<std::int32_t>(k);
+  }
+  std::vector<char> kept(wanted.size(), 0);
+  Uses uses(std::ssize(ids_));
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const std::int32_t k = before[i];
+    if (!wanted[i] || k < 0 || !stars_.closed(k)) continue;
+    bool all = true;
+    stars_.for_neighbours(k, [&](std::int64_t j) { all = all && place[index(j)] >= 0; });
+    kept[i] = all;
+    if (all) uses.add(k);
+  }
+  stars.replace(kept, [&](std::int64_t i, std::vector<std::int32_t>& out) {
+    const std::int32_t k = before[index(i)];
+    stars_.copy_star(k, place, out);
+    if (uses.was_last(k)) stars_.drop_chunk(k / VolumeStars::kChunk);
+  });
+  forget();
+  return kept;
+}
+
+void StarsBefore::find_stars(const VolumeStarInput& input, std::vector<char> wanted,
+                             VolumeStars& stars) {
+  std::vector<char> kept = put_in_place(input, wanted, stars);
+  check(input, stars, kept);
+  for (std::size_t i = 0; i < kept.size(); ++i) wanted[i] = wanted[i] && !kept[i];
+  while (any_set(wanted)) {
+    stars.add(input, wanted);
+    wanted = contradicted(input, stars, kept);
+    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && !wanted[i];
+  }
+}
+
+}  // namespace pnpbs
