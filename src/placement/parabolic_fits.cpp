@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/cholesky.hpp"
 #include "base/execution.hpp"
 #include "placement/ghost_values.hpp"
 
@@ -103,34 +104,17 @@ class Monomials {
   std::array<std::vector<Term>, kAll> terms_;
 };
 
-// Solves for several right sides by Cholesky's factors of a matrix with rows and columns scaled so
-// that its diagonal is 1. False where the matrix is as good as singular.
-template <int N>
-bool solve_scaled(std::array<std::array<double, N>, N>& a, std::int64_t sides, double* b) {
+// Solves for several right sides with a matrix whose rows and columns may be of any scales. False
+// where it is as good as singular.
+template <std::size_t N>
+bool solve_scaled(SquareMatrix<N>& a, std::int64_t sides, double* b) {
   constexpr double kSingular = 1e-7;  // part of a column that is none of those before
   std::array<double, N> scale;
-  for (std::size_t i = 0; i < N; ++i) {
-    if (!(a[i][i] > 0)) return false;
-    scale[i] = 1 / std::sqrt(a[i][i]);
-  }
-  for (std::size_t i = 0; i < N; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = a[i][j] * scale[i] * scale[j];
-      for (std::size_t k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-      if (i == j && !(sum > kSingular)) return false;
-      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
-    }
+  if (!scale_to_unit_diagonal(a, scale) || !factor_cholesky(a, kSingular)) return false;
   for (std::int64_t side = 0; side < sides; ++side) {
-    double* const x = b + side * N;
-    for (std::size_t i = 0; i < N; ++i) {
-      x[i] *= scale[i];
-      for (std::size_t k = 0; k < i; ++k) x[i] -= a[i][k] * x[k];
-      x[i] /= a[i][i];
-    }
-    for (std::size_t i = N; i-- > 0;) {
-      for (std::size_t k = i + 1; k < N; ++k) x[i] -= a[k][i] * x[k];
-      x[i] /= a[i][i];
-    }
+    double* const x = b + side * static_cast<std::int64_t>(N);
+    for (std::size_t i = 0; i < N; ++i) x[i] *= scale[i];
+    solve_factored(a, x);
     for (std::size_t i = 0; i < N; ++i) x[i] *= scale[i];
   }
   return true;
@@ -221,14 +205,14 @@ class Fitting {
         monomials_.add_shifted(risen.data(), shift.data(), kOfField, fields.data() + c * kOfField);
       }
     }
-    std::array<std::array<double, M::kFitted>, M::kFitted> normal;
+    SquareMatrix<M::kFitted> normal;
     for (int i = 0; i < M::kFitted; ++i)
       for (int j = 0; j < M::kFitted; ++j)
         normal[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
             moments[static_cast<std::size_t>(monomials_.product(i + 1, j + 1))];
     for (std::int64_t c = 0; c < components_; ++c)
       std::copy_n(fields.begin() + c * kOfField + 1, M::kFitted, result + 1 + c * M::kFitted);
-    result[0] = solve_scaled<M::kFitted>(normal, components_, result + 1) ? 1 : 0;
+    result[0] = solve_scaled(normal, components_, result + 1) ? 1 : 0;
   }
 
   const PlacementOf<Dim>& placement_;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/cholesky.hpp"
 #include "base/error.hpp"
 #include "base/execution.hpp"
 #include "base/point_text.hpp"
@@ -15,24 +16,6 @@
 namespace pnpbs {
 
 namespace {
-
-// Solves a x = b for a symmetric matrix that is positive definite, in place of b.
-template <int Dim>
-void solve_cholesky(std::array<Point<Dim>, Dim>& a, Point<Dim>& b) {
-  for (int i = 0; i < Dim; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      double sum = a[i][j];
-      for (int k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
-    }
-    for (int k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
-    b[i] /= a[i][i];
-  }
-  for (int i = Dim - 1; i >= 0; --i) {
-    for (int k = i + 1; k < Dim; ++k) b[i] -= a[k][i] * b[k];
-    b[i] /= a[i][i];
-  }
-}
 
 // What counts at a place, from there.
 template <int Dim>
@@ -62,7 +45,7 @@ double fitted_at_origin(std::span<CloudSample<Dim>> samples) {
     for (int i = 0; i < Dim; ++i) mean_way[i] += sample.weight * sample.way[i];
     mean_value += sample.weight * sample.value;
   }
-  std::array<Point<Dim>, Dim> normal{};
+  SquareMatrix<Dim> normal{};
   Point<Dim> slope{};
   double trace = 0;
   for (const CloudSample<Dim>& sample : samples) {
@@ -78,7 +61,8 @@ double fitted_at_origin(std::span<CloudSample<Dim>> samples) {
   // Across points on a line the values tell no slope: it is 0 there.
   constexpr double kFlat = 1e-10;
   for (int i = 0; i < Dim; ++i) normal[i][i] += kFlat * trace;
-  solve_cholesky<Dim>(normal, slope);
+  if (!factor_cholesky(normal)) return mean_value;
+  solve_factored(normal, slope.data());
   for (int i = 0; i < Dim; ++i) mean_value -= slope[i] * mean_way[i];
   return mean_value;
 }
