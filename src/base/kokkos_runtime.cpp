@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/execution.hpp"
+#include "base/small_letters.hpp"
 
 extern char** environ;
 
@@ -58,11 +59,9 @@ void check_environment() {
     }
     for (const char* flag : known_flags) {
       const std::string allowed[] = {"0", "1", "true", "false", "yes", "no", "on", "off"};
-      std::string lower = value;
-      for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+      const std::string small = in_small_letters(value);
       if (name == flag &&
-          std::find(std::begin(allowed), std::end(allowed), lower) == std::end(allowed))
+          std::find(std::begin(allowed), std::end(allowed), small) == std::end(allowed))
         throw Error(ErrorKind::kokkos, "the environment variable " + name + " is \"" + value +
                                            "\"; Kokkos takes true or false there: unset or mend "
                                            "it");

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "base/extension.hpp"
 #include "domain/whole_file.hpp"
 
 namespace pnpbs {
@@ -65,12 +66,7 @@ int MshMesh::dimension() const {
   return 2;
 }
 
-bool is_msh(const std::string& path) {
-  constexpr std::string_view kEnding = ".msh";
-  return path.size() > kEnding.size() &&
-         std::equal(kEnding.begin(), kEnding.end(), path.end() - kEnding.size(),
-                    [](char a, char b) { return a == b || a == (b | ' '); });
-}
+bool is_msh(const std::string& path) { return extension_of(path) == "msh"; }
 
 MshMesh read_msh(const std::string& path) { return parse_msh(read_whole_file(path), path); }
 

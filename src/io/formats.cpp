@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "io/extension.hpp"
+#include "base/extension.hpp"
+#include "base/small_letters.hpp"
 
 namespace pnpbs::io {
 namespace {

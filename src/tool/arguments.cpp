@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "io/extension.hpp"
+#include "base/extension.hpp"
 #include "tool/cut.hpp"
 #include "tool/exit.hpp"
 #include "tool/help.hpp"
@@ -403,7 +403,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
 
 void refuse_other_dimension(const Arguments& arguments, int dimension) {
   const std::string plane = ", and this domain is in the plane";
-  const bool is_msh = io::extension_of(arguments.domain) == "msh";
+  const bool is_msh = extension_of(arguments.domain) == "msh";
   if (dimension == 2 && arguments.feature_angle && !is_msh)
     refuse("--feature-angle is for bodies and .msh files" + plane);
   if (dimension == 2 && !arguments.inner.empty())

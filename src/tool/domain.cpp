@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "io/extension.hpp"
+#include "base/extension.hpp"
 #include "tool/exit.hpp"
 #include "tool/names.hpp"
 
@@ -34,7 +34,7 @@ std::string standard_input() {
 // 3 for surfaces, TetGen's .poly and a .msh that is not in a plane.
 int dimension_of(const std::string& path, bool surfaces_only) {
   if (path == "-") return 2;
-  if (surfaces_only && io::extension_of(path) == "msh") return 3;
+  if (surfaces_only && extension_of(path) == "msh") return 3;
   std::int32_t dimension = 2;
   check(pnpbs_file_dimension(path.c_str(), &dimension), nullptr);
   return dimension;
@@ -120,7 +120,7 @@ void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
   check(pnpbs_domain_read_surface(domain, PNPBS_BOUNDARY, path_.c_str(), feature_angle_), context);
 }
 
-bool DomainSource::is_msh() const { return io::extension_of(path_) == "msh"; }
+bool DomainSource::is_msh() const { return extension_of(path_) == "msh"; }
 
 void DomainSource::read_msh(pnpbs_domain domain, pnpbs_context context) const {
   check(pnpbs_domain_read_msh(domain, path_.c_str(), feature_angle_), context);
@@ -132,7 +132,7 @@ void DomainSource::read_plane(pnpbs_domain domain, pnpbs_context context) const 
   try {
     check(pnpbs_domain_read_poly(domain, path_.c_str()), context);
   } catch (const Failure& error) {
-    const std::string extension = io::extension_of(path_);
+    const std::string extension = extension_of(path_);
     std::error_code none;
     if (extension == "poly" || !std::filesystem::is_regular_file(path_, none)) throw;
     throw BadInput(std::string(error.what()) + "\nIt was read as a .poly file: its name does not " +

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "io/extension.hpp"
+#include "base/extension.hpp"
+#include "base/small_letters.hpp"
 #include "tool/library.hpp"
 
 namespace pnpbs::tool {
@@ -40,12 +41,12 @@ std::string list_of_formats() {
 
 const FileFormat* format_by_name(const std::string& name) {
   const auto& formats = file_formats();
-  const auto found = std::ranges::find(formats, io::in_small_letters(name), &FileFormat::name);
+  const auto found = std::ranges::find(formats, in_small_letters(name), &FileFormat::name);
   return found == formats.end() ? nullptr : &*found;
 }
 
 const FileFormat* format_by_extension(const std::string& path) {
-  return format_by_name(io::extension_of(path));
+  return format_by_name(extension_of(path));
 }
 
 }  // namespace pnpbs::tool

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/build_config.hpp"
-#include "io/extension.hpp"
+#include "base/extension.hpp"
 #include "tool/exit.hpp"
 #include "tool/library.hpp"
 
@@ -69,7 +69,7 @@ struct GeoFile::Library {
 };
 
 bool GeoFile::is_meant_by(const Arguments& arguments) {
-  const std::string ending = io::extension_of(arguments.domain);
+  const std::string ending = extension_of(arguments.domain);
   std::string option;
   for (const auto& [name, value] :
        {std::pair{"--projection", arguments.projection}, std::pair{"--layer", arguments.layer},

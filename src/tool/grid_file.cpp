@@ -15,6 +15,7 @@
 #include <map>
 #include <string_view>
 
+#include "base/small_letters.hpp"
 #include "tool/exit.hpp"
 
 namespace pnpbs::tool {
@@ -71,12 +72,6 @@ class Words {
 
 bool begins_with_letter(const std::string& word) {
   return std::isalpha(static_cast<unsigned char>(word[0])) != 0;
-}
-
-std::string in_small_letters(std::string word) {
-  std::ranges::transform(word, word.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return word;
 }
 
 using Header = std::map<std::string, double>;

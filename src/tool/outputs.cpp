@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "io/extension.hpp"
+#include "base/extension.hpp"
 #include "tool/exit.hpp"
 #include "tool/geo_file.hpp"
 #include "tool/interrupt.hpp"
@@ -90,7 +90,7 @@ void Outputs::add_projections(const std::string& input) {
       paths.push_back(projection_beside(output.file.path()));
   for (const std::string& path : paths) {
     // A shapefile has one of its own.
-    if (io::extension_of(input) == "shp") refuse_to_replace(projection_beside(input), path);
+    if (extension_of(input) == "shp") refuse_to_replace(projection_beside(input), path);
     const auto is_it = [&](const Output& other) { return same_file(other.file.path(), path); };
     if (std::ranges::none_of(outputs_, is_it))
       outputs_.push_back({io::OutputFile(path), nullptr, true});

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/spacing_file.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
+
+#include "base/small_letters.hpp"
 
 namespace pnpbs::tool {
 
 std::optional<SpacingFile> spacing_file(const std::string& text) {
   constexpr std::array<std::string_view, 3> endings{".vtu", ".msh", ".csv"};
-  std::string small = text;
-  std::ranges::transform(small, small.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string small = in_small_letters(text);
   for (const std::string_view ending : endings)
     if (small.size() > ending.size() && small.ends_with(ending)) return SpacingFile{text, ""};
   for (const std::string_view ending : endings) {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "base/error.hpp"
+#include "base/small_letters.hpp"
 #include "domain/text_fields.hpp"
 #include "domain/volume/byte_fields.hpp"
 #include "domain/volume/surface_formats.hpp"
@@ -26,9 +27,7 @@ constexpr const char* kTooManyTriangles = "more than 715827882 triangles";
 
 // Keywords are in capitals in some files.
 bool is_word(std::string_view field, std::string_view word) {
-  return std::equal(field.begin(), field.end(), word.begin(), word.end(), [](char a, char b) {
-    return a == b || (a >= 'A' && a <= 'Z' && a - 'A' + 'a' == b);
-  });
+  return std::ranges::equal(field, word, {}, [](char c) { return in_small_letters(c); });
 }
 
 class TextParser {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/error.hpp"
+#include "base/extension.hpp"
 #include "domain/volume/surface_formats.hpp"
 #include "domain/whole_file.hpp"
 
@@ -12,21 +13,13 @@ namespace pnpbs {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, SurfaceFormat>, 6> kEndings{
-    {{".stl", SurfaceFormat::stl},
-     {".off", SurfaceFormat::off},
-     {".obj", SurfaceFormat::obj},
-     {".ply", SurfaceFormat::ply},
-     {".poly", SurfaceFormat::poly},
-     {".smesh", SurfaceFormat::smesh}}};
-
-// From the last point of the file's name on.
-std::string ending_of(const std::string& path) {
-  const std::size_t name = path.find_last_of('/') + 1;  // 0 if there is none
-  const std::size_t point = path.find_last_of('.');
-  if (point == std::string::npos || point < name) return "";
-  return path.substr(point);
-}
+constexpr std::array<std::pair<std::string_view, SurfaceFormat>, 6> kExtensions{
+    {{"stl", SurfaceFormat::stl},
+     {"off", SurfaceFormat::off},
+     {"obj", SurfaceFormat::obj},
+     {"ply", SurfaceFormat::ply},
+     {"poly", SurfaceFormat::poly},
+     {"smesh", SurfaceFormat::smesh}}};
 
 SurfaceTriangles parse_format(std::string_view bytes, const std::string& name, SurfaceFormat format,
                               const std::function<NodeFile()>& node_file) {
@@ -57,12 +50,10 @@ SurfaceTriangles parse(std::string_view bytes, const std::string& name, SurfaceF
 }  // namespace
 
 std::optional<SurfaceFormat> known_surface_format(const std::string& path) {
-  std::string ending = ending_of(path);
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  const auto known = std::find_if(kEndings.begin(), kEndings.end(),
-                                  [&ending](const auto& each) { return each.first == ending; });
-  if (known == kEndings.end()) return std::nullopt;
+  const std::string extension = extension_of(path);
+  const auto known = std::find_if(kExtensions.begin(), kExtensions.end(),
+                                  [&](const auto& each) { return each.first == extension; });
+  if (known == kExtensions.end()) return std::nullopt;
   return known->second;
 }
 
@@ -77,7 +68,7 @@ SurfaceFormat surface_format(const std::string& path) {
 SurfaceTriangles read_surface(const std::string& path) {
   const SurfaceFormat format = surface_format(path);
   return parse(read_whole_file(path), path, format, [&path] {
-    const std::string beside = path.substr(0, path.size() - ending_of(path).size()) + ".node";
+    const std::string beside = path.substr(0, path.size() - extension_of(path).size()) + "node";
     return NodeFile{read_whole_file(beside), beside};
   });
 }

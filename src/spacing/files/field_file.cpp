@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/extension.hpp"
 #include "base/point_text.hpp"
 #include "domain/whole_file.hpp"
 
@@ -11,18 +12,12 @@ namespace pnpbs {
 
 namespace {
 
-bool ends_in(const std::string& path, std::string_view ending) {
-  return path.size() > ending.size() &&
-         std::equal(
-             ending.begin(), ending.end(), path.end() - static_cast<std::ptrdiff_t>(ending.size()),
-             [](char a, char b) { return a == b || (b >= 'A' && b <= 'Z' && a == b - 'A' + 'a'); });
-}
-
 FileField parse(const std::string& path, const std::string& wanted) {
-  const auto parse = ends_in(path, ".vtu")   ? parse_vtu_field
-                     : ends_in(path, ".msh") ? parse_msh_field
-                     : ends_in(path, ".csv") ? parse_csv_field
-                                             : nullptr;
+  const std::string extension = extension_of(path);
+  const auto parse = extension == "vtu"   ? parse_vtu_field
+                     : extension == "msh" ? parse_msh_field
+                     : extension == "csv" ? parse_csv_field
+                                          : nullptr;
   if (!parse)
     throw Error(ErrorKind::file, path +
                                      ": expected the name of a file that ends in .vtu, .msh or "

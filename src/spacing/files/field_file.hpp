@@ -23,8 +23,6 @@ struct FileField {
   bool has_z = true;
 };
 
-enum class FieldFormat { vtu, msh, csv };
-
 // Each takes the field that is wanted; "": the only one, or the one called "spacing". `name` stands
 // for the file in messages. Throws Error(ErrorKind::file).
 FileField parse_vtu_field(std::string_view bytes, const std::string& name,

@@ -2,19 +2,12 @@
 // What the name of a file tells about its format.
 #pragma once
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 
-namespace pnpbs::io {
+#include "base/small_letters.hpp"
 
-inline std::string in_small_letters(std::string_view text) {
-  std::string small(text);
-  std::ranges::transform(small, small.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return small;
-}
+namespace pnpbs {
 
 // The extension without its dot, in small letters; empty if there is none.
 inline std::string extension_of(std::string_view path) {
@@ -23,4 +16,4 @@ inline std::string extension_of(std::string_view path) {
   return in_small_letters(path.substr(dot + 1));
 }
 
-}  // namespace pnpbs::io
+}  // namespace pnpbs

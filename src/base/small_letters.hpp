@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Text in small letters, whatever the language of the process: those of ASCII.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace pnpbs {
+
+constexpr char in_small_letters(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+inline std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) c = in_small_letters(c);
+  return small;
+}
+
+}  // namespace pnpbs
