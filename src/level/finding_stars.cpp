@@ -164,12 +164,13 @@ void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<c
 
 // The same in a volume, where a star costs much: first only those of owned nodes beside ghosts,
 // then ring by ring those of ghosts. They alone ask for more ghosts, but for rare ones inside.
-std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known, int rings) {
+std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
+                                      const std::vector<std::int64_t>& at_border, int rings) {
   const Nodes<3>& nodes = level.nodes;
   level.stars.build_none(star_input(level, known));
   UnknownBoxes<3> unknown(level);
   std::vector<char> reached = owned_nodes(nodes);
-  std::vector<std::int64_t> front = nodes_at_border(nodes, level.lists());
+  std::vector<std::int64_t> front = at_border;
   for (int ring = 0; ring <= rings; ++ring) {
     if (ring > 0) front = neighbours_of(level.stars, front, reached);
     std::vector<char> wanted(static_cast<std::size_t>(nodes.count), 0);
@@ -181,11 +182,11 @@ std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& kno
 }
 
 // After these, those of all other owned nodes.
-std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& known) {
+std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& known,
+                                     const std::vector<std::int64_t>& at_border) {
   const Nodes<3>& nodes = level.nodes;
   std::vector<char> wanted = owned_nodes(nodes);
-  for (const std::int64_t i : nodes_at_border(nodes, level.lists()))
-    wanted[static_cast<std::size_t>(i)] = 0;
+  for (const std::int64_t i : at_border) wanted[static_cast<std::size_t>(i)] = 0;
   if (level.stars_before.any()) {
     const PhaseTimer timer(level.timers, Phase::stars);
     level.stars_before.find_stars(star_input(level, known), wanted, level.stars);
@@ -211,9 +212,13 @@ std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& know
   std::vector<Box<Dim>> unknown;
   if constexpr (Dim == 3)
     if (level.distributed() && !level.ground.surfaces_alone()) {
-      agreed(*level.comm, [&] { unknown = find_border_stars(level, known, rings); });
+      std::vector<std::int64_t> at_border;
+      agreed(*level.comm, [&] {
+        at_border = nodes_at_border(level.nodes, level.lists());
+        unknown = find_border_stars(level, known, at_border, rings);
+      });
       if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
-      agreed(*level.comm, [&] { unknown = find_inner_stars(level, known); });
+      agreed(*level.comm, [&] { unknown = find_inner_stars(level, known, at_border); });
       return unknown;
     }
   agreed(*level.comm, [&] { unknown = find_all_stars(level, known, rings); });
