@@ -185,18 +185,16 @@ void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<D
 template <int Dim>
 void PlacementOf<Dim>::require_savable() const {
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
-  const Options now = options_, then = level_options_;
-  const char* changed = nullptr;
-  if (spacing_replaced_) changed = "spacing";
-  for (const char* option : {"growth_limit", "wanted_nodes"})
-    if (now.real(option) != then.real(option) || now.is_set(option) != then.is_set(option))
-      changed = option;
-  if (now.integer("resolve") != then.integer("resolve")) changed = "resolve";
-  if (changed)
-    throw Error(ErrorKind::state, std::string("the nodes are those of another ") +
-                                      (spacing_replaced_ ? "spacing" : "value of the option ") +
-                                      (spacing_replaced_ ? "" : changed) +
+  const auto refuse = [](const std::string& what) {
+    throw Error(ErrorKind::state, "the nodes are those of another " + what +
                                       ": write the checkpoint before it is set, or after a run");
+  };
+  if (spacing_replaced_) refuse("spacing");
+  const Options &now = options_, &then = level_options_;
+  if (now.integer("resolve") != then.integer("resolve")) refuse("value of the option resolve");
+  for (const char* option : {"wanted_nodes", "growth_limit"})
+    if (now.real(option) != then.real(option) || now.is_set(option) != then.is_set(option))
+      refuse(std::string("value of the option ") + option);
 }
 
 template <int Dim>
