@@ -14,6 +14,7 @@
 #include "spacing/cloud_spacing.hpp"
 #include "spacing/given_field.hpp"
 #include "spacing/multiplied_spacing.hpp"
+#include "unit_box.hpp"
 
 namespace {
 
@@ -21,14 +22,6 @@ template <int Dim>
 using Field = pnpbs::GivenField<Dim>;
 template <int Dim>
 using P = pnpbs::Point<Dim>;
-
-template <int Dim>
-pnpbs::Box<Dim> unit_box() {
-  pnpbs::Box<Dim> box;
-  box.low.fill(0);
-  box.high.fill(1);
-  return box;
-}
 
 template <int Dim>
 double linear(const P<Dim>& x) {

@@ -4,38 +4,19 @@
 //
 // The bytes under test lie in mutate_field.bytes in the working folder, for the case of a crash.
 // More by hand: PNPBS_MUTATIONS=40000 PNPBS_SEED=7 mutate_field
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "damage.hpp"
+#include "largest_request.hpp"
 #include "spacing/files/field_file.hpp"
 #include "spacing/files/inflate.hpp"
-
-namespace {
-
-std::size_t largest_request = 0;
-
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  largest_request = std::max(largest_request, size);
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  largest_request = std::max(largest_request, size);
-  return std::malloc(size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -267,10 +248,8 @@ int main() {
                                 {".vtu, text", pnpbs::parse_vtu_field, grid_text},
                                 {".vtu, raw", pnpbs::parse_vtu_field, grid_appended(false)},
                                 {".vtu, packed", pnpbs::parse_vtu_field, grid_appended(true)}};
-  const char* count = std::getenv("PNPBS_MUTATIONS");
-  const char* first = std::getenv("PNPBS_SEED");
-  const std::uint64_t mutations = count ? std::strtoull(count, nullptr, 10) : 400;
-  std::uint64_t seed = first ? std::strtoull(first, nullptr, 10) : 0;
+  const std::uint64_t mutations = from_environment("PNPBS_MUTATIONS", 400);
+  std::uint64_t seed = from_environment("PNPBS_SEED", 0);
   bool good = unpacks();
   if (!good) std::printf("what zlib packed does not unpack\n");
   for (const Sample& sample : all) good = examine_mutations(sample, mutations, ++seed) && good;

@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,26 +21,9 @@
 #include "damage.hpp"
 #include "domain/plane/msh_plane.hpp"
 #include "domain/volume/msh_body.hpp"
+#include "largest_request.hpp"
 #include "msh_files.hpp"
 #include "surface_files.hpp"
-
-namespace {
-
-std::size_t largest_request = 0;
-
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  largest_request = std::max(largest_request, size);
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  largest_request = std::max(largest_request, size);
-  return std::malloc(size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -156,11 +138,6 @@ end_header
 0.1 3 2 1 0
 0.2 4 0 1 3 2
 )";
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 std::optional<SurfaceFormat> format_of(const std::string& path) {
   if (pnpbs::is_msh(path)) return std::nullopt;

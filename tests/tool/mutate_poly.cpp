@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -23,11 +22,6 @@ namespace {
 
 constexpr int nodes_across = 15;    // spacing: the domain's longer side by this
 constexpr int full_run_every = 10;  // the others do a few steps
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 const char* const square_with_hole = R"(# a square with a hole
 8 2 0 1
