@@ -267,6 +267,15 @@ def declarations(text):
     return found
 
 
+def declared(opened, text):
+    """An opened library whose functions take and return what `text` declares."""
+    for name, (result, arguments) in declarations(text).items():
+        function = getattr(opened, name)
+        function.restype = ctypes_of(result)
+        function.argtypes = [ctypes_of(c_type) for c_type, _ in arguments]
+    return opened
+
+
 # What the library calls. The last argument is `user`, which Python's closures do without.
 _DOUBLES = ctypes.POINTER(ctypes.c_double)
 CALLBACKS = {
@@ -287,10 +296,5 @@ def library():
     """The library, opened when it is first needed, with its functions declared."""
     global _opened
     if _opened is None:
-        opened = open_library()
-        for name, (result, arguments) in declarations(DECLARATIONS).items():
-            function = getattr(opened, name)
-            function.restype = ctypes_of(result)
-            function.argtypes = [ctypes_of(c_type) for c_type, _ in arguments]
-        _opened = opened
+        _opened = declared(open_library(), DECLARATIONS)
     return _opened

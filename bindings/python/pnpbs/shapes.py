@@ -8,7 +8,7 @@ import pathlib
 from typing import NamedTuple
 
 from ._arrays import as_points
-from ._interface import ctypes_of, declarations, library
+from ._interface import declared, library
 from ._library import library_path
 from .context import Handle
 from .errors import PNPBSError, Status
@@ -49,11 +49,7 @@ def _library():
         except OSError as error:
             raise ImportError(f"the library that reads shapes could not be opened: {error}; it is "
                               "there where PNPBS was built with GDAL") from error
-        for name, (result, arguments) in declarations(DECLARATIONS).items():
-            function = getattr(opened, name)
-            function.restype = ctypes_of(result)
-            function.argtypes = [ctypes_of(c_type) for c_type, _ in arguments]
-        _opened = opened
+        _opened = declared(opened, DECLARATIONS)
     return _opened
 
 
