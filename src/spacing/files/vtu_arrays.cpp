@@ -4,53 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include "domain/text_fields.hpp"
+#include "spacing/files/byte_source.hpp"
 #include "spacing/files/inflate.hpp"
+#include "spacing/files/xml_tags.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-constexpr std::string_view kXmlBlanks = " \t\r\n";
-
-std::string_view stripped(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(kXmlBlanks), text.size()));
-  return text.substr(0, text.find_last_not_of(kXmlBlanks) + 1);
-}
-
-std::string without_entities(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, char>, 5> kEntities{
-      {{"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}, {"&amp;", '&'}}};
-  std::string result;
-  while (!text.empty()) {
-    const auto entity = std::ranges::find_if(
-        kEntities, [&](const auto& known) { return text.starts_with(known.first); });
-    result += entity == kEntities.end() ? text.front() : entity->second;
-    text.remove_prefix(entity == kEntities.end() ? 1 : entity->first.size());
-  }
-  return result;
-}
-
-constexpr std::array<std::pair<std::string_view, std::size_t>, 10> kVtkTypes{{{"Float64", 8},
-                                                                              {"Float32", 4},
-                                                                              {"Int8", 1},
-                                                                              {"UInt8", 1},
-                                                                              {"Int16", 2},
-                                                                              {"UInt16", 2},
-                                                                              {"Int32", 4},
-                                                                              {"UInt32", 4},
-                                                                              {"Int64", 8},
-                                                                              {"UInt64", 8}}};
-
-std::size_t size_of_type(std::string_view type) {
-  const auto found =
-      std::ranges::find(kVtkTypes, type, [](const auto& known) { return known.first; });
-  return found == kVtkTypes.end() ? 0 : found->second;
-}
 
 void reverse_if_other(char* bytes, std::size_t size, std::endian order) {
   if (order != std::endian::native) std::reverse(bytes, bytes + size);
@@ -66,135 +29,27 @@ double number_at(const char* bytes, std::endian order) {
   return static_cast<double>(number);
 }
 
-using NumberAt = double (*)(const char* bytes, std::endian order);
+struct VtkType {
+  std::string_view name;
+  std::size_t size;
+  double (*number_at)(const char* bytes, std::endian order);
+};
 
-NumberAt reader_of(std::string_view type) {
-  if (type == "Float64") return number_at<double>;
-  if (type == "Float32") return number_at<float>;
-  if (type == "Int8") return number_at<std::int8_t>;
-  if (type == "UInt8") return number_at<std::uint8_t>;
-  if (type == "Int16") return number_at<std::int16_t>;
-  if (type == "UInt16") return number_at<std::uint16_t>;
-  if (type == "Int32") return number_at<std::int32_t>;
-  if (type == "UInt32") return number_at<std::uint32_t>;
-  if (type == "Int64") return number_at<std::int64_t>;
-  return number_at<std::uint64_t>;
+template <class Number>
+constexpr VtkType vtk_type(std::string_view name) {
+  return {name, sizeof(Number), number_at<Number>};
 }
+
+constexpr std::array kVtkTypes{vtk_type<double>("Float64"),     vtk_type<float>("Float32"),
+                               vtk_type<std::int8_t>("Int8"),   vtk_type<std::uint8_t>("UInt8"),
+                               vtk_type<std::int16_t>("Int16"), vtk_type<std::uint16_t>("UInt16"),
+                               vtk_type<std::int32_t>("Int32"), vtk_type<std::uint32_t>("UInt32"),
+                               vtk_type<std::int64_t>("Int64"), vtk_type<std::uint64_t>("UInt64")};
 
 }  // namespace
 
-// ------------------------------------------------------------------ tags ------------------------
-
-// The tags of the file, one by one, with the text that follows them.
-class VtuFile::Xml {
- public:
-  Xml(std::string_view bytes, const VtuFile& file) : rest_(bytes), file_(file) {}
-
-  // To the next tag that is no comment or declaration; false at the end.
-  bool next() {
-    while (true) {
-      const std::size_t begin = rest_.find('<');
-      if (begin == std::string_view::npos) return false;
-      rest_.remove_prefix(begin + 1);
-      if (rest_.starts_with("!--"))
-        skip_past("-->");
-      else if (rest_.starts_with("?") || rest_.starts_with("!"))
-        skip_past(">");
-      else
-        break;
-    }
-    read_tag();
-    return true;
-  }
-
-  const std::string& tag() const { return tag_; }
-  bool is_end() const { return is_end_; }
-  bool is_whole() const { return is_whole_; }  // it has no end tag
-  // Up to the next tag.
-  std::string_view text() const { return rest_.substr(0, rest_.find('<')); }
-  std::string_view rest() const { return rest_; }
-
-  std::string attribute(const std::string& name, const std::string& otherwise = "") const {
-    const auto found = attributes_.find(name);
-    return found == attributes_.end() ? otherwise : found->second;
-  }
-  std::int64_t count(const std::string& name, std::int64_t otherwise) const {
-    const std::string text = attribute(name);
-    if (text.empty() && otherwise >= 0) return otherwise;
-    std::int64_t value = -1;
-    if (!parse_field(text, value) || value < 0)
-      file_.fail("found " + name + "=" + shown_field(text) + " of " + tag_ +
-                 ", expected a number of 0 or more");
-    return value;
-  }
-
- private:
-  void skip_past(std::string_view end) {
-    const std::size_t at = rest_.find(end);
-    if (at == std::string_view::npos)
-      file_.fail("the file ends, expected '" + std::string(end) + "'");
-    rest_.remove_prefix(at + end.size());
-  }
-
-  std::string_view name_here(std::string_view ends) {
-    const std::size_t end = std::min(rest_.find_first_of(ends), rest_.size());
-    const std::string_view name = rest_.substr(0, end);
-    rest_.remove_prefix(end);
-    return name;
-  }
-
-  void skip_blanks() {
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(kXmlBlanks), rest_.size()));
-  }
-
-  void read_tag() {
-    attributes_.clear();
-    is_whole_ = false;
-    is_end_ = rest_.starts_with('/');
-    if (is_end_) rest_.remove_prefix(1);
-    tag_ = name_here(" \t\r\n/>");
-    while (true) {
-      skip_blanks();
-      if (rest_.empty()) file_.fail("the file ends within the tag " + shown_field(tag_));
-      if (rest_.front() == '>') return rest_.remove_prefix(1);
-      if (rest_.front() == '/') {
-        is_whole_ = true;
-        rest_.remove_prefix(1);
-        continue;
-      }
-      read_attribute();
-    }
-  }
-
-  void read_attribute() {
-    const std::string name(name_here("= \t\r\n/>"));
-    skip_blanks();
-    if (!rest_.starts_with('=')) fail_attribute(name);
-    rest_.remove_prefix(1);
-    skip_blanks();
-    if (!rest_.starts_with('"') && !rest_.starts_with('\'')) fail_attribute(name);
-    const char quote = rest_.front();
-    rest_.remove_prefix(1);
-    const std::size_t end = rest_.find(quote);
-    if (end == std::string_view::npos) fail_attribute(name);
-    attributes_[name] = without_entities(rest_.substr(0, end));
-    rest_.remove_prefix(end + 1);
-  }
-
-  [[noreturn]] void fail_attribute(const std::string& name) const {
-    file_.fail("found " + shown_field(name) + " in the tag " + shown_field(tag_) +
-               ", expected name=\"value\"");
-  }
-
-  std::string_view rest_;
-  const VtuFile& file_;
-  std::string tag_;
-  bool is_end_ = false, is_whole_ = false;
-  std::map<std::string, std::string> attributes_;
-};
-
 VtuFile::VtuFile(std::string_view bytes, std::string name) : name_(std::move(name)) {
-  Xml xml(bytes, *this);
+  XmlTags xml(bytes, name_);
   if (!xml.next() || xml.tag() != "VTKFile")
     fail("expected a VTK XML file, which begins with <VTKFile>");
   take_header(xml);
@@ -221,12 +76,12 @@ VtuFile::VtuFile(std::string_view bytes, std::string name) : name_(std::move(nam
     } else if ((tag == "Points" || tag == "Cells" || tag == "PointData") && !xml.is_whole()) {
       section = tag;
     }
-    if (open && below == 0 && open->content.empty()) open->content = stripped(xml.text());
+    if (open && below == 0 && open->content.empty()) open->content = xml.text();
   }
   if (pieces_.empty()) fail("found no <Piece>");
 }
 
-VtuArray VtuFile::array_of(const Xml& xml, const std::string& section) {
+VtuArray VtuFile::array_of(const XmlTags& xml, const std::string& section) {
   VtuArray array;
   array.section = section;
   array.name = xml.attribute("Name");
@@ -237,7 +92,7 @@ VtuArray VtuFile::array_of(const Xml& xml, const std::string& section) {
   return array;
 }
 
-void VtuFile::take_appended(const Xml& xml) {
+void VtuFile::take_appended(const XmlTags& xml) {
   appended_raw_ = xml.attribute("encoding", "base64") == "raw";
   appended_ = xml.rest();
   const std::size_t begin = appended_.find('_');
@@ -245,7 +100,7 @@ void VtuFile::take_appended(const Xml& xml) {
   appended_.remove_prefix(begin + 1);
 }
 
-void VtuFile::take_header(const Xml& xml) {
+void VtuFile::take_header(const XmlTags& xml) {
   if (const std::string type = xml.attribute("type"); type != "UnstructuredGrid")
     fail("found a VTK file of type " + shown_field(type) + ", expected UnstructuredGrid");
   const std::string order = xml.attribute("byte_order", "LittleEndian");
@@ -270,68 +125,6 @@ const VtuArray* VtuFile::find(const VtuPiece& piece, std::string_view section,
     if (array.section == section && (section == "Points" || array.name == name)) return &array;
   return nullptr;
 }
-
-// ------------------------------------------------------------------ bytes -----------------------
-
-// Bytes in a row, raw or as base64. Of the latter parts may be padded each for itself.
-class VtuFile::ByteSource {
- public:
-  ByteSource(std::string_view bytes, bool is_raw) : rest_(bytes), is_raw_(is_raw) {}
-
-  // False if there are not so many.
-  bool take(std::size_t count, std::string& bytes) {
-    if (count > room()) return false;
-    bytes.clear();
-    bytes.reserve(count);
-    if (is_raw_) {
-      bytes = rest_.substr(0, count);
-      rest_.remove_prefix(count);
-      return true;
-    }
-    while (bytes.size() < count) {
-      if (held_.empty() && !decode()) return false;
-      const std::size_t part = std::min(count - bytes.size(), held_.size());
-      bytes += held_.substr(0, part);
-      held_.erase(0, part);
-    }
-    return true;
-  }
-
-  std::size_t room() const { return is_raw_ ? rest_.size() : held_.size() + rest_.size(); }
-
- private:
-  static int value_of(char c) {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    return c == '+' ? 62 : c == '/' ? 63 : -1;
-  }
-
-  // Four letters are up to three bytes.
-  bool decode() {
-    std::uint32_t bits = 0;
-    int letters = 0, padding = 0;
-    while (letters < 4) {
-      if (rest_.empty()) return false;
-      const char c = rest_.front();
-      rest_.remove_prefix(1);
-      if (kXmlBlanks.find(c) != std::string_view::npos) continue;
-      const int value = value_of(c);
-      if (c == '=')
-        ++padding;
-      else if (value < 0 || padding > 0)
-        return false;
-      bits = bits << 6 | static_cast<std::uint32_t>(std::max(value, 0));
-      ++letters;
-    }
-    for (int k = 0; k < 3 - padding; ++k) held_ += static_cast<char>(bits >> (16 - 8 * k));
-    return padding < 3;
-  }
-
-  std::string_view rest_;
-  bool is_raw_;
-  std::string held_;
-};
 
 std::string VtuFile::called(const VtuArray& array) const {
   return "array '" + array.name + "' of " + array.section;
@@ -422,8 +215,8 @@ std::vector<double> VtuFile::read_text(const VtuArray& array, std::size_t count)
 }
 
 std::vector<double> VtuFile::read(const VtuArray& array, std::int64_t tuples) const {
-  const std::size_t size = size_of_type(array.type);
-  if (size == 0)
+  const auto type = std::ranges::find(kVtkTypes, array.type, &VtkType::name);
+  if (type == kVtkTypes.end())
     fail(called(array) + " is of type " + shown_field(array.type) + ", expected numbers");
   constexpr std::int64_t kMany = std::int64_t{1} << 50;
   if (array.components < 1 || array.components > 1024 || tuples > kMany / 1024)
@@ -431,10 +224,10 @@ std::vector<double> VtuFile::read(const VtuArray& array, std::int64_t tuples) co
          std::to_string(array.components) + " numbers");
   const auto count = static_cast<std::size_t>(tuples * array.components);
   if (array.format == "ascii") return read_text(array, count);
-  const std::string bytes = read_bytes(array, count * size);
+  const std::string bytes = read_bytes(array, count * type->size);
   std::vector<double> values(count);
-  const NumberAt number = reader_of(array.type);
-  for (std::size_t i = 0; i < count; ++i) values[i] = number(bytes.data() + i * size, order_);
+  for (std::size_t i = 0; i < count; ++i)
+    values[i] = type->number_at(bytes.data() + i * type->size, order_);
   return values;
 }
 

@@ -14,6 +14,9 @@
 
 namespace pnpbs {
 
+class ByteSource;
+class XmlTags;
+
 struct VtuArray {
   std::string section, name, type;  // section: "Points", "PointData", ...
   std::int64_t components = 1;
@@ -45,12 +48,9 @@ class VtuFile {
   }
 
  private:
-  class Xml;
-  class ByteSource;
-
-  void take_header(const Xml& xml);
-  static VtuArray array_of(const Xml& xml, const std::string& section);
-  void take_appended(const Xml& xml);
+  void take_header(const XmlTags& xml);
+  static VtuArray array_of(const XmlTags& xml, const std::string& section);
+  void take_appended(const XmlTags& xml);
   std::vector<double> read_text(const VtuArray& array, std::size_t count) const;
   std::string read_bytes(const VtuArray& array, std::size_t bytes) const;
   std::string read_plain(const VtuArray& array, ByteSource& source, std::size_t bytes) const;
