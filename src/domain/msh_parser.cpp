@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "base/point_text.hpp"
 #include "domain/msh_fields.hpp"
 #include "domain/msh_mesh.hpp"
 #include "domain/msh_node_table.hpp"
+#include "domain/msh_region_table.hpp"
 #include "domain/msh_types.hpp"
 #include "domain/text_fields.hpp"
 
@@ -38,6 +38,7 @@ class MshParser {
     }
     if (!has_nodes_) fields_.fail("the file ends, expected '$Nodes'");
     if (!has_elements_) fields_.fail("the file ends, expected '$Elements'");
+    mesh_.regions = regions_.take();
     if (is_old_) remove_repeated(mesh_);
     warn();
     return std::move(mesh_);
@@ -146,20 +147,19 @@ class MshParser {
   void read_entity(int dimension, const std::string& name) {
     const std::int32_t tag = fields_.int32("the tag of a " + name);
     for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) fields_.any_number("a bound of the " + name);
-    std::int32_t& group = group_of_[{dimension, tag}];
-    group = 0;
+    std::int32_t group = 0;
     const std::int64_t groups = fields_.count("physical groups", kTextNumber, kInt);
     for (std::int64_t i = 0; i < groups; ++i) {
       const std::int32_t one = positive(fields_.int32("the tag of a physical group"));
       if (i == 0) group = one;
     }
     if (groups > 1) in_several_.push_back(name + " " + std::to_string(tag));
+    regions_.add_entity(dimension, tag, group);
     if (dimension == 0) return;
-    if (group != 0) any_group_[static_cast<std::size_t>(dimension)] = true;
     const std::int64_t bounds = fields_.count("entities that bound it", kTextNumber, kInt);
     for (std::int64_t i = 0; i < bounds; ++i) {
       const std::int32_t side = positive(fields_.int32("the tag of what bounds it"));
-      ++bounds_[{dimension - 1, side}][group != 0];
+      regions_.add_bound(dimension, side, group != 0);
     }
   }
 
@@ -250,9 +250,8 @@ class MshParser {
       if (here > count - read)
         fields_.fail("found more elements than the " + std::to_string(count) + " announced");
       read += here;
-      const auto group = group_of_.find({dimension, entity});
       const std::int32_t region =
-          region_of(dimension, entity, group == group_of_.end() ? 0 : group->second);
+          regions_.region_of(dimension, entity, regions_.group_of(dimension, entity));
       for (std::int64_t i = 0; i < here; ++i) {
         fields_.size("an element's tag");
         read_corners(type, region, [this] { return fields_.size("a node's tag"); });
@@ -293,7 +292,7 @@ class MshParser {
       const std::int32_t tag = fields_.int32("a tag");
       if (k < 2) first[static_cast<std::size_t>(k)] = tag == 0 ? 0 : positive(tag);
     }
-    return region_of(kMshDimensions[index_of(type.shape)], first[1], first[0]);
+    return regions_.region_of(kMshDimensions[index_of(type.shape)], first[1], first[0]);
   }
 
   template <class Read>
@@ -313,24 +312,6 @@ class MshParser {
                      std::to_string(mesh_.node_tags[static_cast<std::size_t>(*corner)]) + " twice");
     cells.regions.push_back(region);
     if (type.nodes > corners) ++curved_;
-  }
-
-  std::int32_t region_of(int dimension, std::int32_t entity, std::int32_t group) {
-    const std::array<std::int32_t, 3> key{dimension, entity, group};
-    const auto [found, is_new] =
-        region_at_.try_emplace(key, static_cast<std::int32_t>(mesh_.regions.size()));
-    if (is_new) {
-      mesh_.regions.push_back({dimension, entity, group, bounds_of(dimension, entity)});
-    }
-    return found->second;
-  }
-
-  // Where physical groups say what the domain is, entities in none are no part of it.
-  int bounds_of(int dimension, std::int32_t entity) const {
-    const auto found = bounds_.find({dimension, entity});
-    if (found == bounds_.end()) return 0;
-    const auto& [in_none, in_group] = found->second;
-    return any_group_[static_cast<std::size_t>(dimension) + 1] ? in_group : in_none + in_group;
   }
 
   // ------------------------------------------------------------ values at nodes
@@ -387,11 +368,7 @@ class MshParser {
   bool is_old_ = false, has_nodes_ = false, has_elements_ = false;
   MshMesh mesh_;
   MshNodeTable nodes_;
-  std::map<GroupTag, std::int32_t> group_of_;  // of entities
-  // See MshRegion: by those in no physical group, and by those in one.
-  std::map<GroupTag, std::array<int, 2>> bounds_;
-  std::array<bool, 4> any_group_{};  // of entities of each dimension
-  std::map<std::array<std::int32_t, 3>, std::int32_t> region_at_;
+  MshRegionTable regions_;
   std::vector<std::string> in_several_;
   std::int64_t curved_ = 0;
 };
