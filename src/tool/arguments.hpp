@@ -48,7 +48,4 @@ struct Arguments {
 // result; otherwise it is empty. Throws BadInput.
 std::string parse_arguments(int argc, char** argv, Arguments& arguments);
 
-// What only domains of the other dimension have. Throws BadInput.
-void refuse_other_dimension(const Arguments& arguments, int dimension);
-
 }  // namespace pnpbs::tool

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 
+#include "tool/argument_rules.hpp"
 #include "tool/arguments.hpp"
 #include "tool/body_figures.hpp"
 #include "tool/checkpoints.hpp"

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/argument_rules.hpp"
+
+#include "base/extension.hpp"
+#include "tool/cut.hpp"
+#include "tool/exit.hpp"
+#include "tool/spacing_file.hpp"
+
+namespace pnpbs::tool {
+
+void refuse(const std::string& what) { throw BadInput(what + "\nTry 'pnpbs --help'."); }
+
+void require_arguments_that_fit(const Arguments& arguments) {
+  if (arguments.domain.empty()) refuse("--domain is missing");
+  if (arguments.spacing.empty() && arguments.spacing_grid.empty()) {
+    refuse("--spacing or --spacing-grid is missing");
+  }
+  if (!arguments.spacing.empty() && !arguments.spacing_grid.empty()) {
+    refuse("--spacing and --spacing-grid exclude each other");
+  }
+  if (arguments.spacing != "auto" && (arguments.min_spacing || arguments.max_spacing)) {
+    refuse(
+        "--min-spacing and --max-spacing are for --spacing auto; in a formula, min(...) and "
+        "max(...) do it");
+  }
+  if (arguments.min_spacing && arguments.max_spacing &&
+      *arguments.min_spacing > *arguments.max_spacing) {
+    refuse("--min-spacing is above --max-spacing");
+  }
+  const auto colour = arguments.colour.value_or(picture::ElementColour::none);
+  if (arguments.bubbles && colour != picture::ElementColour::none) {
+    refuse("--bubbles and --color exclude each other");
+  }
+  if (arguments.simplify && spacing_file(arguments.spacing))
+    refuse("--simplify needs d as a formula or an ASCII grid, not from a mesh or points");
+  if (arguments.simplify && arguments.spacing == "auto")
+    refuse("--simplify needs d as a formula or a grid: auto follows every vertex of the boundary");
+  const CheckpointInterval& interval = arguments.checkpoint_interval;
+  if (arguments.checkpoint.empty() && (interval.steps > 0 || interval.time.count() > 0))
+    refuse("--checkpoint-every needs --checkpoint");
+  if (!arguments.cut.empty()) cut_plane_in(arguments.cut);
+}
+
+void refuse_other_dimension(const Arguments& arguments, int dimension) {
+  const std::string plane = ", and this domain is in the plane";
+  const bool is_msh = extension_of(arguments.domain) == "msh";
+  if (dimension == 2 && arguments.feature_angle && !is_msh)
+    refuse("--feature-angle is for bodies and .msh files" + plane);
+  if (dimension == 2 && !arguments.inner.empty())
+    refuse("--inner is for surfaces in space" + plane);
+  if (dimension == 2 && arguments.surfaces_only)
+    refuse("--surfaces-only is for surfaces in space" + plane);
+  if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);
+  if (dimension == 3 && arguments.corner_angle)
+    refuse("--corner-angle is for domains in the plane, and this one is a body: --feature-angle");
+  if (dimension == 3 && arguments.simplify)
+    refuse("--simplify is for domains in the plane, and this one is a body");
+  if (arguments.surfaces_only && !arguments.cut.empty())
+    refuse("--cut is for bodies, and with --surfaces-only nothing is inside");
+  using picture::ElementColour;
+  const bool coloured = arguments.colour.value_or(ElementColour::none) != ElementColour::none;
+  if (arguments.surfaces_only && coloured)
+    refuse("--color is for the tetrahedra of bodies, and with --surfaces-only there are none");
+  if (dimension == 3 && arguments.bubbles)
+    refuse("--bubbles is for domains in the plane, and this one is a body");
+}
+
+}  // namespace pnpbs::tool
