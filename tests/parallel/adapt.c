@@ -3,20 +3,11 @@
  * A whole adapting sequence: callback, values at nodes, grid, values at nodes again, each with a
  * run. The nodes are those of one process, to the bit. */
 #include <math.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static pnpbs_context context;
-static int rank, size, failures;
-
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
-  ++failures;
-}
+#include "rank_program.h"
 
 static int32_t first_spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
   int64_t i;
@@ -152,17 +143,9 @@ static void bad_values(void) {
 }
 
 int main(int argc, char** argv) {
-  int all;
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  begin_ranks(&argc, &argv);
   compare("0");
   compare("0.2");
   bad_values();
-  pnpbs_context_destroy(&context);
-  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  if (rank == 0) printf("%d failed\n", all);
-  MPI_Finalize();
-  return all != 0;
+  return end_ranks();
 }

@@ -3,21 +3,12 @@
  * Spacing from a background mesh and from scattered points, over ranks: nodes are where one process
  * has them, d is what was given, and ranks that do not give the same are told. */
 #include <math.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "rank_program.h"
+
 enum { N = 5, MAX_POINTS = N * N * N, MAX_ELEMENTS = 6 * (N - 1) * (N - 1) * (N - 1) };
-
-static pnpbs_context context;
-static int rank, size, failures;
-
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
-  ++failures;
-}
 
 /* ---------------------------------------------------------------- what is given ---------- */
 
@@ -116,18 +107,11 @@ static void check_ranks_that_differ(int as_mesh) {
 }
 
 int main(int argc, char** argv) {
-  int all, dim, as_mesh;
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  int dim, as_mesh;
+  begin_ranks(&argc, &argv);
   for (as_mesh = 0; as_mesh < 2; ++as_mesh) {
     for (dim = 2; dim <= 3; ++dim) check_same_nodes(dim, as_mesh);
     check_ranks_that_differ(as_mesh);
   }
-  pnpbs_context_destroy(&context);
-  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  if (rank == 0) printf("%d failed\n", all);
-  MPI_Finalize();
-  return all != 0;
+  return end_ranks();
 }

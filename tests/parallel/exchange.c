@@ -3,20 +3,11 @@
  * The exchange pattern carries values at nodes to their ghosts, with plain MPI as a solver uses it;
  * numbers are contiguous per rank; asking for ghosts changes no local index. */
 #include <math.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static pnpbs_context context;
-static int rank, size, failures;
-
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
-  ++failures;
-}
+#include "rank_program.h"
 
 static void* array(int64_t n, size_t of) { return calloc((size_t)n + 1, of); }
 
@@ -160,11 +151,7 @@ int main(int argc, char** argv) {
   const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
   pnpbs_domain domain;
   pnpbs_placement placement;
-  int all;
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  begin_ranks(&argc, &argv);
   pnpbs_domain_create(context, 2, &domain);
   pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0);
   expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
@@ -175,9 +162,5 @@ int main(int argc, char** argv) {
   check(placement);
   pnpbs_placement_destroy(&placement);
   pnpbs_domain_destroy(&domain);
-  pnpbs_context_destroy(&context);
-  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  if (rank == 0) printf("%d failed\n", all);
-  MPI_Finalize();
-  return all != 0;
+  return end_ranks();
 }

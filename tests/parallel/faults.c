@@ -3,21 +3,14 @@
  * What goes wrong on one rank is every rank's error: nobody hangs, the message names the rank, and
  * the placement goes on once the fault is mended, with the nodes that one process places. */
 #include <math.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static pnpbs_context context;
-static int rank, size, bad_rank, failures;
-static char right_hash[40]; /* of the square with spacing() and no fault */
+#include "rank_program.h"
 
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
-  ++failures;
-}
+static int bad_rank;
+static char right_hash[40]; /* of the square with spacing() and no fault */
 
 /* All ranks must have got the same status, and the message must have this part. */
 static void expect_error(pnpbs_status status, pnpbs_status wanted, const char* part) {

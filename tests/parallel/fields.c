@@ -4,20 +4,11 @@
  * once or while the solver computes; sums and dot products are exact, and the same bits as one
  * process has; what is wrong on one rank is an error on all, and none waits. */
 #include <math.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static pnpbs_context context;
-static int rank, size, failures;
-
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
-  ++failures;
-}
+#include "rank_program.h"
 
 static int message_has(const char* text) { return strstr(pnpbs_last_error(context), text) != NULL; }
 
@@ -275,17 +266,9 @@ static void check_without_nodes(void) {
 }
 
 int main(int argc, char** argv) {
-  int all;
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  begin_ranks(&argc, &argv);
   check_without_nodes();
   check(2);
   check(3);
-  pnpbs_context_destroy(&context);
-  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  if (rank == 0) printf("%d failed\n", all);
-  MPI_Finalize();
-  return all != 0;
+  return end_ranks();
 }

@@ -5,28 +5,18 @@
  * only every n-th call does. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <dirent.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "fault_calls.h"
-
-static pnpbs_context context;
-static int rank, size, failures;
+#include "rank_program.h"
 
 static const char* const asked[] = {"a.vtu", "b.pvtu", "c.csv", "d.node"};
 static const int32_t elements[] = {1, 1, 0, 1};
 static char files[16][20]; /* all that these are */
 static int file_count;
-
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
-  ++failures;
-}
 
 static void list_files(void) {
   static const char* const fixed[] = {"a.vtu", "b.pvtu", "c.csv", "d.node", "d.ele"};
@@ -134,27 +124,19 @@ int main(int argc, char** argv) {
   char folder[] = "/tmp/pnpbs-faults-XXXXXX";
   const long stride = argc > 1 ? atol(argv[1]) : 1;
   pnpbs_placement placement;
-  int all;
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  begin_ranks(&argc, &argv);
   if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
   MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
   expect(chdir(folder) == 0, "folder");
-  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
   list_files();
   placement = square_placement();
   for (int bad = 0; bad < size; ++bad)
     for (int old_there = 0; old_there < 2; ++old_there)
       all_faults(placement, bad, old_there, stride);
   pnpbs_placement_destroy(&placement);
-  pnpbs_context_destroy(&context);
   if (rank == 0) {
     lay_old_files(0);
     expect(rmdir(folder) == 0, "something was left behind");
   }
-  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  if (rank == 0) printf("%d failed\n", all);
-  MPI_Finalize();
-  return all != 0;
+  return end_ranks();
 }

@@ -4,24 +4,15 @@
  * writes, format by format, against its peak before. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <inttypes.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "rank_program.h"
+
 /* Of the run's peak, and what windows and MPI-IO take whatever the number of nodes. */
 static double most_after(long before) { return 1.15 * (double)before + 12 * 1024; }
-
-static pnpbs_context context;
-static int rank, failures;
-
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
-  ++failures;
-}
 
 /* The largest resident size since the last forget_peak, in KiB. */
 static long peak(void) {
@@ -73,13 +64,10 @@ int main(int argc, char** argv) {
   int64_t nodes = 0;
   size_t k;
   long before;
-  int all;
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  begin_ranks(&argc, &argv);
   if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
   MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
   expect(chdir(folder) == 0, "folder");
-  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
   placement = square_placement(argc > 1 ? atof(argv[1]) : 0.0024);
   expect(pnpbs_placement_run(placement) >= 0, "run");
   pnpbs_placement_get_int64(placement, "nodes", &nodes);
@@ -88,12 +76,8 @@ int main(int argc, char** argv) {
   for (k = 0; k < sizeof paths / sizeof *paths; ++k)
     write_one(placement, before, paths[k], strcmp(paths[k], "a.csv") != 0);
   pnpbs_placement_destroy(&placement);
-  pnpbs_context_destroy(&context);
   MPI_Barrier(MPI_COMM_WORLD);
   snprintf(command, sizeof command, "rm -r %s", folder);
   if (rank == 0) expect(system(command) == 0, "remove the files");
-  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  if (rank == 0) printf("%d failed\n", all);
-  MPI_Finalize();
-  return all != 0;
+  return end_ranks();
 }

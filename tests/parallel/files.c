@@ -4,21 +4,12 @@
  * rank or differs between ranks. Run on three ranks or more. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <inttypes.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static pnpbs_context context;
-static int rank, failures;
-
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
-  ++failures;
-}
+#include "rank_program.h"
 
 /* All ranks must have got this status, and the message must have this part. */
 static void expect_on_all(pnpbs_status status, pnpbs_status wanted, const char* part) {
@@ -122,21 +113,14 @@ static void test_faults(void) {
 
 int main(int argc, char** argv) {
   char folder[] = "/tmp/pnpbs-files-XXXXXX";
-  int all;
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  begin_ranks(&argc, &argv);
   if (rank == 0 && !mkdtemp(folder)) MPI_Abort(MPI_COMM_WORLD, 1);
   MPI_Bcast(folder, sizeof folder, MPI_CHAR, 0, MPI_COMM_WORLD);
   expect(chdir(folder) == 0, "folder");
-  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
   test_large_ids();
   test_faults();
   MPI_Barrier(MPI_COMM_WORLD);
   /* Fails if there is anything left, under any name. */
   if (rank == 0) expect(rmdir(folder) == 0, "something was left behind");
-  pnpbs_context_destroy(&context);
-  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  if (rank == 0) printf("%d failed\n", all);
-  MPI_Finalize();
-  return all != 0;
+  return end_ranks();
 }

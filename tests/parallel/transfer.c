@@ -5,20 +5,13 @@
  * values they have, integrals kept on demand; with the same bits as one process has. What is wrong
  * on one rank is an error on all. */
 #include <math.h>
-#include <mpi.h>
-#include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static pnpbs_context context;
-static int rank, size, failures, order;
+#include "rank_program.h"
 
-static void expect(int condition, const char* what) {
-  if (condition) return;
-  fprintf(stderr, "rank %d: %s; last error: %s\n", rank, what, pnpbs_last_error(context));
-  ++failures;
-}
+static int order;
 
 static int message_has(const char* text) { return strstr(pnpbs_last_error(context), text) != NULL; }
 
@@ -422,11 +415,7 @@ static void check_errors(void) {
 int main(int argc, char** argv) {
   const double d[SHAPES] = {0.1, 0.1, 0.28, 0.25};
   shape s;
-  int all;
-  MPI_Init(&argc, &argv);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
+  begin_ranks(&argc, &argv);
   for (order = 1; order <= 2; ++order)
     for (s = SQUARE; s < SHAPES; ++s) {
       check_exactness(s, d[s]);
@@ -437,9 +426,5 @@ int main(int argc, char** argv) {
       check_points(s, d[s]);
     }
   check_errors();
-  pnpbs_context_destroy(&context);
-  MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-  if (rank == 0) printf("%d failed\n", all);
-  MPI_Finalize();
-  return all != 0;
+  return end_ranks();
 }
