@@ -15,9 +15,11 @@
 #include "volume_box.hpp"
 #include "volume_tetrahedra.hpp"
 
-using Ids = std::array<std::int64_t, 4>;
 using Corners = std::array<Point<3>, 4>;
-using Places = std::map<std::int64_t, Point<3>>;
+using volume_tetrahedra::Ids;
+using volume_tetrahedra::in_stars;
+using volume_tetrahedra::Places;
+using volume_tetrahedra::places_by_id;
 
 namespace {
 
@@ -43,24 +45,6 @@ struct Shaken {
   void make_stars() {
     b.list(1.6);
     stars.build({b.nodes, b.tree, b.buckets, b.lists, everywhere});
-  }
-
-  template <class Stars>
-  std::multiset<Ids> tetrahedra(const Stars& of) const {
-    std::multiset<Ids> all;
-    for (std::int64_t i = 0; i < b.nodes.count; ++i)
-      of.for_simplices(i, [&](const std::array<std::int32_t, 3>& others) {
-        Ids ids{b.nodes.id(i), b.nodes.id(others[0]), b.nodes.id(others[1]), b.nodes.id(others[2])};
-        std::sort(ids.begin(), ids.end());
-        all.insert(ids);
-      });
-    return all;
-  }
-
-  Places places() const {
-    Places all;
-    for (std::int64_t i = 0; i < b.nodes.count; ++i) all[b.nodes.id(i)] = b.nodes.position(i);
-    return all;
   }
 
   // Of tetrahedra with a node that moves, by the present stars.
@@ -150,7 +134,7 @@ END_TEST
 START_TEST(stars_follow_nodes) {
   Shaken s(6, 0.25);
   pnpbs::Nodes<3>& nodes = s.b.nodes;
-  const double space = space_of(s.tetrahedra(s.stars), s.places());
+  const double space = space_of(in_stars(s.b.nodes, s.stars), places_by_id(s.b.nodes));
   pnpbs::StarChanges changes(nodes, s.stars);
   Random random(2);
   std::int64_t gone = 0, made = 0, far = 0, refused = 0;
@@ -170,20 +154,21 @@ START_TEST(stars_follow_nodes) {
     made += std::ssize(attempt.change().made);
     changes.accept(attempt.change());
     nodes.set_position(i, x);
-    if (move % 400 == 0) expect_delaunay(s.tetrahedra(changes), s.places(), space);
+    if (move % 400 == 0)
+      expect_delaunay(in_stars(s.b.nodes, changes), places_by_id(s.b.nodes), space);
   }
-  expect_delaunay(s.tetrahedra(changes), s.places(), space);
+  expect_delaunay(in_stars(s.b.nodes, changes), places_by_id(s.b.nodes), space);
   ck_assert_int_gt(gone, 2000);
   ck_assert_int_gt(made, 2000);
   ck_assert_int_gt(far, 3);
   ck_assert_int_lt(refused, far);
   // And the neighbours.
-  const std::multiset<Ids> followed = s.tetrahedra(changes);
+  const std::multiset<Ids> followed = in_stars(s.b.nodes, changes);
   std::map<std::int64_t, std::set<std::int64_t>> neighbours;
   for (std::int64_t i = 0; i < nodes.count; ++i)
     changes.for_neighbours(i, [&](std::int64_t j) { neighbours[nodes.id(i)].insert(nodes.id(j)); });
   s.make_stars();
-  quick_assert(followed == s.tetrahedra(s.stars));
+  quick_assert(followed == in_stars(s.b.nodes, s.stars));
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     std::set<std::int64_t> expected;
     s.stars.for_neighbours(i, [&](std::int64_t j) { expected.insert(nodes.id(j)); });
@@ -208,7 +193,7 @@ std::int64_t repair(pnpbs::SliverRepair& slivers) {
 
 START_TEST(no_sliver_is_left) {
   Shaken s(9, 0.25);
-  const Places before = s.places();
+  const Places before = places_by_id(s.b.nodes);
   ck_assert_double_lt(s.least_angle(), 10);
   pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
   ck_assert_int_gt(slivers.slivers(), 50);
@@ -258,8 +243,8 @@ START_TEST(rounds_only_help) {
   const auto penalty = [&] {
     double sum = 0;
     s.make_stars();
-    const Places places = s.places();
-    for (const Ids& t : s.tetrahedra(s.stars)) {
+    const Places places = places_by_id(s.b.nodes);
+    for (const Ids& t : in_stars(s.b.nodes, s.stars)) {
       if (std::any_of(t.begin(), t.end(), [&](std::int64_t id) { return moving.contains(id); }))
         sum += small.penalty(corners_of(t, places)) / 4;
     }
@@ -282,13 +267,13 @@ END_TEST
 
 START_TEST(nodes_keep_off_where_they_must) {
   Shaken s(9, 0.25);
-  const Places before = s.places();
+  const Places before = places_by_id(s.b.nodes);
   const auto allowed = [&](std::int64_t i, const Point<3>& x) {
     return s.b.nodes.position(i)[0] > 4 && x[0] > 4;
   };
   pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, allowed);
   ck_assert_int_gt(repair(slivers), 20);
-  for (const auto& [id, x] : s.places()) {
+  for (const auto& [id, x] : places_by_id(s.b.nodes)) {
     quick_assert(before.at(id)[0] > 4 || x == before.at(id));
     quick_assert(before.at(id)[0] <= 4 || x[0] > 4);
   }
@@ -304,7 +289,7 @@ START_TEST(the_same_in_another_order) {
   pnpbs::SliverRepair other_slivers(other.b.nodes, other.stars, {}, anywhere);
   ck_assert_int_gt(repair(slivers), 20);
   repair(other_slivers);
-  quick_assert(s.places() == other.places());
+  quick_assert(places_by_id(s.b.nodes) == places_by_id(other.b.nodes));
 }
 END_TEST
 
@@ -337,8 +322,8 @@ START_TEST(the_same_from_two_halves) {
     moved_high += there;
     of_low.follow(news_of(of_high));
     of_high.follow(news_of(of_low));
-    quick_assert(low.places() == whole.places());
-    quick_assert(high.places() == whole.places());
+    quick_assert(places_by_id(low.b.nodes) == places_by_id(whole.b.nodes));
+    quick_assert(places_by_id(high.b.nodes) == places_by_id(whole.b.nodes));
   }
   ck_assert_int_gt(moved_low, 10);
   ck_assert_int_gt(moved_high, 10);
@@ -350,9 +335,9 @@ END_TEST
 START_TEST(sweeps_go_to_the_mean) {
   Shaken s(6, 0.2);
   pnpbs::Nodes<3>& nodes = s.b.nodes;
-  const Places before = s.places();
+  const Places before = places_by_id(s.b.nodes);
   std::map<std::int64_t, std::set<std::int64_t>> neighbours;
-  for (const Ids& t : s.tetrahedra(s.stars))
+  for (const Ids& t : in_stars(s.b.nodes, s.stars))
     for (const std::int64_t i : t)
       for (const std::int64_t j : t)
         if (i != j) neighbours[i].insert(j);

@@ -18,8 +18,10 @@
 
 using pnpbs::Carrier;
 using P = Point<3>;
-using Ids = std::array<std::int64_t, 4>;
-using Places = std::map<std::int64_t, P>;
+using volume_tetrahedra::Ids;
+using volume_tetrahedra::in_stars;
+using volume_tetrahedra::Places;
+using volume_tetrahedra::places_by_id;
 
 namespace {
 
@@ -126,22 +128,6 @@ struct Pierced {
     return {walk, rule()};
   }
 
-  template <class Stars>
-  std::multiset<Ids> tetrahedra(const Stars& of) const {
-    std::multiset<Ids> all;
-    for (std::int64_t i = 0; i < b.nodes.count; ++i)
-      of.for_simplices(i, [&](const std::array<std::int32_t, 3>& others) {
-        Ids ids{b.nodes.id(i), b.nodes.id(others[0]), b.nodes.id(others[1]), b.nodes.id(others[2])};
-        std::sort(ids.begin(), ids.end());
-        all.insert(ids);
-      });
-    return all;
-  }
-  Places places() const {
-    Places all;
-    for (std::int64_t i = 0; i < b.nodes.count; ++i) all[b.nodes.id(i)] = b.nodes.position(i);
-    return all;
-  }
   // Slivers with a node on a side, by the present stars.
   std::int64_t slivers_at_sides() const {
     std::int64_t found = 0;
@@ -194,9 +180,9 @@ START_TEST(stars_follow_nodes_on_surfaces) {
   }
   ck_assert_int_gt(changed, 50);
   ck_assert_int_lt(refused, 5);
-  const std::multiset<Ids> followed = p.tetrahedra(changes);
+  const std::multiset<Ids> followed = in_stars(p.b.nodes, changes);
   p.make_stars();
-  quick_assert(followed == p.tetrahedra(p.stars));
+  quick_assert(followed == in_stars(p.b.nodes, p.stars));
 }
 END_TEST
 
@@ -204,7 +190,7 @@ END_TEST
 START_TEST(slivers_at_surfaces_are_mended) {
   Pierced p(0.25, 0.25);
   const auto nowhere = [](std::int64_t, const P&) { return false; };
-  const Places before = p.places();
+  const Places before = places_by_id(p.b.nodes);
   const std::int64_t slivers_before = p.slivers_at_sides();
   ck_assert_int_gt(slivers_before, 20);
   pnpbs::SliverRepair repair(p.b.nodes, p.stars, {}, nowhere, p.along_surfaces());
@@ -232,14 +218,14 @@ START_TEST(free_nodes_come_first) {
   const auto anywhere = [](std::int64_t, const P&) { return true; };
   pnpbs::SliverRepair repair(p.b.nodes, p.stars, {}, anywhere, p.along_surfaces());
   pnpbs::SliverRepair without(alone.b.nodes, alone.stars, {}, anywhere);
-  const Places before = p.places();
+  const Places before = places_by_id(p.b.nodes);
   std::int64_t moved = 0;
   for (std::int64_t round = 0; round < 20; ++round) moved += repair.round(round);
   for (std::int64_t round = 0; round < 80; ++round) without.round(round);
   ck_assert_int_gt(moved, 20);
   for (std::int64_t i = 0; i < p.b.nodes.count; ++i)
     if (p.on_side(i)) quick_assert(p.b.nodes.position(i) == before.at(p.b.nodes.id(i)));
-  for (const auto& [id, x] : alone.places())
+  for (const auto& [id, x] : places_by_id(alone.b.nodes))
     if (p.lattice.axis.contains(id)) quick_assert(x == before.at(id));
 }
 END_TEST
@@ -284,7 +270,8 @@ START_TEST(the_same_from_two_halves) {
     there += high_moved;
     of_low.follow(news_of(of_high));
     of_high.follow(news_of(of_low));
-    quick_assert(low.places() == whole.places() && high.places() == whole.places());
+    quick_assert(places_by_id(low.b.nodes) == places_by_id(whole.b.nodes) &&
+                 places_by_id(high.b.nodes) == places_by_id(whole.b.nodes));
     quick_assert(facets(low) == facets(whole) && facets(high) == facets(whole));
   }
   ck_assert_int_gt(here, 10);

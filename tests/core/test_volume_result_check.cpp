@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/point_text.hpp"
-#include "placement/result_check.hpp"
+#include "complaints.hpp"
 #include "run_kernel_suite.hpp"
 
 using Point3 = pnpbs::Point<3>;
@@ -72,26 +72,8 @@ void rebuild_stars(Placement3& placement, const pnpbs::FacetIndex<3>* facets,
                      known, facets, nowhere});
 }
 
-std::string complaint_of(Placement3& placement) {
-  try {
-    pnpbs::check_results(placement);
-  } catch (const pnpbs::Error& error) {
-    ck_assert(error.kind() == pnpbs::ErrorKind::internal);
-    return error.what();
-  }
-  return "";
-}
-
-// Spoils results; their check must say all of these words.
 void expect_complaint(const std::function<std::vector<std::string>(Placement3&)>& spoil) {
-  const std::unique_ptr<Placement3> placement = small_placement();
-  const std::string before = complaint_of(*placement);
-  ck_assert_str_eq(before.c_str(), "");
-  const std::vector<std::string> words = spoil(*placement);
-  const std::string complaint = complaint_of(*placement);
-  for (const std::string& word : words)
-    ck_assert_msg(complaint.find(word) != std::string::npos, "no \"%s\" in \"%s\"", word.c_str(),
-                  complaint.c_str());
+  expect_check_to_say<3>(*small_placement(), spoil);
 }
 
 }  // namespace

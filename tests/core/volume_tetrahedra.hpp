@@ -41,6 +41,27 @@ inline Star star_by_ids(const pnpbs::Nodes<3>& nodes, const pnpbs::VolumeStars& 
   return star;
 }
 
+// All tetrahedra, each as often as it is in stars, or in what follows their changes.
+template <class Stars>
+std::multiset<Ids> in_stars(const pnpbs::Nodes<3>& nodes, const Stars& stars) {
+  std::multiset<Ids> all;
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    stars.for_simplices(i, [&](const pnpbs::VolumeStars::Corners& t) {
+      Ids ids{nodes.id(i), nodes.id(t[0]), nodes.id(t[1]), nodes.id(t[2])};
+      std::sort(ids.begin(), ids.end());
+      all.insert(ids);
+    });
+  return all;
+}
+
+using Places = std::map<std::int64_t, Point<3>>;
+
+inline Places places_by_id(const pnpbs::Nodes<3>& nodes) {
+  Places all;
+  for (std::int64_t i = 0; i < nodes.count; ++i) all[nodes.id(i)] = nodes.position(i);
+  return all;
+}
+
 // Six times the volume of node i and three others.
 inline double six_volumes(const pnpbs::Nodes<3>& nodes, std::int64_t i,
                           const pnpbs::VolumeStars::Corners& t) {

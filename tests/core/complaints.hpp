@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the check of the results says of results that are spoilt by hand.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "check_runner.h"
+#include "placement/result_check.hpp"
+
+// Empty where it finds nothing wrong.
+template <int Dim>
+std::string complaint_of(pnpbs::PlacementOf<Dim>& placement) {
+  try {
+    pnpbs::check_results(placement);
+  } catch (const pnpbs::Error& error) {
+    ck_assert(error.kind() == pnpbs::ErrorKind::internal);
+    return error.what();
+  }
+  return "";
+}
+
+// Spoils right results; their check must then say all of the words that `spoil` returns.
+template <int Dim>
+void expect_check_to_say(
+    pnpbs::PlacementOf<Dim>& placement,
+    const std::function<std::vector<std::string>(pnpbs::PlacementOf<Dim>&)>& spoil) {
+  const std::string before = complaint_of(placement);
+  ck_assert_str_eq(before.c_str(), "");
+  const std::vector<std::string> words = spoil(placement);
+  const std::string complaint = complaint_of(placement);
+  for (const std::string& word : words)
+    ck_assert_msg(complaint.find(word) != std::string::npos, "no \"%s\" in \"%s\"", word.c_str(),
+                  complaint.c_str());
+}
