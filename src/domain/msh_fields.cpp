@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/limits.hpp"
+#include "base/number_bytes.hpp"
 #include "domain/text_fields.hpp"
 
 namespace pnpbs {
@@ -53,11 +54,9 @@ template <class Number>
 Number MshFields::raw(std::string_view what) {
   read_last_ = at_;
   if (remaining() < sizeof(Number)) fail("the file ends, expected " + std::string(what));
-  std::array<char, sizeof(Number)> field;
-  std::memcpy(field.data(), bytes_.data() + at_, sizeof(Number));
+  const auto number = number_from_bytes<Number>(bytes_.data() + at_, order_);
   at_ += sizeof(Number);
-  if (order_ != std::endian::native) std::reverse(field.begin(), field.end());
-  return std::bit_cast<Number>(field);
+  return number;
 }
 
 std::string_view MshFields::word(std::string_view what) {

@@ -3,15 +3,14 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/limits.hpp"
+#include "base/number_bytes.hpp"
 
 namespace pnpbs {
 
@@ -28,11 +27,9 @@ class ByteFields {
   template <class Number>
   Number next(std::string_view what) {
     if (remaining() < sizeof(Number)) fail("the file ends, expected " + std::string(what));
-    std::array<char, sizeof(Number)> field;
-    std::memcpy(field.data(), bytes_.data() + at_, sizeof(Number));
+    const auto number = number_from_bytes<Number>(bytes_.data() + at_, order_);
     at_ += sizeof(Number);
-    if (order_ != std::endian::native) std::reverse(field.begin(), field.end());
-    return std::bit_cast<Number>(field);
+    return number;
   }
 
   template <class Number>

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <utility>
 
+#include "base/number_bytes.hpp"
 #include "domain/text_fields.hpp"
 #include "spacing/files/byte_source.hpp"
 #include "spacing/files/inflate.hpp"
@@ -15,18 +15,9 @@ namespace pnpbs {
 
 namespace {
 
-void reverse_if_other(char* bytes, std::size_t size, std::endian order) {
-  if (order != std::endian::native) std::reverse(bytes, bytes + size);
-}
-
 template <class Number>
 double number_at(const char* bytes, std::endian order) {
-  char copy[sizeof(Number)];
-  std::memcpy(copy, bytes, sizeof copy);
-  reverse_if_other(copy, sizeof copy, order);
-  Number number;
-  std::memcpy(&number, copy, sizeof number);
-  return static_cast<double>(number);
+  return static_cast<double>(number_from_bytes<Number>(bytes, order));
 }
 
 struct VtkType {
