@@ -133,19 +133,25 @@ void attempt(std::exception_ptr& failure, const Work& work) {
   }
 }
 
-// Runs a piece of work on every rank; if it throws on one, it throws on all.
+// What a piece of this rank's work throws, null if nothing; but what the ranks have agreed on
+// already goes on its way.
 template <class Work>
-void agreed(const Communicator& comm, const Work& work) {
-  if (comm.size() == 1) return work();
-  std::exception_ptr failure;
+std::exception_ptr failure_of(const Work& work) {
   try {
     work();
   } catch (const AgreedError&) {
     throw;
   } catch (...) {
-    failure = std::current_exception();
+    return std::current_exception();
   }
-  agree_on_failure(comm, failure);
+  return nullptr;
+}
+
+// Runs a piece of work on every rank; if it throws on one, it throws on all.
+template <class Work>
+void agreed(const Communicator& comm, const Work& work) {
+  if (comm.size() == 1) return work();
+  agree_on_failure(comm, failure_of(work));
 }
 
 }  // namespace pnpbs

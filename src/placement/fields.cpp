@@ -31,15 +31,7 @@ void require_values(const double* values, std::int64_t n, const char* argument) 
 template <class Work>
 void agreed_with_same(const Communicator& comm, std::int64_t number, const char* argument,
                       const Work& work) {
-  std::exception_ptr failure;
-  try {
-    work();
-  } catch (const AgreedError&) {
-    throw;
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  if (failure) agree_on_failure(comm, failure);
+  if (const std::exception_ptr failure = failure_of(work)) agree_on_failure(comm, failure);
   const std::uint64_t mine = mixed(static_cast<std::uint64_t>(number));
   if (comm.allreduce_sum(mine) != mine * static_cast<std::uint64_t>(comm.size()))
     throw Error(ErrorKind::argument, std::string("argument ") + argument + " = " +
