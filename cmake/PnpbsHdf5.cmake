@@ -3,10 +3,10 @@
 # and to read how one is laid out; the ranks then write and read their rows by themselves. So any
 # HDF5 will do, serial or parallel; a parallel one only in a build with MPI, whose header it needs.
 #
-# It is not linked but opened by its path at run time (src/io/hdf5.cpp): a program that uses PNPBS
+# It is not linked but opened by its path at run time (src/io/hdf5_library.cpp): a program that uses PNPBS
 # may have an HDF5 of its own, which must not meet ours, and neither the shared nor the static
 # library then asks anything of its users.
-# Sets PNPBS_HAVE_HDF5 (0 or 1), PNPBS_HDF5_INCLUDE_DIR, PNPBS_HDF5_DEFINITIONS, what src/io/hdf5.cpp
+# Sets PNPBS_HAVE_HDF5 (0 or 1), PNPBS_HDF5_INCLUDE_DIR, PNPBS_HDF5_DEFINITIONS, what src/io/hdf5_library.cpp
 # must know, and PNPBS_HDF5_TEXT for the build's description.
 
 set(PNPBS_WITH_HDF5

@@ -10,19 +10,9 @@
 
 #include "base/build_config.hpp"
 #include "base/error.hpp"
-#include "base/opened_library.hpp"
 
 #if PNPBS_HAVE_HDF5
-#include <dlfcn.h>
-#include <hdf5.h>
-
-#include <mutex>
-
-// HDF5's constants call it by its name, which we do not link.
-#undef H5OPEN
-#define H5OPEN
-#undef H5CHECK
-#define H5CHECK
+#include "io/hdf5_library.hpp"
 #endif
 
 namespace pnpbs::io::hdf5 {
@@ -62,161 +52,6 @@ void require_signature(const std::string& path, const std::string& name) {
 #if PNPBS_HAVE_HDF5
 
 namespace {
-
-// ------------------------------------------------------------------ the library ----------------
-
-#define PNPBS_HDF5_FUNCTIONS(X) \
-  X(H5open)                     \
-  X(H5get_libversion)           \
-  X(H5Eget_auto2)               \
-  X(H5Eset_auto2)               \
-  X(H5Fcreate)                  \
-  X(H5Fopen)                    \
-  X(H5Fclose)                   \
-  X(H5Pcreate)                  \
-  X(H5Pclose)                   \
-  X(H5Pset_libver_bounds)       \
-  X(H5Pset_alloc_time)          \
-  X(H5Pset_fill_time)           \
-  X(H5Pget_layout)              \
-  X(H5Pget_external_count)      \
-  X(H5Gcreate2)                 \
-  X(H5Gclose)                   \
-  X(H5Lexists)                  \
-  X(H5Screate)                  \
-  X(H5Screate_simple)           \
-  X(H5Sclose)                   \
-  X(H5Sget_simple_extent_type)  \
-  X(H5Sget_simple_extent_ndims) \
-  X(H5Sget_simple_extent_dims)  \
-  X(H5Dcreate2)                 \
-  X(H5Dopen2)                   \
-  X(H5Dclose)                   \
-  X(H5Dwrite)                   \
-  X(H5Dget_offset)              \
-  X(H5Dget_space)               \
-  X(H5Dget_type)                \
-  X(H5Dget_create_plist)        \
-  X(H5Dget_storage_size)        \
-  X(H5Acreate_by_name)          \
-  X(H5Aopen_by_name)            \
-  X(H5Aclose)                   \
-  X(H5Awrite)                   \
-  X(H5Aread)                    \
-  X(H5Aget_type)                \
-  X(H5Aget_space)               \
-  X(H5Tcopy)                    \
-  X(H5Tclose)                   \
-  X(H5Tequal)                   \
-  X(H5Tset_size)                \
-  X(H5Tget_size)                \
-  X(H5Tget_class)               \
-  X(H5Tis_variable_str)
-
-struct Library {
-#define PNPBS_HDF5_MEMBER(name) decltype(&::name) name;
-  PNPBS_HDF5_FUNCTIONS(PNPBS_HDF5_MEMBER)
-#undef PNPBS_HDF5_MEMBER
-  std::array<hid_t, 5> types;  // by Type
-  hid_t text, file_access, dataset_creation;
-};
-
-void* open_hdf5() {
-  if (void* library = open_library({PNPBS_HDF5_PATH, PNPBS_HDF5_NAME})) return library;
-  const char* reason = dlerror();
-  throw Error(ErrorKind::unsupported,
-              std::string("HDF5, which writes and reads checkpoints, cannot be opened: neither "
-                          "\"" PNPBS_HDF5_PATH "\" nor \"" PNPBS_HDF5_NAME "\" (") +
-                  (reason ? reason : "no reason given") +
-                  "): install it, or add its folder to LD_LIBRARY_PATH");
-}
-
-void* symbol(void* library, const char* name) {
-  void* found = dlsym(library, name);
-  if (!found)
-    throw Error(ErrorKind::unsupported, std::string("the HDF5 that was opened has no ") + name +
-                                            ": PNPBS was built with \"" PNPBS_HDF5_PATH "\"");
-  return found;
-}
-
-Library opened_library() {
-  void* library = open_hdf5();
-  Library h{};
-#define PNPBS_HDF5_LOOK_UP(name) \
-  h.name = reinterpret_cast<decltype(h.name)>(symbol(library, #name));
-  PNPBS_HDF5_FUNCTIONS(PNPBS_HDF5_LOOK_UP)
-#undef PNPBS_HDF5_LOOK_UP
-  unsigned major = 0, minor = 0, release = 0;
-  if (h.H5get_libversion(&major, &minor, &release) < 0 || major != H5_VERS_MAJOR ||
-      minor != H5_VERS_MINOR || h.H5open() < 0)
-    throw Error(ErrorKind::unsupported, "the HDF5 that was opened is version " +
-                                            std::to_string(major) + "." + std::to_string(minor) +
-                                            ", not the " PNPBS_HDF5_TEXT
-                                            " that PNPBS was built "
-                                            "with: install that one");
-  // Identifiers that HDF5 has given its own types when it was opened.
-  const auto identifier = [&](const char* name) {
-    return *static_cast<const hid_t*>(symbol(library, name));
-  };
-  h.types = {identifier("H5T_NATIVE_DOUBLE_g"), identifier("H5T_NATIVE_INT64_g"),
-             identifier("H5T_NATIVE_INT32_g"), identifier("H5T_NATIVE_INT8_g"),
-             identifier("H5T_NATIVE_UINT8_g")};
-  h.text = identifier("H5T_C_S1_g");
-  h.file_access = identifier("H5P_CLS_FILE_ACCESS_ID_g");
-  h.dataset_creation = identifier("H5P_CLS_DATASET_CREATE_ID_g");
-  return h;
-}
-
-// One thread at a time: few builds of HDF5 stand more. It tells us what fails by what it returns,
-// and prints nothing of it; a host that has opened the same library finds its handler again.
-class Use {
- public:
-  Use() : lock_(mutex()), h_(library()) {
-    h_.H5Eget_auto2(H5E_DEFAULT, &handler_, &data_);
-    h_.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  Use(const Use&) = delete;
-  Use& operator=(const Use&) = delete;
-  ~Use() { h_.H5Eset_auto2(H5E_DEFAULT, handler_, data_); }
-  const Library* operator->() const { return &h_; }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex the;
-    return the;
-  }
-  static const Library& library() {
-    static const Library the = opened_library();
-    return the;
-  }
-
-  std::lock_guard<std::mutex> lock_;
-  const Library& h_;
-  H5E_auto2_t handler_ = nullptr;
-  void* data_ = nullptr;
-};
-
-// What HDF5 has opened for us, to be closed again; fails if it has opened nothing.
-class Owned {
- public:
-  Owned(hid_t id, herr_t (*close)(hid_t), const std::string& failure) : id_(id), close_(close) {
-    if (id < 0) throw Error(ErrorKind::file, failure);
-  }
-  Owned(const Owned&) = delete;
-  Owned& operator=(const Owned&) = delete;
-  ~Owned() { close_(id_); }
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-void require(herr_t code, const std::string& failure) {
-  if (code < 0) throw Error(ErrorKind::file, failure);
-}
-
-hid_t type_of(const Use& use, Type type) { return use->types[static_cast<std::size_t>(type)]; }
 
 std::string cannot_write(const std::string& name) {
   return "cannot write " + name + ": HDF5 has failed; is the disk full?";
@@ -374,50 +209,62 @@ bool OldFile::has(const std::string& path) const {
 
 namespace {
 
-void read_attribute(hid_t file, const std::string& name, const std::string& object,
-                    const std::string& attribute, Type type, void* value) {
+// One that is there, of one value.
+class Attribute {
+ public:
+  // kind: of its value, for messages.
+  Attribute(hid_t file, const std::string& name, const char* kind, const std::string& object,
+            const std::string& attribute)
+      : failure_(damaged(name, std::string("it has no ") + kind + " \"" + attribute + "\" at \"" +
+                                   object + "\"")),
+        found_(
+            use->H5Aopen_by_name(file, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+            use->H5Aclose, failure_),
+        stored_(use->H5Aget_type(found_), use->H5Tclose, failure_) {
+    const Owned space(use->H5Aget_space(found_), use->H5Sclose, failure_);
+    expect(use->H5Sget_simple_extent_type(space) == H5S_SCALAR);
+  }
+
+  hid_t type() const { return stored_; }
+  void expect(bool right) const {
+    if (!right) throw Error(ErrorKind::file, failure_);
+  }
+  void read(void* value) const { require(use->H5Aread(found_, stored_, value), failure_); }
+
   const Use use;
-  const std::string failure =
-      damaged(name, "it has no number \"" + attribute + "\" at \"" + object + "\"");
-  const Owned found(
-      use->H5Aopen_by_name(file, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-      use->H5Aclose, failure);
-  const Owned stored(use->H5Aget_type(found), use->H5Tclose, failure);
-  const Owned space(use->H5Aget_space(found), use->H5Sclose, failure);
-  if (use->H5Tequal(stored, type_of(use, type)) <= 0 ||
-      use->H5Sget_simple_extent_type(space) != H5S_SCALAR)
-    throw Error(ErrorKind::file, failure);
-  require(use->H5Aread(found, stored, value), failure);
+
+ private:
+  std::string failure_;
+  Owned found_, stored_;
+};
+
+void read_number(hid_t file, const std::string& name, const std::string& object,
+                 const std::string& attribute, Type type, void* value) {
+  const Attribute number(file, name, "number", object, attribute);
+  number.expect(number.use->H5Tequal(number.type(), type_of(number.use, type)) > 0);
+  number.read(value);
 }
 
 }  // namespace
 
 void OldFile::get(const std::string& object, const std::string& attribute,
                   std::int64_t& value) const {
-  read_attribute(file_, name_, object, attribute, Type::int64, &value);
+  read_number(file_, name_, object, attribute, Type::int64, &value);
 }
 
 void OldFile::get(const std::string& object, const std::string& attribute, double& value) const {
-  read_attribute(file_, name_, object, attribute, Type::real, &value);
+  read_number(file_, name_, object, attribute, Type::real, &value);
 }
 
 void OldFile::get(const std::string& object, const std::string& attribute,
                   std::string& text) const {
   constexpr std::size_t kMax = 60000;  // what HDF5 has room for in an attribute
-  const Use use;
-  const std::string failure =
-      damaged(name_, "it has no text \"" + attribute + "\" at \"" + object + "\"");
-  const Owned found(
-      use->H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-      use->H5Aclose, failure);
-  const Owned stored(use->H5Aget_type(found), use->H5Tclose, failure);
-  const Owned space(use->H5Aget_space(found), use->H5Sclose, failure);
-  const std::size_t size = use->H5Tget_size(stored);
-  if (use->H5Tget_class(stored) != H5T_STRING || use->H5Tis_variable_str(stored) != 0 ||
-      use->H5Sget_simple_extent_type(space) != H5S_SCALAR || size < 1 || size > kMax)
-    throw Error(ErrorKind::file, failure);
+  const Attribute found(file_, name_, "text", object, attribute);
+  const std::size_t size = found.use->H5Tget_size(found.type());
+  found.expect(found.use->H5Tget_class(found.type()) == H5T_STRING &&
+               found.use->H5Tis_variable_str(found.type()) == 0 && size >= 1 && size <= kMax);
   text.assign(size, '\0');
-  require(use->H5Aread(found, stored, text.data()), failure);
+  found.read(text.data());
   if (const std::size_t end = text.find('\0'); end != std::string::npos) text.resize(end);
 }
 
