@@ -56,8 +56,7 @@ template <class Record>
 void read_rows(const InputFile& file, const Column& column, std::int64_t place, std::int64_t first,
                std::int64_t rows, Record* records) {
   const std::int64_t size = column.array.row_size();
-  const std::size_t given =
-      static_cast<std::size_t>(column.given) * hdf5::size_of(column.array.type);
+  const std::size_t given = static_cast<std::size_t>(column.given) * size_of(column.array.type);
   Bytes piece;
   in_pieces(rows, size, [&](std::int64_t from, std::int64_t n) {
     piece.resize(static_cast<std::size_t>(n * size));

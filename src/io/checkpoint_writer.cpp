@@ -12,6 +12,7 @@
 #include "comm/rank_span.hpp"
 #include "io/checkpoint_parts.hpp"
 #include "io/file_seal.hpp"
+#include "io/hdf5_layout.hpp"
 #include "io/output_file.hpp"
 
 namespace pnpbs::io {
@@ -24,8 +25,7 @@ template <class Row>
 void write_rows(RankFile& file, const Column& column, std::int64_t place, std::int64_t first,
                 std::int64_t rows, const Row& row) {
   const std::int64_t size = column.array.row_size();
-  const std::size_t given =
-      static_cast<std::size_t>(column.given) * hdf5::size_of(column.array.type);
+  const std::size_t given = static_cast<std::size_t>(column.given) * size_of(column.array.type);
   Bytes piece;
   in_pieces(rows, size, [&](std::int64_t from, std::int64_t n) {
     piece.assign(static_cast<std::size_t>(n * size), 0);
@@ -117,50 +117,27 @@ class CheckpointWriter {
       throw Error(ErrorKind::argument, "argument path = \"" + path_ +
                                            "\": a checkpoint is a file of its own, no stream and "
                                            "no device");
-    hdf5::require_hdf5();
-    reserve(output_.open());
-    hdf5::NewFile file(output_.name_aside(), quoted_checkpoint(path_));
-    for (const char* group : {kVtk, "/VTKHDF/PointData", kOwn}) file.add_group(group);
-    file.set(kVtk, "Version", std::vector<std::int64_t>{1, 0});
-    file.set(kVtk, "Type", std::string("UnstructuredGrid"));
-    for (const char* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
-      file.add(std::string(kVtk) + "/" + count, {rows_.total});
+    output_.close(output_.open());
+    const std::vector<hdf5::Array> all = arrays();
+    places_ = io::lay_out(output_, quoted_checkpoint(path_), all,
+                          [this](hdf5::NewFile& file) { add_state(file); });
+    std::vector<Extent> rows;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k].rows > 0) rows.push_back({places_[k], all[k].rows * all[k].row_size()});
+    add_seal(output_.name_aside(), quoted_checkpoint(path_), std::move(rows));
+  }
+
+  void add_state(hdf5::NewFile& file) const {
+    begin_vtk_grid(file, rows_.total, rows_.total, rows_.total);
+    file.add_group(kOwn);
     file.set(kOwn, "format", kCheckpointFormat);
     file.set(kOwn, "written_by", std::string("PNPBS ") + PNPBS_PROJECT_VERSION);
     for_fields(saved_.state,
                [&](const char* field, const auto& value) { set(file, field, value); });
-    if (saved_.state.spacing_saved) {
-      file.add_group(kSpacing);
-      set(file, "spacing_checksum", patch_checksum_);
-      file.add(std::string(kSpacing) + "/parts", patch_sizes_);
-    }
-    std::vector<Extent> rows;
-    for (const hdf5::Array& array : arrays()) {
-      places_.push_back(array.rows ? file.add(array) : 0);
-      if (array.rows) rows.push_back({places_.back(), array.rows * array.row_size()});
-    }
-    file.close();
-    add_seal(output_.name_aside(), quoted_checkpoint(path_), std::move(rows));
-    if (!output_.removed()) return;
-    ::unlink(output_.name_aside());  // a signal has removed it before HDF5 made it anew
-    throw Error(ErrorKind::file,
-                "cannot write " + quoted_checkpoint(path_) + ": " + std::strerror(EINTR));
-  }
-
-  // Whether the file may have its size, and HDF5 room for what it writes: where it has none, some
-  // versions end the process when that exits.
-  void reserve(int descriptor) const {
-    constexpr std::size_t kLayout = std::size_t{1} << 16;
-    std::int64_t size = kLayout;
-    for (const hdf5::Array& array : arrays()) size += array.rows * array.row_size();
-    const Bytes zeros(kLayout, 0);
-    const ssize_t wrote = ::write(descriptor, zeros.data(), zeros.size());
-    errno = wrote < 0 ? errno : wrote < std::ssize(zeros) ? ENOSPC : 0;
-    if (errno == 0 && ::ftruncate(descriptor, size) == 0) return output_.close(descriptor);
-    const int error = errno;
-    ::close(descriptor);
-    throw Error(ErrorKind::file,
-                "cannot write " + quoted_checkpoint(path_) + ": " + std::strerror(error));
+    if (!saved_.state.spacing_saved) return;
+    file.add_group(kSpacing);
+    set(file, "spacing_checksum", patch_checksum_);
+    file.add(std::string(kSpacing) + "/parts", patch_sizes_);
   }
 
   template <class Value>

@@ -17,20 +17,6 @@
 
 namespace pnpbs::io::hdf5 {
 
-std::size_t size_of(Type type) {
-  switch (type) {
-    case Type::real:
-    case Type::int64:
-      return 8;
-    case Type::int32:
-      return 4;
-    case Type::int8:
-    case Type::uint8:
-      return 1;
-  }
-  return 0;
-}
-
 void require_signature(const std::string& path, const std::string& name) {
   constexpr std::array<char, 8> kSignature{'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
   std::array<char, 8> begin{};
@@ -56,6 +42,14 @@ namespace {
 std::string cannot_write(const std::string& name) {
   return "cannot write " + name + ": HDF5 has failed; is the disk full?";
 }
+
+// How something is made: without the time of it.
+struct Creation : Owned {
+  Creation(const Use& use, hid_t kind, const std::string& failure)
+      : Owned(use->H5Pcreate(kind), use->H5Pclose, failure) {
+    require(use->H5Pset_obj_track_times(*this, false), failure);
+  }
+};
 
 void write_attribute(hid_t file, const std::string& name, const std::string& object,
                      const std::string& attribute, hid_t type, std::int64_t count,
@@ -85,7 +79,8 @@ NewFile::NewFile(const std::string& path, const std::string& name) : name_(name)
   const std::string failure = cannot_write(name_);
   const Owned access(use->H5Pcreate(use->file_access), use->H5Pclose, failure);
   require(use->H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), failure);
-  file_ = use->H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  const Creation creation(use, use->file_creation, failure);
+  file_ = use->H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access);
   if (file_ < 0) throw Error(ErrorKind::file, failure);
 }
 
@@ -104,8 +99,10 @@ void NewFile::close() {
 
 void NewFile::add_group(const std::string& path) {
   const Use use;
-  const Owned group(use->H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                    use->H5Gclose, cannot_write(name_));
+  const std::string failure = cannot_write(name_);
+  const Creation how(use, use->group_creation, failure);
+  const Owned group(use->H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, how, H5P_DEFAULT),
+                    use->H5Gclose, failure);
 }
 
 namespace {
@@ -152,12 +149,13 @@ std::int64_t NewFile::add(const Array& array) {
                                     static_cast<hsize_t>(array.columns)};
   const Owned space(use->H5Screate_simple(array.columns > 0 ? 2 : 1, size.data(), nullptr),
                     use->H5Sclose, failure);
-  const Owned how(use->H5Pcreate(use->dataset_creation), use->H5Pclose, failure);
+  const Creation how(use, use->dataset_creation, failure);
   require(use->H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY), failure);
   require(use->H5Pset_fill_time(how, H5D_FILL_TIME_NEVER), failure);
   const Owned made(use->H5Dcreate2(file_, array.path.c_str(), type_of(use, array.type), space,
                                    H5P_DEFAULT, how, H5P_DEFAULT),
                    use->H5Dclose, failure);
+  if (array.rows == 0) return 0;
   const haddr_t place = use->H5Dget_offset(made);
   if (place == HADDR_UNDEF) throw Error(ErrorKind::file, failure);
   return static_cast<std::int64_t>(place);
@@ -169,9 +167,9 @@ void NewFile::add(const std::string& path, const std::vector<std::int64_t>& valu
   const hsize_t size = values.size();
   const hid_t type = type_of(use, Type::int64);
   const Owned space(use->H5Screate_simple(1, &size, nullptr), use->H5Sclose, failure);
-  const Owned made(
-      use->H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      use->H5Dclose, failure);
+  const Creation how(use, use->dataset_creation, failure);
+  const Owned made(use->H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT),
+                   use->H5Dclose, failure);
   require(use->H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), failure);
 }
 
@@ -315,8 +313,8 @@ namespace {
 
 [[noreturn]] void fail() {
   throw Error(ErrorKind::unsupported,
-              "this library was built without HDF5, which writes and reads checkpoints: build it "
-              "with -DPNPBS_WITH_HDF5=ON");
+              "this library was built without HDF5, which writes and reads checkpoints and writes "
+              ".vtkhdf and .xdmf files: build it with -DPNPBS_WITH_HDF5=ON");
 }
 
 }  // namespace

@@ -13,10 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "io/number_type.hpp"
+
 namespace pnpbs::io::hdf5 {
 
-enum class Type { real, int64, int32, int8, uint8 };
-std::size_t size_of(Type type);
+using Type = NumberType;
 
 // An array of rows; with 0 columns it has one dimension, otherwise two.
 struct Array {
@@ -34,7 +35,8 @@ void require_hdf5();
 // Throws unless a regular file is there that begins as HDF5 files do.
 void require_signature(const std::string& path, const std::string& name);
 
-// A file in the making, in place of an empty one that is there.
+// A file in the making, in place of one that is there. What it is made of decides its bytes, and
+// not the time.
 class NewFile {
  public:
   NewFile(const std::string& path, const std::string& name);  // name: for messages
@@ -48,7 +50,7 @@ class NewFile {
   void set(const std::string& object, const std::string& attribute, const std::string& text);
   void set(const std::string& object, const std::string& attribute,
            const std::vector<std::int64_t>& values);
-  // Room for an array of at least one row; returns where in the file it begins.
+  // Room for an array; returns where in the file it begins, of one without rows 0.
   std::int64_t add(const Array& array);
   void add(const std::string& path, const std::vector<std::int64_t>& values);
   void close();

@@ -15,11 +15,13 @@ namespace {
 void* open_hdf5() {
   if (void* library = open_library({PNPBS_HDF5_PATH, PNPBS_HDF5_NAME})) return library;
   const char* reason = dlerror();
-  throw Error(ErrorKind::unsupported,
-              std::string("HDF5, which writes and reads checkpoints, cannot be opened: neither "
-                          "\"" PNPBS_HDF5_PATH "\" nor \"" PNPBS_HDF5_NAME "\" (") +
-                  (reason ? reason : "no reason given") +
-                  "): install it, or add its folder to LD_LIBRARY_PATH");
+  throw Error(
+      ErrorKind::unsupported,
+      std::string("HDF5, which writes and reads checkpoints and writes .vtkhdf and .xdmf files, "
+                  "cannot be opened: neither "
+                  "\"" PNPBS_HDF5_PATH "\" nor \"" PNPBS_HDF5_NAME "\" (") +
+          (reason ? reason : "no reason given") +
+          "): install it, or add its folder to LD_LIBRARY_PATH");
 }
 
 void* symbol(void* library, const char* name) {
@@ -49,11 +51,13 @@ Library opened_library() {
   const auto identifier = [&](const char* name) {
     return *static_cast<const hid_t*>(symbol(library, name));
   };
-  h.types = {identifier("H5T_NATIVE_DOUBLE_g"), identifier("H5T_NATIVE_INT64_g"),
-             identifier("H5T_NATIVE_INT32_g"), identifier("H5T_NATIVE_INT8_g"),
-             identifier("H5T_NATIVE_UINT8_g")};
+  h.types = {identifier("H5T_NATIVE_DOUBLE_g"), identifier("H5T_NATIVE_FLOAT_g"),
+             identifier("H5T_NATIVE_INT64_g"),  identifier("H5T_NATIVE_INT32_g"),
+             identifier("H5T_NATIVE_INT8_g"),   identifier("H5T_NATIVE_UINT8_g")};
   h.text = identifier("H5T_C_S1_g");
   h.file_access = identifier("H5P_CLS_FILE_ACCESS_ID_g");
+  h.file_creation = identifier("H5P_CLS_FILE_CREATE_ID_g");
+  h.group_creation = identifier("H5P_CLS_GROUP_CREATE_ID_g");
   h.dataset_creation = identifier("H5P_CLS_DATASET_CREATE_ID_g");
   return h;
 }

@@ -31,6 +31,7 @@ namespace pnpbs::io::hdf5 {
   X(H5Pcreate)                  \
   X(H5Pclose)                   \
   X(H5Pset_libver_bounds)       \
+  X(H5Pset_obj_track_times)     \
   X(H5Pset_alloc_time)          \
   X(H5Pset_fill_time)           \
   X(H5Pget_layout)              \
@@ -72,8 +73,8 @@ struct Library {
 #define PNPBS_HDF5_MEMBER(name) decltype(&::name) name;
   PNPBS_HDF5_FUNCTIONS(PNPBS_HDF5_MEMBER)
 #undef PNPBS_HDF5_MEMBER
-  std::array<hid_t, 5> types;  // by Type
-  hid_t text, file_access, dataset_creation;
+  std::array<hid_t, 6> types;  // by Type
+  hid_t text, file_access, file_creation, group_creation, dataset_creation;
 };
 
 // One thread at a time: few builds of HDF5 stand more. It tells us what fails by what it returns,
