@@ -1,23 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds HDF5, by which checkpoints are written and read. One rank alone calls it, to lay out a file
-# and to read how one is laid out; the ranks then write and read their rows by themselves. So any
-# HDF5 will do, serial or parallel; a parallel one only in a build with MPI, whose header it needs.
+# Finds HDF5, by which checkpoints are written and read, and .vtkhdf and .xdmf files written. One
+# rank alone calls it, to lay out a file and to read how one is laid out; the ranks then write and
+# read their rows by themselves. So any HDF5 will do, serial or parallel; a parallel one only in a
+# build with MPI, whose header it needs.
 #
-# It is not linked but opened by its path at run time (src/io/hdf5_library.cpp): a program that uses PNPBS
-# may have an HDF5 of its own, which must not meet ours, and neither the shared nor the static
+# It is not linked but opened by its path at run time (src/io/hdf5_library.cpp): a program that uses
+# PNPBS may have an HDF5 of its own, which must not meet ours, and neither the shared nor the static
 # library then asks anything of its users.
-# Sets PNPBS_HAVE_HDF5 (0 or 1), PNPBS_HDF5_INCLUDE_DIR, PNPBS_HDF5_DEFINITIONS, what src/io/hdf5_library.cpp
+# Sets PNPBS_HAVE_HDF5 (0 or 1), PNPBS_HDF5_INCLUDE_DIR, PNPBS_HDF5_DEFINITIONS, what that file
 # must know, and PNPBS_HDF5_TEXT for the build's description.
 
 set(PNPBS_WITH_HDF5
     AUTO
-    CACHE STRING "Write checkpoints by HDF5: ON, OFF, or AUTO: where it is found")
+    CACHE STRING "Checkpoints, .vtkhdf and .xdmf by HDF5: ON, OFF, or AUTO: where it is found")
 set_property(CACHE PNPBS_WITH_HDF5 PROPERTY STRINGS AUTO ON OFF)
 set(PNPBS_HAVE_HDF5 0)
 set(PNPBS_HDF5_DEFINITIONS "")
 set(PNPBS_HDF5_TEXT "")
 if(NOT PNPBS_WITH_HDF5)
-  message(STATUS "HDF5: none, no checkpoints (PNPBS_WITH_HDF5=${PNPBS_WITH_HDF5})")
+  message(STATUS "HDF5: none, no checkpoints, .vtkhdf, .xdmf (PNPBS_WITH_HDF5=${PNPBS_WITH_HDF5})")
   return()
 endif()
 
@@ -69,7 +70,7 @@ endforeach()
 if(NOT PNPBS_HAVE_HDF5)
   set(advice "scripts/setup.sh --tests installs one, -DHDF5_ROOT=<prefix> names one")
   if(PNPBS_WITH_HDF5 STREQUAL "AUTO")
-    message(STATUS "HDF5: none, no checkpoints (${why_not}; ${advice})")
+    message(STATUS "HDF5: none, no checkpoints, .vtkhdf, .xdmf (${why_not}; ${advice})")
   else()
     message(FATAL_ERROR "No HDF5 was found: ${why_not}. ${advice}; -DPNPBS_WITH_HDF5=OFF builds "
                         "without.")

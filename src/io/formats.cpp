@@ -12,26 +12,35 @@ namespace {
 
 constexpr std::array table{
     Format{"vtu", "VTK unstructured grid: nodes, elements, id, tag, spacing, quality", true,
-           Elements::on_request, false, write_vtu},
+           Elements::on_request, false, false, write_vtu},
     Format{"pvtu", "the same as one .vtu piece per rank beside it", false, Elements::on_request,
-           false, nullptr},
+           false, false, nullptr},
+    Format{"vtkhdf", "the same as one VTKHDF file; needs HDF5", true, Elements::on_request, false,
+           true, write_vtkhdf},
+    Format{"xdmf", "the same as XDMF 3 with its arrays in a .h5 file beside it; needs HDF5", false,
+           Elements::on_request, false, true, write_xdmf},
     Format{"msh", "Gmsh's format 4.1: nodes, elements, facets of the boundary; named groups", false,
-           Elements::on_request, false, write_msh},
+           Elements::on_request, false, false, write_msh},
     Format{"msh2", "Gmsh's format 2.2, for programs that do not read 4.1", false,
-           Elements::on_request, false, write_msh2},
+           Elements::on_request, false, false, write_msh2},
     Format{"node", "Triangle's and TetGen's node file, numbered from 1, with boundary markers",
-           false, Elements::beside, false, write_node},
+           false, Elements::beside, false, false, write_node},
     Format{"ele", "Triangle's and TetGen's element file for the .node file", false,
-           Elements::always, false, write_ele},
+           Elements::always, false, false, write_ele},
     Format{"face", "TetGen's file of a body's boundary triangles for the .node file", false,
-           Elements::always, true, write_face},
+           Elements::always, true, false, write_face},
     Format{"csv", "id,x,y,tag,spacing, of bodies id,x,y,z,tag,spacing", false, Elements::never,
-           false, write_csv},
+           false, false, write_csv},
 };
+
+constexpr Format heavy_data{"h5", "arrays of a .xdmf file", true, Elements::on_request, false,
+                            true, write_heavy_data};
 
 }  // namespace
 
 std::span<const Format> formats() { return table; }
+
+const Format& heavy_data_format() { return heavy_data; }
 
 std::string list_of_formats() {
   std::string list;

@@ -19,6 +19,7 @@ struct Format {
   bool binary;  // not for terminals
   Elements elements;
   bool bodies_only;  // none of the plane
+  bool by_hdf5;      // in part at least: a file of its own, no stream
   // Collective. nullptr: in pieces, which is not one file's business.
   void (*write)(const NodeSource& nodes, SharedFile& file);
 };
@@ -26,11 +27,18 @@ struct Format {
 std::span<const Format> formats();
 std::string list_of_formats();
 
+// Of the file of arrays beside a .xdmf file, which nobody asks for by itself.
+const Format& heavy_data_format();
+std::string heavy_data_path(const std::string& path);  // of the .xdmf file
+
 // nullptr if there is none.
 const Format* format_by_name(std::string_view name);
 const Format* format_by_extension(std::string_view path);
 
 void write_vtu(const NodeSource& nodes, SharedFile& file);
+void write_vtkhdf(const NodeSource& nodes, SharedFile& file);
+void write_xdmf(const NodeSource& nodes, SharedFile& file);
+void write_heavy_data(const NodeSource& nodes, SharedFile& file);
 void write_node(const NodeSource& nodes, SharedFile& file);
 void write_ele(const NodeSource& nodes, SharedFile& file);
 void write_face(const NodeSource& nodes, SharedFile& file);

@@ -3,42 +3,73 @@
 
 #include <unistd.h>
 
+#include "base/error.hpp"
 #include "comm/rank_span.hpp"
+#include "comm/records.hpp"
 
 namespace pnpbs::io {
 
 SharedFile::SharedFile(std::shared_ptr<const Communicator> comm, const std::string& path,
                        std::function<void()> before_write)
     : comm_(std::move(comm)), before_write_(std::move(before_write)), output_(path) {
-  open();
+  create();
 }
 
 SharedFile::~SharedFile() {
   if (stream_ >= 0) ::close(stream_);
 }
 
-// Rank 0 makes the file and tells the others where it is; nowhere: it is a stream.
-void SharedFile::open() {
-  Bytes aside;
+void SharedFile::create() {
   agreed(*comm_, [&] {
     if (before_write_) before_write_();
     if (!is_first()) return;
     output_.check();
     const int descriptor = output_.open();
-    if (output_.written_aside()) {
+    if (output_.written_aside())
       output_.close(descriptor);
-      const std::string name = output_.name_aside();
-      aside.assign(name.begin(), name.end());
-    } else {
+    else
       stream_ = descriptor;
-    }
   });
+}
+
+// Rank 0 tells the others where the file is; nowhere: it is a stream.
+void SharedFile::open() {
+  opened_ = true;
+  Bytes aside;
+  if (is_first() && stream_ < 0) {
+    const std::string name = output_.name_aside();
+    aside.assign(name.begin(), name.end());
+  }
   comm_->broadcast(aside, 0);
   if (!aside.empty())
     file_ = comm_->open_file(std::string(aside.begin(), aside.end()), output_.quoted());
 }
 
+std::vector<std::int64_t> SharedFile::make(
+    const std::function<std::vector<std::int64_t>(const OutputFile&)>& work) {
+  Bytes bytes;
+  agreed(*comm_, [&] {
+    if (before_write_) before_write_();
+    if (!is_first()) return;
+    if (stream_ >= 0)
+      throw Error(ErrorKind::argument, "cannot write " + output_.quoted() +
+                                           ": it is to be a file of its own, no stream and no "
+                                           "device");
+    for (const std::int64_t number : work(output_)) pack(bytes, number);
+  });
+  comm_->broadcast(bytes, 0);
+  std::vector<std::int64_t> numbers;
+  for_records<std::int64_t>({bytes}, [&](std::int64_t number) { numbers.push_back(number); });
+  return numbers;
+}
+
+void SharedFile::go_to(std::int64_t place) {
+  agreed(*comm_, [&] { places_.flush(); });
+  end_ = place_ = place;
+}
+
 void SharedFile::append(const std::function<void(Sink&)>& write) {
+  if (!opened_) open();
   if (file_)
     append_at_places(write);
   else

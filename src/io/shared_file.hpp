@@ -24,6 +24,13 @@ class SharedFile {
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;
 
+  // Has rank 0 make the file, which is empty, as it is to be before anything is appended, and
+  // return what the others shall know of it. Not for streams and devices.
+  std::vector<std::int64_t> make(
+      const std::function<std::vector<std::int64_t>(const OutputFile&)>& work);
+  // What is appended next goes here, in a file that has been made.
+  void go_to(std::int64_t place);
+
   // Every rank's bytes, those of rank 0 first. write fills its sink; it may be called twice, to
   // measure and to write, and must not communicate.
   void append(const std::function<void(Sink&)>& write);
@@ -35,12 +42,14 @@ class SharedFile {
   // Local.
   OutputFile* own() { return is_first() ? &output_ : nullptr; }
 
+  const std::string& path() const { return output_.path(); }
   const Communicator& ranks() const { return *comm_; }
   bool is_first() const { return comm_->rank() == 0; }
 
  private:
   static constexpr std::size_t kPartSize = std::size_t{1} << 20;  // bytes written or sent at a time
 
+  void create();
   void open();
   void append_at_places(const std::function<void(Sink&)>& write);
   void write_at_place(std::span<const char> bytes);
@@ -52,6 +61,7 @@ class SharedFile {
   // A regular file is written by all ranks at once, each at its place; what is none, such as a
   // pipe, by rank 0, to which the others send their bytes in turn.
   std::unique_ptr<RankFile> file_;
+  bool opened_ = false;
   int stream_ = -1;         // rank 0's
   std::int64_t end_ = 0;    // of what all ranks have appended
   std::int64_t place_ = 0;  // of this rank's next byte

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "io/hdf5.hpp"
 #include "io/nodes_by_id.hpp"
 #include "io/own_piece.hpp"
 #include "io/rows.hpp"
@@ -27,6 +28,25 @@ const Format& format_of(const std::string& path, const std::string& name) {
 
 std::string with_extension(const std::string& path, const char* extension) {
   return std::filesystem::path(path).replace_extension(extension).string();
+}
+
+// Its parts are written at their places, by all ranks at once.
+void require_places(const std::string& path, const Format& format) {
+  const std::string what = std::string("a .") + format.name + " file ";
+  std::error_code error;
+  if (path == "-") refuse(what + "cannot go to standard output; take vtu there");
+  if (std::filesystem::is_other(path, error))
+    refuse(what + "is a file of its own, no stream and no device: '" + path + "'");
+  hdf5::require_hdf5();
+}
+
+// XDMF names a file and what is in it with a colon between.
+void add_heavy_data(const std::string& path, bool elements, std::vector<FileWish>& wishes) {
+  const std::string heavy = heavy_data_path(path);
+  if (std::filesystem::path(heavy).filename().string().find(':') != std::string::npos)
+    refuse("XDMF cannot tell of a file with ':' in its name, as '" + heavy +
+           "' would have beside '" + path + "': choose another name");
+  wishes.push_back({heavy, &heavy_data_format(), elements});
 }
 
 // The files of one call.
@@ -115,6 +135,7 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
            "'");
   if (!format.write && path == "-")
     refuse("a file in pieces cannot go to standard output; take vtu instead of pvtu");
+  if (format.by_hdf5) require_places(path, format);
   if (elements && format.elements == Elements::never)
     refuse(std::string("a .") + format.name + " file has no place for elements: '" + path + "'");
   const bool beside = elements && format.elements == Elements::beside;
@@ -123,6 +144,7 @@ void add_wish(const std::string& path, const std::string& format_name, bool elem
   const bool holds_elements =
       format.elements == Elements::always || (elements && format.elements == Elements::on_request);
   wishes.push_back({path, &format, holds_elements});
+  if (format.write == write_xdmf) add_heavy_data(path, holds_elements, wishes);
   if (!beside) return;
   wishes.push_back({with_extension(path, "ele"), format_by_name("ele"), true});
   if (dimension == 3)

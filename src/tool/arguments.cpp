@@ -212,9 +212,10 @@ void add_output(CLI::App& app, Arguments& arguments) {
   app.add_option("--report", arguments.report, "statistics as JSON, - for standard output")
       ->type_name("FILE")
       ->group(group);
-  app.add_flag(
-         "--nodes-only", arguments.nodes_only,
-         "no triangles or tetrahedra in files that may be without\n(.vtu, .pvtu, .msh, .msh2)")
+  app.add_flag("--nodes-only", arguments.nodes_only,
+               "no triangles or tetrahedra in files that may be without\n(.vtu, .pvtu, .vtkhdf, "
+               ".xdmf, .msh, "
+               ".msh2)")
       ->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
   app.add_option_function<std::string>(

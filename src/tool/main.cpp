@@ -186,6 +186,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
     tell_estimate(context, placement, body, arguments, ranks);
     return ExitCode::done;
   }
+  outputs->check_with_library(placement, context);
   const pnpbs_status status = place(context, placement, arguments, ranks);
 
   if (arguments.check) check(pnpbs_placement_check(placement), context);

@@ -69,6 +69,7 @@ Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
     for (const std::string& input : {arguments.domain, arguments.spacing_grid,
                                      file_of_spacing(arguments), arguments.projection})
       refuse_to_replace(input, output.file.path());
+  for (const std::string& path : {arguments.checkpoint, arguments.restart}) refuse_checkpoint(path);
   check_pictures(arguments);
   if (ranks_.is_first()) check_writable();
 }
@@ -81,6 +82,14 @@ void Outputs::add(const std::string& path, const FileFormat* format) {
   if (path == "-" && format && format->name == "pvtu")
     throw BadInput("--output: a .pvtu file and its pieces cannot go to standard output");
   outputs_.push_back({io::OutputFile(path), format, false});
+}
+
+// Results may have its extension, but it goes on from nothing but a checkpoint.
+void Outputs::refuse_checkpoint(const std::string& path) const {
+  if (path.empty()) return;
+  for (const Output& output : outputs_)
+    if (same_file(output.file.path(), path))
+      throw BadInput("--output: '" + path + "' is the checkpoint: write to another file");
 }
 
 void Outputs::add_projections(const std::string& input) {
@@ -157,7 +166,7 @@ void Outputs::write_projection(const std::string& text) {
     write_text(true, text);
 }
 
-void Outputs::write_nodes(pnpbs_placement placement, pnpbs_context context) {
+pnpbs_status Outputs::ask_for_nodes(pnpbs_placement placement) const {
   std::vector<const char*> paths, formats;
   std::vector<std::int32_t> elements;
   for (const Output& output : outputs_) {
@@ -166,10 +175,19 @@ void Outputs::write_nodes(pnpbs_placement placement, pnpbs_context context) {
     formats.push_back(output.format->name.c_str());
     elements.push_back(elements_ && output.format->elements);
   }
+  return pnpbs_placement_write_files(placement, static_cast<std::int32_t>(paths.size()),
+                                     paths.data(), formats.data(), elements.data());
+}
+
+// What the library would refuse to write it refuses before there are nodes, too.
+void Outputs::check_with_library(pnpbs_placement placement, pnpbs_context context) const {
+  const pnpbs_status status = ask_for_nodes(placement);
+  if (status != PNPBS_ERROR_STATE) check(status, context);
+}
+
+void Outputs::write_nodes(pnpbs_placement placement, pnpbs_context context) {
   pnpbs_placement_set_monitor(placement, monitor, this);
-  const pnpbs_status status =
-      pnpbs_placement_write_files(placement, static_cast<std::int32_t>(paths.size()), paths.data(),
-                                  formats.data(), elements.data());
+  const pnpbs_status status = ask_for_nodes(placement);
   pnpbs_placement_set_monitor(placement, nullptr, nullptr);
   settle_own(status >= 0 && status != PNPBS_STOPPED);
   ranks_.agreed([&] {

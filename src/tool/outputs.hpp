@@ -25,6 +25,10 @@ class Outputs {
   // Whether there is any. Local.
   bool has_pictures() const;
 
+  // Before the long run: throws if the library would not write its files, for want of HDF5, say, or
+  // for names that no format can have. Collective.
+  void check_with_library(pnpbs_placement placement, pnpbs_context context) const;
+
   // Collective, all of these; first pictures and the report, then the nodes. What was written
   // appears with write_nodes, when all of it is complete.
   void write_pictures(const GatheredPicture& picture);
@@ -52,8 +56,10 @@ class Outputs {
   void add_projections(const std::string& input);
   void write_text(bool is_projection, const std::string& text);
   void add(const std::string& path, const FileFormat* format);
+  void refuse_checkpoint(const std::string& path) const;
   void check_pictures(const Arguments& arguments) const;
   void check_writable() const;
+  pnpbs_status ask_for_nodes(pnpbs_placement placement) const;
   static std::int32_t monitor(double fraction, std::int64_t, std::int64_t, double, void* user);
   bool publish_own();
   void settle_own(bool published);

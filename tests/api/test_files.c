@@ -64,6 +64,30 @@ static job placed_square(void) {
   return it;
 }
 
+static int with_hdf5(void) { return strstr(pnpbs_build_info(), "HDF5: none") == NULL; }
+
+static int is_by_hdf5(const char* format) {
+  return strcmp(format, "vtkhdf") == 0 || strcmp(format, "xdmf") == 0;
+}
+
+/* Nodes or not: it tells so before there are any, too. */
+START_TEST(without_hdf5_there_is_an_error) {
+  const char* names[] = {"a.vtkhdf", "a.xdmf"};
+  job it = square_job(1);
+  size_t k;
+  for (k = 0; k < 2; ++k)
+    if (with_hdf5())
+      MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_write(it.placement, in_folder(names[k]), 1),
+                "nodes", "run");
+    else
+      MUST_FAIL(PNPBS_ERROR_UNSUPPORTED,
+                pnpbs_placement_write(it.placement, in_folder(names[k]), 1), "built without HDF5",
+                "PNPBS_WITH_HDF5");
+  ck_assert_int_eq(empty_folder(), 0);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(every_format) {
   job it = placed_square();
   int32_t count = 0, k, elements = 0, binary = 0;
@@ -75,7 +99,8 @@ START_TEST(every_format) {
     MUST(pnpbs_format_info(k, &name, &help, &binary, &elements));
     MUST(pnpbs_format_info(k, NULL, NULL, NULL, NULL));
     ck_assert_int_gt((int)strlen(help), 10);
-    ck_assert_int_eq(binary, strcmp(name, "vtu") == 0);
+    ck_assert_int_eq(binary, strcmp(name, "vtu") == 0 || strcmp(name, "vtkhdf") == 0);
+    if (is_by_hdf5(name) && !with_hdf5()) continue;
     snprintf(path, sizeof path, "a.%s", name);
     if (strcmp(name, "face") == 0) {
       MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 0),
@@ -86,12 +111,15 @@ START_TEST(every_format) {
     if (elements) {
       const long without = size_of(path);
       MUST(pnpbs_placement_write(it.placement, in_folder(path), 1));
-      if (strcmp(name, "pvtu") != 0) ck_assert_int_ne(size_of(path), without);
+      if (strcmp(name, "pvtu") != 0 && strcmp(name, "xdmf") != 0)
+        ck_assert_int_ne(size_of(path), without);
     }
     ck_assert_int_gt(size_of(path), 100);
   }
   ck_assert_int_gt(size_of("a_0.vtu"), size_of("a.pvtu"));
-  ck_assert_int_eq(empty_folder(), count); /* a_0.vtu and no a.face */
+  if (with_hdf5()) ck_assert_int_gt(size_of("a.h5"), size_of("a.xdmf"));
+  /* a_0.vtu and no a.face; a.h5 */
+  ck_assert_int_eq(empty_folder(), with_hdf5() ? count + 1 : count - 2);
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_info(count, NULL, NULL, NULL, NULL), "index",
             "0 ..");
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_format_count(NULL), "count", "NULL");
@@ -130,12 +158,13 @@ START_TEST(every_format_in_space) {
     const char* name = NULL;
     char path[40];
     MUST(pnpbs_format_info(k, &name, NULL, NULL, NULL));
+    if (is_by_hdf5(name) && !with_hdf5()) continue;
     snprintf(path, sizeof path, "a.%s", name);
     MUST(pnpbs_placement_write(it.placement, in_folder(path), 0));
     if (strcmp(name, "csv") != 0) MUST(pnpbs_placement_write(it.placement, in_folder(path), 1));
     ck_assert_int_gt(size_of(path), 100);
   }
-  ck_assert_int_eq(empty_folder(), count + 1);
+  ck_assert_int_eq(empty_folder(), with_hdf5() ? count + 2 : count - 1);
   MUST(pnpbs_placement_write(it.placement, in_folder("b.node"), 1));
   ck_assert_int_gt(size_of("b.face"), 500);
   ck_assert_int_eq(empty_folder(), 3);
@@ -263,6 +292,7 @@ int main(void) {
   Suite* suite = suite_create("files");
   TCase* tests = tcase_create("files");
   tcase_add_checked_fixture(tests, make_folder, remove_folder);
+  tcase_add_test(tests, without_hdf5_there_is_an_error);
   tcase_add_test(tests, every_format);
   tcase_add_test(tests, triangle_s_elements_are_beside);
   tcase_add_test(tests, every_format_in_space);

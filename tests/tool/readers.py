@@ -16,11 +16,24 @@ def read_with_vtk(path, kind=vtk.vtkXMLUnstructuredGridReader):
     reader.SetFileName(str(path))
     reader.Update()
     assert not errors, f"VTK does not like {path}"
-    return reader.GetOutput()
+    return reader.GetOutputDataObject(0)
 
 
 def point_array(grid, name):
     return vtk_to_numpy(grid.GetPointData().GetArray(name))
+
+
+def grid_arrays(grid):
+    """All that a grid of VTK's holds, by name."""
+    cells = range(grid.GetNumberOfCells())
+    arrays = {"points": vtk_to_numpy(grid.GetPoints().GetData()),
+              "corners": vtk_to_numpy(grid.GetCells().GetConnectivityArray()),
+              "offsets": vtk_to_numpy(grid.GetCells().GetOffsetsArray()),
+              "types": numpy.array([grid.GetCellType(cell) for cell in cells])}
+    for place, data in (("point", grid.GetPointData()), ("cell", grid.GetCellData())):
+        for k in range(data.GetNumberOfArrays()):
+            arrays[place, data.GetArrayName(k)] = vtk_to_numpy(data.GetArray(k))
+    return arrays
 
 
 def read_msh(path, points):

@@ -66,6 +66,8 @@ class Checkpoints(CommandTest):
                 (("--checkpoint-every", "3"), "needs --checkpoint"),
                 (("--checkpoint", "a", "--checkpoint-every", "3d"), "30min"),
                 (("--checkpoint", "a", "--checkpoint-every", "-1"), "30min"),
+                (("-o", "a.vtkhdf", "--checkpoint", "a.vtkhdf"), "is the checkpoint"),
+                (("-o", "a.vtkhdf", "--restart", "a.vtkhdf"), "is the checkpoint"),
                 (("--restart", "none.vtkhdf"), "none.vtkhdf"),
                 (("--restart", "text.vtkhdf"), "no HDF5 file"),
                 (("--checkpoint", "none/a.vtkhdf"), "none/a.vtkhdf")):

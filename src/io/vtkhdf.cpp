@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// VTK's file by HDF5 (https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format), version
+// 1.0, which every reader of it knows: the arrays of the .vtu file, each in one piece, so that all
+// ranks write their rows at the same time.
+#include "io/formats.hpp"
+#include "io/grid_arrays.hpp"
+#include "io/hdf5_grid.hpp"
+#include "io/hdf5_layout.hpp"
+
+namespace pnpbs::io {
+
+namespace {
+
+std::vector<PlacedArray> vtk_arrays(const Contents& all) {
+  const std::string vtk = "/VTKHDF/";
+  std::vector<PlacedArray> arrays;
+  for (GridArray& array : point_data(all))
+    arrays.push_back({vtk + "PointData/" + array.name, array});
+  if (all.with_elements)
+    for (GridArray& array : cell_data(all))
+      arrays.push_back({vtk + "CellData/" + array.name, array});
+  arrays.push_back({vtk + "Points", point_array(all)});
+  arrays.push_back({vtk + "Connectivity", corner_array(all)});
+  arrays.push_back({vtk + "Offsets", cell_bounds(all)});
+  arrays.push_back({vtk + "Types", cell_types(all)});
+  return arrays;
+}
+
+}  // namespace
+
+void write_vtkhdf(const NodeSource& nodes, SharedFile& file) {
+  const Contents& all = nodes.contents();
+  write_by_hdf5(nodes, file, vtk_arrays(all), [&](hdf5::NewFile& made) {
+    begin_vtk_grid(made, all.nodes, cells_of(all), corner_array(all).rows);
+    made.set("/VTKHDF/PointData", "Scalars", std::string("spacing"));
+    if (all.with_elements) made.add_group("/VTKHDF/CellData");
+  });
+}
+
+}  // namespace pnpbs::io
