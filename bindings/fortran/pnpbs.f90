@@ -2484,8 +2484,8 @@ contains
   ! ------------------------------------------------------------ placement: files --------------
 
   !> Writes the nodes of all ranks into one file, at the same time, in the format of its extension:
-  !> .vtu, .pvtu, .msh, .msh2, .node, .ele, .face, .csv (see pnpbs_placement_write in pnpbs.h). A file
-  !> appears under its name only when it is complete; after an error, what was there before is still
+  !> .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2, .node, .ele, .face, .csv (see pnpbs_placement_write in
+  !> pnpbs.h). A file appears under its name only when it is complete; after an error, what was there before is still
   !> there. The folder must be the same one for all ranks, and so must path. The monitor, if there
   !> is one, is asked now and then. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors:
   !> PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_STATE if there are no nodes yet,

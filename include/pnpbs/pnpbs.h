@@ -1012,6 +1012,8 @@ PNPBS_API pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t
  *    .pvtu  the same as a file that names one piece per rank, written by that rank beside it:
  *           mesh_0.vtu, mesh_1.vtu, ... for mesh.pvtu. Nodes of other ranks that a piece's elements
  *           need are in it, too, marked by vtkGhostType.
+ *    .vtkhdf the same as one file by HDF5, VTK's 1.0; no checkpoint
+ *    .xdmf  the same as XDMF 3, which tells of the arrays in a second file of the same name, .h5
  *    .msh   Gmsh's format 4.1: nodes, triangles and boundary edges or tetrahedra and boundary
  *           triangles, the tags of the boundary as physical groups with their names, or "tag_7"
  *           (without elements: one point per node)
@@ -1028,11 +1030,13 @@ PNPBS_API pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t
  *  complete; after an error, what was there before is still there. The folder must be the same one
  *  for all ranks, and so must `path`. The monitor is asked now and then, and with fraction 1 before
  *  names are given; if it stops the call, PNPBS_STOPPED is returned, nothing changes. Collective.
- *  Errors: PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_STATE if there are no nodes yet,
- *  PNPBS_ERROR_ARGUMENT.
+ *  Errors: PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_UNSUPPORTED for .vtkhdf and .xdmf if the
+ *  library was built without HDF5 or does not find it, PNPBS_ERROR_ARGUMENT, and, where all of this
+ *  is right, PNPBS_ERROR_STATE if there are no nodes yet.
  *  @param[in] path      - is standard output of rank 0 (pnpbs_placement_write_files tells in which
  *                       format). What is no regular file, such as a pipe, is written by rank 0, to
- *                       which the others send their parts in turn.
+ *                       which the others send their parts in turn; .vtkhdf and .xdmf are regular
+ *                       files alone.
  *  @param[in] elements  nonzero: triangles or tetrahedra (and the boundary) as well */
 PNPBS_API pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path,
                                              int32_t elements);

@@ -354,8 +354,8 @@ end
     write_file(placement, path; elements = false) -> Symbol
 
 Writes the nodes of all ranks, and the triangles or tetrahedra if `elements`, into one file whose
-extension is its format ([`format_table`](@ref)): .vtu, .pvtu, .msh, .msh2, .node, .ele, .face, .csv. The
-file appears when it is complete. The outcome is `:ok`, or `:stopped` by the monitor, which leaves
+extension is its format ([`format_table`](@ref)): .vtu, .pvtu, .vtkhdf, .xdmf, .msh,
+.msh2, .node, .ele, .face, .csv. The file appears when it is complete. The outcome is `:ok`, or `:stopped` by the monitor, which leaves
 the old file. Collective.
 """
 write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
