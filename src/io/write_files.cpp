@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/write_files.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -37,7 +38,15 @@ void require_places(const std::string& path, const Format& format) {
   if (path == "-") refuse(what + "cannot go to standard output; take vtu there");
   if (std::filesystem::is_other(path, error))
     refuse(what + "is a file of its own, no stream and no device: '" + path + "'");
-  hdf5::require_hdf5();
+}
+
+// On the rank that will ask it.
+void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& comm) {
+  if (std::ranges::none_of(wishes, [](const FileWish& wish) { return wish.format->by_hdf5; }))
+    return;
+  agreed(comm, [&] {
+    if (comm.rank() == 0) hdf5::require_hdf5();
+  });
 }
 
 // XDMF names a file and what is in it with a colon between.
@@ -158,8 +167,10 @@ std::string piece_path(const std::string& path, int rank) {
 }
 
 void write_files(Placement& placement, const std::vector<FileWish>& wishes) {
+  const Communicator& comm = placement.communicator();
   // What one rank cannot do at any step of it, all give up.
-  agreed(placement.communicator(), [&] {
+  agreed(comm, [&] {
+    require_hdf5_for(wishes, comm);
     in_its_dimension(placement, [&]<int Dim>(PlacementOf<Dim>& it) {
       Writing<Dim> writing(it, wishes.size());
       for (const FileWish& wish : wishes) writing.add(wish);

@@ -13,14 +13,19 @@
 #include "fault_calls.h"
 #include "rank_program.h"
 
-static const char* const asked[] = {"a.vtu", "b.pvtu", "c.csv", "d.node"};
-static const int32_t elements[] = {1, 1, 0, 1};
+static const char* const asked[] = {"a.vtu", "b.pvtu", "c.csv", "d.node", "e.vtkhdf", "f.xdmf"};
+static const int32_t elements[] = {1, 1, 0, 1, 1, 1};
+static int asked_count = 6;
 static char files[16][20]; /* all that these are */
 static int file_count;
 
 static void list_files(void) {
-  static const char* const fixed[] = {"a.vtu", "b.pvtu", "c.csv", "d.node", "d.ele"};
-  for (file_count = 0; file_count < 5; ++file_count) strcpy(files[file_count], fixed[file_count]);
+  static const char* const fixed[] = {"a.vtu", "b.pvtu",   "c.csv",  "d.node",
+                                      "d.ele", "e.vtkhdf", "f.xdmf", "f.h5"};
+  const int with_hdf5 = strstr(pnpbs_build_info(), "HDF5: none") == NULL;
+  if (!with_hdf5) asked_count = 4;
+  for (file_count = 0; file_count < (with_hdf5 ? 8 : 5); ++file_count)
+    strcpy(files[file_count], fixed[file_count]);
   for (int r = 0; r < size; ++r) snprintf(files[file_count++], sizeof *files, "b_%d.vtu", r);
 }
 
@@ -96,7 +101,7 @@ static int one_fault(pnpbs_placement placement, int bad, long n, int old_there, 
   if (rank == 0) lay_old_files(old_there);
   MPI_Barrier(MPI_COMM_WORLD);
   fault_arm(rank == bad ? n : -1);
-  status = pnpbs_placement_write_files(placement, 4, asked, NULL, elements);
+  status = pnpbs_placement_write_files(placement, asked_count, asked, NULL, elements);
   if (fault_happened()) snprintf(call, sizeof call, "%s", fault_happened());
   fault_arm(-1);
   MPI_Bcast(call, sizeof call, MPI_CHAR, bad, MPI_COMM_WORLD);
