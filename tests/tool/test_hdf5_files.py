@@ -13,6 +13,7 @@ import vtk
 from command import BAD_INPUT, COMMAND, FAILED, CommandTest
 from readers import grid_arrays, read_with_vtk
 
+NO_HDF5 = os.environ.get("PNPBS_NO_HDF5")
 MPIEXEC = os.environ.get("PNPBS_MPIEXEC")
 FILES = ("a.vtkhdf", "a.xdmf", "a.h5")
 BOX = ("--domain", "box(0,0,0, 1,0.8,0.6)", "--spacing", "0.15")
@@ -120,7 +121,15 @@ class Refused(CommandTest):
         return self.refuse("--domain", self.square, "--spacing", "0.05", *arguments, code=code,
                            **more)
 
-    # Before the long run: by what is told nobody sees that it has been.
+    # Before the run, which would take hours.
+    @unittest.skipUnless(NO_HDF5, "nothing is preloaded before sanitizers")
+    def test_hdf5_is_not_found(self):
+        for name in ("a.vtkhdf", "a.xdmf"):
+            message = self.refuse("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.001", "-o", name,
+                                  code=FAILED, environment={"LD_PRELOAD": NO_HDF5})
+            for words in ("HDF5", "cannot be opened", ".vtkhdf and .xdmf", "LD_LIBRARY_PATH"):
+                self.assertIn(words, message)
+
     def test_no_stream_and_no_device(self):
         for name in ("vtkhdf", "xdmf"):
             self.assertIn("standard output", self.ask("-o", "-", "--format", name))

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Preloaded, it lets nobody open HDF5. */
+#define _GNU_SOURCE /* RTLD_NEXT */
+#include <dlfcn.h>
+#include <string.h>
+
+void* dlopen(const char* path, int mode) {
+  static void* (*real)(const char*, int);
+  if (!real) *(void**)&real = dlsym(RTLD_NEXT, "dlopen");
+  return real(path && strstr(path, "hdf5") ? "nowhere/libhdf5.so" : path, mode);
+}
