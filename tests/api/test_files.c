@@ -218,6 +218,26 @@ START_TEST(refused) {
 }
 END_TEST
 
+/* Their parts are written at their places. */
+START_TEST(no_streams_by_hdf5) {
+  const char *paths[] = {"-", "/dev/null"}, *formats[] = {"vtkhdf", "xdmf"};
+  job it = placed_square();
+  int k;
+  for (k = 0; k < 2; ++k) {
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+              pnpbs_placement_write_files(it.placement, 1, &paths[0], &formats[k], NULL),
+              formats[k], "standard output");
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+              pnpbs_placement_write_files(it.placement, 1, &paths[1], &formats[k], NULL),
+              "no device", paths[1]);
+  }
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder("a:b.xdmf"), 0),
+            "':'", "a:b.h5");
+  ck_assert_int_eq(empty_folder(), 0);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(without_nodes) {
   job it = square_job(1);
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1), "nodes",
@@ -298,6 +318,7 @@ int main(void) {
   tcase_add_test(tests, every_format_in_space);
   tcase_add_test(tests, several_with_formats_of_their_own);
   tcase_add_test(tests, refused);
+  tcase_add_test(tests, no_streams_by_hdf5);
   tcase_add_test(tests, without_nodes);
   tcase_add_test(tests, together_or_not_at_all);
   tcase_add_test(tests, stopped_by_the_monitor);

@@ -86,6 +86,7 @@ static int32_t stop_on_rank_1(double fraction, int64_t step, int64_t nodes, doub
 }
 
 static void test_faults(void) {
+  const int with_hdf5 = strstr(pnpbs_build_info(), "HDF5: none") == NULL;
   pnpbs_placement placement = square_placement();
   expect_on_all(pnpbs_placement_write(placement, "a.vtu", 1), PNPBS_ERROR_STATE, "run");
   expect(pnpbs_placement_run(placement) >= 0, "run");
@@ -93,6 +94,9 @@ static void test_faults(void) {
                 "nowhere/a.vtu");
   expect_on_all(pnpbs_placement_write(placement, "nowhere/a.pvtu", 1), PNPBS_ERROR_FILE,
                 "nowhere/a_0.vtu");
+  if (with_hdf5)
+    expect_on_all(pnpbs_placement_write(placement, "nowhere/a.xdmf", 1), PNPBS_ERROR_FILE,
+                  "nowhere/a.xdmf");
   expect_on_all(pnpbs_placement_write(placement, "/dev/full", 1), PNPBS_ERROR_ARGUMENT, "format");
   /* What differs between ranks, or is wrong on one. */
   expect_on_all(pnpbs_placement_write(placement, rank == 2 ? "b.vtu" : "a.vtu", 1),
@@ -107,6 +111,7 @@ static void test_faults(void) {
   expect(pnpbs_placement_set_monitor(placement, stop_on_rank_1, NULL) == PNPBS_OK, "monitor");
   expect_on_all(pnpbs_placement_write(placement, "a.vtu", 1), PNPBS_STOPPED, "");
   expect_on_all(pnpbs_placement_write(placement, "a.pvtu", 1), PNPBS_STOPPED, "");
+  if (with_hdf5) expect_on_all(pnpbs_placement_write(placement, "a.xdmf", 1), PNPBS_STOPPED, "");
   expect(pnpbs_placement_set_monitor(placement, NULL, NULL) == PNPBS_OK, "monitor");
   pnpbs_placement_destroy(&placement);
 }
