@@ -46,7 +46,7 @@ endif()
 
 # ------------------------------------------------------------------ Fortran module --------------
 set(fortran_source_dir "${data_dir}/fortran")
-foreach(source IN LISTS PNPBS_FORTRAN_SOURCES)
+foreach(source IN LISTS PNPBS_FORTRAN_SOURCES PNPBS_GEO_FORTRAN_SOURCES)
   install(FILES "bindings/fortran/${source}" DESTINATION "${fortran_source_dir}")
 endforeach()
 if(PNPBS_BUILD_FORTRAN)
@@ -55,6 +55,11 @@ if(PNPBS_BUILD_FORTRAN)
   install(DIRECTORY "${PROJECT_BINARY_DIR}/fortran/"
           DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pnpbs/fortran" FILES_MATCHING PATTERN "*.mod")
   install(EXPORT pnpbsFortranTargets NAMESPACE pnpbs:: DESTINATION "${package_dir}")
+endif()
+if(PNPBS_BUILD_FORTRAN AND PNPBS_HAVE_GEO)
+  install(TARGETS pnpbs_geo_fortran EXPORT pnpbsGeoFortranTargets
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(EXPORT pnpbsGeoFortranTargets NAMESPACE pnpbs:: DESTINATION "${package_dir}")
 endif()
 
 # ------------------------------------------------------------------ CMake package ---------------
@@ -133,6 +138,9 @@ if(PNPBS_BUILD_FORTRAN)
 endif()
 if(PNPBS_HAVE_GEO)
   pnpbs_install_pc(pnpbs-geo)
+endif()
+if(PNPBS_BUILD_FORTRAN AND PNPBS_HAVE_GEO)
+  pnpbs_install_pc(pnpbs-geo-fortran)
 endif()
 if(PNPBS_HAVE_MPI)
   # Nothing where the compiler finds MPI by itself.

@@ -2594,18 +2594,6 @@ contains
 
   ! ------------------------------------------------------------ small helpers -----------------
 
-  function integer_of(pointer) result(handle)
-    type(c_ptr), intent(in) :: pointer
-    integer(c_int64_t) :: handle
-    handle = int(transfer(pointer, 0_c_intptr_t), c_int64_t)
-  end function
-
-  function pointer_of(handle) result(pointer)
-    integer(c_int64_t), intent(in) :: handle
-    type(c_ptr) :: pointer
-    pointer = transfer(int(handle, c_intptr_t), c_null_ptr)
-  end function
-
   function pointer_or_null(user) result(pointer)
     type(c_ptr), intent(in), optional :: user
     type(c_ptr) :: pointer

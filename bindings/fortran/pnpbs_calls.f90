@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What lies between the module pnpbs and the C interface: arrays become addresses, C's texts become
+!> What lies between the modules pnpbs and pnpbs_geo and the C interface: arrays become addresses, C's texts become
 !> Fortran's, and a status becomes stat and errmsg, or the end of the program.
 module pnpbs_calls
   use, intrinsic :: iso_c_binding
@@ -7,7 +7,7 @@ module pnpbs_calls
   use pnpbs_c
   implicit none
   private
-  public :: arguments, conclude, text_of, c_text, count_from_one
+  public :: arguments, conclude, text_of, c_text, count_from_one, integer_of, pointer_of
 
   !> The room in an array that was not given.
   integer(c_int64_t), parameter :: unlimited = huge(0_c_int64_t)
@@ -57,19 +57,25 @@ contains
 
   !> How every call of a procedure ends. With stat nothing stops: it gets the status, and errmsg, if
   !> there is one, the message of an error (otherwise it stays as it is). Without stat, an error stops
-  !> the program, and the message begins with the procedure's name.
-  subroutine conclude(procedure_name, status, stat, errmsg, given)
+  !> the program, and the message begins with the procedure's name. The message of an error is the
+  !> last one of libpnpbs, or said, what another library has as its last one.
+  subroutine conclude(procedure_name, status, stat, errmsg, given, said)
     character(len=*), intent(in) :: procedure_name
     integer(c_int), intent(in) :: status
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     class(arguments), intent(in), optional :: given
+    character(len=*), intent(in), optional :: said
     character(len=:), allocatable :: message
     integer(c_int) :: found
 
     found = status
     message = ''
-    if (status < 0) message = in_fortran(text_of(c_last_error(c_null_ptr)))
+    if (status < 0 .and. present(said)) then
+      message = said
+    else if (status < 0) then
+      message = in_fortran(text_of(c_last_error(c_null_ptr)))
+    end if
     if (present(given)) then
       if (given%is_wrong()) then
         found = given%status
@@ -147,6 +153,20 @@ contains
     character(len=*), intent(in) :: text
     character(kind=c_char, len=len_trim(text) + 1) :: c
     c = trim(text) // c_null_char
+  end function
+
+  ! ------------------------------------------------------------ handles -----------------------
+
+  function integer_of(pointer) result(handle)
+    type(c_ptr), intent(in) :: pointer
+    integer(c_int64_t) :: handle
+    handle = int(transfer(pointer, 0_c_intptr_t), c_int64_t)
+  end function
+
+  function pointer_of(handle) result(pointer)
+    integer(c_int64_t), intent(in) :: handle
+    type(c_ptr) :: pointer
+    pointer = transfer(int(handle, c_intptr_t), c_null_ptr)
   end function
 
   ! ------------------------------------------------------------ arguments ---------------------

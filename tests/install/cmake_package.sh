@@ -128,4 +128,21 @@ if [ -n "$fc" ]; then
 $(require "pnpbs_Fortran_FOUND AND TARGET pnpbs::fortran" "no component Fortran")"
   is_refused Fortran "find_package(pnpbs REQUIRED COMPONENTS Fortran MPI)" \
     "$([ "$with_mpi" = 1 ] && echo "enable_language(C) or enable_language(CXX) first" || echo "was built without MPI")"
+  if [ "$with_geo" = 1 ]; then
+    works Fortran "find_package(pnpbs REQUIRED COMPONENTS Geo Fortran)
+find_package(pnpbs REQUIRED COMPONENTS Fortran Geo)
+file(WRITE \"\${CMAKE_BINARY_DIR}/a.f90\" \"program a
+  use pnpbs_geo
+  type(pnpbs_geo_shapes) :: shapes
+  character(len=200) :: errmsg
+  integer :: stat
+  call shapes%read('nowhere.geojson', stat=stat, errmsg=errmsg)
+  print '(a, i0, a)', 'status: ', stat, ', expected -8'
+end program\")
+add_executable(a \"\${CMAKE_BINARY_DIR}/a.f90\")
+target_link_libraries(a PRIVATE pnpbs::geo_fortran)"
+    quietly "$cmake" --build "$folder/build"
+    run_and_compare "$folder/build/a"
+    rm -f "$work/check_lines_before"
+  fi
 fi

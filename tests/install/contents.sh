@@ -60,6 +60,18 @@ expected_files() {
     echo "$libdir/cmake/pnpbs/pnpbsFortranTargets.cmake"
     echo "$libdir/cmake/pnpbs/pnpbsFortranTargets-$configuration.cmake"
   fi
+  if [ "$with_geo" = 1 ]; then
+    for module in pnpbs_geo_c pnpbs_geo; do
+      echo "$datadir/pnpbs/fortran/$module.f90"
+      [ -z "$fc" ] || echo "$includedir/pnpbs/fortran/$module.mod"
+    done
+    if [ -n "$fc" ]; then
+      echo "$libdir/libpnpbs_geo_fortran.a"
+      echo "$libdir/pkgconfig/pnpbs-geo-fortran.pc"
+      echo "$libdir/cmake/pnpbs/pnpbsGeoFortranTargets.cmake"
+      echo "$libdir/cmake/pnpbs/pnpbsGeoFortranTargets-$configuration.cmake"
+    fi
+  fi
   echo "$datadir/doc/pnpbs/LICENSE"
   echo "$datadir/doc/pnpbs/README.md"
   same_files docs "$datadir/doc/pnpbs/docs" | grep -v '/pnpbs\.1$'
@@ -120,7 +132,7 @@ named_folders() {
 allowed() {
   case $1 in
     *.so.* | *.pc | */pnpbsStatic.cmake) grep -vF "$kokkos_folder" ;;
-    *libpnpbs_fortran.a) grep -vF "$source/bindings/fortran/" ;;
+    *libpnpbs_fortran.a | *libpnpbs_geo_fortran.a) grep -vF "$source/bindings/fortran/" ;;
     *) cat ;;
   esac
 }

@@ -10,6 +10,7 @@ set -eu
 modules=pnpbs
 [ -z "$fc" ] || modules="$modules pnpbs-fortran"
 [ "$with_geo" != 1 ] || modules="$modules pnpbs-geo"
+[ "$with_geo" != 1 ] || [ -z "$fc" ] || modules="$modules pnpbs-geo-fortran"
 [ "$with_mpi" != 1 ] || modules="$modules pnpbs-mpi"
 
 for module in $modules; do

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares the C header with the Fortran interface bodies: every function, every argument (name,
 order, type, by value or by reference, direction), every callback, every constant.
-usage: check_signatures.py <pnpbs.h> <pnpbs_c.f90>"""
+usage: check_signatures.py <header> <its interfaces, pnpbs_c.f90 or pnpbs_geo_c.f90>"""
 
 import pathlib
 import sys
@@ -16,7 +16,8 @@ NUMBERS = {
     "double": "real(c_double)",
     "pnpbs_status": "integer(c_int)",  # an enumeration
 }
-HANDLES = {"pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer"}
+HANDLES = {"pnpbs_context", "pnpbs_domain", "pnpbs_placement", "pnpbs_transfer",
+           "pnpbs_geo_shapes"}
 
 
 def difference(c, fortran):
@@ -105,7 +106,7 @@ def differences(header, interfaces):
     ]
     found = []
     for what, c, fortran in pairs:
-        if not c:
+        if not c and what == "function":
             found.append(f"no {what} found in C")
         found += differences_of_sets(what, c, fortran)
         for name in sorted(set(c) & set(fortran)):

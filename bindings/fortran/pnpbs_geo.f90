@@ -1,0 +1,259 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> PNPBS - shapes as geographers have them: GeoJSON, shapefiles, GeoPackage and whatever else GDAL
+!> reads, projected by PROJ, as a domain in the plane. The Fortran 2003 module of libpnpbs_geo, which
+!> is there where PNPBS was built with GDAL.
+!>
+!> It does what the C interface (pnpbs/pnpbs_geo.h) does, where it is said what becomes of polygons,
+!> lines and points. A page with an example: docs/guide/shapes.md. Conventions are those of the module
+!> pnpbs; errmsg holds the message of this library. All procedures are local: on several ranks all
+!> must do the same.
+module pnpbs_geo
+  use, intrinsic :: iso_c_binding
+  use pnpbs, only: pnpbs_context, pnpbs_domain
+  use pnpbs_calls
+  use pnpbs_geo_c
+  implicit none
+  private
+
+  public :: pnpbs_geo_shapes
+  public :: pnpbs_geo_last_error, pnpbs_geo_build_info
+
+  !> Shapes of one layer of a file, projected.
+  type :: pnpbs_geo_shapes
+    private
+    type(c_ptr) :: c = c_null_ptr
+  contains
+    procedure :: read => geo_read
+    procedure :: destroy => geo_destroy
+    procedure :: add_to_domain => geo_add_to_domain
+    procedure :: counts => geo_counts
+    procedure :: projection => geo_projection
+    procedure :: scale => geo_scale
+    procedure :: write_prj => geo_write_prj
+    procedure :: to_degrees => geo_to_degrees
+    procedure :: from_degrees => geo_from_degrees
+    procedure :: explain => geo_explain
+    procedure :: note_count => geo_note_count
+    procedure :: get_note => geo_get_note
+  end type
+
+contains
+
+  !> The message of the last error of this library on the calling thread; '' if there was none.
+  !> Local.
+  function pnpbs_geo_last_error() result(text)
+    character(len=:), allocatable :: text
+    text = text_of(c_geo_last_error())
+  end function
+
+  !> The versions of GDAL and PROJ that it runs with, one "name: version" per line. Local.
+  function pnpbs_geo_build_info() result(text)
+    character(len=:), allocatable :: text
+    text = text_of(c_geo_build_info())
+  end function
+
+  !> Reads one layer of a file and projects it. Local. What was read before should be destroyed
+  !> first.
+  !>   path        a file, or anything else that GDAL opens
+  !>   layer       optional: its name; without, the file must have only one
+  !>   projection  optional: what x and y shall be: 'auto', 'none', a code ('EPSG:2180'), a string of
+  !>               PROJ's, WKT, or the path of a .prj file. Without, longitude and latitude are
+  !>               projected as by 'auto', projected coordinates stay as they are
+  !>   unit        optional: 'm' or 'km'; without, the projection's own, mostly metres
+  !>   tag_field   optional: the attribute that becomes the tag; without, all tags are 1
+  subroutine geo_read(self, path, layer, projection, unit, tag_field, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    character(len=*), intent(in), optional :: layer, projection, unit, tag_field
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int) :: status
+    status = c_geo_read(c_text(path), given_text(layer), given_text(projection), &
+                        given_text(unit), given_text(tag_field), self%c)
+    call conclude_geo('read', status, stat, errmsg)
+  end subroutine
+
+  !> Destroys the shapes. What was added to domains stays there. Local.
+  subroutine geo_destroy(self, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude_geo('destroy', c_geo_destroy(self%c), stat, errmsg)
+  end subroutine
+
+  !> Adds the shapes to a domain in the plane: curves as by domain%add_polyline, points as by
+  !> domain%add_fixed_nodes, names of tags for dimension 1. What crosses or does not close is found
+  !> by domain%check; see explain. Local.
+  !>   context       of the domain
+  !>   corner_angle  optional: degrees, 0 .. 180, as domain%add_polyline has it. 0, as without: every
+  !>                 vertex becomes a node
+  subroutine geo_add_to_domain(self, context, domain, corner_angle, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    type(pnpbs_context), intent(in) :: context
+    type(pnpbs_domain), intent(in) :: domain
+    real(c_double), intent(in), optional :: corner_angle
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double) :: angle
+    integer(c_int) :: status
+    angle = 0
+    if (present(corner_angle)) angle = corner_angle
+    status = c_geo_add_to_domain(self%c, pointer_of(context%handle()), &
+                                 pointer_of(domain%handle()), angle)
+    call conclude_geo('add_to_domain', status, stat, errmsg)
+  end subroutine
+
+  !> What was read. Local.
+  !>   vertices  different places, those of points included
+  !>   boundary  curves, closed or from where curves meet to where they meet
+  !>   inner     likewise
+  !>   points    fixed nodes
+  subroutine geo_counts(self, vertices, boundary, inner, points, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    integer(c_int64_t), intent(out), optional :: vertices, boundary, inner, points
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: found(4)
+    found = 0
+    call conclude_geo('counts', c_geo_counts(self%c, found(1), found(2), found(3), found(4)), stat, &
+                      errmsg)
+    if (present(vertices)) vertices = found(1)
+    if (present(boundary)) boundary = found(2)
+    if (present(inner)) inner = found(3)
+    if (present(points)) points = found(4)
+  end subroutine
+
+  !> The projection, as texts; '' where the file does not say what its coordinates are, or a form
+  !> cannot tell it. Local.
+  !>   name  e.g. 'WGS 84 / UTM zone 34N'
+  !>   unit  of x and y, e.g. 'metre'
+  !>   proj  PROJ's string, which leaves out what it has no words for
+  !>   wkt   WKT 2 (ISO 19162:2019), complete; read takes it
+  !>   prj   WKT 1 as ESRI has it, which .prj files contain
+  subroutine geo_projection(self, name, unit, proj, wkt, prj, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    character(len=:), allocatable, intent(out), optional :: name, unit, proj, wkt, prj
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: c_name, c_unit, c_proj, c_wkt, c_prj
+    integer(c_int) :: status
+    status = c_geo_projection(self%c, c_name, c_unit, c_proj, c_wkt, c_prj)
+    call conclude_geo('projection', status, stat, errmsg)
+    if (status < 0) return
+    if (present(name)) name = text_of(c_name)
+    if (present(unit)) unit = text_of(c_unit)
+    if (present(proj)) proj = text_of(c_proj)
+    if (present(wkt)) wkt = text_of(c_wkt)
+    if (present(prj)) prj = text_of(c_prj)
+  end subroutine
+
+  !> How long lengths on the Earth are in the projection, along meridians and parallels, at the
+  !> vertices (of many, at some thousand of them): d is off by so much. 1 and 1 where it is not
+  !> known. Local.
+  subroutine geo_scale(self, least, greatest, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    real(c_double), intent(out) :: least, greatest
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    least = 1
+    greatest = 1
+    call conclude_geo('scale', c_geo_scale(self%c, least, greatest), stat, errmsg)
+  end subroutine
+
+  !> Writes the projection beside a file of results, as shapefiles have it: for 'out/nodes.vtu',
+  !> 'out/nodes.prj' is written anew. Local; of several ranks let one do it.
+  subroutine geo_write_prj(self, results, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    character(len=*), intent(in) :: results
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude_geo('write_prj', c_geo_write_prj(self%c, c_text(results)), stat, errmsg)
+  end subroutine
+
+  !> Longitude and latitude in degrees, on the ellipsoid of the file, from x and y; in place. Where
+  !> there are none they become infinite. Local.
+  !>   coordinates  (2, n), in and out
+  subroutine geo_to_degrees(self, coordinates, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    real(c_double), intent(inout) :: coordinates(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('coordinates', size(coordinates, 1), 2)
+    status = given%found()
+    if (.not. given%is_wrong()) &
+      status = c_geo_to_degrees(self%c, size(coordinates, 2, kind=c_int64_t), coordinates)
+    call conclude_geo('to_degrees', status, stat, errmsg, given)
+  end subroutine
+
+  !> x and y from longitude and latitude, likewise. Local.
+  !>   coordinates  (2, n), in and out
+  subroutine geo_from_degrees(self, coordinates, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    real(c_double), intent(inout) :: coordinates(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('coordinates', size(coordinates, 1), 2)
+    status = given%found()
+    if (.not. given%is_wrong()) &
+      status = c_geo_from_degrees(self%c, size(coordinates, 2, kind=c_int64_t), coordinates)
+    call conclude_geo('from_degrees', status, stat, errmsg, given)
+  end subroutine
+
+  !> A message about a domain of these shapes, and after each place "(x, y)" in it its longitude and
+  !> latitude. Local.
+  function geo_explain(self, message) result(text)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    character(len=*), intent(in) :: message
+    character(len=:), allocatable :: text
+    text = text_of(c_geo_explain(self%c, c_text(message)))
+  end function
+
+  !> Number of notes about how the file was taken. Local.
+  subroutine geo_note_count(self, count, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    integer(c_int32_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    count = 0
+    call conclude_geo('note_count', c_geo_note_count(self%c, count), stat, errmsg)
+  end subroutine
+
+  !> One of them. Local.
+  !>   index  1 .. count
+  subroutine geo_get_note(self, index, note, stat, errmsg)
+    class(pnpbs_geo_shapes), intent(in) :: self
+    integer(c_int32_t), intent(in) :: index
+    character(len=:), allocatable, intent(out) :: note
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: c
+    integer(c_int) :: status
+    note = ''
+    status = c_geo_get_note(self%c, index - 1_c_int32_t, c)
+    call conclude_geo('get_note', status, stat, errmsg)
+    if (status >= 0) note = text_of(c)
+  end subroutine
+
+  ! ------------------------------------------------------------ small helpers -----------------
+
+  subroutine conclude_geo(called, status, stat, errmsg, given)
+    character(len=*), intent(in) :: called
+    integer(c_int), intent(in) :: status
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    class(arguments), intent(in), optional :: given
+    call conclude('shapes%' // called, status, stat, errmsg, given, pnpbs_geo_last_error())
+  end subroutine
+
+  ! What is left out is '' in C.
+  function given_text(text) result(c)
+    character(len=*), intent(in), optional :: text
+    character(kind=c_char, len=:), allocatable :: c
+    c = c_null_char
+    if (present(text)) c = c_text(text)
+  end function
+end module pnpbs_geo

@@ -1,0 +1,127 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The C interface of libpnpbs_geo (pnpbs/pnpbs_geo.h), function by function, for the module
+!> pnpbs_geo, which is the one to use. As in pnpbs_c.f90, every body below is compared with the
+!> header by tests/linkage/check_signatures.py.
+module pnpbs_geo_c
+  use, intrinsic :: iso_c_binding
+  implicit none
+  public
+
+  interface
+    function c_geo_last_error() bind(C, name="pnpbs_geo_last_error")
+      import
+      implicit none
+      type(c_ptr) :: c_geo_last_error
+    end function
+
+    function c_geo_build_info() bind(C, name="pnpbs_geo_build_info")
+      import
+      implicit none
+      type(c_ptr) :: c_geo_build_info
+    end function
+
+    function c_geo_read(path, layer, projection, unit, tag_field, shapes) bind(C, &
+        name="pnpbs_geo_read")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*), layer(*), projection(*), unit(*), tag_field(*)
+      type(c_ptr), intent(out) :: shapes
+      integer(c_int) :: c_geo_read
+    end function
+
+    function c_geo_destroy(shapes) bind(C, name="pnpbs_geo_destroy")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: shapes
+      integer(c_int) :: c_geo_destroy
+    end function
+
+    function c_geo_add_to_domain(shapes, context, domain, corner_angle) bind(C, &
+        name="pnpbs_geo_add_to_domain")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      type(c_ptr), value :: context
+      type(c_ptr), value :: domain
+      real(c_double), value :: corner_angle
+      integer(c_int) :: c_geo_add_to_domain
+    end function
+
+    function c_geo_counts(shapes, vertices, boundary, inner, points) bind(C, &
+        name="pnpbs_geo_counts")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      integer(c_int64_t), intent(out) :: vertices, boundary, inner, points
+      integer(c_int) :: c_geo_counts
+    end function
+
+    function c_geo_projection(shapes, name, unit, proj, wkt, prj) bind(C, &
+        name="pnpbs_geo_projection")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      type(c_ptr), intent(out) :: name, unit, proj, wkt, prj
+      integer(c_int) :: c_geo_projection
+    end function
+
+    function c_geo_scale(shapes, least, greatest) bind(C, name="pnpbs_geo_scale")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      real(c_double), intent(out) :: least, greatest
+      integer(c_int) :: c_geo_scale
+    end function
+
+    function c_geo_write_prj(shapes, results) bind(C, name="pnpbs_geo_write_prj")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      character(kind=c_char), intent(in) :: results(*)
+      integer(c_int) :: c_geo_write_prj
+    end function
+
+    function c_geo_to_degrees(shapes, n, coordinates) bind(C, name="pnpbs_geo_to_degrees")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      integer(c_int64_t), value :: n
+      real(c_double), intent(inout) :: coordinates(2, n)
+      integer(c_int) :: c_geo_to_degrees
+    end function
+
+    function c_geo_from_degrees(shapes, n, coordinates) bind(C, name="pnpbs_geo_from_degrees")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      integer(c_int64_t), value :: n
+      real(c_double), intent(inout) :: coordinates(2, n)
+      integer(c_int) :: c_geo_from_degrees
+    end function
+
+    function c_geo_explain(shapes, message) bind(C, name="pnpbs_geo_explain")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      character(kind=c_char), intent(in) :: message(*)
+      type(c_ptr) :: c_geo_explain
+    end function
+
+    function c_geo_note_count(shapes, count) bind(C, name="pnpbs_geo_note_count")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      integer(c_int32_t), intent(out) :: count
+      integer(c_int) :: c_geo_note_count
+    end function
+
+    function c_geo_get_note(shapes, index, note) bind(C, name="pnpbs_geo_get_note")
+      import
+      implicit none
+      type(c_ptr), value :: shapes
+      integer(c_int32_t), value :: index
+      type(c_ptr), intent(out) :: note
+      integer(c_int) :: c_geo_get_note
+    end function
+  end interface
+end module pnpbs_geo_c

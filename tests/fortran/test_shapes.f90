@@ -1,0 +1,131 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Shapes that GDAL reads, by the module pnpbs_geo.
+program test_shapes
+  use, intrinsic :: iso_c_binding
+  use pnpbs
+  use pnpbs_geo
+  use expectations
+  implicit none
+  character(len=*), parameter :: path = 'fortran_shapes.geojson'
+  real(c_double), parameter :: corners(2, 4) = reshape([18d0, 54d0, 20d0, 54d0, 20d0, 55d0, 18d0, &
+                                                        55d0], [2, 4])
+  type(pnpbs_context) :: context
+  integer(c_int) :: stat
+  character(len=300) :: errmsg
+
+  call write_lines(path, [character(len=110) :: &
+    '{"type": "FeatureCollection", "features": [', &
+    '{"type": "Feature", "properties": {"name": "shore"}, "geometry": {"type": "Polygon",', &
+    '"coordinates": [[[18, 54], [20, 54], [20, 55], [18, 55], [18, 54]]]}},', &
+    '{"type": "Feature", "properties": {"name": "buoy"}, "geometry": {"type": "Point",', &
+    '"coordinates": [19, 54.5]}}]}'])
+  call context%create_serial
+  call about_a_coast
+  call about_errors
+  call context%destroy
+  call finish
+
+contains
+
+  subroutine write_lines(name, lines)
+    character(len=*), intent(in) :: name, lines(:)
+    integer :: unit, i
+    unit = 17
+    open (unit, file=name, status='replace', action='write')
+    write (unit, '(a)') (trim(lines(i)), i = 1, size(lines))
+    close (unit)
+  end subroutine
+
+  subroutine about_a_coast
+    type(pnpbs_geo_shapes) :: shapes
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    real(c_double), allocatable :: x(:,:)
+    real(c_double) :: least, greatest, xy(2, 4)
+    integer(c_int64_t) :: nodes, vertices, boundary, inner, points
+    integer(c_int32_t) :: names, notes, dim, tag
+    integer :: k
+    character(len=:), allocatable :: name, unit, proj, wkt, prj
+    call shapes%read(path, projection='EPSG:2180', unit='km', tag_field='name')
+    call shapes%counts(vertices, boundary, inner, points)
+    call expect(all([vertices, boundary, inner, points] == [5, 1, 0, 1]), 'what was read')
+    call shapes%projection(name, unit, proj, wkt, prj)
+    call expect(name == 'ETRF2000-PL / CS92 in kilometre', 'name of the projection')
+    call expect(unit == 'kilometre', 'unit of the projection')
+    call expect(index(proj, '+proj=tmerc') == 1 .and. index(wkt, 'PROJCRS') == 1 &
+                .and. index(prj, 'PROJCS') == 1, 'forms of the projection')
+    call shapes%scale(least, greatest)
+    call expect(least > 0.999d0 .and. greatest < 1 .and. least < greatest, 'scale')
+    call shapes%note_count(notes)
+    call expect(notes == 0, 'no notes')
+
+    call domain%create(context)
+    call shapes%add_to_domain(context, domain, 45d0)
+    call domain%tag_name_count(names)
+    call domain%get_tag_name(1, dim, tag, name)
+    call expect(names == 2 .and. dim == 1 .and. name == 'shore', 'names of tags')
+    call placement%create(context, domain)
+    call placement%set('steps', 20)
+    call placement%set_spacing_constant(10d0)
+    call placement%run
+    call placement%count(nodes)
+    allocate (x(2, nodes))
+    call placement%get_nodes(x)
+    xy = corners
+    call shapes%from_degrees(xy)
+    do k = 1, 4
+      call expect(minval((x(1, :) - xy(1, k))**2 + (x(2, :) - xy(2, k))**2) < 1d-18, &
+                  'a corner is a node')
+    end do
+    ! Sides are straight in the projection: the northern one bows to 55.004 degrees.
+    call shapes%to_degrees(x)
+    call expect(all(x(1, :) > 17.999d0 .and. x(1, :) < 20.001d0 .and. x(2, :) > 53.98d0 &
+                    .and. x(2, :) < 55.01d0), 'longitudes and latitudes')
+    call shapes%write_prj('fortran_shapes.vtu')
+    call expect(text_in('fortran_shapes.prj') == prj, '.prj file')
+    call expect(index(shapes%explain('at (500, 700)'), 'at (500, 700) [longitude 19, ') == 1, &
+                'message with degrees')
+    call placement%destroy
+    call domain%destroy
+    call shapes%destroy
+    call shapes%counts(vertices, stat=stat)
+    call expect(stat == PNPBS_ERROR_HANDLE, 'destroyed shapes')
+    call expect(shapes%explain('as it is (1, 2)') == 'as it is (1, 2)', 'message without shapes')
+    call expect(index(pnpbs_geo_build_info(), 'GDAL: ') == 1, 'versions')
+  end subroutine
+
+  function text_in(name) result(text)
+    character(len=*), intent(in) :: name
+    character(len=2000) :: text
+    integer :: unit
+    unit = 18
+    open (unit, file=name, status='old', action='read')
+    read (unit, '(a)') text
+    close (unit, status='delete')
+  end function
+
+  subroutine about_errors
+    type(pnpbs_geo_shapes) :: shapes
+    type(pnpbs_domain) :: domain
+    character(len=:), allocatable :: note
+    real(c_double) :: x(3, 2)
+    call shapes%read(path, layer='sea', stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'no layer ''sea''')
+    call expect(index(pnpbs_geo_last_error(), 'no layer ''sea''') > 0, 'the last error')
+    call shapes%read(path, projection='EPSG:1', stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'EPSG:1')
+    call shapes%read(path, unit='mile', stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'm or km')
+    call shapes%read(path)
+    call domain%create(context)
+    call shapes%add_to_domain(context, domain, 200d0, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'corner_angle')
+    x = 0
+    call shapes%to_degrees(x, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has an extent of 3')
+    call shapes%get_note(1, note, stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'index')
+    call domain%destroy
+    call shapes%destroy
+  end subroutine
+end program
