@@ -5,6 +5,7 @@ value or by reference; also the callbacks' signatures, status codes and constant
 difference and fails on any.
 
 usage: check_ccalls.py <pnpbs.h> <folder of PNPBS.jl> [--self-test]
+pnpbs_geo.h, beside that header, is compared likewise.
 
 --self-test changes the header in many ways, one at a time, and fails unless each is noticed.
 """
@@ -43,6 +44,22 @@ def c_type(text):
 # ---------------------------------------------------------------- the Julia files ----------------
 def read_package(folder):
     raw = (folder / "src/LibPNPBS.jl").read_text()
+    constants = {n: int(v) for n, v in re.findall(r"^const (PNPBS_\w+) = (-?\d+)$", raw, re.M)}
+    callbacks = read_callbacks((folder / "src/callbacks.jl").read_text())
+    return read_functions(raw), callbacks, constants, read_aliases(raw)
+
+
+def read_shapes(folder):
+    """The same of the library of shapes, which has neither callbacks nor constants."""
+    raw = (folder / "src/LibPNPBSGeo.jl").read_text()
+    return read_functions(raw), {}, {}, read_aliases(raw)
+
+
+def read_aliases(raw):
+    return dict(re.findall(r"^const (pnpbs_\w+) = (\S+)$", raw, re.M))
+
+
+def read_functions(raw):
     functions = {}
     pattern = (r"^(\w+)\(([^)]*)\) =\s*@ccall \$\(symbol\(:(\w+)\)\)\((.*?)\)::(\w+)$")
     for name, names, symbol, arguments, result in re.findall(pattern, raw, flags=re.S | re.M):
@@ -50,9 +67,7 @@ def read_package(folder):
         forwarded = [part.strip() for part in names.split(",") if part.strip()]
         functions[name] = (julia_type(result), [julia_type(part[1]) for part in parts], symbol,
                            forwarded == [part[0].strip() for part in parts])
-    constants = {n: int(v) for n, v in re.findall(r"^const (PNPBS_\w+) = (-?\d+)$", raw, re.M)}
-    aliases = dict(re.findall(r"^const (pnpbs_\w+) = (\S+)$", raw, re.M))
-    return functions, read_callbacks((folder / "src/callbacks.jl").read_text()), constants, aliases
+    return functions
 
 
 def read_callbacks(text):
@@ -162,9 +177,20 @@ MUTATIONS = [
 ]
 
 
-def self_test(text, package):
+# The same of the header of shapes.
+MUTATIONS_OF_SHAPES = [
+    ("an argument less", "const char *tag_field,\n", "\n"),
+    ("a text by reference", "const char **note);", "const char *note);"),
+    ("another handle", "pnpbs_context context,\n", "pnpbs_domain context,\n"),
+    ("a wider integer", "shapes, int32_t index,", "shapes, int64_t index,"),
+    ("a new function", "PNPBS_API const char *pnpbs_geo_build_info(void);",
+     "PNPBS_API const char *pnpbs_geo_build_info(void);\nPNPBS_API pnpbs_status pnpbs_geo_new(void);"),
+]
+
+
+def self_test(text, package, mutations):
     missed = []
-    for what, old, new in MUTATIONS:
+    for what, old, new in mutations:
         changed = text.replace(old, new, 1)
         if changed == text:
             missed.append(f"{what}: the header no longer has the text to change")
@@ -177,21 +203,27 @@ def self_test(text, package):
     return missed
 
 
-def main():
-    text = Path(sys.argv[1]).read_text()
-    package = read_package(Path(sys.argv[2]))
+def check(path, package, mutations):
+    """Whether a header and what Julia has of it agree, and whether the mutations are noticed."""
+    text = path.read_text()
     header = read_header(text)
     found = list(differences(header, package))
     # What the patterns above overlook would agree with anything.
     if len(header[0]) != len(re.findall(r"^PNPBS_API ", text, re.M)):
         found.append("not every declaration of the header was understood")
     print("\n".join(found) or f"{len(header[0])} functions, {len(header[1])} callbacks agree")
-    failed = bool(found)
-    if not failed and "--self-test" in sys.argv:
-        missed = self_test(text, package)
-        failed = bool(missed)
-        print("".join(f"not noticed: {what}\n" for what in missed), end="")
-    sys.exit(1 if failed else 0)
+    if found or "--self-test" not in sys.argv:
+        return not found
+    missed = self_test(text, package, mutations)
+    print("".join(f"not noticed: {what}\n" for what in missed), end="")
+    return not missed
+
+
+def main():
+    header, folder = Path(sys.argv[1]), Path(sys.argv[2])
+    good = [check(header, read_package(folder), MUTATIONS),
+            check(header.with_name("pnpbs_geo.h"), read_shapes(folder), MUTATIONS_OF_SHAPES)]
+    sys.exit(0 if all(good) else 1)
 
 
 main()

@@ -42,9 +42,12 @@ export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, 
 export boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
 export write_checkpoint, read_checkpoint!
+export Shapes, add_shapes!, shape_counts, projection, notes, write_prj, to_degrees, from_degrees
+export explain, geo_build_info
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library
 
 include("LibPNPBS.jl")
+include("LibPNPBSGeo.jl")
 include("errors.jl")
 include("rows.jl")
 include("sparse.jl")
@@ -58,6 +61,7 @@ include("results.jl")
 include("lines.jl")
 include("fields.jl")
 include("transfer.jl")
+include("shapes.jl")
 include("tables.jl")
 include("mpi.jl")
 

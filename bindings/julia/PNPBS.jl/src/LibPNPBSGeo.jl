@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+The C interface of `libpnpbs_geo`, one Julia function for each function of `pnpbs_geo.h`, as
+`LibPNPBS` has those of `pnpbs.h`. The library is opened when it is first needed: it is there where
+PNPBS was built with GDAL.
+"""
+module LibPNPBSGeo
+
+using Libdl
+using ..LibPNPBS: LibPNPBS, pnpbs_status, pnpbs_context, pnpbs_domain
+
+const pnpbs_geo_shapes = Ptr{Cvoid}
+
+const opened = Ref{Ptr{Cvoid}}(C_NULL)
+
+function open_library()
+    LibPNPBS.symbol(:pnpbs_version)  # opens the one that it calls, first
+    name = Sys.islinux() ? "libpnpbs_geo.so.0" : "libpnpbs_geo.$(Libdl.dlext)"
+    beside = joinpath(dirname(LibPNPBS.library_path()), name)
+    opened[] = try
+        dlopen(isfile(beside) ? beside : name, RTLD_LAZY | RTLD_LOCAL)
+    catch e
+        error("cannot open the library that reads shapes: $(sprint(showerror, e))\n",
+              "It is there where PNPBS was built with GDAL.")
+    end
+    return opened[]
+end
+
+symbol(name::Symbol) = dlsym(opened[] == C_NULL ? open_library() : opened[], name)
+
+pnpbs_geo_last_error() =
+    @ccall $(symbol(:pnpbs_geo_last_error))()::Cstring
+
+pnpbs_geo_build_info() =
+    @ccall $(symbol(:pnpbs_geo_build_info))()::Cstring
+
+pnpbs_geo_read(path, layer, projection, unit, tag_field, shapes) =
+    @ccall $(symbol(:pnpbs_geo_read))(
+        path::Cstring, layer::Cstring, projection::Cstring, unit::Cstring, tag_field::Cstring,
+        shapes::Ptr{pnpbs_geo_shapes})::pnpbs_status
+
+pnpbs_geo_destroy(shapes) =
+    @ccall $(symbol(:pnpbs_geo_destroy))(shapes::Ptr{pnpbs_geo_shapes})::pnpbs_status
+
+pnpbs_geo_add_to_domain(shapes, context, domain, corner_angle) =
+    @ccall $(symbol(:pnpbs_geo_add_to_domain))(
+        shapes::pnpbs_geo_shapes, context::pnpbs_context, domain::pnpbs_domain,
+        corner_angle::Cdouble)::pnpbs_status
+
+pnpbs_geo_counts(shapes, vertices, boundary, inner, points) =
+    @ccall $(symbol(:pnpbs_geo_counts))(
+        shapes::pnpbs_geo_shapes, vertices::Ptr{Int64}, boundary::Ptr{Int64}, inner::Ptr{Int64},
+        points::Ptr{Int64})::pnpbs_status
+
+pnpbs_geo_projection(shapes, name, unit, proj, wkt, prj) =
+    @ccall $(symbol(:pnpbs_geo_projection))(
+        shapes::pnpbs_geo_shapes, name::Ptr{Cstring}, unit::Ptr{Cstring}, proj::Ptr{Cstring},
+        wkt::Ptr{Cstring}, prj::Ptr{Cstring})::pnpbs_status
+
+pnpbs_geo_scale(shapes, least, greatest) =
+    @ccall $(symbol(:pnpbs_geo_scale))(
+        shapes::pnpbs_geo_shapes, least::Ptr{Cdouble}, greatest::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_geo_write_prj(shapes, results) =
+    @ccall $(symbol(:pnpbs_geo_write_prj))(
+        shapes::pnpbs_geo_shapes, results::Cstring)::pnpbs_status
+
+pnpbs_geo_to_degrees(shapes, n, coordinates) =
+    @ccall $(symbol(:pnpbs_geo_to_degrees))(
+        shapes::pnpbs_geo_shapes, n::Int64, coordinates::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_geo_from_degrees(shapes, n, coordinates) =
+    @ccall $(symbol(:pnpbs_geo_from_degrees))(
+        shapes::pnpbs_geo_shapes, n::Int64, coordinates::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_geo_explain(shapes, message) =
+    @ccall $(symbol(:pnpbs_geo_explain))(
+        shapes::pnpbs_geo_shapes, message::Cstring)::Cstring
+
+pnpbs_geo_note_count(shapes, count) =
+    @ccall $(symbol(:pnpbs_geo_note_count))(
+        shapes::pnpbs_geo_shapes, count::Ptr{Int32})::pnpbs_status
+
+pnpbs_geo_get_note(shapes, index, note) =
+    @ccall $(symbol(:pnpbs_geo_get_note))(
+        shapes::pnpbs_geo_shapes, index::Int32, note::Ptr{Cstring})::pnpbs_status
+
+end

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Shapes as geographers have them: GeoJSON, shapefiles and what else GDAL reads, projected.
+
+"""
+    Shapes(path; layer = nothing, projection = nothing, unit = nothing, tag_field = nothing)
+    Shapes(f, path; ...)
+
+One layer of a file that GDAL reads, as GeoJSON, a shapefile or GeoPackage, projected by PROJ;
+everything about it is local. PNPBS has it where it was built with GDAL. Polygons bound a domain,
+edges that neighbours share and lines are inner curves, points are fixed nodes; `pnpbs_geo.h` says
+more. `projection` is a code (`"EPSG:2180"`), a string of PROJ's, WKT, the path of a `.prj` file,
+`"auto"`, a projection made for the data, or `"none"`, the coordinates as they are; without it,
+longitude and latitude are projected as by `"auto"`, and anything else stays. `unit` is `"m"` or
+`"km"`, `tag_field` the attribute that becomes the tag. A file that cannot be taken is a
+[`PNPBSError`](@ref).
+
+`close` them when they are no longer needed; the second form calls `f(shapes)` and closes them, as
+`open` does with files.
+
+    Shapes("coast.geojson"; unit = "km") do shapes
+        add_shapes!(domain, shapes; corner_angle = 45)
+        ...
+        write_prj(shapes, "nodes.vtu")
+    end
+"""
+mutable struct Shapes
+    handle::LibPNPBSGeo.pnpbs_geo_shapes
+end
+
+function Shapes(path::AbstractString; layer = nothing, projection = nothing, unit = nothing,
+                tag_field = nothing)
+    handle = Ref{LibPNPBSGeo.pnpbs_geo_shapes}(C_NULL)
+    # What is left out is "" in C.
+    check_geo(LibPNPBSGeo.pnpbs_geo_read(path, something(layer, ""), something(projection, ""),
+                                         something(unit, ""), something(tag_field, ""), handle))
+    return Shapes(handle[])
+end
+
+function Shapes(f::Function, path::AbstractString; options...)
+    shapes = Shapes(path; options...)
+    try
+        return f(shapes)
+    finally
+        close(shapes)
+    end
+end
+
+# That library has its own last message.
+function check_geo(code)
+    code < 0 && throw(PNPBSError(status_name(code),
+                                 string_or_empty(LibPNPBSGeo.pnpbs_geo_last_error())))
+    return nothing
+end
+
+Base.isopen(shapes::Shapes) = shapes.handle != C_NULL
+
+# What was added to domains stays there.
+function Base.close(shapes::Shapes)
+    handle = Ref(shapes.handle)
+    isopen(shapes) && check_geo(LibPNPBSGeo.pnpbs_geo_destroy(handle))
+    shapes.handle = C_NULL
+    return nothing
+end
+
+Base.show(io::IO, shapes::Shapes) =
+    print(io, "PNPBS.Shapes(", isopen(shapes) ? projection(shapes).name : "closed", ")")
+
+"""
+    add_shapes!(domain, shapes; corner_angle = 0) -> domain
+
+Adds [`Shapes`](@ref) to a domain in the plane: curves as [`add_polyline!`](@ref) does, points as
+[`add_fixed_nodes!`](@ref), and the names of tags. With `corner_angle = 0` every vertex becomes a
+node; otherwise those where the direction turns by more than so many degrees. What crosses or does
+not close is found by [`check_domain`](@ref); see [`explain`](@ref).
+"""
+function add_shapes!(domain::Domain, shapes::Shapes; corner_angle::Real = 0)
+    check_geo(LibPNPBSGeo.pnpbs_geo_add_to_domain(live(shapes), live(domain.context), live(domain),
+                                                  corner_angle))
+    return domain
+end
+
+"""
+    shape_counts(shapes) -> (vertices = ..., boundary = ..., inner = ..., points = ...)
+
+What was read: different places, those of points included; boundary curves and inner ones, closed
+or from where curves meet to where they meet; and fixed nodes.
+"""
+function shape_counts(shapes::Shapes)
+    counts = Tuple(Ref{Int64}(0) for _ in 1:4)
+    check_geo(LibPNPBSGeo.pnpbs_geo_counts(live(shapes), counts...))
+    return NamedTuple{(:vertices, :boundary, :inner, :points)}(getindex.(counts))
+end
+
+"""
+    projection(shapes) -> (name = ..., unit = ..., proj = ..., wkt = ..., prj = ..., scale = ...)
+
+What x and y are, as texts, `""` where the file does not say it: a name, their unit, PROJ's string,
+WKT 2, and what `.prj` files contain; and the least and the greatest length in the projection over
+that on the Earth.
+"""
+function projection(shapes::Shapes)
+    texts = Tuple(Ref{Cstring}() for _ in 1:5)
+    check_geo(LibPNPBSGeo.pnpbs_geo_projection(live(shapes), texts...))
+    least, greatest = Ref(1.0), Ref(1.0)
+    check_geo(LibPNPBSGeo.pnpbs_geo_scale(live(shapes), least, greatest))
+    return (; zip((:name, :unit, :proj, :wkt, :prj),
+                  map(text -> string_or_empty(text[]), texts))...,
+            scale = (least[], greatest[]))
+end
+
+"""
+    notes(shapes) -> Vector{String}
+
+What you should know about how the file was taken.
+"""
+function notes(shapes::Shapes)
+    count = Ref{Int32}(0)
+    check_geo(LibPNPBSGeo.pnpbs_geo_note_count(live(shapes), count))
+    return [note_of(shapes, index) for index in 0:(count[] - 1)]
+end
+
+function note_of(shapes, index)
+    note = Ref{Cstring}()
+    check_geo(LibPNPBSGeo.pnpbs_geo_get_note(live(shapes), index, note))
+    return string_or_empty(note[])
+end
+
+"""
+    write_prj(shapes, results)
+
+Writes the projection beside a file of results, as shapefiles have it: `"nodes.prj"` for
+`"nodes.vtu"`. Of several ranks let one do it.
+"""
+function write_prj(shapes::Shapes, results::AbstractString)
+    check_geo(LibPNPBSGeo.pnpbs_geo_write_prj(live(shapes), results))
+    return nothing
+end
+
+"""
+    to_degrees(shapes, points) -> degrees
+    from_degrees(shapes, degrees) -> points
+
+Longitudes and latitudes, on the ellipsoid of the file, of points, and x and y of them; `(2, n)`
+both. Infinite where there are none.
+"""
+to_degrees, from_degrees
+
+function to_degrees(shapes::Shapes, points::AbstractMatrix{<:Real})
+    changed = copy(as_points(points, 2, "points"))
+    check_geo(LibPNPBSGeo.pnpbs_geo_to_degrees(live(shapes), size(changed, 2), changed))
+    return changed
+end
+
+function from_degrees(shapes::Shapes, degrees::AbstractMatrix{<:Real})
+    changed = copy(as_points(degrees, 2, "degrees"))
+    check_geo(LibPNPBSGeo.pnpbs_geo_from_degrees(live(shapes), size(changed, 2), changed))
+    return changed
+end
+
+"""
+    explain(shapes, message) -> String
+
+A message about a domain of these shapes, and after each place "(x, y)" in it its longitude and
+latitude.
+"""
+explain(shapes::Shapes, message::AbstractString) =
+    string_or_empty(LibPNPBSGeo.pnpbs_geo_explain(live(shapes), message))
+
+"""
+    geo_build_info() -> String
+
+The versions of GDAL and PROJ that shapes are read with, one "name: version" per line.
+"""
+geo_build_info() = string_or_empty(LibPNPBSGeo.pnpbs_geo_build_info())
