@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a user of pnpbs.f90 can call, and which C functions each of it calls, as plain data."""
+"""What a user of pnpbs.f90 and pnpbs_geo.f90 can call, and which C functions each of it calls, as plain data."""
 
 import re
 from typing import NamedTuple
@@ -20,7 +20,7 @@ def joined(text):
 def bindings(text):
     """{module procedure: (type, the name it is called by)} of the public names of the types."""
     found = {}
-    for match in re.finditer(r"^  type :: pnpbs_(\w+)$(.*?)^  end type$", text, re.S | re.M):
+    for match in re.finditer(r"^  type :: pnpbs_(?:geo_)?(\w+)$(.*?)^  end type$", text, re.S | re.M):
         for line in match[2].splitlines():
             plain = re.fullmatch(r"\s*procedure :: (\w+) => (\w+)", line)
             generic = re.fullmatch(r"\s*generic :: (\w+) => (.*)", line)

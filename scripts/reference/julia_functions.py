@@ -6,9 +6,9 @@ import re
 from typing import NamedTuple
 
 # Every call passes through these; what they ask is no service of the function that was called.
-CHECKS = {"check", "check_without_context", "live"}
+CHECKS = {"check", "check_without_context", "check_geo", "live"}
 # What reaches the user in another way than through a function that he calls.
-OTHERWISE = {"pnpbs_last_error": "PNPBSError"}
+OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError"}
 
 
 class Docstring(NamedTuple):
@@ -51,7 +51,7 @@ def definitions(text):
 class Package:
     def __init__(self, folder):
         texts = {path.name: path.read_text() for path in sorted((folder / "src").glob("*.jl"))}
-        raw = texts.pop("LibPNPBS.jl")
+        raw = texts.pop("LibPNPBS.jl") + texts.pop("LibPNPBSGeo.jl")
         self.raw = set(re.findall(r"^(pnpbs_\w+)\(", raw, re.M))
         texts.pop("library.jl")  # the raw layer's own
         self.docstrings = [one for file, text in texts.items() for one in docstrings(text, file)]
@@ -65,7 +65,7 @@ class Package:
         """C functions that a function calls, itself or through functions without a docstring."""
         seen = seen if seen is not None else {name}
         source = self.sources.get(name, "")
-        found = set(re.findall(r"LibPNPBS\.(pnpbs_\w+)", source))
+        found = set(re.findall(r"LibPNPBS(?:Geo)?\.(pnpbs_\w+)", source))
         for other in set(re.findall(r"\b([a-z]\w*!?)(?=[(,. ])", source)) - seen - CHECKS:
             if other in self.sources and other not in self.documented:
                 seen.add(other)

@@ -38,12 +38,13 @@ class Sources:
         geo = (root / "include/pnpbs/pnpbs_geo.h").read_text()
         shapes = header_comments.Section("shapes", header_comments.entries_of(geo))
         self.sections.append(shapes)
-        self.only_c = {name for entry in shapes.entries for name in entry.functions}
         self.functions = {name: entry for section in self.sections for entry in section.entries
                           for name in entry.functions}
-        exported = frozenset(header_comments.c_header.functions(header))
-        self.fortran = fortran_procedures.procedures(
-            (root / "bindings/fortran/pnpbs.f90").read_text(), exported)
+        self.fortran = []
+        for module, text in (("pnpbs", header), ("pnpbs_geo", geo)):
+            exported = frozenset(header_comments.c_header.functions(text))
+            self.fortran += fortran_procedures.procedures(
+                (root / f"bindings/fortran/{module}.f90").read_text(), exported)
         self.interfaces = (root / "bindings/fortran/pnpbs_c.f90").read_text()
         self.julia = julia_functions.Package(root / "bindings/julia/PNPBS.jl")
 
@@ -66,8 +67,6 @@ class Sources:
         for name, entry in self.functions.items():
             if not entry.comment.reach:
                 yield f"{name}: the comment does not say whether it is collective or local"
-            if name in self.only_c:
-                continue
             if not self.fortran_of(name):
                 yield f"{name}: no procedure of the Fortran module calls it"
             if not all(c in self.julia.raw for c in self.underlying(name)):
@@ -229,7 +228,7 @@ def entry_text(entry, section, sources, links, shown):
     if entry.comment.reach:
         lines.append(f"**{entry.comment.reach}.**\n")
     lines.append(description(entry.comment, links))
-    if entry.functions and not sources.only_c.intersection(names):
+    if entry.functions:
         lines.append(fortran_part([one for name in names for one in sources.fortran_of(name)]))
         here = links.c[names[0]]
         lines.append(julia_part([one for name in names for one in sources.julia_of(name)], here,
@@ -299,8 +298,7 @@ def index_table(sources, links):
         julia = [re.match(r"[\w.]+!?", line)[0] for one in sources.julia_of(name)
                  for line in one.signatures]
         rows.append([f"[`{name}`]({links.c[name]})", entry.comment.reach.lower(),
-                     language_cell(fortran), language_cell(julia) or
-                     ("" if name in sources.only_c else "raw layer only")])
+                     language_cell(fortran), language_cell(julia) or "raw layer only"])
     return table(["C", "", "Fortran", "Julia"], rows)
 
 
@@ -323,8 +321,7 @@ def index_page(sources, links):
     text = NOTE + """# Reference
 
 Every function in C, Fortran and Julia, made from the comments of
-[include/pnpbs/pnpbs.h](../../include/pnpbs/pnpbs.h), of the Fortran module and of the Julia package; those
-that read shapes, in C alone.
+[include/pnpbs/pnpbs.h](../../include/pnpbs/pnpbs.h), of the Fortran modules and of the Julia package.
 How to use them for a task: [the guides](../README.md#guides).
 
 | page | holds |
