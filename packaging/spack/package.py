@@ -24,7 +24,8 @@ class Pnpbs(CMakePackage):
     variant("openmp", default=True, description="Threads")
     variant("fortran", default=True, description="The Fortran module")
     variant("cli", default=True, description="The command pnpbs")
-    variant("geo", default=False, description="GeoJSON and shapefiles, by GDAL")
+    variant("hdf5", default=True, description="Checkpoints, by HDF5")
+    variant("geo", default=False, description="GeoJSON and shapefiles, by GDAL and PROJ")
     variant("static", default=False, description="The static library, beside the shared one")
 
     depends_on("c", type="build")
@@ -45,6 +46,13 @@ class Pnpbs(CMakePackage):
     depends_on("mpi@3:", when="+mpi")
     depends_on("metis@5:", when="+mpi")
 
+    # Neither is linked, but opened at run time: as link dependencies they are in the library's run
+    # path. A build without MPI takes no parallel HDF5; zlib unpacks .vtu files of background meshes.
+    depends_on("hdf5@1.10:+shared", when="+hdf5 +mpi")
+    depends_on("hdf5@1.10:+shared~mpi", when="+hdf5 ~mpi")
+    depends_on("zlib-api")
+
+    # PROJ comes with GDAL, which projects by it.
     depends_on("gdal@3.2:", when="+geo")
 
     with when("+cli"):
@@ -61,6 +69,7 @@ class Pnpbs(CMakePackage):
             self.define_from_variant("PNPBS_ENABLE_MPI", "mpi"),
             self.define_from_variant("PNPBS_BUILD_FORTRAN", "fortran"),
             self.define_from_variant("PNPBS_BUILD_CLI", "cli"),
+            self.define_from_variant("PNPBS_WITH_HDF5", "hdf5"),
             self.define_from_variant("PNPBS_ENABLE_GEO", "geo"),
             self.define_from_variant("PNPBS_INSTALL_STATIC", "static"),
         ]

@@ -34,7 +34,8 @@ cmake -S kokkos-* -B build-kokkos \
 cmake --build build-kokkos --parallel ${nproc}
 cmake --install build-kokkos
 
-# Its folder is named: it is in none that the toolchain looks into.
+# Its folder is named: it is in none that the toolchain looks into. No checkpoints yet: HDF5_jll would have
+# to be the one of the same MPI. No shapes: GDAL_jll brings more libraries than all else together.
 cmake -S pnpbs-* -B build-pnpbs \
     -DCMAKE_TOOLCHAIN_FILE=${CMAKE_TARGET_TOOLCHAIN} \
     -DCMAKE_INSTALL_PREFIX=${prefix} \
@@ -42,6 +43,7 @@ cmake -S pnpbs-* -B build-pnpbs \
     -DKokkos_DIR=$(dirname ${kokkos}/lib*/cmake/Kokkos/KokkosConfig.cmake) \
     -DMETIS_ROOT=${prefix} \
     -DPNPBS_ENABLE_MPI=ON \
+    -DPNPBS_WITH_HDF5=OFF \
     -DPNPBS_ENABLE_GEO=OFF \
     -DPNPBS_BUILD_CLI=OFF \
     -DPNPBS_BUILD_FORTRAN=OFF \
@@ -71,6 +73,8 @@ dependencies = [
                            uuid="e66e0078-7015-5450-92f7-15fbd957f2ae")),
     Dependency(PackageSpec(; name="METIS_jll", uuid="d00139f3-1899-568f-a2f0-47f597d42d70");
                compat="5.1.2"),
+    # Opened by its name when a .vtu file is packed.
+    Dependency(PackageSpec(; name="Zlib_jll", uuid="83775a58-1f1d-513f-b197-d71354ab007a")),
 ]
 append!(dependencies, platform_dependencies)
 

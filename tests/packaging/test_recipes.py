@@ -75,6 +75,7 @@ class Spack(unittest.TestCase):
             self.assertLessEqual(ours, options())
             for option, variant in (("PNPBS_ENABLE_MPI", "mpi"), ("PNPBS_BUILD_CLI", "cli"),
                                     ("PNPBS_BUILD_FORTRAN", "fortran"),
+                                    ("PNPBS_WITH_HDF5", "hdf5"),
                                     ("PNPBS_ENABLE_GEO", "geo"),
                                     ("PNPBS_INSTALL_STATIC", "static")):
                 self.assertEqual(told[option], "ON" if variants[variant] else "OFF", option)
@@ -96,6 +97,13 @@ class Spack(unittest.TestCase):
         self.assertFalse({"mpi", "metis"} & needed(mpi=False))
         self.assertNotIn("gdal", needed(geo=False))
         self.assertIn("gdal", needed(geo=True))
+        self.assertIn("zlib-api", needed(mpi=False, cli=False, hdf5=False))
+        self.assertNotIn("hdf5", needed(hdf5=False))
+        hdf5 = {mpi: [spec for spec, condition in self.recipe.dependencies if spec.startswith("hdf5")
+                      and spack_recipe.holds(condition, {"hdf5": True, "mpi": mpi})]
+                for mpi in (True, False)}
+        self.assertEqual([len(specs) for specs in hdf5.values()], [1, 1])
+        self.assertIn("~mpi", hdf5[False][0])
         self.assertNotIn("fortran", needed(fortran=False))
         self.assertIn("kokkos@4.5:5", " ".join(spec for spec, _ in self.recipe.dependencies))
 
@@ -131,7 +139,8 @@ class Yggdrasil(unittest.TestCase):
                 cwd=place, env=environment, check=True, capture_output=True, text=True).stdout
         lines = told.splitlines()
         for line in ("name: PNPBS", f"version: {VERSION}", "platform: linux 64 glibc",
-                     "product: libpnpbs", "dependency: METIS_jll", "dependency: MPICH_jll"):
+                     "product: libpnpbs", "dependency: METIS_jll", "dependency: Zlib_jll",
+                     "dependency: MPICH_jll"):
             self.assertIn(line, lines)
         self.assertEqual(sum(line.startswith("platform: ") for line in lines), 1)
         self.assertTrue(any(f"/pnpbs-{VERSION}.tar.gz " in line for line in lines), told)
