@@ -544,7 +544,8 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placemen
                                                         const double *step, const double *values);
 
 /** The spacing from values at the nodes of a background mesh, copied: linear on each triangle, in
- *  space on each tetrahedron, and beyond the mesh what it is at the mesh's nearest point. Elements
+ *  space on each tetrahedron, and beyond the mesh what it is at the mesh's nearest point: where
+ *  nodes lie farther than d from it there is a warning (pnpbs_placement_get_warning). Elements
  *  may overlap (the one with the least node numbers counts) and need not share whole sides. Its
  *  growth is limited as that of any spacing (option growth_limit).
  *  Collective; every rank gives the same arrays, and holds them. Checks the domain first. Errors:

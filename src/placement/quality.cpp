@@ -5,6 +5,7 @@
 
 #include "base/point_text.hpp"
 #include "level/expected_nodes.hpp"
+#include "level/found_nodes.hpp"
 #include "placement/placement_of.hpp"
 
 namespace pnpbs {
@@ -74,6 +75,39 @@ void PlacementOf<3>::warn_of_coarse_spacing() {
                         three_digits(kRight * side) + " or less");
 }
 
+// Nodes that are farther than d from the background mesh of the spacing: those between a curved
+// boundary and a mesh whose edges cut its corners are not. Collective.
+template <int Dim>
+void PlacementOf<Dim>::warn_of_partial_mesh() {
+  constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points
+  const Nodes<Dim>& nodes = level_->nodes;
+  FoundNodes<Dim> beyond;
+  agreed(*comm_, [&] {
+    std::vector<Point<Dim>> x;
+    std::vector<double> distance;
+    for (std::int64_t begin = 0; begin < nodes.count; begin += kBatch) {
+      const std::int64_t n = std::min(kBatch, nodes.count - begin);
+      x.resize(static_cast<std::size_t>(n));
+      distance.resize(x.size());
+      for (std::size_t k = 0; k < x.size(); ++k)
+        x[k] = nodes.position(begin + static_cast<std::int64_t>(k));
+      if (!spacing_->distance_to_mesh(n, x.data(), distance.data())) return;
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        const std::int64_t i = begin + static_cast<std::int64_t>(k);
+        if (nodes.owned(i)) beyond.add(distance[k] > nodes.d(i), nodes.id(i), x[k]);
+      }
+    }
+  });
+  beyond = over_ranks(*comm_, beyond);
+  const std::uint64_t all = comm_->allreduce_sum(static_cast<std::uint64_t>(count()));
+  if (beyond.count > 0)
+    warnings_.push_back("the background mesh of the spacing covers only a part of the domain: of " +
+                        std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
+                        " are farther than d from it, one of them at " +
+                        rounded_point_text<Dim>(beyond.at) +
+                        "; there d is what it is at the mesh's nearest point");
+}
+
 template <int Dim>
 const ElementQuality& PlacementOf<Dim>::element_quality() {
   prepare_stars();
@@ -84,6 +118,8 @@ const ElementQuality& PlacementOf<Dim>::element_quality() {
   return quality_;
 }
 
+template void PlacementOf<2>::warn_of_partial_mesh();
+template void PlacementOf<3>::warn_of_partial_mesh();
 template const ElementQuality& PlacementOf<2>::element_quality();
 template const ElementQuality& PlacementOf<3>::element_quality();
 

@@ -9,8 +9,8 @@
 
 #include "base/cholesky.hpp"
 #include "base/error.hpp"
-#include "base/execution.hpp"
 #include "base/point_text.hpp"
+#include "base/started_execution.hpp"
 #include "domain/given_values.hpp"
 
 namespace pnpbs {
@@ -150,7 +150,8 @@ double CloudSpacing<Dim>::at(const Point<Dim>& x) const {
 
 template <int Dim>
 void CloudSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
-  for_each("pnpbs::CloudSpacing::evaluate", n, [=, this](std::int64_t i) { d[i] = at(x[i]); });
+  for_each_if_started("pnpbs::CloudSpacing::evaluate", n,
+                      [=, this](std::int64_t i) { d[i] = at(x[i]); });
 }
 
 template <int Dim>
@@ -158,7 +159,7 @@ void CloudSpacing<Dim>::find_known() {
   constexpr int kNearest = Dim + 1;
   const auto count = static_cast<std::int64_t>(points_.size());
   std::vector<std::array<Neighbour, kNearest>> nearest_ones(points_.size());
-  for_each("pnpbs::CloudSpacing::find_known", count, [&](std::int64_t i) {
+  for_each_if_started("pnpbs::CloudSpacing::find_known", count, [&](std::int64_t i) {
     const auto at = static_cast<std::size_t>(i);
     const Neighbours near = nearest(points_[at]);  // the first one is itself
     for (std::size_t k = 0; k < kNearest; ++k) {

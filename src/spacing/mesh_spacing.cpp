@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/execution.hpp"
+#include "base/started_execution.hpp"
 
 namespace pnpbs {
 
@@ -90,13 +90,25 @@ template <int Dim>
 MeshSpacing<Dim>::MeshSpacing(const GivenField<Dim>& field) : mesh_(patch_of(field)) {}
 
 template <int Dim>
+PatchAnswer<Dim> MeshSpacing<Dim>::answer_at(const Point<Dim>& x) const {
+  PatchAnswer<Dim> answer;
+  mesh_.interpolate(x, answer);
+  if (!answer.found()) mesh_.extend(x, answer);
+  return answer;
+}
+
+template <int Dim>
 void MeshSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
-  for_each("pnpbs::MeshSpacing::evaluate", n, [=, this](std::int64_t i) {
-    PatchAnswer<Dim> answer;
-    mesh_.interpolate(x[i], answer);
-    if (!answer.found()) mesh_.extend(x[i], answer);
-    d[i] = answer.value;
-  });
+  for_each_if_started("pnpbs::MeshSpacing::evaluate", n,
+                      [=, this](std::int64_t i) { d[i] = answer_at(x[i]).value; });
+}
+
+template <int Dim>
+bool MeshSpacing<Dim>::distance_to_mesh(std::int64_t n, const Point<Dim>* x,
+                                        double* distance) const {
+  for_each_if_started("pnpbs::MeshSpacing::distance_to_mesh", n,
+                      [=, this](std::int64_t i) { distance[i] = std::sqrt(answer_at(x[i]).gap); });
+  return true;
 }
 
 template <int Dim>

@@ -33,6 +33,9 @@ class Spacing {
   // them: checked by evaluate_spacing.
   virtual void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const = 0;
   virtual KnownValues<Dim> known_values() const { return {}; }
+  // If the values are those of a mesh: how far each x is from it, 0 on it. Others return false and
+  // leave the array as it is.
+  virtual bool distance_to_mesh(std::int64_t, const Point<Dim>*, double*) const { return false; }
 };
 
 template <int Dim>

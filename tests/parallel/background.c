@@ -90,6 +90,56 @@ static void check_same_nodes(int dim, int as_mesh) {
   context = all;
 }
 
+/* The warning about a mesh that does not reach all of the domain; "" if there is none. */
+static void find_warning(pnpbs_placement placement, char warning[400]) {
+  const char* text = "";
+  int32_t count = 0, k;
+  warning[0] = 0;
+  expect(pnpbs_placement_warning_count(placement, &count) == PNPBS_OK, "number of warnings");
+  for (k = 0; k < count; ++k) {
+    expect(pnpbs_placement_get_warning(placement, k, &text) == PNPBS_OK, "warning");
+    if (strstr(text, "covers only a part")) snprintf(warning, 400, "%s", text);
+  }
+}
+
+/* Of a field that is so much smaller. */
+static void warning_of(int dim, int as_mesh, double factor, char warning[400]) {
+  static struct field f;
+  pnpbs_placement placement = placement_in_cube(dim);
+  int64_t i;
+  fill(&f, dim);
+  for (i = 0; i < dim * f.n; ++i) f.x[i] *= factor;
+  expect(give(placement, &f, as_mesh) == PNPBS_OK, "spacing");
+  expect(pnpbs_placement_initialise(placement) >= 0, "first nodes");
+  find_warning(placement, warning);
+  pnpbs_placement_destroy(&placement);
+}
+
+/* Half a cube, told with the same words by any number of ranks; no cube that is cut a little. */
+static void check_meshes_of_a_part(int dim) {
+  char together[400], alone[400], none[400];
+  long all = 0, beyond = 0;
+  pnpbs_context ranks = context;
+  warning_of(dim, 1, 0.5, together);
+  expect(sscanf(together,
+                "the background mesh of the spacing covers only a part of the domain: of "
+                "%ld nodes, %ld are farther than d from it, one of them at (",
+                &all, &beyond) == 2,
+         "warning of half a cube");
+  expect(beyond > 0.3 * all && beyond < 0.9 * all, "as many nodes as lie beyond");
+  warning_of(dim, 1, 0.93, none);
+  expect(none[0] == 0, "a warning about less than d");
+  warning_of(dim, 0, 0.5, none);
+  expect(none[0] == 0, "a warning about scattered points");
+  expect(pnpbs_context_create_serial(&context) == PNPBS_OK, "serial context");
+  if (rank == 0) {
+    warning_of(dim, 1, 0.5, alone);
+    expect(strcmp(together, alone) == 0, "another warning than one process has");
+  }
+  pnpbs_context_destroy(&context);
+  context = ranks;
+}
+
 static void check_ranks_that_differ(int as_mesh) {
   static struct field f;
   pnpbs_placement placement = placement_in_cube(2);
@@ -109,6 +159,7 @@ static void check_ranks_that_differ(int as_mesh) {
 int main(int argc, char** argv) {
   int dim, as_mesh;
   begin_ranks(&argc, &argv);
+  for (dim = 2; dim <= 3; ++dim) check_meshes_of_a_part(dim);
   for (as_mesh = 0; as_mesh < 2; ++as_mesh) {
     for (dim = 2; dim <= 3; ++dim) check_same_nodes(dim, as_mesh);
     check_ranks_that_differ(as_mesh);

@@ -2,11 +2,10 @@
 #include "level/volume/surface_fit.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
-#include "comm/records.hpp"
+#include "level/found_nodes.hpp"
 #include "level/level.hpp"
 #include "level/volume/surface_stars.hpp"
 
@@ -102,34 +101,11 @@ class Fitting {
   const Nodes<3>& nodes_;
 };
 
-// Something at a node of a rank: so many, the one with the least id there.
-struct Found {
-  std::int64_t count = 0, id = std::numeric_limits<std::int64_t>::max();
-  Point<3> at{};
-
-  void add(std::int64_t more, std::int64_t of, const Point<3>& x) {
-    if (more == 0) return;
-    count += more;
-    if (of >= id) return;
-    id = of;
-    at = x;
-  }
-};
-
-Found over_ranks(const Communicator& comm, const Found& own) {
-  Bytes mine;
-  pack(mine, own);
-  Found all;
-  for_records<Found>({comm.allgather(mine)},
-                     [&](const Found& found) { all.add(found.count, found.id, found.at); });
-  return all;
-}
-
 }  // namespace
 
 SurfaceFit measure_surface_fit(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
-  Found missing, isolated;
+  FoundNodes<3> missing, isolated;
   agreed(*level.comm, [&] {
     const Fitting fitting(level);
     for (std::int64_t i = 0; i < nodes.count; ++i) {
