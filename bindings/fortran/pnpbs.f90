@@ -99,6 +99,7 @@ module pnpbs
     procedure :: parse_poly => domain_parse_poly
     procedure :: set_corner_angle => domain_set_corner_angle
     procedure :: simplify => domain_simplify
+    procedure :: simplify_by_file => domain_simplify_by_file
     procedure :: check => domain_check
     procedure :: bounds => domain_bounds
     procedure :: measure => domain_measure
@@ -991,6 +992,33 @@ contains
     call conclude('domain%simplify', &
                   c_domain_simplify(self%c, c_funloc(spacing), pointer_or_null(user), tolerance, &
                                     smallest, left_out(1), left_out(2)), stat, errmsg)
+    if (present(vertices)) vertices = left_out(1)
+    if (present(curves)) curves = left_out(2)
+  end subroutine
+
+  !> The same by a spacing from a file with values at points, as placement%set_spacing_file takes it.
+  !> Local; on several ranks all must do the same. Checks the domain first.
+  !>   field  optional: the values that are meant; without, the only ones, or those called 'spacing'
+  subroutine domain_simplify_by_file(self, path, tolerance, smallest, field, vertices, curves, stat, &
+                                     errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    character(len=*), intent(in) :: path
+    real(c_double), intent(in) :: tolerance, smallest
+    character(len=*), intent(in), optional :: field
+    integer(c_int64_t), intent(out), optional :: vertices, curves
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: left_out(2)
+    integer(c_int) :: status
+    left_out = 0
+    if (present(field)) then
+      status = c_domain_simplify_by_file(self%c, c_text(path), c_text(field), tolerance, smallest, &
+                                         left_out(1), left_out(2))
+    else
+      status = c_domain_simplify_by_file(self%c, c_text(path), c_text(''), tolerance, smallest, &
+                                         left_out(1), left_out(2))
+    end if
+    call conclude('domain%simplify_by_file', status, stat, errmsg)
     if (present(vertices)) vertices = left_out(1)
     if (present(curves)) curves = left_out(2)
   end subroutine

@@ -521,6 +521,17 @@ module pnpbs_c
       integer(c_int) :: c_domain_simplify
     end function
 
+    function c_domain_simplify_by_file(domain, path, field, tolerance, smallest, vertices, curves) &
+        bind(C, name="pnpbs_domain_simplify_by_file")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      character(kind=c_char), intent(in) :: path(*), field(*)
+      real(c_double), value :: tolerance, smallest
+      integer(c_int64_t), intent(out) :: vertices, curves
+      integer(c_int) :: c_domain_simplify_by_file
+    end function
+
     function c_domain_check(domain) bind(C, name="pnpbs_domain_check")
       import
       implicit none

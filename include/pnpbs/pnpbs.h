@@ -448,6 +448,18 @@ PNPBS_API pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_
                                              void *user, double tolerance, double smallest,
                                              int64_t *vertices, int64_t *curves);
 
+/** The same by a spacing from a file with values at points, as pnpbs_placement_set_spacing_file
+ *  takes it; the growth of d is not limited here. Local; on several ranks all must do the same.
+ *  Checks the domain first. Errors: PNPBS_ERROR_FILE for what cannot be read, PNPBS_ERROR_SPACING
+ *  for a value that is zero, negative or not finite and for points that do not meet the domain's
+ *  box, PNPBS_ERROR_DOMAIN as pnpbs_domain_check.
+ *  @param[in] path   the file
+ *  @param[in] field  the values that are meant; NULL: the only ones, or those called "spacing" */
+PNPBS_API pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char *path,
+                                                     const char *field, double tolerance,
+                                                     double smallest, int64_t *vertices,
+                                                     int64_t *curves);
+
 /** Checks the whole geometry: duplicate vertices, self-intersections, boundary curves or surfaces
  *  that do not close, hole points outside or on one, fixed nodes outside or too close. Placements
  *  check too; asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the

@@ -2,9 +2,24 @@
 // Curves that are given finer than nodes should follow them, through the C interface.
 #include "api/domain_calls.hpp"
 #include "api/spacing_callback.hpp"
+#include "spacing/files/field_file.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;
+
+namespace {
+
+void simplify_by(PlaneDomain& plane, const Spacing<2>& spacing, const SimplifyRule& rule,
+                 int64_t* vertices, int64_t* curves) {
+  const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
+    evaluate_spacing<2>(spacing, 0, n, x, d);
+  };
+  const LeftOut left_out = plane.simplify(checked, rule);
+  if (vertices) *vertices = left_out.vertices;
+  if (curves) *curves = left_out.curves;
+}
+
+}  // namespace
 
 pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle) {
   return change_plane(domain, [&](PlaneDomain& plane) { plane.set_corner_angle(corner_angle); });
@@ -14,12 +29,19 @@ pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing
                                    double tolerance, double smallest, int64_t* vertices,
                                    int64_t* curves) {
   return change_plane(domain, [&](PlaneDomain& plane) {
-    const CallbackSpacing<2> given = spacing_from<2>(spacing, user);
-    const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
-      evaluate_spacing<2>(given, 0, n, x, d);
-    };
-    const LeftOut left_out = plane.simplify(checked, {tolerance, smallest});
-    if (vertices) *vertices = left_out.vertices;
-    if (curves) *curves = left_out.curves;
+    simplify_by(plane, spacing_from<2>(spacing, user), {tolerance, smallest}, vertices, curves);
+  });
+}
+
+pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char* path, const char* field,
+                                           double tolerance, double smallest, int64_t* vertices,
+                                           int64_t* curves) {
+  return change_plane(domain, [&](PlaneDomain& plane) {
+    require_pointer(path, "path");
+    GivenField<2> values = read_field<2>(path, field ? field : "");
+    plane.check();
+    const std::shared_ptr<const Spacing<2>> spacing =
+        spacing_from_field(std::move(values), plane.bounds());
+    simplify_by(plane, *spacing, {tolerance, smallest}, vertices, curves);
   });
 }

@@ -31,10 +31,10 @@ void require_arguments_that_fit(const Arguments& arguments) {
   if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");
   }
-  if (arguments.simplify && spacing_file(arguments.spacing))
-    refuse("--simplify needs d as a formula or an ASCII grid, not from a mesh or points");
   if (arguments.simplify && arguments.spacing == "auto")
-    refuse("--simplify needs d as a formula or a grid: auto follows every vertex of the boundary");
+    refuse(
+        "--simplify needs d as a formula or from a file: auto follows every vertex of the "
+        "boundary");
   const CheckpointInterval& interval = arguments.checkpoint_interval;
   if (arguments.checkpoint.empty() && (interval.steps > 0 || interval.time.count() > 0))
     refuse("--checkpoint-every needs --checkpoint");

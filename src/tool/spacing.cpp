@@ -31,6 +31,12 @@ Spacing::Spacing(const Arguments& arguments, int dimension)
 
 void Spacing::simplify(pnpbs_domain domain, pnpbs_context context, double tolerance,
                        double smallest) {
+  if (file_) {
+    check(pnpbs_domain_simplify_by_file(domain, file_->path.c_str(), file_->field.c_str(),
+                                        tolerance, smallest, nullptr, nullptr),
+          context);
+    return;
+  }
   if (expression_) expression_->ask_shape_of(domain, context);
   check(pnpbs_domain_simplify(domain, grid_ ? call_grid : call_expression,
                               grid_ ? grid_.get() : expression_->as_user(), tolerance, smallest,

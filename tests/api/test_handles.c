@@ -78,6 +78,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_add_cylinder, (handle, xyz, xyz + 3, 1.0, 1))                              \
   X(domain_set_corner_angle, (handle, 30.0))                                          \
   X(domain_simplify, (handle, cone_spacing, &a_cone, 0.25, 2.0, NULL, NULL))          \
+  X(domain_simplify_by_file, (handle, "/nowhere/d.csv", NULL, 0.25, 2.0, NULL, NULL)) \
   X(domain_add_level_set, (handle, volume_ring_at, NULL, xyz, xyz + 3, 0.5, 1))       \
   X(domain_add_arc, (handle, PNPBS_BOUNDARY, xy, 1.0, 0.0, 2 * PI, 1))                \
   X(domain_add_curve, (handle, PNPBS_BOUNDARY, circle, NULL, 0.0, 2 * PI, 1))         \

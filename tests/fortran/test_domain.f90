@@ -218,6 +218,8 @@ contains
     call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'corner_angle') > 0, 'an angle of 200')
     even%finest = 0.3d0
     even%growth = 0
+    call domain%simplify_by_file('nowhere.csv', 0.25d0, 2d0, stat=stat, errmsg=errmsg)
+    call expect(stat == PNPBS_ERROR_FILE .and. index(errmsg, 'nowhere.csv') > 0, 'no such file')
     call domain%simplify(cone_spacing, -1d0, 2d0, c_loc(even), stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'tolerance') > 0, 'below zero')
     call domain%simplify(cone_spacing, 1d-9, 2d0, c_loc(even), vertices, curves)

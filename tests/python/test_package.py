@@ -259,6 +259,11 @@ class Domains(Case):
         self.assertAlmostEqual(domain.measure(), np.pi, delta=0.1)
         self.assertEqual(graph().simplify(0.2, 0.05, 2), left_out)
         self.assertEqual(graph().simplify(0.2, 0), (0, 0))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "d.csv"
+            path.write_text("x,y,d\n0,0,0.2\n1,1,0.2\n")
+            self.assertEqual(graph().simplify_by_file(path, "d", 0.05, 2), left_out)
+            self.assert_status(Status.ERROR_FILE, graph().simplify_by_file, path, "e")
         self.assert_status(Status.ERROR_ARGUMENT, domain.simplify, 0.2, -1)
         self.assert_status(Status.ERROR_ARGUMENT, domain.set_corner_angle, 200)
         with self.assertRaises(ZeroDivisionError):

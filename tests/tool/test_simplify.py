@@ -4,6 +4,8 @@
 import json
 import unittest
 
+import meshio
+
 from command import DATA, CommandTest
 
 ISLANDS = DATA / "great_lakes_islands.poly"
@@ -39,6 +41,23 @@ class Shores(CommandTest):
         self.assertEqual(by_grid["boundary_nodes"], by_number[0]["boundary_nodes"])
         self.assertIn(by_number[1][0], by_grid["warnings"])
         self.assertEqual(self.report("--simplify", "0.25", spacing="10 + 0*dist")[1], by_number[1])
+
+    def test_where_d_is_from_a_file(self):
+        """As the same d by a formula, of a mesh and of scattered points."""
+        by_formula = self.report("--simplify", "0.25,2", spacing="10 + 0.005*x")
+        points = [(x, y) for y in (-600, 600) for x in (-900, 900)]
+        (self.folder / "d.csv").write_text(
+            "x,y,d\n" + "".join(f"{x},{y},{10 + 0.005 * x}\n" for x, y in points))
+        self.assertRegex(self.report("--simplify", "0.25,2", spacing="d.csv")[1][0], "simplified")
+        meshio.Mesh([(x, y, 0) for x, y in points], [("triangle", [(0, 1, 2), (1, 3, 2)])],
+                    point_data={"d": [10 + 0.005 * x for x, y in points], "other": [1.0, 2.0, 3.0, 4.0]}
+                    ).write(self.folder / "d.vtu")
+        by_mesh = self.report("--simplify", "0.25,2", spacing="d.vtu:d")
+        self.assertEqual(by_mesh[1], by_formula[1])
+        self.assertEqual(by_mesh[0]["boundary_nodes"], by_formula[0]["boundary_nodes"])
+        for spacing, words in (("d.vtu", "other"), ("none.csv", "none.csv")):
+            self.assertIn(words, self.refuse("--domain", ISLANDS, "--spacing", spacing,
+                                             "--simplify", "0.25"))
 
     def test_corner_angle(self):
         given, _ = self.report()

@@ -186,8 +186,8 @@ class SpacingFiles(CommandTest):
         cube.write(self.folder / "cube.vtu")
         self.assertIn("Tetrahedralize", self.refuse_spacing("cube.vtu", "box(0,0,0,1,1,1)"))
         self.assertIn("missing.vtu", self.refuse_spacing("missing.vtu"))
-        self.assertIn("--simplify", self.refuse("--domain", self.square, "--spacing", "bare.msh",
-                                                "--simplify", "0.1", "-o", "a.csv"))
+        self.assertIn("expected a field", self.refuse("--domain", self.square, "--spacing", "bare.msh",
+                                                      "--simplify", "0.1", "-o", "a.csv"))
         self.assertIn("replace", self.refuse("--domain", self.square, "--spacing",
                                              "packed.vtu:size", "-o", "packed.vtu"))
 

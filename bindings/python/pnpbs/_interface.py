@@ -103,6 +103,8 @@ pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text, int6
 pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle);
 pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing, void *user,
     double tolerance, double smallest, int64_t *vertices, int64_t *curves);
+pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char *path,
+    const char *field, double tolerance, double smallest, int64_t *vertices, int64_t *curves);
 pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
 pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high);
 pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);

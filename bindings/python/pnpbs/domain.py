@@ -197,6 +197,14 @@ class Domain(Handle):
                    ctypes.byref(vertices), ctypes.byref(curves))
         return LeftOut(vertices.value, curves.value)
 
+    def simplify_by_file(self, path, field=None, tolerance=0.25, smallest=0.0):
+        """The same by a spacing from a file with values at points, as `Placement.set_spacing_file`
+        takes it."""
+        vertices, curves = ctypes.c_int64(), ctypes.c_int64()
+        self._call("simplify_by_file", os.fsencode(path), None if field is None else field.encode(),
+                   tolerance, smallest, ctypes.byref(vertices), ctypes.byref(curves))
+        return LeftOut(vertices.value, curves.value)
+
     def set_filled(self, filled):
         """Whether a domain in space is what its surfaces enclose, as it is at first, or, with False,
         the surfaces alone: nodes on them and triangles between these, and nothing inside."""

@@ -231,6 +231,11 @@ pnpbs_domain_simplify(domain, spacing, user, tolerance, smallest, vertices, curv
         domain::pnpbs_domain, spacing::pnpbs_spacing_fn, user::Ptr{Cvoid}, tolerance::Cdouble,
         smallest::Cdouble, vertices::Ptr{Int64}, curves::Ptr{Int64})::pnpbs_status
 
+pnpbs_domain_simplify_by_file(domain, path, field, tolerance, smallest, vertices, curves) =
+    @ccall $(symbol(:pnpbs_domain_simplify_by_file))(
+        domain::pnpbs_domain, path::Cstring, field::Cstring, tolerance::Cdouble, smallest::Cdouble,
+        vertices::Ptr{Int64}, curves::Ptr{Int64})::pnpbs_status
+
 pnpbs_domain_check(domain) =
     @ccall $(symbol(:pnpbs_domain_check))(domain::pnpbs_domain)::pnpbs_status
 

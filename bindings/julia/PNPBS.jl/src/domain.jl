@@ -373,6 +373,21 @@ simplify!(d::Real, domain::Domain; options...) =
     simplify!(x -> fill(Float64(d), size(x, 2)), domain; options...)
 
 """
+    simplify_by_file!(domain, path; field = "", tolerance = 0.25, smallest = 0) -> (vertices, curves)
+
+The same as [`simplify!`](@ref) by a spacing from a file with values at points, as
+[`set_spacing_file!`](@ref) takes it.
+"""
+function simplify_by_file!(domain::Domain, path::AbstractString; field::AbstractString = "",
+                           tolerance::Real = 0.25, smallest::Real = 0)
+    vertices, curves = Ref{Int64}(0), Ref{Int64}(0)
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_simplify_by_file(live(domain), path, field, tolerance, smallest,
+                                                 vertices, curves))
+    return (vertices = vertices[], curves = curves[])
+end
+
+"""
     add_hole!(domain, point)
 
 Removes the region around a point from the domain, as far as the next curves or surfaces.

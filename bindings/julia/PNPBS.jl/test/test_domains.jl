@@ -82,6 +82,12 @@ end
         @test simplify!(0.2, graph(0); tolerance = 0) == (vertices = 0, curves = 0)
         @test simplify!((x, y) -> 0.2, graph(0); tolerance = 0.05, smallest = 2,
                         per_point = true) == left_out
+        mktempdir() do folder
+            path = joinpath(folder, "d.csv")
+            write(path, "x,y,d\n0,0,0.2\n1,1,0.2\n")
+            @test simplify_by_file!(graph(0), path; tolerance = 0.05, smallest = 2) == left_out
+            @test fails(() -> simplify_by_file!(graph(0), path; field = "e"), :error_file, "e")
+        end
         @test_throws DomainError simplify!(x -> throw(DomainError(1)), domain)
         @test fails(() -> simplify!(0.2, domain; tolerance = -1), :error_argument, "tolerance")
         @test fails(() -> set_corner_angle!(domain, 200), :error_argument, "corner_angle")
