@@ -1027,15 +1027,16 @@ PNPBS_API pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t
  *           need are in it, too, marked by vtkGhostType.
  *    .vtkhdf the same as one file by HDF5, VTK's 1.0; no checkpoint
  *    .xdmf  the same as XDMF 3, which tells of the arrays in a second file of the same name, .h5
- *    .msh   Gmsh's format 4.1: nodes, triangles and boundary edges or tetrahedra and boundary
- *           triangles, the tags of the boundary as physical groups with their names, or "tag_7"
- *           (without elements: one point per node)
+ *    .msh   Gmsh's format 4.1: nodes, triangles and the edges of boundary and inner curves, or
+ *           tetrahedra and the triangles of boundary and inner surfaces; the tags of these as
+ *           physical groups with their names, or "tag_7" (without elements: one point per node).
+ *           Of an inner surface, triangles are the faces whose tetrahedra lie on two sides of it;
+ *           they turn as the surface does. The other formats in space have the same triangles
  *    .msh2  the same in Gmsh's format 2.2
  *    .node  Triangle's or TetGen's nodes, numbered from 1, tags as markers; with elements, these in
- *           a second file of the same name, .ele, and in space the boundary triangles in a third,
- *           .face
+ *           a second file of the same name, .ele, and in space the triangles in a third, .face
  *    .ele   Triangle's triangles or TetGen's tetrahedra alone
- *    .face  TetGen's boundary triangles alone, in space
+ *    .face  TetGen's triangles of boundary and inner surfaces alone, in space
  *    .csv   id,x,y,tag,spacing, in space id,x,y,z,tag,spacing
  *  Nodes are in the order of their ids, elements and boundary in the order of their corners: all
  *  but .pvtu have the same bytes for any number of ranks and threads. All ranks write at the same

@@ -27,7 +27,7 @@ constexpr std::array table{
            false, Elements::beside, false, false, write_node},
     Format{"ele", "Triangle's and TetGen's element file for the .node file", false,
            Elements::always, false, false, write_ele},
-    Format{"face", "TetGen's file of a body's boundary triangles for the .node file", false,
+    Format{"face", "TetGen's file of a body's surface triangles for the .node file", false,
            Elements::always, true, false, write_face},
     Format{"csv", "id,x,y,tag,spacing, of bodies id,x,y,z,tag,spacing", false, Elements::never,
            false, false, write_csv},

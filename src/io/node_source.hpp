@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the writers write: nodes, elements and the facets of the boundary, a window at a time, so
-// that writing takes hardly any memory beside the nodes themselves. Elements are triangles in the
-// plane and tetrahedra in space; facets are edges, and triangles.
+// What the writers write: nodes, elements and the facets of boundary and inner surfaces, a window
+// at a time, so that writing takes hardly any memory beside the nodes themselves. Elements are
+// triangles in the plane and tetrahedra in space; facets are edges, and triangles.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ struct ElementRows {
   std::vector<float> quality;         // [elements], 2 r_in / R, in space 3 r_in / R
 };
 
-struct FacetRows {  // in the plane on inner curves, too
+struct FacetRows {  // on inner curves and surfaces, too
   std::int64_t first = 0;
   std::vector<std::int64_t> corners;  // [facets][dimension], numbers
   std::vector<std::int32_t> tags;     // [facets]

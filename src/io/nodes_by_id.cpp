@@ -137,10 +137,12 @@ NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements)
   if (elements) {
     placement.for_elements([&](const auto&) { ++counts[1]; });
     const auto count_facet = [&](const auto&...) { ++counts[2]; };
-    if constexpr (Dim == 2)
+    if constexpr (Dim == 2) {
       placement.for_boundary_facets(count_facet);
-    else
+    } else {
       placement.for_open_facets(count_facet);
+      placement.for_inner_facets(count_facet);
+    }
   }
   comm_.allreduce_sum(counts);
   contents_.nodes = counts[0];
@@ -276,6 +278,7 @@ void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& vis
     for_windows([&](const Window& window) {
       own.clear();
       placement_.for_boundary_facets(window.begin, window.end, keep);
+      placement_.for_inner_facets(window.begin, window.end, keep);
       pass_on(brought(own, first));
     });
   }
@@ -296,10 +299,12 @@ std::vector<TagGroup> NodesById<Dim>::node_groups() const {
 template <int Dim>
 std::vector<TagGroup> NodesById<Dim>::facet_groups() const {
   TagGroups groups;
-  placement_.for_boundary_facets([&](const auto& places, std::int32_t tag) {
+  const auto add = [&](const auto& places, std::int32_t tag) {
     const auto corners = positions_at(placement_, places);
     groups.add<Dim>(tag, corners);
-  });
+  };
+  placement_.for_boundary_facets(add);
+  if constexpr (Dim == 3) placement_.for_inner_facets(add);
   return groups.of_all(comm_);
 }
 

@@ -20,11 +20,14 @@ OwnPiece<Dim>::OwnPiece(const PlacementOf<Dim>& placement, bool elements)
       ++contents_.elements;
       for (const std::int64_t place : places) know(place);
     });
-    if constexpr (Dim == 3)
-      placement.for_open_facets([&](const auto& places) {
+    if constexpr (Dim == 3) {
+      const auto add = [&](const auto& places, auto...) {
         ++contents_.facets;
         for (const std::int64_t place : places) know(place);
-      });
+      };
+      placement.for_open_facets(add);
+      placement.for_inner_facets(add);
+    }
   }
   contents_.nodes = owned_ + static_cast<std::int64_t>(ghosts_.size());
 }
@@ -88,11 +91,13 @@ void OwnPiece<Dim>::for_facets(const std::function<void(const FacetRows&)>& visi
     for_windows([&](std::int64_t begin, std::int64_t end) {
       FacetRows rows;
       rows.first = before;
-      placement_.for_boundary_facets(begin, end, [&](const auto& places, std::int32_t tag) {
+      const auto add = [&](const auto& places, std::int32_t tag) {
         for (const std::int64_t place : places) rows.corners.push_back(number(place));
         rows.tags.push_back(tag);
         rows.quality.push_back(facet_quality(placement_, places));
-      });
+      };
+      placement_.for_boundary_facets(begin, end, add);
+      placement_.for_inner_facets(begin, end, add);
       before += static_cast<std::int64_t>(rows.tags.size());
       visit(rows);
     });

@@ -15,6 +15,7 @@
 #include "level/rebalance.hpp"
 #include "level/taken_nodes.hpp"
 #include "placement/facet_tag.hpp"
+#include "placement/inner_facets.hpp"
 #include "placement/placement.hpp"
 #include "placement/saved_state.hpp"
 #include "spacing/nodal_patch.hpp"
@@ -95,6 +96,16 @@ class PlacementOf : public Placement {
   template <class Visit>
   void for_open_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
       requires(Dim == 3);
+  // Calls visit(places of its nodes, tag) for every face between tetrahedra that stands for a
+  // surface inside, once, over all ranks: at the owner of its node with the least id, which comes
+  // first and has a place from begin up to end. They turn as the surface does. After prepare_stars.
+  template <class Visit>
+  void for_inner_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
+      requires(Dim == 3);
+  template <class Visit>
+  void for_inner_facets(const Visit& visit) const requires(Dim == 3) {
+    for_inner_facets(0, count(), visit);
+  }
   // Whether the domain is surfaces alone, and of what its bubbles fill.
   bool surfaces_alone() const {
     if constexpr (Dim == 3) return !domain_->filled();
@@ -258,6 +269,17 @@ void PlacementOf<Dim>::for_boundary_facets(std::int64_t begin, std::int64_t end,
     const auto [a, b, c] = places;
     visit(places, facet_tag(*level_, {node_at(a), node_at(b), node_at(c)}));
   });
+}
+
+template <int Dim>
+template <class Visit>
+void PlacementOf<Dim>::for_inner_facets(std::int64_t begin, std::int64_t end,
+                                        const Visit& visit) const requires(Dim == 3) {
+  InnerFacets facets(*level_);
+  for (std::int64_t p = begin; p < (facets.any() ? end : begin); ++p)
+    for (const InnerFacet& facet : facets.at(node_at(p)))
+      visit(std::array<std::int64_t, 3>{p, place_of(facet.nodes[1]), place_of(facet.nodes[2])},
+            facet.tag);
 }
 
 // Of the tetrahedra around a node, those of its faces that come once.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Named groups: Gmsh's files as domains, inner surfaces of files, names from input to output."""
 
+import itertools
 import json
 import unittest
 
@@ -15,17 +16,34 @@ SIDES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (
 SHEET = numpy.array([(0.3, 0.3, 0.5), (0.7, 0.3, 0.5), (0.7, 0.7, 0.5), (0.3, 0.7, 0.5)])
 
 
+def octasphere(radius, times):
+    """Triangles of an octahedron, cut into four so often, on a sphere about (0.5, 0.5, 0.5)."""
+    triangles = [numpy.array([(x, 0, 0), (0, y, 0), (0, 0, z)], float)[:: x * y * z]
+                 for x in (1, -1) for y in (1, -1) for z in (1, -1)]
+    for _ in range(times):
+        triangles = [numpy.array(corners) for a, b, c in triangles for corners in
+                     ((a, a + b, a + c), (a + b, b, b + c), (a + c, b + c, c), (a + b, b + c, a + c))]
+        triangles = [t / numpy.linalg.norm(t, axis=1)[:, None] for t in triangles]
+    return [0.5 + radius * t for t in triangles]
+
+
+def edges_of(triangles):
+    """How many triangles have each edge."""
+    edges = numpy.sort(numpy.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    return numpy.unique(edges, axis=0, return_counts=True)
+
+
 def two_triangles(a, b, c, d):
     return [(a, b, c), (a, c, d)]
 
 
 def stl(**solids):
-    """Solids of text, each of squares."""
+    """Solids of text, each of squares and triangles."""
     lines = []
     for name, squares in solids.items():
         lines.append(f"solid {name}")
         for square in squares:
-            for triangle in two_triangles(*square):
+            for triangle in two_triangles(*square) if len(square) == 4 else [square]:
                 lines += ["facet normal 0 0 0", "outer loop"]
                 lines += ["vertex {} {} {}".format(*corner) for corner in triangle]
                 lines += ["endloop", "endfacet"]
@@ -155,6 +173,67 @@ class InnerSurfaces(GroupTest):
             self.assertGreater(len(on_sheet), 7)
             self.assertTrue((on_sheet[:, 2] == 0.5).all())
             self.assertTrue((abs(on_sheet[:, :2] - 0.5) <= 0.2).all())
+
+    def check_faces(self, mesh, triangles):
+        """Faces that two of the tetrahedra have, each once."""
+        faces = {tuple(face) for face in numpy.sort(triangles, axis=1).tolist()}
+        self.assertEqual(len(faces), len(triangles))
+        counts = dict.fromkeys(faces, 0)
+        for tetrahedron in numpy.sort(mesh.cells_dict["tetra"], axis=1).tolist():
+            for face in itertools.combinations(tetrahedron, 3):
+                if face in counts:
+                    counts[face] += 1
+        self.assertEqual(set(counts.values()), {2})
+
+    def triangles_of(self, name, tag):
+        mesh = self.mesh(name)
+        found = [block.data[tags == tag] for block, tags in
+                 zip(mesh.cells, mesh.cell_data["gmsh:physical"]) if block.type == "triangle"]
+        return mesh, numpy.concatenate(found)
+
+    def test_a_sheet_becomes_triangles(self):
+        """As it is, and turned so that no node lies on it but for rounding."""
+        axis = numpy.array([1, 2, 3]) / numpy.sqrt(14)
+        turned = [0.5 + r * numpy.cos(0.7) + numpy.cross(axis, r) * numpy.sin(0.7)
+                  + axis * axis.dot(r) * (1 - numpy.cos(0.7)) for r in SHEET - 0.5]
+        cube = [CORNERS[list(side)] for side in SIDES]
+        for sheet in (SHEET, numpy.array(turned)):
+            (self.folder / "cube.stl").write_text(stl(shell=cube, membrane=[sheet]))
+            self.fill("cube.stl", "--inner", "membrane", "-o", "a.msh", "-o", "a.msh2",
+                      "-o", "a.vtu", spacing="0.1")
+            sizes = areas(self.mesh("a.msh"), "triangle")
+            self.assertAlmostEqual(sizes["membrane"], 0.16, 6)
+            self.assertAlmostEqual(sizes["shell"], 6, 6)
+            self.assertEqual(areas(self.mesh("a.msh2"), "triangle"), sizes)
+            mesh, triangles = self.triangles_of("a.msh", 2)
+            self.check_faces(mesh, triangles)
+            edges, counts = edges_of(triangles)
+            x = mesh.points[edges[counts == 1]]
+            self.assertAlmostEqual(numpy.linalg.norm(x[:, 0] - x[:, 1], axis=1).sum(), 1.6, 6)
+            self.assertEqual(set(counts), {1, 2})
+            x = mesh.points[triangles]
+            normals = numpy.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+            self.assertTrue((normals @ numpy.cross(sheet[1] - sheet[0], sheet[2] - sheet[0]) > 0).all())
+            grid = meshio.read(self.folder / "a.vtu")
+            self.assertEqual(len(grid.cells_dict["triangle"]), len(mesh.cells_dict["triangle"]))
+        # There and back.
+        self.fill("a.msh", "-o", "b.msh", spacing="0.1")
+        self.assertAlmostEqual(areas(self.mesh("b.msh"), "triangle")["membrane"], 0.16, 6)
+
+    def test_a_sphere_becomes_triangles(self):
+        cube = [CORNERS[list(side)] for side in SIDES]
+        (self.folder / "cube.stl").write_text(stl(shell=cube, ball=octasphere(0.3, 4)))
+        self.fill("cube.stl", "--inner", "ball", "-o", "a.msh", spacing="0.1 + 0.08*x")
+        mesh, triangles = self.triangles_of("a.msh", 2)
+        self.check_faces(mesh, triangles)
+        self.assertEqual(set(edges_of(triangles)[1]), {2})
+        corners = len(numpy.unique(triangles))
+        self.assertEqual(corners - len(triangles) / 2, 2)  # Euler: V - E + F, E = 3 F / 2
+        sphere = 4 * numpy.pi * 0.09
+        self.assertTrue(0.93 * sphere < areas(mesh, "triangle")["ball"] < sphere)
+        a, b, c = mesh.points[triangles.T] - 0.5
+        volume = numpy.einsum("ij,ij", a, numpy.cross(b, c)) / 6
+        self.assertTrue(0.9 < volume / (4 / 3 * numpy.pi * 0.027) < 1, volume)
 
     def test_of_other_formats(self):
         vertices = [*CORNERS, *SHEET]

@@ -4,6 +4,7 @@
 import json
 import unittest
 
+import meshio
 import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
@@ -29,6 +30,35 @@ def grid_by_ids(grid):
     quality = vtk_to_numpy(grid.GetCellData().GetArray("quality"))
     triangles = [(*row, q) for row, q in zip(corners.tolist(), quality.tolist(), strict=True)]
     return sorted(nodes), sorted(triangles)
+
+
+class InnerSurfaces(RanksTest):
+    def test_are_the_same_triangles(self):
+        """A tetrahedron in a cube: its faces in files of any number of ranks."""
+        cube = [[i & 1, i >> 1 & 1, i >> 2] for i in range(8)]
+        sides = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
+        inner = [[0.2, 0.2, 0.3], [0.8, 0.3, 0.2], [0.4, 0.8, 0.3], [0.5, 0.5, 0.8]]
+        (self.folder / "m.obj").write_text(
+            "".join(f"v {x} {y} {z}\n" for x, y, z in cube + inner) + "g shell\n" +
+            "".join("f {} {} {} {}\n".format(*(k + 1 for k in side)) for side in sides) +
+            "g inner\nf 9 11 10\nf 9 10 12\nf 10 11 12\nf 11 9 12\n")
+        ask = ("--domain", "m.obj", "--inner", "inner", "--spacing", "0.12", "--quiet", "--set",
+               "tolerance_mean=1", "--steps", "40", "-o", "a.msh", "-o", "a.vtu", "-o", "a.face")
+        self.run_command(*ask)
+        expected = {name: (self.folder / name).read_bytes() for name in ("a.msh", "a.vtu", "a.face")}
+        mesh = meshio.read(self.folder / "a.msh", file_format="gmsh")
+        area = 0
+        for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
+            if block.type == "triangle":
+                x = mesh.points[block.data[tags == 2]]
+                area += numpy.linalg.norm(numpy.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]),
+                                          axis=1).sum() / 2
+        x = numpy.array(inner)[[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]]
+        exact = numpy.linalg.norm(numpy.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), axis=1).sum() / 2
+        self.assertAlmostEqual(area, exact, 6)
+        self.run_ranks(3, *ask)
+        for name, data in expected.items():
+            self.assertTrue((self.folder / name).read_bytes() == data, name)
 
 
 class SameFiles(RanksTest):

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "placement/inner_facets.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "domain/volume/triangles.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+bool is_inner_triangle(const BoundaryTriangle& facet) {
+  const auto& [a, b, c] = facet.nodes;
+  return facet.front_inside && facet.back_inside && a != b && b != c && c != a;
+}
+
+// Added up in the order of their ids: the same bits whoever asks.
+Point<3> centroid_of(const Nodes<3>& nodes, std::array<std::int64_t, 4> corners) {
+  std::ranges::sort(corners, {}, [&](std::int64_t i) { return nodes.id(i); });
+  Point<3> sum{};
+  for (const std::int64_t i : corners) {
+    const Point<3> x = nodes.position(i);
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += x[k];
+  }
+  for (double& along : sum) along *= 0.25;
+  return sum;
+}
+
+}  // namespace
+
+InnerFacets::InnerFacets(const Level<3>& level) : level_(level) {
+  if (level.ground.surfaces_alone()) return;
+  for (std::int32_t p = 0; p < level.ground.domain().features().patches; ++p)
+    any_ = any_ || !level.ground.patch_bounds_domain(p);
+}
+
+const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
+  const Nodes<3>& nodes = level_.nodes;
+  const auto on_surface = [&](std::int64_t j) { return nodes.carrier(j) != Carrier::free; };
+  found_.clear();
+  if (!any_ || !on_surface(i)) return found_;
+  faces_.clear();
+  level_.stars.for_simplices(i, [&](const Stars<3>::Corners& others) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<std::int64_t, 2> two{others[k], others[(k + 1) % 3]};
+      const std::int64_t apex = others[(k + 2) % 3];
+      if (nodes.id(two[0]) > nodes.id(two[1])) std::swap(two[0], two[1]);
+      if (nodes.id(two[0]) < nodes.id(i) || !on_surface(two[0]) || !on_surface(two[1])) continue;
+      faces_.push_back({{nodes.id(two[0]), nodes.id(two[1])},
+                        {i, two[0], two[1]},
+                        nodes.id(apex),
+                        centroid_of(nodes, {i, two[0], two[1], apex})});
+    }
+  });
+  std::ranges::sort(faces_, {}, [](const Face& f) { return std::pair(f.ids, f.apex); });
+  for (std::size_t f = 1; f < faces_.size(); ++f)
+    if (faces_[f - 1].ids == faces_[f].ids) judge(faces_[f - 1], faces_[f]);
+  return found_;
+}
+
+void InnerFacets::judge(const Face& one, const Face& other) {
+  const std::int32_t f = crossed_facet(one.centroid, other.centroid);
+  if (f < 0) return;
+  const Ground<3>& ground = level_.ground;
+  const std::int32_t patch = ground.domain().features().patch[static_cast<std::size_t>(f)];
+  for (const std::int64_t i : one.nodes)
+    if (!on_patch(i, patch)) return;
+  const BoundaryTriangle& facet = ground.boundary().facets[static_cast<std::size_t>(f)];
+  InnerFacet found{one.nodes, facet.tag};
+  const Nodes<3>& nodes = level_.nodes;
+  const Point<3> x = nodes.position(found.nodes[0]);
+  const Point<3> normal = cross(difference(nodes.position(found.nodes[1]), x),
+                                difference(nodes.position(found.nodes[2]), x));
+  if (dot(normal, facet_normal(ground.boundary(), facet)) < 0)
+    std::swap(found.nodes[1], found.nodes[2]);
+  found_.push_back(found);
+}
+
+bool InnerFacets::on_patch(std::int64_t i, std::int32_t patch) const {
+  bool there = false;
+  level_.ground.surface().for_sides(
+      level_.ground.place(level_.nodes.carrier(i), level_.nodes.boundary_node(i)),
+      [&](const SurfaceSide& side) { there = there || side.patch == patch; });
+  return there;
+}
+
+// The first of the inner surfaces' facets that the way crosses, if it crosses them an odd number of
+// times; else -1.
+std::int32_t InnerFacets::crossed_facet(const Point<3>& from, const Point<3>& to) {
+  const FacetIndex<3>& sides = level_.ground.domain().index().sides();
+  Point<3> middle;
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * (from[k] + to[k]);
+  constexpr double kRounding = 1 + 1e-9;
+  crossed_.clear();
+  sides.for_facets_near(middle, 0.5 * kRounding * distance<3>(from, to), [&](std::int32_t f) {
+    if (is_inner_triangle(sides.facet(f)) && crosses(from, to, sides.corners(f)))
+      crossed_.push_back(f);
+  });
+  std::ranges::sort(crossed_);  // a facet may come more than once
+  crossed_.erase(std::ranges::unique(crossed_).begin(), crossed_.end());
+  return crossed_.size() % 2 == 1 ? crossed_.front() : -1;
+}
+
+}  // namespace pnpbs
