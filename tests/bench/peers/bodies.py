@@ -134,3 +134,11 @@ def read_obj(path):
     vertices = np.array([[float(v) for v in row[1:4]] for row in words if row[:1] == ["v"]])
     polygons = [[int(v.split("/")[0]) - 1 for v in row[1:4]] for row in words if row[:1] == ["f"]]
     return Body("file", vertices, polygons, Path(path))
+
+
+def read_stl(path):
+    """A binary one; corners in one place are one vertex."""
+    triangle = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    corners = np.frombuffer(Path(path).read_bytes(), triangle, offset=84)["corners"].astype(float)
+    vertices, numbers = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    return Body("file", vertices, numbers.reshape(-1, 3).tolist(), Path(path))

@@ -19,15 +19,19 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import cases  # noqa: E402
 import evaluate  # noqa: E402
+import evaluate_shape  # noqa: E402
 import evaluate_volume  # noqa: E402
 import force_evaluation  # noqa: E402
 import machine  # noqa: E402
 import page  # noqa: E402
 import plane_table  # noqa: E402
+import shape_cases  # noqa: E402
+import shape_table  # noqa: E402
 import volume_cases  # noqa: E402
 import volume_table  # noqa: E402
-from adapters import (with_cgal, with_gmsh, with_gmsh_volume, with_jigsaw,  # noqa: E402
-                      with_jigsaw_volume, with_netgen, with_pnpbs, with_tetgen, with_triangle)
+from adapters import (with_cgal, with_gmsh, with_gmsh_shape, with_gmsh_volume,  # noqa: E402
+                      with_jigsaw, with_jigsaw_shape, with_jigsaw_volume, with_netgen, with_pnpbs,
+                      with_pnpbs_shape, with_tetgen, with_triangle)
 from adapters.tool import DoesNotStart, command  # noqa: E402
 from measure import Failed  # noqa: E402
 from progress import Progress  # noqa: E402
@@ -76,11 +80,33 @@ class Space:
                 "peak_bytes": statistics.median(u.peak_bytes for u in used), "measures": measures}
 
 
+class Shape:
+    """Spacing from the shape, in the plane and in space."""
+    file = "comparison_shape"
+    cases = shape_cases.CASES
+    table = shape_table
+    not_compared = []
+
+    def tools(self, args):
+        return [*with_pnpbs_shape.tools(args.pnpbs, args.ours), *with_gmsh_shape.tools(),
+                *with_jigsaw_shape.tools()]
+
+    def measured(self, outcomes, case):
+        last = outcomes[-1]
+        return {"seconds": statistics.median(sum(u.seconds for u in o.used) for o in outcomes),
+                "cpu_seconds": statistics.median(sum(u.cpu_seconds for u in o.used)
+                                                 for o in outcomes),
+                "field_seconds": median_or_none([o.field_seconds for o in outcomes]),
+                "even_seconds": statistics.median(o.even_seconds for o in outcomes),
+                "even_points": last.even_points, "measures": evaluate_shape.evaluate(last.points, case)}
+
+
 def median_or_none(values):
     return None if None in values else statistics.median(values)
 
 
-KINDS = {"plane": Plane(), "space": Space()}
+KINDS = {"plane": Plane(), "space": Space(), "shape": Shape()}
+UNLESS_TOLD = {"plane": 100000, "space": 70000, "shape": 20000}  # nodes
 
 
 def arguments():
@@ -99,11 +125,14 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--volumes", dest="kind", action="store_const", const="space",
                         default="plane", help="compare in space; 70000 nodes unless told")
+    parser.add_argument("--shape", dest="kind", action="store_const", const="shape",
+                        help="compare spacing from the shape; 20000 nodes unless told")
     parser.add_argument("--nodes", type=integers,
                         help="about so many in every case; several with commas (default 100000)")
     parser.add_argument("--cases", type=names,
                         help=f"some of {','.join(cases.CASES)}; with --volumes of "
-                             f"{','.join(volume_cases.CASES)}")
+                             f"{','.join(volume_cases.CASES)}; with --shape of "
+                             f"{','.join(shape_cases.CASES)}")
     parser.add_argument("--tools", type=names, default=[],
                         help="only those with one of these words in their names")
     parser.add_argument("--repeat", default=1, type=int, help="medians of so many runs")
@@ -116,14 +145,15 @@ def arguments():
     parser.add_argument("--no-forces", action="store_true", help="leave LAMMPS out")
     parser.add_argument("--output", type=Path, default=ROOT / "build" / "comparison",
                         help="folder for comparison.md, comparison.json and images/, with --volumes "
-                             "comparison_volumes.md and .json")
+                             "comparison_volumes.md and .json, with --shape comparison_shape.md "
+                             "and .json")
     parser.add_argument("--from", dest="source", type=Path,
                         help="run nothing, print and write what this JSON file holds")
     args = parser.parse_args()
     known = KINDS[args.kind].cases
-    args.nodes = args.nodes or [70000 if args.kind == "space" else 100000]
+    args.nodes = args.nodes or [UNLESS_TOLD[args.kind]]
     args.cases = args.cases or list(known)
-    args.no_forces = args.no_forces or args.kind == "space"
+    args.no_forces = args.no_forces or args.kind != "plane"
     for name in args.cases:
         if name not in known:
             parser.error(f"unknown case {name}: choose from {', '.join(known)}")

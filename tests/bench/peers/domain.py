@@ -58,11 +58,14 @@ class Domain:
         result[order] = inside
         return result
 
-    def write_poly(self, path):
+    def write_poly(self, path, markers=None):
+        """`markers` is the tag of each segment."""
         lines = [f"{len(self.vertices)} 2 0 0"]
         lines += [f"{i} {x!r} {y!r}" for i, (x, y) in enumerate(self.vertices.tolist(), 1)]
-        lines.append(f"{len(self.segments)} 0")
-        lines += [f"{i} {a + 1} {b + 1}" for i, (a, b) in enumerate(self.segments.tolist(), 1)]
+        tags = [""] * len(self.segments) if markers is None else [f" {tag}" for tag in markers]
+        lines.append(f"{len(self.segments)} {0 if markers is None else 1}")
+        lines += [f"{i} {a + 1} {b + 1}{tag}"
+                  for i, ((a, b), tag) in enumerate(zip(self.segments.tolist(), tags), 1)]
         lines.append(f"{len(self.holes)}")
         lines += [f"{i} {x!r} {y!r}" for i, (x, y) in enumerate(self.holes.tolist(), 1)]
         Path(path).write_text("\n".join(lines) + "\n")

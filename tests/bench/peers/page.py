@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The results as tables: for the terminal and as a page in Markdown. What the columns are says a
-`table`: plane_table, volume_table."""
+`table`: plane_table, volume_table, shape_table, which has another for each kind of case."""
 from tables import grouped, table_head, table_row
 
 
@@ -19,6 +19,11 @@ def row(result, table):
     return [result["tool"], *table.cells(result)]
 
 
+def part(table, group):
+    """The table of these cases."""
+    return table.of(group[0]["case"]) if hasattr(table, "of") else table
+
+
 def groups(results):
     """By case and size, in the order they were run."""
     found = {}
@@ -34,9 +39,10 @@ def title(result):
 def text_tables(results, table):
     lines = []
     for group in groups(results).values():
-        rows = [table.SHORT, *(row(result, table) for result in group)]
+        columns = part(table, group)
+        rows = [columns.SHORT, *(row(result, columns) for result in group)]
         widths = [max(len(r[i]) for r in rows if not r[1].startswith("failed"))
-                  for i in range(len(table.TITLES))]
+                  for i in range(len(columns.TITLES))]
         lines += ["", title(group[0])]
         for cells in rows:
             lines.append("  ".join([cells[0].ljust(widths[0])] + [
@@ -70,8 +76,8 @@ def markdown(results, pictures, table):
         lines += [f"![quality against speed]({pictures['quality_speed']})", ""]
     for group in groups(results).values():
         lines += [f"## {title(group[0])[0].upper()}{title(group[0])[1:]}", "",
-                  *table_head(table.TITLES)]
-        lines += [table_row(row(result, table)) for result in group] + [""]
+                  *table_head(part(table, group).TITLES)]
+        lines += [table_row(row(result, part(table, group))) for result in group] + [""]
     if "histogram" in pictures:
         lines += [f"![histogram of quality]({pictures['histogram']})", ""]
     if results["forces"]:

@@ -106,6 +106,31 @@ class Compare(unittest.TestCase):
         for result in self.results("comparison_volumes")["placements"]:
             self.assertGreater(result["measures"]["angle_least"], 10, result)
 
+    def test_spacing_from_the_shape(self):
+        """By PNPBS in both kinds of cases, and by the peers that are here in one."""
+        done = compare(self.output, "--shape", "--nodes", "2000", "--cases", "follow-airfoil")
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        for result in self.results("comparison_shape")["placements"]:
+            m = result["measures"]
+            self.assertTrue(1500 < m["nodes"] < 2700, result)
+            self.assertTrue(0.85 < m["inside_mean"] < 1.05, result)
+            self.assertTrue(0.02 < m["edge_deviation"] < 0.2, result)
+            self.assertGreater(result["even_seconds"], 0)
+        done = compare(self.output, "--shape", "--nodes", "2000", "--tools", "PNPBS", "--cases",
+                       "auto-airfoil,follow-islands,follow-bracket")
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        airfoil, islands, bracket = self.results("comparison_shape")["placements"]
+        self.assertGreater(airfoil["measures"]["per_turn"][1], 20, airfoil)
+        self.assertTrue(0.8 < islands["measures"]["inside_mean"] < 1.1, islands)
+        self.assertTrue(0.9 < bracket["measures"]["inside_mean"] < 1.1, bracket)
+        page = (self.output / "comparison_shape.md").read_text()
+        self.assertIn("nodes per turn", page)
+        self.assertIn("farthest off, at", page)
+        again = self.folder / "again"
+        done = compare(again, "--from", self.output / "comparison_shape.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((again / "comparison_shape.md").read_text(), page)
+
     def judge_volumes(self, printed):
         results = self.results("comparison_volumes")
         page = (self.output / "comparison_volumes.md").read_text()
@@ -215,6 +240,7 @@ class Compare(unittest.TestCase):
     def test_bad_arguments(self):
         for arguments, told in ((("--cases", "nowhere"), "unknown case nowhere"),
                                 (("--volumes", "--cases", "uniform-square"), "unknown case"),
+                                (("--shape", "--cases", "uniform-square"), "unknown case"),
                                 (("--ours", "best"), "name: key=value"),
                                 (("--repeat", "0"), "--repeat")):
             done = compare(self.output, *arguments)

@@ -31,6 +31,15 @@ class VolumeOutcome:
     inner_seconds: float     # as the tool tells it, without start and files; None if it does not
 
 
+@dataclasses.dataclass
+class ShapeOutcome:
+    points: np.ndarray       # (n, 2 or 3)
+    used: list               # Measured of its processes, one after the other, start and files included
+    field_seconds: float     # CPU seconds for the sizes alone; None if a tool has no such step
+    even_points: int         # nodes that it placed with one d everywhere
+    even_seconds: float      # CPU seconds for those, start and files included
+
+
 class DoesNotStart(Exception):
     """A tool that is there cannot be used; the text says why."""
 
@@ -52,6 +61,21 @@ class Tool:
         """Places the nodes of a case, with files in a folder. Outcome, in space VolumeOutcome; raises
         measure.Failed."""
         raise NotImplementedError
+
+
+class ByShape:
+    """A tool of cases that are a shape: it has place(case, folder, time_limit), which returns
+    points, a list of Measured, and the CPU seconds for the sizes alone or None."""
+
+    def run(self, case, folder, time_limit):
+        points, used, field_seconds = self.place_in(folder / "sizes", case, time_limit)
+        even_points, even, _ = self.place_in(folder / "even", case.even(len(points)), time_limit)
+        return ShapeOutcome(points, used, field_seconds, len(even_points),
+                            sum(u.cpu_seconds for u in even))
+
+    def place_in(self, folder, case, time_limit):
+        folder.mkdir()
+        return self.place(case, folder, time_limit)
 
 
 def command(name):

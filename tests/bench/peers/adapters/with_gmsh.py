@@ -15,9 +15,9 @@ AS_COMMAND = "import gmsh, sys; gmsh.initialize(sys.argv, run=True); gmsh.finali
 TOO_LARGE = 0.02
 
 
-def geometry(case):
-    """The domain and its spacing in gmsh's language."""
-    domain, lines, first_of_loop = case.domain, [], []
+def outline(domain):
+    """The domain in gmsh's language, and the first line of each loop."""
+    lines, first_of_loop = [], []
     for i, (x, y) in enumerate(domain.vertices.tolist(), 1):
         lines.append(f"Point({i}) = {{{x!r}, {y!r}, 0}};")
     line, loops = 0, domain.loops()
@@ -29,6 +29,12 @@ def geometry(case):
             lines.append(f"Line({line}) = {{{a + 1}, {b + 1}}};")
         lines.append(f"Curve Loop({number}) = {{{first}:{line}}};")
     lines.append(f"Plane Surface(1) = {{1:{len(loops)}}};")
+    return lines, first_of_loop
+
+
+def geometry(case):
+    """The domain and its spacing in gmsh's language."""
+    lines, first_of_loop = outline(case.domain)
     lines += ["Mesh.MeshSizeExtendFromBoundary = 0;", "Mesh.MeshSizeFromPoints = 0;"]
     if case.slope == 0:
         lines += [f"Mesh.MeshSize{bound} = {case.constant!r};" for bound in ("Min", "Max")]
@@ -36,7 +42,7 @@ def geometry(case):
         lines += ["Field[1] = MathEval;", f'Field[1].F = "{case.formula("Sqrt")}";',
                   "Background Field = 1;"]
     else:
-        lines += field_from_loop(case, f"{first_of_loop[1]}:{line}")
+        lines += field_from_loop(case, f"{first_of_loop[1]}:{len(case.domain.segments)}")
     return "\n".join(lines) + "\n"
 
 
@@ -92,10 +98,10 @@ class GmshCommand(tool.Tool):
     def version(self):
         return tool.answer_of(*self.command(), "--version").splitlines()[-1]
 
-    def mesh(self, text, folder, time_limit):
+    def mesh(self, text, folder, time_limit, words=None):
         """What it used, and the seconds that it tells, from a file in gmsh's language."""
         (folder / "case.geo").write_text(text)
-        used = measure([*self.command(), "case.geo", *self.setting.split(), "-nt", 1, "-format",
+        used = measure([*self.command(), "case.geo", *(words or self.setting).split(), "-nt", 1, "-format",
                         "msh22", "-o", "nodes.msh"], folder, time_limit)
         if not (folder / "nodes.msh").exists():
             raise Failed("wrote no file")
