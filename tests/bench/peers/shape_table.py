@@ -8,7 +8,7 @@ HEADING = "Spacing from the shape: comparison with other tools"
 
 class Followed:
     """Where d is prescribed."""
-    TITLES = ["tool", "nodes", "CPU s", "of it the sizes", "CPU s at one d", "edge over d",
+    TITLES = ["tool", "nodes", "CPU s", "CPU s for the sizes", "CPU s at one d", "edge over d",
               "1 % to 99 %", "by bands of d", "on the boundary", "inside", "farthest off, at"]
     SHORT = ["tool", "nodes", "CPU s", "sizes", "one d", "edge/d", "1 % to 99 %", "bands", "boundary",
              "inside", "worst at"]
@@ -25,7 +25,7 @@ class Followed:
 
 class Automatic:
     """Where the sizes are the tool's own."""
-    TITLES = ["tool", "nodes", "CPU s", "of it the sizes", "CPU s at one d",
+    TITLES = ["tool", "nodes", "CPU s", "CPU s for the sizes", "CPU s at one d",
               "least, mean and largest size", "growth, 99 % below", "nodes per turn: 5 % below, median",
               "at", "sizes across gaps: 5 % below, median", "gaps"]
     SHORT = ["tool", "nodes", "CPU s", "sizes", "one d", "size", "growth", "per turn", "at", "across",
@@ -63,9 +63,9 @@ HOW = """What the columns say:
 - Every tool gets the same shape, and runs as processes of its own with one thread. CPU seconds are
   what the system gave them, start and files included: they hardly depend on what else the machine
   does, as long as it leaves them their share of the caches.
-- Of it the sizes: where a tool makes them in a step of their own. Of PNPBS it is `--dry-run`, which
+- For the sizes: where a tool makes them in a step of their own. Of PNPBS it is `--dry-run`, which
   makes the tree of d and counts the nodes; of JIGSAW it is its command marche, and SciPy's work for
-  the sizes it starts from, which is not in the CPU seconds before. gmsh has no such step: it asks its
+  the sizes it starts from, which is not in the CPU seconds of the whole. gmsh has no such step: it asks its
   fields as it goes. "At one d" is the same tool on the same shape with one d for about as many nodes,
   scaled to as many: what is spent beyond that goes to the sizes, and to grading itself.
 - Prescribed is d = min(largest, least + slope * distance from the boundary), the largest eight times
@@ -73,6 +73,9 @@ HOW = """What the columns say:
   fields Distance (from samples) and Threshold, JIGSAW as exact values at grid points beside the
   boundary, whose growth marche limits to the slope. The evaluator has the distance from the segments
   and triangles themselves.
+- In the plane PNPBS and gmsh have a node at every vertex of the input, so that where the input is finer
+  than d, edges are too short; JIGSAW has one at sharp corners, and refines where the boundary would touch
+  itself (MESH_TOP1).
 - Sizes by the tool itself have bounds alone: the largest for a fifth of the nodes asked, and a
   hundredth of it. PNPBS: `--spacing auto`, of 20 nodes per turn, 3 across a gap and the input's own
   segments the least. gmsh: 20 elements per turn, of straight lines none, so that it gets the airfoil as

@@ -108,21 +108,20 @@ class Compare(unittest.TestCase):
 
     def test_spacing_from_the_shape(self):
         """By PNPBS in both kinds of cases, and by the peers that are here in one."""
-        done = compare(self.output, "--shape", "--nodes", "2000", "--cases", "follow-airfoil")
+        done = compare(self.output, "--shape", "--nodes", "1500", "--cases", "follow-airfoil")
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
         for result in self.results("comparison_shape")["placements"]:
             m = result["measures"]
-            self.assertTrue(1500 < m["nodes"] < 2700, result)
+            self.assertTrue(1200 < m["nodes"] < 2000, result)
             self.assertTrue(0.85 < m["inside_mean"] < 1.05, result)
             self.assertTrue(0.02 < m["edge_deviation"] < 0.2, result)
             self.assertGreater(result["even_seconds"], 0)
-        done = compare(self.output, "--shape", "--nodes", "2000", "--tools", "PNPBS", "--cases",
-                       "auto-airfoil,follow-islands,follow-bracket")
+        done = compare(self.output, "--shape", "--nodes", "1500", "--tools", "PNPBS", "--cases",
+                       "auto-airfoil,follow-bracket")
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
-        airfoil, islands, bracket = self.results("comparison_shape")["placements"]
+        airfoil, bracket = self.results("comparison_shape")["placements"]
         self.assertGreater(airfoil["measures"]["per_turn"][1], 20, airfoil)
-        self.assertTrue(0.8 < islands["measures"]["inside_mean"] < 1.1, islands)
-        self.assertTrue(0.9 < bracket["measures"]["inside_mean"] < 1.1, bracket)
+        self.assertTrue(0.9 < bracket["measures"]["edge_mean"] < 1.2, bracket)
         page = (self.output / "comparison_shape.md").read_text()
         self.assertIn("nodes per turn", page)
         self.assertIn("farthest off, at", page)
