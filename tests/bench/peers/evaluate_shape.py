@@ -105,9 +105,13 @@ def curvature(case):
     order = np.argsort(keys, kind="stable")
     together = keys[order][1:] == keys[order][:-1]
     first, second = number[order][:-1][together], number[order][1:][together]
-    cosine = (normal[first] * normal[second]).sum(1)
-    if pieces.shape[1] == 2:  # segments run either way round
-        cosine = np.abs(cosine)
+    if pieces.shape[1] == 2:  # segments may run either way: straight on is away from the shared end
+        shared = case.domain.vertices[sides.ravel()[order[:-1][together]]]
+        back, on = ((way / np.linalg.norm(way, axis=1)[:, None])
+                    for way in (shared - middle[first], middle[second] - shared))
+        cosine = (back * on).sum(1)
+    else:
+        cosine = (normal[first] * normal[second]).sum(1)
     angle = np.arccos(np.clip(cosine, -1, 1))
     way = np.linalg.norm(middle[first] - middle[second], axis=1)
     if pieces.shape[1] == 3:  # across their common side alone, not along it

@@ -34,6 +34,13 @@ def rectangle(width, height, step=None):
     return Shape(from_loops([corners]))
 
 
+def turned_round(shape):
+    """The same with every second segment the other way."""
+    segments = shape.domain.segments.copy()
+    segments[::2] = segments[::2, ::-1]
+    return Shape(dataclasses.replace(shape.domain, segments=segments))
+
+
 class Distances(unittest.TestCase):
     def test_against_all_pieces(self):
         random = np.random.default_rng(1)
@@ -83,10 +90,13 @@ class Sizes(unittest.TestCase):
     def test_curvature(self):
         case = ShapeCase("auto-disc", "", Shape(from_loops([circle(60, 2)])), 0.1, 0, 1, True)
         self.assertTrue(np.allclose(evaluate_shape.curvature(case), 0.5, rtol=0.01))
+        either_way = dataclasses.replace(case, shape=turned_round(case.shape))
+        self.assertTrue(np.allclose(evaluate_shape.curvature(either_way), 0.5, rtol=0.01))
         case = dataclasses.replace(case, shape=Shape(bodies.ball(0.1)))
         # Triangles of a sphere turn faster across some of their sides.
         self.assertTrue(0.95 < np.median(evaluate_shape.curvature(case)) < 1.3)
-        for flat in (rectangle(2, 1), Shape(bodies.box())):  # corners and edges are not curved
+        wedge = Shape(from_loops([np.array([[0, 0], [1, -0.14], [1, 0.14]])]))
+        for flat in (rectangle(2, 1), Shape(bodies.box()), wedge, turned_round(wedge)):
             case = dataclasses.replace(case, shape=flat)
             self.assertLess(evaluate_shape.curvature(case).max(), 1e-12)
 
