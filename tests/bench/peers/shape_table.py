@@ -86,7 +86,8 @@ HOW = """What the columns say:
   domain. Edge over d: of the length over the mean of d at the ends; on the boundary, where both ends
   lie there. By bands: the least and the largest mean in eight bands, equal in log d, of 100 edges or
   more. Farthest off: the edge whose length over d is, by ratio, and its middle; narrow places and short
-  segments of the input make some edges short whatever the tool.
+  segments of the input make some edges short whatever the tool, and in space some long edges are those
+  of flat tetrahedra over dips of the surface, which the triangulation is not forced to follow.
 - A node's size is the mean length of its edges; growth the difference of sizes over the length of the
   edge between. Nodes per turn: the circumference of the circle of curvature over the size, of nodes
   on the boundary where 20 per turn ask for less than the largest d; curvature is how much neighbouring
