@@ -76,6 +76,8 @@ HOW = """What the columns say:
 - In the plane PNPBS and gmsh have a node at every vertex of the input, so that where the input is finer
   than d, edges are too short; JIGSAW has one at sharp corners, and refines where the boundary would touch
   itself (MESH_TOP1).
+- In space gmsh is told 0.79 of d, so that about as many nodes come out: its edges inside are longer than
+  its size, those on the boundary are not, and so come out at 0.78 there. Part of its deviation is this.
 - Sizes by the tool itself have bounds alone: the largest for a fifth of the nodes asked, and a
   hundredth of it. PNPBS: `--spacing auto`, of 20 nodes per turn, 3 across a gap and the input's own
   segments the least. gmsh: 20 elements per turn, of straight lines none, so that it gets the airfoil as
