@@ -18,8 +18,8 @@ constexpr std::int64_t kChunk = VolumeStars::kChunk;
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Several threads may do so.
-void clear(std::vector<char>& flags, std::int64_t i) {
-  std::atomic_ref<char>(flags[index(i)]).store(0, std::memory_order_relaxed);
+void set(std::vector<char>& flags, std::int64_t i) {
+  std::atomic_ref<char>(flags[index(i)]).store(1, std::memory_order_relaxed);
 }
 
 template <class Body>
@@ -73,53 +73,61 @@ class Uses {
   std::vector<std::int32_t> left_;
 };
 
-// Of the nodes whose stars are kept, those that stay so.
-void check(const VolumeStarInput& input, const VolumeStars& stars, std::vector<char>& kept) {
-  std::vector<char> holds(kept);
+// Those of the nodes whose stars are kept of which this may be wrong.
+std::vector<char> doubted(const VolumeStarInput& input, const VolumeStars& stars,
+                          const std::vector<char>& kept) {
+  std::vector<char> fails(kept.size(), 0);
   for_chunks("pnpbs::StarsBefore::check", input.nodes.count, [&](std::int64_t i, std::int64_t end) {
     KeptStar star(input, stars);
     for (; i < end; ++i)
-      if (kept[index(i)]) star.check(i, [&](std::int32_t j) { clear(holds, j); });
+      if (kept[index(i)]) star.check(i, [&](std::int32_t j) { set(fails, j); });
   });
-  kept.swap(holds);
+  return fails;
 }
 
+// Has the star of node i the tetrahedron with these other corners, of positive orientation with it?
 bool has_tetrahedron(const VolumeStars& stars, std::int64_t i,
-                     const std::array<std::int64_t, 4>& t) {
-  const auto is_corner = [&](std::int32_t j) {
-    return std::find(t.begin(), t.end(), j) != t.end();
-  };
-  bool has = false;
-  stars.for_simplices(i, [&](const VolumeStars::Corners& corners) {
-    has = has || std::all_of(corners.begin(), corners.end(), is_corner);
+                     const VolumeStars::Corners& corners) {
+  VolumeStars::Corners places{-1, -1, -1};
+  std::int32_t place = 0;
+  stars.for_neighbours(i, [&](std::int64_t j) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (corners[k] == j) places[k] = place;
+    ++place;
   });
-  return has;
+  const std::size_t first =
+      static_cast<std::size_t>(std::min_element(places.begin(), places.end()) - places.begin());
+  return places[first] >= 0 &&
+         stars.has_triangle_of_places(
+             i, {places[first], places[(first + 1) % 3], places[(first + 2) % 3]});
 }
 
-// Where a star kept has a tetrahedron that one found has not, or the other way round, the one kept
-// was wrong. Returns those.
+// Where a star kept has a tetrahedron that one found last has not, or the other way round, the one
+// kept was wrong. Returns those.
 std::vector<char> contradicted(const VolumeStarInput& input, const VolumeStars& stars,
-                               const std::vector<char>& kept) {
-  const Nodes<3>& nodes = input.nodes;
-  std::vector<char> agrees(kept);
-  const auto is_found = [&](std::int64_t j) {
-    return nodes.owned(j) && !kept[index(j)] && stars.needs(j) == 0;
-  };
-  const auto compare = [&](std::int64_t i) {
+                               const std::vector<char>& kept, const std::vector<char>& found) {
+  std::vector<char> wrong(kept.size(), 0);
+  // By the flags of those that a corner's star is held against.
+  const auto compare = [&](std::int64_t i, const std::vector<char>& others) {
+    bool beside = false;
+    stars.for_neighbours(i, [&](std::int64_t j) { beside = beside || others[index(j)]; });
+    if (!beside) return;
+    const auto node = static_cast<std::int32_t>(i);
+    const auto look_at = [&](std::int32_t j, const VolumeStars::Corners& corners) {
+      if (others[index(j)] && !has_tetrahedron(stars, j, corners))
+        set(wrong, kept[index(i)] ? i : j);
+    };
     stars.for_simplices(i, [&](const VolumeStars::Corners& c) {
-      for (const std::int32_t j : c) {
-        if (kept[index(i)] ? !is_found(j) : !kept[index(j)]) continue;
-        if (!has_tetrahedron(stars, j, {i, c[0], c[1], c[2]}))
-          clear(agrees, kept[index(i)] ? i : j);
-      }
+      look_at(c[0], {node, c[2], c[1]});
+      look_at(c[1], {node, c[0], c[2]});
+      look_at(c[2], {node, c[1], c[0]});
     });
   };
-  for_chunks("pnpbs::StarsBefore::compare", nodes.count, [&](std::int64_t i, std::int64_t end) {
-    for (; i < end; ++i)
-      if (kept[index(i)] || is_found(i)) compare(i);
-  });
-  std::vector<char> wrong(kept);
-  for (std::size_t i = 0; i < kept.size(); ++i) wrong[i] = kept[i] && !agrees[i];
+  for_chunks("pnpbs::StarsBefore::compare", input.nodes.count,
+             [&](std::int64_t i, std::int64_t end) {
+               for (; i < end; ++i)
+                 if (kept[index(i)] || found[index(i)]) compare(i, kept[index(i)] ? found : kept);
+             });
   return wrong;
 }
 
@@ -169,12 +177,23 @@ std::vector<char> StarsBefore::put_in_place(const VolumeStarInput& input,
 void StarsBefore::find_stars(const VolumeStarInput& input, std::vector<char> wanted,
                              VolumeStars& stars) {
   std::vector<char> kept = put_in_place(input, wanted, stars);
-  check(input, stars, kept);
+  const auto give_up = [&](const std::vector<char>& some) {
+    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && !some[i];
+  };
+  give_up(doubted(input, stars, kept));
   for (std::size_t i = 0; i < kept.size(); ++i) wanted[i] = wanted[i] && !kept[i];
-  while (any_set(wanted)) {
+  stars.add(input, wanted);
+  // With all that are there: those found before, too.
+  std::vector<char> found(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const auto node = static_cast<std::int64_t>(i);
+    found[i] = input.nodes.owned(node) && !kept[i] && stars.needs(node) == 0;
+  }
+  while (any_set(found)) {
+    wanted = contradicted(input, stars, kept, found);
+    give_up(wanted);
     stars.add(input, wanted);
-    wanted = contradicted(input, stars, kept);
-    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && !wanted[i];
+    found.swap(wanted);
   }
 }
 

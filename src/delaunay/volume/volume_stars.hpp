@@ -5,6 +5,7 @@
 // alone there are triangles instead.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -101,6 +102,12 @@ class VolumeStars {
     const Star star = star_of(i);
     for (const std::int32_t* t = star.first + star.neighbours; t < star.last; ++t)
       visit(places_in(*t));
+  }
+  // Is this one of them, for sure? The least place comes first.
+  bool has_triangle_of_places(std::int64_t i, const Corners& places) const {
+    const Star star = star_of(i);
+    return !star.wide &&
+           std::find(star.first + star.neighbours, star.last, pack(places)) != star.last;
   }
   // Writes the star of node i down for nodes in another order: node j is at place[j] now.
   void copy_star(std::int64_t i, const std::vector<std::int32_t>& place,
