@@ -119,6 +119,10 @@ const std::vector<OptionRow>& option_table() {
       {"smooth_below", T::real, "0.82", nullptr, "0.87", 0, 1, nullptr,
        "triangles are bad whose quality, 2 r_in / R, or 1.365 times the sine of the smallest angle "
        "is below this; in the plane alone"},
+      {"sliver_angle", T::real, "33", nullptr, "38", 0, 40, nullptr,
+       "tetrahedra with a dihedral angle below this, in degrees, are slivers and repaired; in "
+       "space "
+       "alone"},
       {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
        "radius of the lists during the run, in desired distances"},
       {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 3, nullptr,

@@ -21,6 +21,7 @@ Settings::Settings(const Options& o)
       tolerance_mean(o.real("tolerance_mean")),
       tolerance_max(o.real("tolerance_max")),
       sweeps(o.integer("sweeps")),
+      sliver_angle(o.real("sliver_angle")),
       list_radius(o.real("list_radius")),
       adjacency_radius(o.real("adjacency_radius")),
       growth_limit(o.real("growth_limit")),

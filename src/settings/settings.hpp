@@ -39,6 +39,7 @@ struct Settings {
   std::int64_t sweeps;
   SweepRule sweep;
   RepairRule repair;
+  double sliver_angle;  // degrees
   DefectRule defects;
   double list_radius, adjacency_radius;
   double growth_limit;

@@ -2,6 +2,7 @@
 // The defaults of the rules are those of the options that set them.
 #include <string>
 
+#include "quality/volume/sliver_repair.hpp"
 #include "run_kernel_suite.hpp"
 #include "settings/settings.hpp"
 
@@ -19,6 +20,7 @@ START_TEST(rules_and_options_agree) {
   ck_assert_double_eq(settings.sweep.weight, pnpbs::SweepRule{}.weight);
   ck_assert_int_eq(settings.repair.rounds, pnpbs::RepairRule{}.rounds);
   ck_assert_double_eq(settings.repair.bad_below, pnpbs::RepairRule{}.bad_below);
+  ck_assert_double_eq(settings.sliver_angle, pnpbs::SliverRule{}.repair_below);
   ck_assert_int_eq(settings.defects.rounds, pnpbs::DefectRule{}.rounds);
 }
 END_TEST

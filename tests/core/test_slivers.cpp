@@ -236,7 +236,7 @@ END_TEST
 // Every round makes the sum of what small angles lack less, whatever goes at once.
 START_TEST(rounds_only_help) {
   Shaken s(9, 0.3);
-  const pnpbs::SmallAngles small(pnpbs::SliverRule().penalty_below);
+  const pnpbs::SmallAngles small(pnpbs::SliverRule().penalty_below());
   std::set<std::int64_t> moving;
   for (std::int64_t i = 0; i < s.b.nodes.count; ++i)
     if (s.b.nodes.moves(i)) moving.insert(s.b.nodes.id(i));

@@ -44,7 +44,7 @@ void repair_slivers(Level<3>& level) {
   constexpr int kRings = 7;
   make_finish_stars(level, kRings);
   const PhaseTimer timer(level.timers, Phase::sweeps);
-  SliverRule rule;
+  const SliverRule rule{level.settings.sliver_angle};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
   // Those on a level set are where it is 0, and stay.

@@ -42,7 +42,7 @@ SliverRepair::SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const Sliv
                            Allowed allowed, AlongSurfaces along_surfaces)
     : nodes_(nodes),
       small_(rule.repair_below),
-      penalised_(rule.penalty_below),
+      penalised_(rule.penalty_below()),
       rounds_(rule.rounds),
       allowed_(std::move(allowed)),
       along_surfaces_(std::move(along_surfaces)),

@@ -20,9 +20,11 @@
 namespace pnpbs {
 
 struct SliverRule {
+  double repair_below = 33;  // degrees
   std::int64_t rounds = 100;
-  double repair_below = 33;   // degrees
-  double penalty_below = 38;  // the angles that must not become worse on the way
+
+  // The angles that must not become worse on the way.
+  double penalty_below() const { return repair_below + 5; }
 };
 
 // What a move changes lies within this many d of the node; nodes nearer to each other than the sum
