@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
 
 namespace pnpbs {
