@@ -80,6 +80,8 @@ void PlacementOf<Dim>::event() {
   const Settings& settings = level_->settings;
   last_speeds_ = speeds_of(*level_);
   refresh_spacing(*level_);
+  if constexpr (Dim == 3)
+    if (settings.growth_limit > 0 && !schedule_.coarser) require_sampled_spacing(*level_);
   const double population_until =
       std::floor(settings.population_share * static_cast<double>(settings.steps));
   if (static_cast<double>(schedule_.step) > population_until && !far_too_few())

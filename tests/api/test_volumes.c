@@ -168,6 +168,30 @@ START_TEST(too_many_nodes) {
 }
 END_TEST
 
+/* Fine in a place that samples of d for bubbles as large as around do not find. */
+static int32_t fine_in_the_middle(int64_t n, int32_t dim, const double* xyz, double* d,
+                                  void* user) {
+  int64_t i;
+  (void)dim, (void)user;
+  for (i = 0; i < n; ++i) {
+    const double x = xyz[3 * i] - 0.5, y = xyz[3 * i + 1] - 0.5, z = xyz[3 * i + 2] - 0.5;
+    d[i] = x * x + y * y + z * z < 0.06 * 0.06 ? 0.01 : 0.2;
+  }
+  return 0;
+}
+
+START_TEST(too_small_a_place) {
+  job it = body_job(volume_unit_box);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, fine_in_the_middle, NULL));
+  MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement), "d = 0.01 near (0.4",
+            "so small a place");
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  job_end(&it);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- ways to drive it ------ */
 
 typedef struct {
@@ -416,6 +440,7 @@ int main(void) {
   tcase_add_loop_test(tests, spacings_far_larger_than_the_body, 0, 4);
   tcase_add_test(tests, bad_spacings);
   tcase_add_test(tests, too_many_nodes);
+  tcase_add_test(tests, too_small_a_place);
   tcase_add_loop_test(tests, stopped_by_the_monitor, 0, 5);
   tcase_add_test(tests, by_steps);
   tcase_add_test(tests, fills_count_as_inserted);
