@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/argument_rules.hpp"
 
+#include <algorithm>
+
 #include "base/extension.hpp"
 #include "tool/cut.hpp"
 #include "tool/exit.hpp"
@@ -27,6 +29,17 @@ void require_arguments_that_fit(const Arguments& arguments) {
       *arguments.min_spacing > *arguments.max_spacing) {
     refuse("--min-spacing is above --max-spacing");
   }
+  const bool multiplied =
+      std::any_of(arguments.options.begin(), arguments.options.end(),
+                  [](const auto& option) { return option.first == "wanted_nodes"; });
+  if (multiplied && (arguments.min_spacing || arguments.max_spacing))
+    refuse(
+        "--nodes multiplies d, so that --min-spacing and --max-spacing would not hold: give the "
+        "number or the bounds");
+  if (multiplied && arguments.simplify)
+    refuse(
+        "--simplify goes by d as given, and --nodes multiplies that: find d by --nodes with "
+        "--dry-run, and give it to --spacing");
   const auto colour = arguments.colour.value_or(picture::ElementColour::none);
   if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");

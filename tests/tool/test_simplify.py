@@ -72,6 +72,11 @@ class Shores(CommandTest):
         self.assertIn("--corner-angle: expected", self.refuse(*ask, "--corner-angle", "181"))
         self.assertIn("--simplify needs d", self.refuse("--domain", ISLANDS, "--spacing", "auto",
                                                         "--simplify", "0.25"))
+        self.assertIn("--nodes multiplies", self.refuse(*ask, "--nodes", "1000",
+                                                        "--simplify", "0.25"))
+        for bound in ("--min-spacing", "--max-spacing"):
+            self.assertIn("would not hold", self.refuse("--domain", ISLANDS, "--spacing", "auto",
+                                                        "--nodes", "1000", bound, "5"))
         body = ("--domain", "ball(0,0,0, 1)", "--spacing", "0.3")
         self.assertIn("plane", self.refuse(*body, "--simplify", "0.25"))
         self.assertIn("--feature-angle", self.refuse(*body, "--corner-angle", "30"))
