@@ -142,6 +142,7 @@ end program\")
 add_executable(a \"\${CMAKE_BINARY_DIR}/a.f90\")
 target_link_libraries(a PRIVATE pnpbs::geo_fortran)"
     quietly "$cmake" --build "$folder/build"
+    rm -f "$work/check_lines_before"
     run_and_compare "$folder/build/a"
     rm -f "$work/check_lines_before"
   fi
