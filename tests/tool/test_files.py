@@ -228,11 +228,11 @@ class Report(CommandTest):
 
     def test_memory_is_that_of_the_end(self):
         """Of the command alone: what its parent holds when it starts it does not count."""
-        held = bytearray(300 << 20)
+        held = bytearray(800 << 20)  # more than sanitizers keep
         out, _ = self.place("--report", "r.json", "-o", "a.msh", "-o", "a.vtu", spacing="0.01")
         del held
         memory = json.loads((self.folder / "r.json").read_text())["memory"]["peak_bytes"]
-        self.assertTrue(1 << 20 < memory < 200 << 20, memory)
+        self.assertTrue(1 << 20 < memory < 500 << 20, memory)
         self.assertIn(f"memory   {memory / (1 << 20):.3g} MiB at most", out.decode())
 
     def test_dry_run(self):
