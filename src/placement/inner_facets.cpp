@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/space_vectors.hpp"
+#include "delaunay/volume/element_rule.hpp"
 #include "domain/volume/triangles.hpp"
 
 namespace pnpbs {
@@ -14,18 +15,6 @@ namespace {
 bool is_inner_triangle(const BoundaryTriangle& facet) {
   const auto& [a, b, c] = facet.nodes;
   return facet.front_inside && facet.back_inside && a != b && b != c && c != a;
-}
-
-// Added up in the order of their ids: the same bits whoever asks.
-Point<3> centroid_of(const Nodes<3>& nodes, std::array<std::int64_t, 4> corners) {
-  std::ranges::sort(corners, {}, [&](std::int64_t i) { return nodes.id(i); });
-  Point<3> sum{};
-  for (const std::int64_t i : corners) {
-    const Point<3> x = nodes.position(i);
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += x[k];
-  }
-  for (double& along : sum) along *= 0.25;
-  return sum;
 }
 
 }  // namespace
@@ -51,7 +40,7 @@ const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
       faces_.push_back({{nodes.id(two[0]), nodes.id(two[1])},
                         {i, two[0], two[1]},
                         nodes.id(apex),
-                        centroid_of(nodes, {i, two[0], two[1], apex})});
+                        centroid(ordered_by_id(tetrahedron_of(nodes, {i, two[0], two[1], apex})))});
     }
   });
   std::ranges::sort(faces_, {}, [](const Face& f) { return std::pair(f.ids, f.apex); });

@@ -12,15 +12,6 @@ namespace pnpbs {
 
 namespace {
 
-// The corners' mean, added up in the order of their ids: the same bits whoever asks.
-Point<3> centroid(const Tetrahedron& ordered) {
-  Point<3> sum{};
-  for (const VolumeNode& corner : ordered)
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += corner.x[k];
-  for (double& along : sum) along *= 0.25;
-  return sum;
-}
-
 // Is it so thin that its volume is a small part of a regular one with its longest edge?
 bool is_flat_cap(const TetrahedronCorners& x) {
   constexpr double kFlat = 0.2;
@@ -30,14 +21,31 @@ bool is_flat_cap(const TetrahedronCorners& x) {
   return std::fabs(dot(u, cross(v, w))) < kFlat * regular;
 }
 
+// Is it nearer to a free node, which is inside, than any facet is? For nodes that are where the
+// corners are: elsewhere their room is another.
+bool beside_free_node(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes,
+                      const Tetrahedron& corners, const Point<3>& x) {
+  constexpr double kSurely = 0.999;
+  if (!in.room) return false;
+  for (std::size_t k = 0; k < 4; ++k)
+    if (in.nodes.carrier(nodes[k]) == Carrier::free &&
+        corners[k].x == in.nodes.position(nodes[k]) &&
+        distance<3>(corners[k].x, x) < kSurely * in.room(nodes[k]))
+      return true;
+  return false;
+}
+
+std::int64_t held_among(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes) {
+  return std::count_if(nodes.begin(), nodes.end(),
+                       [&](std::int64_t i) { return in.nodes.carrier(i) != Carrier::free; });
+}
+
 }  // namespace
 
 bool in_domain(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes,
                const Tetrahedron& corners) {
   if (in.facets == nullptr) return true;
-  const auto held_nodes = std::count_if(nodes.begin(), nodes.end(), [&](std::int64_t i) {
-    return in.nodes.carrier(i) != Carrier::free;
-  });
+  const std::int64_t held_nodes = held_among(in, nodes);
   if (held_nodes < 2) return true;
   const Tetrahedron t = ordered_by_id(corners);
   if (held_nodes == 4) {
@@ -46,7 +54,12 @@ bool in_domain(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nod
     if (is_flat_cap(x) && in.on_one_surface && in.on_one_surface(nodes)) return false;
   }
   const Point<3> middle = centroid(t);
-  return in.facets->inside(middle) || in.facets->on_inner_facet(middle);
+  return beside_free_node(in, nodes, corners, middle) || in.facets->inside(middle) ||
+         in.facets->on_inner_facet(middle);
+}
+
+bool in_domain(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes) {
+  return held_among(in, nodes) < 2 || in_domain(in, nodes, tetrahedron_of(in.nodes, nodes));
 }
 
 }  // namespace pnpbs

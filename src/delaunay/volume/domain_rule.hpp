@@ -15,5 +15,7 @@ namespace pnpbs {
 // what a curved surface rises between them.
 bool in_domain(const VolumeStarInput& input, const std::array<std::int64_t, 4>& nodes,
                const Tetrahedron& corners);
+// Of nodes where they are.
+bool in_domain(const VolumeStarInput& input, const std::array<std::int64_t, 4>& nodes);
 
 }  // namespace pnpbs

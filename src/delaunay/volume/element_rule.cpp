@@ -43,6 +43,21 @@ Tetrahedron ordered_by_id(Tetrahedron corners) {
   return corners;
 }
 
+Tetrahedron tetrahedron_of(const Nodes<3>& nodes, const std::array<std::int64_t, 4>& corners) {
+  Tetrahedron tetrahedron;
+  for (std::size_t k = 0; k < 4; ++k)
+    tetrahedron[k] = {nodes.position(corners[k]), nodes.d(corners[k]), nodes.id(corners[k])};
+  return tetrahedron;
+}
+
+Point<3> centroid(const Tetrahedron& ordered) {
+  Point<3> sum{};
+  for (const VolumeNode& corner : ordered)
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += corner.x[k];
+  for (double& along : sum) along *= 0.25;
+  return sum;
+}
+
 bool is_element(const Tetrahedron& ordered) {
   const auto& [a, b, c, d] = ordered;
   const Vector u = from_to(a.x, b.x), v = from_to(a.x, c.x), w = from_to(a.x, d.x);

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "base/types.hpp"
+#include "base/nodes.hpp"
 
 namespace pnpbs {
 
@@ -25,6 +25,11 @@ inline constexpr double kMaxRadius = 2;
 // By id, so that what is computed from them in turn has the same bits whoever asks.
 using Tetrahedron = std::array<VolumeNode, 4>;
 Tetrahedron ordered_by_id(Tetrahedron corners);
+// Of nodes where they are.
+Tetrahedron tetrahedron_of(const Nodes<3>& nodes, const std::array<std::int64_t, 4>& corners);
+
+// The corners' mean, added up in the order of their ids.
+Point<3> centroid(const Tetrahedron& ordered);
 
 // With twice the digits: of a tetrahedron that is flat but for rounding, the sphere is not.
 bool is_element(const Tetrahedron& ordered);

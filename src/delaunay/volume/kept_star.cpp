@@ -71,30 +71,8 @@ bool KeptStar::is_tetrahedron(std::int64_t i, const Corners& triangle, const Sph
   double d = in_.nodes.d(i);
   for (const std::int32_t place : triangle) d = std::min(d, in_.nodes.d(node(place)));
   const double limit = kSurely * 2 * kMaxRadius * d * sphere.volume;
-  return dot(sphere.normal, sphere.normal) < limit * limit && in_domain(i, triangle);
-}
-
-bool KeptStar::in_domain(std::int64_t i, const Corners& triangle) const {
-  constexpr double kSurely = 0.999;
-  const std::array<std::int64_t, 4> nodes{i, node(triangle[0]), node(triangle[1]),
-                                          node(triangle[2])};
-  const auto held = std::count_if(nodes.begin(), nodes.end(), [&](std::int64_t j) {
-    return in_.nodes.carrier(j) != Carrier::free;
-  });
-  if (held < 2) return true;
-  Tetrahedron corners;
-  Point<3> middle{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Point<3> x = in_.nodes.position(nodes[k]);
-    corners[k] = {x, in_.nodes.d(nodes[k]), in_.nodes.id(nodes[k])};
-    for (std::size_t m = 0; m < 3; ++m) middle[m] += 0.25 * x[m];
-  }
-  // Where no facet is between it and a node inside, there is nothing to ask.
-  for (std::size_t k = 0; in_.room && held < 4 && k < 4; ++k)
-    if (in_.nodes.carrier(nodes[k]) == Carrier::free &&
-        distance<3>(corners[k].x, middle) < kSurely * in_.room(nodes[k]))
-      return true;
-  return pnpbs::in_domain(in_, nodes, corners);
+  return dot(sphere.normal, sphere.normal) < limit * limit &&
+         in_domain(in_, {i, node(triangle[0]), node(triangle[1]), node(triangle[2])});
 }
 
 }  // namespace pnpbs

@@ -65,7 +65,6 @@ class KeptStar {
   Sphere sphere_of(const Corners& triangle) const;
   bool surely_outside(const Sphere& sphere, std::int32_t place) const;
   bool is_tetrahedron(std::int64_t i, const Corners& triangle, const Sphere& sphere) const;
-  bool in_domain(std::int64_t i, const Corners& triangle) const;
 
   const VolumeStarInput& in_;
   const VolumeStars& stars_;

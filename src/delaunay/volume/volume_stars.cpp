@@ -240,13 +240,8 @@ class StarWriter {
   }
 
   bool in_domain(std::int64_t i, const VolumeStar::Corners& corners) const {
-    std::array<std::int64_t, 4> node{i};
-    Tetrahedron tetrahedron{star_.centre()};
-    for (std::size_t k = 0; k < 3; ++k) {
-      node[k + 1] = candidates_[index(corners[k])];
-      tetrahedron[k + 1] = star_.candidates()[index(corners[k])];
-    }
-    return pnpbs::in_domain(in_, node, tetrahedron);
+    return pnpbs::in_domain(in_, {i, candidates_[index(corners[0])], candidates_[index(corners[1])],
+                                  candidates_[index(corners[2])]});
   }
 
   void write(std::vector<std::int32_t>& out) const {
