@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/hdf5_grid.hpp"
 
+#include <utility>
+
 #include "io/hdf5_layout.hpp"
 
 namespace pnpbs::io {
+
+std::vector<PlacedArray> placed_in(const std::string& group, std::vector<GridArray> data) {
+  std::vector<PlacedArray> arrays;
+  for (GridArray& array : data) {
+    const std::string path = group + "/" + array.name;
+    arrays.push_back({path, std::move(array)});
+  }
+  return arrays;
+}
 
 void write_by_hdf5(const NodeSource& nodes, SharedFile& file,
                    const std::vector<PlacedArray>& arrays,

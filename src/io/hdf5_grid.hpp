@@ -19,6 +19,9 @@ struct PlacedArray {
   int columns() const { return is_table || array.columns > 1 ? array.columns : 0; }
 };
 
+// Those of the nodes or cells in their group.
+std::vector<PlacedArray> placed_in(const std::string& group, std::vector<GridArray> data);
+
 // begin: adds what else is in the file, the groups among it; called on rank 0. Collective.
 void write_by_hdf5(const NodeSource& nodes, SharedFile& file,
                    const std::vector<PlacedArray>& arrays,

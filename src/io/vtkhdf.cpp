@@ -2,6 +2,8 @@
 // VTK's file by HDF5 (https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format), version
 // 1.0, which every reader of it knows: the arrays of the .vtu file, each in one piece, so that all
 // ranks write their rows at the same time.
+#include <utility>
+
 #include "io/formats.hpp"
 #include "io/grid_arrays.hpp"
 #include "io/hdf5_grid.hpp"
@@ -13,12 +15,10 @@ namespace {
 
 std::vector<PlacedArray> vtk_arrays(const Contents& all) {
   const std::string vtk = "/VTKHDF/";
-  std::vector<PlacedArray> arrays;
-  for (GridArray& array : point_data(all))
-    arrays.push_back({vtk + "PointData/" + array.name, array});
+  std::vector<PlacedArray> arrays = placed_in(vtk + "PointData", point_data(all));
   if (all.with_elements)
-    for (GridArray& array : cell_data(all))
-      arrays.push_back({vtk + "CellData/" + array.name, array});
+    for (PlacedArray& array : placed_in(vtk + "CellData", cell_data(all)))
+      arrays.push_back(std::move(array));
   arrays.push_back({vtk + "Points", point_array(all)});
   arrays.push_back({vtk + "Connectivity", corner_array(all)});
   arrays.push_back({vtk + "Offsets", cell_bounds(all)});

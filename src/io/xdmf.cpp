@@ -57,18 +57,12 @@ PlacedArray placed_cells(const Contents& all) {
   return {"/cells", uniform_cells(all), true};
 }
 
-std::vector<PlacedArray> placed_data(const std::string& group, std::vector<GridArray> data) {
-  std::vector<PlacedArray> arrays;
-  for (GridArray& array : data) arrays.push_back({group + "/" + array.name, std::move(array)});
-  return arrays;
-}
-
 std::vector<PlacedArray> xdmf_point_data(const Contents& all) {
-  return placed_data("/point_data", point_data(all));
+  return placed_in("/point_data", point_data(all));
 }
 
 std::vector<PlacedArray> xdmf_cell_data(const Contents& all) {
-  return placed_data("/cell_data", all.with_elements ? cell_data(all) : std::vector<GridArray>());
+  return placed_in("/cell_data", all.with_elements ? cell_data(all) : std::vector<GridArray>());
 }
 
 PlacedArray placed_points(const Contents& all) { return {"/points", point_array(all)}; }
