@@ -82,6 +82,14 @@ else
   is_refused C "find_package(pnpbs REQUIRED COMPONENTS MPI)" "was built without MPI"
 fi
 
+# The program of the last project, whose lines are those of no other.
+build_and_run_alone() {
+  quietly "$cmake" --build "$folder/build"
+  rm -f "$work/check_lines_before"
+  run_and_compare "$folder/build/a"
+  rm -f "$work/check_lines_before"
+}
+
 # ------------------------------------------------------------------ shapes ----------------------
 if [ "$with_geo" = 1 ]; then
   works C "find_package(pnpbs REQUIRED COMPONENTS Geo)
@@ -94,10 +102,7 @@ int main(void) {
 }\")
 add_executable(a \"\${CMAKE_BINARY_DIR}/a.c\")
 target_link_libraries(a PRIVATE pnpbs::geo)"
-  quietly "$cmake" --build "$folder/build"
-  rm -f "$work/check_lines_before"
-  run_and_compare "$folder/build/a"
-  rm -f "$work/check_lines_before"
+  build_and_run_alone
 else
   is_refused C "find_package(pnpbs REQUIRED COMPONENTS Geo)" "was built without GDAL"
 fi
@@ -141,9 +146,6 @@ file(WRITE \"\${CMAKE_BINARY_DIR}/a.f90\" \"program a
 end program\")
 add_executable(a \"\${CMAKE_BINARY_DIR}/a.f90\")
 target_link_libraries(a PRIVATE pnpbs::geo_fortran)"
-    quietly "$cmake" --build "$folder/build"
-    rm -f "$work/check_lines_before"
-    run_and_compare "$folder/build/a"
-    rm -f "$work/check_lines_before"
+    build_and_run_alone
   fi
 fi
