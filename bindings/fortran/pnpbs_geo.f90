@@ -178,13 +178,7 @@ contains
     real(c_double), intent(inout) :: coordinates(:,:)
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(arguments) :: given
-    integer(c_int) :: status
-    call given%check_rows('coordinates', size(coordinates, 1), 2)
-    status = given%found()
-    if (.not. given%is_wrong()) &
-      status = c_geo_to_degrees(self%c, size(coordinates, 2, kind=c_int64_t), coordinates)
-    call conclude_geo('to_degrees', status, stat, errmsg, given)
+    call converted('to_degrees', c_geo_to_degrees, self, coordinates, stat, errmsg)
   end subroutine
 
   !> x and y from longitude and latitude, likewise. Local.
@@ -194,13 +188,7 @@ contains
     real(c_double), intent(inout) :: coordinates(:,:)
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    type(arguments) :: given
-    integer(c_int) :: status
-    call given%check_rows('coordinates', size(coordinates, 1), 2)
-    status = given%found()
-    if (.not. given%is_wrong()) &
-      status = c_geo_from_degrees(self%c, size(coordinates, 2, kind=c_int64_t), coordinates)
-    call conclude_geo('from_degrees', status, stat, errmsg, given)
+    call converted('from_degrees', c_geo_from_degrees, self, coordinates, stat, errmsg)
   end subroutine
 
   !> A message about a domain of these shapes, and after each place "(x, y)" in it its longitude and
@@ -239,6 +227,23 @@ contains
   end subroutine
 
   ! ------------------------------------------------------------ small helpers -----------------
+
+  ! By one of the functions of C between degrees and x, y.
+  subroutine converted(called, convert, self, coordinates, stat, errmsg)
+    character(len=*), intent(in) :: called
+    procedure(c_geo_to_degrees) :: convert
+    class(pnpbs_geo_shapes), intent(in) :: self
+    real(c_double), intent(inout) :: coordinates(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('coordinates', size(coordinates, 1), 2)
+    status = given%found()
+    if (.not. given%is_wrong()) &
+      status = convert(self%c, size(coordinates, 2, kind=c_int64_t), coordinates)
+    call conclude_geo(called, status, stat, errmsg, given)
+  end subroutine
 
   subroutine conclude_geo(called, status, stat, errmsg, given)
     character(len=*), intent(in) :: called
