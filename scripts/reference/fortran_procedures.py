@@ -90,7 +90,8 @@ def procedure(kind, name, given, result, body, notes, binding, c_names):
     target = "%".join(binding) if binding else name
     left = "call " if kind == "subroutine" else f"{result} = "
     arguments = f"({', '.join(shown)})" if shown or kind == "function" else ""
-    called = {"pnpbs_" + one for one in re.findall(r"\bc_(\w+)\(", "\n".join(body))}
+    # Called, or handed on to a procedure that calls it.
+    called = {"pnpbs_" + one for one in re.findall(r"\bc_(\w+)\b", "\n".join(body))}
     return Procedure(left + target + arguments, name,
                      declarations_of(body, shown + ([result] if result else [])), notes,
                      frozenset(called & c_names))
