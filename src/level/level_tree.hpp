@@ -57,6 +57,7 @@ class LevelTree {
   void grow_whole(const Settings& settings);
   void grow_part(const Settings& settings, const LevelTree<Dim>* like);
   void refine(const Settings& settings, const std::vector<char>& refined);
+  std::vector<GrowthSource<Dim>> known_values(const Settings& settings) const;
   void link_leaves(const Settings& settings);
   void grow_own_part(const Settings& settings);
 

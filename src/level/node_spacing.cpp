@@ -3,9 +3,6 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
-#include "base/point_text.hpp"
-
 namespace pnpbs {
 
 // The spacing is evaluated equally often on all ranks: it may live distributed over them.
@@ -58,34 +55,6 @@ void refresh_spacing(Level<Dim>& level) {
   });
   nodes.set_reference_positions();
   level.ghosts.choose_anew();
-}
-
-void require_sampled_spacing(const Level<3>& level) {
-  // Within a leaf, d that nodes can follow differs from its samples by half of this at most.
-  constexpr double kFarFiner = 0.25;
-  const Nodes<3>& nodes = level.nodes;
-  const auto sampled = [&](std::int64_t i) {
-    return level.map().leaf_min_spacing(level.neighbourhood.buckets().bucket_of(i));
-  };
-  double finest = 1;  // d over what samples have of it
-  std::int64_t at = -1;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    if (!nodes.owned(i) || nodes.carrier(i) != Carrier::free) continue;
-    const double ratio = nodes.d(i) / sampled(i);
-    if (ratio < finest) at = i;
-    finest = std::min(finest, ratio);
-  }
-  const double finest_of_all = -level.comm->allreduce_max(-finest);
-  if (finest_of_all >= kFarFiner) return;
-  agreed(*level.comm, [&] {
-    if (finest > finest_of_all) return;
-    throw Error(ErrorKind::spacing,
-                "the spacing d = " + rounded_text(nodes.d(at)) + " near " +
-                    rounded_point_text<3>(nodes.position(at)) + " is for so small a place that " +
-                    "samples around have " + rounded_text(sampled(at)) +
-                    " at the least: let d grow gradually from it, by 0.3 times the distance or "
-                    "less");
-  });
 }
 
 template View<double> spacing_at_owned_nodes(const Level<2>&, const Spacing<2>&);

@@ -15,8 +15,4 @@ View<double> spacing_at_owned_nodes(const Level<Dim>& level, const Spacing<Dim>&
 template <int Dim>
 void refresh_spacing(Level<Dim>& level);
 
-// The tree was grown by samples of d. Where a node has found a place so much finer than these that
-// it would fill up a leaf made for a few nodes, this says where. Collective.
-void require_sampled_spacing(const Level<3>& level);
-
 }  // namespace pnpbs

@@ -36,8 +36,16 @@ std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
 template <int Dim>
 void LevelTree<Dim>::grow_whole(const Settings& settings) {
   map_.build(ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
-             kLevelRefinement<Dim>);
+             kLevelRefinement<Dim>, known_values(settings));
   link_leaves(settings);
+}
+
+// What samples may miss of a spacing whose growth is not limited. (Else they meet the slopes around
+// it.)
+template <int Dim>
+std::vector<GrowthSource<Dim>> LevelTree<Dim>::known_values(const Settings& settings) const {
+  if (settings.growth_limit > 0) return {};
+  return ground_.spacing().known_values().in_domain;
 }
 
 // First roughly; then what lies in each part is known, and is cut again.
@@ -70,7 +78,7 @@ void LevelTree<Dim>::refine(const Settings& settings, const std::vector<char>& r
             cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
         return in.first_child >= 0 || refined[static_cast<std::size_t>(in.leaf)];
       },
-      kLevelRefinement<Dim>);
+      kLevelRefinement<Dim>, known_values(settings));
   distribution_.take_leaves(&map_.tree(), refined);
 }
 

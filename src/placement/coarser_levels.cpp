@@ -108,7 +108,7 @@ GivenNodes<Dim> PlacementOf<Dim>::nodes_from_coarser_levels(
       put_first_nodes(level, nodes, l, outcome);
       adopt_level(std::move(level));
       begin_schedule(false);
-      schedule_.coarser = true;
+      schedule_.coarser = schedule_.multiplied = true;
       const ProgressPart part{kCoarseShare * (coarser_levels_ - l) / coarser_levels_,
                               kCoarseShare * (coarser_levels_ - l + 1) / coarser_levels_};
       if (outcome != Outcome::stopped && l <= filled_level_)
@@ -136,7 +136,7 @@ TakenNodes PlacementOf<Dim>::put_first_nodes(std::unique_ptr<Level<Dim>>& level,
       put_on_surfaces(*level, std::move(from_coarser));
       return {};
     }
-    settle_surfaces(level, from_coarser, outcome);
+    settle_surfaces(level, from_coarser, outcome, which > 0);
     from_coarser = new_nodes<Dim>(std::move(from_coarser));
     level->next_id = 0;
   }

@@ -5,8 +5,11 @@
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
 #include "level/exchange.hpp"
+#include "level/finer_places.hpp"
+#include "level/finer_region.hpp"
 #include "level/reach.hpp"
 #include "placement/placement_of.hpp"
+#include "spacing/spacing_with_places.hpp"
 
 namespace pnpbs {
 
@@ -38,7 +41,7 @@ Outcome PlacementOf<Dim>::initialise() {
   const Schedule schedule = schedule_;
   const int coarser_levels = coarser_levels_;
   try {
-    return make_level();
+    return knowing_finer_places([this] { return make_level(); });
   } catch (...) {
     level_ = std::move(before);
     schedule_ = schedule;
@@ -67,13 +70,57 @@ auto PlacementOf<Dim>::while_moving(const Work& work) {
   }
 }
 
+// Does what makes a level, or takes steps on one. Where nodes come upon places that its tree was
+// not made for, these are known from then on and it is done again: from the nodes there are, where
+// these were taken over, else from nothing.
+template <int Dim>
+template <class Work>
+Outcome PlacementOf<Dim>::knowing_finer_places(const Work& work) {
+  constexpr int kMaxTries = 4;  // what is found shows its surroundings: two do, mostly
+  for (int tries = 1;; ++tries) {
+    try {
+      return work();
+    } catch (const FinerPlaces& found) {
+      if (tries == kMaxTries) throw;
+      if constexpr (Dim == 3) remember(found);
+      if (!schedule_.taken_over) level_.reset();
+    }
+  }
+}
+
+// As the spacing itself has them: on the level it may be multiplied by a factor.
+template <>
+void PlacementOf<3>::remember(const FinerPlaces& found) {
+  agreed(*comm_, [&] {
+    const SpacingEvaluator<3> raw = [&](std::int64_t n, const Point<3>* x, double* d) {
+      evaluate_spacing<3>(*spacing_, measure_of(*domain_), n, x, d);
+    };
+    const auto inside = [&](const Point<3>& x) {
+      return domain_->filled() && domain_->index().inside(x);
+    };
+    set_spacing(std::make_shared<SpacingWithPlaces<3>>(spacing_,
+                                                       finer_region(found.places(), raw, inside)));
+  });
+}
+
+// On a level for the present spacing, whose steps begin anew where they had ended.
+template <int Dim>
+template <class Steps>
+Outcome PlacementOf<Dim>::taking_steps(const Steps& steps) {
+  return knowing_finer_places([&] {
+    if (prepare_level() == Outcome::stopped) return Outcome::stopped;
+    return while_moving([&] {
+      if (schedule_.ended) begin_schedule_again();
+      return steps();
+    });
+  });
+}
+
 template <int Dim>
 Outcome PlacementOf<Dim>::run() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  if (prepare_level() == Outcome::stopped) return Outcome::stopped;
-  return while_moving([this] {
-    if (schedule_.ended) begin_schedule_again();
+  return taking_steps([this] {
     warnings_.resize(warnings_of_level_);
     const Outcome outcome =
         advance(level_->settings.steps, {schedule_.refined ? kCoarseShare : 0, kStepsShare});
@@ -91,9 +138,7 @@ Outcome PlacementOf<Dim>::step(std::int64_t n) {
   if (!comm_->same_on_all(static_cast<std::uint64_t>(n)))
     throw Error(ErrorKind::argument, "argument n differs between ranks");
   const PhaseTimer timer(timers_, Phase::total);
-  if (prepare_level() == Outcome::stopped) return Outcome::stopped;
-  return while_moving([&] {
-    if (schedule_.ended) begin_schedule_again();
+  return taking_steps([&] {
     const std::int64_t until = schedule_.step > kNoLimit - n ? kNoLimit : schedule_.step + n;
     return advance(until, {0, 1});
   });

@@ -26,7 +26,8 @@ namespace pnpbs {
 struct Schedule {
   std::int64_t step = 0;
   bool refined = false;     // it began with the nodes of a coarser level
-  bool coarser = false;     // it is one
+  bool coarser = false;     // it is one, or that of the surfaces
+  bool multiplied = false;  // its spacing is a multiple of the one that counts
   bool taken_over = false;  // it began with nodes given, or placed for another spacing
   bool ended = false;
   bool at_event = false;  // restored as it was in the middle of one: is all at rest?

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "level/finer_places.hpp"
 #include "level/laid_nodes.hpp"
 #include "level/level.hpp"
 #include "level/rebalance.hpp"
@@ -183,8 +184,8 @@ class PlacementOf : public Placement {
                             double nodes) const;
   TakenNodes put_first_nodes(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& from_coarser,
                              int which, Outcome& outcome);
-  void settle_surfaces(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& nodes,
-                       Outcome& outcome) requires(Dim == 3);
+  void settle_surfaces(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& nodes, Outcome& outcome,
+                       bool multiplied = false) requires(Dim == 3);
   std::int64_t put_on_surfaces(Level<Dim>& level, GivenNodes<Dim> nodes) requires(Dim == 3);
   TakenNodes begin_on_surfaces(Level<Dim>& finest,
                                const std::shared_ptr<const Spacing<Dim>>& spacing,
@@ -196,6 +197,11 @@ class PlacementOf : public Placement {
   void require_same_domain() const;
   template <class Work>
   auto while_moving(const Work& work);
+  template <class Work>
+  Outcome knowing_finer_places(const Work& work);
+  template <class Steps>
+  Outcome taking_steps(const Steps& steps);
+  void remember(const FinerPlaces& found) requires(Dim == 3);
   // Shares of a run's work, for its progress: coarser levels, and steps without the finish.
   static constexpr double kCoarseShare = 0.5, kStepsShare = 0.9;
   bool bubbles_rest() const;

@@ -43,7 +43,7 @@ std::int64_t sum_over_ranks(const Communicator& comm, std::int64_t mine) {
 // If the monitor has stopped the call, or does so here, they stay as they are. Collective.
 template <>
 void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNodes<3>& given,
-                                     Outcome& outcome) {
+                                     Outcome& outcome, bool multiplied) {
   scatter_to_owners(*level, given);
   reserve_ids(*level, given);
   NodesByCarrier nodes(given);
@@ -61,6 +61,7 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
         *comm_, put_surface_nodes(*level_, std::move(nodes.on_surfaces), nodes.on_features, anew));
     begin_schedule(!anew);
     schedule_.coarser = true;
+    schedule_.multiplied = multiplied;
     const Settings& settings = level_->settings;
     if (outcome != Outcome::stopped &&
         advance(anew ? settings.steps : settings.refined_steps, {0, 0}) == Outcome::stopped)

@@ -8,6 +8,7 @@
 
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
+#include "level/finer_places.hpp"
 #include "level/finish.hpp"
 #include "level/node_spacing.hpp"
 #include "level/population_events.hpp"
@@ -81,7 +82,7 @@ void PlacementOf<Dim>::event() {
   last_speeds_ = speeds_of(*level_);
   refresh_spacing(*level_);
   if constexpr (Dim == 3)
-    if (settings.growth_limit > 0 && !schedule_.coarser) require_sampled_spacing(*level_);
+    if (!schedule_.multiplied) require_sampled_spacing(*level_);
   const double population_until =
       std::floor(settings.population_share * static_cast<double>(settings.steps));
   if (static_cast<double>(schedule_.step) > population_until && !far_too_few())

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/lattice.hpp"
 #include "base/point_text.hpp"
+#include "spacing/growth_sources.hpp"
 #include "tree/box_tree.hpp"
 #include "tree/cell_samples.hpp"
 
@@ -35,11 +36,12 @@ class DomainMap<Dim>::Growth {
   };
 
   Growth(const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
-         const NodeLimit& limit, Refinement by)
+         const NodeLimit& limit, Refinement by, const std::vector<GrowthSource<Dim>>& known)
       : boundary_(boundary),
         spacing_(spacing),
         limit_(limit),
         by_(by),
+        known_(known, kSeenFromSamples),
         surfaces_alone_(are_surfaces_alone(boundary)) {}
 
   const FacetCells<Dim>& facets() const { return *facets_; }
@@ -85,6 +87,7 @@ class DomainMap<Dim>::Growth {
   double min_nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const;
   void add_boundary_samples(const Box<Dim>& box, std::int32_t c, std::vector<double>& values) const;
   void take_samples(const std::vector<double>& values, CellState& cell) const;
+  void expect_known(const Box<Dim>& box, CellState& cell) const;
   bool holds_many_boundary_nodes(const BackgroundTree<Dim>& tree, std::int32_t c) const;
 
   void add_samples(const BackgroundTree<Dim>& tree, std::int32_t c, const Point<Dim>& fraction,
@@ -94,6 +97,7 @@ class DomainMap<Dim>::Growth {
   const SpacingEvaluator<Dim>& spacing_;
   NodeLimit limit_;
   Refinement by_;
+  GrowthSources<Dim> known_;
   bool surfaces_alone_;
   std::optional<FacetCells<Dim>> facets_;
   std::vector<double> boundary_spacing_;
@@ -124,7 +128,15 @@ void DomainMap<Dim>::Growth::sample(const BackgroundTree<Dim>& tree, std::int32_
     for (; next < owner.size() && owner[next] == c; ++next) values.push_back(d[next]);
     add_boundary_samples(tree.cell_box(c), c, values);
     take_samples(values, cells_[static_cast<std::size_t>(c)]);
+    expect_known(tree.cell_box(c), cells_[static_cast<std::size_t>(c)]);
   }
+}
+
+// What is known to be fine near to a cell is looked for in it, whatever its samples are.
+template <int Dim>
+void DomainMap<Dim>::Growth::expect_known(const Box<Dim>& box, CellState& cell) const {
+  for (const Point<Dim>& fraction : cell_samples<Dim>())
+    cell.min = known_.limit(point_in<Dim>(box, fraction), cell.min);
 }
 
 // Where a sample point of the cell asks for d: there if it is inside; for surfaces alone at the
@@ -231,8 +243,8 @@ void DomainMap<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::i
 template <int Dim>
 void DomainMap<Dim>::build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
                            const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
-                           Refinement by) {
-  Growth growth(boundary, spacing, limit, by);
+                           Refinement by, const std::vector<GrowthSource<Dim>>& known) {
+  Growth growth(boundary, spacing, limit, by, known);
   grow(*serial_communicator(), bounds, growth,
        [](const BackgroundTree<Dim>&, std::int32_t, double) { return true; });
 }
@@ -241,8 +253,9 @@ template <int Dim>
 void DomainMap<Dim>::build_part(const Communicator& comm, const Box<Dim>& bounds,
                                 const BoundaryMesh<Dim>& boundary,
                                 const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
-                                const MaySplit& may_split, Refinement by) {
-  Growth growth(boundary, spacing, limit, by);
+                                const MaySplit& may_split, Refinement by,
+                                const std::vector<GrowthSource<Dim>>& known) {
+  Growth growth(boundary, spacing, limit, by, known);
   grow(comm, bounds, growth, may_split);
 }
 

@@ -11,6 +11,7 @@
 #include "domain/facet_index.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
+#include "spacing/growth_source.hpp"
 #include "tree/background_tree.hpp"
 
 namespace pnpbs {
@@ -28,12 +29,14 @@ class DomainMap : public FacetIndex<Dim> {
  public:
   // Refines the tree until leaves are at most kLeafSpacings times d wide (so at least half of that
   // where d allows) and hold few boundary nodes. d is asked inside the domain only, at the
-  // cell_samples of each cell, and at the boundary nodes: dips of d between them are not seen.
+  // cell_samples of each cell, and at the boundary nodes: dips of d between them are not seen,
+  // unless they are among the values known.
   // Throws Error(ErrorKind::spacing or ::memory) when d would mean more nodes than the limit
   // allows.
   void build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
              const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
-             Refinement by = Refinement::spacing_and_boundary);
+             Refinement by = Refinement::spacing_and_boundary,
+             const std::vector<GrowthSource<Dim>>& known = {});
 
   // May a cell that d or the boundary wants split be split? `nodes`: those its samples of d ask
   // for.
@@ -44,7 +47,8 @@ class DomainMap : public FacetIndex<Dim> {
   void build_part(const Communicator& comm, const Box<Dim>& bounds,
                   const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
                   const NodeLimit& limit, const MaySplit& may_split,
-                  Refinement by = Refinement::spacing_and_boundary);
+                  Refinement by = Refinement::spacing_and_boundary,
+                  const std::vector<GrowthSource<Dim>>& known = {});
 
   static constexpr double kLeafSpacings = 4;
 

@@ -15,8 +15,8 @@ namespace pnpbs {
 
 template <int Dim>
 GrowthLeaves<Dim>::GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways, double growth,
-                                const NodeLimit& limit)
-    : comm_(comm), ways_(ways), growth_(growth), limit_(limit) {
+                                const NodeLimit& limit, std::vector<Point<Dim>> places)
+    : comm_(comm), ways_(ways), growth_(growth), limit_(limit), places_(std::move(places)) {
   root_.build(ways.bounds(),
               [](const BackgroundTree<Dim>&, std::int32_t, std::int32_t, std::vector<char>&) {});
   sort_nodes();
@@ -26,10 +26,16 @@ GrowthLeaves<Dim>::GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& w
 }
 
 template <int Dim>
+const Point<Dim>& GrowthLeaves<Dim>::node(std::int64_t n) const {
+  const std::int64_t of_boundary = ways_.node_count();
+  return n < of_boundary ? ways_.node(n) : places_[static_cast<std::size_t>(n - of_boundary)];
+}
+
+template <int Dim>
 void GrowthLeaves<Dim>::sort_nodes() {
   std::vector<FineIndex<Dim>> fine;
-  for (std::int64_t n = 0; n < ways_.node_count(); ++n)
-    fine.push_back(root_.fine_index(ways_.node(n)));
+  for (std::int64_t n = 0; n < ways_.node_count() + std::ssize(places_); ++n)
+    fine.push_back(root_.fine_index(node(n)));
   nodes_.resize(fine.size());
   std::iota(nodes_.begin(), nodes_.end(), 0);
   const auto at = [](std::int64_t n) { return static_cast<std::size_t>(n); };
@@ -64,7 +70,7 @@ Box<Dim> GrowthLeaves<Dim>::box_of(const LeafCell<Dim>& cell) const {
   return box;
 }
 
-// The points inside at which d is sampled, then the boundary nodes.
+// The points inside at which d is sampled, then the boundary nodes and places.
 template <int Dim>
 void GrowthLeaves<Dim>::add_points(const GrowthLeaf<Dim>& leaf,
                                    std::vector<Point<Dim>>& points) const {
@@ -72,8 +78,7 @@ void GrowthLeaves<Dim>::add_points(const GrowthLeaf<Dim>& leaf,
     const Point<Dim> x = point_in<Dim>(box_of(leaf.cell), sample);
     if (leaf.side == GrowthLeaf<Dim>::Side::inside || ways_.inside(x)) points.push_back(x);
   }
-  if (leaf.has_nodes)
-    for_nodes_in(leaf.cell, [&](std::int64_t n) { points.push_back(ways_.node(n)); });
+  if (leaf.has_nodes) for_nodes_in(leaf.cell, [&](std::int64_t n) { points.push_back(node(n)); });
 }
 
 template <int Dim>
@@ -97,14 +102,40 @@ void GrowthLeaves<Dim>::look_at_domain(GrowthLeaf<Dim>& leaf) const {
   if (leaf.placed) leaf.place = points.front();
 }
 
+// A lattice as dense as the nodes that the least d of the leaf asks for.
+template <int Dim>
+void GrowthLeaves<Dim>::add_probes(const GrowthLeaf<Dim>& leaf,
+                                   std::vector<Point<Dim>>& points) const {
+  constexpr double kMaxInRow = DomainMap<Dim>::kLeafSpacings;
+  const auto in_row =
+      static_cast<int>(std::clamp(std::ceil(side_of(leaf.cell) / leaf.min), 1.0, kMaxInRow));
+  const int layers = Dim == 3 ? in_row : 1;
+  for (int k = 0; k < layers * in_row * in_row; ++k) {
+    Point<Dim> fraction;
+    for (int axis = 0, rest = k; axis < Dim; ++axis, rest /= in_row)
+      fraction[axis] = (rest % in_row + 0.5) / in_row;
+    const Point<Dim> x = point_in<Dim>(box_of(leaf.cell), fraction);
+    if (leaf.side == GrowthLeaf<Dim>::Side::inside || ways_.inside(x)) points.push_back(x);
+  }
+}
+
 template <int Dim>
 template <class Wanted>
 typename GrowthLeaves<Dim>::Samples GrowthLeaves<Dim>::samples_in(const Wanted& wanted) const {
+  return samples_in(wanted, [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
+    add_points(leaf, points);
+  });
+}
+
+template <int Dim>
+template <class Wanted, class Add>
+typename GrowthLeaves<Dim>::Samples GrowthLeaves<Dim>::samples_in(const Wanted& wanted,
+                                                                  const Add& add) const {
   Samples samples;
   for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
     if (!wanted(leaves_[leaf])) continue;
     samples.leaves.push_back(leaf);
-    add_points(leaves_[leaf], samples.x);
+    add(leaves_[leaf], samples.x);
     samples.first.push_back(samples.x.size());
   }
   samples.d.resize(samples.x.size());
@@ -119,8 +150,32 @@ void GrowthLeaves<Dim>::take_range(const Samples& samples) {
     GrowthLeaf<Dim>& leaf = leaves_[samples.leaves[k]];
     const auto [min, max] = std::minmax_element(samples.d.data() + samples.first[k],
                                                 samples.d.data() + samples.first[k + 1]);
-    leaf.min = *min;
+    leaf.min = leaf.has_dip ? std::min(*min, leaf.source.d) : *min;
     leaf.max = *max;
+  }
+}
+
+// Where d jumps between this leaf and the next, no sample of either tells how near to their common
+// face, and the source of the leaf may lie far behind.
+template <int Dim>
+void GrowthLeaves<Dim>::look_beside(const SpacingEvaluator<Dim>& raw) {
+  Samples beside = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; },
+                              [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
+                                const Box<Dim> box = box_of(leaf.cell);
+                                for (int k = 0; k < Dim; ++k)
+                                  for (const double side : {-1.0, 1.0}) {
+                                    Point<Dim> x = middle_of<Dim>(box);
+                                    x[k] += side * side_of(leaf.cell);
+                                    if (in_closed_box(ways_.bounds(), x) && ways_.inside(x))
+                                      points.push_back(x);
+                                  }
+                              });
+  raw(std::ssize(beside.x), beside.x.data(), beside.d.data());
+  for (std::size_t k = 0; k < beside.leaves.size(); ++k) {
+    GrowthLeaf<Dim>& leaf = leaves_[beside.leaves[k]];
+    leaf.max_beside = leaf.max;
+    for (std::size_t s = beside.first[k]; s < beside.first[k + 1]; ++s)
+      leaf.max_beside = std::max(leaf.max_beside, beside.d[s]);
   }
 }
 
@@ -156,15 +211,13 @@ bool GrowthLeaves<Dim>::any_open() const {
 template <int Dim>
 void GrowthLeaves<Dim>::refine(const SpacingEvaluator<Dim>& raw,
                                const std::vector<GrowthSource<Dim>>& known) {
-  // A known value is below a quarter of the side of a leaf that is much too wide for it at one of
-  // the leaf's samples, none of which is farther than 0.44 sides from any place in it.
-  constexpr double kSeen = 0.3;
-  const GrowthSources<Dim> expected(known, kSeen);
+  const GrowthSources<Dim> expected(known, kSeenFromSamples);
   while (any_open()) {
     spread_evenly(comm_, leaves_);
     Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; });
     raw(std::ssize(samples.x), samples.x.data(), samples.d.data());
     take_range(samples);
+    if constexpr (Dim == 3) look_beside(raw);
     expect_known(samples, expected);
     take_sources(samples);
     require_few_nodes();
@@ -188,6 +241,39 @@ bool GrowthLeaves<Dim>::fit(const SpacingEvaluator<Dim>& limited) {
 }
 
 template <int Dim>
+bool GrowthLeaves<Dim>::find_dips(const SpacingEvaluator<Dim>& raw,
+                                  const SpacingEvaluator<Dim>& limited) {
+  Samples probes =
+      samples_in([](const GrowthLeaf<Dim>& leaf) { return !leaf.outside() && !leaf.probed; },
+                 [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
+                   add_probes(leaf, points);
+                 });
+  std::vector<double> limits(probes.x.size());
+  raw(std::ssize(probes.x), probes.x.data(), probes.d.data());
+  limited(std::ssize(probes.x), probes.x.data(), limits.data());
+  const bool any = comm_.allreduce_max(take_dips(probes, limits)) > 0;
+  if (any) refine(raw, {});
+  return any;
+}
+
+// The deepest of each leaf becomes its source.
+template <int Dim>
+bool GrowthLeaves<Dim>::take_dips(const Samples& probes, const std::vector<double>& limits) {
+  constexpr double kDip = 0.75;  // one source stands for a leaf: limits are a third too high there
+  bool any = false;
+  for (std::size_t k = 0; k < probes.leaves.size(); ++k) {
+    GrowthLeaf<Dim>& leaf = leaves_[probes.leaves[k]];
+    leaf.probed = true;
+    for (std::size_t s = probes.first[k]; s < probes.first[k + 1]; ++s) {
+      if (probes.d[s] >= kDip * limits[s] || probes.d[s] >= leaf.source.d) continue;
+      leaf.source = {probes.x[s], probes.d[s]};
+      leaf.has_dip = leaf.open = any = true;
+    }
+  }
+  return any;
+}
+
+template <int Dim>
 void GrowthLeaves<Dim>::look_into_new(const SpacingEvaluator<Dim>& raw) {
   Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.fresh; });
   raw(std::ssize(samples.x), samples.x.data(), samples.d.data());
@@ -198,10 +284,13 @@ void GrowthLeaves<Dim>::look_into_new(const SpacingEvaluator<Dim>& raw) {
 template <int Dim>
 bool GrowthLeaves<Dim>::too_wide(const GrowthLeaf<Dim>& leaf, double steepest) const {
   constexpr double kFinest = 0.35;  // width of leaves over which d is steep, in units of d
+  constexpr double kBeside = 1.6;  // sides from a sample to the middle of the leaf beyond, and more
   const double side = side_of(leaf.cell);
   if (leaf.cell.depth == BackgroundTree<Dim>::kMaxDepth) return false;
   if (side > DomainMap<Dim>::kLeafSpacings * leaf.min) return true;
-  return steepest > 0 && leaf.max - leaf.min > steepest * side && side > kFinest * leaf.min;
+  if (steepest == 0 || side <= kFinest * leaf.min) return false;
+  return leaf.max - leaf.min > steepest * side ||
+         leaf.max_beside - leaf.min > kBeside * steepest * side;
 }
 
 // Those that are too wide are split, the others are no longer open. Was there any?
@@ -237,7 +326,11 @@ void GrowthLeaves<Dim>::split(const GrowthLeaf<Dim>& leaf,
     GrowthLeaf<Dim> child = leaf;
     child.cell = leaf.cell.child(k);
     child.fresh = true;
-    if (!child.cell.holds(fine_of_source)) child.source = {};
+    child.probed = false;
+    if (!child.cell.holds(fine_of_source)) {
+      child.source = {};
+      child.has_dip = false;
+    }
     look_at_domain(child);
     next.push_back(child);
   }

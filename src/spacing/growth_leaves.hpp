@@ -25,11 +25,14 @@ struct GrowthLeaf {
   Side side = Side::crossed;
   bool open = true;          // to be split, perhaps
   bool fresh = true;         // no source has been looked for in it
-  bool has_nodes = true;     // of the boundary, or fixed ones
+  bool has_nodes = true;     // of the boundary, or fixed ones, or places
+  bool probed = false;       // for dips of d between the samples
+  bool has_dip = false;      // there is one, and it is the source
   bool placed = false;       // is there a place in the domain that stands for it?
   Point<Dim> place{};        // its middle where that is inside
   GrowthSource<Dim> source;  // of the samples in it, the one that limits d there the most
   double min = 0, max = 0;   // of the samples
+  double max_beside = 0;     // where the middles of leaves beside it would be, in space
 
   bool outside() const { return side == Side::outside; }
 };
@@ -37,9 +40,9 @@ struct GrowthLeaf {
 template <int Dim>
 class GrowthLeaves {
  public:
-  // All of the domain in one leaf.
+  // All of the domain in one leaf. `places` in it are samples like the boundary nodes.
   GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways, double growth,
-               const NodeLimit& limit);
+               const NodeLimit& limit, std::vector<Point<Dim>> places = {});
 
   // Splits leaves wider than some d, and those over which d grows faster than the limit, so that
   // the tips of steep funnels are found: down to a third of their least d. Keeps sources of d.
@@ -49,6 +52,9 @@ class GrowthLeaves {
   // Splits leaves wider than some of the limited d, which is asked in this rank's leaves alone.
   // Was there any on any rank?
   bool fit(const SpacingEvaluator<Dim>& limited);
+  // Looks for dips of d between the samples, as densely as nodes would lie, in leaves where that
+  // was not done, and splits these towards what it finds. Was there any on any rank?
+  bool find_dips(const SpacingEvaluator<Dim>& raw, const SpacingEvaluator<Dim>& limited);
   // Looks for sources where fit() has split, and spreads the leaves evenly again.
   void look_into_new(const SpacingEvaluator<Dim>& raw);
 
@@ -63,15 +69,21 @@ class GrowthLeaves {
   };
 
   void sort_nodes();
+  const Point<Dim>& node(std::int64_t n) const;
   template <class Visit>
   void for_nodes_in(const LeafCell<Dim>& cell, const Visit& visit) const;
+  template <class Wanted, class Add>
+  Samples samples_in(const Wanted& wanted, const Add& add) const;
   template <class Wanted>
   Samples samples_in(const Wanted& wanted) const;
+  bool take_dips(const Samples& probes, const std::vector<double>& limits);
+  void add_probes(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
   void add_points(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
   double side_of(const LeafCell<Dim>& cell) const;
   Box<Dim> box_of(const LeafCell<Dim>& cell) const;
   void look_at_domain(GrowthLeaf<Dim>& leaf) const;
   void take_range(const Samples& samples);
+  void look_beside(const SpacingEvaluator<Dim>& raw);
   void expect_known(const Samples& samples, const GrowthSources<Dim>& known);
   void take_sources(const Samples& samples);
   bool any_open() const;
@@ -85,8 +97,9 @@ class GrowthLeaves {
   const OpenWays<Dim>& ways_;
   double growth_;
   NodeLimit limit_;
+  std::vector<Point<Dim>> places_;
   BackgroundTree<Dim> root_;         // one cell, for its arithmetic
-  std::vector<std::int64_t> nodes_;  // of the boundary, in Morton order
+  std::vector<std::int64_t> nodes_;  // of the boundary, then the places, in Morton order
   std::vector<FineIndex<Dim>> fine_of_nodes_;
   std::vector<GrowthLeaf<Dim>> leaves_;  // in Morton order
 };

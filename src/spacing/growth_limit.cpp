@@ -53,10 +53,16 @@ void GrowthLimitedSpacing<Dim>::find_labels(const SpacingEvaluator<Dim>& raw,
     for_each("pnpbs::GrowthLimitedSpacing::fit", n,
              [&](std::int64_t i) { d[i] = labels_.limit_at(*ways_, x[i]); });
   };
-  GrowthLeaves<Dim> leaves(*comm_, *ways_, growth_, limit);
-  leaves.refine(raw, raw_->known_values().values);
+  const KnownValues<Dim> known = raw_->known_values();
+  std::vector<Point<Dim>> places;
+  for (const GrowthSource<Dim>& value : known.in_domain) places.push_back(value.x);
+  GrowthLeaves<Dim> leaves(*comm_, *ways_, growth_, limit, std::move(places));
+  leaves.refine(raw, known.values);
   labels_ = {*comm_, *ways_, leaves.own(), growth_, beat};
-  for (int pass = 0; pass < kMaxPasses && leaves.fit(limited); ++pass) {
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    bool changed = leaves.fit(limited);
+    if constexpr (Dim == 3) changed = leaves.find_dips(raw, limited) || changed;
+    if (!changed) break;
     leaves.look_into_new(raw);
     labels_ = {*comm_, *ways_, leaves.own(), growth_, beat};
   }

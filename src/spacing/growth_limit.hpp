@@ -3,8 +3,9 @@
 // the domain. d_limited(x) = min over y of (d(y) + g |x - y|), found once on a background tree, of
 // which each rank holds its part. In the open the way is straight; around corners it is measured
 // from leaf to leaf, up to 8 % too long. One y counts for a leaf, and those of the leaves it
-// touches: beside a line of sources d is up to a third too large for it. The same to the bit on any
-// number of ranks.
+// touches: in the plane, beside a line of sources d is up to a third too large for it; in space,
+// where leaves are looked into as densely as nodes lie, a fifth. The same to the bit on any number
+// of ranks.
 #pragma once
 
 #include <functional>

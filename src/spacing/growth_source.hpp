@@ -20,6 +20,11 @@ struct GrowthSource {
   }
 };
 
+// Growth by which a known value is seen from the cell_samples of a leaf: no place in the leaf is
+// farther than 0.44 sides from one of these, so that the value is below a quarter of the side there
+// if the leaf is much too wide for it.
+inline constexpr double kSeenFromSamples = 0.3;
+
 // What limits d in a leaf, and how far at the place that stands for the leaf. In a total order, so
 // that the least of several is the same in whatever order they come.
 template <int Dim>

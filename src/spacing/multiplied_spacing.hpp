@@ -22,6 +22,7 @@ class MultipliedSpacing : public Spacing<Dim> {
   KnownValues<Dim> known_values() const override {
     KnownValues<Dim> known = spacing_->known_values();
     for (GrowthSource<Dim>& value : known.values) value.d *= factor_;
+    for (GrowthSource<Dim>& value : known.in_domain) value.d *= factor_;
     for (auto& slope : known.slopes) slope.growth *= factor_, slope.d *= factor_;
     return known;
   }

@@ -19,10 +19,12 @@ struct KnownValues {
   struct Slope {
     double growth, d;  // d at its lower end
     Point<Dim> at;
+    bool in_domain = false;  // surely; else that is found out
   };
 
   std::vector<GrowthSource<Dim>> values;
-  std::vector<Slope> slopes;  // of what is linear between them
+  std::vector<Slope> slopes;                 // of what is linear between them
+  std::vector<GrowthSource<Dim>> in_domain;  // surely there: d is sampled at these, too
 };
 
 template <int Dim>

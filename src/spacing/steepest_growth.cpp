@@ -49,6 +49,7 @@ template <int Dim>
 struct Slope {
   double growth, d;  // d at its lower end
   Point<Dim> at;
+  bool in_domain = true;
 };
 
 template <int Dim>
@@ -108,11 +109,13 @@ SteepestGrowth<Dim> steepest_growth(const Communicator& comm, const DomainMap<Di
   const auto is_own = [&](const Slope<Dim>& slope) {
     if (!in_closed_box(map.tree().cell_box(0), slope.at)) return false;
     const std::int32_t leaf = map.tree().leaf_at(slope.at);
-    return owns_leaf(leaf) && !map.leaf_outside(leaf) && map.inside_in_leaf(leaf, slope.at);
+    if (!owns_leaf(leaf)) return false;
+    return slope.in_domain || (!map.leaf_outside(leaf) && map.inside_in_leaf(leaf, slope.at));
   };
   agreed(comm, [&] {
     slopes = slopes_of_own<Dim>(map, owns_leaf, spacing);
-    for (const auto& [growth, d, at] : known.slopes) known_slopes.push_back({growth, d, at});
+    for (const auto& [growth, d, at, in_domain] : known.slopes)
+      known_slopes.push_back({growth, d, at, in_domain});
     add_steepest<Dim>(known_slopes, is_own, slopes);
   });
   // Of the slopes that are left, over all ranks, those with the largest of something.

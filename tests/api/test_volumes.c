@@ -168,26 +168,81 @@ START_TEST(too_many_nodes) {
 }
 END_TEST
 
-/* Fine in a place that samples of d for bubbles as large as around do not find. */
-static int32_t fine_in_the_middle(int64_t n, int32_t dim, const double* xyz, double* d,
-                                  void* user) {
+/* Fine within a ball or a layer which samples of d for bubbles as large as around may miss. */
+typedef struct {
+  int layer;
+  double at[3], half_width, fine;
+} fine_place;
+
+static const fine_place fine_places[] = {
+    {0, {0.5, 0.5, 0.5}, 0.06, 0.01},
+    {0, {1, 0.5, 0.5}, 0.06, 0.01}, /* on a side */
+    {1, {0.37, 0, 0}, 0.02, 0.04},
+    {1, {0.25, 0, 0}, 0.02, 0.04}, /* on the faces of leaves */
+};
+
+static double way_to_fine_place(const fine_place* place, const double* x) {
+  const double far = place->layer ? fabs(x[0] - place->at[0]) : distance(x, place->at);
+  return fmax(0, far - place->half_width);
+}
+
+static int32_t fine_within(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
+  const fine_place* place = user;
   int64_t i;
-  (void)dim, (void)user;
-  for (i = 0; i < n; ++i) {
-    const double x = xyz[3 * i] - 0.5, y = xyz[3 * i + 1] - 0.5, z = xyz[3 * i + 2] - 0.5;
-    d[i] = x * x + y * y + z * z < 0.06 * 0.06 ? 0.01 : 0.2;
-  }
+  (void)dim;
+  for (i = 0; i < n; ++i) d[i] = way_to_fine_place(place, xyz + 3 * i) == 0 ? place->fine : 0.2;
   return 0;
 }
 
-START_TEST(too_small_a_place) {
+/* By the exact limit of its growth. */
+static void check_growth_from(const fine_place* place, const volume* v) {
+  int64_t i, fine = 0;
+  for (i = 0; i < v->n; ++i) {
+    const double way = way_to_fine_place(place, v->xyz + 3 * i);
+    const double limit = fmin(0.2, place->fine + 0.3 * way);
+    ck_assert_double_ge(v->d[i], limit * (1 - 1e-12));
+    ck_assert_double_le(v->d[i], limit * 1.25);
+    fine += way == 0;
+  }
+  ck_assert_int_gt(fine, place->layer ? 200 : 400);
+}
+
+START_TEST(fine_in_a_small_place) {
+  fine_place place = fine_places[_i];
   job it = body_job(volume_unit_box);
-  MUST(pnpbs_placement_set_spacing_callback(it.placement, fine_in_the_middle, NULL));
-  MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_run(it.placement), "d = 0.01 near (0.4",
-            "so small a place");
-  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));
+  volume v;
+  pnpbs_status status;
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, fine_within, &place));
+  status = pnpbs_placement_run(it.placement);
+  if (status != PNPBS_SPACING_MISSED) /* it may be, where only some hundred edges are coarse */
+    MUST_COMPUTE(status);
+  ck_assert_int_eq(warnings_with(it.placement, "its growth is limited to 0.3"), 1);
+  check_body(&it, 1e-12);
+  ck_assert_double_gt(real_of(it.placement, "quality.min_angle"), 25);
+  v = volume_of(it.placement);
+  check_growth_from(&place, &v);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
+/* Whose diagonals the tetrahedra and the nodes on the surface see differently: flat sides, all the
+ * same. */
+static int32_t graded_from_a_layer(int64_t n, int32_t dim, const double* xyz, double* d,
+                                   void* user) {
+  int64_t i;
+  (void)dim, (void)user;
+  for (i = 0; i < n; ++i) d[i] = fmin(0.1, 0.02 + 0.3 * fmax(0, fabs(xyz[3 * i] - 0.37) - 0.02));
+  return 0;
+}
+
+START_TEST(flat_sides_follow_the_surface) {
+  job it = body_job(volume_unit_box);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, graded_from_a_layer, NULL));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   check_body(&it, 1e-12);
+  ck_assert_int_eq(integer_of(it.placement, "missing_faces"), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "missing_faces"), 0);
   job_end(&it);
 }
 END_TEST
@@ -440,7 +495,8 @@ int main(void) {
   tcase_add_loop_test(tests, spacings_far_larger_than_the_body, 0, 4);
   tcase_add_test(tests, bad_spacings);
   tcase_add_test(tests, too_many_nodes);
-  tcase_add_test(tests, too_small_a_place);
+  tcase_add_loop_test(tests, fine_in_a_small_place, 0, sizeof fine_places / sizeof *fine_places);
+  tcase_add_test(tests, flat_sides_follow_the_surface);
   tcase_add_loop_test(tests, stopped_by_the_monitor, 0, 5);
   tcase_add_test(tests, by_steps);
   tcase_add_test(tests, fills_count_as_inserted);

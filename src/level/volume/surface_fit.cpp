@@ -51,6 +51,7 @@ class Fitting {
   // Triangles of which this is the node that judges.
   std::int64_t missing_at(std::int64_t i) const {
     const Fan wanted = fan_on_surfaces(level_, i), found = fan_of_tetrahedra(level_, i);
+    if (lies_in_plane(i, found)) return 0;
     std::int64_t missing = 0;
     for (const Side& side : wanted) missing += judges(i, side) && !is_in(found, wanted, side, i);
     for (const Side& side : found)
@@ -79,6 +80,14 @@ class Fitting {
   }
   bool on_one_surface(std::int64_t i, const Side& side) const {
     return sees(i, side.first) && sees(i, side.second) && sees(side.first, side.second);
+  }
+
+  // Within a flat surface, triangles on it follow it whatever their diagonals are.
+  bool lies_in_plane(std::int64_t i, const Fan& fan) const {
+    if (nodes_.carrier(i) != Carrier::surface || fan.empty()) return false;
+    const Surface& surface = level_.ground.surface();
+    return surface.is_flat(surface.patch(nodes_.boundary_node(i))) &&
+           std::ranges::all_of(fan, [&](const Side& side) { return on_one_surface(i, side); });
   }
 
   // Is the triangle of node i, one of `own`, in the other fan, or one that differs by a diagonal?
