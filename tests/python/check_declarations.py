@@ -46,7 +46,9 @@ def callback_differences(callbacks, declared):
 
 def constant_differences(constants, interface):
     wanted = {name: value for name, value in constants.items() if "_VERSION_" not in name}
-    own = dict(interface.STATUSES, PNPBS_BOUNDARY=interface.BOUNDARY, PNPBS_INNER=interface.INNER)
+    errors = importlib.import_module(f"{interface.__package__}.errors")
+    own = {f"PNPBS_{status.name}": status.value for status in errors.Status}
+    own |= {"PNPBS_BOUNDARY": interface.BOUNDARY, "PNPBS_INNER": interface.INNER}
     for name in sorted(set(wanted) | set(own)):
         if wanted.get(name) != own.get(name):
             yield f"{name}: {wanted.get(name)} in C, {own.get(name)} in Python"

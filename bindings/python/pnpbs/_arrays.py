@@ -1,10 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arguments as the library takes them. Arrays of the right type and order are not copied."""
 
+from __future__ import annotations
+
+from typing import Optional, Tuple
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._types import Doubles, Ids, Int32s, Scalar
 
 
-def as_points(points, dim, what):
+def as_points(points: ArrayLike, dim: int, what: str) -> Doubles:
     """(n, dim) numbers, a row for each point."""
     array = np.ascontiguousarray(points, dtype=np.float64)
     if array.size == 0:
@@ -14,11 +21,11 @@ def as_points(points, dim, what):
     return array
 
 
-def as_point(point, dim, what):
+def as_point(point: ArrayLike, dim: int, what: str) -> Doubles:
     return _of_shape(np.ascontiguousarray(point, dtype=np.float64), (dim,), what)
 
 
-def as_indices(indices, columns, what):
+def as_indices(indices: ArrayLike, columns: int, what: str) -> Ids:
     """(m, columns) indices from 0."""
     given = np.asarray(indices)
     if given.size and not np.issubdtype(given.dtype, np.integer):
@@ -31,7 +38,7 @@ def as_indices(indices, columns, what):
     return array
 
 
-def as_tags(tags, n, what):
+def as_tags(tags: Optional[ArrayLike], n: int, what: str) -> Optional[Int32s]:
     """None for the library's default, one for all, or one for each."""
     if tags is None:
         return None
@@ -40,7 +47,8 @@ def as_tags(tags, n, what):
     return _of_shape(np.ascontiguousarray(tags, dtype=np.int32), (n,), what)
 
 
-def _of_shape(array, shape, what):
+def _of_shape(array: NDArray[Scalar], shape: Tuple[int, ...],
+              what: str) -> NDArray[Scalar]:
     if array.shape != shape:
         raise ValueError(f"{what} has shape {array.shape}; {shape} was expected")
     return array

@@ -3,12 +3,25 @@
 in the context, the callback returns nonzero, and `Context._check` raises it when the call has come
 back. Whoever hands a callback over keeps it alive."""
 
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Any, Callable, Tuple
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._interface import CALLBACKS
+from ._types import ArrayFunction, Doubles, Monitor
+
+if TYPE_CHECKING:
+    from .context import Context
+
+    # Where the library has doubles.
+    _Address = ctypes._Pointer[ctypes.c_double]
 
 
-def _guarded(context, work):
+def _guarded(context: Context, work: Callable[[], object]) -> int:
     """`work()`, unless an exception is on its way already."""
     if context._raised is not None:
         return 1
@@ -20,11 +33,11 @@ def _guarded(context, work):
 
 
 # A copy, so that a function that keeps or changes its argument does no harm.
-def _copied(address, shape):
+def _copied(address: _Address, shape: Tuple[int, ...]) -> Doubles:
     return np.ctypeslib.as_array(address, shape=shape).copy()
 
 
-def _store(address, values, shape, what):
+def _store(address: _Address, values: ArrayLike, shape: Tuple[int, ...], what: str) -> None:
     array = np.asarray(values, dtype=np.float64)
     if array.shape != shape:
         raise ValueError(f"the {what} function returned an array of shape {array.shape}; {shape} "
@@ -32,11 +45,11 @@ def _store(address, values, shape, what):
     np.ctypeslib.as_array(address, shape=shape)[...] = array
 
 
-def _at_points(c_type, what, f, context):
+def _at_points(c_type: str, what: str, f: ArrayFunction, context: Context) -> Any:
     """f(points) for a value at each of n points, (n, dim)."""
 
-    def call(n, dim, coordinates, values, _user):
-        def work():
+    def call(n: int, dim: int, coordinates: _Address, values: _Address, _user: Any) -> int:
+        def work() -> None:
             if n > 0:
                 _store(values, f(_copied(coordinates, (n, dim))), (n,), what)
 
@@ -45,17 +58,17 @@ def _at_points(c_type, what, f, context):
     return CALLBACKS[c_type](call)
 
 
-def spacing_callback(f, context):
+def spacing_callback(f: ArrayFunction, context: Context) -> Any:
     return _at_points("pnpbs_spacing_fn", "spacing", f, context)
 
 
-def level_set_callback(f, context):
+def level_set_callback(f: ArrayFunction, context: Context) -> Any:
     return _at_points("pnpbs_level_set_fn", "level set", f, context)
 
 
-def curve_callback(f, context):
-    def call(n, dim, t, coordinates, _user):
-        def work():
+def curve_callback(f: ArrayFunction, context: Context) -> Any:
+    def call(n: int, dim: int, t: _Address, coordinates: _Address, _user: Any) -> int:
+        def work() -> None:
             if n > 0:
                 _store(coordinates, f(_copied(t, (n,))), (n, dim), "curve")
 
@@ -64,9 +77,9 @@ def curve_callback(f, context):
     return CALLBACKS["pnpbs_curve_fn"](call)
 
 
-def monitor_callback(f, context):
+def monitor_callback(f: Monitor, context: Context) -> Any:
     # Only True stops: a monitor that ends with a print returns None.
-    def call(fraction, step, nodes, max_speed, _user):
+    def call(fraction: float, step: int, nodes: int, max_speed: float, _user: Any) -> int:
         return _guarded(context, lambda: f(fraction, step, nodes, max_speed) is True)
 
     return CALLBACKS["pnpbs_monitor_fn"](call)

@@ -1,36 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The C interface as it is: `library()` has one function for each function of `pnpbs.h`, of the same
 name and with the same arguments, which that header documents. Nothing is converted beyond what the
-types ask for. A test compares the declarations, the types of callbacks and the constants with the
-header."""
+types ask for. A test compares the declarations, the types of callbacks and the constants, `Status`
+among them, with the header."""
+
+from __future__ import annotations
 
 import ctypes
 import re
+from typing import Any, Dict, Optional, Tuple, Type
 
 import numpy as np
 
 from ._library import open_library
-
-STATUSES = {
-    "PNPBS_OK": 0,
-    "PNPBS_NOT_CONVERGED": 1,
-    "PNPBS_STOPPED": 2,
-    "PNPBS_SPACING_MISSED": 3,
-    "PNPBS_ERROR_ARGUMENT": -1,
-    "PNPBS_ERROR_HANDLE": -2,
-    "PNPBS_ERROR_STATE": -3,
-    "PNPBS_ERROR_DOMAIN": -4,
-    "PNPBS_ERROR_SPACING": -5,
-    "PNPBS_ERROR_KEY": -6,
-    "PNPBS_ERROR_CAPACITY": -7,
-    "PNPBS_ERROR_FILE": -8,
-    "PNPBS_ERROR_CALLBACK": -9,
-    "PNPBS_ERROR_MEMORY": -10,
-    "PNPBS_ERROR_MPI": -11,
-    "PNPBS_ERROR_KOKKOS": -12,
-    "PNPBS_ERROR_UNSUPPORTED": -13,
-    "PNPBS_ERROR_INTERNAL": -14,
-}
 
 BOUNDARY = 0
 INNER = 1
@@ -225,10 +207,10 @@ pnpbs_status pnpbs_discard_unfinished_files(void);
 class _Array:
     """An argument that is an array of NumPy's, or `ctypes.byref` of a number, or None."""
 
-    dtype = None
+    dtype: Optional[np.dtype[Any]] = None
 
     @classmethod
-    def from_param(cls, value):
+    def from_param(cls, value: Any) -> Any:
         if isinstance(value, np.ndarray):
             if value.dtype != cls.dtype or not value.flags.c_contiguous:
                 raise TypeError(f"an array of {cls.dtype} in the order of C was expected")
@@ -236,17 +218,17 @@ class _Array:
         return ctypes.c_void_p.from_param(value)
 
 
-def _array_of(dtype):
+def _array_of(dtype: str) -> Type[_Array]:
     return type(f"_ArrayOf_{dtype}", (_Array,), {"dtype": np.dtype(dtype)})
 
 
-_NUMBERS = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "double": ctypes.c_double,
-            "pnpbs_status": ctypes.c_int}
+_NUMBERS: Dict[str, Any] = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64,
+                            "double": ctypes.c_double, "pnpbs_status": ctypes.c_int}
 _ARRAYS = {"int8_t": _array_of("int8"), "int32_t": _array_of("int32"),
            "int64_t": _array_of("int64"), "double": _array_of("float64")}
 
 
-def ctypes_of(c_type):
+def ctypes_of(c_type: str) -> Any:
     """The type of ctypes for one of C, as the header writes it."""
     if c_type in _NUMBERS:
         return _NUMBERS[c_type]
@@ -257,19 +239,20 @@ def ctypes_of(c_type):
     return _ARRAYS.get(pointee, ctypes.c_void_p)
 
 
-def declarations(text):
+def declarations(text: str) -> Dict[str, Tuple[str, Tuple[Tuple[str, str], ...]]]:
     """Of "result name(type argument, ...);": {name: (result, ((type, argument), ...))}."""
     found = {}
     for declaration in text.split(";"):
         match = re.fullmatch(r"\s*(.*?[\s*])(pnpbs_\w+)\((.*)\)", declaration, re.S)
         if match:
             pieces = [] if match[3] == "void" else match[3].split(",")
-            arguments = [re.fullmatch(r"\s*(.*?[\s*])(\w+)\s*", piece, re.S) for piece in pieces]
+            arguments = [a for a in (re.fullmatch(r"\s*(.*?[\s*])(\w+)\s*", piece, re.S)
+                                     for piece in pieces) if a]
             found[match[2]] = (match[1].strip(), tuple((a[1].strip(), a[2]) for a in arguments))
     return found
 
 
-def declared(opened, text):
+def declared(opened: ctypes.CDLL, text: str) -> ctypes.CDLL:
     """An opened library whose functions take and return what `text` declares."""
     for name, (result, arguments) in declarations(text).items():
         function = getattr(opened, name)
@@ -280,7 +263,7 @@ def declared(opened, text):
 
 # What the library calls. The last argument is `user`, which Python's closures do without.
 _DOUBLES = ctypes.POINTER(ctypes.c_double)
-CALLBACKS = {
+CALLBACKS: Dict[str, Any] = {
     "pnpbs_curve_fn": ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int32, _DOUBLES,
                                        _DOUBLES, ctypes.c_void_p),
     "pnpbs_level_set_fn": ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int32, _DOUBLES,
@@ -291,10 +274,10 @@ CALLBACKS = {
                                          ctypes.c_int64, ctypes.c_double, ctypes.c_void_p),
 }
 
-_opened = None
+_opened: Optional[ctypes.CDLL] = None
 
 
-def library():
+def library() -> ctypes.CDLL:
     """The library, opened when it is first needed, with its functions declared."""
     global _opened
     if _opened is None:

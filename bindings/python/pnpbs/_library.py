@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where the shared library is."""
 
+from __future__ import annotations
+
 import ctypes
 import os
 import pathlib
 import sys
+from typing import Iterator
 
 # The interface this package is written for. While the major version is 0, a new minor one may change
 # it.
@@ -13,7 +16,7 @@ INTERFACE = (0, 2)
 _HERE = pathlib.Path(__file__).resolve().parent
 
 
-def _candidates():
+def _candidates() -> Iterator[str]:
     if os.environ.get("PNPBS_LIBRARY"):
         yield os.environ["PNPBS_LIBRARY"]
         return
@@ -30,14 +33,14 @@ def _candidates():
     yield "libpnpbs.so.0" if suffix == "so" else "libpnpbs.dylib"
 
 
-def library_path():
+def library_path() -> str:
     """The path or name of the library that is opened, or would be: the environment variable
     `PNPBS_LIBRARY`, or the library that this package was installed with, or whatever the system
     finds as `libpnpbs`."""
     return next(_candidates())
 
 
-def open_library():
+def open_library() -> ctypes.CDLL:
     path = library_path()
     try:
         opened = ctypes.CDLL(path)

@@ -2,13 +2,20 @@
 """Ctrl-C during a call of the library. Python handles a signal between any two instructions of a
 callback, so also where no `try` of ours stands yet, and ctypes drops what is raised there."""
 
+from __future__ import annotations
+
 import contextlib
 import signal
 import threading
+from types import FrameType
+from typing import TYPE_CHECKING, Iterator, Optional
+
+if TYPE_CHECKING:
+    from .context import Context
 
 
 @contextlib.contextmanager
-def signals_kept_in(context):
+def signals_kept_in(context: Context) -> Iterator[None]:
     """What the program's handler of SIGINT raises in the block is kept in the context, as the
     exceptions of callbacks are: the next callback ends the call. Nothing is changed in threads other
     than the main one, where Python handles no signals, or where no handler of Python's is set."""
@@ -18,7 +25,7 @@ def signals_kept_in(context):
         yield
         return
 
-    def keep(number, frame):
+    def keep(number: int, frame: Optional[FrameType]) -> None:
         try:
             handler(number, frame)
         except BaseException as error:

@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Domains: what is to be filled with nodes."""
 
+from __future__ import annotations
+
 import ctypes
 import math
 import os
-from typing import NamedTuple
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _interface
 from ._arrays import as_indices, as_point, as_points, as_tags
 from ._callbacks import curve_callback, level_set_callback, spacing_callback
 from ._interface import library
-from .context import Handle
+from ._types import ArrayFunction, Doubles, Int32s, Path, Role
+from .context import Context, Handle
 
 _ROLES = {"boundary": _interface.BOUNDARY, "inner": _interface.INNER}
 
@@ -23,11 +27,11 @@ class LeftOut(NamedTuple):
 
 
 class Outline(NamedTuple):
-    segments: np.ndarray
-    tags: np.ndarray
+    segments: Doubles
+    tags: Int32s
 
 
-def _role_number(role):
+def _role_number(role: str) -> int:
     if role not in _ROLES:
         raise ValueError(f"role is {role!r}; 'boundary' or 'inner' was expected")
     return _ROLES[role]
@@ -44,26 +48,26 @@ class Domain(Handle):
     which lies in the domain and which the nodes follow; curves in space are always inner. Its `tag`
     is a nonzero integer that marks the nodes on it."""
 
-    def __init__(self, context, dim=2):
+    def __init__(self, context: Context, dim: int = 2) -> None:
         super().__init__()
         self.context = context
         handle = ctypes.c_void_p()
         context._check(library().pnpbs_domain_create(context._live(), dim, ctypes.byref(handle)))
         self._handle = handle.value
-        self._callbacks = []
+        self._callbacks: List[Any] = []
         context._children.append(self)
 
-    def close(self):
+    def close(self) -> None:
         """Releases what the library holds. A placement keeps what it needs of its domain. Closing
         twice is allowed."""
         if self.is_open:
             self.context._children.remove(self)
             self.context._check(self._destroy(library().pnpbs_domain_destroy))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<pnpbs.Domain, {f'{self.dim} dimensions' if self.is_open else 'closed'}>"
 
-    def _call(self, name, *arguments):
+    def _call(self, name: str, *arguments: Any) -> Domain:
         self.context._check(getattr(library(), f"pnpbs_domain_{name}")(self._live(), *arguments))
         return self
 
@@ -76,7 +80,8 @@ class Domain(Handle):
 
     # ------------------------------------------------------------ curves -----------------------
 
-    def add_polyline(self, coordinates, closed=True, role="boundary", tags=None, corner_angle=0.0):
+    def add_polyline(self, coordinates: ArrayLike, closed: bool = True, role: Role = "boundary",
+                     tags: Optional[ArrayLike] = None, corner_angle: float = 0.0) -> Domain:
         """Adds straight segments through the rows of `coordinates`; `closed` leads one from the last
         to the first. `tags` is one for all segments or one for each. With `corner_angle=0` every
         vertex becomes a node; otherwise those where the direction turns by more than so many
@@ -88,13 +93,15 @@ class Domain(Handle):
         return self._call("add_polyline", _role_number(role), closed, n, points,
                           as_tags(tags, segments, "tags"), corner_angle)
 
-    def add_arc(self, centre, radius, begin=0.0, end=2 * math.pi, role="boundary", tag=1):
+    def add_arc(self, centre: ArrayLike, radius: float, begin: float = 0.0, end: float = 2 * math.pi,
+                role: Role = "boundary", tag: int = 1) -> Domain:
         """Adds a circular arc between two angles in radians, a full circle by default, to a domain
         in the plane. Its ends join curves that end at the same point."""
         return self._call("add_arc", _role_number(role), as_point(centre, 2, "centre"), radius,
                           begin, end, tag)
 
-    def add_curve(self, curve, begin, end, role="boundary", tag=1):
+    def add_curve(self, curve: ArrayFunction, begin: float, end: float, role: Role = "boundary",
+                  tag: int = 1) -> Domain:
         """Adds the curve of a function to a domain in the plane: `curve(t)` gets an array of n
         parameters between `begin` and `end` and returns the points, (n, 2). It must always give the
         same point for the same parameter, be continuous, and not cross itself. Corners are where
@@ -104,7 +111,9 @@ class Domain(Handle):
         self._callbacks.append(callback)
         return self
 
-    def add_pslg(self, coordinates, segments, vertex_tags=None, segment_tags=None, holes=()):
+    def add_pslg(self, coordinates: ArrayLike, segments: ArrayLike,
+                 vertex_tags: Optional[ArrayLike] = None, segment_tags: Optional[ArrayLike] = None,
+                 holes: ArrayLike = ()) -> Domain:
         """Adds a planar straight-line graph as Triangle means it to a domain in the plane: what the
         segments enclose is the domain, but for the regions that contain a hole point. `segments` is
         (m, 2), indices of rows of `coordinates`; `holes` is (h, 2). Every vertex becomes a node."""
@@ -116,11 +125,11 @@ class Domain(Handle):
                           as_tags(segment_tags, len(ends), "segment_tags"), len(hole_points),
                           hole_points)
 
-    def read_poly(self, path):
+    def read_poly(self, path: Path) -> Domain:
         """Adds what a file of Triangle's .poly format describes to a domain in the plane."""
         return self._call("read_poly", os.fsencode(path))
 
-    def parse_poly(self, text, name="text"):
+    def parse_poly(self, text: str, name: str = "text") -> Domain:
         """Adds what a text in Triangle's .poly format describes to a domain in the plane; messages
         call it `name`."""
         content = text.encode()
@@ -128,7 +137,8 @@ class Domain(Handle):
 
     # ------------------------------------------------------------ surfaces ---------------------
 
-    def add_surface(self, coordinates, corners, role="boundary", tags=None, feature_angle=40.0):
+    def add_surface(self, coordinates: ArrayLike, corners: ArrayLike, role: Role = "boundary",
+                    tags: Optional[ArrayLike] = None, feature_angle: float = 40.0) -> Domain:
         """Adds a triangulated surface to a domain in space: `corners` is (m, 3), indices of rows of
         `coordinates`. Closed ones with the role "boundary" bound the domain; nodes follow "inner"
         ones, closed or open. Vertices that coincide are one; what the triangles enclose decides
@@ -141,27 +151,29 @@ class Domain(Handle):
         return self._call("add_surface", _role_number(role), len(points), points, len(triangles),
                           triangles, as_tags(tags, len(triangles), "tags"), feature_angle)
 
-    def read_surface(self, path, role="boundary", feature_angle=40.0):
+    def read_surface(self, path: Path, role: Role = "boundary",
+                     feature_angle: float = 40.0) -> Domain:
         """Adds the surface of a file to a domain in space, in one of the formats that the header
         lists at `pnpbs_domain_read_surface`. Groups, materials and facet markers become tags, hole
         points holes of the domain. Otherwise as `add_surface`."""
         return self._call("read_surface", _role_number(role), os.fsencode(path), feature_angle)
 
-    def add_box(self, low, high, tag=1):
+    def add_box(self, low: ArrayLike, high: ArrayLike, tag: int = 1) -> Domain:
         """Adds a box to a domain in space; its sides bound the domain."""
         return self._call("add_box", as_point(low, 3, "low"), as_point(high, 3, "high"), tag)
 
-    def add_ball(self, centre, radius, tag=1):
+    def add_ball(self, centre: ArrayLike, radius: float, tag: int = 1) -> Domain:
         """Adds a ball to a domain in space, as triangles within 1e-4 of the radius."""
         return self._call("add_ball", as_point(centre, 3, "centre"), radius, tag)
 
-    def add_cylinder(self, begin, end, radius, tag=1):
+    def add_cylinder(self, begin: ArrayLike, end: ArrayLike, radius: float, tag: int = 1) -> Domain:
         """Adds a round cylinder to a domain in space, as triangles within 1e-4 of the radius;
         `begin` and `end` are the middles of its two circles."""
         return self._call("add_cylinder", as_point(begin, 3, "begin"), as_point(end, 3, "end"),
                           radius, tag)
 
-    def add_level_set(self, level_set, low, high, resolution, tag=1):
+    def add_level_set(self, level_set: ArrayFunction, low: ArrayLike, high: ArrayLike,
+                      resolution: float, tag: int = 1) -> Domain:
         """Adds the body where a function is negative to a domain in space: `level_set(x)` gets the
         points, (n, 3), and returns n values. It must always give the same value for the same point,
         be continuous, and be finite everywhere in the box between `low` and `high`, where the body
@@ -173,7 +185,7 @@ class Domain(Handle):
         self._callbacks.append(callback)
         return self
 
-    def set_corner_angle(self, corner_angle):
+    def set_corner_angle(self, corner_angle: float) -> Domain:
         """Where the graphs of a domain in the plane have corners (`add_pslg`, `read_poly`,
         `parse_poly`), those given before and those given after: at vertices where the direction turns
         by more than this many degrees, where segments of different tags or other than two of them
@@ -182,7 +194,8 @@ class Domain(Handle):
         vertex becomes a node."""
         return self._call("set_corner_angle", corner_angle)
 
-    def simplify(self, d, tolerance=0.25, smallest=0.0):
+    def simplify(self, d: Union[float, ArrayFunction], tolerance: float = 0.25,
+                 smallest: float = 0.0) -> LeftOut:
         """Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs
         and polylines given so far, vertices beside segments shorter than d, as long as the curve then
         passes them within `tolerance` times d; and closed curves, islands and lakes, whose extent
@@ -197,7 +210,8 @@ class Domain(Handle):
                    ctypes.byref(vertices), ctypes.byref(curves))
         return LeftOut(vertices.value, curves.value)
 
-    def simplify_by_file(self, path, field=None, tolerance=0.25, smallest=0.0):
+    def simplify_by_file(self, path: Path, field: Optional[str] = None, tolerance: float = 0.25,
+                         smallest: float = 0.0) -> LeftOut:
         """The same by a spacing from a file with values at points, as `Placement.set_spacing_file`
         takes it."""
         vertices, curves = ctypes.c_int64(), ctypes.c_int64()
@@ -205,31 +219,31 @@ class Domain(Handle):
                    tolerance, smallest, ctypes.byref(vertices), ctypes.byref(curves))
         return LeftOut(vertices.value, curves.value)
 
-    def set_filled(self, filled):
+    def set_filled(self, filled: bool) -> Domain:
         """Whether a domain in space is what its surfaces enclose, as it is at first, or, with False,
         the surfaces alone: nodes on them and triangles between these, and nothing inside."""
         return self._call("set_filled", bool(filled))
 
     # ------------------------------------------------------------ files and tags ---------------
 
-    def read_msh(self, path, feature_angle=0.0):
+    def read_msh(self, path: Path, feature_angle: float = 0.0) -> Domain:
         """Reads a mesh in Gmsh's MSH format and adds what bounds it: in the plane lines and edges, in
         space triangles, with their physical groups as tags. Sheets and lines inside are inner
         surfaces and curves, points fixed nodes. `feature_angle` in degrees is as in `add_surface`, in
         the plane as the `corner_angle` of `add_polyline`."""
         return self._call("read_msh", os.fsencode(path), feature_angle)
 
-    def set_role(self, tag, role):
+    def set_role(self, tag: int, role: Role) -> Domain:
         """The role of all triangles in a domain in space that have this tag, whatever role they are
         added with."""
         return self._call("set_role", tag, _role_number(role))
 
-    def set_tag_name(self, dim, tag, name):
+    def set_tag_name(self, dim: int, tag: int, name: str) -> Domain:
         """Names a tag of points (`dim` 0), curves (1), surfaces (2) or bodies (3), for files that have
         physical groups."""
         return self._call("set_tag_name", dim, tag, name.encode())
 
-    def tag_names(self):
+    def tag_names(self) -> Dict[Tuple[int, int], str]:
         """The names of tags, given or from files: {(dim, tag): name}."""
         count = ctypes.c_int32()
         self._call("tag_name_count", ctypes.byref(count))
@@ -238,17 +252,17 @@ class Domain(Handle):
             dim, tag, name = ctypes.c_int32(), ctypes.c_int32(), ctypes.c_char_p()
             self._call("get_tag_name", index, ctypes.byref(dim), ctypes.byref(tag),
                        ctypes.byref(name))
-            names[dim.value, tag.value] = name.value.decode()
+            names[dim.value, tag.value] = (name.value or b"").decode()
         return names
 
     # ------------------------------------------------------------ points -----------------------
 
-    def add_hole(self, point):
+    def add_hole(self, point: ArrayLike) -> Domain:
         """Removes the region around a point from the domain, as far as the next curves or
         surfaces."""
         return self._call("add_hole", as_point(point, self.dim, "point"))
 
-    def add_fixed_nodes(self, coordinates, tags=None):
+    def add_fixed_nodes(self, coordinates: ArrayLike, tags: Optional[ArrayLike] = None) -> Domain:
         """Adds nodes that must appear exactly, inside the domain or on a vertex of its curves or
         surfaces."""
         points = as_points(coordinates, self.dim, "coordinates")
@@ -257,13 +271,13 @@ class Domain(Handle):
 
     # ------------------------------------------------------------ what it is -------------------
 
-    def check(self):
+    def check(self) -> Domain:
         """Checks the whole geometry: duplicate vertices, crossings, open boundaries, hole points
         outside. A `PNPBSError` with `Status.ERROR_DOMAIN` names the vertex, segment or triangle.
         Placements check as well; asking early costs nothing extra."""
         return self._call("check")
 
-    def bounds(self):
+    def bounds(self) -> Tuple[Doubles, Doubles]:
         """The corners (low, high) of the bounding box of the curves or surfaces."""
         low, high = np.zeros(self.dim), np.zeros(self.dim)
         self._call("bounds", low, high)
@@ -275,7 +289,7 @@ class Domain(Handle):
         self._call("measure", ctypes.byref(inside))
         return inside.value
 
-    def distance(self, coordinates, tag=0) -> np.ndarray:
+    def distance(self, coordinates: ArrayLike, tag: int = 0) -> Doubles:
         """The distances of points to what bounds the domain, or to the curves, surfaces or nodes with
         this tag."""
         points = as_points(coordinates, self.dim, "coordinates")
@@ -283,8 +297,9 @@ class Domain(Handle):
         self._call("distance", tag, len(points), points, distances)
         return distances
 
-    def shape_spacing(self, coordinates, nodes_per_turn=0.0, nodes_across=0.0, nodes_per_edge=0.0,
-                      growth=0.0) -> np.ndarray:
+    def shape_spacing(self, coordinates: ArrayLike, nodes_per_turn: float = 0.0,
+                      nodes_across: float = 0.0, nodes_per_edge: float = 0.0,
+                      growth: float = 0.0) -> Doubles:
         """The spacing at points that `Placement.set_spacing_from_shape` would set, without its
         bounds. The first question takes longest: ask one before asking from inside a callback."""
         points = as_points(coordinates, self.dim, "coordinates")

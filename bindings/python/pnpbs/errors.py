@@ -1,23 +1,43 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From the library's status to Python's exceptions."""
 
+from __future__ import annotations
+
 import enum
+from typing import Any, Optional
 
-from ._interface import STATUSES, library
+from ._interface import library
 
 
-class _Named(enum.IntEnum):
-    def __str__(self):
+class Status(enum.IntEnum):
+    """The header's statuses: what a call came to, and why it failed.
+
+    Of a run: `OK`; `NOT_CONVERGED`, the step limit came before the bubbles rested, which is no
+    failure; `SPACING_MISSED`, in one of the bands of `Placement.edge_bands` with 50 edges or more the
+    mean is off 1 by more than 0.1; `STOPPED` by the monitor. In all four cases the nodes are
+    valid."""
+
+    OK = 0
+    NOT_CONVERGED = 1
+    STOPPED = 2
+    SPACING_MISSED = 3
+    ERROR_ARGUMENT = -1
+    ERROR_HANDLE = -2
+    ERROR_STATE = -3
+    ERROR_DOMAIN = -4
+    ERROR_SPACING = -5
+    ERROR_KEY = -6
+    ERROR_CAPACITY = -7
+    ERROR_FILE = -8
+    ERROR_CALLBACK = -9
+    ERROR_MEMORY = -10
+    ERROR_MPI = -11
+    ERROR_KOKKOS = -12
+    ERROR_UNSUPPORTED = -13
+    ERROR_INTERNAL = -14
+
+    def __str__(self) -> str:
         return self.name
-
-
-Status = _Named("Status", {name.removeprefix("PNPBS_"): value for name, value in STATUSES.items()},
-                module=__name__)
-Status.__doc__ = """The header's statuses: what a call came to, and why it failed.
-
-Of a run: `OK`; `NOT_CONVERGED`, the step limit came before the bubbles rested, which is no failure;
-`SPACING_MISSED`, in one of the bands of `Placement.edge_bands` with 50 edges or more the mean is off
-1 by more than 0.1; `STOPPED` by the monitor. In all four cases the nodes are valid."""
 
 
 class PNPBSError(Exception):
@@ -28,17 +48,17 @@ class PNPBSError(Exception):
     An exception that your own callback raises comes out of the call in progress as it is, on the
     rank that raised it; the other ranks get a `PNPBSError` with `Status.ERROR_CALLBACK`."""
 
-    def __init__(self, status, message):
+    def __init__(self, status: Status, message: str) -> None:
         super().__init__(message)
         self.status = status
 
 
-def last_error(context):
+def last_error(context: Any) -> str:
     """The message of the last error on a context; of this thread with None."""
-    return library().pnpbs_last_error(context).decode()
+    return str(library().pnpbs_last_error(context).decode())
 
 
-def check_without_context(code):
+def check_without_context(code: int) -> None:
     """What could not be made has no context to hold the message."""
     if code < 0:
         raise PNPBSError(Status(code), last_error(None))

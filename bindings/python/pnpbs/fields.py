@@ -1,49 +1,58 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fields: values at nodes, over ranks and from one set of nodes to the next."""
 
+from __future__ import annotations
+
 import ctypes
+from typing import TYPE_CHECKING, Any, Tuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._arrays import as_points
 from ._interface import library
+from ._types import Doubles
 from .context import Handle
+from .placement_handle import PlacementHandle
+
+if TYPE_CHECKING:
+    from .placement import Placement
 
 
-def _sizes(values):
+def _sizes(values: Doubles) -> Tuple[int, int]:
     """Entries, and numbers at each."""
     return values.shape[0], int(np.prod(values.shape[1:], dtype=np.int64))
 
 
-def _as_field(values):
+def _as_field(values: ArrayLike) -> Doubles:
     field = np.ascontiguousarray(values, np.float64)
     return field.reshape(1) if field.ndim == 0 else field
 
 
-class Fields:
+class Fields(PlacementHandle):
     """The part of `Placement` that works on values at nodes: arrays of (n,) or (n, ...) numbers,
     those of this rank's nodes in the order of `nodes`, then those of its ghosts."""
 
-    def update_ghosts(self, values):
+    def update_ghosts(self, values: Doubles) -> Doubles:
         """Gives the ghosts the values that their owners have: `values`, with an entry for each node
         of this rank and each ghost behind them, is changed where it is, and returned. Collective."""
         self._in_place("update_ghosts", values)
         return values
 
-    def begin_update_ghosts(self, values) -> None:
+    def begin_update_ghosts(self, values: ArrayLike) -> None:
         """The first half of `update_ghosts`, for a solver that computes while messages travel: sends
         what other ranks need of `values`, which may change as soon as it returns. One update at a
         time is under way. Collective."""
         field = _as_field(values)
         self._call("begin_update_ghosts", *_sizes(field), field)
 
-    def end_update_ghosts(self, values):
+    def end_update_ghosts(self, values: Doubles) -> Doubles:
         """The second half: waits for what the other ranks sent and fills the ghosts' entries of
         `values`, which is returned. Local."""
         self._in_place("end_update_ghosts", values)
         return values
 
-    def _in_place(self, name, values):
+    def _in_place(self, name: str, values: Doubles) -> None:
         ok = (isinstance(values, np.ndarray) and values.dtype == np.float64 and values.ndim > 0
               and values.flags.c_contiguous and values.flags.writeable)
         if ok:
@@ -53,7 +62,8 @@ class Fields:
         getattr(library(), f"pnpbs_placement_{name}")(self._live(), -1, 1, None)
         raise ValueError("values must be an array of float64, in the order of C, that can be changed")
 
-    def sum(self, values):
+    # Any: a float of (n,) values, an array of others, which their types do not tell apart.
+    def sum(self, values: ArrayLike) -> Any:
         """The sum over the nodes of all ranks, of each component by itself: exact, rounded once, and
         so the same bits for any number of ranks and threads. Entries of ghosts do not count.
         Collective."""
@@ -63,7 +73,7 @@ class Fields:
         self._call("sum", n, components, field, sums)
         return _shaped(sums, field)
 
-    def dot(self, x, y):
+    def dot(self, x: ArrayLike, y: ArrayLike) -> Any:
         """Dot products of two fields over the nodes of all ranks, of each component by itself, as
         exact as `sum`. Collective."""
         first, second = _as_field(x), _as_field(y)
@@ -76,7 +86,7 @@ class Fields:
         return _shaped(products, first)
 
 
-def _shaped(sums, field):
+def _shaped(sums: Doubles, field: Doubles) -> Any:
     return float(sums[0]) if field.ndim == 1 else sums.reshape(field.shape[1:])
 
 
@@ -93,7 +103,7 @@ class Transfer(Handle):
         placement.set_spacing(finer).run()
         temperature = field.at_nodes(placement)"""
 
-    def __init__(self, placement, values, order=1):
+    def __init__(self, placement: Placement, values: ArrayLike, order: int = 1) -> None:
         super().__init__()
         if order not in (1, 2):
             raise ValueError(f"order is {order}; 1 or 2 was expected")
@@ -107,13 +117,13 @@ class Transfer(Handle):
         self._handle = handle.value
         self.context._children.append(self)
 
-    def close(self):
+    def close(self) -> None:
         """Releases what the library holds. Closing twice is allowed. Local."""
         if self.is_open:
             self.context._children.remove(self)
             self.context._check(self._destroy(library().pnpbs_transfer_destroy))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<pnpbs.Transfer, {'open' if self.is_open else 'closed'}>"
 
     @property
@@ -125,7 +135,7 @@ class Transfer(Handle):
         self.context._check(library().pnpbs_transfer_order(self._live(), None, ctypes.byref(count)))
         return count.value
 
-    def at_nodes(self, placement, conserve=False) -> np.ndarray:
+    def at_nodes(self, placement: Placement, conserve: bool = False) -> Doubles:
         """The field at the nodes that a placement has now, the same bits for any number of ranks, then
         and now. With `conserve` the same number is added everywhere, so that the integral is what it
         was, to rounding. Collective."""
@@ -135,7 +145,7 @@ class Transfer(Handle):
             self._live(), placement._live(), bool(conserve), n, values))
         return values
 
-    def at_points(self, coordinates) -> np.ndarray:
+    def at_points(self, coordinates: ArrayLike) -> Doubles:
         """The field at any points, the rows of `coordinates`, of which each rank asks those it wants,
         or none. Collective."""
         dim = ctypes.c_int32()

@@ -1,17 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Placements: the nodes in a domain, and how they come to be."""
 
+from __future__ import annotations
+
 import ctypes
 import os
-from typing import NamedTuple
+from typing import Any, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._arrays import as_indices, as_point, as_points
 from ._callbacks import monitor_callback, spacing_callback
 from ._interface import library
-from ._signals import signals_kept_in
-from .context import Handle, _set_option
+from ._types import ArrayFunction, Doubles, Monitor, OptionValue, Path
+from .context import _set_option
+from .domain import Domain
 from .errors import Status
 from .fields import Fields
 from .results import Results
@@ -28,18 +32,18 @@ class PopulationChange(NamedTuple):
     deleted: int
 
 
-def _keep_going(fraction, step, nodes, max_speed):
+def _keep_going(fraction: float, step: int, nodes: int, max_speed: float) -> bool:
     return False
 
 
-class Placement(Results, Fields, Handle):
+class Placement(Results, Fields):
     """A placement of nodes in a domain, on the domain's context. Keywords are options, as in `set`;
     the others are those of the context. Set a spacing (`set_spacing`), then `run`. Collective.
 
     Ctrl-C ends what computes within a second or two with a `KeyboardInterrupt`; the nodes are then
     as if a monitor had stopped the run, which is what it returns on the other ranks."""
 
-    def __init__(self, domain, **options):
+    def __init__(self, domain: Domain, **options: OptionValue) -> None:
         super().__init__()
         self.context = domain.context
         self.domain = domain
@@ -50,9 +54,9 @@ class Placement(Results, Fields, Handle):
         self.context._children.append(self)
         # Kept alive: the library holds their addresses. The nodes there are remember the spacing
         # that they were placed with, so one that is replaced is needed until the next run.
-        self._spacing = None
-        self._spacings_before = []
-        self._monitor = None
+        self._spacing: Any = None
+        self._spacings_before: List[Any] = []
+        self._monitor: Any = None
         try:
             self.set_monitor(None)
             self.set(**options)
@@ -60,25 +64,19 @@ class Placement(Results, Fields, Handle):
             self.close()
             raise
 
-    def close(self):
+    def close(self) -> None:
         """Releases what the library holds. Closing twice is allowed. Local."""
         if self.is_open:
             self.context._children.remove(self)
             self.context._check(self._destroy(library().pnpbs_placement_destroy))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         what = f"{self.node_count} nodes here" if self.is_open else "closed"
         return f"<pnpbs.Placement, {what}>"
 
-    def _call(self, name, *arguments):
-        function = getattr(library(), f"pnpbs_placement_{name}")
-        with signals_kept_in(self.context):
-            code = function(self._live(), *arguments)
-        return self.context._check(code)
-
     # ------------------------------------------------------------ what is wanted ---------------
 
-    def set(self, **options):
+    def set(self, **options: OptionValue) -> Placement:
         """Sets options by name, as in `placement.set(steps=60, method="paper")`. Local. Unknown names
         and values out of range raise a `PNPBSError` that names the nearest option or the range.
         `pnpbs.option_table()` lists them."""
@@ -86,7 +84,8 @@ class Placement(Results, Fields, Handle):
             self.context._check(_set_option("placement", self._live(), key, value))
         return self
 
-    def set_spacing(self, d, origin=None, step=None):
+    def set_spacing(self, d: Union[ArrayFunction, ArrayLike], origin: Optional[ArrayLike] = None,
+                    step: Optional[ArrayLike] = None) -> Placement:
         """The node spacing d(x), the wanted distance between neighbouring nodes about x. On a
         placement that has nodes the spacing is replaced: the nodes stay, and the next run starts
         from them. Collective.
@@ -115,13 +114,13 @@ class Placement(Results, Fields, Handle):
             self._call("set_spacing_at_nodes", len(values), values)
         return self._keep_spacing(callback)
 
-    def _keep_spacing(self, callback):
+    def _keep_spacing(self, callback: Any) -> Placement:
         if self._spacing is not None:
             self._spacings_before.append(self._spacing)
         self._spacing = callback
         return self
 
-    def set_spacing_mesh(self, points, d, corners):
+    def set_spacing_mesh(self, points: ArrayLike, d: ArrayLike, corners: ArrayLike) -> Placement:
         """The spacing from values `d` at the nodes of a background mesh, the rows of `points`: linear
         on each element, and beyond the mesh what it is at the mesh's nearest point. `corners` is (m,
         dim + 1), indices of rows: triangles, in space tetrahedra. Collective; every rank gives the
@@ -131,7 +130,7 @@ class Placement(Results, Fields, Handle):
         self._call("set_spacing_mesh", len(values), coordinates, values, len(elements), elements)
         return self._keep_spacing(None)
 
-    def set_spacing_points(self, points, d):
+    def set_spacing_points(self, points: ArrayLike, d: ArrayLike) -> Placement:
         """The spacing from values `d` at scattered points, the rows of `points`: at each of them its
         own value, elsewhere a plane fitted to the 8 (in space 16) nearest ones by weighted least
         squares, never below the least nor above the largest of their values. Collective; every rank
@@ -140,7 +139,7 @@ class Placement(Results, Fields, Handle):
         self._call("set_spacing_points", len(values), coordinates, values)
         return self._keep_spacing(None)
 
-    def set_spacing_file(self, path, field=None):
+    def set_spacing_file(self, path: Path, field: Optional[str] = None) -> Placement:
         """The spacing from a file with values at points: VTK's unstructured grid (.vtu), Gmsh's mesh
         with values at nodes (.msh), or a table with columns x, y, (z) and others (.csv). Triangles
         and quadrangles, in space tetrahedra are a mesh as `set_spacing_mesh` takes it; without any
@@ -151,15 +150,16 @@ class Placement(Results, Fields, Handle):
                    None if field is None else field.encode())
         return self._keep_spacing(None)
 
-    def _field(self, points, d):
+    def _field(self, points: ArrayLike, d: ArrayLike) -> Tuple[Doubles, Doubles]:
         coordinates = as_points(points, self.dim, "points")
         values = np.ascontiguousarray(d, np.float64)
         if values.shape != (len(coordinates),):
             raise ValueError(f"d has shape {values.shape}; ({len(coordinates)},) was expected")
         return coordinates, values
 
-    def set_spacing_from_shape(self, nodes_per_turn=0.0, nodes_across=0.0, nodes_per_edge=0.0,
-                               growth=0.0, min_spacing=0.0, max_spacing=0.0):
+    def set_spacing_from_shape(self, nodes_per_turn: float = 0.0, nodes_across: float = 0.0,
+                               nodes_per_edge: float = 0.0, growth: float = 0.0,
+                               min_spacing: float = 0.0, max_spacing: float = 0.0) -> Placement:
         """The spacing from the shape of the domain: the least that its curves and surfaces ask for,
         each growing with the distance from it by `growth` (0: 0.15), between `min_spacing` and
         `max_spacing` (0: no bound). Collective.
@@ -175,16 +175,19 @@ class Placement(Results, Fields, Handle):
                    min_spacing, max_spacing)
         return self._keep_spacing(None)
 
-    def _set_spacing_grid(self, d, origin, step):
+    def _set_spacing_grid(self, d: ArrayLike, origin: Optional[ArrayLike],
+                          step: Optional[ArrayLike]) -> None:
         dim = self.dim
         if np.ndim(d) != dim:
             raise ValueError(f"d has shape {np.shape(d)}; an array of {dim} dimensions was expected")
+        if origin is None or step is None:
+            raise ValueError("values on a grid take both an origin and a step")
         # The library's first index runs fastest.
         values = np.ascontiguousarray(np.asarray(d, np.float64).T)
         self._call("set_spacing_grid", np.array(np.shape(d), np.int64),
                    as_point(origin, dim, "origin"), as_point(step, dim, "step"), values)
 
-    def set_monitor(self, monitor):
+    def set_monitor(self, monitor: Optional[Monitor]) -> Placement:
         """Calls `monitor(fraction, step, nodes, max_speed)` now and then during a run; while the first
         nodes are laid, or the growth of the spacing is limited, with `fraction` 0 and on each rank by
         its own clock: do nothing collective then. When it returns True, the run ends early with valid
@@ -195,19 +198,19 @@ class Placement(Results, Fields, Handle):
         self._monitor = callback
         return self
 
-    def set_nodes(self, coordinates, ids=None):
+    def set_nodes(self, coordinates: ArrayLike, ids: Optional[ArrayLike] = None) -> Placement:
         """Inner nodes to start from instead of the library's own: the rows of `coordinates`, on any
         ranks, with distinct global ids from 0 on if `ids` are given. The boundary is laid by the
         library. Clears the nodes there are. Collective."""
         points = as_points(coordinates, self.dim, "coordinates")
         given = None if ids is None else np.ascontiguousarray(ids, np.int64)
-        wrong = given is not None and given.shape != (len(points),)
+        wrong = None if given is None or given.shape == (len(points),) else given.shape
         # Where the ids are too many or too few on one rank, the library hears of it, and so do the
         # other ranks, which would wait otherwise.
-        code = library().pnpbs_placement_set_nodes(self._live(), -1 if wrong else len(points),
+        code = library().pnpbs_placement_set_nodes(self._live(), len(points) if wrong is None else -1,
                                                    points, given)
-        if wrong:
-            raise ValueError(f"ids has shape {given.shape}; ({len(points)},) was expected")
+        if wrong is not None:
+            raise ValueError(f"ids has shape {wrong}; ({len(points)},) was expected")
         self.context._check(code)
         return self
 
@@ -221,7 +224,7 @@ class Placement(Results, Fields, Handle):
         self._call("estimate", ctypes.byref(nodes), ctypes.byref(size), ctypes.byref(seconds))
         return Estimate(nodes.value, size.value, seconds.value)
 
-    def initialise(self):
+    def initialise(self) -> Placement:
         """Checks domain and spacing and lays the nodes that the simulation starts from. `run` and
         `step` do it where it is needed. Collective."""
         self._call("initialise")
@@ -246,7 +249,7 @@ class Placement(Results, Fields, Handle):
         self._call("adjust_population", ctypes.byref(inserted), ctypes.byref(deleted))
         return PopulationChange(inserted.value, deleted.value)
 
-    def rebalance(self):
+    def rebalance(self) -> Placement:
         """Deals the work out to the ranks anew. The nodes stay as they are; who owns them changes. A
         run does so by itself where it pays. Collective."""
         self._call("rebalance")

@@ -2,67 +2,73 @@
 """What a placement holds, copied once, into arrays of the caller's. Local indices count this rank's
 nodes from 0, then its ghosts; global ids are the library's, the same for any number of ranks."""
 
+from __future__ import annotations
+
 import ctypes
 import os
-from typing import Any, Dict, List, NamedTuple
+from typing import Any, Dict, List, NamedTuple, Sequence, TypeVar, Union
 
 import numpy as np
 
-from ._interface import library
+from ._types import Doubles, Ids, Int32s, Path
 from .errors import Status
+from .placement_handle import PlacementHandle
 from .rows import CompressedRows
 from .tables import statistic_table
 
 
 class Nodes(NamedTuple):
-    points: np.ndarray
-    ids: np.ndarray
-    tags: np.ndarray
-    spacing: np.ndarray
+    points: Doubles
+    ids: Ids
+    tags: Int32s
+    spacing: Doubles
 
 
 class Ghosts(NamedTuple):
-    points: np.ndarray
-    ids: np.ndarray
-    tags: np.ndarray
-    spacing: np.ndarray
-    owners: np.ndarray
+    points: Doubles
+    ids: Ids
+    tags: Int32s
+    spacing: Doubles
+    owners: Int32s
 
 
 class ExchangePattern(NamedTuple):
-    ranks: np.ndarray
-    send: CompressedRows
-    receive: CompressedRows
+    ranks: Int32s
+    send: CompressedRows[np.int64]
+    receive: CompressedRows[np.int64]
 
 
 class Numbering(NamedTuple):
     first: int
-    count: int
-    ghosts: np.ndarray
+    count: int  # type: ignore[assignment]  # not what tuple.count is
+    ghosts: Ids
 
 
 class Stars(NamedTuple):
-    neighbours: CompressedRows
-    triangle: CompressedRows
+    neighbours: CompressedRows[np.int64]
+    triangle: CompressedRows[np.bool_]
 
 
 class Facets(NamedTuple):
-    corners: np.ndarray
-    tags: np.ndarray
+    corners: Ids
+    tags: Int32s
 
 
 class EdgeBands(NamedTuple):
-    d_from: np.ndarray
-    d_to: np.ndarray
-    edges: np.ndarray
-    mean: np.ndarray
-    deviation: np.ndarray
+    d_from: Doubles
+    d_to: Doubles
+    edges: Ids
+    mean: Doubles
+    deviation: Doubles
 
 
-class Results:
+_Self = TypeVar("_Self", bound="Results")
+
+
+class Results(PlacementHandle):
     """The part of `Placement` that copies out and writes."""
 
-    def _number(self, name, c_type, *arguments):
+    def _number(self, name: str, c_type: Any, *arguments: Any) -> Any:
         number = c_type()
         self._call(name, *arguments, ctypes.byref(number))
         return number.value
@@ -72,12 +78,12 @@ class Results:
     @property
     def dim(self) -> int:
         """The dimension of the domain: 2 or 3. Local."""
-        return self._number("dimension", ctypes.c_int32)
+        return int(self._number("dimension", ctypes.c_int32))
 
     @property
     def node_count(self) -> int:
         """The number of nodes of this rank. Local."""
-        return self._number("count", ctypes.c_int64)
+        return int(self._number("count", ctypes.c_int64))
 
     def nodes(self) -> Nodes:
         """The nodes of this rank in their local order: `points` is (n, dim); `ids` are global;
@@ -89,7 +95,7 @@ class Results:
         self._call("get_nodes", n, *found)
         return found
 
-    def normals(self) -> np.ndarray:
+    def normals(self) -> Doubles:
         """Where the surfaces look at this rank's nodes, of a placement in space: (n, 3), the unit
         normal, on feature edges and in corners the mean of those on its sides, and 0 for inner
         nodes. Local."""
@@ -100,7 +106,7 @@ class Results:
     def ghost_count(self) -> int:
         """The number of ghosts: nodes of other ranks that this rank sees near its own.
         Collective."""
-        return self._number("ghost_count", ctypes.c_int64)
+        return int(self._number("ghost_count", ctypes.c_int64))
 
     def ghosts(self) -> Ghosts:
         """The ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars,
@@ -137,7 +143,7 @@ class Results:
 
     # ------------------------------------------------------------ lists and elements -----------
 
-    def adjacency(self) -> CompressedRows:
+    def adjacency(self) -> CompressedRows[np.int64]:
         """The adjacency lists: row i has the local indices of the nodes within `adjacency_radius` of
         node i, in the order of global ids. Pairs that a boundary separates are not neighbours.
         Collective."""
@@ -158,13 +164,13 @@ class Results:
         self._call("get_stars", entries, rows.offsets, rows.values, triangle)
         return Stars(rows, CompressedRows(rows.offsets, triangle.view(np.bool_)))
 
-    def triangles(self) -> np.ndarray:
+    def triangles(self) -> Ids:
         """The triangles of a placement in the plane, (n, 3) local indices, counter-clockwise, each
         once: a triangle is the rank's that owns its node with the least id, other corners may be
         ghosts. Collective."""
         return self._elements("get_triangles", 3)
 
-    def tetrahedra(self) -> np.ndarray:
+    def tetrahedra(self) -> Ids:
         """The tetrahedra of a placement in space, (n, 4) local indices, each once: seen from the
         fourth corner, the first three turn counter-clockwise. A tetrahedron is the rank's that owns
         its node with the least id, other corners may be ghosts. Collective."""
@@ -182,14 +188,14 @@ class Results:
         alone, the triangles between the nodes on them. Collective."""
         return self._facets("get_boundary_triangles", 3)
 
-    def _elements(self, name, corners):
+    def _elements(self, name: str, corners: int) -> Ids:
         count = ctypes.c_int64()
         self._call(name, 0, ctypes.byref(count), None)
         found = np.zeros((count.value, corners), np.int64)
         self._call(name, len(found), ctypes.byref(count), found)
         return found
 
-    def _facets(self, name, corners):
+    def _facets(self, name: str, corners: int) -> Facets:
         count = ctypes.c_int64()
         self._call(name, 0, ctypes.byref(count), None, None)
         found = Facets(np.zeros((count.value, corners), np.int64), np.zeros(count.value, np.int32))
@@ -213,7 +219,7 @@ class Results:
         """All statistics, by name. Collective."""
         return {row.name: self._statistic(row.name, row.type) for row in statistic_table()}
 
-    def _statistic(self, key, kind):
+    def _statistic(self, key: str, kind: str) -> Any:
         if kind == "integer":
             return self._number("get_int64", ctypes.c_int64, key.encode())
         if kind == "real":
@@ -243,17 +249,17 @@ class Results:
 
     # ------------------------------------------------------------ files ------------------------
 
-    def write(self, *paths, elements=False) -> Status:
+    def write(self, *paths: Path, elements: Union[bool, Sequence[bool]] = False) -> Status:
         """Writes the nodes of all ranks, and the triangles or tetrahedra if `elements` (one for all
-        or one for each), into files whose extensions are their formats (`pnpbs.format_table()`). Several files appear together
-        when all are complete, or none does. The outcome is `Status.OK`, or `Status.STOPPED` by the
-        monitor, which leaves the old files. Collective."""
+        or one for each), into files whose extensions are their formats (`pnpbs.format_table()`).
+        Several files appear together when all are complete, or none does. The outcome is
+        `Status.OK`, or `Status.STOPPED` by the monitor, which leaves the old files. Collective."""
         encoded = [os.fsencode(path) for path in paths]
         wanted = np.full(len(paths), elements, np.int32)
         return self._call("write_files", len(paths), (ctypes.c_char_p * len(paths))(*encoded), None,
                           wanted)
 
-    def write_checkpoint(self, path):
+    def write_checkpoint(self: _Self, path: Path) -> _Self:
         """Writes a file from which `read_checkpoint` goes on, in another process and on any number of
         ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView opens:
         name it .vtkhdf. It replaces the file that is there when it is complete. Also from a monitor,
@@ -262,7 +268,7 @@ class Results:
         self._call("write_checkpoint", os.fsencode(path))
         return self
 
-    def read_checkpoint(self, path):
+    def read_checkpoint(self: _Self, path: Path) -> _Self:
         """Goes on from a checkpoint: for a placement with the domain, the options and the spacing of
         the first run (unless that was given by values at nodes, which the file brings). The next
         `run` or `step` does what it would have done there. If it raises, all is as it was.

@@ -1,24 +1,38 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rows of different lengths in one array."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
+from typing import Generic, List, Union, overload
 
 import numpy as np
+from numpy.typing import NDArray
+
+from ._types import Ids, Scalar
 
 
-class CompressedRows(Sequence):
+class CompressedRows(Sequence["NDArray[Scalar]"], Generic[Scalar]):
     """Rows one behind the other: row i is `values[offsets[i]:offsets[i + 1]]`, which `rows[i]` gives
     without a copy. As the indices of a sparse matrix they are what SciPy takes:
     `csr_array((entries, rows.values, rows.offsets))`."""
 
-    def __init__(self, offsets, values):
+    def __init__(self, offsets: Ids, values: NDArray[Scalar]) -> None:
         self.offsets = offsets
         self.values = values
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.offsets) - 1
 
-    def __getitem__(self, i):
+    @overload
+    def __getitem__(self, i: int) -> NDArray[Scalar]:
+        ...
+
+    @overload
+    def __getitem__(self, i: slice) -> List[NDArray[Scalar]]:
+        ...
+
+    def __getitem__(self, i: Union[int, slice]) -> Union[NDArray[Scalar], List[NDArray[Scalar]]]:
         if isinstance(i, slice):
             return [self[k] for k in range(*i.indices(len(self)))]
         if not -len(self) <= i < len(self):
@@ -26,9 +40,9 @@ class CompressedRows(Sequence):
         i = i % len(self)
         return self.values[self.offsets[i]:self.offsets[i + 1]]
 
-    def lengths(self) -> np.ndarray:
+    def lengths(self) -> Ids:
         """The number of entries of each row."""
         return np.diff(self.offsets)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<pnpbs.CompressedRows, {len(self)} rows, {len(self.values)} entries>"

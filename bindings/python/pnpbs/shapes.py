@@ -2,15 +2,21 @@
 """Shapes as geographers have them: GeoJSON, shapefiles and what else GDAL reads, projected. Their
 library, libpnpbs_geo, is opened when it is first needed; PNPBS has it where it was built with GDAL."""
 
+from __future__ import annotations
+
 import ctypes
 import os
 import pathlib
-from typing import NamedTuple
+from typing import Any, List, NamedTuple, Optional, Tuple, Union
+
+from numpy.typing import ArrayLike
 
 from ._arrays import as_points
 from ._interface import declared, library
 from ._library import library_path
+from ._types import Doubles, Path
 from .context import Handle
+from .domain import Domain
 from .errors import PNPBSError, Status
 
 # A test compares them with pnpbs_geo.h.
@@ -36,10 +42,10 @@ pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index, const ch
 """
 
 _SONAME = "libpnpbs_geo.so.0"
-_opened = None
+_opened: Optional[ctypes.CDLL] = None
 
 
-def _library():
+def _library() -> ctypes.CDLL:
     global _opened
     if _opened is None:
         library()  # the one that it calls, first
@@ -53,12 +59,12 @@ def _library():
     return _opened
 
 
-def _check(code):
+def _check(code: int) -> None:
     if code < 0:
         raise PNPBSError(Status(code), _library().pnpbs_geo_last_error().decode())
 
 
-def _text(value):
+def _text(value: Optional[Path]) -> Optional[bytes]:
     return None if value is None else os.fsencode(value)
 
 
@@ -71,7 +77,7 @@ class Projection(NamedTuple):
     proj: str
     wkt: str
     prj: str
-    scale: tuple
+    scale: Tuple[float, float]
 
 
 class Shapes(Handle):
@@ -87,26 +93,27 @@ class Shapes(Handle):
             shapes.add_to(domain, corner_angle=45)
     """
 
-    def __init__(self, path, layer=None, projection=None, unit=None, tag_field=None):
+    def __init__(self, path: Path, layer: Optional[str] = None, projection: Optional[Path] = None,
+                 unit: Optional[str] = None, tag_field: Optional[str] = None) -> None:
         super().__init__()
         handle = ctypes.c_void_p()
         _check(_library().pnpbs_geo_read(os.fsencode(path), _text(layer), _text(projection),
                                          _text(unit), _text(tag_field), ctypes.byref(handle)))
         self._handle = handle.value
 
-    def close(self):
+    def close(self) -> None:
         """Releases what the library holds. What was added to domains stays there. Closing twice is
         allowed."""
         if self.is_open:
             _check(self._destroy(_library().pnpbs_geo_destroy))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<pnpbs.Shapes, {self.projection.name if self.is_open else 'closed'}>"
 
-    def _call(self, name, *arguments):
+    def _call(self, name: str, *arguments: Any) -> None:
         _check(getattr(_library(), f"pnpbs_geo_{name}")(self._live(), *arguments))
 
-    def add_to(self, domain, corner_angle=0.0):
+    def add_to(self, domain: Domain, corner_angle: float = 0.0) -> Domain:
         """Adds them to a domain in the plane and returns it. With `corner_angle=0` every vertex
         becomes a node; otherwise those where the direction turns by more than so many degrees."""
         self._call("add_to_domain", domain.context._live(), domain._live(), corner_angle)
@@ -119,37 +126,38 @@ class Shapes(Handle):
         self._call("projection", *(ctypes.byref(text) for text in texts))
         scale = ctypes.c_double(), ctypes.c_double()
         self._call("scale", *(ctypes.byref(number) for number in scale))
-        return Projection(*(text.value.decode() for text in texts),
-                          tuple(number.value for number in scale))
+        name, unit, proj, wkt, prj = ((text.value or b"").decode() for text in texts)
+        return Projection(name, unit, proj, wkt, prj, (scale[0].value, scale[1].value))
 
     @property
-    def notes(self) -> list:
+    def notes(self) -> List[str]:
         """What you should know about how the file was taken."""
         count, note = ctypes.c_int32(), ctypes.c_char_p()
         self._call("note_count", ctypes.byref(count))
         notes = []
         for index in range(count.value):
             self._call("get_note", index, ctypes.byref(note))
-            notes.append(note.value.decode())
+            notes.append((note.value or b"").decode())
         return notes
 
-    def write_prj(self, results):
+    def write_prj(self, results: Path) -> None:
         """Writes the projection beside a file of results: "nodes.prj" for "nodes.vtu"."""
         self._call("write_prj", os.fsencode(results))
 
-    def to_degrees(self, points):
+    def to_degrees(self, points: ArrayLike) -> Doubles:
         """Longitudes and latitudes of points, (n, 2); infinite where there are none."""
         return self._changed("to_degrees", points)
 
-    def from_degrees(self, degrees):
+    def from_degrees(self, degrees: ArrayLike) -> Doubles:
         """x and y of longitudes and latitudes, (n, 2); infinite where there are none."""
         return self._changed("from_degrees", degrees)
 
-    def _changed(self, name, points):
+    def _changed(self, name: str, points: ArrayLike) -> Doubles:
         changed = as_points(points, 2, "points").copy()
         self._call(name, len(changed), changed)
         return changed
 
-    def explain(self, message):
+    def explain(self, message: object) -> str:
         """A message about a domain of these shapes, with longitude and latitude of its places."""
-        return _library().pnpbs_geo_explain(self._live(), str(message).encode()).decode()
+        text = _library().pnpbs_geo_explain(self._live(), str(message).encode())
+        return str(text.decode())

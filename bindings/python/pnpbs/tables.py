@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the library tells about itself. All local, and without a context."""
 
+from __future__ import annotations
+
 import ctypes
-from typing import List, NamedTuple, Tuple
+from typing import Any, List, NamedTuple, Tuple
 
 from ._interface import library
 from .errors import check_without_context
@@ -33,18 +35,19 @@ def library_version() -> Tuple[int, int, int]:
     """The version of the library that is loaded."""
     parts = [ctypes.c_int32() for _ in range(3)]
     check_without_context(library().pnpbs_version(*map(ctypes.byref, parts)))
-    return tuple(part.value for part in parts)
+    major, minor, patch = (part.value for part in parts)
+    return major, minor, patch
 
 
 def build_info() -> str:
     """What the library was built with, one "name: value" per line."""
-    return library().pnpbs_build_info().decode()
+    return str(library().pnpbs_build_info().decode())
 
 
 def mpi_library() -> str:
     """The MPI that the library was built with, such as "Open MPI 4.1.4"; empty in a build without
     MPI. mpi4py must use the same one."""
-    return library().pnpbs_mpi_library().decode()
+    return str(library().pnpbs_mpi_library().decode())
 
 
 def shutdown() -> None:
@@ -59,13 +62,13 @@ def discard_unfinished_files() -> None:
     check_without_context(library().pnpbs_discard_unfinished_files())
 
 
-def _count(function):
+def _count(function: Any) -> range:
     count = ctypes.c_int32()
     check_without_context(function(ctypes.byref(count)))
     return range(count.value)
 
 
-def _texts(function, index, n, *others):
+def _texts(function: Any, index: int, n: int, *others: Any) -> List[str]:
     texts = [ctypes.c_char_p() for _ in range(n)]
     check_without_context(function(index, *map(ctypes.byref, texts), *others))
     return [(text.value or b"").decode() for text in texts]
@@ -88,7 +91,7 @@ def format_table() -> List[FormatRow]:
     rows = []
     for i in _count(library().pnpbs_format_count):
         binary, elements = ctypes.c_int32(), ctypes.c_int32()
-        texts = _texts(library().pnpbs_format_info, i, 2, ctypes.byref(binary),
-                       ctypes.byref(elements))
-        rows.append(FormatRow(*texts, binary.value != 0, elements.value != 0))
+        name, text = _texts(library().pnpbs_format_info, i, 2, ctypes.byref(binary),
+                            ctypes.byref(elements))
+        rows.append(FormatRow(name, text, binary.value != 0, elements.value != 0))
     return rows

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A user's program with types, for check_types.py: it must pass as it stands, each `type: ignore` must
+be needed, and it must run."""
+import math
+import pathlib
+import tempfile
+from typing import Any, Dict, List, Optional, Tuple
+
+import numpy as np
+import pnpbs
+from numpy.typing import NDArray
+
+Doubles = NDArray[np.float64]
+
+
+def spacing(x: Doubles) -> Doubles:
+    return 0.15 + 0.05 * x[:, 0]
+
+
+def circle(t: Doubles) -> Doubles:
+    return np.stack([np.cos(t), np.sin(t)], axis=1)
+
+
+def outside_ball(x: Doubles) -> Doubles:
+    values: Doubles = np.linalg.norm(x, axis=1) - 1
+    return values
+
+
+class Watch:
+    def __init__(self) -> None:
+        self.turns = 0
+
+    def __call__(self, fraction: float, step: int, nodes: int, max_speed: float) -> Optional[bool]:
+        self.turns += 1
+        return False
+
+
+def in_the_plane(context: pnpbs.Context) -> Tuple[pnpbs.Domain, pnpbs.Placement]:
+    domain = pnpbs.Domain(context).add_curve(circle, 0, 2 * math.pi, tag=3).add_fixed_nodes([(0, 0)])
+    domain.set_tag_name(1, 3, "rim").check()
+    names: Dict[Tuple[int, int], str] = domain.tag_names()
+    assert names == {(1, 3): "rim"}
+    low, high = domain.bounds()
+    assert isinstance(low + high, np.ndarray) and domain.measure() > 3
+    watch = Watch()
+    placement = pnpbs.Placement(domain, steps=30, method="paper")
+    outcome: pnpbs.Status = placement.set_spacing(spacing).set_monitor(watch).run()
+    assert outcome in (pnpbs.Status.OK, pnpbs.Status.NOT_CONVERGED) and watch.turns > 0
+    return domain, placement
+
+
+def results(placement: pnpbs.Placement) -> None:
+    nodes: pnpbs.Nodes = placement.nodes()
+    points: Doubles = nodes.points
+    ids: NDArray[np.int64] = nodes.ids
+    tags: NDArray[np.int32] = nodes.tags
+    lists: pnpbs.CompressedRows[np.int64] = placement.adjacency()
+    first: NDArray[np.int64] = lists[0]
+    some: List[NDArray[np.int64]] = lists[1:3]
+    is_triangle: NDArray[np.bool_] = placement.stars().triangle[0]
+    triangles: NDArray[np.int64] = placement.triangles()
+    assert len(points) == len(ids) == len(tags) == len(lists) == placement.node_count
+    assert len(first) and len(some) == 2 and len(is_triangle) and len(triangles)
+    field = pnpbs.Transfer(placement, points[:, 0], order=2)
+    x: Doubles = field.at_nodes(placement, conserve=True)
+    assert math.isclose(placement.sum(x), placement.sum(points[:, 0]), abs_tol=1e-9)
+    everything: Dict[str, Any] = placement.statistics()
+    warnings: List[str] = placement.warnings()
+    assert everything["nodes"] == len(points) and not warnings
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "nodes.vtu"
+        assert placement.write(path, str(path.with_suffix(".csv"))) == pnpbs.Status.OK
+
+
+def in_space(context: pnpbs.Context) -> None:
+    with pnpbs.Domain(context, dim=3) as body:
+        body.add_level_set(outside_ball, (-2, -2, -2), [2, 2, 2], 0.2).add_hole(np.zeros(3))
+        body.set_role(7, "inner")
+    option: pnpbs.OptionRow = pnpbs.option_table()[0]
+    assert option.name and sum(pnpbs.library_version()) > 0
+
+
+def mistakes(context: pnpbs.Context, domain: pnpbs.Domain, placement: pnpbs.Placement) -> None:
+    """What a type checker must find."""
+    domain.add_arc((0, 0), "wide")  # type: ignore[arg-type]
+    domain.set_role(1, "outer")  # type: ignore[arg-type]
+    placement.set_spacing(lambda: 0.1)  # type: ignore[arg-type, misc]
+    placement.set_monitor(lambda fraction: True)  # type: ignore[arg-type, misc]
+    placement.run().message  # type: ignore[attr-defined]
+    pnpbs.Placement(context)  # type: ignore[arg-type]
+    number: str = placement.node_count  # type: ignore[assignment]
+    pnpbs.Status.FINE  # type: ignore[attr-defined]
+
+
+def main() -> None:
+    with pnpbs.Context(threads=1) as context:
+        _, placement = in_the_plane(context)
+        results(placement)
+        in_space(context)
+    try:
+        placement.run()
+    except pnpbs.PNPBSError as error:
+        status: pnpbs.Status = error.status
+        assert status is pnpbs.Status.ERROR_HANDLE
+
+
+if __name__ == "__main__":
+    main()
