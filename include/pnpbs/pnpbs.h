@@ -1089,9 +1089,11 @@ PNPBS_API pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placemen
  * run: domain, options and spacing (unless that was given by values at nodes: the checkpoint brings
  * it; its nodes, too, where it was given some). Then the next pnpbs_placement_run or _step does
  * what it would have done where the checkpoint was written, and so do later calls, such as another
- * spacing with another run. Options may be changed afterwards; those that decide on no node
- * (threads, exchange_interval, rebalance_above, metis_seed, adjacency_radius, max_nodes,
- * max_memory) are free. After an error the placement is as it was. Collective. Errors:
+ * spacing with another run. Options may be changed afterwards, or, with the option restart_options
+ * = changed, by this call, which tells them as a warning: then a run that its step limit ended goes
+ * on if it is given more steps, and one that is at its end begins again from its nodes if other
+ * options are set. Those that decide on no node (threads, exchange_interval, rebalance_above,
+ * metis_seed, adjacency_radius, max_nodes, max_memory, restart_options) are free. After an error the placement is as it was. Collective. Errors:
  * PNPBS_ERROR_FILE naming the file if it is damaged, no checkpoint, or of a newer format;
  *  PNPBS_ERROR_DOMAIN, PNPBS_ERROR_SPACING (with the first place found) or PNPBS_ERROR_ARGUMENT
  *  (other options, or the other dimension) if it is of another run; PNPBS_ERROR_UNSUPPORTED if the

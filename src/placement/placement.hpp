@@ -18,6 +18,7 @@
 #include "level/speeds.hpp"
 #include "level/volume/surface_fit.hpp"
 #include "placement/node_estimate.hpp"
+#include "placement/option_changes.hpp"
 #include "settings/options.hpp"
 
 namespace pnpbs {
@@ -171,6 +172,8 @@ class Placement {
   void require_same_options() const;
   void begin_schedule(bool refined);
   void begin_schedule_again();
+  // Since the checkpoint that is read.
+  void adopt_changes(const std::vector<OptionChange>& changes);
   bool spacing_missed();
   void warn_of_surface_fit();
   double bytes_allowed() const;

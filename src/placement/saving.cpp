@@ -14,31 +14,13 @@
 #include "level/node_spacing.hpp"
 #include "level/reach.hpp"
 #include "placement/domain_fingerprint.hpp"
+#include "placement/option_changes.hpp"
 #include "placement/placement_of.hpp"
 #include "spacing/nodal_spacing.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-std::string lines_of(const std::vector<std::pair<std::string, std::string>>& rows) {
-  std::string lines;
-  for (const auto& [name, value] : rows) lines += name + " = " + value + "\n";
-  return lines;
-}
-
-// The first line that is not the same in both texts, of either.
-std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
-  std::istringstream in_a(a), in_b(b);
-  std::string line_a, line_b;
-  for (;;) {
-    const bool more_a = static_cast<bool>(std::getline(in_a, line_a));
-    const bool more_b = static_cast<bool>(std::getline(in_b, line_b));
-    if (!more_a) line_a.clear();
-    if (!more_b) line_b.clear();
-    if (line_a != line_b || (!more_a && !more_b)) return {line_a, line_b};
-  }
-}
 
 [[noreturn]] void damaged(const std::string& what) { throw Error(ErrorKind::file, what); }
 
@@ -213,7 +195,7 @@ Saved<Dim> PlacementOf<Dim>::saved() {
     for (std::int64_t k = 0; k < saved.count(); ++k) checksum += checksum_of(saved.node(k));
     for (std::size_t w = warnings_of_level_; w < warnings_.size(); ++w)
       s.warnings += warnings_[w] + "\n";
-    s.options = lines_of(options_.in(Dim).deciding());
+    s.options = lines_of_deciding(options_.in(Dim));
     if (const auto* nodal = dynamic_cast<const NodalSpacing<Dim>*>(spacing_.get()))
       saved.patch = &nodal->patch();
   });
@@ -259,12 +241,7 @@ void PlacementOf<Dim>::require_same_as(const SavedState& saved) {
   require_possible(saved);
   if (saved.domain_fingerprint != fingerprint_of(*domain_))
     throw Error(ErrorKind::domain, "the domain is not the one it was written with");
-  const auto [then, now] = first_difference(saved.options, lines_of(options_.in(Dim).deciding()));
-  if (then != now)
-    throw Error(ErrorKind::argument, "it was written with the option " + then +
-                                         ", and now there is " + now +
-                                         ": set the same options; they may be changed once it is "
-                                         "read");
+  changes_since(saved.options, options_.in(Dim));
 }
 
 template <int Dim>
@@ -295,6 +272,37 @@ void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Di
   level_options_ = options_;
   spacing_replaced_ = false;
   adopt_state(state);
+  adopt_changes(changes_since(state.options, options_.in(Dim)));
+}
+
+// A run that was at its end goes on from its nodes where there is something to do: with other
+// options than the number of steps it begins again.
+void Placement::adopt_changes(const std::vector<OptionChange>& changes) {
+  constexpr std::string_view kOfFirstNodes[] = {"levels", "coarsest_steps", "refined_steps"};
+  if (changes.empty()) return;
+  bool more_steps = false, others = false;
+  for (const OptionChange& change : changes) {
+    more_steps = more_steps || change.name == "steps";
+    others = others || (change.name != "steps" &&
+                        std::ranges::find(kOfFirstNodes, std::string_view(change.name)) ==
+                            std::end(kOfFirstNodes));
+  }
+  std::string told = "options changed since the checkpoint: " + text_of(changes);
+  if (finished() && others) {
+    begin_schedule_again();
+  } else if (finished() && more_steps && stop_reason_ == StopReason::rest) {
+    told += "; the bubbles rest after " + std::to_string(schedule_.step) +
+            " steps, and more of them change nothing: lower tolerance_mean for a run that goes on";
+  } else if (finished() && more_steps &&
+             schedule_.step < options_.in(dimension()).integer("steps")) {
+    schedule_.ended = false;
+    schedule_.population_settled = false;
+    schedule_.quiet_events = 0;
+  } else if (finished()) {
+    told += "; the run is at its end, and they change nothing of it";
+  }
+  warnings_.insert(warnings_.begin() + static_cast<std::ptrdiff_t>(warnings_of_level_), told);
+  ++warnings_of_level_;
 }
 
 template <int Dim>

@@ -148,6 +148,10 @@ const std::vector<OptionRow>& option_table() {
       {"max_memory", T::real, "1", nullptr, nullptr, 0, 1e6, nullptr,
        "a run is refused that would need more than this share of the memory that its machines have "
        "available; 0: no check"},
+      {"restart_options", T::choice, "same", nullptr, nullptr, 0, 0, "same | changed",
+       "options set to other values than a checkpoint was written with are refused when it is "
+       "read, "
+       "or change from there on"},
       {"threads", T::integer, "0", nullptr, nullptr, 0, 4096, nullptr,
        "threads of the process, set on the context before anything runs; 0: OMP_NUM_THREADS or "
        "KOKKOS_NUM_THREADS, else the cores there are, divided by our ranks on the node"},
@@ -168,9 +172,8 @@ const std::vector<OptionRow>& hidden_table() {
 
 // Presets, whose values are those of other options, and what no node depends on.
 constexpr std::string_view kNotDeciding[] = {
-    "method",          "effort",     "adjacency_radius", "exchange_interval",
-    "rebalance_above", "metis_seed", "max_nodes",        "max_memory",
-    "threads"};
+    "method",     "effort",    "adjacency_radius", "exchange_interval", "rebalance_above",
+    "metis_seed", "max_nodes", "max_memory",       "restart_options",   "threads"};
 
 struct RenamedOption {
   const char* before;
@@ -311,6 +314,15 @@ Options Options::in(int dimension) const {
 bool Options::chosen(const char* preset, const char* value) const {
   const auto found = values_.find(preset);
   return found != values_.end() && found->second == value;
+}
+
+bool Options::is_given(const char* key) const {
+  if (is_set(key)) return true;
+  const OptionRow& row = find_row(key);
+  const VolumeDefault* in_space = dimension_ == 3 ? default_in_space(key) : nullptr;
+  const bool by_effort = in_space ? in_space->best_value != nullptr : row.best_value != nullptr;
+  const bool by_method = !in_space && row.paper_value;
+  return (by_effort && is_set("effort")) || (by_method && is_set("method"));
 }
 
 std::size_t Options::fingerprint() const {

@@ -50,6 +50,8 @@ class Options {
   // they are found, or handed out.
   std::vector<std::pair<std::string, std::string>> deciding() const;
   bool is_set(const char* key) const { return values_.count(key) != 0; }
+  // By itself, or by a preset that has been set and gives it a value.
+  bool is_given(const char* key) const;
 
  private:
   std::string text(const char* key) const;

@@ -249,7 +249,8 @@ void add_checkpoints(CLI::App& app, Arguments& arguments) {
       ->group(group);
   app.add_option("--restart", arguments.restart,
                  "go on from a checkpoint, with the same domain, spacing and\noptions, on any "
-                 "number of ranks: to the same nodes, bit for bit")
+                 "number of ranks: to the same nodes, bit\nfor bit; options that --set gives "
+                 "another value change from there\non: --set steps=600 for more steps")
       ->type_name("FILE")
       ->group(group);
 }

@@ -159,6 +159,9 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   ranks.create_context(context.out());
   Domain domain;
   ranks.agreed([&] {
+    // What is given behind --set is meant, a checkpoint's other value or not.
+    if (!arguments.restart.empty())
+      check(pnpbs_context_set(context, "restart_options", "changed"), context);
     for (const auto& [key, value] : arguments.options) {
       check(pnpbs_context_set(context, key.c_str(), value.c_str()), context);
     }

@@ -59,6 +59,65 @@ class Checkpoints(CommandTest):
             restart = ("--restart", "a.vtkhdf")
         self.assertEqual(self.report(*square, *restart)["hash"], expected)
 
+    def restart(self, *options):
+        """From step.vtkhdf, of a run that 20 steps ended; what the report tells, and its warnings."""
+        report = self.report("--domain", self.square, "--spacing", "0.01 + 0.02*x", "--restart",
+                             "step.vtkhdf", *options, "--checkpoint", "again.vtkhdf")
+        self.assertEqual(report["finished"], 1)
+        return report, [w for w in report["warnings"] if w.startswith("options changed")]
+
+    def test_more_steps_and_other_options(self):
+        first = self.report("--domain", self.square, "--spacing", "0.01 + 0.02*x", "--set",
+                            "steps=20", "--checkpoint", "step.vtkhdf")
+        self.assertEqual(first["stop_reason"], "step limit")
+
+        same, warnings = self.restart("--set", "steps=20")
+        self.assertEqual((same["steps"], warnings), (first["steps"], []))
+        more, warnings = self.restart("--set", "steps=25")
+        self.assertEqual(more["steps"], first["steps"] + 5)  # 25 in all
+        self.assertEqual(warnings,
+                         ["options changed since the checkpoint: steps = 25 (20 before)"])
+        fewer, warnings = self.restart("--set", "steps=10")
+        self.assertEqual(fewer["hash"], first["hash"])
+        self.assertIn("change nothing", warnings[0])
+
+        settled, _ = self.restart("--set", "steps=500")
+        self.assertEqual(settled["stop_reason"], "rest")
+        self.assertGreater(settled["steps"], more["steps"])
+        (self.folder / "again.vtkhdf").rename(self.folder / "step.vtkhdf")
+        even_more, warnings = self.restart("--set", "steps=600")
+        self.assertEqual(even_more["hash"], settled["hash"])
+        self.assertIn("the bubbles rest", warnings[0])
+        self.assertIn("tolerance_mean", warnings[0])
+        better, warnings = self.restart("--set", "steps=500", "--set", "effort=best")
+        self.assertGreater(better["steps"], settled["steps"])
+        self.assertNotEqual(better["hash"], settled["hash"])
+        self.assertIn("sweeps = 8 (6 before)", warnings[0])
+
+    def test_a_stopped_run_ends_early_by_fewer_steps(self):
+        square = ("--domain", self.square, "--spacing", "0.02", "--set", "steps=1000000", "--set",
+                  "tolerance_mean=0")
+        process = self.start(*square, "--checkpoint", "a.vtkhdf", "--checkpoint-every", "5", "-q")
+        deadline = time.monotonic() + 60
+        while not (self.folder / "a.vtkhdf").exists():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.005)
+        process.send_signal(signal.SIGKILL)
+        process.communicate(timeout=60)
+        report = self.report(*square, "--restart", "a.vtkhdf", "--set", "steps=1")
+        self.assertEqual((report["finished"], report["stop_reason"]), (1, "step limit"))
+
+    def test_options_that_a_restart_cannot_change(self):
+        self.report("--domain", self.square, "--spacing", "0.2", "--set", "steps=20",
+                    "--checkpoint", "a.vtkhdf")
+        again = ("--domain", self.square, "--spacing", "0.2", "--restart", "a.vtkhdf")
+        forgotten = self.refuse(*again)
+        self.assertIn("set steps=20 to go on as before, or another value", forgotten)
+        self.assertIn("decides on the spacing",
+                      self.refuse(*again, "--set", "steps=20", "--set", "growth_limit=0.1"))
+        self.assertIn("set the same options",
+                      self.refuse(*again, "--set", "steps=30", "--set", "restart_options=same"))
+
     def test_what_is_refused(self):
         square = ("--domain", self.square, "--spacing", "0.2", "-o", "a.csv")
         (self.folder / "text.vtkhdf").write_text("no HDF5")
