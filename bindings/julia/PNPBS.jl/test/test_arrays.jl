@@ -29,6 +29,44 @@ end
     end
 end
 
+# StaticArrays' own vectors where it is installed; else a stand-in that is built as they are, a
+# vector by its type whose numbers lie in a tuple.
+if Base.find_package("StaticArrays") === nothing
+    struct StandInArray{N,T} <: AbstractVector{T}
+        data::NTuple{N,T}
+    end
+    Base.size(::StandInArray{N}) where {N} = (N,)
+    Base.getindex(v::StandInArray, i::Int) = v.data[i]
+    const SVector = StandInArray
+else
+    @eval using StaticArrays: SVector
+end
+
+@testset "points as static vectors" begin
+    Context() do context
+        box = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
+        for (domain, N, d) in ((square_domain(context), 2, 0.2), (box, 3, 0.5))
+            placement = initialise!(set_spacing!(Placement(domain), d))
+            points = nodes(placement).points
+            vectors = reinterpret_columns(SVector{N,Float64}, points)
+            @test eltype(vectors) === SVector{N,Float64} && length(vectors) == size(points, 2)
+            @test pointer(vectors) == Ptr{SVector{N,Float64}}(pointer(points))
+            @test all(vectors[i] == points[:, i] for i in eachindex(vectors))
+            vectors[1] = vectors[2]
+            points[1, 3] = 7
+            @test points[:, 1] == points[:, 2] && vectors[3][1] == 7
+            # What is allocated does not grow with the points.
+            @test (@allocated reinterpret_columns(SVector{N,Float64}, points)) < 500
+            @test_throws ArgumentError reinterpret_columns(SVector{5 - N,Float64}, points)
+            @test_throws ArgumentError reinterpret_columns(SVector{N,Float32}, points)
+        end
+        # And on their way in.
+        corners = [SVector{2,Float64}((x, y)) for (x, y) in ((0, 0), (2, 0), (2, 1), (0, 1))]
+        rectangle = add_polyline!(Domain(context), reshape(reinterpret(Float64, corners), 2, :))
+        @test measure(rectangle) ≈ 2
+    end
+end
+
 vectors(result::Vector) = Any[result]
 vectors(result::Matrix) = []
 vectors(rows::CompressedRows) = Any[rows.offsets, rows.entries]
