@@ -19,7 +19,11 @@
 namespace pnpbs::tool {
 namespace {
 
-double hypot_of(double a, double b) { return std::hypot(a, b); }
+// muParser leaves the number of arguments to it: see refuse_other_hypots.
+double hypot_of(const double* numbers, int n) {
+  return n == 2 ? std::hypot(numbers[0], numbers[1])
+                : std::hypot(numbers[0], numbers[1], numbers[2]);
+}
 double pow_of(double a, double b) { return std::pow(a, b); }
 double mod_of(double a, double b) { return std::fmod(a, b); }
 double floor_of(double a) { return std::floor(a); }
@@ -172,6 +176,44 @@ void refuse_what_is_no_formula(const Source& source) {
   }
 }
 
+// Of the call whose opening parenthesis is at `open`: where it ends, or npos.
+struct Call {
+  int arguments = 1;
+  std::size_t end = std::string::npos;
+};
+Call call_at(const std::string& text, std::size_t open) {
+  Call call;
+  int depth = 0;
+  for (std::size_t at = open; at < text.size(); ++at) {
+    if (text[at] == '(') ++depth;
+    if (text[at] == ',' && depth == 1) ++call.arguments;
+    if (text[at] == ')' && --depth == 0) {
+      if (text.find_first_not_of(" \t", open + 1) == at) call.arguments = 0;
+      call.end = at;
+      break;
+    }
+  }
+  return call;
+}
+
+void refuse_other_hypots(const Source& source) {
+  constexpr std::string_view name = "hypot";
+  const std::string& text = source.text;
+  const auto in_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (std::size_t at = text.find(name); at != std::string::npos;
+       at = text.find(name, at + name.size())) {
+    const std::size_t open = at + name.size();
+    if (open == text.size() || text[open] != '(' || (at > 0 && in_name(text[at - 1]))) continue;
+    const Call call = call_at(text, open);
+    if (call.end == std::string::npos || call.arguments == 2 || call.arguments == 3) continue;
+    fail(source, call.end,
+         std::string("too ") + (call.arguments < 2 ? "few" : "many") +
+             " arguments for 'hypot': it takes two, or three in space, as in hypot(x,y,z)");
+  }
+}
+
 std::string trimmed(std::string token) {
   const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
   while (!token.empty() && is_space(token.back())) token.pop_back();
@@ -249,6 +291,7 @@ Expression::Expression(const std::string& text, int dimension, const std::string
     : parser_(std::make_unique<Parser>()) {
   const Source source{option, text};
   refuse_what_is_no_formula(source);
+  refuse_other_hypots(source);
   mu::Parser& parser = parser_->parser;
   parser_->dimension = dimension;
   try {

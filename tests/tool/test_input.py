@@ -119,6 +119,11 @@ class Expressions(CommandTest):
             ("x = 1", 3, "=="),
             ("0.1 0.2", 5, "operator"),
             ("hypot(x)", 8, "few"),
+            ("1 + hypot( )", 12, "two, or three"),
+            ("1 + hypot(x, (y), min(1, 2), 4)", 31, "many arguments for 'hypot': it takes two"),
+            ("hypot(hypot(x), y)", 14, "few"),
+            ("hypot(x, y", 11, "parenthesis"),
+            ("hypot(x, y, z)", 13, "'z': this domain is in the plane"),
             ("sin", 1, "parentheses"),
             ("x ? 1", None, ""),
             ('"x"', None, ""),
@@ -159,7 +164,8 @@ class Expressions(CommandTest):
 
     def test_functions(self):
         # Each term is 1 when it does what its name says.
-        terms = ("hypot(3,4)/5", "pow(2,3)/8", "min(1,2,3)", "max(-1,0,1)", "abs(-1)", "sqrt(1)",
+        terms = ("hypot(3,4)/5", "hypot(2, 3, 6)/7", "hypot(3*(1+x), min(4,5)*(1+x))/(5+5*x)",
+                 "pow(2,3)/8", "min(1,2,3)", "max(-1,0,1)", "abs(-1)", "sqrt(1)",
                  "exp(0)", "log(e)", "floor(1.9)", "ceil(0.1)", "mod(7,3)", "ln(e)", "log10(10)", "log2(2)",
                  "cbrt(1)", "cos(0)", "sin(pi/2)", "2^0", "atan2(0,1)+1")
         spacing = "0.1*(" + " + ".join(terms) + f")/{len(terms)}"
