@@ -114,7 +114,7 @@ START_TEST(stl_binary_that_begins_as_text) {
     const std::string bytes = surface_files::stl_binary(box, header);
     expect_the_same(read(SurfaceFormat::stl, bytes), box);
     expect_file_error(SurfaceFormat::stl,
-                      {"as a binary file it has 683 bytes, expected 684 for 12 triangles"},
+                      {"as a binary file it has 683 bytes, expected 684 for the 12 triangles"},
                       bytes.substr(0, 683));
   }
 }
@@ -171,7 +171,7 @@ START_TEST(stl_errors) {
   std::memcpy(binary.data() + 84 + 50 + 12 + 4, &inf, 4);
   expect({"x: at byte 150: found inf, expected y (a number between"}, binary);
   binary.replace(80, 4, "\xff\xff\xff\xff");
-  expect({"it has 684 bytes, expected 214748364834 for 4294967295 triangles"}, binary);
+  expect({"it has 684 bytes, expected 214748364834 for the 4294967295 triangles"}, binary);
 }
 END_TEST
 

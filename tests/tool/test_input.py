@@ -4,9 +4,10 @@
 import json
 import os
 import random
+import struct
 import unittest
 
-from command import DONE, LAKE, NOT_CONVERGED, SQUARE, CommandTest
+from command import DONE, FAILED, LAKE, NOT_CONVERGED, SQUARE, CommandTest
 
 GRID = """\
 ncols 3
@@ -102,6 +103,34 @@ class Outputs(CommandTest):
         self.folder.chmod(0o500)
         self.addCleanup(self.folder.chmod, 0o700)
         self.refuse("--domain", self.square, "--spacing", "0.1", "--output", "a.csv")
+
+
+class Bodies(CommandTest):
+    def octahedron(self, apex):
+        vertices = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, apex), (0, 0, -1)]
+        triangles = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4),
+                     (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+        lines = ["OFF", "6 8 0", *(" ".join(map(str, v)) for v in vertices),
+                 *("3 " + " ".join(map(str, t)) for t in triangles)]
+        (self.folder / "body.off").write_text("\n".join(lines) + "\n")
+        return "body.off"
+
+    def refuse_body(self, domain, *arguments, spacing="0.4", **more):
+        return self.refuse("--domain", domain, "--spacing", spacing, "-o", "a.csv", *arguments,
+                           **more)
+
+    def test_a_binary_stl_cut_short(self):
+        triangle = struct.pack("<12fH", *[0.0] * 3, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+        for header in (b"solid part", b"part"):
+            whole = header.ljust(80, b"\0") + struct.pack("<I", 100) + 100 * triangle
+            (self.folder / "cut.stl").write_bytes(whole[:84 + 50 * 42 + 10])
+            message = self.refuse_body("cut.stl")
+            self.assertIn("2194 bytes, expected 5084 for the 100 triangles", message)
+            self.assertIn("cut short after 42 of them", message)
+            self.assertEqual("is binary, though its header begins with 'solid'" in message,
+                             header.startswith(b"solid"))
+            self.assertEqual("does not begin with 'solid'" in message,
+                             not header.startswith(b"solid"))
 
 
 class Expressions(CommandTest):

@@ -118,6 +118,29 @@ bool begins_as_text(std::string_view bytes) {
   return is_word(fields.required("a word"), "solid");
 }
 
+// Neither text nor of the size that a binary file of so many triangles has.
+[[noreturn]] void fail_as_binary(std::string_view bytes, std::size_t count,
+                                 const std::string& name) {
+  const std::string what =
+      begins_as_text(bytes)
+          ? ": is binary, though its header begins with 'solid' as text does (a zero byte comes "
+            "in it), and "
+          : ": does not begin with 'solid' as text does, and as a binary file ";
+  const std::string there = std::to_string(bytes.size()) + " bytes";
+  if (bytes.size() < kBeforeTriangles)
+    throw Error(ErrorKind::file, name + what + "it is too short: " + there + ", expected " +
+                                     std::to_string(kBeforeTriangles) + " or more");
+  const std::size_t expected = kBeforeTriangles + kTriangle * count;
+  const std::string whole =
+      bytes.size() < expected
+          ? "; it is cut short after " +
+                std::to_string((bytes.size() - kBeforeTriangles) / kTriangle) + " of them"
+          : "";
+  throw Error(ErrorKind::file, name + what + "it has " + there + ", expected " +
+                                   std::to_string(expected) + " for the " + std::to_string(count) +
+                                   " triangles that it promises" + whole);
+}
+
 }  // namespace
 
 // A binary file may begin with "solid", too, but has the size that it says.
@@ -129,15 +152,7 @@ SurfaceTriangles parse_stl(std::string_view bytes, const std::string& name) {
   if (has_header && bytes.size() == expected) return parse_binary(fields, count);
   if (begins_as_text(bytes) && bytes.find('\0') == std::string_view::npos)
     return TextParser(bytes, name).parse();
-  const std::string binary = ": does not begin with 'solid' as text does, and as a binary file ";
-  if (!has_header) {
-    throw Error(ErrorKind::file,
-                name + binary + "it is too short: " + std::to_string(bytes.size()) +
-                    " bytes, expected " + std::to_string(kBeforeTriangles) + " or more");
-  }
-  throw Error(ErrorKind::file, name + binary + "it has " + std::to_string(bytes.size()) +
-                                   " bytes, expected " + std::to_string(expected) + " for " +
-                                   std::to_string(count) + " triangles");
+  fail_as_binary(bytes, count, name);
 }
 
 }  // namespace pnpbs
