@@ -29,8 +29,8 @@ void NodeLimit::report_too_many(double nodes, double d, const std::string& place
                   std::to_string(max_nodes) + ": use a larger spacing or a larger max_nodes");
 }
 
-void NodeLimit::require_memory_for(double nodes) const {
-  const double bytes = kBytesPerNode * nodes;
+void NodeLimit::require_memory_for(double nodes, double bytes_per_node) const {
+  const double bytes = bytes_per_node * nodes;
   if (bytes <= max_bytes) return;
   throw Error(ErrorKind::memory,
               "about " + number_text(std::round(nodes)) + " nodes or more would need " +

@@ -14,7 +14,7 @@ Level<Dim>::Level(std::shared_ptr<const Communicator> communicator,
     : comm(std::move(communicator)),
       settings(with),
       timers(into),
-      ground(std::move(domain), std::move(spacing), settings.max_nodes) {
+      ground(std::move(domain), std::move(spacing), settings.node_limit()) {
   neighbourhood.reset_boundary(ground);
 }
 

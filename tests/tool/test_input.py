@@ -119,6 +119,15 @@ class Bodies(CommandTest):
         return self.refuse("--domain", domain, "--spacing", spacing, "-o", "a.csv", *arguments,
                            **more)
 
+    def test_a_vertex_far_away_is_told_before_anything_is_laid(self):
+        message = self.refuse_body(self.octahedron(7e6))
+        for word in ("the edge from (0, 0, 7e+06) to", "which is 7000000.0", "max_nodes allows"):
+            self.assertIn(word, message)
+        # Few enough for that, but their memory is asked for as soon.
+        message = self.refuse_body(self.octahedron(7e8), "--set", "max_nodes=2000000000",
+                                   spacing="4", code=FAILED)
+        self.assertIn("max_memory", message)
+
     def test_a_binary_stl_cut_short(self):
         triangle = struct.pack("<12fH", *[0.0] * 3, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
         for header in (b"solid part", b"part"):

@@ -5,6 +5,7 @@
 
 #include "domain/curve_steps.hpp"
 #include "domain/polyline_track.hpp"
+#include "domain/volume/large_facets.hpp"
 
 namespace pnpbs {
 
@@ -77,12 +78,14 @@ bool FeatureNodes::joined(std::int32_t a, std::int32_t b) const {
 }
 
 FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
-                               const SpacingEvaluator<3>& spacing, std::int64_t max_nodes) {
+                               const SpacingEvaluator<3>& spacing, const NodeLimit& limit) {
+  require_few_on_large_facets(mesh, features, spacing, limit);
   const std::vector<std::vector<Point<3>>> lines = polylines(mesh, features);
   std::vector<PolylineTrack<3>> tracks;
   for (std::size_t c = 0; c < lines.size(); ++c)
     tracks.emplace_back(lines[c], features.curves[c].closed());
-  const std::vector<std::vector<double>> stations = lay_equal_steps(tracks, spacing, max_nodes);
+  const std::vector<std::vector<double>> stations =
+      lay_equal_steps(tracks, spacing, limit.max_nodes);
   FeatureNodes found;
   for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(features.corners.size());
        ++corner) {

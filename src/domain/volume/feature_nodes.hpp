@@ -8,6 +8,7 @@
 
 #include "base/types.hpp"
 #include "domain/boundary_mesh.hpp"
+#include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/features.hpp"
 
@@ -34,9 +35,10 @@ struct FeatureNodes {
 };
 
 // n = max(1, round(integral)) steps on each curve, 3 at least on closed ones. d is asked on the
-// curves only. Throws Error(ErrorKind::spacing) if there would be more than `max_nodes` nodes.
+// curves, and at a few places on the largest triangles. Throws Error(ErrorKind::spacing) or
+// ::memory if there, or on the curves, would be more nodes than the limit allows.
 FeatureNodes lay_feature_nodes(const BoundaryMesh<3>& mesh, const Features& features,
                                const SpacingEvaluator<3>& spacing,
-                               std::int64_t max_nodes = (std::int64_t{1} << 31) - 2);
+                               const NodeLimit& limit = (std::int64_t{1} << 31) - 2);
 
 }  // namespace pnpbs

@@ -6,9 +6,9 @@
 namespace pnpbs {
 
 Ground<2>::Ground(std::shared_ptr<const PlaneDomain> domain,
-                  std::shared_ptr<const Spacing<2>> spacing, std::int64_t max_nodes)
+                  std::shared_ptr<const Spacing<2>> spacing, const NodeLimit& limit)
     : domain_(std::move(domain)), spacing_(std::move(spacing)) {
-  boundary_ = discretize_boundary(*domain_, evaluator(), max_nodes);
+  boundary_ = discretize_boundary(*domain_, evaluator(), limit.max_nodes);
   // Fixed nodes off the curves act as edges of no length: inner nodes keep off them, too.
   for (std::size_t f = static_cast<std::size_t>(boundary_.first_fixed); f < boundary_.nodes.size();
        ++f) {

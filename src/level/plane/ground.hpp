@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/nodes.hpp"
+#include "domain/node_limit.hpp"
 #include "domain/plane/boundary.hpp"
 #include "domain/plane/incident_sectors.hpp"
 #include "domain/plane/plane_domain.hpp"
@@ -23,9 +24,9 @@ class Ground;
 template <>
 class Ground<2> {
  public:
-  // Throws Error(ErrorKind::spacing) if the boundary had more than `max_nodes`.
+  // Throws Error(ErrorKind::spacing) if the boundary had more nodes than the limit allows.
   Ground(std::shared_ptr<const PlaneDomain> domain, std::shared_ptr<const Spacing<2>> spacing,
-         std::int64_t max_nodes);
+         const NodeLimit& limit);
   Ground(const Ground<2>&) = delete;  // the tree points to the boundary
   Ground<2>& operator=(const Ground<2>&) = delete;
 

@@ -8,11 +8,11 @@
 namespace pnpbs {
 
 Ground<3>::Ground(std::shared_ptr<const VolumeDomain> domain,
-                  std::shared_ptr<const Spacing<3>> spacing, std::int64_t max_nodes)
+                  std::shared_ptr<const Spacing<3>> spacing, const NodeLimit& limit)
     : domain_(std::move(domain)),
       spacing_(std::move(spacing)),
       surface_(domain_->mesh(), domain_->features()) {
-  features_ = lay_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), max_nodes);
+  features_ = lay_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), limit);
   put_on_creases(*domain_, features_);
   const Features& features = domain_->features();
   patch_bounds_.assign(index(features.patches), 0);

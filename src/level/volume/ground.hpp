@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/nodes.hpp"
+#include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/feature_nodes.hpp"
 #include "domain/volume/surface.hpp"
@@ -26,9 +27,10 @@ class Ground;
 template <>
 class Ground<3> {
  public:
-  // Throws Error(ErrorKind::spacing) if the feature edges had more than `max_nodes`.
+  // Throws Error(ErrorKind::spacing) if the feature edges or the largest triangles had more nodes
+  // than the limit allows.
   Ground(std::shared_ptr<const VolumeDomain> domain, std::shared_ptr<const Spacing<3>> spacing,
-         std::int64_t max_nodes);
+         const NodeLimit& limit);
   Ground(const Ground&) = delete;  // the tree points to the boundary
   Ground& operator=(const Ground&) = delete;
 
