@@ -20,13 +20,20 @@ std::string bytes_text(double bytes) {
   return std::string(text, end.ptr) + units[unit];
 }
 
+std::string about_resolve(const NodeLimit& limit) {
+  if (!limit.resolves) return "";
+  return "; the option resolve holds d down at thin walls, narrow gaps and sharp edges: mend the "
+         "shape there, or leave the option at 0";
+}
+
 }  // namespace
 
 void NodeLimit::report_too_many(double nodes, double d, const std::string& place) const {
   throw Error(ErrorKind::spacing,
               "spacing d = " + number_text(d) + " near " + place + " would mean about " +
                   number_text(std::round(nodes)) + " nodes or more; the option max_nodes allows " +
-                  std::to_string(max_nodes) + ": use a larger spacing or a larger max_nodes");
+                  std::to_string(max_nodes) + ": use a larger spacing or a larger max_nodes" +
+                  about_resolve(*this));
 }
 
 void NodeLimit::require_memory_for(double nodes, double bytes_per_node) const {
@@ -36,7 +43,8 @@ void NodeLimit::require_memory_for(double nodes, double bytes_per_node) const {
               "about " + number_text(std::round(nodes)) + " nodes or more would need " +
                   bytes_text(bytes) + " of memory, and " + bytes_text(max_bytes) +
                   " are there for them: use a larger spacing or more machines; the option "
-                  "max_memory = 0 switches this check off");
+                  "max_memory = 0 switches this check off" +
+                  about_resolve(*this));
 }
 
 }  // namespace pnpbs

@@ -23,6 +23,7 @@ struct NodeLimit {
 
   std::int64_t max_nodes;  // more are taken for a mistake in d
   double max_bytes;        // of memory, on all ranks together
+  bool resolves = false;   // d may be held down by the option resolve, and messages say so
 };
 
 }  // namespace pnpbs

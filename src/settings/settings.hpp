@@ -54,7 +54,11 @@ struct Settings {
   std::int64_t halo_deficit;  // hops, for tests
 
   bool user_limits_growth() const { return growth_limit_set && growth_limit > 0; }
-  NodeLimit node_limit() const { return {max_nodes, max_bytes}; }
+  NodeLimit node_limit() const {
+    NodeLimit limit(max_nodes, max_bytes);
+    limit.resolves = resolve;
+    return limit;
+  }
   int evaluations_per_step() const { return predictor_corrector ? 2 : 1; }
   double force_range() const { return cubic_law ? CubicLaw{}.range : rest_length; }
 };

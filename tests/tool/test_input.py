@@ -128,6 +128,13 @@ class Bodies(CommandTest):
                                    spacing="4", code=FAILED)
         self.assertIn("max_memory", message)
 
+    def test_resolve_is_named_where_it_asks_for_too_many(self):
+        thin = "box(0,0,0, 1,1,0.01)"
+        asked = ("--set", "max_nodes=2000")
+        self.assertIn("the option resolve holds d down",
+                      self.refuse_body(thin, *asked, "--set", "resolve=1", spacing="0.2"))
+        self.assertNotIn("resolve", self.refuse_body(thin, *asked, spacing="0.004"))
+
     def test_a_binary_stl_cut_short(self):
         triangle = struct.pack("<12fH", *[0.0] * 3, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
         for header in (b"solid part", b"part"):
