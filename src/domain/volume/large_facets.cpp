@@ -14,7 +14,7 @@ namespace pnpbs {
 namespace {
 
 constexpr std::size_t kLargest = 64;  // pieces that are looked at, of either kind
-constexpr double kBytesOnEdge = 450;  // while nodes are laid there, of each: measured
+constexpr double kBytesOnEdge = 450;  // of a node while it is laid: samples of d about
 constexpr int kParts = 4;             // of their sides, at whose ends d is asked
 
 // With the piece's end points; an edge has two that are the same.
