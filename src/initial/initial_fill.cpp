@@ -37,8 +37,12 @@ class Fill {
  public:
   Fill(const DomainMap<Dim>& map, const Box<Dim>& bounds,
        const std::function<bool(std::int32_t)>& wanted,
-       const std::vector<LeafSummary<Dim>>& unrefined)
-      : map_(map), bounds_(bounds), wanted_(wanted), cells_(spacing_summaries(map, unrefined)) {}
+       const std::vector<LeafSummary<Dim>>& unrefined, bool stretched)
+      : map_(map),
+        bounds_(bounds),
+        wanted_(wanted),
+        stretched_(stretched),
+        cells_(spacing_summaries(map, unrefined)) {}
 
   std::vector<Point<Dim>> make() {
     descend(0, nullptr);
@@ -53,7 +57,7 @@ class Fill {
     if (own.measure == 0) return;
     const bool leaf = tree.cell(c).first_child < 0;
     std::optional<FillLattice<Dim>> lattice;
-    if (!patch && nearly_constant(own)) patch = &lattice.emplace(own.spacing(), bounds_, c == 0);
+    if (!patch && nearly_constant(own)) patch = &begin_patch(lattice, own.spacing(), c == 0);
     if (leaf) {
       const std::int32_t here = tree.cell(c).leaf;
       if (patch && wanted_(here)) fill_leaf(here, *patch);  // others are graded_fill's
@@ -61,6 +65,12 @@ class Fill {
       for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k)
         descend(tree.cell(c).first_child + k, patch);
     }
+  }
+
+  const FillLattice<Dim>& begin_patch(std::optional<FillLattice<Dim>>& lattice, double d,
+                                      bool whole) const {
+    if constexpr (Dim == 2) return lattice.emplace(d, bounds_, whole);
+    if constexpr (Dim == 3) return lattice.emplace(d, bounds_, whole, stretched_);
   }
 
   // Whose a node on the border of two leaves is, leaf_holds alone decides: by the arithmetic of
@@ -92,6 +102,7 @@ class Fill {
   const DomainMap<Dim>& map_;
   const Box<Dim>& bounds_;
   const std::function<bool(std::int32_t)>& wanted_;
+  bool stretched_;
   std::vector<SpacingSummary<Dim>> cells_;
   std::vector<Point<Dim>> points_;
 };
@@ -127,8 +138,9 @@ std::vector<SpacingSummary<Dim>> spacing_summaries(const DomainMap<Dim>& map,
 template <int Dim>
 std::vector<Point<Dim>> lattice_fill(const DomainMap<Dim>& map, const Box<Dim>& bounds,
                                      const std::function<bool(std::int32_t)>& wanted,
-                                     const std::vector<LeafSummary<Dim>>& unrefined) {
-  return Fill<Dim>(map, bounds, wanted, unrefined).make();
+                                     const std::vector<LeafSummary<Dim>>& unrefined,
+                                     bool stretched) {
+  return Fill<Dim>(map, bounds, wanted, unrefined, stretched).make();
 }
 
 template struct SpacingSummary<2>;
@@ -139,9 +151,9 @@ template std::vector<SpacingSummary<3>> spacing_summaries(const DomainMap<3>&,
                                                           const std::vector<LeafSummary<3>>&);
 template std::vector<Point<2>> lattice_fill<2>(const DomainMap<2>&, const Box<2>&,
                                                const std::function<bool(std::int32_t)>&,
-                                               const std::vector<LeafSummary<2>>&);
+                                               const std::vector<LeafSummary<2>>&, bool);
 template std::vector<Point<3>> lattice_fill<3>(const DomainMap<3>&, const Box<3>&,
                                                const std::function<bool(std::int32_t)>&,
-                                               const std::vector<LeafSummary<3>>&);
+                                               const std::vector<LeafSummary<3>>&, bool);
 
 }  // namespace pnpbs

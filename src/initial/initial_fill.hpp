@@ -44,11 +44,13 @@ template <int Dim>
 std::vector<SpacingSummary<Dim>> spacing_summaries(const DomainMap<Dim>& map,
                                                    const std::vector<LeafSummary<Dim>>& unrefined);
 
-// Of the leaves for which wanted(leaf) holds and that are not steep, in their Morton order.
+// Of the leaves for which wanted(leaf) holds and that are not steep, in their Morton order. In
+// space the lattice is stretched to fit the domain's box, or else is as dense as d says.
 template <int Dim>
 std::vector<Point<Dim>> lattice_fill(const DomainMap<Dim>& map, const Box<Dim>& bounds,
                                      const std::function<bool(std::int32_t)>& wanted,
-                                     const std::vector<LeafSummary<Dim>>& unrefined = {});
+                                     const std::vector<LeafSummary<Dim>>& unrefined = {},
+                                     bool stretched = true);
 
 extern template struct SpacingSummary<2>;
 extern template struct SpacingSummary<3>;
@@ -58,9 +60,9 @@ extern template std::vector<SpacingSummary<3>> spacing_summaries(
     const DomainMap<3>&, const std::vector<LeafSummary<3>>&);
 extern template std::vector<Point<2>> lattice_fill<2>(const DomainMap<2>&, const Box<2>&,
                                                       const std::function<bool(std::int32_t)>&,
-                                                      const std::vector<LeafSummary<2>>&);
+                                                      const std::vector<LeafSummary<2>>&, bool);
 extern template std::vector<Point<3>> lattice_fill<3>(const DomainMap<3>&, const Box<3>&,
                                                       const std::function<bool(std::int32_t)>&,
-                                                      const std::vector<LeafSummary<3>>&);
+                                                      const std::vector<LeafSummary<3>>&, bool);
 
 }  // namespace pnpbs

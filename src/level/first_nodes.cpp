@@ -65,7 +65,8 @@ std::vector<Point<Dim>> graded_fill(const Level<Dim>& level,
 }  // namespace
 
 template <int Dim>
-GivenNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::function<void()>& beat) {
+GivenNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::function<void()>& beat,
+                                  bool stretched) {
   GivenNodes<Dim> inner;
   const std::vector<LeafSummary<Dim>> unrefined = summaries_of_unrefined_leaves(level);
   const auto owned = [&](std::int32_t leaf) {
@@ -74,7 +75,7 @@ GivenNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::function<v
   };
   agreed(*level.comm, [&] {
     for (const Point<Dim>& x :
-         lattice_fill<Dim>(level.map(), level.ground.bounds(), owned, unrefined))
+         lattice_fill<Dim>(level.map(), level.ground.bounds(), owned, unrefined, stretched))
       inner.push_back({x, -1});
   });
   for (const Point<Dim>& x : graded_fill(level, owned)) inner.push_back({x, -1});
@@ -82,9 +83,10 @@ GivenNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::function<v
 }
 
 template <int Dim>
-void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& beat) {
+void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& beat,
+          bool stretched) {
   const PhaseTimer timer(level.timers, Phase::fill);
-  GivenNodes<Dim> inner = first_inner_nodes(level, beat);
+  GivenNodes<Dim> inner = first_inner_nodes(level, beat, stretched);
   agreed(*level.comm, [&] {
     beat();
     find_leaves(level, inner);
@@ -94,10 +96,10 @@ void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& b
   number_and_store(level, std::move(inner), std::move(laid));
 }
 
-template void fill(Level<2>&, LaidNodes<2>, const std::function<void()>&);
-template void fill(Level<3>&, LaidNodes<3>, const std::function<void()>&);
+template void fill(Level<2>&, LaidNodes<2>, const std::function<void()>&, bool);
+template void fill(Level<3>&, LaidNodes<3>, const std::function<void()>&, bool);
 
-template GivenNodes<2> first_inner_nodes(const Level<2>&, const std::function<void()>&);
-template GivenNodes<3> first_inner_nodes(const Level<3>&, const std::function<void()>&);
+template GivenNodes<2> first_inner_nodes(const Level<2>&, const std::function<void()>&, bool);
+template GivenNodes<3> first_inner_nodes(const Level<3>&, const std::function<void()>&, bool);
 
 }  // namespace pnpbs

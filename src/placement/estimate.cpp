@@ -44,7 +44,7 @@ template <int Dim>
 double PlacementOf<Dim>::estimated_nodes(std::shared_ptr<const Spacing<Dim>> spacing,
                                          const Settings& settings) const {
   const auto estimate_with = [&](const Spacing<Dim>& d) {
-    return estimate_nodes<Dim>(*comm_, *domain_, d, settings.max_nodes);
+    return estimate_nodes<Dim>(*comm_, *domain_, d, settings.max_nodes, lattice_is_stretched());
   };
   if (!settings.user_limits_growth()) {
     const NodeEstimate<Dim> estimate = estimate_with(*spacing);

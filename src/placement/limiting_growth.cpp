@@ -2,6 +2,7 @@
 // The spacing as it counts: as given, no larger than makes sense or, if the user wants it so, than
 // resolves the shape, or with its growth limited, because the user wants that or because nodes
 // could not follow d as given.
+#include <algorithm>
 #include <cmath>
 
 #include "base/limits.hpp"
@@ -30,21 +31,30 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_to_place(
   const double wanted = options_.real("wanted_nodes");
   if (wanted == 0) return bounded(spacing_, settings);
   const double factor = factor_for(wanted, settings);
-  return bounded(std::make_shared<MultipliedSpacing<Dim>>(spacing_, factor), settings);
+  return bounded(resized(spacing_, factor), settings);
 }
 
 // The factor on d with which a run is expected to come to so many nodes. Their number goes with the
-// factor to the power of the dimension, nearly: few rounds do.
+// factor to the power of the dimension where the boundary has few of them, and less where its
+// vertices are many: the power is taken from the last two rounds. Below the number of vertices
+// there is nothing to find, and the search ends where the number does not change any more.
 template <int Dim>
 double PlacementOf<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
   constexpr int kMaxRounds = 10;
-  constexpr double kNear = 1e-3;
-  double factor = 1;
+  constexpr double kNear = 1e-3, kMinPower = 0.5, kMaxStep = 4;
+  const double steepest = settings.dimension;
+  double factor = 1, power = steepest, before = 0, step = 1;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const auto spacing = std::make_shared<MultipliedSpacing<Dim>>(spacing_, factor);
-    const double more = estimated_nodes(bounded(spacing, settings), settings) / wanted_nodes;
+    const double more =
+        estimated_nodes(bounded(resized(spacing_, factor), settings), settings) / wanted_nodes;
     if (!(more > 0) || std::fabs(more - 1) < kNear) break;
-    factor *= std::pow(more, 1.0 / settings.dimension);
+    if (round > 0) {
+      if (std::fabs(more / before - 1) < kNear) break;
+      power = std::clamp(-std::log(more / before) / std::log(step), kMinPower, 1.5 * steepest);
+    }
+    before = more;
+    step = std::clamp(std::pow(more, 1 / power), 1 / kMaxStep, kMaxStep);
+    factor *= step;
   }
   return factor;
 }

@@ -24,9 +24,11 @@ struct NodeEstimate {
   SteepestGrowth<Dim> steepest;
 };
 
-// By samples of d in some thousand cells, more of them where there would be more nodes. Collective.
+// By samples of d in some thousand cells, more of them where there would be more nodes.
+// `stretched`: the lattice that fills a body with even d. Collective.
 template <int Dim>
 NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& domain,
-                                 const Spacing<Dim>& spacing, std::int64_t max_boundary_nodes);
+                                 const Spacing<Dim>& spacing, std::int64_t max_boundary_nodes,
+                                 bool stretched);
 
 }  // namespace pnpbs

@@ -170,6 +170,8 @@ class PlacementOf : public Placement {
   static std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
   std::shared_ptr<const Spacing<Dim>> bounded(std::shared_ptr<const Spacing<Dim>> spacing,
                                               const Settings& settings) const;
+  // Of a body with even d, unless so many nodes are wanted: whole layers come in steps.
+  bool lattice_is_stretched() const { return options_.real("wanted_nodes") == 0; }
   double factor_for(double wanted_nodes, const Settings& settings) const;
   double estimated_nodes(std::shared_ptr<const Spacing<Dim>> spacing,
                          const Settings& settings) const;

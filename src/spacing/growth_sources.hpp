@@ -23,7 +23,7 @@ template <int Dim, class Source = GrowthSource<Dim>>
 class GrowthSources {
  public:
   GrowthSources() = default;
-  GrowthSources(std::vector<Source> sources, double growth)
+  explicit GrowthSources(std::vector<Source> sources, double growth = 0)
       : sources_(std::move(sources)), growth_(growth) {
     if (sources_.empty()) return;
     cells_.push_back({{}, 0, 0, sources_.size(), 0});
@@ -31,8 +31,10 @@ class GrowthSources {
   }
 
   // The limit at x if it is below this bound, or else the bound.
-  double limit(const Point<Dim>& x, double bound) const {
-    if (!cells_.empty()) look_into(0, least_in(0, x), x, bound);
+  double limit(const Point<Dim>& x, double bound) const { return limit(x, bound, growth_); }
+  // The same at another growth.
+  double limit(const Point<Dim>& x, double bound, double growth) const {
+    if (!cells_.empty()) look_into(0, least_in(0, x, growth), x, growth, bound);
     return bound;
   }
 
@@ -70,29 +72,30 @@ class GrowthSources {
     cells_.push_back({{}, 0, middle, cells_[c].end, 0});
   }
 
-  double least_in(std::size_t c, const Point<Dim>& x) const {
-    return cells_[c].min + growth_ * std::sqrt(squared_gap_to(cells_[c].box, x));
+  double least_in(std::size_t c, const Point<Dim>& x, double growth) const {
+    return cells_[c].min + growth * std::sqrt(squared_gap_to(cells_[c].box, x));
   }
 
   // Sources that give the least but for rounding are all looked at: so in whichever order they
   // lie, the bound comes out the same to the bit.
-  void look_into(std::size_t c, double least, const Point<Dim>& x, double& bound) const {
+  void look_into(std::size_t c, double least, const Point<Dim>& x, double growth,
+                 double& bound) const {
     constexpr double kRounding = 1 - 1e-12;
     if (!(kRounding * least < bound)) return;
     const Cell& cell = cells_[c];
     if (cell.child == 0) {
       for (std::size_t s = cell.begin; s < cell.end; ++s)
-        bound = std::min(bound, sources_[s].limit(x, growth_));
+        bound = std::min(bound, sources_[s].limit(x, growth));
       return;
     }
     std::size_t first = cell.child, second = cell.child + 1;
-    double by_first = least_in(first, x), by_second = least_in(second, x);
+    double by_first = least_in(first, x, growth), by_second = least_in(second, x, growth);
     if (by_second < by_first) {
       std::swap(first, second);
       std::swap(by_first, by_second);
     }
-    look_into(first, by_first, x, bound);
-    look_into(second, by_second, x, bound);
+    look_into(first, by_first, x, growth, bound);
+    look_into(second, by_second, x, growth, bound);
   }
 
   std::vector<Source> sources_;

@@ -32,4 +32,13 @@ class MultipliedSpacing : public Spacing<Dim> {
   double factor_;
 };
 
+// For `factor` times the distance between nodes: its growth multiplied, too, only if it is not
+// known what else there is to it.
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> resized(const std::shared_ptr<const Spacing<Dim>>& spacing,
+                                            double factor) {
+  if (auto sizes = spacing->with_sizes_multiplied(factor)) return sizes;
+  return std::make_shared<MultipliedSpacing<Dim>>(spacing, factor);
+}
+
 }  // namespace pnpbs

@@ -12,12 +12,22 @@ ShapeSpacing<Dim>::ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeDemands
                                 const ShapeLimits& limits)
     : min_(limits.min),
       max_(limits.max > 0 ? limits.max : index.size()),
-      sources_(shape_sources(index, demands, max_), limits.growth) {}
+      growth_(limits.growth),
+      sources_(std::make_shared<const GrowthSources<Dim, ShapeSource<Dim>>>(
+          shape_sources(index, demands, max_))) {}
 
 template <int Dim>
 void ShapeSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
-  for_each_if_started("pnpbs::ShapeSpacing", n,
-                      [&](std::int64_t i) { d[i] = std::max(min_, sources_.limit(x[i], max_)); });
+  for_each_if_started("pnpbs::ShapeSpacing", n, [&](std::int64_t i) {
+    d[i] = factor_ * std::max(min_, sources_->limit(x[i], max_, growth_ / factor_));
+  });
+}
+
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> ShapeSpacing<Dim>::with_sizes_multiplied(double factor) const {
+  auto resized = std::make_shared<ShapeSpacing>(*this);
+  resized->factor_ *= factor;
+  return resized;
 }
 
 template class ShapeSpacing<2>;

@@ -3,6 +3,8 @@
 // with the distance from it.
 #pragma once
 
+#include <memory>
+
 #include "spacing/growth_sources.hpp"
 #include "spacing/shape_sources.hpp"
 #include "spacing/spacing.hpp"
@@ -25,10 +27,14 @@ class ShapeSpacing : public Spacing<Dim> {
                const ShapeLimits& limits);
 
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+  // What the pieces ask for and the bounds are multiplied.
+  std::shared_ptr<const Spacing<Dim>> with_sizes_multiplied(double factor) const override;
 
  private:
-  double min_, max_;
-  GrowthSources<Dim, ShapeSource<Dim>> sources_;
+  double factor_ = 1;
+  double min_, max_;  // before it is multiplied, as the d of sources
+  double growth_;
+  std::shared_ptr<const GrowthSources<Dim, ShapeSource<Dim>>> sources_;
 };
 
 extern template class ShapeSpacing<2>;

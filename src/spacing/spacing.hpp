@@ -35,6 +35,9 @@ class Spacing {
   // them: checked by evaluate_spacing.
   virtual void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const = 0;
   virtual KnownValues<Dim> known_values() const { return {}; }
+  // With the sizes that it is made of multiplied, but its growth as it is, if there is a growth of
+  // its own; others return nothing.
+  virtual std::shared_ptr<const Spacing> with_sizes_multiplied(double) const { return nullptr; }
   // If the values are those of a mesh: how far each x is from it, 0 on it. Others return false and
   // leave the array as it is.
   virtual bool distance_to_mesh(std::int64_t, const Point<Dim>*, double*) const { return false; }

@@ -18,15 +18,22 @@ class CubicLattice {
  public:
   static constexpr double kA15Density = 1.52;  // nodes per d^3 that rest at a mean distance of d
 
-  // One lattice for the whole domain is stretched a little to end at all sides of its box alike.
-  CubicLattice(double d, const Box<3>& bounds, bool whole)
+  // One lattice for the whole domain may be stretched a little to end at all sides of its box
+  // alike.
+  CubicLattice(double d, const Box<3>& bounds, bool whole, bool stretched = true)
       : sites_(whole ? std::span<const Point<3>>(kA15) : kBodyCentred), low_(bounds.low) {
     const double first = d * (whole ? kFirstA15Layer : kFirstBodyCentredLayer);
     for (std::size_t k = 0; k < 3; ++k) {
       low_[k] += first;
       const double between = bounds.high[k] - bounds.low[k] - 2 * first;
-      cell_[k] = whole ? fitted(d * std::cbrt(8 / kA15Density), between) : d * Lattice<3>::kCell;
+      const double side = d * (whole ? std::cbrt(8 / kA15Density) : Lattice<3>::kCell);
+      cell_[k] = whole && stretched ? fitted(side, between) : side;
     }
+  }
+
+  // Nodes per unit of volume.
+  double density() const {
+    return static_cast<double>(sites_.size()) / (cell_[0] * cell_[1] * cell_[2]);
   }
 
   // Calls visit(x) for all nodes in the box, and some next to it.
