@@ -655,7 +655,7 @@ PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int6
  *  some thousand places (where its growth is limited, in as many as by the run), no inner node is
  *  made, and the nodes there are stay as they are.
  *  Collective; outputs may be NULL. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
- *  @param[out] nodes    on all ranks, mostly within a few percent, in space some ten
+ *  @param[out] nodes    on all ranks, in the plane mostly within one percent, in space some
  *  @param[out] bytes    memory of each process, for the run alone
  *  @param[out] seconds  roughly: by what a core of a present server does, times the threads of all
  *                       ranks */

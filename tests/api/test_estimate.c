@@ -30,13 +30,13 @@ START_TEST(near_what_comes) {
   cone slope = {0.004, 0.03, 0.2, 0.3};
   job it = square_job(1);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.02));
-  expect_nodes(&it, 0.03);
+  expect_nodes(&it, 0.02);
   it = square_job(1);
   MUST(pnpbs_placement_set_spacing_callback(it.placement, cone_spacing, &slope));
-  expect_nodes(&it, 0.05);
+  expect_nodes(&it, 0.02);
   it = lake_job();
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 4));
-  expect_nodes(&it, 0.05);
+  expect_nodes(&it, 0.02);
 }
 END_TEST
 
@@ -54,7 +54,7 @@ START_TEST(near_what_comes_in_space) {
   struct volume_spacing d = cases[_i].d;
   job it = body_job(cases[_i].body);
   MUST(pnpbs_placement_set_spacing_callback(it.placement, volume_spacing_at, &d));
-  expect_nodes(&it, 0.1);
+  expect_nodes(&it, 0.08);
 }
 END_TEST
 
