@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "predicates/space.hpp"
+#include "quality/volume/few_nodes.hpp"
 #include "quality/volume/mean_sweep.hpp"
 #include "quality/volume/sliver_repair.hpp"
 #include "quality/volume/tetrahedron_quality.hpp"
@@ -125,6 +126,22 @@ START_TEST(angles_of_any_tetrahedron) {
     ck_assert_double_eq_tol(pnpbs::SmallAngles(35).penalty(x), expected, 1e-7 * (1 + expected));
     std::swap(x[1], x[2]);  // turned over
     ck_assert_double_eq_tol(pnpbs::SmallAngles(35).penalty(x), expected, 1e-7 * (1 + expected));
+  }
+}
+END_TEST
+
+START_TEST(few_nodes_are_found) {
+  Random random(4);
+  pnpbs::FewNodes few;
+  std::vector<std::int32_t> all;
+  quick_assert(!few.contains(0) && few.all().empty());
+  while (all.size() < 70) {
+    const auto node = static_cast<std::int32_t>(random.below(1000));
+    few.add(node);
+    all.push_back(node);
+    quick_assert(std::ranges::equal(few.all(), all));
+    for (std::int32_t i = 0; i < 1000; ++i)
+      quick_assert(few.contains(i) == (std::ranges::count(all, i) > 0));
   }
 }
 END_TEST
@@ -367,7 +384,8 @@ END_TEST
 
 int main() {
   return run_kernel_suite(
-      "slivers", {known_angles, angles_of_any_tetrahedron, stars_follow_nodes, no_sliver_is_left,
-                  stars_that_are_left, rounds_only_help, nodes_keep_off_where_they_must,
-                  the_same_in_another_order, the_same_from_two_halves, sweeps_go_to_the_mean});
+      "slivers",
+      {known_angles, angles_of_any_tetrahedron, few_nodes_are_found, stars_follow_nodes,
+       no_sliver_is_left, stars_that_are_left, rounds_only_help, nodes_keep_off_where_they_must,
+       the_same_in_another_order, the_same_from_two_halves, sweeps_go_to_the_mean});
 }

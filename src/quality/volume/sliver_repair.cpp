@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/mixed_hash.hpp"
+#include "quality/volume/few_nodes.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {
@@ -279,14 +280,12 @@ double SliverRepair::penalty(std::span<const TetrahedronNodes> tetrahedra, std::
 
 // Of all tetrahedra that a move of node i usually changes.
 double SliverRepair::penalty_around(std::int32_t i) const {
-  std::vector<std::int32_t> centres{i};
-  stars_.for_neighbours(i,
-                        [&](std::int64_t j) { centres.push_back(static_cast<std::int32_t>(j)); });
-  const auto is_centre = [&](std::int32_t j) {
-    return std::find(centres.begin(), centres.end(), j) != centres.end();
-  };
+  FewNodes centres;
+  centres.add(i);
+  stars_.for_neighbours(i, [&](std::int64_t j) { centres.add(static_cast<std::int32_t>(j)); });
+  const auto is_centre = [&](std::int32_t j) { return centres.contains(j); };
   std::vector<TetrahedronNodes> around;
-  for (const std::int32_t j : centres)
+  for (const std::int32_t j : centres.all())
     stars_.for_simplices_first_at(j, is_centre,
                                   [&](const TetrahedronNodes& t) { around.push_back(t); });
   return penalty(around, i, nodes_.position(i));

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "quality/volume/few_nodes.hpp"
+
 namespace pnpbs {
 
 namespace {
@@ -48,10 +50,11 @@ StarChanges::Star StarChanges::star_after(std::int32_t i, const StarChange& chan
   });
   for (const TetrahedronNodes& t : change.made)
     if (has(t, i)) star.simplices.push_back(others(t, i));
+  FewNodes neighbours;
   for (const Corners& corners : star.simplices)
     for (const std::int32_t j : corners)
-      if (std::find(star.neighbours.begin(), star.neighbours.end(), j) == star.neighbours.end())
-        star.neighbours.push_back(j);
+      if (!neighbours.contains(j)) neighbours.add(j);
+  star.neighbours.assign(neighbours.all().begin(), neighbours.all().end());
   return star;
 }
 
