@@ -141,6 +141,19 @@ struct Pierced {
   }
 };
 
+bool are_among(const std::vector<pnpbs::TetrahedronNodes>& some,
+               const std::vector<pnpbs::TetrahedronNodes>& all) {
+  const auto corners = [](const std::vector<pnpbs::TetrahedronNodes>& tetrahedra) {
+    std::set<pnpbs::TetrahedronNodes> sets;
+    for (pnpbs::TetrahedronNodes t : tetrahedra) {
+      std::sort(t.begin(), t.end());
+      sets.insert(t);
+    }
+    return sets;
+  };
+  return std::ranges::includes(corners(all), corners(some));
+}
+
 }  // namespace
 
 START_TEST(stars_follow_nodes_on_surfaces) {
@@ -161,12 +174,15 @@ START_TEST(stars_follow_nodes_on_surfaces) {
     if (p.on_side(i)) {
       ++on_sides;
       pnpbs::SurfaceNodeMove move(nodes, changes, i, rule);
-      if (!move.go_to(x, 5)) {
+      move.go_to(x, 5);
+      const pnpbs::StarChange bounds = move.change();
+      if (!move.complete()) {
         ++refused;
         continue;
       }
       change = move.change();
       ck_assert_int_eq(change.on, 5);
+      quick_assert(are_among(bounds.made, change.made) && are_among(change.gone, bounds.gone));
       changed += change.gone.size() != change.made.size();
     } else if (nodes.moves(i) && ++inner % 4 == 0) {
       pnpbs::NodeMove move(nodes, changes, i);

@@ -302,6 +302,14 @@ bool SliverRepair::within_reach(const StarChange& change) const {
          std::all_of(change.made.begin(), change.made.end(), near);
 }
 
+// Of what is made no more than a part is known yet, and all that may be gone: less is never made,
+// and more never gone. So most are told to be of no use before all their stars are made.
+bool SliverRepair::may_help(const StarChange& change) const {
+  constexpr double kRounding = 1 + 1e-9;  // of sums of other terms
+  return penalty(change.made, change.node, change.x) <
+         kRounding * penalty(change.gone, change.node, nodes_.position(change.node));
+}
+
 bool SliverRepair::helps(const StarChange& change) const {
   constexpr double kRounding = 1e-9;
   const std::int32_t i = change.node;
@@ -348,7 +356,8 @@ void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
     const AlongSurfaces::Place to =
         along_surfaces_.walk(i, direction_to_try(attempt, trial, bits), way_to_try(attempt, bits));
     if (to.x == nodes_.position(i) || crowded(i, to.x)) continue;
-    if (!move.go_to(to.x, to.facet) || !helps(move.change())) continue;
+    move.go_to(to.x, to.facet);
+    if (!may_help(move.change()) || !move.complete() || !helps(move.change())) continue;
     attempt.success.push_back(move.change());
     return;
   }

@@ -101,6 +101,7 @@ class SliverRepair {
   void try_moves_along_surface(Attempt& attempt) const;
   Point<3> direction_to_try(const Attempt& attempt, int trial, std::uint64_t bits) const;
   double way_to_try(const Attempt& attempt, std::uint64_t bits) const;
+  bool may_help(const StarChange& change) const;
   bool helps(const StarChange& change) const;
   bool crowded(std::int32_t i, const Point<3>& x) const;
   bool within_reach(const StarChange& change) const;

@@ -89,23 +89,29 @@ std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::stars_there(
   return there;
 }
 
-bool SurfaceNodeMove::go_to(const Point<3>& x, std::int32_t on) {
-  const Point<3> from = nodes_.position(change_.node);
-  std::vector<std::int32_t> centres{change_.node};
+void SurfaceNodeMove::go_to(const Point<3>& x, std::int32_t on) {
+  change_ = {change_.node, x, {}, {}, on};
   std::vector<Found> before, after;
-  for (const Point<3>& at : {from, x}) add_star(change_.node, at, before, &centres);
-  std::erase_if(centres,
+  centres_.assign(1, change_.node);
+  add_star(change_.node, nodes_.position(change_.node), before, &centres_);
+  add_star(change_.node, x, after, &centres_);
+  std::erase_if(centres_,
                 [&](std::int32_t i) {  // on the far side of a gap, far away within the body
                   return !std::binary_search(two_rings_.begin(), two_rings_.end(), i);
                 });
   stars_.for_neighbours(change_.node,
-                        [&](std::int64_t j) { centres.push_back(static_cast<std::int32_t>(j)); });
-  sort_unique(centres);
-  before.clear();
-  if (!make_stars(centres, from, before) || before != stars_there(centres)) return false;
-  if (!make_stars(centres, x, after)) return false;
-  change_.x = x;
-  change_.on = on;
+                        [&](std::int64_t j) { centres_.push_back(static_cast<std::int32_t>(j)); });
+  sort_unique(centres_);
+  there_ = stars_there(centres_);
+  for (const Found& t : there_) change_.gone.push_back(t.oriented);
+  for (const Found& t : after) change_.made.push_back(t.oriented);
+}
+
+bool SurfaceNodeMove::complete() {
+  std::vector<Found> before, after;
+  if (!make_stars(centres_, nodes_.position(change_.node), before) || before != there_)
+    return false;
+  if (!make_stars(centres_, change_.x, after)) return false;
   change_.gone.clear();
   change_.made.clear();
   const auto moves_along = [&](const Found& t) {

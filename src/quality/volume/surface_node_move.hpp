@@ -24,10 +24,13 @@ class SurfaceNodeMove {
   SurfaceNodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t node,
                   const InDomain& in_domain);
 
-  // To x on facet `on`. False if the stars made from the nodes around are not those that are
-  // there, or do not agree with each other.
-  bool go_to(const Point<3>& x, std::int32_t on);
+  // To x on facet `on`: the tetrahedra of its own star there, which are some of those made, and
+  // all that there are around it, among which are those gone.
+  void go_to(const Point<3>& x, std::int32_t on);
   const StarChange& change() const { return change_; }
+  // All those made, and none but those gone. False if the stars made from the nodes around are not
+  // those that are there, or do not agree with each other.
+  bool complete();
 
  private:
   struct Found {
@@ -51,6 +54,8 @@ class SurfaceNodeMove {
   const InDomain& in_domain_;
   // Nodes around the node, and itself: those in two rings have all their neighbours in three.
   std::vector<std::int32_t> two_rings_, near_;
+  std::vector<std::int32_t> centres_;  // of the stars that may change
+  std::vector<Found> there_;           // their tetrahedra
   StarChange change_;
 };
 
