@@ -146,6 +146,33 @@ START_TEST(few_nodes_are_found) {
 }
 END_TEST
 
+// What is surely none is none in every order, and most tetrahedra are told apart by it.
+START_TEST(surely_no_small_angles) {
+  Random random(2);
+  const pnpbs::SmallAngles small(35);
+  int none = 0, told = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    Corners x;
+    for (Point<3>& p : x) p = random.point<3>(unit_box<3>());
+    if (trial % 4 == 0)  // almost flat
+      for (Point<3>& p : x) p[2] *= std::pow(10.0, -random.between(0, 20));
+    std::array<int, 4> order{0, 1, 2, 3};
+    bool any = false, surely = false;
+    do {
+      Corners permuted;
+      for (std::size_t k = 0; k < 4; ++k) permuted[k] = x[static_cast<std::size_t>(order[k])];
+      any = any || small.any(permuted) || small.penalty(permuted) > 0;
+      surely = surely || small.surely_none(permuted);
+    } while (std::next_permutation(order.begin(), order.end()));
+    quick_assert(!(any && surely));
+    none += !any;
+    told += surely;
+  }
+  ck_assert_int_gt(none, 100);
+  ck_assert_int_ge(told, none - 2);
+}
+END_TEST
+
 // ------------------------------------------------------------------ one node goes --------------
 
 START_TEST(stars_follow_nodes) {
@@ -384,8 +411,8 @@ END_TEST
 
 int main() {
   return run_kernel_suite(
-      "slivers",
-      {known_angles, angles_of_any_tetrahedron, few_nodes_are_found, stars_follow_nodes,
-       no_sliver_is_left, stars_that_are_left, rounds_only_help, nodes_keep_off_where_they_must,
-       the_same_in_another_order, the_same_from_two_halves, sweeps_go_to_the_mean});
+      "slivers", {known_angles, angles_of_any_tetrahedron, few_nodes_are_found,
+                  surely_no_small_angles, stars_follow_nodes, no_sliver_is_left,
+                  stars_that_are_left, rounds_only_help, nodes_keep_off_where_they_must,
+                  the_same_in_another_order, the_same_from_two_halves, sweeps_go_to_the_mean});
 }

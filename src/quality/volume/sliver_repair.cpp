@@ -73,6 +73,7 @@ void SliverRepair::add_slivers_at(std::int64_t i, const Counts& counts,
                                   std::vector<TetrahedronNodes>& found) const {
   stars_.for_simplices_first_at(i, counts, [&](const TetrahedronNodes& t) {
     if (!stars_.any_movable(t)) return;
+    if (small_.surely_none(corners_of(t))) return;  // most have none
     const TetrahedronNodes ordered = stars_.by_id(t);
     if (is_sliver(ordered)) found.push_back(ordered);
   });
@@ -263,11 +264,15 @@ double SliverRepair::penalty(std::span<const TetrahedronNodes> tetrahedra, std::
   std::vector<std::pair<TetrahedronNodes, double>> penalised;
   for (const TetrahedronNodes& unordered : tetrahedra) {
     if (!stars_.any_movable(unordered)) continue;
+    const auto corners = [&](const TetrahedronNodes& t) {
+      std::array<Point<3>, 4> x = corners_of(t);
+      for (std::size_t k = 0; k < 4; ++k)
+        if (t[k] == node) x[k] = at;
+      return x;
+    };
+    if (penalised_.surely_none(corners(unordered))) continue;
     const TetrahedronNodes t = stars_.by_id(unordered);
-    std::array<Point<3>, 4> x = corners_of(t);
-    for (std::size_t k = 0; k < 4; ++k)
-      if (t[k] == node) x[k] = at;
-    const double own = penalised_.penalty(x);
+    const double own = penalised_.penalty(corners(t));
     if (own > 0) penalised.emplace_back(t, own);
   }
   std::sort(penalised.begin(), penalised.end(),

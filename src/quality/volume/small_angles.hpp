@@ -37,6 +37,30 @@ class SmallAngles {
     return found;
   }
 
+  // Surely none, in whatever order the corners come? Nearly as often as there is none; of thin
+  // tetrahedra that is not said.
+  bool surely_none(const std::array<Point<3>, 4>& x) const {
+    // With faces of this part of the longest edge's square, rounding changes cosines by less than
+    // 1e-10.
+    constexpr double kThin = 1e-6, kMargin = 1e-6;
+    const std::array<Point<3>, 4> normal = face_normals(x);
+    std::array<double, 4> square;
+    for (std::size_t f = 0; f < 4; ++f) square[f] = dot(normal[f], normal[f]);
+    double longest = 0;  // squared, of the edges at one corner: no edge is twice as long
+    for (std::size_t k = 1; k < 4; ++k) {
+      const Point<3> edge = difference(x[k], x[0]);
+      longest = std::max(longest, dot(edge, edge));
+    }
+    const double least = std::min({square[0], square[1], square[2], square[3]});
+    bool none = least > kThin * longest * longest && least * least > kTiny;
+    for (std::size_t f = 0; f < 4; ++f)
+      for (std::size_t g = f + 1; g < 4; ++g) {
+        const double product = -dot(normal[f], normal[g]), limit = square[f] * square[g];
+        none &= product <= 0 || product * product < (1 - kMargin) * surely_wide_ * limit;
+      }
+    return none;
+  }
+
   // The sum of the squares of what angles lack.
   double penalty(const std::array<Point<3>, 4>& x) const {
     double sum = 0;
