@@ -196,7 +196,7 @@ START_TEST(stars_follow_nodes) {
     far += move % 10 == 0;
     gone += std::ssize(attempt.change().gone);
     made += std::ssize(attempt.change().made);
-    changes.accept(attempt.change());
+    changes.accept({&attempt.change(), 1});
     nodes.set_position(i, x);
     if (move % 400 == 0)
       expect_delaunay(in_stars(s.b.nodes, changes), places_by_id(s.b.nodes), space);

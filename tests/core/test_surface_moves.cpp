@@ -191,7 +191,7 @@ START_TEST(stars_follow_nodes_on_surfaces) {
     } else {
       continue;
     }
-    changes.accept(change);
+    changes.accept({&change, 1});
     nodes.set_position(i, x);
   }
   ck_assert_int_gt(changed, 50);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/execution.hpp"
 #include "base/mixed_hash.hpp"
 #include "quality/volume/few_nodes.hpp"
 #include "tree/box_tree.hpp"
@@ -91,19 +92,17 @@ void SliverRepair::find_slivers() {
   for (const auto& some : found) slivers_.insert(slivers_.end(), some.begin(), some.end());
 }
 
-// Nodes have gone: the stars follow, and the slivers in these.
+// Nodes have gone, too far from each other to change the same stars (see winners): the stars
+// follow, and the slivers in these.
 void SliverRepair::accept(const std::vector<StarChange>& changes) {
-  std::vector<std::int32_t> affected;
+  const std::vector<std::vector<std::int32_t>> affected = stars_.accept(changes);
   for (const StarChange& change : changes) {
-    const std::vector<std::int32_t> more = stars_.accept(change);
-    affected.insert(affected.end(), more.begin(), more.end());
     nodes_.set_position(change.node, change.x);
     if (change.on >= 0) nodes_.boundary_node(change.node) = change.on;
   }
-  std::sort(affected.begin(), affected.end());
-  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
   const auto mark = [&](char as) {
-    for (const std::int32_t i : affected) is_affected_[static_cast<std::size_t>(i)] = as;
+    for (const auto& some : affected)
+      for (const std::int32_t i : some) is_affected_[static_cast<std::size_t>(i)] = as;
   };
   const auto is_affected = [&](std::int32_t i) {
     return is_affected_[static_cast<std::size_t>(i)] != 0;
@@ -112,7 +111,12 @@ void SliverRepair::accept(const std::vector<StarChange>& changes) {
   std::erase_if(slivers_, [&](const TetrahedronNodes& sliver) {
     return std::any_of(sliver.begin(), sliver.end(), is_affected);
   });
-  for (const std::int32_t i : affected) add_slivers_at(i, is_affected, slivers_);
+  std::vector<std::vector<TetrahedronNodes>> found(affected.size());
+  for_each_guarded("pnpbs::SliverRepair::accept", std::ssize(affected), [&](std::int64_t c) {
+    const auto k = static_cast<std::size_t>(c);
+    for (const std::int32_t i : affected[k]) add_slivers_at(i, is_affected, found[k]);
+  });
+  for (const auto& some : found) slivers_.insert(slivers_.end(), some.begin(), some.end());
   mark(0);
 }
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/execution.hpp"
 #include "quality/volume/few_nodes.hpp"
 
 namespace pnpbs {
@@ -19,6 +20,16 @@ StarChanges::Corners others(const TetrahedronNodes& t, std::int32_t i) {
   if (t[1] == i) return {t[0], t[3], t[2]};
   if (t[2] == i) return {t[0], t[1], t[3]};
   return {t[0], t[2], t[1]};
+}
+
+// Of its tetrahedra, each once.
+std::vector<std::int32_t> corners_of(const StarChange& change) {
+  std::vector<std::int32_t> corners;
+  for (const auto* tetrahedra : {&change.gone, &change.made})
+    for (const TetrahedronNodes& t : *tetrahedra) corners.insert(corners.end(), t.begin(), t.end());
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
 }
 
 }  // namespace
@@ -96,23 +107,28 @@ void StarChanges::write_to(VolumeStars& stars) const {
   });
 }
 
-std::vector<std::int32_t> StarChanges::accept(const StarChange& change) {
-  std::vector<std::int32_t> affected;
-  for (const auto* tetrahedra : {&change.gone, &change.made})
-    for (const TetrahedronNodes& t : *tetrahedra)
-      affected.insert(affected.end(), t.begin(), t.end());
-  std::sort(affected.begin(), affected.end());
-  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
-  for (const std::int32_t i : affected) {
-    Star star = star_after(i, change);
-    std::int32_t& place = place_[static_cast<std::size_t>(i)];
-    if (place == kUnchanged) {
-      place = static_cast<std::int32_t>(changed_.size());
-      changed_.push_back(std::move(star));
-    } else {
-      changed_[static_cast<std::size_t>(place)] = std::move(star);
-    }
+void StarChanges::put(std::int32_t i, Star star) {
+  std::int32_t& place = place_[static_cast<std::size_t>(i)];
+  if (place == kUnchanged) {
+    place = static_cast<std::int32_t>(changed_.size());
+    changed_.push_back(std::move(star));
+  } else {
+    changed_[static_cast<std::size_t>(place)] = std::move(star);
   }
+}
+
+// No star depends on more than one of the changes, so all are found at once.
+std::vector<std::vector<std::int32_t>> StarChanges::accept(std::span<const StarChange> changes) {
+  std::vector<std::vector<std::int32_t>> affected(changes.size());
+  std::vector<std::vector<Star>> after(changes.size());
+  for_each_guarded("pnpbs::StarChanges::accept", std::ssize(changes), [&](std::int64_t c) {
+    const auto k = static_cast<std::size_t>(c);
+    affected[k] = corners_of(changes[k]);
+    for (const std::int32_t i : affected[k]) after[k].push_back(star_after(i, changes[k]));
+  });
+  for (std::size_t k = 0; k < changes.size(); ++k)
+    for (std::size_t a = 0; a < affected[k].size(); ++a)
+      put(affected[k][a], std::move(after[k][a]));
   return affected;
 }
 

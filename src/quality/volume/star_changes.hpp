@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/nodes.hpp"
@@ -93,8 +94,9 @@ class StarChanges {
   TetrahedronNodes by_id(TetrahedronNodes corners) const;
   bool ids_less(const TetrahedronNodes& a, const TetrahedronNodes& b) const;
 
-  // The node has gone there. Returns the nodes whose stars have changed.
-  std::vector<std::int32_t> accept(const StarChange& change);
+  // The nodes have gone there. Of two such changes no tetrahedra have a corner in common. Returns,
+  // of each, the nodes whose stars have changed.
+  std::vector<std::vector<std::int32_t>> accept(std::span<const StarChange> changes);
 
   // Puts the stars that have changed in place of those made before, which these are.
   void write_to(VolumeStars& stars) const;
@@ -108,6 +110,7 @@ class StarChanges {
   static constexpr std::int32_t kUnchanged = -1;
 
   Star star_after(std::int32_t i, const StarChange& change) const;
+  void put(std::int32_t i, Star star);
   void write_in_order(const Star& star, std::vector<std::int32_t>& out) const;
 
   const Nodes<3>& nodes_;
