@@ -101,6 +101,37 @@ START_TEST(first_facets_on_the_way) {
 }
 END_TEST
 
+// Against all facets, to the bit: far away and near, on facets, and where these are needles.
+START_TEST(nearest_points) {
+  Random random(5);
+  for (const double thin : {1.0, 1e-5}) {
+    surfaces::Surface s = surfaces::sphere(3, 900);
+    s.unit = 0x1p-10;
+    pnpbs::BoundaryMesh<3> mesh;
+    s.add_to(mesh, pnpbs::SurfaceRole::boundary);
+    for (pnpbs::BoundaryNode<3>& node : mesh.nodes) node.position[1] *= thin;
+    const pnpbs::SurfaceIndex index(mesh, s.bounds());
+    for (int n = 0; n < 500; ++n) {
+      P x = random.point<3>(s.bounds());
+      x[1] *= thin;
+      const P on = index.nearest(x, 1e3).x;
+      const double part = n % 3 == 0 ? 0 : std::pow(10, -random.between(0, 14));
+      x = pnpbs::shifted(on, part, pnpbs::difference(x, on));
+      const double reach = n % 2 == 0 ? 1e3 : std::pow(10, -random.between(0, 6));
+      pnpbs::NearestPoint<3> expected{reach};
+      for (std::int32_t f = 0; f < std::ssize(mesh.facets); ++f) {
+        const P q = pnpbs::nearest_on(index.sides().corners(f), x);
+        const double gap = pnpbs::distance<3>(q, x);
+        if (gap < expected.gap) expected = {gap, f, q};
+      }
+      const pnpbs::NearestPoint<3> found = index.nearest(x, reach);
+      quick_assert(found.facet == expected.facet && found.gap == expected.gap);
+      quick_assert(found.x == expected.x);
+    }
+  }
+}
+END_TEST
+
 // Half of its thickness on both of its sides, and more in the middle.
 START_TEST(a_plate) {
   constexpr double kThick = 0.06;
@@ -182,6 +213,7 @@ START_TEST(walls_too_thin) {
 END_TEST
 
 int main() {
-  return run_kernel_suite("resolved spacing", {limits_of_many_sources, first_facets_on_the_way,
-                                               a_plate, a_gap, a_block, a_wedge, walls_too_thin});
+  return run_kernel_suite("resolved spacing",
+                          {limits_of_many_sources, first_facets_on_the_way, nearest_points, a_plate,
+                           a_gap, a_block, a_wedge, walls_too_thin});
 }

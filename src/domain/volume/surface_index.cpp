@@ -2,6 +2,7 @@
 #include "domain/volume/surface_index.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -36,6 +37,24 @@ FacetIndex<3> index_sides(const BoundaryMesh<3>& mesh, const Box<3>& bounds) {
   return FacetIndex<3>(std::move(tree), facets);
 }
 
+double farthest_coordinate(const Box<3>& box) {
+  double farthest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    farthest = std::max({farthest, std::fabs(box.low[k]), std::fabs(box.high[k])});
+  return farthest;
+}
+
+// Is the triangle's plane surely farther from x than that? No is said, too, where rounding matters.
+bool plane_is_beyond(const FacetCorners<3>& triangle, const Point<3>& x, double reach) {
+  constexpr double kTiny = 1e-10;  // a square no smaller is right to 1e-9
+  const auto& [a, b, c] = triangle;
+  const Point<3> ab = difference(b, a), ac = difference(c, a), ax = difference(x, a);
+  const Point<3> normal = cross(ab, ac);
+  const double volume = dot(normal, ax), square = volume * volume;
+  return square > kTiny * dot(ab, ab) * dot(ac, ac) * dot(ax, ax) &&
+         square > reach * reach * dot(normal, normal);
+}
+
 }  // namespace
 
 SurfaceIndex::SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds)
@@ -50,10 +69,13 @@ SurfaceIndex::SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds)
 
 NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
   constexpr double kRounding = 1 + 1e-12;  // lest one equally near is missed
+  constexpr double kSurely = 1 + 1e-8;
+  const double room = 1e-12 * farthest_coordinate(sides_.tree().cell_box(0));  // for rounding
   NearestPoint<3> best{reach};
   boxes_.for_near(
       x, [&] { return kRounding * best.gap * best.gap; },
       [&](std::int32_t f) {
+        if (plane_is_beyond(sides_.corners(f), x, kSurely * best.gap + room)) return;
         const Point<3> q = nearest_on(sides_.corners(f), x);
         const double gap = distance<3>(q, x);
         if (gap < best.gap || (gap == best.gap && f < best.facet)) best = {gap, f, q};
