@@ -122,7 +122,7 @@ bool begins_as_text(std::string_view bytes) {
 [[noreturn]] void fail_as_binary(std::string_view bytes, std::size_t count,
                                  const std::string& name) {
   const std::string what =
-      begins_as_text(bytes)
+      begins_as_text(bytes.substr(0, bytes.find('\0')))
           ? ": is binary, though its header begins with 'solid' as text does (a zero byte comes "
             "in it), and "
           : ": does not begin with 'solid' as text does, and as a binary file ";
