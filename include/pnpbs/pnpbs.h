@@ -655,7 +655,7 @@ PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int6
  *  some thousand places (where its growth is limited, in as many as by the run), no inner node is
  *  made, and the nodes there are stay as they are.
  *  Collective; outputs may be NULL. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
- *  @param[out] nodes    on all ranks, in the plane mostly within one percent, in space some
+ *  @param[out] nodes    on all ranks: in the plane mostly within one percent, in space five
  *  @param[out] bytes    memory of each process, for the run alone
  *  @param[out] seconds  roughly: by what a core of a present server does, times the threads of all
  *                       ranks */
@@ -1093,7 +1093,8 @@ PNPBS_API pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placemen
  * = changed, by this call, which tells them as a warning: then a run that its step limit ended goes
  * on if it is given more steps, and one that is at its end begins again from its nodes if other
  * options are set. Those that decide on no node (threads, exchange_interval, rebalance_above,
- * metis_seed, adjacency_radius, max_nodes, max_memory, restart_options) are free. After an error the placement is as it was. Collective. Errors:
+ * metis_seed, adjacency_radius, max_nodes, max_memory, restart_options) are free. After an error
+ * the placement is as it was. Collective. Errors:
  * PNPBS_ERROR_FILE naming the file if it is damaged, no checkpoint, or of a newer format;
  *  PNPBS_ERROR_DOMAIN, PNPBS_ERROR_SPACING (with the first place found) or PNPBS_ERROR_ARGUMENT
  *  (other options, or the other dimension) if it is of another run; PNPBS_ERROR_UNSUPPORTED if the

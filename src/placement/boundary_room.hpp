@@ -26,9 +26,10 @@ class BoundaryRoom {
 
   double reach() const { return reach_; }
 
-  // In the plane: how far nodes of the boundary act, in d. Measured, like kEnough, over runs with
-  // 160 to 160 000 nodes in square, ring and lakes, d even and graded 1:30, edges of the boundary
-  // from d down to a tenth of it (tests/bench/node_count_study.py).
+  // In the plane: how far nodes of the boundary act, in d. Fitted, like kEnough, to the inner nodes
+  // of runs with 160 to 160 000 nodes in square, ring and lakes, d even and graded 1:30, edges of
+  // the boundary from d down to a tenth of it. tests/bench/node_count_study.py tells how near
+  // numbers of nodes come with it.
   static constexpr double kPlaneReach = 1.35;
 
  private:

@@ -2,6 +2,7 @@
 #include "spacing/growth_leaves.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <tuple>
@@ -102,18 +103,20 @@ void GrowthLeaves<Dim>::look_at_domain(GrowthLeaf<Dim>& leaf) const {
   if (leaf.placed) leaf.place = points.front();
 }
 
-// A lattice as dense as the nodes that the least d of the leaf asks for.
+// As many as the nodes that the least d of the leaf asks for. They come from the additive
+// recurrence by powers of the root of r^4 = r + 1 (M. Roberts, "The unreasonable effectiveness of
+// quasirandom sequences", 2018): no two lie in a plane that is parallel to sides, as layers may be.
 template <int Dim>
 void GrowthLeaves<Dim>::add_probes(const GrowthLeaf<Dim>& leaf,
                                    std::vector<Point<Dim>>& points) const {
-  constexpr double kMaxInRow = DomainMap<Dim>::kLeafSpacings;
-  const auto in_row =
-      static_cast<int>(std::clamp(std::ceil(side_of(leaf.cell) / leaf.min), 1.0, kMaxInRow));
-  const int layers = Dim == 3 ? in_row : 1;
-  for (int k = 0; k < layers * in_row * in_row; ++k) {
+  constexpr std::array<double, 3> kSteps = {0.8191725133961645, 0.6710436067037893,
+                                            0.5497004779019703};
+  const double in_row =
+      std::min(std::ceil(side_of(leaf.cell) / leaf.min), DomainMap<Dim>::kLeafSpacings);
+  for (int k = 1; k <= static_cast<int>(power<Dim>(in_row)); ++k) {
     Point<Dim> fraction;
-    for (int axis = 0, rest = k; axis < Dim; ++axis, rest /= in_row)
-      fraction[axis] = (rest % in_row + 0.5) / in_row;
+    for (std::size_t axis = 0; axis < Dim; ++axis)
+      fraction[axis] = k * kSteps[axis] - std::floor(k * kSteps[axis]);
     const Point<Dim> x = point_in<Dim>(box_of(leaf.cell), fraction);
     if (leaf.side == GrowthLeaf<Dim>::Side::inside || ways_.inside(x)) points.push_back(x);
   }
@@ -150,7 +153,7 @@ void GrowthLeaves<Dim>::take_range(const Samples& samples) {
     GrowthLeaf<Dim>& leaf = leaves_[samples.leaves[k]];
     const auto [min, max] = std::minmax_element(samples.d.data() + samples.first[k],
                                                 samples.d.data() + samples.first[k + 1]);
-    leaf.min = leaf.has_dip ? std::min(*min, leaf.source.d) : *min;
+    leaf.min = *min;
     leaf.max = *max;
   }
 }
@@ -240,6 +243,34 @@ bool GrowthLeaves<Dim>::fit(const SpacingEvaluator<Dim>& limited) {
   return comm_.allreduce_max(any) > 0;
 }
 
+// Where d is that much below the limit that is known so far; of very many places, the finest. The
+// same on all ranks. Collective.
+template <int Dim>
+std::vector<Point<Dim>> dips_over_ranks(const Communicator& comm, const std::vector<Point<Dim>>& x,
+                                        const std::vector<double>& d,
+                                        const std::vector<double>& limits) {
+  constexpr double kDip = 0.75;  // one source stands for a leaf: limits are a third too high there
+  constexpr std::size_t kMaxDips = 1 << 16;
+  std::vector<GrowthSource<Dim>> dips;
+  const auto keep_finest = [&] {
+    std::ranges::sort(dips, {},
+                      [](const GrowthSource<Dim>& dip) { return std::tie(dip.d, dip.x); });
+    if (dips.size() > kMaxDips) dips.resize(kMaxDips);
+  };
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (d[k] < kDip * limits[k]) dips.push_back({x[k], d[k]});
+  keep_finest();
+  Bytes mine;
+  for (const GrowthSource<Dim>& dip : dips) pack(mine, dip);
+  dips.clear();
+  for_records<GrowthSource<Dim>>({comm.allgather(mine)},
+                                 [&](const GrowthSource<Dim>& dip) { dips.push_back(dip); });
+  keep_finest();
+  std::vector<Point<Dim>> places;
+  for (const GrowthSource<Dim>& dip : dips) places.push_back(dip.x);
+  return places;
+}
+
 template <int Dim>
 bool GrowthLeaves<Dim>::find_dips(const SpacingEvaluator<Dim>& raw,
                                   const SpacingEvaluator<Dim>& limited) {
@@ -251,26 +282,29 @@ bool GrowthLeaves<Dim>::find_dips(const SpacingEvaluator<Dim>& raw,
   std::vector<double> limits(probes.x.size());
   raw(std::ssize(probes.x), probes.x.data(), probes.d.data());
   limited(std::ssize(probes.x), probes.x.data(), limits.data());
-  const bool any = comm_.allreduce_max(take_dips(probes, limits)) > 0;
-  if (any) refine(raw, {});
-  return any;
+  for (GrowthLeaf<Dim>& leaf : leaves_) leaf.probed = true;
+  const std::vector<Point<Dim>> dips = dips_over_ranks<Dim>(comm_, probes.x, probes.d, limits);
+  if (dips.empty()) return false;
+  take_places(dips);
+  refine(raw, {});
+  return true;
 }
 
-// The deepest of each leaf becomes its source.
+// More places at which d is sampled: the leaves that have them may have to be split.
 template <int Dim>
-bool GrowthLeaves<Dim>::take_dips(const Samples& probes, const std::vector<double>& limits) {
-  constexpr double kDip = 0.75;  // one source stands for a leaf: limits are a third too high there
-  bool any = false;
-  for (std::size_t k = 0; k < probes.leaves.size(); ++k) {
-    GrowthLeaf<Dim>& leaf = leaves_[probes.leaves[k]];
-    leaf.probed = true;
-    for (std::size_t s = probes.first[k]; s < probes.first[k + 1]; ++s) {
-      if (probes.d[s] >= kDip * limits[s] || probes.d[s] >= leaf.source.d) continue;
-      leaf.source = {probes.x[s], probes.d[s]};
-      leaf.has_dip = leaf.open = any = true;
-    }
+void GrowthLeaves<Dim>::take_places(const std::vector<Point<Dim>>& places) {
+  places_.insert(places_.end(), places.begin(), places.end());
+  nodes_.clear();
+  fine_of_nodes_.clear();
+  sort_nodes();
+  for (GrowthLeaf<Dim>& leaf : leaves_) {
+    if (leaf.outside()) continue;
+    const std::int64_t of_boundary = ways_.node_count();
+    for_nodes_in(leaf.cell, [&](std::int64_t n) {
+      leaf.has_nodes = true;
+      leaf.open = leaf.open || n >= of_boundary;
+    });
   }
-  return any;
 }
 
 template <int Dim>
@@ -327,10 +361,7 @@ void GrowthLeaves<Dim>::split(const GrowthLeaf<Dim>& leaf,
     child.cell = leaf.cell.child(k);
     child.fresh = true;
     child.probed = false;
-    if (!child.cell.holds(fine_of_source)) {
-      child.source = {};
-      child.has_dip = false;
-    }
+    if (!child.cell.holds(fine_of_source)) child.source = {};
     look_at_domain(child);
     next.push_back(child);
   }

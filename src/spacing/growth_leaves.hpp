@@ -27,7 +27,6 @@ struct GrowthLeaf {
   bool fresh = true;         // no source has been looked for in it
   bool has_nodes = true;     // of the boundary, or fixed ones, or places
   bool probed = false;       // for dips of d between the samples
-  bool has_dip = false;      // there is one, and it is the source
   bool placed = false;       // is there a place in the domain that stands for it?
   Point<Dim> place{};        // its middle where that is inside
   GrowthSource<Dim> source;  // of the samples in it, the one that limits d there the most
@@ -76,7 +75,7 @@ class GrowthLeaves {
   Samples samples_in(const Wanted& wanted, const Add& add) const;
   template <class Wanted>
   Samples samples_in(const Wanted& wanted) const;
-  bool take_dips(const Samples& probes, const std::vector<double>& limits);
+  void take_places(const std::vector<Point<Dim>>& places);
   void add_probes(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
   void add_points(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
   double side_of(const LeafCell<Dim>& cell) const;
