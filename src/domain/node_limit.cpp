@@ -36,11 +36,11 @@ void NodeLimit::report_too_many(double nodes, double d, const std::string& place
                   about_resolve(*this));
 }
 
-void NodeLimit::require_memory_for(double nodes, double bytes_per_node) const {
+void NodeLimit::require_memory_for(double nodes, double bytes_per_node, const char* name) const {
   const double bytes = bytes_per_node * nodes;
   if (bytes <= max_bytes) return;
   throw Error(ErrorKind::memory,
-              "about " + number_text(std::round(nodes)) + " nodes or more would need " +
+              "about " + number_text(std::round(nodes)) + " " + name + " or more would need " +
                   bytes_text(bytes) + " of memory, and " + bytes_text(max_bytes) +
                   " are there for them: use a larger spacing or more machines; the option "
                   "max_memory = 0 switches this check off" +

@@ -19,7 +19,9 @@ struct NodeLimit {
   // Throws Error(ErrorKind::spacing): there would be so many, and d is least near that place.
   [[noreturn]] void report_too_many(double nodes, double d, const std::string& place) const;
   // Throws Error(ErrorKind::memory) if so many nodes, and all that is kept of them, would not fit.
-  void require_memory_for(double nodes, double bytes_per_node = kBytesPerNode) const;
+  // So of anything else that is made for them, if it is named.
+  void require_memory_for(double nodes, double bytes_per_node = kBytesPerNode,
+                          const char* name = "nodes") const;
 
   std::int64_t max_nodes;  // more are taken for a mistake in d
   double max_bytes;        // of memory, on all ranks together

@@ -23,11 +23,12 @@ namespace {
 
 constexpr std::int64_t kMaxNodes = 1'000'000;
 
-std::vector<SurfacePoint> fill(const SurfaceCase& c, const Spacing& d) {
+std::vector<SurfacePoint> fill(const SurfaceCase& c, const Spacing& d,
+                               const pnpbs::NodeLimit& limit = kMaxNodes) {
   static const auto comm = pnpbs::serial_communicator();
   pnpbs::BackgroundTree<3> one_cell;
   one_cell.build(c.bounds(), [](const auto&, std::int32_t, std::int32_t, std::vector<char>&) {});
-  return surface_fill(*comm, c.surface, space_shapes::evaluator_of(d), kMaxNodes,
+  return surface_fill(*comm, c.surface, space_shapes::evaluator_of(d), limit,
                       {one_cell, [](std::int32_t) { return true; }});
 }
 
@@ -186,11 +187,25 @@ START_TEST(test_too_many) {
 }
 END_TEST
 
+// A needle is cut into far more pieces than the nodes that fit into it.
+START_TEST(test_needle_takes_memory) {
+  space_shapes::Shape needle;
+  needle.nodes = {{0, 0, 0}, {100, 0, 0}, {0, 1e-3, 0}};
+  needle.triangles = {{0, 1, 2}};
+  const SurfaceCase c(needle.mesh());
+  const Spacing d = [](const P&) { return 0.1; };
+  ck_assert_uint_lt(fill(c, d).size(), 100);
+  expect_error(pnpbs::ErrorKind::memory, {"pieces of the surface", "of memory, and"}, [&] {
+    fill(c, d, {kMaxNodes, 1e6});
+  });
+}
+END_TEST
+
 }  // namespace
 
 int main() {
-  return run_suite("surface_fill",
-                   {test_density_on_a_ball, test_closed_patch_has_nodes, test_lattice_on_a_cube,
-                    test_lattice_follows_the_longest_edge, test_mixed_patches,
-                    test_repeats_to_the_bit, test_one_facet, test_too_many});
+  return run_suite("surface_fill", {test_density_on_a_ball, test_closed_patch_has_nodes,
+                                    test_lattice_on_a_cube, test_lattice_follows_the_longest_edge,
+                                    test_mixed_patches, test_repeats_to_the_bit, test_one_facet,
+                                    test_too_many, test_needle_takes_memory});
 }

@@ -22,7 +22,11 @@ namespace {
 
 constexpr double kMaxEdge = 1.25;  // of a piece, in units of d: an equilateral one has 0.8 nodes
 constexpr std::int64_t kBatch = 1 << 16;  // points asked in one call
+constexpr double kMaxThatAddUp = 9e18;    // on all ranks together, as 64 bits hold
 constexpr double kMinClosed = 4;          // nodes of a closed patch
+constexpr double kNeedlePower = 1.585;    // log2 3: of two halves of a needle one is as long as it
+constexpr double kBytesPerPiece =
+    2 * sizeof(SurfacePiece) + 4 * sizeof(FacetCorners<3>);  // while it is cut, and sorted
 // Nodes are counted in these: their sum may be a few times what there may be before it is found to
 // be too large, and must be a number then, too (see fixed_point).
 constexpr double kCounted = 16;
@@ -134,6 +138,7 @@ class Cutter {
     const std::vector<double> d = spacing_at(centres, batches);
     std::vector<Triangle> halves;
     std::int64_t pending = 0;
+    double pieces = 0;  // of this rank's: at least
     for (std::size_t n = 0; n < open.size(); ++n) {
       least_.add({d[n], centres[n]});
       const std::int32_t cell = cells_.tree.leaf_at(centres[n]);
@@ -143,12 +148,18 @@ class Cutter {
       if (longest.length > kMaxEdge * local) {
         // Where d grows from here on, there may be few nodes after all, but some.
         if (own) pending += counted(0.25 * std::min(1.0, nodes_in(open[n].area(), local)));
+        if (own) pieces += std::pow(longest.length / (kMaxEdge * local), kNeedlePower);
         halve(open[n], longest.k, halves);
       } else if (own) {
         add({{open[n].facet, centres[n]}, cell, open[n].area(), local});
       }
     }
     require_few_enough(pending);
+    // Needles have many pieces and few nodes.
+    const std::uint64_t all_pieces = comm_.allreduce_sum(
+        static_cast<std::uint64_t>(std::min(pieces, kMaxThatAddUp / comm_.size())));
+    limit_.require_memory_for(static_cast<double>(all_pieces), kBytesPerPiece,
+                              "pieces of the surface");
     return halves;
   }
 
