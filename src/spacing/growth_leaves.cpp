@@ -9,6 +9,7 @@
 
 #include "base/lattice.hpp"
 #include "base/point_text.hpp"
+#include "spacing/dips.hpp"
 #include "spacing/domain_map.hpp"
 #include "tree/cell_samples.hpp"
 
@@ -241,34 +242,6 @@ bool GrowthLeaves<Dim>::fit(const SpacingEvaluator<Dim>& limited) {
     any = split_open(0) || any;
   }
   return comm_.allreduce_max(any) > 0;
-}
-
-// Where d is that much below the limit that is known so far; of very many places, the finest. The
-// same on all ranks. Collective.
-template <int Dim>
-std::vector<Point<Dim>> dips_over_ranks(const Communicator& comm, const std::vector<Point<Dim>>& x,
-                                        const std::vector<double>& d,
-                                        const std::vector<double>& limits) {
-  constexpr double kDip = 0.75;  // one source stands for a leaf: limits are a third too high there
-  constexpr std::size_t kMaxDips = 1 << 16;
-  std::vector<GrowthSource<Dim>> dips;
-  const auto keep_finest = [&] {
-    std::ranges::sort(dips, {},
-                      [](const GrowthSource<Dim>& dip) { return std::tie(dip.d, dip.x); });
-    if (dips.size() > kMaxDips) dips.resize(kMaxDips);
-  };
-  for (std::size_t k = 0; k < x.size(); ++k)
-    if (d[k] < kDip * limits[k]) dips.push_back({x[k], d[k]});
-  keep_finest();
-  Bytes mine;
-  for (const GrowthSource<Dim>& dip : dips) pack(mine, dip);
-  dips.clear();
-  for_records<GrowthSource<Dim>>({comm.allgather(mine)},
-                                 [&](const GrowthSource<Dim>& dip) { dips.push_back(dip); });
-  keep_finest();
-  std::vector<Point<Dim>> places;
-  for (const GrowthSource<Dim>& dip : dips) places.push_back(dip.x);
-  return places;
 }
 
 template <int Dim>

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dips of d between the places where it was sampled.
+#pragma once
+
+#include <vector>
+
+#include "base/types.hpp"
+#include "comm/communicator.hpp"
+
+namespace pnpbs {
+
+// Of the places x of all ranks those where d is far below the limit that its growth has as far as
+// it is known; of very many, the finest. The same on all ranks. Collective.
+template <int Dim>
+std::vector<Point<Dim>> dips_over_ranks(const Communicator& comm, const std::vector<Point<Dim>>& x,
+                                        const std::vector<double>& d,
+                                        const std::vector<double>& limits);
+
+extern template std::vector<Point<2>> dips_over_ranks<2>(const Communicator&,
+                                                         const std::vector<Point<2>>&,
+                                                         const std::vector<double>&,
+                                                         const std::vector<double>&);
+extern template std::vector<Point<3>> dips_over_ranks<3>(const Communicator&,
+                                                         const std::vector<Point<3>>&,
+                                                         const std::vector<double>&,
+                                                         const std::vector<double>&);
+
+}  // namespace pnpbs
