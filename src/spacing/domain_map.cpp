@@ -2,6 +2,7 @@
 #include "spacing/domain_map.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "base/error.hpp"
@@ -86,6 +87,7 @@ class DomainMap<Dim>::Growth {
   bool wholly_inside(std::int32_t c) const { return !facets_->outside(c) && !facets_->crossed(c); }
   double min_nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const;
   void add_boundary_samples(const Box<Dim>& box, std::int32_t c, std::vector<double>& values) const;
+  Point<Dim> nearest_of_facets(std::int32_t c, const Point<Dim>& x) const;
   void take_samples(const std::vector<double>& values, CellState& cell) const;
   void expect_known(const Box<Dim>& box, CellState& cell) const;
   bool holds_many_boundary_nodes(const BackgroundTree<Dim>& tree, std::int32_t c) const;
@@ -117,6 +119,11 @@ void DomainMap<Dim>::Growth::sample(const BackgroundTree<Dim>& tree, std::int32_
   for (std::int32_t c = first; c < last; ++c) {
     if (facets_->outside(c)) continue;
     for (std::size_t k = 0; k < kSamples.size(); ++k) add_samples(tree, c, kSamples[k], k, points);
+    if (!samples_suffice<Dim>(points.size() - owner.size()))
+      add_samples_of_boundary<Dim>(
+          tree.cell_box(c),
+          [&](const Point<Dim>& x) { return !surfaces_alone_ && facets_->inside(c, x); },
+          [&](const Point<Dim>& x) { return nearest_of_facets(c, x); }, points);
     owner.resize(points.size(), c);
   }
   std::vector<double> d(points.size());
@@ -157,6 +164,19 @@ void DomainMap<Dim>::Growth::add_samples(const BackgroundTree<Dim>& tree, std::i
 }
 
 template <int Dim>
+Point<Dim> DomainMap<Dim>::Growth::nearest_of_facets(std::int32_t c, const Point<Dim>& x) const {
+  Point<Dim> nearest{};
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::int32_t f : facets_->facets(c)) {
+    const Point<Dim> y = nearest_on(facets_->corners()[static_cast<std::size_t>(f)], x);
+    if (distance<Dim>(x, y) >= least) continue;
+    least = distance<Dim>(x, y);
+    nearest = y;
+  }
+  return nearest;
+}
+
+template <int Dim>
 void DomainMap<Dim>::Growth::add_boundary_samples(const Box<Dim>& box, std::int32_t c,
                                                   std::vector<double>& values) const {
   for (const std::int32_t f : facets_->facets(c))
@@ -168,7 +188,7 @@ void DomainMap<Dim>::Growth::add_boundary_samples(const Box<Dim>& box, std::int3
 template <int Dim>
 void DomainMap<Dim>::Growth::take_samples(const std::vector<double>& values,
                                           CellState& cell) const {
-  if (values.empty()) return;  // a sliver of the domain: what the parent cell has must do
+  if (values.empty()) return;  // in the plane: what the parent cell has must do
   cell.min = values[0];
   cell.max = values[0];
   double sum = 0;

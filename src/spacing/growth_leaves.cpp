@@ -84,6 +84,14 @@ void GrowthLeaves<Dim>::add_points(const GrowthLeaf<Dim>& leaf,
 }
 
 template <int Dim>
+std::size_t GrowthLeaves<Dim>::samples_inside(const LeafCell<Dim>& cell) const {
+  static constexpr auto kSamples = cell_samples<Dim>();
+  return static_cast<std::size_t>(std::ranges::count_if(kSamples, [&](const Point<Dim>& sample) {
+    return ways_.inside(point_in<Dim>(box_of(cell), sample));
+  }));
+}
+
+template <int Dim>
 void GrowthLeaves<Dim>::look_at_domain(GrowthLeaf<Dim>& leaf) const {
   using Side = typename GrowthLeaf<Dim>::Side;
   if (leaf.side == Side::crossed) leaf.side = ways_.side_of(box_of(leaf.cell));
@@ -97,6 +105,7 @@ void GrowthLeaves<Dim>::look_at_domain(GrowthLeaf<Dim>& leaf) const {
   }
   leaf.place = middle_of<Dim>(box_of(leaf.cell));
   leaf.placed = true;
+  leaf.sliver = leaf.side == Side::crossed && !samples_suffice<Dim>(samples_inside(leaf.cell));
   if (leaf.side == Side::inside || ways_.inside(leaf.place)) return;
   std::vector<Point<Dim>> points;
   add_points(leaf, points);
@@ -146,7 +155,6 @@ typename GrowthLeaves<Dim>::Samples GrowthLeaves<Dim>::samples_in(const Wanted& 
   return samples;
 }
 
-// A sliver of the domain without samples keeps what the leaf it comes from has.
 template <int Dim>
 void GrowthLeaves<Dim>::take_range(const Samples& samples) {
   for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
@@ -156,6 +164,35 @@ void GrowthLeaves<Dim>::take_range(const Samples& samples) {
                                                 samples.d.data() + samples.first[k + 1]);
     leaf.min = *min;
     leaf.max = *max;
+  }
+}
+
+// Of open leaves with few samples inside: all that add_points() tells, and points of the boundary.
+template <int Dim>
+typename GrowthLeaves<Dim>::Samples GrowthLeaves<Dim>::samples_in_slivers() const {
+  return samples_in(
+      [](const GrowthLeaf<Dim>& leaf) { return leaf.open && leaf.sliver; },
+      [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
+        const double reach = Dim * side_of(leaf.cell);
+        add_points(leaf, points);
+        add_samples_of_boundary<Dim>(
+            box_of(leaf.cell), [this](const Point<Dim>& x) { return ways_.inside(x); },
+            [&](const Point<Dim>& x) { return ways_.nearest_of_boundary(x, reach); }, points);
+      });
+}
+
+// The nearest of each leaf's points in its cell.
+template <int Dim>
+void GrowthLeaves<Dim>::move_into_cells(Samples& samples) const {
+  constexpr double kFromFace = 1e-9;  // in sides
+  for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
+    const Box<Dim> box = box_of(leaves_[samples.leaves[k]].cell);
+    for (std::size_t s = samples.first[k]; s < samples.first[k + 1]; ++s)
+      for (int axis = 0; axis < Dim; ++axis) {
+        const double room = kFromFace * (box.high[axis] - box.low[axis]);
+        samples.x[s][axis] =
+            std::clamp(samples.x[s][axis], box.low[axis] + room, box.high[axis] - room);
+      }
   }
 }
 
@@ -221,6 +258,9 @@ void GrowthLeaves<Dim>::refine(const SpacingEvaluator<Dim>& raw,
     Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; });
     raw(std::ssize(samples.x), samples.x.data(), samples.d.data());
     take_range(samples);
+    Samples in_slivers = samples_in_slivers();
+    raw(std::ssize(in_slivers.x), in_slivers.x.data(), in_slivers.d.data());
+    take_range(in_slivers);
     if constexpr (Dim == 3) look_beside(raw);
     expect_known(samples, expected);
     take_sources(samples);
@@ -238,6 +278,10 @@ bool GrowthLeaves<Dim>::fit(const SpacingEvaluator<Dim>& limited) {
     Samples samples = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; });
     limited(std::ssize(samples.x), samples.x.data(), samples.d.data());
     take_range(samples);
+    Samples in_slivers = samples_in_slivers();
+    move_into_cells(in_slivers);
+    limited(std::ssize(in_slivers.x), in_slivers.x.data(), in_slivers.d.data());
+    take_range(in_slivers);
     require_few_nodes();
     any = split_open(0) || any;
   }

@@ -27,6 +27,7 @@ struct GrowthLeaf {
   bool fresh = true;         // no source has been looked for in it
   bool has_nodes = true;     // of the boundary, or fixed ones, or places
   bool probed = false;       // for dips of d between the samples
+  bool sliver = false;       // do few of its samples lie in the domain?
   bool placed = false;       // is there a place in the domain that stands for it?
   Point<Dim> place{};        // its middle where that is inside
   GrowthSource<Dim> source;  // of the samples in it, the one that limits d there the most
@@ -82,6 +83,9 @@ class GrowthLeaves {
   Box<Dim> box_of(const LeafCell<Dim>& cell) const;
   void look_at_domain(GrowthLeaf<Dim>& leaf) const;
   void take_range(const Samples& samples);
+  Samples samples_in_slivers() const;
+  std::size_t samples_inside(const LeafCell<Dim>& cell) const;
+  void move_into_cells(Samples& samples) const;
   void look_beside(const SpacingEvaluator<Dim>& raw);
   void expect_known(const Samples& samples, const GrowthSources<Dim>& known);
   void take_sources(const Samples& samples);

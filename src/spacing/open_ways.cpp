@@ -60,6 +60,12 @@ typename OpenWays<Dim>::Side OpenWays<Dim>::side_of(const Box<Dim>& box) const {
 }
 
 template <int Dim>
+Point<Dim> OpenWays<Dim>::nearest_of_boundary(const Point<Dim>& x, double reach) const {
+  const NearestPoint<Dim> nearest = facets_->nearest(x, reach);
+  return nearest.gap < reach ? nearest.x : x;
+}
+
+template <int Dim>
 bool OpenWays<Dim>::open(const Point<Dim>& a, const Point<Dim>& b) const {
   bool open = true;
   const BackgroundTree<Dim>& tree = facets_->tree();

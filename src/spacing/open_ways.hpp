@@ -32,6 +32,8 @@ class OpenWays {
   // Where the domain is in a box.
   Side side_of(const Box<Dim>& box) const;
   bool inside(const Point<Dim>& x) const { return facets_->inside(x); }
+  // The point of the boundary that is nearest to x, if it is nearer than `reach`; else x.
+  Point<Dim> nearest_of_boundary(const Point<Dim>& x, double reach) const;
   // Does the way from a to b cross no facet of the boundary? Ends may lie on one.
   bool open(const Point<Dim>& a, const Point<Dim>& b) const;
 

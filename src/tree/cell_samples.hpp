@@ -32,4 +32,29 @@ Point<Dim> middle_of(const Box<Dim>& box) {
   return point_in<Dim>(box, cell_samples<Dim>()[0]);
 }
 
+// Do so many of a cell's samples, those inside the domain, tell what d is in it? A side of the
+// domain that lies in faces of cells, or a thin wall, leaves large cells without any. (In the
+// plane, boundary nodes lie densely enough.)
+template <int Dim>
+constexpr bool samples_suffice(std::size_t inside) {
+  return Dim == 2 || inside >= 4;
+}
+
+// What stands for the samples of a cell that are outside: the points of the boundary nearest to
+// them, as far as they are in the cell; if that is none, and no sample is inside, the one nearest
+// to its middle.
+template <int Dim, class Inside, class Nearest>
+void add_samples_of_boundary(const Box<Dim>& box, const Inside& inside, const Nearest& nearest,
+                             std::vector<Point<Dim>>& points) {
+  bool any = false;
+  for (const Point<Dim>& fraction : cell_samples<Dim>()) {
+    const Point<Dim> x = point_in<Dim>(box, fraction);
+    const bool known = inside(x);
+    const Point<Dim> y = known ? x : nearest(x);
+    if (!known && in_closed_box(box, y)) points.push_back(y);
+    any = any || known || in_closed_box(box, y);
+  }
+  if (!any) points.push_back(nearest(middle_of<Dim>(box)));
+}
+
 }  // namespace pnpbs
