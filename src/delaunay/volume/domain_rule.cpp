@@ -21,6 +21,14 @@ bool is_flat_cap(const TetrahedronCorners& x) {
   return std::fabs(dot(u, cross(v, w))) < kFlat * regular;
 }
 
+// Is a flat one on the boundary? (In a wall of one element, nodes of both its sides may lie in a
+// plane across it: what is between them there is an element, however flat.)
+bool on_boundary(const VolumeStarInput& in, const TetrahedronCorners& x, const Point<3>& middle) {
+  constexpr double kSurely = 1e-6;  // far above rounding
+  const double reach = kSurely * longest_edge(x);
+  return in.facets->clearance(middle, reach) < reach || !in.facets->inside(middle);
+}
+
 // Is it nearer to a free node, which is inside, than any facet is? For nodes that are where the
 // corners are: elsewhere their room is another.
 bool beside_free_node(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes,
@@ -50,7 +58,7 @@ bool in_domain(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nod
   const Tetrahedron t = ordered_by_id(corners);
   if (held_nodes == 4) {
     const TetrahedronCorners x{t[0].x, t[1].x, t[2].x, t[3].x};
-    if (circumsphere(x).flat) return false;
+    if (circumsphere(x).flat) return !on_boundary(in, x, centroid(t));
     if (is_flat_cap(x) && in.on_one_surface && in.on_one_surface(nodes)) return false;
   }
   const Point<3> middle = centroid(t);
