@@ -38,12 +38,35 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   }
 }
 
-// With the stars of the owned nodes as they are then.
+// Those with an angle below so many degrees, until none is left, or too much is done in vain: in a
+// wall thinner than d, nearly all tetrahedra are thin, whatever is done. Ghosts follow.
+void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule, double below) {
+  constexpr double kMostInVain = 0.1;  // attempts for each node there is
+  const auto sum = [&](std::int64_t own) {
+    return level.comm->allreduce_sum(static_cast<std::uint64_t>(own));
+  };
+  const double most_in_vain = kMostInVain * static_cast<double>(sum(level.owned_count()));
+  std::uint64_t in_vain = 0;
+  for (std::int64_t round = 0; round < rule.rounds; ++round) {
+    if (sum(repair.slivers(below)) == 0 || static_cast<double>(in_vain) > most_in_vain) break;
+    agreed(*level.comm, [&] { repair.round(round, below); });
+    in_vain += sum(repair.in_vain());
+    if (!level.distributed()) continue;
+    const auto news =
+        level.ghosts.tell<ChangedTetrahedron>(*level.comm, level.nodes, repair.moved_nodes(),
+                                              [&](std::int32_t i) { return repair.changes_of(i); });
+    agreed(*level.comm, [&] { repair.follow(news); });
+  }
+}
+
+// The worst first: else they would rarely have their turn where nearly all have small angles. With
+// the stars of the owned nodes as they are then.
 void repair_slivers(Level<3>& level) {
   // Of all nodes within three reaches of a move (see SliverRepair), some 0.8 d from ring to ring.
   constexpr int kRings = 7;
   make_finish_stars(level, kRings);
   const PhaseTimer timer(level.timers, Phase::sweeps);
+  constexpr double kFlat = 10, kThin = 20;  // degrees
   const SliverRule rule{level.settings.sliver_angle};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
@@ -64,16 +87,8 @@ void repair_slivers(Level<3>& level) {
         level.nodes, level.stars, rule,
         [&](std::int64_t i, const Point<3>& x) { return may_go(level, i, x); }, along_surfaces);
   });
-  for (std::int64_t round = 0; round < rule.rounds; ++round) {
-    agreed(*level.comm, [&] { repair->round(round); });
-    if (level.distributed()) {
-      const auto news = level.ghosts.tell<ChangedTetrahedron>(
-          *level.comm, level.nodes, repair->moved_nodes(),
-          [&](std::int32_t i) { return repair->changes_of(i); });
-      agreed(*level.comm, [&] { repair->follow(news); });
-    }
-    if (level.comm->allreduce_sum(static_cast<std::uint64_t>(repair->slivers())) == 0) break;
-  }
+  for (const double below : {kFlat, kThin, rule.repair_below})
+    if (below <= rule.repair_below) repair_rounds(level, *repair, rule, below);
   agreed(*level.comm, [&] { repair->write_stars(level.stars); });
   level.nodes.moved();
 }

@@ -2,6 +2,7 @@
 #include "quality/volume/sliver_repair.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -33,6 +34,8 @@ Point<3> direction_from(std::uint64_t bits) {
     return v;
   }
 }
+
+std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
 
 std::uint64_t bits_of_trial(std::uint64_t lot, int trial) {
   return mixed(lot + 1 + static_cast<std::uint64_t>(trial));
@@ -165,9 +168,11 @@ void SliverRepair::follow(const std::vector<ChangedTetrahedron>& news) {
   accept(changes);
 }
 
-std::int64_t SliverRepair::slivers() const {
+std::int64_t SliverRepair::slivers(double below) const {
+  const SmallAngles small(below);
   return std::count_if(slivers_.begin(), slivers_.end(), [&](const TetrahedronNodes& sliver) {
-    return std::any_of(sliver.begin(), sliver.end(),
+    return small.any(corners_of(sliver)) &&
+           std::any_of(sliver.begin(), sliver.end(),
                        [&](std::int32_t i) { return nodes_.owned(i) && stars_.movable(i); });
   });
 }
@@ -198,10 +203,13 @@ std::int32_t SliverRepair::node_to_move(const TetrahedronNodes& sliver, std::uin
 }
 
 // By lots, not by how bad slivers are: one that cannot be mended would bar others for ever.
-std::vector<SliverRepair::Attempt> SliverRepair::draw_lots(std::int64_t number) const {
+std::vector<SliverRepair::Attempt> SliverRepair::draw_lots(std::int64_t number,
+                                                           double below) const {
+  const SmallAngles small(below);
   std::vector<Attempt> attempts;
   for (const TetrahedronNodes& sliver : slivers_) {
-    std::uint64_t lot = mixed(static_cast<std::uint64_t>(number));
+    if (!small.any(corners_of(sliver))) continue;
+    std::uint64_t lot = mixed(static_cast<std::uint64_t>(number) ^ bits_of(below));
     for (const std::int32_t i : sliver) lot = mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
     attempts.push_back({sliver, lot, node_to_move(sliver, lot, number), {}});
   }
@@ -372,8 +380,8 @@ void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
   }
 }
 
-std::int64_t SliverRepair::round(std::int64_t number) {
-  std::vector<Attempt> attempts = draw_lots(number);
+std::int64_t SliverRepair::round(std::int64_t number, double below) {
+  std::vector<Attempt> attempts = draw_lots(number, below);
   const std::vector<char> wins = winners(attempts);
   for_each_guarded("pnpbs::SliverRepair::round", std::ssize(attempts), [&](std::int64_t a) {
     Attempt& attempt = attempts[static_cast<std::size_t>(a)];
@@ -381,8 +389,12 @@ std::int64_t SliverRepair::round(std::int64_t number) {
     nodes_.moves(attempt.node) ? try_moves(attempt) : try_moves_along_surface(attempt);
   });
   changes_.clear();
-  for (Attempt& attempt : attempts)
+  in_vain_ = 0;
+  for (std::size_t a = 0; a < attempts.size(); ++a) {
+    Attempt& attempt = attempts[a];
+    in_vain_ += wins[a] && nodes_.owned(attempt.node) && attempt.success.empty();
     for (StarChange& change : attempt.success) changes_.push_back(std::move(change));
+  }
   accept(changes_);
   nodes_.moved();
   return std::ssize(changes_);

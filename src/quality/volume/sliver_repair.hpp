@@ -62,10 +62,10 @@ class SliverRepair {
   SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed,
                AlongSurfaces along_surfaces = {});
 
-  // Moves owned nodes, and returns how many. Between rounds, ranks tell those that have these
-  // nodes as ghosts what has changed with them: so the stars of all stay what they are to their
-  // owners, however many rounds there are.
-  std::int64_t round(std::int64_t number);
+  // Moves owned nodes at slivers with an angle below so many degrees, and returns how many. Between
+  // rounds, ranks tell those that have these nodes as ghosts what has changed with them: so the
+  // stars of all stay what they are to their owners, however many rounds there are.
+  std::int64_t round(std::int64_t number, double below = 90);
   std::vector<std::int32_t> moved_nodes() const;  // in the last round
   std::vector<ChangedTetrahedron> changes_of(std::int32_t moved_node) const;
   void follow(const std::vector<ChangedTetrahedron>& news);
@@ -74,7 +74,9 @@ class SliverRepair {
   void write_stars(VolumeStars& stars) const { stars_.write_to(stars); }
 
   // Those left, with an owned node that can move.
-  std::int64_t slivers() const;
+  std::int64_t slivers(double below = 90) const;
+  // Of this rank's attempts in the last round: those that found no better place.
+  std::int64_t in_vain() const { return in_vain_; }
 
  private:
   // The node of a sliver that is to move, and its lot in this round.
@@ -95,7 +97,7 @@ class SliverRepair {
 
   std::int32_t node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot,
                             std::int64_t number) const;
-  std::vector<Attempt> draw_lots(std::int64_t number) const;
+  std::vector<Attempt> draw_lots(std::int64_t number, double below) const;
   std::vector<char> winners(const std::vector<Attempt>& attempts) const;
   void try_moves(Attempt& attempt) const;
   void try_moves_along_surface(Attempt& attempt) const;
@@ -112,6 +114,7 @@ class SliverRepair {
   Nodes<3>& nodes_;
   SmallAngles small_, penalised_;
   std::int64_t rounds_;
+  std::int64_t in_vain_ = 0;
   Allowed allowed_;
   AlongSurfaces along_surfaces_;
   StarChanges stars_;
