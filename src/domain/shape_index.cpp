@@ -117,19 +117,23 @@ double ShapeIndex<Dim>::distance_to(const Selection& selection, const Point<Dim>
   return best;
 }
 
-// Balls grow until one touches.
+// Balls grow until one touches, and shrink again while more can be gained than this part: all
+// facets of a ball touch the same one, but for rounding, and in space there may be 100 000.
 template <int Dim>
 double ShapeIndex<Dim>::width(const Place& place) const {
-  constexpr double kFirst = 1.0 / 1024;
-  for (double reach = kFirst * size_; reach < 4 * size_; reach *= 2) {
-    double best = reach;
-    const double radius = 0.5 * reach, square = radius * radius;
-    const auto limit = [square] { return square; };
-    facets_.tree.for_near(away<Dim>(place.x, radius, place.ahead), limit, [&](std::int32_t i) {
+  constexpr double kFirst = 1.0 / 1024, kWorthwhile = Dim == 2 ? 1 - 1e-6 : 0.97;
+  double best = kFirst * size_;
+  const auto may_narrow = [&](const Box<Dim>& box) {
+    const double radius = 0.5 * kWorthwhile * best;
+    return squared_gap_to(box, away<Dim>(place.x, radius, place.ahead)) <= radius * radius &&
+           may_be_ahead<Dim>(box, place);
+  };
+  for (; best < 4 * size_; best *= 2) {
+    const double reach = best;
+    facets_.tree.for_entered(may_narrow, [&](std::int32_t i) {
       const ShapePiece<Dim>& piece = shape_[facets_.pieces[static_cast<std::size_t>(i)]];
-      if (share_one(piece.ends, place.ends)) return;
-      if (!may_be_ahead<Dim>(box_of<Dim>(piece.corners), place)) return;
-      best = std::min(best, width_below(place, piece.corners, best));
+      if (!share_one(piece.ends, place.ends))
+        best = std::min(best, width_below(place, piece.corners, best));
     });
     if (best < reach) return best;
   }

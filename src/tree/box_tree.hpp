@@ -72,6 +72,12 @@ class BoxTree {
     walk([&](const Box<Dim>& box) { return boxes_meet(box, other); }, visit);
   }
 
+  // Calls visit(box) for every box that enter(box) lets in, as all that hold it must be let in, too.
+  template <class Enter, class Visit>
+  void for_entered(const Enter& enter, const Visit& visit) const {
+    walk(enter, visit);
+  }
+
   // Calls visit(box) for every box with a squared distance to x of at most limit(), which may
   // shrink on the way; nearer ones mostly come first.
   template <class Limit, class Visit>

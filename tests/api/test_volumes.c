@@ -247,6 +247,60 @@ START_TEST(flat_sides_follow_the_surface) {
 }
 END_TEST
 
+/* Half as high as it is wide, so that its top lies in faces of the tree's cells. */
+static pnpbs_status low_box(pnpbs_domain domain, const char* folder) {
+  const double low[] = {0, 0, 0}, high[] = {2, 2, 1};
+  (void)folder;
+  return pnpbs_domain_add_box(domain, low, high, 1);
+}
+
+static int32_t fine_at_a_line(int64_t n, int32_t dim, const double* xyz, double* d, void* user) {
+  int64_t i;
+  (void)dim, (void)user;
+  for (i = 0; i < n; ++i) d[i] = fmin(0.02 + 0.3 * hypot(xyz[3 * i] - 1, xyz[3 * i + 1] - 1), 0.3);
+  return 0;
+}
+
+START_TEST(fine_at_a_line_in_a_low_box) {
+  const double g = 0.3, d0 = 0.02, r = (0.3 - d0) / g; /* where d is no longer so fine */
+  /* The integral of sqrt(2) / d^3 over the box: of 2 pi r / (d0 + g r)^3 around the line, and
+   * beyond. */
+  const double pi = acos(-1), around = pi * r * r / (d0 * pow(d0 + g * r, 2)),
+               beyond = (4 - pi * r * r) / pow(0.3, 3), expected = sqrt(2) * (around + beyond);
+  job it = body_job(low_box);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, fine_at_a_line, NULL));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  ck_assert_double_gt((double)integer_of(it.placement, "nodes"), 0.8 * expected);
+  ck_assert_double_lt((double)integer_of(it.placement, "nodes"), 1.5 * expected);
+  ck_assert_double_gt(real_of(it.placement, "quality.min_angle"), 25);
+  job_end(&it);
+}
+END_TEST
+
+/* All nodes are on its sides, and many opposite to each other: four of them may lie in a plane
+ * across it, and what is between them there is an element, or the mesh has cracks. */
+static pnpbs_status wall(pnpbs_domain domain, const char* folder) {
+  const double low[] = {0, 0, 0}, high[] = {40, 40, 1};
+  (void)folder;
+  return pnpbs_domain_add_box(domain, low, high, 1);
+}
+
+START_TEST(walls_as_thick_as_d) {
+  volume v;
+  job it = body_job(wall);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 1));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  check_body(&it, 1e-12);
+  ck_assert_double_gt(real_of(it.placement, "quality.min_angle"), 10);
+  ck_assert_int_eq(integer_of(it.placement, "missing_faces"), 0);
+  v = volume_of(it.placement);
+  ck_assert_double_eq_tol(boundary_area(&v, 0, NULL), 2 * 1600 + 4 * 40, 1e-8);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- ways to drive it ------ */
 
 typedef struct {
@@ -497,6 +551,8 @@ int main(void) {
   tcase_add_test(tests, too_many_nodes);
   tcase_add_loop_test(tests, fine_in_a_small_place, 0, sizeof fine_places / sizeof *fine_places);
   tcase_add_test(tests, flat_sides_follow_the_surface);
+  tcase_add_test(tests, fine_at_a_line_in_a_low_box);
+  tcase_add_test(tests, walls_as_thick_as_d);
   tcase_add_loop_test(tests, stopped_by_the_monitor, 0, 5);
   tcase_add_test(tests, by_steps);
   tcase_add_test(tests, fills_count_as_inserted);
