@@ -14,6 +14,7 @@ namespace pnpbs::tool {
 namespace {
 
 std::atomic<bool> deferred{false};
+std::atomic<bool> waited_for{false};
 std::atomic<bool> asked{false};
 std::atomic<bool> killed_soon{false};
 std::atomic<bool> committing{false};
@@ -28,10 +29,12 @@ void remove_unfinished_files() {
 // asked is set before committing is read, and begin_commit does it the other way round: a signal
 // either keeps the files from their names or leaves them alone.
 extern "C" void on_signal(int /*number*/) {
+  constexpr unsigned kPatience = 5;  // seconds
   const bool first = !asked.exchange(true);
   if (committing) return;
   if (deferred && first) {
     if (killed_soon) remove_unfinished_files();
+    if (!waited_for) ::alarm(kPatience);
     return;
   }
   remove_unfinished_files();
@@ -59,7 +62,11 @@ void handle_interrupts(bool launched) {
   for (const int number : {SIGPIPE, SIGXFSZ}) ::sigaction(number, &ignore, nullptr);
 }
 
-void defer_interrupts() { deferred = true; }
+void defer_interrupts(bool until_saved) {
+  waited_for = until_saved;
+  deferred = true;
+  handle(SIGALRM);
+}
 
 bool interrupted() { return asked; }
 

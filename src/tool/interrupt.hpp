@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ctrl-C and its kin. While the command reads, a signal ends it at once; while it computes or
-// writes, the first signal asks it to stop and the second ends it at once. Temporary files are
-// removed either way. What the ranks of a run make of it is told in ranks.hpp and main.cpp.
+// writes, the first signal asks it to stop, and the second, or five seconds, end it at once.
+// Temporary files are removed either way. What the ranks of a run make of it is told in ranks.hpp and main.cpp.
 #pragma once
 
 namespace pnpbs::tool {
@@ -10,8 +10,9 @@ namespace pnpbs::tool {
 // so unfinished files are then removed at once.
 void handle_interrupts(bool launched);
 
-// From here on the first signal only asks.
-void defer_interrupts();
+// From here on the first signal only asks. until_saved: and no time ends the command, as a
+// checkpoint is to be written.
+void defer_interrupts(bool until_saved);
 
 // Has a signal come to this process?
 bool interrupted();

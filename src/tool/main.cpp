@@ -181,7 +181,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
     if (dimension == 3) body = body_figures(domain, !arguments.surfaces_only, context);
   });
 
-  defer_interrupts();
+  defer_interrupts(!arguments.checkpoint.empty());
   Placement placement;
   check(pnpbs_placement_create(context, domain, placement.out()), context);
   wishes.spacing->give_to(placement, domain, context, ranks);

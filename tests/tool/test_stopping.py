@@ -41,6 +41,16 @@ class Stopping(CommandTest):
     def test_second_signal_ends_at_once(self):
         self.stop(signal.SIGINT, 0.6, times=2, patience=2)
 
+    def test_between_steps(self):
+        # What the shape asks for in a ball of 81 920 triangles takes longer than the patience.
+        process = self.start("--domain", "ball(0,0,0,1)", "--spacing", "auto", "-o", "a.csv",
+                             environment={"OMP_NUM_THREADS": "1"})
+        time.sleep(1)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=7), INTERRUPTED)
+        process.communicate()
+        self.assertEqual(self.files(), ["square.poly"])
+
     def test_while_reading_standard_input(self):
         process = self.start("--domain", "-", "--spacing", "1", "-o", "a.csv",
                              stdin=subprocess.PIPE)
