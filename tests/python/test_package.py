@@ -328,6 +328,26 @@ class Handles(Case):
         for handle in (self.context, placement, placement.domain):
             self.assertIn("closed", repr(handle))
 
+    def test_closing_in_a_callback_is_refused(self):
+        placement = self.square()
+        refused = []
+
+        def d(x):
+            if not refused:
+                for handle in (placement, placement.domain, self.context):
+                    with self.assertRaises(pnpbs.PNPBSError) as raised:
+                        handle.close()
+                    refused.append(str(raised.exception))
+            return np.full(len(x), 0.2)
+
+        placement.set_spacing(d).run()
+        self.assertEqual(len(refused), 3)
+        for words in refused:
+            self.assertIn("in progress", words)
+        self.assertGreater(placement.node_count, 10)
+        placement.close()
+        self.assertFalse(placement.is_open)
+
     def test_with(self):
         with pnpbs.Context(steps=3) as context:
             with pnpbs.Placement(pnpbs.Domain(context).add_polyline(SQUARE)) as placement:

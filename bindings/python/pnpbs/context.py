@@ -39,9 +39,10 @@ class Handle:
         return self._handle
 
     def _destroy(self, function: Callable[..., int]) -> int:
+        """The handle stays where the library refuses, as in a callback."""
         handle = ctypes.c_void_p(self._handle)
         code = function(ctypes.byref(handle))
-        self._handle = None
+        self._handle = handle.value
         return code
 
     def close(self) -> None:

@@ -61,8 +61,8 @@ class Domain(Handle):
         """Releases what the library holds. A placement keeps what it needs of its domain. Closing
         twice is allowed."""
         if self.is_open:
-            self.context._children.remove(self)
             self.context._check(self._destroy(library().pnpbs_domain_destroy))
+            self.context._children.remove(self)
 
     def __repr__(self) -> str:
         return f"<pnpbs.Domain, {f'{self.dim} dimensions' if self.is_open else 'closed'}>"

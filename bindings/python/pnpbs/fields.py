@@ -120,8 +120,8 @@ class Transfer(Handle):
     def close(self) -> None:
         """Releases what the library holds. Closing twice is allowed. Local."""
         if self.is_open:
-            self.context._children.remove(self)
             self.context._check(self._destroy(library().pnpbs_transfer_destroy))
+            self.context._children.remove(self)
 
     def __repr__(self) -> str:
         return f"<pnpbs.Transfer, {'open' if self.is_open else 'closed'}>"

@@ -67,8 +67,8 @@ class Placement(Results, Fields):
     def close(self) -> None:
         """Releases what the library holds. Closing twice is allowed. Local."""
         if self.is_open:
-            self.context._children.remove(self)
             self.context._check(self._destroy(library().pnpbs_placement_destroy))
+            self.context._children.remove(self)
 
     def __repr__(self) -> str:
         what = f"{self.node_count} nodes here" if self.is_open else "closed"
