@@ -16,8 +16,12 @@ constexpr double kBytesOfProcess = 30e6;  // before it has any nodes
 
 // What a core of a present server does, over cases with d graded and even (docs/benchmarks.md).
 constexpr double kNodesPerSecond = 400e3, kNodesPerSecondBest = 140e3, kNodesPerSecondPaper = 20e3;
+// In bodies of 70 000 nodes (docs/comparison_volumes.md).
+constexpr double kNodesPerSecondInSpace = 20e3;
 
+template <int Dim>
 double nodes_per_second(const Options& options) {
+  if (Dim == 3) return kNodesPerSecondInSpace;
   if (options.choice("method") == "paper") return kNodesPerSecondPaper;
   return options.choice("effort") == "best" ? kNodesPerSecondBest : kNodesPerSecond;
 }
@@ -35,7 +39,7 @@ Estimate PlacementOf<Dim>::estimate() {
       static_cast<std::uint64_t>(fixed_point(static_cast<double>(thread_count())))));
   return {static_cast<std::int64_t>(std::round(nodes)),
           static_cast<std::int64_t>(kBytesOfProcess + kBytesPerNode * nodes / ranks),
-          nodes / (nodes_per_second(options_) * std::max(1.0, threads))};
+          nodes / (nodes_per_second<Dim>(options_) * std::max(1.0, threads))};
 }
 
 // With the growth of d limited as the run limits it, which takes a tree as the run does; so it is
