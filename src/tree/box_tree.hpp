@@ -72,7 +72,7 @@ class BoxTree {
     walk([&](const Box<Dim>& box) { return boxes_meet(box, other); }, visit);
   }
 
-  // Calls visit(box) for every box that enter(box) lets in, as all that hold it must be let in, too.
+  // Calls visit(box) for every box that enter(box) lets in, which lets in what holds it, too.
   template <class Enter, class Visit>
   void for_entered(const Enter& enter, const Visit& visit) const {
     walk(enter, visit);
