@@ -191,6 +191,15 @@ class SpacingFiles(CommandTest):
         self.assertIn("replace", self.refuse("--domain", self.square, "--spacing",
                                              "packed.vtu:size", "-o", "packed.vtu"))
 
+    def test_cut_anywhere(self):
+        self.write_meshes(2)
+        whole = (self.folder / "plain.vtu").read_bytes()
+        for part in (0.3, 0.6, 0.9, 0.99):
+            (self.folder / "cut.vtu").write_bytes(whole[:int(part * len(whole))])
+            with self.subTest(part):
+                message = self.refuse_spacing("cut.vtu:size")
+                self.assertRegex(message, "ends (too early|before)|never closed|not closed")
+
     def test_tables_that_are_wrong(self):
         def refuse(text, domain=None):
             (self.folder / "bad.csv").write_text(text)

@@ -46,6 +46,7 @@ VtuFile::VtuFile(std::string_view bytes, std::string name) : name_(std::move(nam
   take_header(xml);
   std::string section;
   VtuArray* open = nullptr;
+  bool whole = false;
   int below = 0;  // tags that are open within an array: what is said of it, with texts of their own
   while (xml.next()) {
     const std::string& tag = xml.tag();
@@ -54,7 +55,8 @@ VtuFile::VtuFile(std::string_view bytes, std::string name) : name_(std::move(nam
     } else if (xml.is_end()) {
       open = nullptr;
       if (tag == section) section.clear();
-      if (tag == "VTKFile") break;
+      whole = tag == "VTKFile";
+      if (whole) break;
     } else if (tag == "Piece") {
       pieces_.push_back({xml.count("NumberOfPoints", -1), xml.count("NumberOfCells", -1), {}});
     } else if (tag == "DataArray" && !section.empty() && !pieces_.empty()) {
@@ -63,12 +65,14 @@ VtuFile::VtuFile(std::string_view bytes, std::string name) : name_(std::move(nam
       below = 0;
     } else if (tag == "AppendedData") {
       take_appended(xml);
+      whole = true;  // or what is cut of it is missed when it is read
       break;
     } else if ((tag == "Points" || tag == "Cells" || tag == "PointData") && !xml.is_whole()) {
       section = tag;
     }
     if (open && below == 0 && open->content.empty()) open->content = xml.text();
   }
+  if (!whole) fail("the file ends too early: its <VTKFile> is not closed");
   if (pieces_.empty()) fail("found no <Piece>");
 }
 
