@@ -198,7 +198,7 @@ class CrossingFinder {
       smooth_.vertices.push_back(places[best[m]]);
       found_.normals.push_back(slopes[best[m]].normal());
     }
-    for (const auto& [edge, vertex] : vertex_on) split(edge, vertex);
+    split(vertex_on);
     return !vertex_on.empty();
   }
 
@@ -221,18 +221,41 @@ class CrossingFinder {
     }
   }
 
-  void split(const Edge& edge, std::int32_t vertex) {
-    const std::size_t count = smooth_.triangles.size();
-    for (std::size_t t = 0; t < count; ++t)
+  static Edge edge_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+  // Edge by edge, and of each its triangles in their order.
+  void split(const std::map<Edge, std::int32_t>& vertex_on) {
+    std::map<Edge, std::vector<std::size_t>> triangles_at;
+    for (std::size_t t = 0; t < smooth_.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
-        auto& v = smooth_.triangles[t];
-        const std::int32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3];
-        if (Edge{std::min(a, b), std::max(a, b)} != edge) continue;
-        v = {a, vertex, c};
-        smooth_.triangles.push_back({vertex, b, c});
-        smooth_.tags.push_back(smooth_.tags[t]);
-        break;
+        const auto& v = smooth_.triangles[t];
+        const Edge edge = edge_of(v[k], v[(k + 1) % 3]);
+        if (vertex_on.contains(edge)) triangles_at[edge].push_back(t);
       }
+    for (const auto& [edge, vertex] : vertex_on) {
+      std::vector<std::size_t> triangles = triangles_at[edge];
+      std::sort(triangles.begin(), triangles.end());
+      for (const std::size_t t : triangles) {
+        const std::size_t added = split(t, edge, vertex);
+        const auto moved =
+            triangles_at.find(edge_of(smooth_.triangles[added][1], smooth_.triangles[added][2]));
+        if (moved != triangles_at.end())
+          std::replace(moved->second.begin(), moved->second.end(), t, added);
+      }
+    }
+  }
+
+  // The part beyond the vertex, seen around the triangle, is the new triangle that is returned; its
+  // first corner is the vertex.
+  std::size_t split(std::size_t t, const Edge& edge, std::int32_t vertex) {
+    auto& v = smooth_.triangles[t];
+    std::size_t k = 0;
+    while (edge_of(v[k], v[(k + 1) % 3]) != edge) ++k;
+    const std::int32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3];
+    v = {a, vertex, c};
+    smooth_.triangles.push_back({vertex, b, c});
+    smooth_.tags.push_back(smooth_.tags[t]);
+    return smooth_.triangles.size() - 1;
   }
 
   // ------------------------------------------------------------ corners
