@@ -117,25 +117,35 @@ double ShapeIndex<Dim>::distance_to(const Selection& selection, const Point<Dim>
   return best;
 }
 
-// Balls grow until one touches, and shrink again while more can be gained than this part: all
-// facets of a ball touch the same one, but for rounding, and in space there may be 100 000.
+// Balls grow until one touches, and shrink again: first while a part of some size can be gained,
+// then, among so many boxes, any. (All facets of a ball touch the same one, but for rounding, and
+// there may be 100 000.)
 template <int Dim>
 double ShapeIndex<Dim>::width(const Place& place) const {
-  constexpr double kFirst = 1.0 / 1024, kWorthwhile = Dim == 2 ? 1 - 1e-6 : 0.97;
+  constexpr double kFirst = 1.0 / 1024, kPart = 0.03;
+  constexpr int kMaxBoxes = 1 << (Dim == 2 ? 16 : 11);
   double best = kFirst * size_;
-  const auto may_narrow = [&](const Box<Dim>& box) {
-    const double radius = 0.5 * kWorthwhile * best;
-    return squared_gap_to(box, away<Dim>(place.x, radius, place.ahead)) <= radius * radius &&
-           may_be_ahead<Dim>(box, place);
+  int boxes = 0;
+  const auto shrink = [&](double part, int max_boxes) {
+    boxes = 0;
+    facets_.tree.for_entered(
+        [&](const Box<Dim>& box) {
+          const double radius = 0.5 * (1 - part) * best;
+          return ++boxes <= max_boxes && may_be_ahead<Dim>(box, place) &&
+                 squared_gap_to(box, away<Dim>(place.x, radius, place.ahead)) <= radius * radius;
+        },
+        [&](std::int32_t i) {
+          const ShapePiece<Dim>& piece = shape_[facets_.pieces[static_cast<std::size_t>(i)]];
+          if (!share_one(piece.ends, place.ends))
+            best = std::min(best, width_below(place, piece.corners, best));
+        });
   };
   for (; best < 4 * size_; best *= 2) {
     const double reach = best;
-    facets_.tree.for_entered(may_narrow, [&](std::int32_t i) {
-      const ShapePiece<Dim>& piece = shape_[facets_.pieces[static_cast<std::size_t>(i)]];
-      if (!share_one(piece.ends, place.ends))
-        best = std::min(best, width_below(place, piece.corners, best));
-    });
-    if (best < reach) return best;
+    shrink(kPart, std::numeric_limits<int>::max());
+    if (best == reach) continue;
+    shrink(0, kMaxBoxes);
+    return best;
   }
   return kInfinity;
 }

@@ -38,8 +38,8 @@ class ShapeIndex {
 
   // The diameter of the largest ball that touches the shape at the place, lies ahead of it, and
   // holds nothing of what is ahead within 20 degrees and faces it within 45; infinity if there is
-  // none. In space it may be too large by 3 percent. Pieces that touch that of the place do not
-  // count: in a sharp corner there is no room for anything.
+  // none. Too large by up to 3 percent where the ball comes near to thousands of facets. Pieces
+  // that touch that of the place do not count: in a sharp corner there is no room for anything.
   double width(const Place& place) const;
   // The distance to what is ahead within 60 degrees, but at most `reach`.
   double clearance_ahead(const Place& place, double reach) const;

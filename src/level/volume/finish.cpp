@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/finish.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "delaunay/volume/domain_rule.hpp"
@@ -19,9 +20,24 @@ namespace {
 // Sweeps and repairs leave that much room: no triangle of the surface is missing then.
 constexpr double kFinishClearance = 0.6;
 
-bool may_go(const Level<3>& level, std::int64_t i, const Point<3>& x) {
-  return level.neighbourhood.near_boundary().stays_clear(i, level.nodes, level.ground, x,
-                                                         kFinishClearance * level.nodes.d(i));
+// At inner surfaces, with nodes on both sides, more: triangles in their corners have circumcircles
+// of 0.71 d.
+constexpr double kInnerClearance = 0.75;
+
+bool has_inner_surfaces(const Level<3>& level) {
+  return std::ranges::any_of(level.ground.boundary().facets,
+                             [](const BoundaryTriangle& facet) { return !facet.bounds(); });
+}
+
+// What says whether a node may go to a place.
+auto may_go(const Level<3>& level) {
+  return [&level, inner = has_inner_surfaces(level)](std::int64_t i, const Point<3>& x) {
+    const NearBoundary<3>& near = level.neighbourhood.near_boundary();
+    const double d = level.nodes.d(i);
+    return near.stays_clear(i, level.nodes, level.ground, x, kFinishClearance * d) &&
+           (!inner ||
+            near.stays_clear_of_inner(i, level.nodes, level.ground, x, kInnerClearance * d));
+  };
 }
 
 // By the stars there are. The few edges that have other nodes after the first sweep do not matter
@@ -32,8 +48,7 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
     update_ghosts(level);
     agreed(*level.comm, [&] {
       pnpbs::sweep_to_means(level.nodes, level.stars, level.settings.sweep.weight,
-                            level.time_integration.scratch(level.nodes),
-                            [&](std::int64_t i, const Point<3>& x) { return may_go(level, i, x); });
+                            level.time_integration.scratch(level.nodes), may_go(level));
     });
   }
 }
@@ -70,10 +85,15 @@ void repair_slivers(Level<3>& level) {
   const SliverRule rule{level.settings.sliver_angle};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
-  // Those on a level set are where it is 0, and stay.
+  // Those on a level set are where it is 0, and stay; so do those on inner surfaces, whose
+  // triangles no tetrahedron that goes would tell of.
+  const auto stays = [&](std::int32_t facet) {
+    return level.ground.domain().level_sets().at(facet) != nullptr ||
+           !level.ground.surface().facet(facet).bounds();
+  };
   const AlongSurfaces along_surfaces{
       [&](std::int64_t i, const Point<3>& direction, double length) {
-        if (level.ground.domain().level_sets().at(level.nodes.boundary_node(i)) != nullptr)
+        if (stays(level.nodes.boundary_node(i)))
           return AlongSurfaces::Place{level.nodes.position(i), level.nodes.boundary_node(i)};
         const SurfacePoint to = go_along_surface(level, i, direction, length);
         return AlongSurfaces::Place{to.position, to.facet};
@@ -82,11 +102,8 @@ void repair_slivers(Level<3>& level) {
         return in_domain(input, nodes, corners);
       }};
   std::optional<SliverRepair> repair;
-  agreed(*level.comm, [&] {
-    repair.emplace(
-        level.nodes, level.stars, rule,
-        [&](std::int64_t i, const Point<3>& x) { return may_go(level, i, x); }, along_surfaces);
-  });
+  agreed(*level.comm,
+         [&] { repair.emplace(level.nodes, level.stars, rule, may_go(level), along_surfaces); });
   for (const double below : {kFlat, kThin, rule.repair_below})
     if (below <= rule.repair_below) repair_rounds(level, *repair, rule, below);
   agreed(*level.comm, [&] { repair->write_stars(level.stars); });

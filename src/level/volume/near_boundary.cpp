@@ -129,12 +129,26 @@ Point<3> NearBoundary<3>::hold_off(std::int64_t i, const Nodes<3>& nodes, const 
   return index.inside(kept) && index.clearance(kept, clearance) >= nearest.gap ? kept : from;
 }
 
+bool NearBoundary<3>::far_on_the_way(std::int64_t i, const Nodes<3>& nodes, const Point<3>& to,
+                                     double clearance) const {
+  constexpr double kRounding = 1 + 1e-8;
+  return gap_(i) > kRounding * (distance<3>(point_at<3>(at_, i), to) +
+                                std::max(clearance, distance<3>(nodes.position(i), to)));
+}
+
+bool NearBoundary<3>::stays_clear_of_inner(std::int64_t i, const Nodes<3>& nodes,
+                                           const Ground<3>& ground, const Point<3>& to,
+                                           double clearance) const {
+  if (far_on_the_way(i, nodes, to, clearance)) return true;
+  const SurfaceIndex& index = ground.domain().index();
+  const NearestPoint<3> there = index.nearest(to, clearance);
+  return there.facet < 0 || ground.surface().facet(there.facet).bounds() ||
+         there.gap >= index.clearance(nodes.position(i), clearance);
+}
+
 bool NearBoundary<3>::stays_clear(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
                                   const Point<3>& to, double clearance) const {
-  constexpr double kRounding = 1 + 1e-8;
-  if (gap_(i) > kRounding * (distance<3>(point_at<3>(at_, i), to) +
-                             std::max(clearance, distance<3>(nodes.position(i), to))))
-    return true;
+  if (far_on_the_way(i, nodes, to, clearance)) return true;
   const SurfaceIndex& index = ground.domain().index();
   if (!index.inside(to)) return false;
   const double gap = index.clearance(to, clearance);

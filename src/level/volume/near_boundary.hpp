@@ -85,8 +85,14 @@ class NearBoundary<3> {
   // May free node i go to `to`, with that much room or no less than now?
   bool stays_clear(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
                    const Point<3>& to, double clearance) const;
+  // The same from inner surfaces, where these are what is nearest.
+  bool stays_clear_of_inner(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
+                            const Point<3>& to, double clearance) const;
 
  private:
+  bool far_on_the_way(std::int64_t i, const Nodes<3>& nodes, const Point<3>& to,
+                      double clearance) const;
+
   double gap_of(std::int64_t i, const Nodes<3>& nodes, const Buckets<3>& buckets,
                 const DomainMap<3>& map, const Ground<3>& ground) const;
   Point<3> walk_on_surface(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
