@@ -65,8 +65,9 @@ std::vector<Slope<Dim>> slopes_of_own(const DomainMap<Dim>& map,
   for (std::size_t a = 0; a < samples.size(); ++a) {
     const std::int32_t leaf = samples[a].leaf;
     if (a == 0 || samples[a - 1].leaf != leaf) slopes.push_back({0, d[a], points[a]});
+    // Those on the boundary are the last of their leaf, and not compared with each other.
+    if (samples[a].on_boundary) continue;
     for (std::size_t b = a + 1; b < samples.size() && samples[b].leaf == leaf; ++b) {
-      if (samples[a].on_boundary && samples[b].on_boundary) continue;
       const double growth = std::abs(d[b] - d[a]) / distance<Dim>(points[a], points[b]);
       const std::size_t low = d[a] < d[b] ? a : b;
       if (growth > slopes.back().growth && !map.facet_between(leaf, points[a], points[b]))
