@@ -209,6 +209,11 @@ class Spacings(Case):
         placement.set_spacing(lambda x: 1 / 0)
         with self.assertRaises(ZeroDivisionError):
             placement.run()
+        for d, error, words in (("auto", TypeError, "d is 'auto'"), (None, TypeError, "d is None"),
+                                ([1 + 1j], TypeError, "real numbers"),
+                                (np.ones((3, 2)), ValueError, "one dimension")):
+            with self.assertRaisesRegex(error, words):
+                placement.set_spacing(d)
         placement.set_spacing(0.1)
         self.assertEqual(placement.run(), Status.OK)
 

@@ -101,6 +101,9 @@ class Placement(Results, Fields):
         - An array of one dimension: values at the nodes of this rank, in the order of `nodes`;
           linear on each triangle or tetrahedron of their triangulation."""
         callback = None
+        if not callable(d) and np.asarray(d).dtype.kind not in "fiu":
+            raise TypeError(f"d is {d!r}: a number, a function or an array of real numbers was "
+                            "expected (set_spacing_from_shape: what the shape asks for)")
         if callable(d):
             callback = spacing_callback(d, self.context)
             self._call("set_spacing_callback", callback, None)
@@ -108,6 +111,9 @@ class Placement(Results, Fields):
             self._call("set_spacing_constant", d)
         elif origin is not None or step is not None:
             self._set_spacing_grid(d, origin, step)
+        elif np.ndim(d) > 1:
+            raise ValueError(f"d has shape {np.shape(d)}: values at nodes have one dimension, and "
+                             "values on a grid come with origin and step")
         else:
             # A wrong length is the library's to find: it tells all ranks.
             values = np.ascontiguousarray(d, np.float64).reshape(-1)
