@@ -14,6 +14,7 @@
 #include "level/numbering.hpp"
 #include "level/refinement.hpp"
 #include "level/volume/surface_level.hpp"
+#include "level/volume/vacancies.hpp"
 #include "placement/placement_of.hpp"
 
 namespace pnpbs {
@@ -66,7 +67,10 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
     if (outcome != Outcome::stopped &&
         advance(anew ? settings.steps : settings.refined_steps, {0, 0}) == Outcome::stopped)
       outcome = Outcome::stopped;
-    if (outcome != Outcome::stopped) sweep_on_surfaces(*level_, settings.sweeps);
+    if (outcome != Outcome::stopped) {
+      inserted_ += fill_vacancies(*level_);
+      sweep_on_surfaces(*level_, settings.sweeps);
+    }
     fix_surface_nodes(*level_);
     level_->change_settings(inside);
   } catch (...) {

@@ -301,6 +301,71 @@ START_TEST(walls_as_thick_as_d) {
 }
 END_TEST
 
+/* A plate with an upright wall, thinner than half of d: bubbles on one side of it, and on the
+ * plate, rest with a node missing here and there. */
+static pnpbs_status tee(pnpbs_domain domain, const char* folder) {
+  static const double outline[8][2] = {{0, 0},    {12, 0}, {12, 4}, {9.4, 4},
+                                       {9.4, 10}, {9, 10}, {9, 4},  {0, 4}};
+  static const int64_t cover[6][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 6},
+                                      {0, 6, 7}, {3, 4, 5}, {3, 5, 6}};
+  double vertices[16][3];
+  int64_t triangles[28][3];
+  int i, k;
+  (void)folder;
+  for (i = 0; i < 16; ++i) {
+    vertices[i][0] = i < 8 ? 0 : 16;
+    for (k = 0; k < 2; ++k) vertices[i][k + 1] = outline[i % 8][k];
+  }
+  for (i = 0; i < 6; ++i)
+    for (k = 0; k < 3; ++k) {
+      triangles[i][k] = cover[i][2 - k];
+      triangles[6 + i][k] = cover[i][k] + 8;
+    }
+  for (i = 0; i < 8; ++i) {
+    const int64_t a = i, b = (i + 1) % 8;
+    int64_t* t = triangles[12 + 2 * i];
+    t[0] = a, t[1] = b, t[2] = b + 8;
+    t[3] = a, t[4] = b + 8, t[5] = a + 8;
+  }
+  return pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 16, &vertices[0][0], 28, &triangles[0][0],
+                                  NULL, 40);
+}
+
+/* The farthest place of a rectangle at right angles to an axis from the nodes in its plane. */
+static double farthest(const volume* v, int axis, double level, const double* low,
+                       const double* high) {
+  const double step = 0.05;
+  const int u = axis == 0 ? 1 : 0, w = axis == 2 ? 1 : 2;
+  double far = 0, a, b;
+  for (a = low[0]; a < high[0]; a += step)
+    for (b = low[1]; b < high[1]; b += step) {
+      double near = HUGE_VAL;
+      int64_t i;
+      for (i = 0; i < v->n; ++i) {
+        const double* x = v->xyz + 3 * i;
+        if (v->tags[i] == 0 || fabs(x[axis] - level) > 1e-9) continue;
+        near = fmin(near, hypot(x[u] - a, x[w] - b));
+      }
+      far = fmax(far, near);
+    }
+  return far;
+}
+
+START_TEST(no_vacancies_beside_a_wall) {
+  static const double spacings[] = {0.8, 0.9};
+  const double low[] = {0, 4}, high[] = {16, 10}, d = spacings[_i];
+  volume v;
+  job it = body_job(tee);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  v = volume_of(it.placement);
+  ck_assert_double_lt(farthest(&v, 1, 9, low, high), 0.93 * d);
+  ck_assert_double_lt(farthest(&v, 1, 9.4, low, high), 0.93 * d);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- ways to drive it ------ */
 
 typedef struct {
@@ -553,6 +618,7 @@ int main(void) {
   tcase_add_test(tests, flat_sides_follow_the_surface);
   tcase_add_test(tests, fine_at_a_line_in_a_low_box);
   tcase_add_test(tests, walls_as_thick_as_d);
+  tcase_add_loop_test(tests, no_vacancies_beside_a_wall, 0, 2);
   tcase_add_loop_test(tests, stopped_by_the_monitor, 0, 5);
   tcase_add_test(tests, by_steps);
   tcase_add_test(tests, fills_count_as_inserted);

@@ -19,26 +19,27 @@ namespace {
 constexpr double kGap = 0.8;
 
 // Is a node there that a new one would be on top of, on its side of the surface?
-bool covers(const Level<3>& level, std::int64_t i, const GivenNode<3>& candidate) {
+bool covers(const Level<3>& level, std::int64_t i, const GivenNode<3>& candidate, double gap) {
   const Nodes<3>& nodes = level.nodes;
-  if (distance<3>(nodes.position(i), candidate.position) >= kGap * nodes.d(i)) return false;
+  if (distance<3>(nodes.position(i), candidate.position) >= gap * nodes.d(i)) return false;
   if (candidate.is_inner() || nodes.carrier(i) == Carrier::free) return candidate.is_inner();
   const Ground<3>& ground = level.ground;
   return ground.surface().sees(ground.place(nodes.carrier(i), nodes.boundary_node(i)),
                                ground.place(candidate.carrier, candidate.boundary_node));
 }
 
-bool is_covered(const Level<3>& level, std::int32_t leaf, const GivenNode<3>& candidate) {
+}  // namespace
+
+bool is_covered(const Level<3>& level, const GivenNode<3>& candidate, double gap) {
+  const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);
   const Buckets<3>& buckets = level.neighbourhood.buckets();
   bool covered = false;
   buckets.for_neighbours(leaf, [&](std::int32_t b) {
     for (std::int64_t i = buckets.begin(b); !covered && i < buckets.end(b); ++i)
-      covered = covers(level, i, candidate);
+      covered = covers(level, i, candidate, gap);
   });
   return covered;
 }
-
-}  // namespace
 
 GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates) {
   exchange(level, kStarHops<3>);
@@ -47,7 +48,7 @@ GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates) {
     rebuild_lists(level, level.settings.list_radius);
     for (const GivenNode<3>& candidate : candidates) {
       const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);
-      if (level.tree->owns(leaf) && !is_covered(level, leaf, candidate)) found.push_back(candidate);
+      if (level.tree->owns(leaf) && !is_covered(level, candidate, kGap)) found.push_back(candidate);
     }
   });
   return found;

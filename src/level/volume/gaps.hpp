@@ -11,6 +11,10 @@
 
 namespace pnpbs {
 
+// Is a node nearer to this new one than so many of its d, on its side of the surface? By the lists'
+// buckets.
+bool is_covered(const Level<3>& level, const GivenNode<3>& candidate, double gap);
+
 // Of these new nodes, those that this rank owns and that are far from all that the level has.
 // Collective.
 GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates);

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/vacancies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/space_vectors.hpp"
+#include "comm/records.hpp"
+#include "domain/clearance.hpp"
+#include "domain/volume/surface_walk.hpp"
+#include "level/exchange.hpp"
+#include "level/lists_and_stars.hpp"
+#include "level/numbering.hpp"
+#include "level/reach.hpp"
+#include "level/volume/gaps.hpp"
+#include "level/volume/surface_level.hpp"
+#include "level/volume/surface_stars.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// In units of d, from all nodes there: in a lattice no place is farther than 0.58, where the
+// bubbles rest hardly any farther than 0.75.
+constexpr double kVacant = 0.80;
+
+struct Vacancy {
+  double radius;                    // in units of d
+  std::array<std::int64_t, 3> ids;  // of the nodes around
+  Point<3> x;
+  double d;
+  std::int64_t facet;
+};
+
+Point<3> circumcentre(const std::array<Point<3>, 3>& x) {
+  const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), normal = cross(u, v);
+  const double uu = dot(u, u), vv = dot(v, v), twice = 2 * dot(normal, normal);
+  const Point<3> along_v = cross(normal, u), along_u = cross(v, normal);
+  Point<3> centre = x[0];
+  for (std::size_t k = 0; k < 3; ++k) centre[k] += (vv * along_v[k] + uu * along_u[k]) / twice;
+  return centre;
+}
+
+// At the middle of the circle through three nodes, of which i is on a surface: the same bits
+// wherever it is asked.
+void add_vacancy(const Level<3>& level, std::int64_t i, std::array<std::int64_t, 3> around,
+                 std::vector<Vacancy>& found) {
+  constexpr double kBent = 0.3;  // of d, between the circle's middle and the surface
+  const Nodes<3>& nodes = level.nodes;
+  std::ranges::sort(around, {}, [&](std::int64_t j) { return nodes.id(j); });
+  std::array<Point<3>, 3> x;
+  std::array<std::int64_t, 3> ids;
+  for (std::size_t k = 0; k < 3; ++k) {
+    x[k] = nodes.position(around[k]);
+    ids[k] = nodes.id(around[k]);
+  }
+  const Point<3> centre = circumcentre(x);
+  const double d = nodes.d(i), radius = distance<3>(centre, x[0]) / d;
+  if (!(radius > kVacant && radius < level.lists().radius())) return;
+  const Surface& surface = level.ground.surface();
+  const SurfacePoint at = pull_back(surface, centre, nodes.boundary_node(i));
+  const double room = kBoundaryClearance * d;
+  if (distance<3>(at.position, centre) > kBent * d || surface.feature_clearance(at, room) < room)
+    return;
+  found.push_back({radius, ids, at.position, d, at.facet});
+}
+
+std::vector<Vacancy> vacancies_of_own(const Level<3>& level) {
+  const Nodes<3>& nodes = level.nodes;
+  const auto is_first = [&](std::int64_t i, std::int64_t j) {
+    return nodes.carrier(j) != Carrier::surface || nodes.id(i) < nodes.id(j);
+  };
+  std::vector<Vacancy> found;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (!nodes.owned(i) || nodes.carrier(i) != Carrier::surface) continue;
+    const std::vector<SurfaceStarEntry> star = surface_star(level, i);
+    for (std::size_t k = 0; k < star.size(); ++k) {
+      const std::int64_t j = star[k].node, next = star[(k + 1) % star.size()].node;
+      if (star[k].triangle && is_first(i, j) && is_first(i, next))
+        add_vacancy(level, i, {i, j, next}, found);
+    }
+  }
+  return found;
+}
+
+GivenNode<3> node_in(const Level<3>& level, const Vacancy& vacancy) {
+  GivenNode<3> node{vacancy.x, -1};
+  node.carrier = Carrier::surface;
+  node.boundary_node = static_cast<std::int32_t>(vacancy.facet);
+  node.tag = level.ground.boundary().facets[static_cast<std::size_t>(vacancy.facet)].tag;
+  return node;
+}
+
+// Of those too near to each other the widest; few are left to tell all ranks of.
+std::vector<Vacancy> widest(const Level<3>& level, const std::vector<Vacancy>& own) {
+  Bytes mine;
+  for (const Vacancy& vacancy : own) pack(mine, vacancy);
+  std::vector<Vacancy> all, kept;
+  for_records<Vacancy>({level.comm->allgather(mine)},
+                       [&](const Vacancy& vacancy) { all.push_back(vacancy); });
+  std::ranges::sort(all, [](const Vacancy& a, const Vacancy& b) {
+    return std::tie(b.radius, a.ids) < std::tie(a.radius, b.ids);
+  });
+  for (const Vacancy& vacancy : all)
+    if (std::ranges::none_of(kept, [&](const Vacancy& other) {
+          return distance<3>(other.x, vacancy.x) < kVacant * other.d;
+        }))
+      kept.push_back(vacancy);
+  return kept;
+}
+
+}  // namespace
+
+std::int64_t fill_vacancies(Level<3>& level) {
+  exchange(level, kStarHops<3>);
+  std::vector<Vacancy> own;
+  agreed(*level.comm, [&] {
+    rebuild_lists(level, level.settings.list_radius);
+    own = vacancies_of_own(level);
+    std::erase_if(own, [&](const Vacancy& vacancy) {
+      return is_covered(level, node_in(level, vacancy), kVacant);
+    });
+  });
+  GivenNodes<3> nodes;
+  for (const Vacancy& vacancy : widest(level, own))
+    if (level.tree->owns(level.tree->tree().leaf_at(vacancy.x)))
+      nodes.push_back(node_in(level, vacancy));
+  const auto filled = static_cast<std::int64_t>(level.comm->allreduce_sum(nodes.size()));
+  if (filled == 0) return 0;
+  const GivenNodes<3> before = surface_nodes(level);
+  nodes.insert(nodes.end(), before.begin(), before.end());
+  number_and_store(level, {}, LaidNodes<3>(std::move(nodes)));
+  return filled;
+}
+
+}  // namespace pnpbs
