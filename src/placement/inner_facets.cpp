@@ -19,11 +19,8 @@ bool is_inner_triangle(const BoundaryTriangle& facet) {
 
 }  // namespace
 
-InnerFacets::InnerFacets(const Level<3>& level) : level_(level) {
-  if (level.ground.surfaces_alone()) return;
-  for (std::int32_t p = 0; p < level.ground.domain().features().patches; ++p)
-    any_ = any_ || !level.ground.patch_bounds_domain(p);
-}
+InnerFacets::InnerFacets(const Level<3>& level)
+    : level_(level), any_(level.ground.has_inner_surfaces()) {}
 
 const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
   const Nodes<3>& nodes = level_.nodes;

@@ -105,7 +105,8 @@ void GrowthLeaves<Dim>::look_at_domain(GrowthLeaf<Dim>& leaf) const {
   }
   leaf.place = middle_of<Dim>(box_of(leaf.cell));
   leaf.placed = true;
-  leaf.sliver = leaf.side == Side::crossed && !samples_suffice<Dim>(samples_inside(leaf.cell));
+  leaf.sliver =
+      Dim == 3 && leaf.side == Side::crossed && !samples_suffice<Dim>(samples_inside(leaf.cell));
   if (leaf.side == Side::inside || ways_.inside(leaf.place)) return;
   std::vector<Point<Dim>> points;
   add_points(leaf, points);

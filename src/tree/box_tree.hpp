@@ -72,7 +72,8 @@ class BoxTree {
     walk([&](const Box<Dim>& box) { return boxes_meet(box, other); }, visit);
   }
 
-  // Calls visit(box) for every box that enter(box) lets in, which lets in what holds it, too.
+  // Calls visit(box) for every box that enter(box) lets in; what it does not let in of the boxes
+  // that hold several is passed over with all that it holds.
   template <class Enter, class Visit>
   void for_entered(const Enter& enter, const Visit& visit) const {
     walk(enter, visit);

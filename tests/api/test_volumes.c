@@ -306,29 +306,19 @@ END_TEST
 static pnpbs_status tee(pnpbs_domain domain, const char* folder) {
   static const double outline[8][2] = {{0, 0},    {12, 0}, {12, 4}, {9.4, 4},
                                        {9.4, 10}, {9, 10}, {9, 4},  {0, 4}};
-  static const int64_t cover[6][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 6},
-                                      {0, 6, 7}, {3, 4, 5}, {3, 5, 6}};
+  static const int sides[14][4] = {
+      {0, 3, 2, 1},     {0, 7, 6, 3},   {3, 6, 5, 4},   {8, 9, 10, 11}, {8, 11, 14, 15},
+      {11, 12, 13, 14}, {0, 1, 9, 8},   {1, 2, 10, 9},  {2, 3, 11, 10}, {3, 4, 12, 11},
+      {4, 5, 13, 12},   {5, 6, 14, 13}, {6, 7, 15, 14}, {7, 0, 8, 15}};
   double vertices[16][3];
-  int64_t triangles[28][3];
-  int i, k;
+  int i;
   (void)folder;
   for (i = 0; i < 16; ++i) {
     vertices[i][0] = i < 8 ? 0 : 16;
-    for (k = 0; k < 2; ++k) vertices[i][k + 1] = outline[i % 8][k];
+    vertices[i][1] = outline[i % 8][0];
+    vertices[i][2] = outline[i % 8][1];
   }
-  for (i = 0; i < 6; ++i)
-    for (k = 0; k < 3; ++k) {
-      triangles[i][k] = cover[i][2 - k];
-      triangles[6 + i][k] = cover[i][k] + 8;
-    }
-  for (i = 0; i < 8; ++i) {
-    const int64_t a = i, b = (i + 1) % 8;
-    int64_t* t = triangles[12 + 2 * i];
-    t[0] = a, t[1] = b, t[2] = b + 8;
-    t[3] = a, t[4] = b + 8, t[5] = a + 8;
-  }
-  return pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 16, &vertices[0][0], 28, &triangles[0][0],
-                                  NULL, 40);
+  return volume_add_quads(domain, PNPBS_BOUNDARY, 16, vertices[0], 14, sides);
 }
 
 /* The farthest place of a rectangle at right angles to an axis from the nodes in its plane. */

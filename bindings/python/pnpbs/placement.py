@@ -101,12 +101,12 @@ class Placement(Results, Fields):
         - An array of one dimension: values at the nodes of this rank, in the order of `nodes`;
           linear on each triangle or tetrahedron of their triangulation."""
         callback = None
-        if not callable(d) and np.asarray(d).dtype.kind not in "fiu":
-            raise TypeError(f"d is {d!r}: a number, a function or an array of real numbers was "
-                            "expected (set_spacing_from_shape: what the shape asks for)")
         if callable(d):
             callback = spacing_callback(d, self.context)
             self._call("set_spacing_callback", callback, None)
+        elif np.asarray(d).dtype.kind not in "fiu":
+            raise TypeError(f"d is {d!r}: a number, a function or an array of real numbers was "
+                            "expected (set_spacing_from_shape: what the shape asks for)")
         elif np.ndim(d) == 0:
             self._call("set_spacing_constant", d)
         elif origin is not None or step is not None:

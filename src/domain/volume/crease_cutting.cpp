@@ -19,8 +19,6 @@ namespace {
 using Triangle = std::array<std::int32_t, 3>;
 using Edge = std::array<std::int32_t, 2>;  // ascending
 
-Edge edge_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
 class CreaseCutter {
  public:
   CreaseCutter(const SurfaceSource& smooth, const LevelSetCrossings& crossings,

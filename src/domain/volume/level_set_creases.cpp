@@ -134,7 +134,7 @@ class CreaseFinder {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t a = v[k], b = v[(k + 1) % 3];
         if (cut_.on_crease[index(a)] != 0 && cut_.on_crease[index(b)] != 0)
-          sides.push_back({{std::min(a, b), std::max(a, b)}, b < a, t});
+          sides.push_back({edge_of(a, b), b < a, t});
       }
     }
     std::sort(sides.begin(), sides.end());

@@ -221,8 +221,6 @@ class CrossingFinder {
     }
   }
 
-  static Edge edge_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
   // Edge by edge, and of each its triangles in their order.
   void split(const std::map<Edge, std::int32_t>& vertex_on) {
     std::map<Edge, std::vector<std::size_t>> triangles_at;

@@ -3,6 +3,7 @@
 // vertices on two sides or more.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -11,6 +12,11 @@
 #include "domain/volume/triangulation.hpp"
 
 namespace pnpbs {
+
+// The edge between two vertices, the lower one first.
+inline std::array<std::int32_t, 2> edge_of(std::int32_t a, std::int32_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
 
 // An edge between triangles over which the surface has an edge.
 struct CreaseCrossing {

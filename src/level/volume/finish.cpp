@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/finish.hpp"
 
-#include <algorithm>
 #include <optional>
 
 #include "delaunay/volume/domain_rule.hpp"
@@ -24,14 +23,9 @@ constexpr double kFinishClearance = 0.6;
 // of 0.71 d.
 constexpr double kInnerClearance = 0.75;
 
-bool has_inner_surfaces(const Level<3>& level) {
-  return std::ranges::any_of(level.ground.boundary().facets,
-                             [](const BoundaryTriangle& facet) { return !facet.bounds(); });
-}
-
 // What says whether a node may go to a place.
 auto may_go(const Level<3>& level) {
-  return [&level, inner = has_inner_surfaces(level)](std::int64_t i, const Point<3>& x) {
+  return [&level, inner = level.ground.has_inner_surfaces()](std::int64_t i, const Point<3>& x) {
     const NearBoundary<3>& near = level.neighbourhood.near_boundary();
     const double d = level.nodes.d(i);
     return near.stays_clear(i, level.nodes, level.ground, x, kFinishClearance * d) &&
@@ -89,7 +83,7 @@ void repair_slivers(Level<3>& level) {
   // triangles no tetrahedron that goes would tell of.
   const auto stays = [&](std::int32_t facet) {
     return level.ground.domain().level_sets().at(facet) != nullptr ||
-           !level.ground.surface().facet(facet).bounds();
+           !level.ground.bounds_domain(facet);
   };
   const AlongSurfaces along_surfaces{
       [&](std::int64_t i, const Point<3>& direction, double length) {

@@ -3,6 +3,7 @@
 // feature edges.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -53,6 +54,14 @@ class Ground<3> {
   // Is the domain on one side of that facet alone?
   bool bounds_domain(std::int32_t facet) const { return boundary().facets[index(facet)].bounds(); }
   bool patch_bounds_domain(std::int32_t patch) const { return patch_bounds_[index(patch)] != 0; }
+  // Is it a triangle of an inner surface? (Nor of an inner curve, nor a fixed node.)
+  bool on_inner_surface(std::int32_t facet) const {
+    return surface_.patch(facet) >= 0 && !bounds_domain(facet);
+  }
+  // Of surfaces alone none is.
+  bool has_inner_surfaces() const {
+    return !surfaces_alone() && std::ranges::find(patch_bounds_, 0) != patch_bounds_.end();
+  }
 
   // The nodes on feature edges and in corners, the same on all ranks.
   GivenNodes<3> feature_nodes() const;

@@ -142,7 +142,7 @@ bool NearBoundary<3>::stays_clear_of_inner(std::int64_t i, const Nodes<3>& nodes
   if (far_on_the_way(i, nodes, to, clearance)) return true;
   const SurfaceIndex& index = ground.domain().index();
   const NearestPoint<3> there = index.nearest(to, clearance);
-  return there.facet < 0 || ground.surface().facet(there.facet).bounds() ||
+  return there.facet < 0 || !ground.on_inner_surface(there.facet) ||
          there.gap >= index.clearance(nodes.position(i), clearance);
 }
 

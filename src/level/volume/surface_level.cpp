@@ -56,13 +56,8 @@ GivenNodes<3> filled_surfaces(const Level<3>& level) {
       }};
   GivenNodes<3> filled;
   for (const SurfacePoint& at : surface_fill(*level.comm, ground.surface(), ground.evaluator(),
-                                             level.settings.node_limit(), cells)) {
-    GivenNode<3> node{at.position, -1};
-    node.carrier = Carrier::surface;
-    node.boundary_node = at.facet;
-    node.tag = ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag;
-    filled.push_back(node);
-  }
+                                             level.settings.node_limit(), cells))
+    filled.push_back(new_surface_node(ground, at));
   return filled;
 }
 
@@ -96,11 +91,26 @@ std::int64_t put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces,
   level.nodes.moving = Carrier::surface;
   number_and_store(level, {}, LaidNodes<3>(std::move(laid)));
   if (begin_anew) return thinned;
-  GivenNodes<3> more = in_gaps(level, filled);
-  if (level.comm->allreduce_sum(more.size()) == 0) return thinned;
+  add_surface_nodes(level, in_gaps(level, filled));
+  return thinned;
+}
+
+std::int64_t add_surface_nodes(Level<3>& level, GivenNodes<3> more) {
+  const auto added = static_cast<std::int64_t>(level.comm->allreduce_sum(more.size()));
+  if (added == 0) return 0;
   append(more, surface_nodes(level));
   number_and_store(level, {}, LaidNodes<3>(std::move(more)));
-  return thinned;
+  return added;
+}
+
+GivenNode<3> new_surface_node(const Ground<3>& ground, const SurfacePoint& at, double d) {
+  return {at.position,
+          -1,
+          Carrier::surface,
+          at.facet,
+          ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag,
+          -1,
+          d};
 }
 
 void fix_surface_nodes(Level<3>& level) {
@@ -263,13 +273,7 @@ namespace {
 GivenNode<3> middle(const Level<3>& level, std::int64_t i, std::int64_t j, double d) {
   const Point<3> way = difference(level.nodes.position(j), level.nodes.position(i));
   const SurfacePoint at = walk_from(level, i, {0.5 * way[0], 0.5 * way[1], 0.5 * way[2]});
-  return {at.position,
-          -1,
-          Carrier::surface,
-          at.facet,
-          level.ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag,
-          -1,
-          d};
+  return new_surface_node(level.ground, at, d);
 }
 
 }  // namespace
@@ -294,9 +298,7 @@ void append_surface_midpoints(const Level<3>& level, const View<double>& next_sp
       const Point<3> a = nodes.position(j), b = nodes.position(next);
       const Point<3> mid{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
       const SurfacePoint at = pull_back(level.ground.surface(), mid, nodes.boundary_node(i));
-      refined.push_back({at.position, -1, Carrier::surface, at.facet,
-                         level.ground.boundary().facets[static_cast<std::size_t>(at.facet)].tag, -1,
-                         d});
+      refined.push_back(new_surface_node(level.ground, at, d));
     }
   }
 }

@@ -13,7 +13,6 @@
 #include "domain/volume/surface_walk.hpp"
 #include "level/exchange.hpp"
 #include "level/lists_and_stars.hpp"
-#include "level/numbering.hpp"
 #include "level/reach.hpp"
 #include "level/volume/gaps.hpp"
 #include "level/volume/surface_level.hpp"
@@ -87,11 +86,7 @@ std::vector<Vacancy> vacancies_of_own(const Level<3>& level) {
 }
 
 GivenNode<3> node_in(const Level<3>& level, const Vacancy& vacancy) {
-  GivenNode<3> node{vacancy.x, -1};
-  node.carrier = Carrier::surface;
-  node.boundary_node = static_cast<std::int32_t>(vacancy.facet);
-  node.tag = level.ground.boundary().facets[static_cast<std::size_t>(vacancy.facet)].tag;
-  return node;
+  return new_surface_node(level.ground, {static_cast<std::int32_t>(vacancy.facet), vacancy.x});
 }
 
 // Of those too near to each other the widest; few are left to tell all ranks of.
@@ -128,12 +123,7 @@ std::int64_t fill_vacancies(Level<3>& level) {
   for (const Vacancy& vacancy : widest(level, own))
     if (level.tree->owns(level.tree->tree().leaf_at(vacancy.x)))
       nodes.push_back(node_in(level, vacancy));
-  const auto filled = static_cast<std::int64_t>(level.comm->allreduce_sum(nodes.size()));
-  if (filled == 0) return 0;
-  const GivenNodes<3> before = surface_nodes(level);
-  nodes.insert(nodes.end(), before.begin(), before.end());
-  number_and_store(level, {}, LaidNodes<3>(std::move(nodes)));
-  return filled;
+  return add_surface_nodes(level, std::move(nodes));
 }
 
 }  // namespace pnpbs
