@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "level/volume/within_reach.hpp"
+
 namespace pnpbs {
 
 namespace {
@@ -95,8 +97,8 @@ class UnknownBoxes {
  public:
   explicit UnknownBoxes(const Level<Dim>& level) : level_(level) {}
 
-  void ask_around(std::int64_t i) {
-    const double reach = level_.stars.needs(i);
+  void ask_around(std::int64_t i) { ask_around(i, level_.stars.needs(i)); }
+  void ask_around(std::int64_t i, double reach) {
     if (reach == 0) return;
     const Box<Dim> box = box_around<Dim>(level_.nodes.position(i), reach);
     widen(box_of_.try_emplace(level_.neighbourhood.buckets().bucket_of(i), box).first->second, box);
@@ -165,18 +167,33 @@ void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<c
 // The same in a volume, where a star costs much: first only those of owned nodes beside ghosts,
 // then ring by ring those of ghosts. They alone ask for more ghosts, but for rare ones inside.
 std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
-                                      const std::vector<std::int64_t>& at_border, int rings) {
+                                      const std::vector<std::int64_t>& at_border,
+                                      const StarZone& zone) {
   const Nodes<3>& nodes = level.nodes;
   level.stars.build_none(star_input(level, known));
   UnknownBoxes<3> unknown(level);
   std::vector<char> reached = owned_nodes(nodes);
-  std::vector<std::int64_t> front = at_border;
-  for (int ring = 0; ring <= rings; ++ring) {
-    if (ring > 0) front = neighbours_of(level.stars, front, reached);
+  const auto find = [&](const std::vector<std::int64_t>& front) {
     std::vector<char> wanted(static_cast<std::size_t>(nodes.count), 0);
     for (const std::int64_t i : front) wanted[static_cast<std::size_t>(i)] = 1;
     add_stars(level, known, wanted);
     for (const std::int64_t i : front) unknown.ask_around(i);
+  };
+  std::vector<std::int64_t> front = at_border;
+  find(front);
+  for (int ring = 1; ring <= zone.rings; ++ring) {
+    front = neighbours_of(level.stars, front, reached);
+    find(front);
+  }
+  if (zone.reach > 0) {
+    const WithinReach within(nodes, zone.reach);
+    find(within.ghosts(reached));
+    std::vector<std::int64_t> all;
+    for (std::int64_t i = 0; i < nodes.count; ++i)
+      if (reached[static_cast<std::size_t>(i)] && !nodes.owned(i)) all.push_back(i);
+    find(neighbours_of(level.stars, all, reached));
+    within.for_reaches(known, level,
+                       [&](std::int64_t i, double reach) { unknown.ask_around(i, reach); });
   }
   return unknown.boxes();
 }
@@ -208,25 +225,26 @@ void rebuild_stars(Level<Dim>& level) {
 }
 
 template <int Dim>
-std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings) {
+std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known,
+                                 const StarZone& zone) {
   std::vector<Box<Dim>> unknown;
   if constexpr (Dim == 3)
     if (level.distributed() && !level.ground.surfaces_alone()) {
       std::vector<std::int64_t> at_border;
       agreed(*level.comm, [&] {
         at_border = nodes_at_border(level.nodes, level.lists());
-        unknown = find_border_stars(level, known, at_border, rings);
+        unknown = find_border_stars(level, known, at_border, zone);
       });
       if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
       agreed(*level.comm, [&] { unknown = find_inner_stars(level, known, at_border); });
       return unknown;
     }
-  agreed(*level.comm, [&] { unknown = find_all_stars(level, known, rings); });
+  agreed(*level.comm, [&] { unknown = find_all_stars(level, known, zone.rings); });
   return unknown;
 }
 
-template std::vector<Box<2>> find_stars(Level<2>&, const KnownRegion<2>&, int);
-template std::vector<Box<3>> find_stars(Level<3>&, const KnownRegion<3>&, int);
+template std::vector<Box<2>> find_stars(Level<2>&, const KnownRegion<2>&, const StarZone&);
+template std::vector<Box<3>> find_stars(Level<3>&, const KnownRegion<3>&, const StarZone&);
 template void rebuild_stars(Level<2>&);
 template void rebuild_stars(Level<3>&);
 

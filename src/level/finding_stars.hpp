@@ -6,15 +6,16 @@
 #include <vector>
 
 #include "level/level.hpp"
+#include "level/star_zone.hpp"
 #include "partition/known_region.hpp"
 
 namespace pnpbs {
 
-// Finds the stars of the owned nodes and of the ghosts up to so many neighbours away. Returns what
-// must be known for those that it could not find; nothing on all ranks: they are all there.
-// Collective.
+// Finds the stars of the owned nodes and of the ghosts in that zone around them. Returns what must
+// be known for those that it could not find; nothing on all ranks: they are all there. Collective.
 template <int Dim>
-std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known, int rings);
+std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& known,
+                                 const StarZone& zone);
 
 // Of all nodes, on one rank.
 template <int Dim>

@@ -27,16 +27,16 @@ bool prepared_for_finish(const Level<Dim>& level) {
 
 }  // namespace
 
-// From fresh lists, of the owned nodes and so many rings around them.
+// From fresh lists.
 template <int Dim>
-void make_finish_stars(Level<Dim>& level, int rings) {
+void make_finish_stars(Level<Dim>& level, StarZone zone) {
   if (!prepared_for_finish(level)) prepare_finish(level);
-  make_stars(level, kRepairHops<Dim>, level.settings.list_radius, rings);
+  make_stars(level, kRepairHops<Dim>, level.settings.list_radius, zone);
 }
 
 template void prepare_finish(Level<2>&);
 template void prepare_finish(Level<3>&);
-template void make_finish_stars(Level<2>&, int);
-template void make_finish_stars(Level<3>&, int);
+template void make_finish_stars(Level<2>&, StarZone);
+template void make_finish_stars(Level<3>&, StarZone);
 
 }  // namespace pnpbs

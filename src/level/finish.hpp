@@ -7,6 +7,7 @@
 
 #include "level/level.hpp"
 #include "level/population_events.hpp"
+#include "level/star_zone.hpp"
 #include "quality/element_quality.hpp"
 
 namespace pnpbs {
@@ -26,6 +27,6 @@ template <int Dim>
 void prepare_finish(Level<Dim>& level);
 // From fresh lists, the stars of the owned nodes and so many rings around them. Collective.
 template <int Dim>
-void make_finish_stars(Level<Dim>& level, int rings);
+void make_finish_stars(Level<Dim>& level, StarZone zone);
 
 }  // namespace pnpbs

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -39,14 +40,23 @@ class LaidNodes<2> {
   std::vector<std::int64_t> ids_;
 };
 
+// Of nodes in one place, those with the least freedom come first, and those with an id before those
+// without.
+inline auto by_place(const GivenNode<3>& node) {
+  return std::tuple(node.position, node.carrier, node.boundary_node,
+                    static_cast<std::uint64_t>(node.id), node.d, node.tag);
+}
+
 // In space, those on curves and surfaces, in the order of their places: so that nothing depends on
-// where they came from.
+// where they came from. Of several in one place, as where a bubble on a surface has come to a
+// corner, the one with the least freedom counts.
 template <>
 class LaidNodes<3> {
  public:
   explicit LaidNodes(GivenNodes<3> nodes) : nodes_(std::move(nodes)) {
-    std::sort(nodes_.begin(), nodes_.end(),
-              [](const GivenNode<3>& a, const GivenNode<3>& b) { return a.position < b.position; });
+    std::sort(nodes_.begin(), nodes_.end(), [](const GivenNode<3>& a, const GivenNode<3>& b) {
+      return by_place(a) < by_place(b);
+    });
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end(),
                              [](const GivenNode<3>& a, const GivenNode<3>& b) {
                                return a.position == b.position;
@@ -57,6 +67,7 @@ class LaidNodes<3> {
   std::size_t size() const { return nodes_.size(); }
   std::int64_t id(std::size_t b) const { return nodes_[b].id; }
   const Point<3>& position(std::size_t b) const { return nodes_[b].position; }
+  Carrier carrier(std::size_t b) const { return nodes_[b].carrier; }
   void put(Nodes<3>& nodes, std::int64_t i, std::size_t b, std::int64_t id) const {
     const GivenNode<3>& at = nodes_[b];
     nodes.put(i, at.position, 1, id, at.tag, at.carrier, at.boundary_node);

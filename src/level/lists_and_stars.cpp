@@ -50,17 +50,17 @@ void rebuild_lists(Level<Dim>& level, double radius) {
 }
 
 template <int Dim>
-void make_lists_and_stars(Level<Dim>& level, int hops, double radius, int rings) {
+void make_lists_and_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
   agreed(*level.comm, [&] { rebuild_lists(level, radius); });
-  make_stars(level, hops, radius, rings);
+  make_stars(level, hops, radius, zone);
 }
 
 template <int Dim>
-void make_stars(Level<Dim>& level, int hops, double radius, int rings) {
-  if (level.ground.surfaces_alone()) rings += AgreedTriangles::kRings;
+void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
+  if (level.ground.surfaces_alone()) zone.rings += AgreedTriangles::kRings;
   KnownRegion<Dim> known = known_after_exchange(level, hops);
   while (true) {
-    const std::vector<Box<Dim>> unknown = find_stars(level, known, rings);
+    const std::vector<Box<Dim>> unknown = find_stars(level, known, zone);
     if (level.comm->allreduce_sum(unknown.size()) == 0) break;
     {
       const PhaseTimer timer(level.timers, Phase::exchange);
@@ -78,7 +78,7 @@ void prepare_lists(Level<Dim>& level) {
   agreed(*level.comm, [&] { level.stars_before.take(level.nodes, level.stars); });
   if (!level.ghosts.are_exact(level.nodes, kStarHops<Dim>)) exchange(level, kStarHops<Dim>);
   if (level.distributed())
-    make_lists_and_stars(level, kStarHops<Dim>, level.settings.adjacency_radius, 0);
+    make_lists_and_stars(level, kStarHops<Dim>, level.settings.adjacency_radius, {});
   else
     rebuild_lists(level, level.settings.adjacency_radius);
 }
@@ -87,10 +87,10 @@ template void rebuild_lists_for_steps(Level<2>&);
 template void rebuild_lists_for_steps(Level<3>&);
 template void rebuild_lists(Level<2>&, double);
 template void rebuild_lists(Level<3>&, double);
-template void make_lists_and_stars(Level<2>&, int, double, int);
-template void make_lists_and_stars(Level<3>&, int, double, int);
-template void make_stars(Level<2>&, int, double, int);
-template void make_stars(Level<3>&, int, double, int);
+template void make_lists_and_stars(Level<2>&, int, double, StarZone);
+template void make_lists_and_stars(Level<3>&, int, double, StarZone);
+template void make_stars(Level<2>&, int, double, StarZone);
+template void make_stars(Level<3>&, int, double, StarZone);
 template void prepare_lists(Level<2>&);
 template void prepare_lists(Level<3>&);
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "level/level.hpp"
+#include "level/star_zone.hpp"
 
 namespace pnpbs {
 
@@ -16,12 +17,12 @@ template <int Dim>
 void rebuild_lists(Level<Dim>& level, double radius);
 
 // Right after an exchange that deep: lists, and the stars of the owned nodes and of the ghosts
-// around them, up to so many neighbours away. Collective.
+// in that zone around them. Collective.
 template <int Dim>
-void make_lists_and_stars(Level<Dim>& level, int hops, double radius, int rings);
+void make_lists_and_stars(Level<Dim>& level, int hops, double radius, StarZone zone);
 // The same where the lists are there. Collective.
 template <int Dim>
-void make_stars(Level<Dim>& level, int hops, double radius, int rings);
+void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone);
 
 // The lists handed out. Over several ranks with the ghosts that the stars need, and the stars.
 // Collective.

@@ -20,6 +20,12 @@ Point<Dim> reversed(Point<Dim> x) {
   return x;
 }
 
+// What tells nodes in one place apart: so that their order is none of memory.
+auto kind_of(const GivenNode<2>& node) { return node.inner; }
+auto kind_of(const GivenNode<3>& node) {
+  return std::tuple(node.carrier, node.boundary_node, node.tag);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -45,8 +51,8 @@ std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, GivenNodes<Dim>
     const auto at = static_cast<std::size_t>(leaf);
     std::sort(given.begin() + begin[at], given.begin() + begin[at + 1],
               [](const GivenNode<Dim>& a, const GivenNode<Dim>& b) {
-                const auto x = reversed<Dim>(a.position), y = reversed<Dim>(b.position);
-                return std::tie(x, a.id, a.d) < std::tie(y, b.id, b.d);
+                return std::tuple(reversed<Dim>(a.position), a.id, a.d, kind_of(a)) <
+                       std::tuple(reversed<Dim>(b.position), b.id, b.d, kind_of(b));
               });
   });
   return begin;

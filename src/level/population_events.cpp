@@ -136,7 +136,7 @@ PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
 PopulationCounts repair_defects(Level<2>& level) {
   level.nodes.set_reference_positions();
   exchange(level, kPopulationHops);
-  make_lists_and_stars(level, kPopulationHops, level.settings.list_radius, kDefectRings);
+  make_lists_and_stars(level, kPopulationHops, level.settings.list_radius, {kDefectRings});
   PopulationChange<2> change;
   agreed(*level.comm, [&] {
     const PhaseTimer timer(level.timers, Phase::population);

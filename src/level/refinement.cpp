@@ -111,7 +111,7 @@ GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   if (level.ground.surfaces_alone())
     agreed(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });
   else
-    make_lists_and_stars(level, kStarHops<Dim>, level.settings.list_radius, 0);
+    make_lists_and_stars(level, kStarHops<Dim>, level.settings.list_radius, {});
   const View<double> spacing = spacing_at_owned_nodes(level, next);
   const Nodes<Dim>& nodes = level.nodes;
   GivenNodes<Dim> refined;

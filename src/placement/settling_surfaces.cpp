@@ -13,6 +13,7 @@
 #include "level/expected_nodes.hpp"
 #include "level/numbering.hpp"
 #include "level/refinement.hpp"
+#include "level/room.hpp"
 #include "level/volume/surface_level.hpp"
 #include "level/volume/vacancies.hpp"
 #include "placement/placement_of.hpp"
@@ -68,6 +69,7 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
         advance(anew ? settings.steps : settings.refined_steps, {0, 0}) == Outcome::stopped)
       outcome = Outcome::stopped;
     if (outcome != Outcome::stopped) {
+      count_population_change(remove_crowded(*level_));  // nodes that coincide have no star
       inserted_ += fill_vacancies(*level_);
       sweep_on_surfaces(*level_, settings.sweeps);
     }

@@ -74,7 +74,7 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps) {
   FinishResults results;
   for (std::int64_t done = 0; done < std::max<std::int64_t>(sweeps, repairs ? 1 : 0);
        done += kBlock) {
-    make_finish_stars(level, rings);
+    make_finish_stars(level, {rings});
     const PhaseTimer timer(level.timers, Phase::sweeps);
     std::vector<std::int32_t> surplus;
     agreed(*level.comm, [&] {
@@ -89,7 +89,7 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps) {
     if (repairs) level.ghosts.choose_anew();  // on all ranks, as some may be gone
   }
   if (sweeps == 0 && !repairs) {
-    make_finish_stars(level, 0);
+    make_finish_stars(level, {});
     results.edge_bands = edge_bands(level);
   }
   return results;

@@ -71,9 +71,7 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
 // The worst first: else they would rarely have their turn where nearly all have small angles. With
 // the stars of the owned nodes as they are then.
 void repair_slivers(Level<3>& level) {
-  // Of all nodes within three reaches of a move (see SliverRepair), some 0.8 d from ring to ring.
-  constexpr int kRings = 7;
-  make_finish_stars(level, kRings);
+  make_finish_stars(level, {kSliverRings, kSliverReach + kSliverDrift});
   const PhaseTimer timer(level.timers, Phase::sweeps);
   constexpr double kFlat = 10, kThin = 20;  // degrees
   const SliverRule rule{level.settings.sliver_angle};
@@ -112,7 +110,7 @@ FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps) {
     sweep_on_surfaces(level, sweeps);
     put_on_level_sets(level);
   } else {
-    if (sweeps > 0) make_finish_stars(level, 0);
+    if (sweeps > 0) make_finish_stars(level, {});
     sweep_to_means(level, sweeps);
     if (level.settings.repair.rounds > 0) {
       repair_slivers(level);

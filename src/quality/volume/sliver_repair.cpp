@@ -52,7 +52,10 @@ SliverRepair::SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const Sliv
       allowed_(std::move(allowed)),
       along_surfaces_(std::move(along_surfaces)),
       stars_(nodes, stars, along_surfaces_.walk != nullptr),
+      before_(static_cast<std::size_t>(nodes.count)),
       is_affected_(static_cast<std::size_t>(nodes.count)) {
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    before_[static_cast<std::size_t>(i)] = nodes.position(i);
   bool any_ghost = false;
   for (std::int32_t i = 0; i < nodes.count; ++i) any_ghost = any_ghost || !nodes.owned(i);
   for (std::int32_t i = 0; any_ghost && i < nodes.count; ++i) place_of_id_[nodes.id(i)] = i;
@@ -121,51 +124,6 @@ void SliverRepair::accept(const std::vector<StarChange>& changes) {
   });
   for (const auto& some : found) slivers_.insert(slivers_.end(), some.begin(), some.end());
   mark(0);
-}
-
-// ------------------------------------------------------------------ over several ranks ---------
-
-std::vector<ChangedTetrahedron> SliverRepair::changes_of(std::int32_t node) const {
-  std::vector<ChangedTetrahedron> changed;
-  for (const StarChange& change : changes_) {
-    if (change.node != node) continue;
-    const auto add = [&](const std::vector<TetrahedronNodes>& tetrahedra, bool made) {
-      for (const TetrahedronNodes& t : tetrahedra) {
-        ChangedTetrahedron record{nodes_.id(node), change.x, {}, change.on, made};
-        for (std::size_t k = 0; k < 4; ++k) record.corners[k] = nodes_.id(t[k]);
-        changed.push_back(record);
-      }
-    };
-    add(change.gone, false);
-    add(change.made, true);
-  }
-  return changed;
-}
-
-std::vector<std::int32_t> SliverRepair::moved_nodes() const {
-  std::vector<std::int32_t> moved;
-  for (const StarChange& change : changes_) moved.push_back(change.node);
-  return moved;
-}
-
-// Of tetrahedra with corners that are not known here the stars need not be right.
-void SliverRepair::follow(const std::vector<ChangedTetrahedron>& news) {
-  const auto place = [&](std::int64_t id) {
-    const auto found = place_of_id_.find(id);
-    return found == place_of_id_.end() ? -1 : found->second;
-  };
-  std::vector<StarChange> changes;
-  for (const ChangedTetrahedron& record : news) {
-    const std::int32_t node = place(record.node);
-    if (node < 0) continue;
-    if (changes.empty() || changes.back().node != node)
-      changes.push_back({node, record.x, {}, {}, record.on});
-    TetrahedronNodes corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = place(record.corners[k]);
-    if (std::find(corners.begin(), corners.end(), -1) == corners.end())
-      (record.made ? changes.back().made : changes.back().gone).push_back(corners);
-  }
-  accept(changes);
 }
 
 std::int64_t SliverRepair::slivers(double below) const {
@@ -344,13 +302,17 @@ void SliverRepair::try_moves(Attempt& attempt) const {
     const Point<3> direction = direction_to_try(attempt, trial, bits);
     Point<3> x = nodes_.position(i);
     for (std::size_t k = 0; k < 3; ++k) x[k] += way * direction[k];
-    if (!allowed_(i, x) || !move.go_to(x)) continue;
+    if (too_far(i, x) || !allowed_(i, x) || !move.go_to(x)) continue;
     const StarChange& change = move.change();
     if (penalty(change.made, i, x) >= around) continue;  // most: nothing else need be looked at
     if (!move.complete() || !helps(change)) continue;
     attempt.success.push_back(change);
     return;
   }
+}
+
+bool SliverRepair::too_far(std::int32_t i, const Point<3>& x) const {
+  return distance<3>(before_[static_cast<std::size_t>(i)], x) > kSliverDrift * nodes_.d(i);
 }
 
 // Would it come nearer to another node on the boundary than suits the surface's triangles?
@@ -372,7 +334,7 @@ void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
     const std::uint64_t bits = bits_of_trial(attempt.lot, trial);
     const AlongSurfaces::Place to =
         along_surfaces_.walk(i, direction_to_try(attempt, trial, bits), way_to_try(attempt, bits));
-    if (to.x == nodes_.position(i) || crowded(i, to.x)) continue;
+    if (to.x == nodes_.position(i) || too_far(i, to.x) || crowded(i, to.x)) continue;
     move.go_to(to.x, to.facet);
     if (!may_help(move.change()) || !move.complete() || !helps(move.change())) continue;
     attempt.success.push_back(move.change());

@@ -30,6 +30,11 @@ struct SliverRule {
 // What a move changes lies within this many d of the node; nodes nearer to each other than the sum
 // of these do not go at once.
 inline constexpr double kSliverReach = 1.8;
+// So many d from where it was before the repair a node may come: so which nodes may ever be that
+// near to each other is known from the beginning.
+inline constexpr double kSliverDrift = 0.6;
+// So many neighbours away from it a move looks at stars.
+inline constexpr int kSliverRings = 3;
 
 // A tetrahedron that a node's move has made, or done away with, as other ranks are told of it.
 struct ChangedTetrahedron {
@@ -57,8 +62,8 @@ class SliverRepair {
   using Allowed = std::function<bool(std::int64_t i, const Point<3>& x)>;
 
   // The stars are those of the nodes' positions, and remain while this lives. Where ghosts are:
-  // those of all nodes within three times the reach of an owned one. Nodes on surfaces move where
-  // it is said how: where no other node of a sliver can, and late.
+  // those of all nodes that may come within reach of an owned one, and of their neighbours. Nodes
+  // on surfaces move where it is said how: where no other node of a sliver can, and late.
   SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed,
                AlongSurfaces along_surfaces = {});
 
@@ -106,6 +111,7 @@ class SliverRepair {
   bool may_help(const StarChange& change) const;
   bool helps(const StarChange& change) const;
   bool crowded(std::int32_t i, const Point<3>& x) const;
+  bool too_far(std::int32_t i, const Point<3>& x) const;
   bool within_reach(const StarChange& change) const;
   double penalty(std::span<const TetrahedronNodes> tetrahedra, std::int32_t node,
                  const Point<3>& at) const;
@@ -118,9 +124,10 @@ class SliverRepair {
   Allowed allowed_;
   AlongSurfaces along_surfaces_;
   StarChanges stars_;
-  std::vector<char> is_affected_;                               // while a change is accepted
-  std::vector<TetrahedronNodes> slivers_;                       // in no order that matters
-  std::vector<StarChange> changes_;                             // of the last round
+  std::vector<Point<3>> before_;           // where the nodes were when the repair began
+  std::vector<char> is_affected_;          // while a change is accepted
+  std::vector<TetrahedronNodes> slivers_;  // in no order that matters
+  std::vector<StarChange> changes_;        // of the last round
   std::unordered_map<std::int64_t, std::int32_t> place_of_id_;  // where there are ghosts
 };
 
