@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "spacing/growth_leaves.hpp"
+#include "spacing/growth_leaf.hpp"
 #include "spacing/growth_source.hpp"
 #include "spacing/open_ways.hpp"
 #include "tree/tree_part.hpp"

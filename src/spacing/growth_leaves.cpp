@@ -2,9 +2,7 @@
 #include "spacing/growth_leaves.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "base/lattice.hpp"
@@ -18,126 +16,40 @@ namespace pnpbs {
 template <int Dim>
 GrowthLeaves<Dim>::GrowthLeaves(const Communicator& comm, const OpenWays<Dim>& ways, double growth,
                                 const NodeLimit& limit, std::vector<Point<Dim>> places)
-    : comm_(comm), ways_(ways), growth_(growth), limit_(limit), places_(std::move(places)) {
-  root_.build(ways.bounds(),
-              [](const BackgroundTree<Dim>&, std::int32_t, std::int32_t, std::vector<char>&) {});
-  sort_nodes();
+    : comm_(comm), ways_(ways), growth_(growth), limit_(limit), points_(ways, std::move(places)) {
   if (comm.rank() != 0) return;
   leaves_.emplace_back();
   look_at_domain(leaves_.front());
 }
 
 template <int Dim>
-const Point<Dim>& GrowthLeaves<Dim>::node(std::int64_t n) const {
-  const std::int64_t of_boundary = ways_.node_count();
-  return n < of_boundary ? ways_.node(n) : places_[static_cast<std::size_t>(n - of_boundary)];
-}
-
-template <int Dim>
-void GrowthLeaves<Dim>::sort_nodes() {
-  std::vector<FineIndex<Dim>> fine;
-  for (std::int64_t n = 0; n < ways_.node_count() + std::ssize(places_); ++n)
-    fine.push_back(root_.fine_index(node(n)));
-  nodes_.resize(fine.size());
-  std::iota(nodes_.begin(), nodes_.end(), 0);
-  const auto at = [](std::int64_t n) { return static_cast<std::size_t>(n); };
-  std::stable_sort(nodes_.begin(), nodes_.end(), [&](std::int64_t a, std::int64_t b) {
-    return morton_before(fine[at(a)], fine[at(b)]);
-  });
-  for (const std::int64_t n : nodes_) fine_of_nodes_.push_back(fine[at(n)]);
-}
-
-template <int Dim>
-template <class Visit>
-void GrowthLeaves<Dim>::for_nodes_in(const LeafCell<Dim>& cell, const Visit& visit) const {
-  auto node = std::lower_bound(fine_of_nodes_.begin(), fine_of_nodes_.end(), cell.first(),
-                               morton_before<static_cast<std::size_t>(Dim)>);
-  for (; node != fine_of_nodes_.end() && cell.holds(*node); ++node)
-    visit(nodes_[static_cast<std::size_t>(node - fine_of_nodes_.begin())]);
-}
-
-template <int Dim>
-double GrowthLeaves<Dim>::side_of(const LeafCell<Dim>& cell) const {
-  return std::ldexp(root_.side(), -cell.depth);
-}
-
-template <int Dim>
-Box<Dim> GrowthLeaves<Dim>::box_of(const LeafCell<Dim>& cell) const {
-  const double side = side_of(cell);
-  Box<Dim> box;
-  for (int k = 0; k < Dim; ++k) {
-    box.low[k] = root_.origin()[k] + side * cell.index[k];
-    box.high[k] = root_.origin()[k] + side * (cell.index[k] + 1.0);
-  }
-  return box;
-}
-
-// The points inside at which d is sampled, then the boundary nodes and places.
-template <int Dim>
-void GrowthLeaves<Dim>::add_points(const GrowthLeaf<Dim>& leaf,
-                                   std::vector<Point<Dim>>& points) const {
-  for (const Point<Dim>& sample : cell_samples<Dim>()) {
-    const Point<Dim> x = point_in<Dim>(box_of(leaf.cell), sample);
-    if (leaf.side == GrowthLeaf<Dim>::Side::inside || ways_.inside(x)) points.push_back(x);
-  }
-  if (leaf.has_nodes) for_nodes_in(leaf.cell, [&](std::int64_t n) { points.push_back(node(n)); });
-}
-
-template <int Dim>
-std::size_t GrowthLeaves<Dim>::samples_inside(const LeafCell<Dim>& cell) const {
-  static constexpr auto kSamples = cell_samples<Dim>();
-  return static_cast<std::size_t>(std::ranges::count_if(kSamples, [&](const Point<Dim>& sample) {
-    return ways_.inside(point_in<Dim>(box_of(cell), sample));
-  }));
-}
-
-template <int Dim>
 void GrowthLeaves<Dim>::look_at_domain(GrowthLeaf<Dim>& leaf) const {
   using Side = typename GrowthLeaf<Dim>::Side;
-  if (leaf.side == Side::crossed) leaf.side = ways_.side_of(box_of(leaf.cell));
+  if (leaf.side == Side::crossed) leaf.side = ways_.side_of(points_.box_of(leaf.cell));
   if (leaf.outside()) {
     leaf.open = leaf.fresh = false;
     return;
   }
   if (leaf.has_nodes) {
     leaf.has_nodes = false;
-    for_nodes_in(leaf.cell, [&](std::int64_t) { leaf.has_nodes = true; });
+    points_.for_nodes_in(leaf.cell, [&](std::int64_t) { leaf.has_nodes = true; });
   }
-  leaf.place = middle_of<Dim>(box_of(leaf.cell));
+  leaf.place = middle_of<Dim>(points_.box_of(leaf.cell));
   leaf.placed = true;
-  leaf.sliver =
-      Dim == 3 && leaf.side == Side::crossed && !samples_suffice<Dim>(samples_inside(leaf.cell));
+  leaf.sliver = Dim == 3 && leaf.side == Side::crossed &&
+                !samples_suffice<Dim>(points_.samples_inside(leaf.cell));
   if (leaf.side == Side::inside || ways_.inside(leaf.place)) return;
   std::vector<Point<Dim>> points;
-  add_points(leaf, points);
+  points_.add_points(leaf, points);
   leaf.placed = !points.empty();
   if (leaf.placed) leaf.place = points.front();
-}
-
-// As many as the nodes that the least d of the leaf asks for. They come from the additive
-// recurrence by powers of the root of r^4 = r + 1 (M. Roberts, "The unreasonable effectiveness of
-// quasirandom sequences", 2018): no two lie in a plane that is parallel to sides, as layers may be.
-template <int Dim>
-void GrowthLeaves<Dim>::add_probes(const GrowthLeaf<Dim>& leaf,
-                                   std::vector<Point<Dim>>& points) const {
-  constexpr std::array<double, 3> kSteps = {0.8191725133961645, 0.6710436067037893,
-                                            0.5497004779019703};
-  const double in_row =
-      std::min(std::ceil(side_of(leaf.cell) / leaf.min), DomainMap<Dim>::kLeafSpacings);
-  for (int k = 1; k <= static_cast<int>(power<Dim>(in_row)); ++k) {
-    Point<Dim> fraction;
-    for (std::size_t axis = 0; axis < Dim; ++axis)
-      fraction[axis] = k * kSteps[axis] - std::floor(k * kSteps[axis]);
-    const Point<Dim> x = point_in<Dim>(box_of(leaf.cell), fraction);
-    if (leaf.side == GrowthLeaf<Dim>::Side::inside || ways_.inside(x)) points.push_back(x);
-  }
 }
 
 template <int Dim>
 template <class Wanted>
 typename GrowthLeaves<Dim>::Samples GrowthLeaves<Dim>::samples_in(const Wanted& wanted) const {
   return samples_in(wanted, [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
-    add_points(leaf, points);
+    points_.add_points(leaf, points);
   });
 }
 
@@ -168,18 +80,12 @@ void GrowthLeaves<Dim>::take_range(const Samples& samples) {
   }
 }
 
-// Of open leaves with few samples inside: all that add_points() tells, and points of the boundary.
 template <int Dim>
 typename GrowthLeaves<Dim>::Samples GrowthLeaves<Dim>::samples_in_slivers() const {
-  return samples_in(
-      [](const GrowthLeaf<Dim>& leaf) { return leaf.open && leaf.sliver; },
-      [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
-        const double reach = Dim * side_of(leaf.cell);
-        add_points(leaf, points);
-        add_samples_of_boundary<Dim>(
-            box_of(leaf.cell), [this](const Point<Dim>& x) { return ways_.inside(x); },
-            [&](const Point<Dim>& x) { return ways_.nearest_of_boundary(x, reach); }, points);
-      });
+  return samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open && leaf.sliver; },
+                    [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
+                      points_.add_points_in_sliver(leaf, points);
+                    });
 }
 
 // The nearest of each leaf's points in its cell.
@@ -187,7 +93,7 @@ template <int Dim>
 void GrowthLeaves<Dim>::move_into_cells(Samples& samples) const {
   constexpr double kFromFace = 1e-9;  // in sides
   for (std::size_t k = 0; k < samples.leaves.size(); ++k) {
-    const Box<Dim> box = box_of(leaves_[samples.leaves[k]].cell);
+    const Box<Dim> box = points_.box_of(leaves_[samples.leaves[k]].cell);
     for (std::size_t s = samples.first[k]; s < samples.first[k + 1]; ++s)
       for (int axis = 0; axis < Dim; ++axis) {
         const double room = kFromFace * (box.high[axis] - box.low[axis]);
@@ -203,14 +109,7 @@ template <int Dim>
 void GrowthLeaves<Dim>::look_beside(const SpacingEvaluator<Dim>& raw) {
   Samples beside = samples_in([](const GrowthLeaf<Dim>& leaf) { return leaf.open; },
                               [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
-                                const Box<Dim> box = box_of(leaf.cell);
-                                for (int k = 0; k < Dim; ++k)
-                                  for (const double side : {-1.0, 1.0}) {
-                                    Point<Dim> x = middle_of<Dim>(box);
-                                    x[k] += side * side_of(leaf.cell);
-                                    if (in_closed_box(ways_.bounds(), x) && ways_.inside(x))
-                                      points.push_back(x);
-                                  }
+                                points_.add_points_beside(leaf, points);
                               });
   raw(std::ssize(beside.x), beside.x.data(), beside.d.data());
   for (std::size_t k = 0; k < beside.leaves.size(); ++k) {
@@ -295,7 +194,7 @@ bool GrowthLeaves<Dim>::find_dips(const SpacingEvaluator<Dim>& raw,
   Samples probes =
       samples_in([](const GrowthLeaf<Dim>& leaf) { return !leaf.outside() && !leaf.probed; },
                  [this](const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) {
-                   add_probes(leaf, points);
+                   points_.add_probes(leaf, points);
                  });
   std::vector<double> limits(probes.x.size());
   raw(std::ssize(probes.x), probes.x.data(), probes.d.data());
@@ -311,14 +210,11 @@ bool GrowthLeaves<Dim>::find_dips(const SpacingEvaluator<Dim>& raw,
 // More places at which d is sampled: the leaves that have them may have to be split.
 template <int Dim>
 void GrowthLeaves<Dim>::take_places(const std::vector<Point<Dim>>& places) {
-  places_.insert(places_.end(), places.begin(), places.end());
-  nodes_.clear();
-  fine_of_nodes_.clear();
-  sort_nodes();
+  points_.add_places(places);
   for (GrowthLeaf<Dim>& leaf : leaves_) {
     if (leaf.outside()) continue;
     const std::int64_t of_boundary = ways_.node_count();
-    for_nodes_in(leaf.cell, [&](std::int64_t n) {
+    points_.for_nodes_in(leaf.cell, [&](std::int64_t n) {
       leaf.has_nodes = true;
       leaf.open = leaf.open || n >= of_boundary;
     });
@@ -337,7 +233,7 @@ template <int Dim>
 bool GrowthLeaves<Dim>::too_wide(const GrowthLeaf<Dim>& leaf, double steepest) const {
   constexpr double kFinest = 0.35;  // width of leaves over which d is steep, in units of d
   constexpr double kBeside = 1.6;  // sides from a sample to the middle of the leaf beyond, and more
-  const double side = side_of(leaf.cell);
+  const double side = points_.side_of(leaf.cell);
   if (leaf.cell.depth == BackgroundTree<Dim>::kMaxDepth) return false;
   if (side > DomainMap<Dim>::kLeafSpacings * leaf.min) return true;
   if (steepest == 0 || side <= kFinest * leaf.min) return false;
@@ -373,7 +269,7 @@ bool GrowthLeaves<Dim>::split_open(double steepest) {
 template <int Dim>
 void GrowthLeaves<Dim>::split(const GrowthLeaf<Dim>& leaf,
                               std::vector<GrowthLeaf<Dim>>& next) const {
-  const FineIndex<Dim> fine_of_source = root_.fine_index(leaf.source.x);
+  const FineIndex<Dim> fine_of_source = points_.fine_index(leaf.source.x);
   for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k) {
     GrowthLeaf<Dim> child = leaf;
     child.cell = leaf.cell.child(k);
@@ -392,7 +288,7 @@ void GrowthLeaves<Dim>::require_few_nodes() const {
   double own = 0;
   for (const GrowthLeaf<Dim>& leaf : leaves_)
     if (leaf.side == GrowthLeaf<Dim>::Side::inside)
-      own += Lattice<Dim>::kDensity * power<Dim>(side_of(leaf.cell) / leaf.max);
+      own += Lattice<Dim>::kDensity * power<Dim>(points_.side_of(leaf.cell) / leaf.max);
   const auto nodes = static_cast<double>(comm_.allreduce_sum(
       static_cast<std::uint64_t>(std::round(std::min(own, kMaxThatAddUp / comm_.size())))));
   if (nodes > static_cast<double>(limit_.max_nodes)) report_too_many(nodes);
@@ -412,7 +308,8 @@ void GrowthLeaves<Dim>::report_too_many(double nodes) const {
   Finest finest{std::numeric_limits<double>::infinity(), {}};
   for (const GrowthLeaf<Dim>& leaf : leaves_)
     if (!leaf.outside())
-      finest = std::min(finest, Finest{leaf.min, middle_of<Dim>(box_of(leaf.cell))}, before);
+      finest =
+          std::min(finest, Finest{leaf.min, middle_of<Dim>(points_.box_of(leaf.cell))}, before);
   Bytes mine;
   pack(mine, finest);
   for_records<Finest>({comm_.allgather(mine)},

@@ -10,32 +10,13 @@
 #include "comm/communicator.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
+#include "spacing/growth_leaf.hpp"
 #include "spacing/growth_source.hpp"
 #include "spacing/growth_sources.hpp"
+#include "spacing/leaf_points.hpp"
 #include "spacing/open_ways.hpp"
-#include "tree/leaf_cells.hpp"
 
 namespace pnpbs {
-
-template <int Dim>
-struct GrowthLeaf {
-  using Side = typename OpenWays<Dim>::Side;
-
-  LeafCell<Dim> cell;
-  Side side = Side::crossed;
-  bool open = true;          // to be split, perhaps
-  bool fresh = true;         // no source has been looked for in it
-  bool has_nodes = true;     // of the boundary, or fixed ones, or places
-  bool probed = false;       // for dips of d between the samples
-  bool sliver = false;       // do few of its samples lie in the domain?
-  bool placed = false;       // is there a place in the domain that stands for it?
-  Point<Dim> place{};        // its middle where that is inside
-  GrowthSource<Dim> source;  // of the samples in it, the one that limits d there the most
-  double min = 0, max = 0;   // of the samples
-  double max_beside = 0;     // where the middles of leaves beside it would be, in space
-
-  bool outside() const { return side == Side::outside; }
-};
 
 template <int Dim>
 class GrowthLeaves {
@@ -68,23 +49,14 @@ class GrowthLeaves {
     std::vector<double> d;
   };
 
-  void sort_nodes();
-  const Point<Dim>& node(std::int64_t n) const;
-  template <class Visit>
-  void for_nodes_in(const LeafCell<Dim>& cell, const Visit& visit) const;
   template <class Wanted, class Add>
   Samples samples_in(const Wanted& wanted, const Add& add) const;
   template <class Wanted>
   Samples samples_in(const Wanted& wanted) const;
   void take_places(const std::vector<Point<Dim>>& places);
-  void add_probes(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
-  void add_points(const GrowthLeaf<Dim>& leaf, std::vector<Point<Dim>>& points) const;
-  double side_of(const LeafCell<Dim>& cell) const;
-  Box<Dim> box_of(const LeafCell<Dim>& cell) const;
   void look_at_domain(GrowthLeaf<Dim>& leaf) const;
   void take_range(const Samples& samples);
   Samples samples_in_slivers() const;
-  std::size_t samples_inside(const LeafCell<Dim>& cell) const;
   void move_into_cells(Samples& samples) const;
   void look_beside(const SpacingEvaluator<Dim>& raw);
   void expect_known(const Samples& samples, const GrowthSources<Dim>& known);
@@ -100,10 +72,7 @@ class GrowthLeaves {
   const OpenWays<Dim>& ways_;
   double growth_;
   NodeLimit limit_;
-  std::vector<Point<Dim>> places_;
-  BackgroundTree<Dim> root_;         // one cell, for its arithmetic
-  std::vector<std::int64_t> nodes_;  // of the boundary, then the places, in Morton order
-  std::vector<FineIndex<Dim>> fine_of_nodes_;
+  LeafPoints<Dim> points_;
   std::vector<GrowthLeaf<Dim>> leaves_;  // in Morton order
 };
 

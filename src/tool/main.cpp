@@ -151,6 +151,14 @@ struct Wishes {
   }
 };
 
+void set_options(pnpbs_context context, const Arguments& arguments) {
+  // What is given behind --set is meant, a checkpoint's other value or not.
+  if (!arguments.restart.empty())
+    check(pnpbs_context_set(context, "restart_options", "changed"), context);
+  for (const auto& [key, value] : arguments.options)
+    check(pnpbs_context_set(context, key.c_str(), value.c_str()), context);
+}
+
 ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   Wishes wishes(arguments, ranks);
   std::optional<Outputs>& outputs = wishes.outputs;
@@ -159,12 +167,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   ranks.create_context(context.out());
   Domain domain;
   ranks.agreed([&] {
-    // What is given behind --set is meant, a checkpoint's other value or not.
-    if (!arguments.restart.empty())
-      check(pnpbs_context_set(context, "restart_options", "changed"), context);
-    for (const auto& [key, value] : arguments.options) {
-      check(pnpbs_context_set(context, key.c_str(), value.c_str()), context);
-    }
+    set_options(context, arguments);
     check(pnpbs_domain_create(context, dimension, domain.out()), context);
   });
   wishes.source->read(domain, context, ranks);
