@@ -5,6 +5,8 @@ FLOORS; the public header is for the topmost folders alone. And no file and no f
 to be read; the table of options or statistics may be.
 usage: check_floors.py <folder> [--self-test]"""
 
+import contextlib
+import io
 import pathlib
 import re
 import sys
@@ -23,7 +25,10 @@ PUBLIC = re.compile(r'^\s*#\s*include\s*["<](pnpbs/\w+\.h)[">]', re.M)
 def faults(root):
     """What is wrong, a line each."""
     source = root / "src"
-    for path in sorted([*source.rglob("*.cpp"), *source.rglob("*.hpp")]):
+    files = sorted([*source.rglob("*.cpp"), *source.rglob("*.hpp")])
+    if not files:
+        yield f"{source}: no sources"
+    for path in files:
         name = path.relative_to(source)
         text = path.read_text()
         floor = name.parts[0]
@@ -97,25 +102,30 @@ def self_test():
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text)
         found = list(faults(root))
+        statuses = main([name]), main([f"{name}/src"])
+        for file in found:
+            (root / "src" / file.split(":")[0]).unlink()
+        statuses += main([name]),
     expected = ["base/nodes.hpp: includes the public header pnpbs/pnpbs.h",
                 "cellar/wine.hpp: the folder cellar has no place in FLOORS",
                 "domain/map.hpp: includes level/level.hpp, which stands above it",
                 "level/level.hpp: 401 lines, at most 400",
                 "quality/sweep.cpp: sweep has 61 lines, at most 60"]
     if found != expected:
-        print(f"the check is wrong: it finds {found}")
-        return 1
-    return 0
+        sys.exit(f"the check is wrong: it finds {found}")
+    if statuses != (1, 1, 0):
+        sys.exit(f"the check ends with {statuses} where there are faults, no files, and no faults")
 
 
-def main():
-    if "--self-test" in sys.argv:
-        return self_test()
-    found = list(faults(pathlib.Path(sys.argv[1])))
+def main(arguments):
+    if "--self-test" in arguments:
+        with contextlib.redirect_stdout(io.StringIO()):
+            self_test()
+    found = list(faults(pathlib.Path(arguments[0])))
     for line in found:
         print(line)
     return 1 if found else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))
