@@ -18,7 +18,9 @@ for module in $modules; do
   pkg-config --validate "$module"
   [ "$(pkg-config --modversion "$module")" = "$version" ] || fail "version"
   # Folders of the moved tree, wherever it lies now.
-  for word in $(pkg-config --cflags-only-I --libs-only-L "$module"); do
+  words=$(pkg-config --cflags-only-I --libs-only-L "$module")
+  [ -n "$words" ] || fail "no folders"
+  for word in $words; do
     folder=${word#-?}
     [ -d "$folder" ] || fail "no folder $folder"
     case $module:$(cd "$folder" && pwd -P) in

@@ -209,7 +209,8 @@ def check(path, package, mutations):
     header = read_header(text)
     found = list(differences(header, package))
     # What the patterns above overlook would agree with anything.
-    if len(header[0]) != len(re.findall(r"^PNPBS_API ", text, re.M)):
+    declared = len(re.findall(r"^PNPBS_API ", text, re.M))
+    if not declared or len(header[0]) != declared:
         found.append("not every declaration of the header was understood")
     print("\n".join(found) or f"{len(header[0])} functions, {len(header[1])} callbacks agree")
     if found or "--self-test" not in sys.argv:

@@ -81,6 +81,7 @@ class Spack(unittest.TestCase):
                 self.assertEqual(told[option], "ON" if variants[variant] else "OFF", option)
 
     def test_conditions_name_variants(self):
+        self.assertGreater(len(list(self.recipe.all_conditions)), 5)
         for condition in self.recipe.all_conditions:
             for name in re.findall(r"[+~](\w+)", condition):
                 self.assertIn(name, self.recipe.variants)

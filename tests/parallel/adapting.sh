@@ -9,11 +9,12 @@ failed=0
 adapt() { # ranks, threads, arguments of the program
   local ranks=$1 threads=$2
   shift 2
-  OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 120 \
+  OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 900 \
     "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" "$program" "$@" < /dev/null
 }
 
 expected=$(adapt 1 1)
+[ -n "$expected" ] || { echo "no stages"; exit 1; }
 echo "$expected"
 while read -r ranks threads interval seed; do
   stages=$(adapt "$ranks" "$threads" "exchange_interval=$interval" "metis_seed=$seed")

@@ -11,28 +11,37 @@ failed=0
 place() { # ranks, threads, arguments of the program
   local ranks=$1 threads=$2
   shift 2
-  OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 120 \
+  OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 900 \
     "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" "$program" "$@" < /dev/null
 }
-field() { awk -v key="$2" '{ for (k = 1; k < NF; ++k) if ($k == key) print $(k + 1) }' <<< "$1"; }
+# The value of a key in a line. Assign it: where the line has no such key, that ends the test.
+field() {
+  awk -v key="$2" '{ for (k = 1; k < NF; ++k) if ($k == key) { print $(k + 1); found = 1 } }
+                   END { exit !found }' <<< "$1"
+}
 
 begin() { # case, scale of d, other options
   subject=("$@")
   expected=$(place 1 1 "$@")
+  expected_hash=$(field "$expected" hash)
+  expected_elements=$(field "$expected" elements)
   echo "$(basename "$1") ${*:2}: $expected"
 }
 compare() { # ranks, threads, exchange interval, seed
-  local line
+  local line hash elements
   line=$(place "$1" "$2" "${subject[@]}" "exchange_interval=$3" "metis_seed=$4")
-  if [ "$(field "$line" hash)" != "$(field "$expected" hash)" ] ||
-    [ "$(field "$line" elements)" != "$(field "$expected" elements)" ]; then
+  hash=$(field "$line" hash)
+  elements=$(field "$line" elements)
+  if [ "$hash" != "$expected_hash" ] || [ "$elements" != "$expected_elements" ]; then
     echo "DIFFERS at $1 ranks, $2 threads, exchange every $3, seed $4: $line"
     failed=1
   fi
 }
 
 require_at_least() { # count, key of the case's reference, what else is wrong
-  if [ "$(field "$expected" "$2")" -lt "$1" ]; then
+  local count
+  count=$(field "$expected" "$2")
+  if ! [ "$count" -ge "$1" ]; then
     echo "$3: $expected"
     failed=1
   fi
@@ -110,12 +119,16 @@ compare 8 2 2 2
 
 # It can fail: no rank sees half of the nodes, and ghost layers too thin give another set.
 line=$(place 8 1 graded-square 2 exchange_interval=2 sweeps=0)
-if [ $((2 * $(field "$line" held))) -ge "$(field "$line" nodes)" ]; then
+held=$(field "$line" held)
+nodes=$(field "$line" nodes)
+if ! [ $((2 * held)) -lt "$nodes" ]; then
   echo "some rank holds half of the nodes: $line"
   failed=1
 fi
 thin=$(place 8 1 graded-square 2 exchange_interval=8 sweeps=0 halo_deficit=5)
-if [ "$(field "$line" hash)" = "$(field "$thin" hash)" ]; then
+hash=$(field "$line" hash)
+thin_hash=$(field "$thin" hash)
+if [ "$hash" = "$thin_hash" ]; then
   echo "a halo too thin changed nothing: $thin"
   failed=1
 fi

@@ -10,9 +10,12 @@ failed=0
 place() { # ranks, threads, case, options
   local ranks=$1 threads=$2
   shift 2
-  OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 120 \
+  OMP_NUM_THREADS=$threads OMP_WAIT_POLICY=passive timeout 900 \
     "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" \
     "$program" "$data" "$@" < /dev/null
+}
+require_output() { # a program that knows no such case prints nothing
+  [ -n "$expected" ] || { echo "$subject: no output"; exit 1; }
 }
 compare() { # ranks, threads, options
   local line
@@ -26,6 +29,7 @@ compare() { # ranks, threads, options
 for subject in box-graded globe ring-graded two-halves kleopatra-graded adapt given-nodes by-steps \
   surface-halves surface-terrain; do
   expected=$(place 1 1 "$subject")
+  require_output
   echo "$expected"
   compare 1 2 exchange_interval=1
   compare 3 1 metis_seed=7
@@ -35,7 +39,9 @@ done
 # It can fail: ghost layers too thin give another set.
 subject=box-graded
 expected=$(place 1 1 "$subject")
-if [ "$(place 8 1 "$subject" exchange_interval=5 halo_deficit=4)" = "$expected" ]; then
+require_output
+thin=$(place 8 1 "$subject" exchange_interval=5 halo_deficit=4)
+if [ "$thin" = "$expected" ]; then
   echo "a halo too thin changed nothing"
   failed=1
 fi

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The types that the package promises with py.typed: mypy, as strict as it is, of the package, of a
-program with types and, less strict, of the examples; and the program runs.
+program with types and, less strict, of the examples; and the program runs. A program that breaks the
+promise is refused.
 usage: check_types.py <folder of pnpbs> <source folder> <folder for mypy's cache>"""
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 package, source, cache = map(Path, sys.argv[1:])
@@ -19,7 +21,20 @@ def mypy(*arguments):
                           env=dict(os.environ, MYPYPATH=str(package.parent))).returncode
 
 
+def is_refused(text, message):
+    with tempfile.TemporaryDirectory() as folder:
+        wrong = Path(folder) / "wrong.py"
+        wrong.write_text(text)
+        done = subprocess.run([sys.executable, "-m", "mypy", f"--cache-dir={cache}", str(wrong)],
+                              cwd=package.parent, env=dict(os.environ, MYPYPATH=str(package.parent)),
+                              capture_output=True, text=True)
+    if done.returncode != 1 or message not in done.stdout:
+        print(f"not refused: {text}{done.stdout}{done.stderr}")
+    return done.returncode == 1 and message in done.stdout
+
+
 codes = [mypy("--strict", package, program),
          mypy("--check-untyped-defs", *sorted((source / "examples/python").glob("*/*.py"))),
          subprocess.run([sys.executable, "-B", str(program)]).returncode]
-sys.exit(0 if (package / "py.typed").exists() and not any(codes) else 1)
+refused = is_refused("import pnpbs\n\npnpbs.Placement(3).run()\n", "incompatible type")
+sys.exit(0 if (package / "py.typed").exists() and not any(codes) and refused else 1)
