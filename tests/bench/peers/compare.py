@@ -32,7 +32,7 @@ import volume_table  # noqa: E402
 from adapters import (with_cgal, with_gmsh, with_gmsh_shape, with_gmsh_volume,  # noqa: E402
                       with_jigsaw, with_jigsaw_shape, with_jigsaw_volume, with_netgen, with_pnpbs,
                       with_pnpbs_shape, with_tetgen, with_triangle)
-from adapters.tool import DoesNotStart, command  # noqa: E402
+from adapters.tool import DoesNotStart, NotSupported, command  # noqa: E402
 from measure import Failed  # noqa: E402
 from progress import Progress  # noqa: E402
 
@@ -173,13 +173,15 @@ def sort_out(args):
 
 
 def version_or_why_not(name, is_there, needs, ask_version, left_out):
-    """The version of a tool that starts; of others None, and the reason in left_out."""
+    """The version of a tool that starts and is supported; of others None, and the reason in left_out."""
     try:
         if is_there:
             return ask_version()
         why = f"not found; needs {needs}"
     except DoesNotStart as error:
         why = f"found, but does not start: {error}"
+    except NotSupported as error:
+        why = f"found, but not supported: {error}"
     left_out.append({"name": name, "why": why})
     return None
 

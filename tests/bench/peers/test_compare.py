@@ -13,8 +13,9 @@ import time
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1])]
 
+from adapters import tool  # noqa: E402
 from tables import grouped  # noqa: E402
 
 PROGRAM = Path(__file__).with_name("compare.py")
@@ -56,8 +57,8 @@ class Compare(unittest.TestCase):
             self.assertGreater(result["peak_bytes"], 1e6)
             self.assertIn(f"| {result['tool']} | {m['nodes']} |", words)
             self.assertIn(result["tool"], done.stdout)
-        for tool in results["tools"]:
-            self.assertIn(f"| {tool['name']} | {tool['version']} |", words)
+        for one in results["tools"]:
+            self.assertIn(f"| {one['name']} | {one['version']} |", words)
         for left_out in results["left_out"]:
             self.assertIn(f"- {left_out['name']}: {left_out['why']}", words)
         self.assertIn("dmsh, optimesh", [t["name"] for t in results["left_out"]])
@@ -155,7 +156,7 @@ class Compare(unittest.TestCase):
         return folder
 
     def test_a_tool_that_fails_is_told(self):
-        fake = self.fake("gmsh", "#!/bin/sh\n[ \"$1\" = --version ] && exec echo 1\n"
+        fake = self.fake("gmsh", "#!/bin/sh\n[ \"$1\" = --version ] && exec echo 4.13.1\n"
                                  "echo 'out of paper' >&2\nexit 7\n")
         done = compare(self.output, "--cases", "uniform-square", "--tools", "PNPBS,gmsh",
                        "--no-forces", "--path", fake)
@@ -201,6 +202,34 @@ class Compare(unittest.TestCase):
             why = {t["name"]: t["why"] for t in self.results()["left_out"]}
             self.assertIn(reason, why["LAMMPS"])
 
+    def test_a_version_that_is_not_supported_is_left_out(self):
+        """As Debian 12's gmsh is, whose Distance fields have no Sampling."""
+        fake = self.fake("gmsh", "#!/bin/sh\n[ \"$1\" = --version ] && echo 4.8.4 && exit 0\n"
+                                 "echo \"Unknown option 'Sampling'\" >&2\nexit 1\n")
+        for kind, file in (([], "comparison"), (["--volumes"], "comparison_volumes"),
+                           (["--shape"], "comparison_shape")):
+            done = compare(self.output, *kind, "--cases",
+                           {"--volumes": "uniform-cube", "--shape": "follow-airfoil"}.get(
+                               "".join(kind), "uniform-square"),
+                           "--tools", "PNPBS,gmsh", "--no-forces", environment={"PATH": str(fake)})
+            self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+            results = self.results(file)
+            self.assertEqual({r["tool"] for r in results["placements"]}, {"PNPBS, default"})
+            why = {t["name"]: t["why"] for t in results["left_out"] if "gmsh" in t["name"]}
+            self.assertGreaterEqual(len(why), 1)
+            page = (self.output / f"{file}.md").read_text()
+            for name, reason in why.items():
+                self.assertTrue(reason.startswith("found, but not supported: version 4.8.4; needs 4.9"),
+                                reason)
+                self.assertIn(f"- {name}: {reason}", page)
+
+    def test_versions_are_compared_by_their_numbers(self):
+        for version in ("4.9", "4.9.0", "4.10.5", "4.13.1-git-1234abc", "5"):
+            tool.require_version(version, "4.9", "")
+        for version in ("4.8.4", "4.8.4+ds2", "3.0", "4", "nothing like it"):
+            with self.assertRaisesRegex(tool.NotSupported, "needs 4.9 or later"):
+                tool.require_version(version, "4.9", "")
+
     def test_nothing_installed(self):
         empty = self.folder / "empty"
         empty.mkdir()
@@ -217,20 +246,20 @@ class Compare(unittest.TestCase):
         self.assertIn("needs the command jigsaw", done.stderr)
 
     def test_interrupt(self):
-        """Between the first run, ours, and the end of a fake one that would last a minute."""
-        fake = self.fake("gmsh", "#!/bin/sh\n[ \"$1\" = --version ] && exec echo 1\n"
-                                 f"touch {self.folder}/begun\nexec sleep 60\n")
+        """Between the first run, ours, and the end of a fake one that would last very long."""
+        fake = self.fake("gmsh", "#!/bin/sh\n[ \"$1\" = --version ] && exec echo 4.13.1\n"
+                                 f"touch {self.folder}/begun\nexec sleep 3000\n")
         # In a group of its own, so that the signal reaches all of it, as from a terminal.
         running = subprocess.Popen(
             [sys.executable, "-B", PROGRAM, "--nodes", "500", "--cases", "uniform-square",
              "--tools", "PNPBS,gmsh", "--no-forces", "--output", self.output, "--path", fake,
              "--pnpbs", COMMAND], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
             stdin=subprocess.DEVNULL, start_new_session=True)
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 300
         while not (self.folder / "begun").exists() and time.monotonic() < deadline:
             time.sleep(0.05)
         os.killpg(running.pid, signal.SIGINT)
-        told = running.communicate(timeout=30)[1]
+        told = running.communicate(timeout=300)[1]
         self.assertEqual(running.returncode, 130)
         self.assertIn("interrupted", told)
         self.assertNotIn("Traceback", told)

@@ -2,6 +2,7 @@
 """What compare.py asks of a tool that places nodes, and what they have in common."""
 import dataclasses
 import importlib.util
+import re
 import shutil
 import subprocess
 import sys
@@ -44,6 +45,10 @@ class DoesNotStart(Exception):
     """A tool that is there cannot be used; the text says why."""
 
 
+class NotSupported(Exception):
+    """A tool is of a version that cannot do what is compared; the text says which, and what is needed."""
+
+
 class Tool:
     name = ""      # as the table has it, with the setting
     setting = ""   # one line on what it was told to do
@@ -53,8 +58,8 @@ class Tool:
         raise NotImplementedError
 
     def version(self):
-        """Asked of the tool itself, so that one that is there but broken is found out before the
-        first case. Raises DoesNotStart."""
+        """Asked of the tool itself, so that one that is there but broken or too old is found out
+        before the first case. Raises DoesNotStart, NotSupported."""
         raise NotImplementedError
 
     def run(self, case, folder, time_limit):
@@ -120,6 +125,15 @@ def answer_of(*command, any_status=False, time_limit=60):
     if not told or (done.returncode != 0 and not any_status):
         raise DoesNotStart(f"status {done.returncode}: {last_line(told)}")
     return told
+
+
+def require_version(version, least, why):
+    """Raises NotSupported where the numbers that a version begins with are below those of another."""
+    def numbers(text):
+        return [int(part) for part in re.match(r"[\d.]*", text)[0].split(".") if part]
+
+    if numbers(version) < numbers(least):
+        raise NotSupported(f"version {version}; needs {least} or later, {why}")
 
 
 def last_line(text):

@@ -14,6 +14,9 @@ AS_COMMAND = "import gmsh, sys; gmsh.initialize(sys.argv, run=True); gmsh.finali
 # points on it.
 TOO_LARGE = 0.02
 
+# The first release whose fields Distance have all that the cases set.
+LEAST_VERSION = "4.9"
+
 
 def outline(domain):
     """The domain in gmsh's language, and the first line of each loop."""
@@ -81,7 +84,7 @@ def read_msh(path):
 
 
 class GmshCommand(tool.Tool):
-    needs = "the command gmsh (Debian's package gmsh) or the Python package gmsh"
+    needs = f"the command gmsh, {LEAST_VERSION} or later, or the Python package gmsh"
 
     def __init__(self, name, setting):
         self.name = f"gmsh, {name}"
@@ -96,7 +99,9 @@ class GmshCommand(tool.Tool):
         return bool(tool.command("gmsh")) or tool.module("gmsh")
 
     def version(self):
-        return tool.answer_of(*self.command(), "--version").splitlines()[-1]
+        version = tool.answer_of(*self.command(), "--version").splitlines()[-1]
+        tool.require_version(version, LEAST_VERSION, "whose Distance fields have Sampling")
+        return version
 
     def mesh(self, text, folder, time_limit, words=None):
         """What it used, and the seconds that it tells, from a file in gmsh's language."""
