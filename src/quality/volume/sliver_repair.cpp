@@ -2,13 +2,13 @@
 #include "quality/volume/sliver_repair.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "base/execution.hpp"
 #include "base/mixed_hash.hpp"
 #include "quality/volume/few_nodes.hpp"
+#include "quality/volume/lot_bits.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {
@@ -17,29 +17,6 @@ namespace {
 
 constexpr int kTrials = 8;                                 // of a node whose turn it is
 constexpr double kShortestWay = 0.08, kLongestWay = 0.28;  // spacings
-
-double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
-
-// A direction that follows from the bits alone.
-Point<3> direction_from(std::uint64_t bits) {
-  while (true) {
-    Point<3> v;
-    for (double& along : v) {
-      bits = mixed(bits);
-      along = 2 * unit_interval(bits) - 1;
-    }
-    const double length = std::sqrt(dot(v, v));
-    if (length > 1 || length < 0.1) continue;
-    for (double& along : v) along /= length;
-    return v;
-  }
-}
-
-std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
-
-std::uint64_t bits_of_trial(std::uint64_t lot, int trial) {
-  return mixed(lot + 1 + static_cast<std::uint64_t>(trial));
-}
 
 }  // namespace
 
