@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <map>
 
-#include "level/volume/within_reach.hpp"
-
 namespace pnpbs {
 
 namespace {
@@ -164,6 +162,20 @@ void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<c
   level.stars.add(star_input(level, known), wanted);
 }
 
+// How far around node i others must be known that are nearer than the sum of both reaches, in units
+// of d; 0 if they are. By the largest d there.
+double unknown_reach(const Level<3>& level, const KnownRegion<3>& known, double reach,
+                     std::int64_t i) {
+  const BackgroundTree<3>& tree = level.tree->tree();
+  const Point<3> x = level.nodes.position(i);
+  const double own = reach * level.nodes.d(i);
+  double sum = 2 * own;
+  tree.for_leaves_in(box_around<3>(x, 2 * own), [&](std::int32_t leaf) {
+    sum = std::max(sum, own + reach * level.map().leaf_max_spacing(leaf));
+  });
+  return known.covers(tree, box_around<3>(x, sum)) ? 0 : sum;
+}
+
 // The same in a volume, where a star costs much: first only those of owned nodes beside ghosts,
 // then ring by ring those of ghosts. They alone ask for more ghosts, but for rare ones inside.
 std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
@@ -185,16 +197,9 @@ std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& kno
     front = neighbours_of(level.stars, front, reached);
     find(front);
   }
-  if (zone.reach > 0) {
-    const WithinReach within(nodes, zone.reach);
-    find(within.ghosts(reached));
-    std::vector<std::int64_t> all;
+  if (zone.reach > 0)
     for (std::int64_t i = 0; i < nodes.count; ++i)
-      if (reached[static_cast<std::size_t>(i)] && !nodes.owned(i)) all.push_back(i);
-    find(neighbours_of(level.stars, all, reached));
-    within.for_reaches(known, level,
-                       [&](std::int64_t i, double reach) { unknown.ask_around(i, reach); });
-  }
+      if (nodes.owned(i)) unknown.ask_around(i, unknown_reach(level, known, zone.reach, i));
   return unknown.boxes();
 }
 

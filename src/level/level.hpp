@@ -59,6 +59,7 @@ struct Level {
   TimeIntegration<Dim> time_integration;
 
   std::int64_t settings_version = 0, rebalances = 0;
+  std::int64_t unknown_uses = 0;  // of data that this rank does not know exactly
 };
 
 // Of all ranks. Collective in space.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ghosts whose stars are found besides those of the owned nodes.
+// What is known and found around the owned nodes besides their own stars.
 #pragma once
 
 namespace pnpbs {
 
 struct StarZone {
-  // So many neighbours away from the owned nodes, by the stars.
+  // The stars of ghosts so many neighbours away, by the stars.
   int rings = 0;
-  // In space, besides: those within the sum of both nodes' reaches from an owned one, however many
-  // neighbours lie between (across a gap of the domain none do), and the neighbours of these. In
-  // units of d.
+  // In space: all nodes that are nearer to an owned one than the sum of both nodes' reaches, in
+  // units of d, are known, however many neighbours lie between (across a gap of the domain none
+  // do).
   double reach = 0;
 };
 

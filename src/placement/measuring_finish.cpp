@@ -26,6 +26,13 @@ void PlacementOf<3>::measure_finish() {
   prepare_stars();
   agreed(*comm_,
          [this] { edge_bands_ = measure_edge_bands<3>(*comm_, level_->nodes, level_->stars); });
+  unknown_uses_ = static_cast<std::int64_t>(
+      comm_->allreduce_sum(static_cast<std::uint64_t>(level_->unknown_uses)));
+  if (unknown_uses_ > 0)
+    warnings_.push_back(
+        "the nodes may depend on the number of ranks: " + std::to_string(unknown_uses_) +
+        " decisions looked beyond what a rank knows (statistic unknown_uses); on "
+        "one rank they do not");
   surface_fit_ = measure_surface_fit(*level_);
   const std::uint64_t without = comm_->allreduce_sum(nodes_without_star(*level_));
   if (without > 0)

@@ -141,6 +141,7 @@ class Placement {
   std::int64_t inserted() const { return inserted_; }
   std::int64_t deleted() const { return deleted_; }
   std::int64_t dropped() const { return dropped_; }
+  std::int64_t unknown_uses() const { return unknown_uses_; }
   std::int64_t missing_faces() const { return surface_fit_.missing_faces; }
   StopReason stop_reason() const { return stop_reason_; }
   // Has a run come to its end, and no step been done since?
@@ -193,7 +194,7 @@ class Placement {
   Schedule schedule_;                              // of the level there is
   Speeds last_speeds_;
   std::int64_t steps_done_ = 0, inserted_ = 0, deleted_ = 0, dropped_ = 0, rebuilds_before_ = 0,
-               rebalances_before_ = 0;
+               rebalances_before_ = 0, unknown_uses_ = 0;
   StopReason stop_reason_ = StopReason::none;
   std::vector<std::string> warnings_;
   std::size_t warnings_of_level_ = 0;  // the first of them; the others are of the last run

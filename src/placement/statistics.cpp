@@ -87,6 +87,11 @@ const std::vector<StatisticRow>& statistic_table() {
           "triangles of the surfaces that the boundary of the last run's tetrahedra lacks, and its "
           "faces that are none of the surfaces"),
       integer(
+          "unknown_uses", [](P p) { return p.unknown_uses(); },
+          "decisions of the last run that looked at stars which a rank does not know exactly; 0, "
+          "or "
+          "the nodes may depend on the number of ranks"),
+      integer(
           "nodes_held",
           [](P p) {
             const std::int64_t held = p.nodes().count;

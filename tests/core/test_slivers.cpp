@@ -13,6 +13,7 @@
 #include "quality/volume/sliver_repair.hpp"
 #include "quality/volume/tetrahedron_quality.hpp"
 #include "run_kernel_suite.hpp"
+#include "sliver_rounds.hpp"
 #include "volume_box.hpp"
 #include "volume_tetrahedra.hpp"
 
@@ -229,7 +230,7 @@ namespace {
 std::int64_t repair(pnpbs::SliverRepair& slivers) {
   std::int64_t moved = 0;
   for (std::int64_t round = 0; round < 300 && slivers.slivers() > 0; ++round)
-    moved += slivers.round(round);
+    moved += one_round(slivers, round);
   return moved;
 }
 
@@ -298,7 +299,7 @@ START_TEST(rounds_only_help) {
   int several = 0;  // rounds in which more than one went
   for (std::int64_t round = 0; round < 8; ++round) {
     pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
-    const std::int64_t moved = slivers.round(round);
+    const std::int64_t moved = one_round(slivers, round);
     ck_assert_int_gt(moved, 0);
     several += moved > 1;
     const double now = penalty();
@@ -359,8 +360,9 @@ START_TEST(the_same_from_two_halves) {
       of_low(low.b.nodes, low.stars, {}, anywhere), of_high(high.b.nodes, high.stars, {}, anywhere);
   std::int64_t moved_low = 0, moved_high = 0;
   for (std::int64_t round = 0; round < 30; ++round) {
-    const std::int64_t moved = all.round(round);
-    const std::int64_t here = of_low.round(round), there = of_high.round(round);
+    const std::int64_t moved = one_round(all, round);
+    draw_on_both(of_low, of_high, round);
+    const std::int64_t here = of_low.move(), there = of_high.move();
     ck_assert_int_eq(here + there, moved);
     moved_low += here;
     moved_high += there;

@@ -273,6 +273,7 @@ class StarWriter {
 
 void VolumeStars::build(const VolumeStarInput& input) {
   on_surfaces_ = false;
+  found_.clear();
   arrangement_ = input.nodes.arrangement();
   needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(input.nodes.count), 0);
   rows_.build("pnpbs::VolumeStars::build", input.nodes.count,
@@ -281,6 +282,7 @@ void VolumeStars::build(const VolumeStarInput& input) {
 
 void VolumeStars::build_none(const VolumeStarInput& input) {
   on_surfaces_ = false;
+  found_.assign(static_cast<std::size_t>(input.nodes.count), 0);
   arrangement_ = input.nodes.arrangement();
   needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(input.nodes.count), 0);
   const auto write_none = [](std::int64_t, std::vector<std::int32_t>& out) {
@@ -290,6 +292,7 @@ void VolumeStars::build_none(const VolumeStarInput& input) {
 }
 
 void VolumeStars::add(const VolumeStarInput& input, const std::vector<char>& wanted) {
+  for (std::size_t i = 0; i < found_.size(); ++i) found_[i] = found_[i] || wanted[i];
   rows_.rewrite(
       "pnpbs::VolumeStars::add", input.nodes.count,
       [&](std::int64_t i) { return wanted[static_cast<std::size_t>(i)] != 0; },

@@ -116,6 +116,10 @@ class VolumeStars {
   // The stars of nodes c * kChunk and those after it, so many, are needed no longer.
   void drop_chunk(std::int64_t c) { rows_.drop_chunk(c); }
 
+  // One after the other: has that of node i been asked for?
+  bool found(std::int64_t i) const {
+    return found_.empty() || found_[static_cast<std::size_t>(i)] != 0;
+  }
   // 0 if the star of node i is there. Otherwise nodes this near to it would have to be known.
   double needs(std::int64_t i) const {
     return needs_.empty() ? 0 : needs_[static_cast<std::size_t>(i)];
@@ -164,6 +168,7 @@ class VolumeStars {
   bool on_surfaces_ = false;
   std::int64_t arrangement_ = -1;  // of the nodes, when they were found
   std::vector<double> needs_;      // of the nodes; empty where everything is known
+  std::vector<char> found_;        // of the nodes; empty where all are found at once
 };
 
 }  // namespace pnpbs

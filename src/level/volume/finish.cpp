@@ -58,7 +58,14 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   std::uint64_t in_vain = 0;
   for (std::int64_t round = 0; round < rule.rounds; ++round) {
     if (sum(repair.slivers(below)) == 0 || static_cast<double>(in_vain) > most_in_vain) break;
-    agreed(*level.comm, [&] { repair.round(round, below); });
+    agreed(*level.comm, [&] { repair.draw(round, below); });
+    if (level.distributed()) {
+      const auto draws = level.ghosts.tell<SliverDraw>(
+          *level.comm, level.nodes, repair.drawn_corners(),
+          [&](std::int32_t corner) { return repair.draws_of(corner); });
+      agreed(*level.comm, [&] { repair.take(draws); });
+    }
+    agreed(*level.comm, [&] { repair.move(); });
     in_vain += sum(repair.in_vain());
     if (!level.distributed()) continue;
     const auto news =
@@ -71,7 +78,7 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
 // The worst first: else they would rarely have their turn where nearly all have small angles. With
 // the stars of the owned nodes as they are then.
 void repair_slivers(Level<3>& level) {
-  make_finish_stars(level, {kSliverRings, kSliverReach + kSliverDrift});
+  make_finish_stars(level, {kSliverRings, kSliverReach + kSliverDrift + kSliverEdge});
   const PhaseTimer timer(level.timers, Phase::sweeps);
   constexpr double kFlat = 10, kThin = 20;  // degrees
   const SliverRule rule{level.settings.sliver_angle};
@@ -99,6 +106,7 @@ void repair_slivers(Level<3>& level) {
   for (const double below : {kFlat, kThin, rule.repair_below})
     if (below <= rule.repair_below) repair_rounds(level, *repair, rule, below);
   agreed(*level.comm, [&] { repair->write_stars(level.stars); });
+  level.unknown_uses += repair->unknown_uses();
   level.nodes.moved();
 }
 

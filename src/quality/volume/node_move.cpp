@@ -25,7 +25,10 @@ NodeMove::NodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t
   const auto add = [&](std::int64_t j) { near_.push_back(static_cast<std::int32_t>(j)); };
   stars.for_neighbours(node, add);
   ring_ = near_;
-  for (const std::int32_t j : ring_) stars.for_neighbours(j, add);
+  for (const std::int32_t j : ring_) {
+    stars.count_if_unknown(j);
+    stars.for_neighbours(j, add);
+  }
   std::sort(near_.begin(), near_.end());
   near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
   std::erase_if(near_, [&](std::int32_t j) {
@@ -61,6 +64,7 @@ bool NodeMove::go_to(const Point<3>& x) {
 std::int32_t NodeMove::beyond(const TetrahedronNodes& t, std::size_t corner) const {
   const Corners face = face_of(t, corner);
   std::int32_t apex = -1;
+  stars_.count_if_unknown(face[0]);
   stars_.for_simplices(face[0], [&](const Corners& other) {
     for (std::size_t k = 0; k < 3; ++k)
       if (other[k] == face[2] && other[(k + 1) % 3] == face[1]) apex = other[(k + 2) % 3];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "base/execution.hpp"
@@ -114,22 +115,25 @@ std::int64_t SliverRepair::slivers(double below) const {
 
 // ------------------------------------------------------------------ whose turn it is -----------
 
-// One of its corners; now and then a neighbour of it, in case that none of the corners can help.
-std::int32_t SliverRepair::node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot,
-                                        std::int64_t number) const {
-  constexpr std::uint64_t kCornersOf = 5;  // so many turns, the others are neighbours'
+std::int32_t SliverRepair::corner_to_move(const TetrahedronNodes& sliver, std::uint64_t lot,
+                                          std::int64_t number) const {
   std::vector<std::int32_t> choice;
-  const auto add = [&](std::int64_t i) {
-    if (nodes_.moves(i)) choice.push_back(static_cast<std::int32_t>(i));
-  };
-  for (const std::int32_t i : sliver) add(i);
+  for (const std::int32_t i : sliver)
+    if (nodes_.moves(i)) choice.push_back(i);
   if (choice.empty() || 2 * number >= rounds_)
     for (const std::int32_t i : sliver)
       if (stars_.movable(i) && !nodes_.moves(i)) choice.push_back(i);
-  const std::int32_t corner = choice[mixed(lot) % choice.size()];
+  return choice[mixed(lot) % choice.size()];
+}
+
+// Now and then a neighbour of the corner, in case that none of the corners can help.
+std::int32_t SliverRepair::node_to_move(std::int32_t corner, std::uint64_t lot) const {
+  constexpr std::uint64_t kCornersOf = 5;  // so many turns, the others are neighbours'
   if (mixed(lot + 1) % (kCornersOf + 1) < kCornersOf) return corner;
-  choice.assign(1, corner);
-  stars_.for_neighbours(corner, add);
+  std::vector<std::int32_t> choice{corner};
+  stars_.for_neighbours(corner, [&](std::int64_t i) {
+    if (nodes_.moves(i)) choice.push_back(static_cast<std::int32_t>(i));
+  });
   const auto hash = [&](std::int32_t i) {
     return mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
   };
@@ -138,42 +142,43 @@ std::int32_t SliverRepair::node_to_move(const TetrahedronNodes& sliver, std::uin
 }
 
 // By lots, not by how bad slivers are: one that cannot be mended would bar others for ever.
-std::vector<SliverRepair::Attempt> SliverRepair::draw_lots(std::int64_t number,
-                                                           double below) const {
+void SliverRepair::draw(std::int64_t number, double below) {
   const SmallAngles small(below);
-  std::vector<Attempt> attempts;
+  attempts_.clear();
   for (const TetrahedronNodes& sliver : slivers_) {
     if (!small.any(corners_of(sliver))) continue;
     std::uint64_t lot = mixed(static_cast<std::uint64_t>(number) ^ bits_of(below));
     for (const std::int32_t i : sliver) lot = mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
-    attempts.push_back({sliver, lot, node_to_move(sliver, lot, number), {}});
+    const std::int32_t corner = corner_to_move(sliver, lot, number);
+    if (!nodes_.owned(corner)) continue;
+    Attempt attempt{lot, {}, sliver, node_to_move(corner, lot), corner, {}};
+    for (std::size_t k = 0; k < 4; ++k) attempt.ids[k] = nodes_.id(sliver[k]);
+    attempts_.push_back(std::move(attempt));
   }
-  return attempts;
 }
 
 // The contest: of two that are so near that they might change the same stars, the higher lot.
-std::vector<char> SliverRepair::winners(const std::vector<Attempt>& attempts) const {
+std::vector<char> SliverRepair::winners() const {
   std::vector<Box<3>> boxes;
   const auto reach = [&](std::int32_t i) { return kSliverReach * nodes_.d(i); };
-  for (const Attempt& attempt : attempts)
+  for (const Attempt& attempt : attempts_)
     boxes.push_back(box_around<3>(nodes_.position(attempt.node), reach(attempt.node)));
   const BoxTree<3> tree(std::move(boxes));
-  std::vector<char> wins(attempts.size());
-  for_each_guarded("pnpbs::SliverRepair::winners", std::ssize(attempts), [&](std::int64_t a) {
-    const Attempt& own = attempts[static_cast<std::size_t>(a)];
+  std::vector<char> wins(attempts_.size());
+  for_each_guarded("pnpbs::SliverRepair::winners", std::ssize(attempts_), [&](std::int64_t a) {
+    const Attempt& own = attempts_[static_cast<std::size_t>(a)];
+    if (!nodes_.owned(own.node)) return;
     const Point<3> x = nodes_.position(own.node);
     double square = reach(own.node) * reach(own.node);
     bool wins_here = true;
     tree.for_near(
         x, [&] { return square; },
         [&](std::int32_t b) {
-          const Attempt& other = attempts[static_cast<std::size_t>(b)];
+          const Attempt& other = attempts_[static_cast<std::size_t>(b)];
           if (b == a ||
               distance<3>(nodes_.position(other.node), x) > reach(own.node) + reach(other.node))
             return;
-          if (other.lot < own.lot ||
-              (other.lot == own.lot && stars_.ids_less(other.sliver, own.sliver)))
-            return;
+          if (std::tie(other.lot, other.ids) < std::tie(own.lot, own.ids)) return;
           wins_here = false;
           square = -1;  // that is enough
         });
@@ -237,6 +242,7 @@ double SliverRepair::penalty_around(std::int32_t i) const {
   stars_.for_neighbours(i, [&](std::int64_t j) { centres.add(static_cast<std::int32_t>(j)); });
   const auto is_centre = [&](std::int32_t j) { return centres.contains(j); };
   std::vector<TetrahedronNodes> around;
+  for (const std::int32_t j : centres.all()) stars_.count_if_unknown(j);
   for (const std::int32_t j : centres.all())
     stars_.for_simplices_first_at(j, is_centre,
                                   [&](const TetrahedronNodes& t) { around.push_back(t); });
@@ -319,20 +325,18 @@ void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
   }
 }
 
-std::int64_t SliverRepair::round(std::int64_t number, double below) {
-  std::vector<Attempt> attempts = draw_lots(number, below);
-  const std::vector<char> wins = winners(attempts);
-  for_each_guarded("pnpbs::SliverRepair::round", std::ssize(attempts), [&](std::int64_t a) {
-    Attempt& attempt = attempts[static_cast<std::size_t>(a)];
-    if (!wins[static_cast<std::size_t>(a)] || !nodes_.owned(attempt.node)) return;
+std::int64_t SliverRepair::move() {
+  const std::vector<char> wins = winners();
+  for_each_guarded("pnpbs::SliverRepair::move", std::ssize(attempts_), [&](std::int64_t a) {
+    if (!wins[static_cast<std::size_t>(a)]) return;
+    Attempt& attempt = attempts_[static_cast<std::size_t>(a)];
     nodes_.moves(attempt.node) ? try_moves(attempt) : try_moves_along_surface(attempt);
   });
   changes_.clear();
   in_vain_ = 0;
-  for (std::size_t a = 0; a < attempts.size(); ++a) {
-    Attempt& attempt = attempts[a];
-    in_vain_ += wins[a] && nodes_.owned(attempt.node) && attempt.success.empty();
-    for (StarChange& change : attempt.success) changes_.push_back(std::move(change));
+  for (std::size_t a = 0; a < attempts_.size(); ++a) {
+    in_vain_ += wins[a] && attempts_[a].success.empty();
+    for (StarChange& change : attempts_[a].success) changes_.push_back(std::move(change));
   }
   accept(changes_);
   nodes_.moved();

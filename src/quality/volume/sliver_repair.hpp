@@ -33,8 +33,11 @@ inline constexpr double kSliverReach = 1.8;
 // So many d from where it was before the repair a node may come: so which nodes may ever be that
 // near to each other is known from the beginning.
 inline constexpr double kSliverDrift = 0.6;
-// So many neighbours away from it a move looks at stars.
-inline constexpr int kSliverRings = 3;
+// So many d an edge is long at most where nodes have come to rest, half of it either node's share.
+inline constexpr double kSliverEdge = 0.9;
+// So many neighbours away from it a move looks at stars, and one more since nodes come to be
+// neighbours.
+inline constexpr int kSliverRings = 4;
 
 // A tetrahedron that a node's move has made, or done away with, as other ranks are told of it.
 struct ChangedTetrahedron {
@@ -43,6 +46,13 @@ struct ChangedTetrahedron {
   std::array<std::int64_t, 4> corners;  // ids, of positive orientation
   std::int32_t on;                      // the facet that the node is on now, or -1
   std::int32_t made;                    // 0: it is gone
+};
+
+// The node that is to move for a sliver in a round, as other ranks are told of it.
+struct SliverDraw {
+  std::uint64_t lot;
+  std::array<std::int64_t, 4> sliver;  // ids, ascending
+  std::int64_t node;                   // id
 };
 
 // How nodes on surfaces go along these.
@@ -61,16 +71,23 @@ class SliverRepair {
   // May node i be at x?
   using Allowed = std::function<bool(std::int64_t i, const Point<3>& x)>;
 
-  // The stars are those of the nodes' positions, and remain while this lives. Where ghosts are:
-  // those of all nodes that may come within reach of an owned one, and of their neighbours. Nodes
-  // on surfaces move where it is said how: where no other node of a sliver can, and late.
+  // The stars are those of the nodes' positions, and remain while this lives: of the owned nodes,
+  // and of ghosts within kSliverRings of them. Nodes on surfaces move where it is said how: where
+  // no other node of a sliver can, and late.
   SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed,
                AlongSurfaces along_surfaces = {});
 
-  // Moves owned nodes at slivers with an angle below so many degrees, and returns how many. Between
-  // rounds, ranks tell those that have these nodes as ghosts what has changed with them: so the
-  // stars of all stay what they are to their owners, however many rounds there are.
-  std::int64_t round(std::int64_t number, double below = 90);
+  // A round. Of each sliver with an angle below so many degrees one corner is drawn, and its owner,
+  // who knows all around it, draws the node that is to move.
+  void draw(std::int64_t number, double below = 90);
+  // What ranks tell those that have the corner as a ghost, and what these do with it.
+  std::vector<std::int32_t> drawn_corners() const;
+  std::vector<SliverDraw> draws_of(std::int32_t corner) const;
+  void take(const std::vector<SliverDraw>& draws);
+  // Moves owned nodes by all draws around, and returns how many.
+  std::int64_t move();
+  // Ranks tell those that have these nodes as ghosts what has changed with them: so the stars of
+  // all stay what they are to their owners, however many rounds there are.
   std::vector<std::int32_t> moved_nodes() const;  // in the last round
   std::vector<ChangedTetrahedron> changes_of(std::int32_t moved_node) const;
   void follow(const std::vector<ChangedTetrahedron>& news);
@@ -82,13 +99,18 @@ class SliverRepair {
   std::int64_t slivers(double below = 90) const;
   // Of this rank's attempts in the last round: those that found no better place.
   std::int64_t in_vain() const { return in_vain_; }
+  // Of this rank's attempts so far: uses of stars that are not known here. Where there are any, the
+  // result may depend on ranks.
+  std::int64_t unknown_uses() const { return stars_.unknown_uses() + unknown_draws_; }
 
  private:
-  // The node of a sliver that is to move, and its lot in this round.
+  // The node that is to move for a sliver, and its lot in this round.
   struct Attempt {
-    TetrahedronNodes sliver;
     std::uint64_t lot;
+    std::array<std::int64_t, 4> ids;  // of the sliver's nodes
+    TetrahedronNodes sliver;          // by id; -1: another rank's, not known here
     std::int32_t node;
+    std::int32_t corner;              // that was drawn, or -1: another rank's
     std::vector<StarChange> success;  // one, or none
   };
 
@@ -100,10 +122,11 @@ class SliverRepair {
   void find_slivers();
   void accept(const std::vector<StarChange>& changes);
 
-  std::int32_t node_to_move(const TetrahedronNodes& sliver, std::uint64_t lot,
-                            std::int64_t number) const;
-  std::vector<Attempt> draw_lots(std::int64_t number, double below) const;
-  std::vector<char> winners(const std::vector<Attempt>& attempts) const;
+  std::int32_t place_of(std::int64_t id) const;
+  std::int32_t corner_to_move(const TetrahedronNodes& sliver, std::uint64_t lot,
+                              std::int64_t number) const;
+  std::int32_t node_to_move(std::int32_t corner, std::uint64_t lot) const;
+  std::vector<char> winners() const;
   void try_moves(Attempt& attempt) const;
   void try_moves_along_surface(Attempt& attempt) const;
   Point<3> direction_to_try(const Attempt& attempt, int trial, std::uint64_t bits) const;
@@ -127,7 +150,9 @@ class SliverRepair {
   std::vector<Point<3>> before_;           // where the nodes were when the repair began
   std::vector<char> is_affected_;          // while a change is accepted
   std::vector<TetrahedronNodes> slivers_;  // in no order that matters
+  std::vector<Attempt> attempts_;          // of this round
   std::vector<StarChange> changes_;        // of the last round
+  std::int64_t unknown_draws_ = 0;
   std::unordered_map<std::int64_t, std::int32_t> place_of_id_;  // where there are ghosts
 };
 

@@ -6,6 +6,43 @@
 
 namespace pnpbs {
 
+// -1: it is not known here.
+std::int32_t SliverRepair::place_of(std::int64_t id) const {
+  const auto found = place_of_id_.find(id);
+  return found == place_of_id_.end() ? -1 : found->second;
+}
+
+std::vector<std::int32_t> SliverRepair::drawn_corners() const {
+  std::vector<std::int32_t> corners;
+  for (const Attempt& attempt : attempts_) corners.push_back(attempt.corner);
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+std::vector<SliverDraw> SliverRepair::draws_of(std::int32_t corner) const {
+  std::vector<SliverDraw> draws;
+  for (const Attempt& attempt : attempts_)
+    if (attempt.corner == corner)
+      draws.push_back({attempt.lot, attempt.ids, nodes_.id(attempt.node)});
+  return draws;
+}
+
+void SliverRepair::take(const std::vector<SliverDraw>& draws) {
+  for (const SliverDraw& draw : draws) {
+    const std::int32_t node = place_of(draw.node);
+    if (node < 0) continue;  // too far to bar any here
+    TetrahedronNodes sliver;
+    for (std::size_t k = 0; k < 4; ++k) sliver[k] = place_of(draw.sliver[k]);
+    const bool known = std::ranges::find(sliver, -1) == sliver.end();
+    if (nodes_.owned(node) && !known) {
+      ++unknown_draws_;
+      continue;
+    }
+    attempts_.push_back({draw.lot, draw.sliver, sliver, node, -1, {}});
+  }
+}
+
 std::vector<ChangedTetrahedron> SliverRepair::changes_of(std::int32_t node) const {
   std::vector<ChangedTetrahedron> changed;
   for (const StarChange& change : changes_) {
@@ -31,18 +68,14 @@ std::vector<std::int32_t> SliverRepair::moved_nodes() const {
 
 // Of tetrahedra with corners that are not known here the stars need not be right.
 void SliverRepair::follow(const std::vector<ChangedTetrahedron>& news) {
-  const auto place = [&](std::int64_t id) {
-    const auto found = place_of_id_.find(id);
-    return found == place_of_id_.end() ? -1 : found->second;
-  };
   std::vector<StarChange> changes;
   for (const ChangedTetrahedron& record : news) {
-    const std::int32_t node = place(record.node);
+    const std::int32_t node = place_of(record.node);
     if (node < 0) continue;
     if (changes.empty() || changes.back().node != node)
       changes.push_back({node, record.x, {}, {}, record.on});
     TetrahedronNodes corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = place(record.corners[k]);
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = place_of(record.corners[k]);
     if (std::find(corners.begin(), corners.end(), -1) == corners.end())
       (record.made ? changes.back().made : changes.back().gone).push_back(corners);
   }

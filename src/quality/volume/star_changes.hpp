@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -98,6 +99,14 @@ class StarChanges {
   // of each, the nodes whose stars have changed.
   std::vector<std::vector<std::int32_t>> accept(std::span<const StarChange> changes);
 
+  // Who decides by the star of node i counts it if that need not be right: it is neither an owned
+  // node's nor one that was found.
+  void count_if_unknown(std::int64_t i) const {
+    if (!nodes_.owned(i) && !stars_.found(i))
+      std::atomic_ref<std::int64_t>(unknown_uses_).fetch_add(1, std::memory_order_relaxed);
+  }
+  std::int64_t unknown_uses() const { return unknown_uses_; }
+
   // Puts the stars that have changed in place of those made before, which these are.
   void write_to(VolumeStars& stars) const;
 
@@ -118,6 +127,7 @@ class StarChanges {
   bool on_surfaces_too_;
   std::vector<std::int32_t> place_;  // of each node's star among those changed
   std::vector<Star> changed_;
+  mutable std::int64_t unknown_uses_ = 0;
 };
 
 }  // namespace pnpbs

@@ -27,9 +27,11 @@ SurfaceNodeMove::SurfaceNodeMove(const Nodes<3>& nodes, const StarChanges& stars
   constexpr int kRings = 3;
   for (int ring = 0; ring < kRings; ++ring) {
     two_rings_ = near_;
-    for (const std::int32_t i : std::vector<std::int32_t>(near_))
+    for (const std::int32_t i : two_rings_) {
+      stars.count_if_unknown(i);
       stars.for_neighbours(i,
                            [&](std::int64_t j) { near_.push_back(static_cast<std::int32_t>(j)); });
+    }
     sort_unique(near_);
   }
 }
@@ -81,6 +83,7 @@ bool SurfaceNodeMove::make_stars(const std::vector<std::int32_t>& centres, const
 std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::stars_there(
     const std::vector<std::int32_t>& centres) const {
   std::vector<Found> there;
+  for (const std::int32_t i : centres) stars_.count_if_unknown(i);
   for (const std::int32_t i : centres)
     stars_.for_simplices(i, [&](const StarChanges::Corners& c) {
       there.push_back(found({i, c[0], c[1], c[2]}));
