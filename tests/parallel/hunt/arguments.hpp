@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the command line asks for, and a line of the file of kept cases, which is written alike.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "groups.hpp"
+
+namespace hunt {
+
+struct Arguments {
+  CaseSpec spec;
+  std::uint64_t first = 0, last = 0;   // numbers; last is not one of them
+  std::optional<Configuration> group;  // in place of random ones
+  std::vector<int> threads;            // of the ranks behind the reference
+  Settings extra;                      // options of all but the reference
+  std::string kept, bodies;            // file of kept cases, folder of the files in it
+  bool shrinks = false, expects_differences = false, tells_all = false;
+  std::string error;  // of the arguments themselves
+};
+
+/** `defaults` are what the arguments change. */
+Arguments parsed(const std::vector<std::string>& words, Arguments defaults);
+
+/** The words of every line of a file but for empty ones and comments. */
+std::vector<std::vector<std::string>> lines_of(const std::string& path);
+
+/** The arguments that name this case. */
+std::string arguments_of(const CaseSpec& spec);
+
+extern const char* const kUsage;
+
+}  // namespace hunt

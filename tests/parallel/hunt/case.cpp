@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "case.hpp"
+
+namespace hunt {
+
+namespace {
+
+std::vector<std::string> files_of(const CaseSpec& spec) {
+  if (!spec.files.empty()) return spec.files;
+  std::vector<std::string> files;
+  if (!spec.data.empty())
+    for (const char* name : {"bracket.stl", "kleopatra.obj"})
+      files.push_back(spec.data + "/" + name);
+  return files;
+}
+
+Case explicit_case(const CaseSpec& spec) {
+  Case made;
+  made.body.file = spec.files.at(0);
+  std::int32_t dim = 3;
+  pnpbs_file_dimension(made.body.file.c_str(), &dim);
+  made.body.dim = dim;
+  made.name = "file/" + made.body.file.substr(made.body.file.find_last_of('/') + 1);
+  made.spacing.kind = spec.slope > 0 ? Spacing::Kind::grows : Spacing::Kind::constant;
+  made.spacing.slope = spec.slope;
+  made.spacing.from = spec.from;
+  made.spacing.directions = dim;
+  made.wanted_nodes = spec.nodes * spec.share;
+  return made;
+}
+
+}  // namespace
+
+Case make_case(const CaseSpec& spec) {
+  if (spec.is_explicit) return explicit_case(spec);
+  Random body_random(spec.seed, spec.number, "body"),
+      spacing_random(spec.seed, spec.number, "spacing"),
+      option_random(spec.seed, spec.number, "options"),
+      schedule_random(spec.seed, spec.number, "schedule");
+  Case made;
+  const bool in_plane = body_random.chance(0.25);
+  const int dim = spec.dimensions == Dimensions::plane   ? 2
+                  : spec.dimensions == Dimensions::space ? 3
+                                                         : (in_plane ? 2 : 3);
+  const double nodes = body_random.scale(120, dim == 2 ? 1500 : 600) * spec.share;
+  made.body = spec.files.empty() ? random_body(body_random, dim, nodes, files_of(spec))
+                                 : random_file(body_random, spec.files);
+  made.spacing = random_spacing(spacing_random, made.body);
+  made.second = random_spacing(spacing_random, made.body);
+  const bool wants = spacing_random.chance(0.4);
+  if (wants || made.spacing.kind != Spacing::Kind::constant || !made.body.file.empty() ||
+      !made.body.solids.empty())
+    made.wanted_nodes = nodes;
+  if (!spec.default_options) made.options = random_options(option_random, made.body.dim);
+  made.by_steps = schedule_random.chance(0.2) && !spec.once;
+  made.steps = schedule_random.pick(1, 30);
+  made.adapts = schedule_random.chance(0.25) && !spec.once;
+  made.at_nodes = schedule_random.chance(0.4);
+  if (made.adapts && made.wanted_nodes == 0) made.wanted_nodes = nodes;
+  made.name = made.body.name + " d=" + made.spacing.name();
+  if (made.adapts) made.name += made.at_nodes ? "+at-nodes" : "+" + made.second.name();
+  if (made.by_steps) made.name += " by-steps";
+  return made;
+}
+
+}  // namespace hunt
