@@ -125,7 +125,7 @@ const std::vector<OptionRow>& option_table() {
        "alone"},
       {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
        "radius of the lists during the run, in desired distances"},
-      {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 3, nullptr,
+      {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 4, nullptr,
        "radius of the adjacency lists handed out, in desired distances"},
       {"growth_limit", T::real, "0.3", "0", nullptr, 0, 1e6, nullptr,
        "d may grow by at most this much per unit of length; 0 is no limit. As long as it is not "

@@ -216,7 +216,7 @@ static job run_scene(int which, cone* slope) {
 /* ---------------------------------------------------------------- tests ----------------- */
 
 START_TEST(lists_against_all_pairs) {
-  static const double radii[] = {1.7, 0.5, 3, 1};
+  static const double radii[] = {1.7, 0.5, 4, 1};
   cone slope;
   job it = run_scene(_i, &slope);
   int k;
