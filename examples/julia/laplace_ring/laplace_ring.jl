@@ -90,7 +90,7 @@ end
 
 # y = A x at this rank's nodes, after the ghosts of x have got the values that their owners have.
 function multiply!(y, a, x, mesh, placement)
-    update_ghosts!(x, placement)
+    update_ghosts!(placement, x)
     for i in 1:mesh.owned
         s = a.diagonal[i] * x[i]
         for k in a.offsets[i]:(a.offsets[i + 1] - 1)
@@ -123,7 +123,7 @@ function solve!(u, a, mesh, placement)
             p[i] = r[i] + rr / rr_before * p[i]
         end
     end
-    return update_ghosts!(u, placement)
+    return update_ghosts!(placement, u)
 end
 
 # ---------------------------------------------------------------- the results -------------------

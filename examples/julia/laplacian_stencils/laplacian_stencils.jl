@@ -148,7 +148,7 @@ end
 function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-12, most = 2000)
     n = length(inner)
     scale = [inner[i] ? 1 / stencils.centre[i] : 0.0 for i in 1:n]
-    apply!(out, v) = (laplacian!(out, stencils, update_ghosts!(v, placement)); out .*= scale)
+    apply!(out, v) = (laplacian!(out, stencils, update_ghosts!(placement, v)); out .*= scale)
     dot(v, w) = dot_over_ranks(v, w, n, comm)
 
     r = scale .* f[1:n] .- apply!(zeros(n), u)
@@ -173,7 +173,7 @@ function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-1
             u[i] += alpha * p[i] + omega * s[i]
             r[i] = s[i] - omega * As[i]
         end
-        dot(r, r) <= goal && return update_ghosts!(u, placement)
+        dot(r, r) <= goal && return update_ghosts!(placement, u)
     end
     error("BiCGSTAB did not converge in $most steps")
 end

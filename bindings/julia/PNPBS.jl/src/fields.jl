@@ -10,7 +10,7 @@ dense(values::Array{Float64}) = values
 dense(values::AbstractArray) = Array{Float64}(values)
 
 """
-    update_ghosts!(values, placement) -> values
+    update_ghosts!(placement, values) -> values
 
 Gives the ghosts the values that their owners have. `values` is a vector of `Float64` with an entry
 for each node of this rank and each ghost behind them, or an array whose last index is that. On one
@@ -18,9 +18,9 @@ process there are no ghosts, and nothing happens. Collective.
 
     u = zeros(node_count(placement) + ghost_count(placement))
     ...
-    update_ghosts!(u, placement)
+    update_ghosts!(placement, u)
 """
-function update_ghosts!(values::AbstractArray{Float64}, placement::Placement)
+function update_ghosts!(placement::Placement, values::AbstractArray{Float64})
     filled = dense(values)
     check(placement, LibPNPBS.pnpbs_placement_update_ghosts(live(placement), places_of(values),
                                                             components_of(values), filled))
@@ -28,8 +28,8 @@ function update_ghosts!(values::AbstractArray{Float64}, placement::Placement)
 end
 
 """
-    begin_update_ghosts(values, placement)
-    end_update_ghosts!(values, placement) -> values
+    begin_update_ghosts(placement, values)
+    end_update_ghosts!(placement, values) -> values
 
 The two halves of [`update_ghosts!`](@ref), for a solver that computes while messages travel. The
 first sends the values of this rank's nodes on their way; `values` may change as soon as it returns.
@@ -37,21 +37,21 @@ The second waits for what comes and fills the ghosts. One update at a time is un
 placement; other calls may come between. The first is collective; the second is local, and waits for
 no other rank to end.
 
-    begin_update_ghosts(u, placement)
+    begin_update_ghosts(placement, u)
     multiply!(q, inner_rows, u)
-    end_update_ghosts!(u, placement)
+    end_update_ghosts!(placement, u)
     multiply!(q, rows_with_ghosts, u)
 """
 begin_update_ghosts, end_update_ghosts!
 
-function begin_update_ghosts(values::AbstractArray{Float64}, placement::Placement)
+function begin_update_ghosts(placement::Placement, values::AbstractArray{Float64})
     check(placement,
           LibPNPBS.pnpbs_placement_begin_update_ghosts(live(placement), places_of(values),
                                                        components_of(values), dense(values)))
     return nothing
 end
 
-function end_update_ghosts!(values::AbstractArray{Float64}, placement::Placement)
+function end_update_ghosts!(placement::Placement, values::AbstractArray{Float64})
     filled = dense(values)
     check(placement,
           LibPNPBS.pnpbs_placement_end_update_ghosts(live(placement), places_of(values),
@@ -60,7 +60,7 @@ function end_update_ghosts!(values::AbstractArray{Float64}, placement::Placement
 end
 
 """
-    sum_over_nodes(values, placement)
+    sum_over_nodes(placement, values)
 
 The sum of a field over the nodes of all ranks: a number for a vector, and for an array with more
 than one index an array of the sums of each component. It is the exact sum, rounded once, so it has
@@ -68,7 +68,7 @@ the same bits for any number of ranks and threads. NaN where a value is NaN or w
 infinities of both signs; otherwise an infinity where a value is, or where the sum is beyond the
 largest number. Entries behind those of this rank's nodes, its ghosts', do not count. Collective.
 """
-function sum_over_nodes(values::AbstractArray{<:Real}, placement::Placement)
+function sum_over_nodes(placement::Placement, values::AbstractArray{<:Real})
     sums = zeros(size(values)[1:(end - 1)])
     check(placement, LibPNPBS.pnpbs_placement_sum(live(placement), places_of(values),
                                                   components_of(values), dense(values), sums))
@@ -76,13 +76,13 @@ function sum_over_nodes(values::AbstractArray{<:Real}, placement::Placement)
 end
 
 """
-    dot_over_nodes(x, y, placement)
+    dot_over_nodes(placement, x, y)
 
 The dot product of two fields over the nodes of all ranks, of each component by itself: the sum of
 the exact products, rounded once, otherwise as [`sum_over_nodes`](@ref). No product overflows or
 underflows; one of an infinity and 0 is NaN. Collective.
 """
-function dot_over_nodes(x::AbstractArray{<:Real}, y::AbstractArray{<:Real}, placement::Placement)
+function dot_over_nodes(placement::Placement, x::AbstractArray{<:Real}, y::AbstractArray{<:Real})
     products = zeros(size(x)[1:(end - 1)])
     # Of different shapes, no length at all: an error on all ranks.
     n = components_of(x) == components_of(y) ? min(places_of(x), places_of(y)) : -1

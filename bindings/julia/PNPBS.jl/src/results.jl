@@ -24,7 +24,7 @@ end
 
 """
     nodes(placement) -> (points, ids, tags, spacing)
-    nodes!(placed, placement) -> placed
+    nodes!(placement, placed) -> placed
 
 The nodes of this rank in their local order: `points` is `(dim, n)`; `ids` are global; `tags` are 0
 for inner nodes and otherwise that of the curve, surface or fixed node; `spacing` is d at the node.
@@ -34,13 +34,13 @@ Local.
 that is needed now; a matrix of another size is replaced, so go on with what is returned. After an
 exception the arrays hold nothing of use.
 
-    placed = nodes!(placed, placement)
+    placed = nodes!(placement, placed)
 """
 nodes, nodes!
 
-nodes(placement::Placement) = nodes!(no_nodes(), placement)
+nodes(placement::Placement) = nodes!(placement, no_nodes())
 
-function nodes!(placed::NamedTuple, placement::Placement)
+function nodes!(placement::Placement, placed::NamedTuple)
     n = node_count(placement)
     points, ids = fitted!(placed.points, ndims(placement), n), fitted!(placed.ids, n)
     tags, spacing = fitted!(placed.tags, n), fitted!(placed.spacing, n)
@@ -62,7 +62,7 @@ end
 
 """
     ghosts(placement) -> (points, ids, tags, spacing, owners)
-    ghosts!(others, placement) -> others
+    ghosts!(placement, others) -> others
 
 The ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars, triangles
 and tetrahedra ghost g has the local index `node_count(placement) + g`. `ghosts!` uses the arrays of
@@ -70,9 +70,9 @@ an earlier result again, as [`nodes!`](@ref) does. Collective.
 """
 ghosts, ghosts!
 
-ghosts(placement::Placement) = ghosts!((; no_nodes()..., owners = Int32[]), placement)
+ghosts(placement::Placement) = ghosts!(placement, (; no_nodes()..., owners = Int32[]))
 
-function ghosts!(others::NamedTuple, placement::Placement)
+function ghosts!(placement::Placement, others::NamedTuple)
     n = ghost_count(placement)
     points, ids = fitted!(others.points, ndims(placement), n), fitted!(others.ids, n)
     tags, spacing = fitted!(others.tags, n), fitted!(others.spacing, n)
@@ -122,7 +122,7 @@ end
 
 """
     adjacency(placement) -> CompressedRows{Int64}
-    adjacency!(lists, placement) -> lists
+    adjacency!(placement, lists) -> lists
 
 The adjacency lists: row i has the local indices of the nodes within `adjacency_radius` of node i,
 in the order of global ids. Pairs that a boundary separates are not neighbours. `adjacency!` puts
@@ -130,9 +130,9 @@ them into earlier lists. Collective.
 """
 adjacency, adjacency!
 
-adjacency(placement::Placement) = adjacency!(no_rows(), placement)
+adjacency(placement::Placement) = adjacency!(placement, no_rows())
 
-function adjacency!(lists::CompressedRows{Int64}, placement::Placement)
+function adjacency!(placement::Placement, lists::CompressedRows{Int64})
     entries = Ref{Int64}(0)
     check(placement, LibPNPBS.pnpbs_placement_adjacency_size(live(placement), entries))
     offsets = fitted!(lists.offsets, node_count(placement) + 1)
@@ -144,7 +144,7 @@ end
 
 """
     stars(placement) -> (neighbours, triangle)
-    stars!(around, placement) -> around
+    stars!(placement, around) -> around
 
 Each node's star in the constrained Delaunay triangulation of the domain. `neighbours[i]` has the
 local indices of node i's neighbours, counter-clockwise; `triangle[i][k]` tells whether the node,
@@ -156,9 +156,9 @@ the same offsets. `stars!` uses the arrays of an earlier result again. Collectiv
 stars, stars!
 
 stars(placement::Placement) =
-    stars!((neighbours = no_rows(), triangle = no_rows(Bool)), placement)
+    stars!(placement, (neighbours = no_rows(), triangle = no_rows(Bool)))
 
-function stars!(around::NamedTuple, placement::Placement)
+function stars!(placement::Placement, around::NamedTuple)
     entries = Ref{Int64}(0)
     check(placement, LibPNPBS.pnpbs_placement_star_size(live(placement), entries))
     offsets = fitted!(around.neighbours.offsets, node_count(placement) + 1)
@@ -172,7 +172,7 @@ end
 
 """
     triangles(placement) -> Matrix{Int64}
-    triangles!(corners, placement) -> corners
+    triangles!(placement, corners) -> corners
 
 The triangles of a placement in the plane, `(3, n)` local indices, counter-clockwise, each once: a
 triangle is the rank's that owns its node with the least id, other corners may be ghosts.
@@ -181,14 +181,14 @@ otherwise returns a new one. Collective.
 """
 triangles, triangles!
 
-triangles(placement::Placement) = triangles!(zeros(Int64, 3, 0), placement)
+triangles(placement::Placement) = triangles!(placement, zeros(Int64, 3, 0))
 
-triangles!(corners::Matrix{Int64}, placement::Placement) =
-    elements!(corners, placement, LibPNPBS.pnpbs_placement_get_triangles, 3)
+triangles!(placement::Placement, corners::Matrix{Int64}) =
+    elements!(placement, corners, LibPNPBS.pnpbs_placement_get_triangles, 3)
 
 """
     tetrahedra(placement) -> Matrix{Int64}
-    tetrahedra!(corners, placement) -> corners
+    tetrahedra!(placement, corners) -> corners
 
 The tetrahedra of a placement in space, `(4, n)` local indices, each once: seen from the fourth
 corner, the first three turn counter-clockwise. A tetrahedron is the rank's that owns its node with
@@ -197,12 +197,12 @@ has the size that is needed now, and otherwise returns a new one. Collective.
 """
 tetrahedra, tetrahedra!
 
-tetrahedra(placement::Placement) = tetrahedra!(zeros(Int64, 4, 0), placement)
+tetrahedra(placement::Placement) = tetrahedra!(placement, zeros(Int64, 4, 0))
 
-tetrahedra!(corners::Matrix{Int64}, placement::Placement) =
-    elements!(corners, placement, LibPNPBS.pnpbs_placement_get_tetrahedra, 4)
+tetrahedra!(placement::Placement, corners::Matrix{Int64}) =
+    elements!(placement, corners, LibPNPBS.pnpbs_placement_get_tetrahedra, 4)
 
-function elements!(corners, placement, get, rows)
+function elements!(placement, corners, get, rows)
     count = Ref{Int64}(0)
     check(placement, get(live(placement), 0, count, C_NULL))
     fitted = fitted!(corners, rows, count[])

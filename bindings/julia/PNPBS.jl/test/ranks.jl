@@ -69,9 +69,9 @@ end
     @test A * x ≈ [sum(x[list]) / 2 for list in lists]
     ranks > 1 && @test_throws ArgumentError sparse(lists)
 
-    again = ghosts!(others, placement)
+    again = ghosts!(placement, others)
     @test again == ghosts(placement) && all(values(again) .=== values(others))
-    @test adjacency!(lists, placement) === lists && lists == adjacency(placement)
+    @test adjacency!(placement, lists) === lists && lists == adjacency(placement)
 
     # The edges here that begin at a node of this rank, those to ghosts among them.
     _, (along_x, _) = PNPBS.picture(placement, :adjacency)
@@ -85,29 +85,29 @@ end
     placement = placed_square(context)
     own, others = nodes(placement), ghosts(placement)
     n, g = node_count(placement), ghost_count(placement)
-    @test update_ghosts!([own.spacing; zeros(g)], placement) == [own.spacing; others.spacing]
-    @test update_ghosts!([own.points zeros(2, g)], placement) == [own.points others.points]
+    @test update_ghosts!(placement, [own.spacing; zeros(g)]) == [own.spacing; others.spacing]
+    @test update_ghosts!(placement, [own.points zeros(2, g)]) == [own.points others.points]
     wide = fill(-1.0, 4, n + g)
     wide[2:3, 1:n] = own.points
-    @test update_ghosts!(view(wide, 2:3, :), placement) == [own.points others.points]
+    @test update_ghosts!(placement, view(wide, 2:3, :)) == [own.points others.points]
     @test all(wide[[1, 4], :] .== -1)
 
     values = [own.points zeros(2, g)]
-    begin_update_ghosts(values, placement)
-    @test fails(() -> begin_update_ghosts(values, placement), :error_state, "under way")
+    begin_update_ghosts(placement, values)
+    @test fails(() -> begin_update_ghosts(placement, values), :error_state, "under way")
     values[:, 1:n] .= 0
-    @test end_update_ghosts!(values, placement) == [zero(own.points) others.points]
-    @test fails(() -> end_update_ghosts!(values, placement), :error_state, "under way")
-    e = thrown(() -> update_ghosts!(zeros(n + g + (rank == 0)), placement))
+    @test end_update_ghosts!(placement, values) == [zero(own.points) others.points]
+    @test fails(() -> end_update_ghosts!(placement, values), :error_state, "under way")
+    e = thrown(() -> update_ghosts!(placement, zeros(n + g + (rank == 0))))
     @test e isa PNPBSError && e.status === :error_argument && occursin("argument n", e.message)
 
-    sums(placement) = (sum_over_nodes(nodes(placement).spacing, placement),
-                       sum_over_nodes(nodes(placement).points, placement),
-                       dot_over_nodes(nodes(placement).spacing, nodes(placement).ids, placement),
-                       dot_over_nodes(nodes(placement).points, nodes(placement).points, placement))
+    sums(placement) = (sum_over_nodes(placement, nodes(placement).spacing),
+                       sum_over_nodes(placement, nodes(placement).points),
+                       dot_over_nodes(placement, nodes(placement).spacing, nodes(placement).ids),
+                       dot_over_nodes(placement, nodes(placement).points, nodes(placement).points))
     @test sums(placement) == Context(context -> sums(placed_square(context)))
-    @test sum_over_nodes(ones(n), placement) === Float64(statistic(placement, "nodes"))
-    @test fails(() -> dot_over_nodes(zeros(2, n), zeros(n), placement), :error_argument, "n = -1")
+    @test sum_over_nodes(placement, ones(n)) === Float64(statistic(placement, "nodes"))
+    @test fails(() -> dot_over_nodes(placement, zeros(2, n), zeros(n)), :error_argument, "n = -1")
     close(context)
 end
 
@@ -132,7 +132,7 @@ end
         @test at_points(straight, [0.3 0.5; 0.3 1.0]) ≈ linear([0.3 0.5; 0.3 1.0])
         @test maximum(abs, at_nodes(curved, placement) - sin.(points[1, :])) < 0.01
         @test fails(() -> at_points(straight, zeros(3, 1)), :error_argument, "n = -1")
-        total = sum_over_nodes(at_nodes(curved, placement; conserve = true), placement)
+        total = sum_over_nodes(placement, at_nodes(curved, placement; conserve = true))
         @test occursin("2", string(straight))
         close(straight)
         @test !isopen(straight) && fails(() -> at_nodes(straight, placement), :error_handle)

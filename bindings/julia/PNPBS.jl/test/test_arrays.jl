@@ -78,7 +78,7 @@ matrices(result::NamedTuple) = reduce(vcat, matrices.(values(result)))
 
 same(arrays, others) = length(arrays) == length(others) && all(arrays .=== others)
 
-allocated_by(get!, result, placement) = @allocated get!(result, placement)
+allocated_by(get!, placement, result) = @allocated get!(placement, result)
 
 # Getters, and those that fill an earlier result.
 const IN_PLANE = [(nodes, nodes!), (ghosts, ghosts!), (adjacency, adjacency!), (stars, stars!),
@@ -95,10 +95,10 @@ started(domain, d) = initialise!(set_spacing!(Placement(domain), d))
         step!(placement)
         @test node_count(placement) == n && nodes(placement).points != earlier[1].points
         for ((get, get!), result) in zip(IN_PLANE, earlier)
-            again = get!(result, placement)
+            again = get!(placement, result)
             @test again == get(placement)
             @test same(vectors(again), vectors(result)) && same(matrices(again), matrices(result))
-            @test allocated_by(get!, result, placement) < 2000
+            @test allocated_by(get!, placement, result) < 2000
         end
     end
 end
@@ -110,7 +110,7 @@ end
             few, many = started(domain, 0.3), started(domain, 0.2)
             for (get, get!) in getters, (one, other) in ((few, many), (many, few))
                 result = get(one)
-                again = get!(result, other)
+                again = get!(other, result)
                 @test again == get(other)
                 @test same(vectors(again), vectors(result))
             end
