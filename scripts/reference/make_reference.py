@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes docs/reference: every function of the C header with its comment, and beside it what the
-Fortran module and the Julia package have for it, read from their sources; and the tables that the
-built library tells.
+Fortran module, the Julia package and the Python package have for it, read from their sources; and the
+tables that the built library tells.
 
 usage: make_reference.py <libpnpbs.so> [--check]
 
@@ -13,15 +13,16 @@ import difflib
 import pathlib
 import re
 import sys
-import textwrap
 
 import fortran_procedures
 import header_comments
 import julia_functions
+import python_functions
+from language_parts import fortran_interface, fortran_part, julia_part, python_part
 from library_tables import Library
+from markdown import names_cell, table, wrapped
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-WIDTH = 104
 NOTE = "<!-- Made by scripts/reference/make_reference.py from the sources: change those. -->\n"
 
 
@@ -47,6 +48,8 @@ class Sources:
                 (root / f"bindings/fortran/{module}.f90").read_text(), exported)
         self.interfaces = (root / "bindings/fortran/pnpbs_c.f90").read_text()
         self.julia = julia_functions.Package(root / "bindings/julia/PNPBS.jl")
+        called = frozenset(c for name in self.functions for c in self.underlying(name))
+        self.python = python_functions.Package(root / "bindings/python/pnpbs", called)
 
     def underlying(self, name):
         """What the languages call: the function, or what an inline one of the header calls."""
@@ -62,6 +65,10 @@ class Sources:
     def julia_of(self, name):
         return [one for c in self.underlying(name) for one in self.julia.of_c_function(c)]
 
+    def python_of(self, name):
+        return list(dict.fromkeys(one for c in self.underlying(name)
+                                  for one in self.python.of_c_function(c)))
+
     def gaps(self):
         """What the languages lack, a line each."""
         for name, entry in self.functions.items():
@@ -71,6 +78,8 @@ class Sources:
                 yield f"{name}: no procedure of the Fortran module calls it"
             if not all(c in self.julia.raw for c in self.underlying(name)):
                 yield f"{name}: not in the Julia package"
+            if not self.python_of(name):
+                yield f"{name}: nothing in the Python package calls it"
 
 
 # ---------------------------------------------------------------- where things are ---------------
@@ -96,7 +105,7 @@ class Links:
     """From names to where they are described."""
 
     def __init__(self, sources):
-        self.c, self.julia = {}, {}
+        self.c, self.julia, self.python = {}, {}, {}
         for section in sources.sections:
             for entry in section.entries:
                 for name in entry_names(entry):
@@ -104,6 +113,8 @@ class Links:
                 for name in entry.functions:
                     for one in sources.julia_of(name):
                         self.julia.setdefault(one, self.c[name])
+                    for one in sources.python_of(name):
+                        self.python.setdefault(one, self.c[name])
         for one in sources.julia.docstrings:
             self.julia.setdefault(one, "README.md#beyond-c")
         self.julia_names = {name: place for one, place in self.julia.items() for name in one.names}
@@ -127,22 +138,8 @@ class Links:
 
 
 # ---------------------------------------------------------------- pieces of pages ----------------
-def wrapped(text, indent=""):
-    lines = textwrap.wrap(text, WIDTH, subsequent_indent=indent, break_long_words=False,
-                          break_on_hyphens=False)
-    # What begins a line must not be taken for a list or a heading.
-    return "\n".join([lines[0]] + [re.sub(r"^(\s*)([-+*#>]|\d+\.)(\s)", r"\1\\\2\3", line)
-                                   for line in lines[1:]]) if lines else ""
-
-
 def item(words, text, links):
     return wrapped(f"- {words} {links.linked(text)}".rstrip(), "  ")
-
-
-def table(head, rows):
-    lines = [head, ["---"] * len(head)] + rows
-    return "\n".join("| " + " | ".join(str(cell).replace("|", "\\|") for cell in row) + " |"
-                     for row in lines) + "\n"
 
 
 def prototype(name, function):
@@ -178,42 +175,6 @@ def description(comment, links):
     return "\n".join(lines).strip("\n") + "\n"
 
 
-def fortran_part(procedures):
-    procedures = list(dict.fromkeys(procedures))
-    lines = ["**Fortran**", "", "```fortran"]
-    for number, one in enumerate(procedures):
-        lines += [""] * (number > 0) + [one.call]
-        lines += [f"! {line}" for line in one.declarations]
-    lines.append("```")
-    notes = [wrapped(f"- `{names}`: {text}", "  ") for one in procedures for names, text in one.notes]
-    if notes:
-        lines += [""] + notes
-    return "\n".join(lines) + "\n"
-
-
-def julia_part(docstrings, here, shown, links, c_names):
-    docstrings = list(dict.fromkeys(docstrings))
-    if not docstrings:
-        raw = ", ".join(f"`PNPBS.LibPNPBS.{name}`" for name in c_names)
-        return f"**Julia**: only in the raw layer, {raw}.\n"
-    lines = ["**Julia**"]
-    for one in docstrings:
-        lines += ["", "```julia", *one.signatures, "```", ""]
-        if one in shown and links.julia[one] != here:
-            name = re.sub(r".*#", "", links.julia[one])
-            lines.append(f"Described at [`{name}`]({links.julia[one]}).")
-        elif one not in shown:
-            lines.append(links.resolved(one.text))
-            shown.add(one)
-    return "\n".join(lines) + "\n"
-
-
-def fortran_interface(name, text):
-    """The interface of a callback as pnpbs_c.f90 has it."""
-    match = re.search(rf"^( *)function {name}\(.*?end function", text, re.S | re.M)
-    return textwrap.dedent(match[0]) if match else None
-
-
 def entry_text(entry, section, sources, links, shown):
     names = entry_names(entry)
     title = ", ".join(names)
@@ -233,6 +194,8 @@ def entry_text(entry, section, sources, links, shown):
         here = links.c[names[0]]
         lines.append(julia_part([one for name in names for one in sources.julia_of(name)], here,
                                 shown, links, names))
+        lines.append(python_part(list(dict.fromkeys(
+            one for name in names for one in sources.python_of(name))), here, shown, links))
     elif not entry.functions and "(*" in entry.declaration:
         lines.append(f"**Fortran**\n\n```fortran\n"
                      f"{fortran_interface(names[0], sources.interfaces)}\n```\n")
@@ -240,12 +203,13 @@ def entry_text(entry, section, sources, links, shown):
 
 
 def status_table(sources):
-    rows = [[f"`{name}`", value, text, f"`:{name[6:].lower()}`"]
+    rows = [[f"`{name}`", value, text, f"`:{name[6:].lower()}`",
+             f"`{name[6:]}`"]
             for name, value, text in sources.statuses]
     return ("What every function returns: 0 done, above 0 an outcome whose results are valid, below 0 "
-            "an error.\nFortran has the same names; Julia throws a `PNPBSError` with the status below "
-            "for an error, and returns\nit for an outcome.\n\n" +
-            table(["C and Fortran", "value", "meaning", "Julia"], rows))
+            "an error.\nFortran has the same names; Julia throws and Python raises a `PNPBSError` with the "
+            "status below for an\nerror, and returns it for an outcome.\n\n" +
+            table(["C and Fortran", "value", "meaning", "Julia", "Python's `Status`"], rows))
 
 
 # ---------------------------------------------------------------- the pages ----------------------
@@ -270,8 +234,8 @@ def options_page(library):
             "For contexts (placements created later start with them) and for placements: "
             "[`pnpbs_context_set`](context.md#pnpbs_context_set),\n"
             "[`pnpbs_placement_set`](placement.md#pnpbs_placement_set); in Fortran "
-            "`call placement%set('steps', 100)`, in Julia\n`set!(placement; steps = 100)`, with the "
-            "command `--set steps=100`. `pnpbs --help` prints the same list.\n\n" +
+            "`call placement%set('steps', 100)`, in Julia\n`set!(placement; steps = 100)`, in Python "
+            "`placement.set(steps=100)`, with the command `--set steps=100`. `pnpbs --help` prints the same list.\n\n" +
             table(["name", "type", "default", "range", "what it does"], rows))
 
 
@@ -280,14 +244,10 @@ def statistics_page(library):
     return (NOTE + "# Statistics\n\n[Reference](README.md)\n\n"
             "Asked by [`pnpbs_placement_get_int64`](placement.md#pnpbs_placement_get_int64), `_double` "
             "or `_string`, by type; in Fortran\n`call placement%get('nodes', value)`, in Julia "
-            "`statistic(placement, \"nodes\")`. They are the keys of the command's\n`--report`, where "
-            "a dot is a level. What to make of them: "
+            "`statistic(placement, \"nodes\")`, in Python `placement.statistic(\"nodes\")`. They are "
+            "the keys of the command's\n`--report`, where a dot is a level. What to make of them: "
             "[read the report](../guide/read_the_report.md).\n\n" +
             table(["name", "type", "what it is"], rows))
-
-
-def language_cell(names):
-    return ", ".join(f"`{name}`" for name in dict.fromkeys(names))
 
 
 def index_table(sources, links):
@@ -297,9 +257,11 @@ def index_table(sources, links):
                    for one in sources.fortran_of(name)]
         julia = [re.match(r"[\w.]+!?", line)[0] for one in sources.julia_of(name)
                  for line in one.signatures]
+        python = [one.name for one in sources.python_of(name)]
         rows.append([f"[`{name}`]({links.c[name]})", entry.comment.reach.lower(),
-                     language_cell(fortran), language_cell(julia) or "raw layer only"])
-    return table(["C", "", "Fortran", "Julia"], rows)
+                     names_cell(fortran), names_cell(julia) or "raw layer only",
+                     names_cell(python)])
+    return table(["C", "", "Fortran", "Julia", "Python"], rows)
 
 
 def beyond_c(sources, links):
@@ -314,14 +276,19 @@ def beyond_c(sources, links):
             continue
         lines.append("```julia\n" + "\n".join(one.signatures) + "\n```\n\n" +
                      links.resolved(one.text) + "\n")
+    lines.append("**Python**\n")
+    for one in sources.python.functions:
+        if one not in links.python:
+            lines.append(f"```python\n{one.signature}\n```\n\n{one.text}\n")
     return "\n".join(lines)
 
 
 def index_page(sources, links):
     text = NOTE + """# Reference
 
-Every function in C, Fortran and Julia, made from the comments of
-[include/pnpbs/pnpbs.h](../../include/pnpbs/pnpbs.h), of the Fortran modules and of the Julia package.
+Every function in C, Fortran, Julia and Python, made from the comments of
+[include/pnpbs/pnpbs.h](../../include/pnpbs/pnpbs.h), of the Fortran modules, and of the Julia and Python
+packages.
 How to use them for a task: [the guides](../README.md#guides).
 
 | page | holds |
@@ -337,8 +304,9 @@ How to use them for a task: [the guides](../README.md#guides).
         text += table(["", ""], [[word, links.linked(what)] for word, what in rows])
     text += """
 In Fortran every procedure that returns no value takes `stat` and `errmsg` besides, both optional:
-without `stat` an error stops the program. In Julia an error is an exception. Local indices and
-offsets count from 1 in both. More: [fortran.md](../fortran.md), [julia.md](../julia.md).
+without `stat` an error stops the program. In Julia and Python an error is an exception. Local indices
+and offsets count from 1 in Fortran and Julia, from 0 in C and Python. More: [fortran.md](../fortran.md),
+[julia.md](../julia.md), [python.md](../python.md).
 
 ## All functions
 

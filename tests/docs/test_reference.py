@@ -18,6 +18,7 @@ from library_tables import Library
 LIBRARY = Library(sys.argv.pop())
 FORTRAN = "bindings/fortran/pnpbs.f90"
 JULIA = "bindings/julia/PNPBS.jl/src/"
+PYTHON = "bindings/python/pnpbs/"
 
 
 class Reference(unittest.TestCase):
@@ -59,6 +60,14 @@ class Changes(unittest.TestCase):
         self.change(JULIA + "domain.jl", "add_hole!(domain, point)\n\n", "add_hole!(domain, x)\n\n")
         self.assertIn("+add_hole!(domain, x)", self.found())
 
+    def test_docstring_of_python(self):
+        self.change(PYTHON + "results.py", "Checks that the results keep", "Looks whether the results keep")
+        self.assertIn("+Looks whether the results keep", self.found())
+
+    def test_argument_of_python(self):
+        self.change(PYTHON + "domain.py", "closed: bool = True", "closed: bool = False")
+        self.assertIn("closed=False", self.found())
+
     def test_page_too_many(self):
         (self.root / "docs/reference/old.md").write_text("what was\n")
         self.assertIn("-what was", self.found())
@@ -71,6 +80,11 @@ class Changes(unittest.TestCase):
     def test_function_without_julia(self):
         self.change(JULIA + "LibPNPBS.jl", "pnpbs_domain_measure(domain, measure) =", "measured() =")
         with self.assertRaisesRegex(ValueError, "measure: not in the Julia package"):
+            self.found()
+
+    def test_function_without_python(self):
+        self.change(PYTHON + "placement.py", 'self._call("rebalance")', "pass")
+        with self.assertRaisesRegex(ValueError, "rebalance: nothing in the Python package calls it"):
             self.found()
 
     def test_new_function(self):

@@ -89,6 +89,7 @@ class Results(Case):
         self.assertTrue((abs(bands.mean - 1) < 0.1).all() and len(bands.mean) > 3)
         self.assertEqual(pnpbs.library_version()[:2], (0, 2))
         self.assertIn("Kokkos", pnpbs.build_info())
+        self.assertEqual([pnpbs.file_dimension(name) for name in ("part.stl", "land.geojson")], [3, 2])
         self.placement.check()
 
     def test_numbering_without_ranks(self):

@@ -27,6 +27,8 @@ class Shapes(unittest.TestCase):
                                                       tag_field="name") as shapes:
             domain = shapes.add_to(pnpbs.Domain(context), corner_angle=45)
             self.assertEqual(shapes.notes, [])
+            self.assertEqual(shapes.counts, (4, 1, 0, 0))
+            self.assertIn("GDAL", pnpbs.geo_build_info())
             projection = shapes.projection
             self.assertEqual((projection.name, projection.unit),
                              ("ETRF2000-PL / CS92 in kilometre", "kilometre"))

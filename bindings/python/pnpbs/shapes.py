@@ -68,6 +68,20 @@ def _text(value: Optional[Path]) -> Optional[bytes]:
     return None if value is None else os.fsencode(value)
 
 
+def geo_build_info() -> str:
+    """The versions of GDAL and PROJ that shapes are read with, one "name: version" per line."""
+    return str(_library().pnpbs_geo_build_info().decode())
+
+
+class ShapeCounts(NamedTuple):
+    """What was read of a file: different places, those of points included; boundary curves and
+    inner ones, closed or from where curves meet to where they meet; and fixed nodes."""
+    vertices: int
+    boundary: int
+    inner: int
+    points: int
+
+
 class Projection(NamedTuple):
     """Texts, "" where the file does not say what its coordinates are: a name, the unit of x and y,
     PROJ's string, WKT 2, and what .prj files contain; and the least and the greatest length in the
@@ -128,6 +142,13 @@ class Shapes(Handle):
         self._call("scale", *(ctypes.byref(number) for number in scale))
         name, unit, proj, wkt, prj = ((text.value or b"").decode() for text in texts)
         return Projection(name, unit, proj, wkt, prj, (scale[0].value, scale[1].value))
+
+    @property
+    def counts(self) -> ShapeCounts:
+        """How much was read."""
+        found = [ctypes.c_int64() for _ in range(4)]
+        self._call("counts", *(ctypes.byref(one) for one in found))
+        return ShapeCounts(*(one.value for one in found))
 
     @property
     def notes(self) -> List[str]:

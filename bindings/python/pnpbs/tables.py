@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from typing import Any, List, NamedTuple, Tuple
 
 from ._interface import library
+from ._types import Path
 from .errors import check_without_context
 
 
@@ -48,6 +50,14 @@ def mpi_library() -> str:
     """The MPI that the library was built with, such as "Open MPI 4.1.4"; empty in a build without
     MPI. mpi4py must use the same one."""
     return str(library().pnpbs_mpi_library().decode())
+
+
+def file_dimension(path: Path) -> int:
+    """The dimension of the domain that a file describes, 2 or 3: by the ending of its name, of .poly
+    by the second number in it, of .msh by whether it lies in a plane of constant z."""
+    dim = ctypes.c_int32()
+    check_without_context(library().pnpbs_file_dimension(os.fsencode(path), ctypes.byref(dim)))
+    return dim.value
 
 
 def shutdown() -> None:
