@@ -164,6 +164,9 @@ module pnpbs
     procedure, private :: placement_end_update_ghosts_columns
     generic :: end_update_ghosts => placement_end_update_ghosts, &
       placement_end_update_ghosts_columns
+    procedure, private :: placement_add_from_ghosts
+    procedure, private :: placement_add_from_ghosts_columns
+    generic :: add_from_ghosts => placement_add_from_ghosts, placement_add_from_ghosts_columns
     procedure, private :: placement_sum
     procedure, private :: placement_sum_columns
     generic :: sum => placement_sum, placement_sum_columns
@@ -180,6 +183,8 @@ module pnpbs
     procedure :: get_triangles => placement_get_triangles
     procedure :: tetrahedron_count => placement_tetrahedron_count
     procedure :: get_tetrahedra => placement_get_tetrahedra
+    procedure :: incident_element_count => placement_incident_element_count
+    procedure :: get_incident_elements => placement_get_incident_elements
     procedure :: boundary_triangle_count => placement_boundary_triangle_count
     procedure :: get_boundary_triangles => placement_get_boundary_triangles
     procedure :: boundary_edge_count => placement_boundary_edge_count
@@ -1846,6 +1851,35 @@ contains
                                                 size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
+  !> Adds the values at ghosts to those of the nodes that they stand for, on the ranks that own these:
+  !> the way of update_ghosts back, for sums over elements to which several ranks contribute. Each
+  !> sum, of a node's own value and of those at its ghosts, is exact and rounded once, so no order of
+  !> ranks matters. What a rank has added up by itself before it has been rounded there: unless these
+  !> sums are exact, other numbers of ranks give results that differ by rounding. Where all bits shall
+  !> be the same, use get_incident_elements. Collective. Errors: as update_ghosts, but for updates
+  !> under way.
+  !>   values  (nodes + ghosts), or (components, nodes + ghosts): those of this rank's nodes, which
+  !>           become the sums, then those of its ghosts, which stay as they are
+  subroutine placement_add_from_ghosts(self, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout) :: values(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%add_from_ghosts', &
+                  c_placement_add_from_ghosts(self%c, size(values, kind=c_int64_t), 1_c_int32_t, &
+                                              values), stat, errmsg)
+  end subroutine
+
+  subroutine placement_add_from_ghosts_columns(self, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    real(c_double), intent(inout) :: values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%add_from_ghosts', &
+                  c_placement_add_from_ghosts(self%c, size(values, 2, c_int64_t), &
+                                              size(values, 1, c_int32_t), values), stat, errmsg)
+  end subroutine
+
   !> Sums of a field over the nodes of all ranks, of each component by itself: the exact sum, rounded
   !> once, to the nearest number. So it has the same bits for any number of ranks and threads and
   !> any order of nodes. NaN where a value is NaN or where there are infinities of both signs;
@@ -2073,6 +2107,54 @@ contains
     if (status < 0) return
     do t = 1, count
       call count_from_one(tetrahedra(:, t))
+    end do
+  end subroutine
+
+  !> Number of elements that get_incident_elements has. Collective.
+  !>   corners  optional: of each, 3 or 4
+  subroutine placement_incident_element_count(self, count, corners, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: corners
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: rows
+    count = 0
+    rows = 0
+    call conclude('placement%incident_element_count', &
+                  c_placement_get_incident_elements(self%c, 0_c_int64_t, count, rows, c_null_ptr), &
+                  stat, errmsg)
+    if (present(corners)) corners = rows
+  end subroutine
+
+  !> Every element with a corner among this rank's nodes, whichever rank it belongs to: triangles in
+  !> the plane, tetrahedra in space, triangles on surfaces alone. With these a rank assembles the rows
+  !> of its nodes by itself, without a message. The corner with the least id comes first; an element
+  !> belongs to this rank, as get_triangles and get_tetrahedra have it, if that is one of its nodes.
+  !> Elements are in the order of the ids of their corners: so those of a node are the same, in the
+  !> same order, for any number of ranks, and a row that adds them up in this order has the same bits.
+  !> Collective.
+  !>   elements  (corners, count) local indices
+  subroutine placement_get_incident_elements(self, elements, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout) :: elements(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_elements
+    integer(c_int64_t) :: room, count, t
+    integer(c_int32_t) :: corners
+    integer(c_int) :: status
+    status = c_placement_get_incident_elements(self%c, 0_c_int64_t, count, corners, c_null_ptr)
+    if (status >= 0) then
+      call given%place_int64_columns('elements', elements, int(corners), a_elements, room)
+      status = c_placement_get_incident_elements(self%c, given%capacity(room), count, corners, &
+                                                 a_elements)
+    end if
+    call conclude('placement%get_incident_elements', status, stat, errmsg, given)
+    if (status < 0) return
+    do t = 1, count
+      call count_from_one(elements(:, t))
     end do
   end subroutine
 

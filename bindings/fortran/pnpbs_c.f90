@@ -907,6 +907,17 @@ module pnpbs_c
       integer(c_int) :: c_placement_end_update_ghosts
     end function
 
+    function c_placement_add_from_ghosts(placement, n, components, values) bind(C, &
+      name="pnpbs_placement_add_from_ghosts")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(inout) :: values(*)
+      integer(c_int) :: c_placement_add_from_ghosts
+    end function
+
     function c_placement_sum(placement, n, components, values, sums) bind(C, &
       name="pnpbs_placement_sum")
       import
@@ -991,6 +1002,18 @@ module pnpbs_c
       integer(c_int64_t), intent(out) :: count
       type(c_ptr), value :: tetrahedra ! int64_t *
       integer(c_int) :: c_placement_get_tetrahedra
+    end function
+
+    function c_placement_get_incident_elements(placement, capacity, count, corners, elements) &
+      bind(C, name="pnpbs_placement_get_incident_elements")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      integer(c_int32_t), intent(out) :: corners
+      type(c_ptr), value :: elements ! int64_t *
+      integer(c_int) :: c_placement_get_incident_elements
     end function
 
     function c_placement_get_normals(placement, capacity, normals) bind(C, &

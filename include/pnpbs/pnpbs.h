@@ -806,6 +806,23 @@ PNPBS_API pnpbs_status pnpbs_placement_begin_update_ghosts(pnpbs_placement place
 PNPBS_API pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_t n,
                                                          int32_t components, double *values);
 
+/** Adds the values at ghosts to those of the nodes that they stand for, on the ranks that own
+ * these: the way of pnpbs_placement_update_ghosts back, for sums over elements to which several
+ * ranks contribute. Each sum, of a node's own value and of those at its ghosts, is exact and
+ * rounded once, so no order of ranks matters: it has the same bits wherever the terms are the same
+ * ones. What a rank has added up by itself before it has been rounded there; so, unless these sums
+ * are exact, other numbers of ranks give results that differ by rounding. Where all bits shall be
+ * the same, pnpbs_placement_get_incident_elements has what a row needs on its own rank. NaN and
+ * infinities as in pnpbs_placement_sum; a sum that is 0 is +0. May be called while an update is
+ * under way. Collective. Errors: PNPBS_ERROR_ARGUMENT for another n, fewer than one component, or
+ * numbers of components that differ between ranks; PNPBS_ERROR_STATE without nodes.
+ *  @param[in] n           nodes and ghosts of this rank (pnpbs_placement_count, _ghost_count)
+ *  @param[in] components  numbers at each node, the same on all ranks
+ *  @param[out] values  [n][components] those of this rank's nodes, which become the sums, then
+ *                         those of its ghosts, which stay as they are */
+PNPBS_API pnpbs_status pnpbs_placement_add_from_ghosts(pnpbs_placement placement, int64_t n,
+                                                       int32_t components, double *values);
+
 /** Sums of a field over the nodes of all ranks, of each component by itself: the exact sum, rounded
  *  once, to the nearest double. So it has the same bits for any number of ranks and threads and any
  *  order of nodes. NaN where a value is NaN or where there are infinities of both signs; otherwise
@@ -874,6 +891,23 @@ PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, 
  *  @param[out] tetrahedra  [count][4] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
                                                       int64_t *count, int64_t *tetrahedra);
+
+/** Every element with a corner among this rank's nodes, whichever rank it belongs to: triangles in
+ *  the plane, tetrahedra in space, triangles on surfaces alone. With these a rank assembles the rows
+ *  of its nodes by itself, without a message. An element whose corners have several owners comes on
+ *  each of these ranks. The corner with the least id comes first; so an element belongs to this
+ *  rank, as pnpbs_placement_get_triangles and its relatives deal them out, if its first corner is a
+ *  node of this rank. The others follow in the same orientation as there, in a tetrahedron the least
+ *  id of the three first. Elements are in the order of the ids of their corners: so those of a node
+ *  are the same, in the same order, for any number of ranks, and a row that adds them up in this
+ *  order has the same bits. Collective. Ask with capacity 0 for the count.
+ *  @param[in]  capacity  elements the array has room for; too small is PNPBS_ERROR_CAPACITY
+ *  @param[out] count     number of elements
+ *  @param[out] corners   3 or 4: corners of an element; may be NULL
+ *  @param[out] elements  [count][corners] local indices, or NULL */
+PNPBS_API pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement placement,
+                                                             int64_t capacity, int64_t *count,
+                                                             int32_t *corners, int64_t *elements);
 
 /** Triangles of the boundary of a placement in space: the faces of tetrahedra that have no other
  *  tetrahedron behind them, counter-clockwise as seen from outside. Of surfaces alone, the

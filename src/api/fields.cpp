@@ -30,6 +30,14 @@ pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_
   });
 }
 
+pnpbs_status pnpbs_placement_add_from_ghosts(pnpbs_placement placement, int64_t n,
+                                             int32_t components, double* values) {
+  return local_change(placement, [&](Placement& p) {
+    p.add_from_ghosts(n, components, values);
+    return PNPBS_OK;
+  });
+}
+
 pnpbs_status pnpbs_placement_sum(pnpbs_placement placement, int64_t n, int32_t components,
                                  const double* values, double* sums) {
   return local_change(placement, [&](Placement& p) {

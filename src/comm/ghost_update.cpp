@@ -3,18 +3,9 @@
 
 #include <cstring>
 
+#include "comm/exchange_buffers.hpp"
+
 namespace pnpbs {
-
-namespace {
-
-std::vector<Bytes> buffers(const std::vector<std::int64_t>& offsets, std::size_t bytes_of_node) {
-  std::vector<Bytes> all;
-  for (std::size_t k = 0; k + 1 < offsets.size(); ++k)
-    all.emplace_back(static_cast<std::size_t>(offsets[k + 1] - offsets[k]) * bytes_of_node);
-  return all;
-}
-
-}  // namespace
 
 void GhostUpdate::pack(const Communicator& comm,
                        const std::shared_ptr<const ExchangePattern>& pattern,
@@ -23,8 +14,8 @@ void GhostUpdate::pack(const Communicator& comm,
   if (pattern != pattern_ || components != components_) {
     exchange_.reset();
     pattern_.reset();  // until all is made
-    outgoing_ = buffers(pattern->send_offsets, bytes_of_node);
-    incoming_ = buffers(pattern->receive_offsets, bytes_of_node);
+    outgoing_ = exchange_buffers(pattern->send_offsets, bytes_of_node);
+    incoming_ = exchange_buffers(pattern->receive_offsets, bytes_of_node);
     exchange_ = comm.known_exchange(pattern->ranks, outgoing_, incoming_);
     pattern_ = pattern;
     components_ = components;

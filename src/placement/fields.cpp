@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values that a solver has at nodes: brought to ghosts, and summed.
+// Values that a solver has at nodes: brought to ghosts and back, and summed.
 #include <algorithm>
 #include <exception>
 #include <mutex>
@@ -92,6 +92,19 @@ void Placement::end_ghost_update(std::int64_t n, std::int64_t components, double
   require_places(n);
   require_values(values, n, "values");
   ghost_update_.unpack(values);
+}
+
+// Once the ranks have agreed, nothing can fail before the messages have come.
+void Placement::add_from_ghosts(std::int64_t n, std::int64_t components, double* values) {
+  agreed_with_same(*comm_, components, "components", [&] {
+    const auto pattern = exchange_pattern();
+    require_components(components);
+    require_places(n);
+    require_values(values, n, "values");
+    ghost_sum_.pack(*comm_, pattern, components, values);
+  });
+  ghost_sum_.exchange();
+  ghost_sum_.add(count(), values);
 }
 
 void Placement::require_places(std::int64_t n) const {

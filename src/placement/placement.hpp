@@ -12,6 +12,7 @@
 
 #include "comm/communicator.hpp"
 #include "comm/exchange_pattern.hpp"
+#include "comm/ghost_sum.hpp"
 #include "comm/ghost_update.hpp"
 #include "level/finish.hpp"
 #include "level/population_events.hpp"
@@ -123,6 +124,8 @@ class Placement {
   void begin_ghost_update(std::int64_t n, std::int64_t components, const double* values);
   // Waits for what the other ranks have started to send, and fills the ghosts. Local.
   void end_ghost_update(std::int64_t n, std::int64_t components, double* values);
+  // Adds the values of ghosts to those of the nodes they stand for. Collective, and agreed.
+  void add_from_ghosts(std::int64_t n, std::int64_t components, double* values);
   // Over the owned nodes of all ranks, of each component by itself: the exact sum of the values, or
   // of the products of two fields, rounded once. Collective, and agreed.
   void sum(std::int64_t n, std::int64_t components, const double* values, double* sums);
@@ -206,6 +209,7 @@ class Placement {
   std::vector<std::int32_t> by_id_, place_;
   std::shared_ptr<const ExchangePattern> exchange_pattern_;
   GhostUpdate ghost_update_;
+  GhostSum ghost_sum_;
   std::vector<std::int64_t> sum_entries_;  // of the sums in progress, on their way over the ranks
   std::vector<EdgeBand> edge_bands_;       // of the level's finish
   SurfaceFit surface_fit_;                 // likewise

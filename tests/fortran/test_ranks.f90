@@ -132,6 +132,9 @@ contains
     call placement%update_ghosts(x(2:), stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'argument n')
 
+    call placement%add_from_ghosts(x(2:), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'argument n')
+
     call alone%create_serial
     call place(alone, domain_alone, placement_alone)
     call placement_alone%count(n)

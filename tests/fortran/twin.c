@@ -17,6 +17,7 @@ int64_t twin_lists(int64_t handle, int32_t stars, int64_t nodes, const int64_t* 
 int64_t twin_triangles(int64_t handle, int64_t n, const int64_t* triangles);
 int64_t twin_edges(int64_t handle, int64_t n, const int64_t* edges, const int32_t* tags);
 int64_t twin_tetrahedra(int64_t handle, int64_t n, const int64_t* tetrahedra);
+int64_t twin_incident_elements(int64_t handle, int64_t n, int32_t corners, const int64_t* elements);
 int64_t twin_boundary_triangles(int64_t handle, int64_t n, const int64_t* triangles,
                                 const int32_t* tags);
 int64_t twin_exchange(int64_t handle, int32_t neighbours, const int32_t* ranks,
@@ -121,6 +122,18 @@ int64_t twin_tetrahedra(int64_t handle, int64_t n, const int64_t* tetrahedra) {
   wrong += count != n;
   wrong += shifted(4 * n, corners, tetrahedra);
   free(corners);
+  return wrong;
+}
+
+int64_t twin_incident_elements(int64_t handle, int64_t n, int32_t corners,
+                               const int64_t* elements) {
+  int64_t *found = room(corners * n, sizeof *found), count = -1, wrong = 0;
+  int32_t of_each = 0;
+  wrong += pnpbs_placement_get_incident_elements(placement_of(handle), n, &count, &of_each,
+                                                 found) != PNPBS_OK;
+  wrong += count != n || of_each != corners;
+  wrong += shifted(corners * n, found, elements);
+  free(found);
   return wrong;
 }
 

@@ -64,6 +64,15 @@ module twins
       integer(c_int64_t) :: twin_tetrahedra
     end function
 
+    function twin_incident_elements(handle, n, corners, elements) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: handle, n
+      integer(c_int32_t), value :: corners
+      integer(c_int64_t), intent(in) :: elements(*)
+      integer(c_int64_t) :: twin_incident_elements
+    end function
+
     function twin_boundary_triangles(handle, n, triangles, tags) bind(C)
       import
       implicit none
@@ -108,6 +117,7 @@ contains
     if (dim == 2) call compare_elements(placement)
     if (dim == 3) call compare_elements_in_space(placement)
     call compare_exchange(placement)
+    call compare_assembly(placement)
   end subroutine
 
   subroutine compare_nodes(placement)
@@ -208,6 +218,39 @@ contains
     call placement%get_boundary_triangles(tags=tags)
     call expect(twin_boundary_triangles(placement%handle(), count, triangles, tags) == 0, &
                 'boundary triangles as in C')
+  end subroutine
+
+  !> Each rank counts the elements that belong to it at their corners; what arrives from ghosts makes
+  !> these counts those of all elements around a node.
+  subroutine compare_assembly(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int64_t), allocatable :: elements(:,:)
+    real(c_double), allocatable :: around(:), sums(:), both(:,:)
+    integer(c_int64_t) :: count, owned, ghosts, e
+    integer(c_int32_t) :: dim, corners
+    call placement%dimension(dim)
+    call placement%incident_element_count(count, corners)
+    call expect(corners == dim + 1, 'corners of an element')
+    allocate (elements(corners, count))
+    call placement%get_incident_elements(elements)
+    call expect(twin_incident_elements(placement%handle(), count, corners, elements) == 0, &
+                'incident elements as in C')
+    call placement%count(owned)
+    call placement%ghost_count(ghosts)
+    allocate (around(owned + ghosts), sums(owned + ghosts), both(2, owned + ghosts))
+    around = 0
+    sums = 0
+    do e = 1, count
+      around(elements(:, e)) = around(elements(:, e)) + 1
+      if (elements(1, e) <= owned) sums(elements(:, e)) = sums(elements(:, e)) + 1
+    end do
+    both(1, :) = sums
+    both(2, :) = 2 * sums
+    call placement%add_from_ghosts(sums)
+    call expect(all(sums(:owned) == around(:owned)), 'counts from ghosts')
+    call expect(all(sums(owned + 1:) == both(1, owned + 1:)), 'ghosts keep their values')
+    call placement%add_from_ghosts(both)
+    call expect(all(both(1, :) == sums .and. both(2, :) == 2 * sums), 'two components from ghosts')
   end subroutine
 
   subroutine compare_exchange(placement)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package over the ranks of mpi4py's world. Run by mpirun."""
+import math
 import sys
 import unittest
 
@@ -21,6 +22,26 @@ def placed_square(context):
     placement = pnpbs.Placement(domain).set_spacing(graded)
     placement.run()
     return placement
+
+
+def placed_box(context):
+    domain = pnpbs.Domain(context, 3).add_box((0, 0, 0), (1, 1, 1))
+    placement = pnpbs.Placement(domain, steps=20).set_spacing(0.2)
+    placement.run()
+    return placement
+
+
+def rows_by_id(placement):
+    """By the ids of this rank's nodes: sums over the elements around each, in their order."""
+    own, ghosts = placement.nodes(), placement.ghosts()
+    ids = np.concatenate([own.ids, ghosts.ids])
+    points = np.concatenate([own.points, ghosts.points])
+    rows = dict.fromkeys(own.ids.tolist(), 0.0)
+    for corners in placement.incident_elements():
+        term = math.fsum((points[corners[1:]] - points[corners[0]])[0] ** 2)
+        for corner in corners[corners < len(own.ids)]:
+            rows[int(ids[corner])] += term / 3
+    return rows
 
 
 class Ranks(unittest.TestCase):
@@ -59,6 +80,30 @@ class Ranks(unittest.TestCase):
         for k, rank in enumerate(pattern.ranks):
             np.testing.assert_array_equal(WORLD.recv(source=int(rank)), ids[pattern.receive[k]])
         MPI.Request.waitall(requests)
+
+    def test_rows_from_incident_elements_have_the_same_bits(self):
+        for placed in (placed_square, placed_box):
+            everything = WORLD.allgather(rows_by_id(placed(self.context)))
+            together = {i: row for rows in everything for i, row in rows.items()}
+            with pnpbs.Context() as alone:
+                self.assertEqual(together, rows_by_id(placed(alone)))
+
+    def test_sums_from_ghosts(self):
+        elements, n = self.placement.incident_elements(), self.placement.node_count
+        around, sums = np.zeros((2, n + self.placement.ghost_count()))
+        np.add.at(around, elements.ravel(), 1)
+        belonging = elements[elements[:, 0] < n]
+        self.assertEqual(len(belonging), len(self.placement.triangles()))
+        self.assertEqual(WORLD.allreduce(len(elements)) > WORLD.allreduce(len(belonging)),
+                         WORLD.size > 1)
+        np.add.at(sums, belonging.ravel(), 1)
+        pairs = np.stack([sums, -sums], axis=1)
+        self.placement.add_from_ghosts(sums)
+        np.testing.assert_array_equal(sums[:n], around[:n])
+        self.assertIs(self.placement.add_from_ghosts(pairs), pairs)
+        np.testing.assert_array_equal(pairs, np.stack([sums, -sums], axis=1))
+        with self.assertRaises((ValueError, PNPBSError)):
+            self.placement.add_from_ghosts([1.0] if WORLD.rank == LAST else sums)
 
     def test_sums_have_the_same_bits(self):
         own = self.placement.nodes()

@@ -153,6 +153,8 @@ pnpbs_status pnpbs_placement_begin_update_ghosts(pnpbs_placement placement, int6
     int32_t components, const double *values);
 pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_t n,
     int32_t components, double *values);
+pnpbs_status pnpbs_placement_add_from_ghosts(pnpbs_placement placement, int64_t n,
+    int32_t components, double *values);
 pnpbs_status pnpbs_placement_sum(pnpbs_placement placement, int64_t n, int32_t components,
     const double *values, double *sums);
 pnpbs_status pnpbs_placement_dot(pnpbs_placement placement, int64_t n, int32_t components,
@@ -167,6 +169,8 @@ pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t ca
     int64_t *count, int64_t *triangles);
 pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
     int64_t *count, int64_t *tetrahedra);
+pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int32_t *corners, int64_t *elements);
 pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, int64_t capacity,
     int64_t *count, int64_t *triangles, int32_t *tags);
 pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64_t capacity,

@@ -52,6 +52,17 @@ class Fields(PlacementHandle):
         self._in_place("end_update_ghosts", values)
         return values
 
+    def add_from_ghosts(self, values: Doubles) -> Doubles:
+        """Adds the values at ghosts to those of the nodes that they stand for, on the ranks that own
+        these: the way of `update_ghosts` back, for sums over elements to which several ranks
+        contribute. `values` is changed where it is, and returned; the entries of ghosts stay as they
+        are. Each sum, of a node's value and of those at its ghosts, is exact and rounded once, so no
+        order of ranks matters. What a rank has added up by itself before it has been rounded there:
+        unless these sums are exact, other numbers of ranks give results that differ by rounding.
+        Where all bits shall be the same, use `incident_elements`. Collective."""
+        self._in_place("add_from_ghosts", values)
+        return values
+
     def _in_place(self, name: str, values: Doubles) -> None:
         ok = (isinstance(values, np.ndarray) and values.dtype == np.float64 and values.ndim > 0
               and values.flags.c_contiguous and values.flags.writeable)

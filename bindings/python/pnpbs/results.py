@@ -176,6 +176,21 @@ class Results(PlacementHandle):
         its node with the least id, other corners may be ghosts. Collective."""
         return self._elements("get_tetrahedra", 4)
 
+    def incident_elements(self) -> Ids:
+        """Every element with a corner among this rank's nodes, whichever rank it belongs to:
+        triangles in the plane, (n, 3) local indices, tetrahedra in space, (n, 4), triangles on
+        surfaces alone. With these a rank assembles the rows of its nodes by itself, without a
+        message. The corner with the least id comes first; an element belongs to this rank, as
+        `triangles` and `tetrahedra` have it, if that is one of its nodes. Elements are in the order
+        of the ids of their corners: so those of a node are the same, in the same order, for any
+        number of ranks, and a row that adds them up in this order has the same bits. Collective."""
+        count, corners = ctypes.c_int64(), ctypes.c_int32()
+        sizes = ctypes.byref(count), ctypes.byref(corners)
+        self._call("get_incident_elements", 0, *sizes, None)
+        found = np.zeros((count.value, corners.value), np.int64)
+        self._call("get_incident_elements", len(found), *sizes, found)
+        return found
+
     def boundary_edges(self) -> Facets:
         """The edges between consecutive nodes on boundary and inner curves of a placement in the
         plane: (n, 2) local indices, and the tags of the curves. An edge is the rank's that owns its

@@ -411,6 +411,11 @@ pnpbs_placement_end_update_ghosts(placement, n, components, values) =
         placement::pnpbs_placement, n::Int64, components::Int32,
         values::Ptr{Cdouble})::pnpbs_status
 
+pnpbs_placement_add_from_ghosts(placement, n, components, values) =
+    @ccall $(symbol(:pnpbs_placement_add_from_ghosts))(
+        placement::pnpbs_placement, n::Int64, components::Int32,
+        values::Ptr{Cdouble})::pnpbs_status
+
 pnpbs_placement_sum(placement, n, components, values, sums) =
     @ccall $(symbol(:pnpbs_placement_sum))(
         placement::pnpbs_placement, n::Int64, components::Int32, values::Ptr{Cdouble},
@@ -448,6 +453,11 @@ pnpbs_placement_get_tetrahedra(placement, capacity, count, tetrahedra) =
     @ccall $(symbol(:pnpbs_placement_get_tetrahedra))(
         placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},
         tetrahedra::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_incident_elements(placement, capacity, count, corners, elements) =
+    @ccall $(symbol(:pnpbs_placement_get_incident_elements))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, corners::Ptr{Int32},
+        elements::Ptr{Int64})::pnpbs_status
 
 pnpbs_placement_get_normals(placement, capacity, normals) =
     @ccall $(symbol(:pnpbs_placement_get_normals))(

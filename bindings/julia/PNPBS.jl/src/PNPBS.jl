@@ -37,6 +37,7 @@ export estimate, initialise!, run!, step!, adjust_population!, rebalance!
 export node_count, nodes, nodes!, normals, ghost_count, ghosts, ghosts!
 export exchange_pattern, numbering, reinterpret_columns
 export update_ghosts!, begin_update_ghosts, end_update_ghosts!, sum_over_nodes, dot_over_nodes
+export add_from_ghosts!, incident_elements, incident_elements!
 export Transfer, at_nodes, at_points, linear_nodes
 export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
 export boundary_edges, boundary_triangles, check_results
@@ -60,6 +61,7 @@ include("placement.jl")
 include("results.jl")
 include("lines.jl")
 include("fields.jl")
+include("assembly.jl")
 include("transfer.jl")
 include("shapes.jl")
 include("tables.jl")

@@ -111,6 +111,50 @@ end
     close(context)
 end
 
+function placed_box(context)
+    box = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
+    return initialise!(set_spacing!(Placement(box), 0.2))
+end
+
+# Sums over the elements around each node of this rank, in their order, by its id.
+function rows_by_id(placement)
+    own, others = nodes(placement), ghosts(placement)
+    points, ids = [own.points others.points], [own.ids; others.ids]
+    rows = Dict(id => 0.0 for id in own.ids)
+    for corners in eachcol(incident_elements(placement)), corner in corners
+        length(own.ids) < corner && continue
+        sides = points[:, corners[2:end]] .- points[:, corners[1]]
+        rows[ids[corner]] += sum(sides .^ 2) * sides[1] / 3
+    end
+    return rows
+end
+
+@testset "assembly" begin
+    context = Context(world)
+    for placed in (placed_square, placed_box)
+        placement = placed(context)
+        alone = Context(context -> rows_by_id(placed(context)))
+        @test all(alone[id] === row for (id, row) in rows_by_id(placement))
+
+        elements = incident_elements(placement)
+        @test size(elements, 1) == ndims(placement) + 1
+        @test incident_elements!(placement, elements) === elements
+        n, g = node_count(placement), ghost_count(placement)
+        around, sums = zeros(n + g), zeros(2, n + g)
+        for corners in eachcol(elements), corner in corners
+            around[corner] += 1
+            corners[1] <= n && (sums[:, corner] += [1, 2])
+        end
+        at_ghosts = sums[:, (n + 1):end]
+        @test add_from_ghosts!(placement, sums) === sums
+        @test sums == [[around[1:n]'; 2 * around[1:n]'] at_ghosts]
+        @test vec(add_from_ghosts!(placement, view(ones(3, n + g), 2, :)))[(n + 1):end] == ones(g)
+        e = thrown(() -> add_from_ghosts!(placement, zeros(n + g + (rank == 0))))
+        @test e isa PNPBSError && e.status === :error_argument && occursin("argument n", e.message)
+    end
+    close(context)
+end
+
 @testset "fields on other nodes" begin
     context = Context(world)
     placement = placed_square(context)

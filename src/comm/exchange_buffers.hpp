@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Buffers for the values of nodes on their way between ranks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "comm/communicator.hpp"
+
+namespace pnpbs {
+
+// One for each row of an exchange pattern, so many bytes for each of its nodes.
+inline std::vector<Bytes> exchange_buffers(const std::vector<std::int64_t>& offsets,
+                                           std::size_t bytes_of_node) {
+  std::vector<Bytes> all;
+  for (std::size_t k = 0; k + 1 < offsets.size(); ++k)
+    all.emplace_back(static_cast<std::size_t>(offsets[k + 1] - offsets[k]) * bytes_of_node);
+  return all;
+}
+
+}  // namespace pnpbs
