@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! Conjugate gradients, preconditioned by the diagonal, over the ranks of a communicator.
+! Conjugate gradients, preconditioned by the diagonal, over ranks. Dot products are exact, and rows have
+! the same bits on any rank; so the solution has the same bits on any number of them.
 module conjugate_gradients
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: error_unit
   use mpi
-  use ghost_exchange, only: fill_ghosts
   use nodes_of_rank, only: local_nodes
   use linear_elements, only: equations, multiply
   implicit none
@@ -27,7 +27,7 @@ contains
     real(c_double) :: direction(size(u)), before, now, enough, length
     integer :: step
 
-    call fill_ghosts(nodes%exchange, u)
+    call nodes%placement%update_ghosts(u)
     call multiply(nodes, rows, u, image)
     where (nodes%tags == 0)
       residual = rows%load - image
@@ -40,7 +40,7 @@ contains
     enough = tolerance**2 * now
     do step = 1, most_steps
       if (now <= enough) exit
-      call fill_ghosts(nodes%exchange, direction)
+      call nodes%placement%update_ghosts(direction)
       call multiply(nodes, rows, direction, image)
       length = now / dot(direction(:nodes%owned), image)
       u(:nodes%owned) = u(:nodes%owned) + length * direction(:nodes%owned)
@@ -51,22 +51,20 @@ contains
       direction(:nodes%owned) = scaled + now / before * direction(:nodes%owned)
     end do
     if (now > enough) call give_up
-    call fill_ghosts(nodes%exchange, u)
+    call nodes%placement%update_ghosts(u)
 
   contains
 
     function dot(a, b) result(total)
       real(c_double), intent(in) :: a(:), b(:)
-      real(c_double) :: part, total
-      integer :: error
-      part = dot_product(a, b)
-      call MPI_Allreduce(part, total, 1, MPI_DOUBLE_PRECISION, MPI_SUM, nodes%exchange%comm, error)
+      real(c_double) :: total
+      call nodes%placement%dot(a, b, total)
     end function
 
     subroutine give_up
       integer :: error
       write (error_unit, '(a, i0, a)') 'conjugate gradients: not there after ', most_steps, ' steps'
-      call MPI_Abort(nodes%exchange%comm, 1, error)
+      call MPI_Abort(MPI_COMM_WORLD, 1, error)
     end subroutine
   end subroutine
 end module conjugate_gradients

@@ -1,11 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The linear finite element equations. A rank has those of its own nodes; the parts of them that come
-! from other ranks' tetrahedra are added up there at ghosts and sent here.
+! The linear finite element equations. A rank has those of its own nodes, and all tetrahedra that these
+! need. What it adds up at ghosts on the way is not complete, and is left out.
 module linear_elements
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use body, only: source
-  use ghost_exchange, only: add_ghosts
   use nodes_of_rank, only: local_nodes
   implicit none
   private
@@ -22,7 +21,6 @@ module linear_elements
 
 contains
 
-  !> Collective.
   subroutine assemble(nodes, rows)
     type(local_nodes), intent(in) :: nodes
     type(equations), intent(out) :: rows
@@ -42,12 +40,10 @@ contains
       end do
       call add_load(nodes, nodes%tetrahedra(:, t), volume, rows%load)
     end do
-    call add_ghosts(nodes%exchange, rows%diagonal)
-    call add_ghosts(nodes%exchange, rows%load)
-    ! Where a body is thinner than the spacing, a node of its surface may be in no tetrahedron.
-    where (rows%diagonal == 0) rows%diagonal = 1
     rows%diagonal = rows%diagonal(:nodes%owned)
     rows%load = rows%load(:nodes%owned)
+    ! Where a body is thinner than the spacing, a node of its surface may be in no tetrahedron.
+    where (rows%diagonal == 0) rows%diagonal = 1
   end subroutine
 
   !> Adds the integrals of f and the hat functions over one tetrahedron, with f linear on it.
@@ -63,7 +59,7 @@ contains
   end subroutine
 
   !> product = rows times values at inner nodes, 0 at boundary nodes, whose values are given. values
-  !> must be right at ghosts. Collective.
+  !> must be right at ghosts.
   subroutine multiply(nodes, rows, values, product)
     type(local_nodes), intent(in) :: nodes
     type(equations), intent(in) :: rows
@@ -82,7 +78,6 @@ contains
         sums(b) = sums(b) - flow
       end do
     end do
-    call add_ghosts(nodes%exchange, sums)
     product = merge(sums(:nodes%owned), 0d0, nodes%tags == 0)
   end subroutine
 

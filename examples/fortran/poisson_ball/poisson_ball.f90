@@ -25,17 +25,16 @@ program poisson_ball
   real(c_double), allocatable :: u(:)
   real(c_double) :: measured(measures, levels), coarsest, h, whole
   integer(c_int64_t) :: total
-  integer :: comm, rank, level, error
+  integer :: rank, level, error
   character(len=200) :: path, number
 
   call MPI_Init(error)
-  comm = MPI_COMM_WORLD
-  call MPI_Comm_rank(comm, rank, error)
+  call MPI_Comm_rank(MPI_COMM_WORLD, rank, error)
   call get_command_argument(1, path)
   call get_command_argument(2, number)
   coarsest = 0.16d0
   if (number /= '') read (number, *) coarsest
-  call context%create_mpi(comm)
+  call context%create_mpi(MPI_COMM_WORLD)
   call create_body(context, trim(path), domain)
   call domain%measure(whole)
 
@@ -46,13 +45,13 @@ program poisson_ball
     call placement%set_spacing_constant(h)
     call placement%run
 
-    call take_nodes(placement, comm, nodes)
+    call take_nodes(placement, nodes)
     call assemble(nodes, rows)
     call boundary_values(u)
     call solve(nodes, rows, 1d-10, u)
 
     measured(:, level) = measure_errors(nodes, u)
-    call MPI_Allreduce(nodes%owned, total, 1, MPI_INTEGER8, MPI_SUM, comm, error)
+    call placement%get('nodes', total)
     if (rank == 0) call print_errors
     call placement%destroy
   end do
