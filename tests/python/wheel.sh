@@ -13,6 +13,8 @@ unset PNPBS_LIBRARY PYTHONPATH
 cp -r "$bindings" "$work/bindings"
 "$python" -m pip wheel --quiet --no-deps --no-build-isolation --disable-pip-version-check \
   -C cmake.define.PNPBS_LIBRARY="$library" -w "$work" "$work/bindings"
+# Nothing but what was there is in the source folder.
+diff -r -x __pycache__ "$bindings" "$work/bindings"
 "$python" -m venv --without-pip "$work/fresh"
 site=$("$work/fresh/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
 "$python" -m pip install --quiet --no-deps --no-index --disable-pip-version-check \
