@@ -546,7 +546,11 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement plac
                                                             pnpbs_spacing_fn spacing, void *user);
 
 /** The spacing from values on a rectangular grid, copied; linear in each direction between them,
- *  constant beyond the grid's edge. Collective.
+ *  constant beyond the grid's edge: where nodes lie farther than d and half a step from it there
+ *  is a warning (pnpbs_placement_get_warning). In a direction with one grid point the value holds
+ *  everywhere. Collective. Checks the domain first. Errors: PNPBS_ERROR_SPACING for a value that
+ *  is zero, negative or not finite, and for a grid that does not meet the domain's box;
+ *  PNPBS_ERROR_DOMAIN as pnpbs_domain_check.
  *  @param[in] size    [dim] number of grid points in each direction, >= 1
  *  @param[in] origin  [dim] the first grid point
  *  @param[in] step    [dim] > 0, distance of grid points
@@ -576,7 +580,8 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placemen
 /** The spacing from values at scattered points, copied: at each of them its own value, elsewhere a
  *  plane fitted to the 8 (in space 16) nearest ones by weighted least squares, never below the
  * least nor above the largest of their values. A linear function is met amid its points; far from
- * all of them d is near the values of the nearest. The weights are (1/r - 1/R)^2, r the distance of
+ * all of them d is near the values of the nearest, with a warning where nodes lie far beyond the
+ * points' box. The weights are (1/r - 1/R)^2, r the distance of
  * a point and R that of the nearest one that does not count, so d is continuous (R. Franke, G.
  * Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704). The order of the points changes
  *  nothing.

@@ -7,6 +7,7 @@
 #include "api/placement_calls.hpp"
 #include "api/spacing_callback.hpp"
 #include "domain/given_values.hpp"
+#include "spacing/beside_domain.hpp"
 #include "spacing/files/field_file.hpp"
 #include "spacing/given_field.hpp"
 
@@ -166,7 +167,7 @@ pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
 pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const int64_t* size,
                                               const double* origin, const double* step,
                                               const double* values) {
-  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>&) {
+  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
     require_pointer(size, "size");
     require_pointer(origin, "origin");
     require_pointer(step, "step");
@@ -180,8 +181,12 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
     std::copy_n(size, Dim, counts.begin());
     std::copy_n(origin, Dim, from.begin());
     std::copy_n(step, Dim, by.begin());
-    return std::make_shared<GridSpacing<Dim>>(counts, from, by,
-                                              std::vector<double>(values, values + n));
+    const auto spacing = std::make_shared<GridSpacing<Dim>>(
+        counts, from, by, std::vector<double>(values, values + n));
+    in.domain().check();
+    require_meeting_boxes<Dim>("arguments size, origin and step", spacing->extent()->box,
+                               in.domain().bounds());
+    return spacing;
   });
 }
 

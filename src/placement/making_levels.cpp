@@ -162,7 +162,7 @@ void PlacementOf<Dim>::gather_warnings(const SteepestGrowth<Dim>& steepest) {
     warnings_.push_back(warning_of_growth(steepest, level_->settings.growth_limit));
   if (surfaces_alone() && options_.is_set("growth_limit") && options_.real("growth_limit") > 0)
     warnings_.push_back("the option growth_limit has no effect on surfaces alone");
-  warn_of_partial_mesh();
+  warn_of_partial_extent();
   if constexpr (Dim == 3) warn_of_coarse_spacing();
   warnings_of_level_ = warnings_.size();
 }

@@ -165,7 +165,7 @@ class PlacementOf : public Placement {
                                                      const Settings& settings,
                                                      const std::function<void()>& beat) const;
   void warn_of_coarse_spacing() requires(Dim == 3);
-  void warn_of_partial_mesh();
+  void warn_of_partial_extent();
   static bool too_steep(const SteepestGrowth<Dim>& steepest);
   static std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
   std::shared_ptr<const Spacing<Dim>> bounded(std::shared_ptr<const Spacing<Dim>> spacing,

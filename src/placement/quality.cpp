@@ -7,6 +7,7 @@
 #include "level/expected_nodes.hpp"
 #include "level/found_nodes.hpp"
 #include "placement/placement_of.hpp"
+#include "spacing/beside_domain.hpp"
 
 namespace pnpbs {
 
@@ -75,11 +76,13 @@ void PlacementOf<3>::warn_of_coarse_spacing() {
                         three_digits(kRight * side) + " or less");
 }
 
-// Nodes that are farther than d from the background mesh of the spacing: those between a curved
-// boundary and a mesh whose edges cut its corners are not. Collective.
+// Nodes that are farther than d from where the spacing is given: those between a curved boundary
+// and a mesh whose edges cut its corners are not. Collective.
 template <int Dim>
-void PlacementOf<Dim>::warn_of_partial_mesh() {
+void PlacementOf<Dim>::warn_of_partial_extent() {
   constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points
+  const std::optional<GivenExtent<Dim>> extent = spacing_->extent();
+  if (!extent) return;
   const Nodes<Dim>& nodes = level_->nodes;
   FoundNodes<Dim> beyond;
   agreed(*comm_, [&] {
@@ -91,7 +94,7 @@ void PlacementOf<Dim>::warn_of_partial_mesh() {
       distance.resize(x.size());
       for (std::size_t k = 0; k < x.size(); ++k)
         x[k] = nodes.position(begin + static_cast<std::int64_t>(k));
-      if (!spacing_->distance_to_mesh(n, x.data(), distance.data())) return;
+      spacing_->distance_to_extent(n, x.data(), distance.data());
       for (std::size_t k = 0; k < x.size(); ++k) {
         const std::int64_t i = begin + static_cast<std::int64_t>(k);
         if (nodes.owned(i)) beyond.add(distance[k] > nodes.d(i), nodes.id(i), x[k]);
@@ -100,12 +103,15 @@ void PlacementOf<Dim>::warn_of_partial_mesh() {
   });
   beyond = over_ranks(*comm_, beyond);
   const std::uint64_t all = comm_->allreduce_sum(static_cast<std::uint64_t>(count()));
-  if (beyond.count > 0)
-    warnings_.push_back("the background mesh of the spacing covers only a part of the domain: of " +
-                        std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
-                        " are farther than d from it, one of them at " +
-                        rounded_point_text<Dim>(beyond.at) +
-                        "; there d is what it is at the mesh's nearest point");
+  if (beyond.count == 0) return;
+  const Box<Dim>& bounds = domain_->bounds();
+  const std::string name = extent->name;
+  warnings_.push_back("the " + name + " of the spacing covers only a part of the domain: of " +
+                      std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
+                      " are farther than d from it, one of them at " +
+                      rounded_point_text<Dim>(beyond.at) + "; there " + extent->beyond + ". The " +
+                      name + " reaches " + extent_text<Dim>(extent->box, bounds) + ", the domain " +
+                      extent_text<Dim>(bounds, bounds));
 }
 
 template <int Dim>
@@ -118,8 +124,8 @@ const ElementQuality& PlacementOf<Dim>::element_quality() {
   return quality_;
 }
 
-template void PlacementOf<2>::warn_of_partial_mesh();
-template void PlacementOf<3>::warn_of_partial_mesh();
+template void PlacementOf<2>::warn_of_partial_extent();
+template void PlacementOf<3>::warn_of_partial_extent();
 template const ElementQuality& PlacementOf<2>::element_quality();
 template const ElementQuality& PlacementOf<3>::element_quality();
 

@@ -182,6 +182,21 @@ void CloudSpacing<Dim>::find_known() {
   }
 }
 
+template <int Dim>
+std::optional<GivenExtent<Dim>> CloudSpacing<Dim>::extent() const {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  Box<Dim> box{points_.front(), points_.front()};
+  for (const Point<Dim>& x : points_) box = joined(box, Box<Dim>{x, x});
+  const double along = std::pow(static_cast<double>(points_.size()), 1.0 / Dim);
+  for (int k = 0; k < Dim; ++k) {
+    const double side = box.high[k] - box.low[k];
+    const double reach = side > 0 ? side / along : endless;
+    box.low[k] -= reach;
+    box.high[k] += reach;
+  }
+  return GivenExtent<Dim>{"cloud of points", "d is near that of the nearest points", box};
+}
+
 template class CloudSpacing<2>;
 template class CloudSpacing<3>;
 

@@ -24,6 +24,9 @@ class CloudSpacing : public Spacing<Dim> {
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
   // With slopes from each point to the nearest ones.
   KnownValues<Dim> known_values() const override { return known_; }
+  // The points' box, wider by the distance that they would have in it on a grid: few points are
+  // meant for more than their box. A direction in which all have one coordinate has no end.
+  std::optional<GivenExtent<Dim>> extent() const override;
 
   static constexpr int kNeighbours = Dim == 2 ? 8 : 16;
 

@@ -10,6 +10,7 @@
 #include "domain/given_values.hpp"
 #include "predicates/plane.hpp"
 #include "predicates/space.hpp"
+#include "spacing/beside_domain.hpp"
 #include "spacing/cloud_spacing.hpp"
 #include "spacing/mesh_spacing.hpp"
 
@@ -70,7 +71,8 @@ void check_elements(const GivenField<Dim>& field) {
   }
 }
 
-// What of the points counts: all of a cloud, of a mesh those of its elements.
+}  // namespace
+
 template <int Dim>
 Box<Dim> box_of(const GivenField<Dim>& field) {
   const auto corner = [&](std::int32_t i) { return field.points[static_cast<std::size_t>(i)]; };
@@ -85,32 +87,13 @@ Box<Dim> box_of(const GivenField<Dim>& field) {
 }
 
 template <int Dim>
-void require_near(const GivenField<Dim>& field, const Box<Dim>& domain) {
-  const Box<Dim> box = box_of(field);
-  if (boxes_meet(box, domain)) return;
-  double square = 0;
-  for (int k = 0; k < Dim; ++k) {
-    const double gap = std::max({0.0, domain.low[k] - box.high[k], box.low[k] - domain.high[k]});
-    square += gap * gap;
-  }
-  throw Error(ErrorKind::spacing,
-              field.points_name + ": they lie outside of the domain, from " +
-                  rounded_point_text<Dim>(box.low) + " to " + rounded_point_text<Dim>(box.high) +
-                  ", at least " + rounded_text(std::sqrt(square)) +
-                  " from it; the domain reaches from " + rounded_point_text<Dim>(domain.low) +
-                  " to " + rounded_point_text<Dim>(domain.high) + ": are they in its unit?");
-}
-
-}  // namespace
-
-template <int Dim>
 std::shared_ptr<const Spacing<Dim>> spacing_from_field(GivenField<Dim> field,
                                                        const Box<Dim>& domain) {
   if (field.points.empty())
     throw Error(field.fault, field.points_name + ": there is no point, expected at least 1");
   check_points(field);
   check_elements(field);
-  require_near(field, domain);
+  require_meeting_boxes(field.points_name, box_of(field), domain);
   if (field.elements.empty()) return std::make_shared<CloudSpacing<Dim>>(field);
   return std::make_shared<MeshSpacing<Dim>>(field);
 }
@@ -129,6 +112,8 @@ std::uint64_t hash_of(const GivenField<Dim>& field) {
 
 template std::shared_ptr<const Spacing<2>> spacing_from_field(GivenField<2>, const Box<2>&);
 template std::shared_ptr<const Spacing<3>> spacing_from_field(GivenField<3>, const Box<3>&);
+template Box<2> box_of(const GivenField<2>&);
+template Box<3> box_of(const GivenField<3>&);
 template std::uint64_t hash_of(const GivenField<2>&);
 template std::uint64_t hash_of(const GivenField<3>&);
 

@@ -38,6 +38,10 @@ template <int Dim>
 std::shared_ptr<const Spacing<Dim>> spacing_from_field(GivenField<Dim> field,
                                                        const Box<Dim>& domain);
 
+// What of the points counts: all of a cloud, of a mesh those of its elements.
+template <int Dim>
+Box<Dim> box_of(const GivenField<Dim>& field);
+
 // Of all that it holds: ranks that give the same have the same.
 template <int Dim>
 std::uint64_t hash_of(const GivenField<Dim>& field);

@@ -87,7 +87,8 @@ Patch<Dim> patch_of(const GivenField<Dim>& field) {
 }  // namespace
 
 template <int Dim>
-MeshSpacing<Dim>::MeshSpacing(const GivenField<Dim>& field) : mesh_(patch_of(field)) {}
+MeshSpacing<Dim>::MeshSpacing(const GivenField<Dim>& field)
+    : mesh_(patch_of(field)), box_(box_of(field)) {}
 
 template <int Dim>
 PatchAnswer<Dim> MeshSpacing<Dim>::answer_at(const Point<Dim>& x) const {
@@ -104,11 +105,15 @@ void MeshSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) 
 }
 
 template <int Dim>
-bool MeshSpacing<Dim>::distance_to_mesh(std::int64_t n, const Point<Dim>* x,
-                                        double* distance) const {
-  for_each_if_started("pnpbs::MeshSpacing::distance_to_mesh", n,
+std::optional<GivenExtent<Dim>> MeshSpacing<Dim>::extent() const {
+  return GivenExtent<Dim>{"background mesh", "d is what it is at the mesh's nearest point", box_};
+}
+
+template <int Dim>
+void MeshSpacing<Dim>::distance_to_extent(std::int64_t n, const Point<Dim>* x,
+                                          double* distance) const {
+  for_each_if_started("pnpbs::MeshSpacing::distance_to_extent", n,
                       [=, this](std::int64_t i) { distance[i] = std::sqrt(answer_at(x[i]).gap); });
-  return true;
 }
 
 template <int Dim>

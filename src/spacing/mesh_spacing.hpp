@@ -15,12 +15,14 @@ class MeshSpacing : public Spacing<Dim> {
   explicit MeshSpacing(const GivenField<Dim>& field);
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
   KnownValues<Dim> known_values() const override;
-  bool distance_to_mesh(std::int64_t n, const Point<Dim>* x, double* distance) const override;
+  std::optional<GivenExtent<Dim>> extent() const override;
+  void distance_to_extent(std::int64_t n, const Point<Dim>* x, double* distance) const override;
 
  private:
   PatchAnswer<Dim> answer_at(const Point<Dim>& x) const;
 
   NodalPatch<Dim> mesh_;
+  Box<Dim> box_;
 };
 
 extern template class MeshSpacing<2>;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/execution.hpp"
@@ -10,6 +11,20 @@
 #include "base/point_text.hpp"
 
 namespace pnpbs {
+
+template <int Dim>
+void Spacing<Dim>::distance_to_extent(std::int64_t n, const Point<Dim>* x,
+                                      double* distances) const {
+  const std::optional<GivenExtent<Dim>> given = extent();
+  for (std::int64_t i = 0; i < n; ++i) {
+    double square = 0;
+    for (int k = 0; given && k < Dim; ++k) {
+      const double gap = std::max({0.0, given->box.low[k] - x[i][k], x[i][k] - given->box.high[k]});
+      square += gap * gap;
+    }
+    distances[i] = std::sqrt(square);
+  }
+}
 
 template <int Dim>
 void ConstantSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>*, double* d) const {
@@ -55,6 +70,18 @@ void GridSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) 
 }
 
 template <int Dim>
+std::optional<GivenExtent<Dim>> GridSpacing<Dim>::extent() const {
+  Box<Dim> box;
+  for (int k = 0; k < Dim; ++k) {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    const double last = origin_[k] + static_cast<double>(size_[k] - 1) * step_[k];
+    box.low[k] = size_[k] > 1 ? origin_[k] - 0.5 * step_[k] : -endless;
+    box.high[k] = size_[k] > 1 ? last + 0.5 * step_[k] : endless;
+  }
+  return GivenExtent<Dim>{"grid", "d is what it is at the grid's nearest point", box};
+}
+
+template <int Dim>
 void BoundedSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
   spacing_->evaluate(n, x, d);
   for (std::int64_t i = 0; i < n; ++i)
@@ -96,6 +123,8 @@ template void evaluate_spacing<2>(const Spacing<2>&, double, std::int64_t, const
                                   double*);
 template void evaluate_spacing<3>(const Spacing<3>&, double, std::int64_t, const Point<3>*,
                                   double*);
+template class Spacing<2>;
+template class Spacing<3>;
 template class ConstantSpacing<2>;
 template class ConstantSpacing<3>;
 template class CallbackSpacing<2>;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/types.hpp"
@@ -27,6 +28,15 @@ struct KnownValues {
   std::vector<GrowthSource<Dim>> in_domain;  // surely there: d is sampled at these, too
 };
 
+// A part of space that d is given on, and what is said of it: "the grid of the spacing", and what d
+// is beyond.
+template <int Dim>
+struct GivenExtent {
+  const char* name;
+  const char* beyond;
+  Box<Dim> box;  // around it; infinite where it has no end
+};
+
 template <int Dim>
 class Spacing {
  public:
@@ -38,9 +48,11 @@ class Spacing {
   // With the sizes that it is made of multiplied, but its growth as it is, if there is a growth of
   // its own; others return nothing.
   virtual std::shared_ptr<const Spacing> with_sizes_multiplied(double) const { return nullptr; }
-  // If the values are those of a mesh: how far each x is from it, 0 on it. Others return false and
-  // leave the array as it is.
-  virtual bool distance_to_mesh(std::int64_t, const Point<Dim>*, double*) const { return false; }
+  // Where the values are, if they are those of a mesh, of a grid or of points.
+  virtual std::optional<GivenExtent<Dim>> extent() const { return std::nullopt; }
+  // How far each x is from there, 0 in it; as long as there is an extent, from its box unless the
+  // spacing knows better.
+  virtual void distance_to_extent(std::int64_t n, const Point<Dim>* x, double* distances) const;
 };
 
 template <int Dim>
@@ -66,7 +78,8 @@ class CallbackSpacing : public Spacing<Dim> {
 };
 
 // Values on a rectangular grid, x fastest; linear in each direction between the grid points,
-// constant beyond the border.
+// constant beyond the border. Where values stand for cells, these reach half a step beyond their
+// middles; a direction with one grid point has the same value everywhere.
 template <int Dim>
 class GridSpacing : public Spacing<Dim> {
  public:
@@ -74,6 +87,7 @@ class GridSpacing : public Spacing<Dim> {
               const Point<Dim>& step, std::vector<double> values)
       : size_(size), origin_(origin), step_(step), values_(std::move(values)) {}
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
+  std::optional<GivenExtent<Dim>> extent() const override;
 
  private:
   double at(const Point<Dim>& x) const;
@@ -104,6 +118,8 @@ template <int Dim>
 void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t n,
                       const Point<Dim>* x, double* d);
 
+extern template class Spacing<2>;
+extern template class Spacing<3>;
 extern template class ConstantSpacing<2>;
 extern template class ConstantSpacing<3>;
 extern template class CallbackSpacing<2>;

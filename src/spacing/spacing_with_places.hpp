@@ -26,8 +26,9 @@ class SpacingWithPlaces : public Spacing<Dim> {
     append(known.slopes, places_.slopes);
     return known;
   }
-  bool distance_to_mesh(std::int64_t n, const Point<Dim>* x, double* distances) const override {
-    return spacing_->distance_to_mesh(n, x, distances);
+  std::optional<GivenExtent<Dim>> extent() const override { return spacing_->extent(); }
+  void distance_to_extent(std::int64_t n, const Point<Dim>* x, double* distances) const override {
+    spacing_->distance_to_extent(n, x, distances);
   }
 
  private:

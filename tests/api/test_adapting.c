@@ -17,6 +17,18 @@ static int64_t kept(const result* before, const result* after) {
   return count;
 }
 
+/* Whether one of the warnings has this in it. */
+static int has_warning(pnpbs_placement placement, const char* part) {
+  const char* text = "";
+  int32_t count = 0, k;
+  MUST(pnpbs_placement_warning_count(placement, &count));
+  for (k = 0; k < count; ++k) {
+    MUST(pnpbs_placement_get_warning(placement, k, &text));
+    if (strstr(text, part)) return 1;
+  }
+  return 0;
+}
+
 static void check_same(const result* a, const result* b) {
   ck_assert_int_eq(a->n, b->n);
   ck_assert_mem_eq(a->ids, b->ids, (size_t)a->n * sizeof *a->ids);
@@ -210,6 +222,11 @@ START_TEST(a_grid_is_constant_beyond_its_rim) {
   int64_t i;
   MUST(pnpbs_placement_set_spacing_grid(it.placement, size, origin, step, values));
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert(
+      has_warning(it.placement, "the grid of the spacing covers only a part of the domain: of "));
+  ck_assert(has_warning(it.placement,
+                        "The grid reaches from (0.3, 0.3) to (0.7, 0.7), the domain "
+                        "from (0, 0) to (1, 1)"));
   nodes = result_of(it.placement);
   check_result(&nodes, 1);
   for (i = 0; i < nodes.n; ++i) {
@@ -217,6 +234,35 @@ START_TEST(a_grid_is_constant_beyond_its_rim) {
     ck_assert_double_eq_tol(nodes.d[i], 0.05 + 0.03 * t, 1e-15);
   }
   result_free(&nodes);
+  job_end(&it);
+}
+END_TEST
+
+/* The cells reach half a step beyond the grid points, and d may be larger than what is missing. */
+START_TEST(a_grid_that_covers_the_domain) {
+  const int64_t size[2] = {2, 2};
+  const double origin[2] = {0.25, 0.27}, step[2] = {0.5, 0.46};
+  const double values[4] = {0.05, 0.08, 0.05, 0.08};
+  job it = square_job(1);
+  MUST(pnpbs_placement_set_spacing_grid(it.placement, size, origin, step, values));
+  MUST(pnpbs_placement_initialise(it.placement));
+  ck_assert(!has_warning(it.placement, "covers only"));
+  job_end(&it);
+}
+END_TEST
+
+/* Beside the domain, and not so if only one of its points counts in that direction. */
+START_TEST(a_grid_beside_the_domain) {
+  const int64_t size[2] = {2, 2}, row[2] = {2, 1};
+  const double origin[2] = {0, 5}, step[2] = {1, 1}, values[4] = {0.05, 0.08, 0.05, 0.08};
+  job it = square_job(1);
+  MUST_FAIL(
+      PNPBS_ERROR_SPACING,
+      pnpbs_placement_set_spacing_grid(it.placement, size, origin, step, values),
+      "arguments size, origin and step",
+      "from (-0.5, 4.5) to (1.5, 6.5), at least 3.5 from it; the domain reaches from (0, 0) to "
+      "(1, 1)");
+  MUST(pnpbs_placement_set_spacing_grid(it.placement, row, origin, step, values));
   job_end(&it);
 }
 END_TEST
@@ -631,6 +677,8 @@ int main(void) {
   tcase_add_test(spacing, a_grid_equals_its_function);
   tcase_add_test(spacing, a_grid_of_one_value);
   tcase_add_test(spacing, a_grid_is_constant_beyond_its_rim);
+  tcase_add_test(spacing, a_grid_that_covers_the_domain);
+  tcase_add_test(spacing, a_grid_beside_the_domain);
   tcase_add_test(spacing, values_at_nodes_equal_their_function);
   tcase_add_loop_test(spacing, growth_limits, 0, 4);
   suite_add_tcase(suite, spacing);

@@ -91,19 +91,19 @@ static void check_same_nodes(int dim, int as_mesh) {
 }
 
 /* The warning about a mesh that does not reach all of the domain; "" if there is none. */
-static void find_warning(pnpbs_placement placement, char warning[400]) {
+static void find_warning(pnpbs_placement placement, char warning[600]) {
   const char* text = "";
   int32_t count = 0, k;
   warning[0] = 0;
   expect(pnpbs_placement_warning_count(placement, &count) == PNPBS_OK, "number of warnings");
   for (k = 0; k < count; ++k) {
     expect(pnpbs_placement_get_warning(placement, k, &text) == PNPBS_OK, "warning");
-    if (strstr(text, "covers only a part")) snprintf(warning, 400, "%s", text);
+    if (strstr(text, "covers only a part")) snprintf(warning, 600, "%s", text);
   }
 }
 
 /* Of a field that is so much smaller. */
-static void warning_of(int dim, int as_mesh, double factor, char warning[400]) {
+static void warning_of(int dim, int as_mesh, double factor, char warning[600]) {
   static struct field f;
   pnpbs_placement placement = placement_in_cube(dim);
   int64_t i;
@@ -117,7 +117,7 @@ static void warning_of(int dim, int as_mesh, double factor, char warning[400]) {
 
 /* Half a cube, told with the same words by any number of ranks; no cube that is cut a little. */
 static void check_meshes_of_a_part(int dim) {
-  char together[400], alone[400], none[400];
+  char together[600], alone[600], none[600];
   long all = 0, beyond = 0;
   pnpbs_context ranks = context;
   warning_of(dim, 1, 0.5, together);
@@ -130,7 +130,10 @@ static void check_meshes_of_a_part(int dim) {
   warning_of(dim, 1, 0.93, none);
   expect(none[0] == 0, "a warning about less than d");
   warning_of(dim, 0, 0.5, none);
-  expect(none[0] == 0, "a warning about scattered points");
+  expect(strncmp(none, "the cloud of points of the spacing covers only a part", 53) == 0,
+         "warning of points in half a cube");
+  warning_of(dim, 0, 0.93, none);
+  expect(none[0] == 0, "a warning about points that are less than d from the edge");
   expect(pnpbs_context_create_serial(&context) == PNPBS_OK, "serial context");
   if (rank == 0) {
     warning_of(dim, 1, 0.5, alone);
