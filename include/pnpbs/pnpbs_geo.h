@@ -18,7 +18,13 @@
  *               edges that one feature goes along there and back are left out, as where it was
  *               cut at 180 degrees.
  *
- *   lines       inner curves; in a layer without polygons the closed ones bound the domain.
+ *   lines       inner curves. A line that runs along the boundary is no curve of its own: that part
+ *               of the boundary has its tag, as the open boundary of a sea has. It runs along it
+ *               where all of it lies within 0.001 of the layer's extent of the boundary, and all of
+ *               that part of the boundary as near to it; or where both have the same vertices.
+ *
+ *               Closed lines, also in several pieces, bound the domain in a layer without polygons,
+ *               and where they lie around polygons, which are holes then.
  *
  *   points      fixed nodes.
  *

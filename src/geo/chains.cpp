@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/union_find.hpp"
 
 namespace pnpbs::geo {
 namespace {
@@ -74,7 +75,8 @@ class ChainMaker {
   bool is_passed(Index place) const {
     if (incidence_.degree(place) != 2) return false;
     const Index* edges = incidence_.at(place);
-    return edges_[edges[0]].role == edges_[edges[1]].role;
+    const Edge &a = edges_[edges[0]], &b = edges_[edges[1]];
+    return a.role == b.role && a.of_line == b.of_line;
   }
 
   Index next_edge(Index place, Index edge) const {
@@ -96,7 +98,7 @@ class ChainMaker {
 
   Curve chain_with(Index edge) {
     auto [at, place] = begin_of(edge);
-    Curve curve{edges_[at].role == EdgeRole::boundary, false, {place}, {}};
+    Curve curve{edges_[at].role == EdgeRole::boundary, false, {place}, {}, edges_[at].of_line};
     for (;;) {
       used_[at] = 1;
       curve.tags.push_back(edges_[at].tag);
@@ -116,25 +118,114 @@ class ChainMaker {
   std::vector<char> used_;
 };
 
+// Whether the place lies behind an odd number of the edges.
+bool is_inside(const Point<2>& p, const std::vector<Edge>& edges,
+               const std::vector<Point<2>>& points) {
+  bool inside = false;
+  for (const Edge& edge : edges) {
+    const Point<2>&a = points[edge.begin], &b = points[edge.end];
+    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+    if (p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
+  }
+  return inside;
+}
+
+class LineSettler {
+ public:
+  LineSettler(std::vector<Edge>& edges, const std::vector<Point<2>>& points)
+      : edges_(edges), points_(points), parts_(points.size()), in_outline_(points.size(), 0) {
+    for (const Edge& edge : edges_) {
+      if (edge.of_line) {
+        lines_.push_back(edge);
+        continue;
+      }
+      in_outline_[edge.begin] = in_outline_[edge.end] = 1;
+      if (edge.role == EdgeRole::boundary) outlines_.push_back(edge);
+    }
+  }
+
+  void run(const WordsFor& where) {
+    if (lines_.empty()) return;
+    find_closed();
+    const std::vector<Index> candidates = parts_apart();
+    const bool bound = outlines_.empty() || any_surrounds_a_polygon(candidates);
+    std::vector<char> bounds(points_.size(), 0);  // parts of lines, by their least place
+    if (bound)
+      for (const Index part : candidates) bounds[part] = 1;
+    for (std::size_t p = 0; p < points_.size(); ++p)
+      if (degree_[p] % 2 != 0 && bounds[part_of(p)])
+        throw Error(ErrorKind::domain, std::to_string(degree_[p]) +
+                                           " lines that are closed meet at " +
+                                           where(static_cast<Index>(p)) +
+                                           ": they do not tell what is inside; polygons would");
+    std::size_t line = 0;
+    for (Edge& edge : edges_) {
+      if (!edge.of_line) continue;
+      const bool is_bound = closed_[line++] && bounds[part_of(edge.begin)];
+      edge.role = is_bound ? EdgeRole::boundary : EdgeRole::inner;
+    }
+  }
+
+ private:
+  Index part_of(std::size_t place) { return parts_.root(static_cast<Index>(place)); }
+  Index part_of(Index place) { return parts_.root(place); }
+
+  void find_closed() {
+    const auto places = static_cast<Index>(points_.size());
+    const Incidence incidence(lines_, places);
+    degree_.resize(points_.size());
+    for (Index p = 0; p < places; ++p) degree_[p] = incidence.degree(p);
+    closed_ = without_branches(lines_, incidence, degree_);
+    for (std::size_t e = 0; e < lines_.size(); ++e)
+      if (closed_[e]) parts_.join(lines_[e].begin, lines_[e].end);
+  }
+
+  // Closed parts that neither meet a polygon nor lie in one.
+  std::vector<Index> parts_apart() {
+    std::vector<char> meets(points_.size(), 0);
+    std::vector<Index> all, apart;
+    for (std::size_t e = 0; e < lines_.size(); ++e) {
+      if (!closed_[e]) continue;
+      const Index part = part_of(lines_[e].begin);
+      all.push_back(part);
+      if (in_outline_[lines_[e].begin] || in_outline_[lines_[e].end]) meets[part] = 1;
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    for (const Index part : all)
+      if (!meets[part] && !is_inside(points_[part], outlines_, points_)) apart.push_back(part);
+    return apart;
+  }
+
+  bool any_surrounds_a_polygon(const std::vector<Index>& candidates) {
+    std::vector<char> is_candidate(points_.size(), 0);
+    for (const Index part : candidates) is_candidate[part] = 1;
+    std::vector<Edge> around;
+    for (std::size_t e = 0; e < lines_.size(); ++e)
+      if (closed_[e] && is_candidate[part_of(lines_[e].begin)]) around.push_back(lines_[e]);
+    if (around.empty()) return false;
+    UnionFind<Index> polygons(points_.size());
+    for (const Edge& edge : outlines_) polygons.join(edge.begin, edge.end);
+    return std::any_of(outlines_.begin(), outlines_.end(), [&](const Edge& edge) {
+      return polygons.root(edge.begin) == edge.begin &&
+             is_inside(points_[edge.begin], around, points_);
+    });
+  }
+
+  std::vector<Edge>& edges_;
+  const std::vector<Point<2>>& points_;
+  std::vector<Edge> lines_, outlines_;  // outlines: the boundary of their union
+  UnionFind<Index> parts_;              // of closed lines
+  std::vector<char> in_outline_;        // of places
+  std::vector<char> closed_;            // of lines
+  std::vector<Index> degree_;           // of places, by closed lines
+};
+
 }  // namespace
 
-void settle_lines(std::vector<Edge>& edges, std::int64_t places, bool beside_polygons,
+void settle_lines(std::vector<Edge>& edges, const std::vector<Point<2>>& points,
                   const WordsFor& where) {
-  std::vector<char> closed(edges.size(), 0);
-  if (!beside_polygons) {
-    const Incidence incidence(edges, places);
-    std::vector<Index> degree(static_cast<std::size_t>(places));
-    for (Index p = 0; p < places; ++p) degree[p] = incidence.degree(p);
-    closed = without_branches(edges, incidence, degree);
-    const auto odd = std::find_if(degree.begin(), degree.end(), [](Index d) { return d % 2 != 0; });
-    if (odd != degree.end())
-      throw Error(ErrorKind::domain, std::to_string(*odd) + " lines that are closed meet at " +
-                                         where(odd - degree.begin()) +
-                                         ": they do not tell what is inside; polygons would");
-  }
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if (edges[e].role == EdgeRole::line)
-      edges[e].role = closed[e] ? EdgeRole::boundary : EdgeRole::inner;
+  LineSettler(edges, points).run(where);
 }
 
 std::vector<Curve> chains_of(const std::vector<Edge>& edges, std::int64_t places) {

@@ -16,11 +16,12 @@ struct Edge {
   EdgeRole role;  // line: not known yet
   std::int32_t tag;
   std::int64_t order;
+  bool of_line;
 };
 
-// Beside polygons lines are inner curves. Without any, the closed ones bound the domain, with what
-// hangs on them left inside. Throws Error where lines branch so that none can tell.
-void settle_lines(std::vector<Edge>& edges, std::int64_t places, bool beside_polygons,
+// Closed lines that neither meet a polygon nor lie in one bound the domain; the others are inner
+// curves. Throws Error where lines branch so that none can tell.
+void settle_lines(std::vector<Edge>& edges, const std::vector<Point<2>>& points,
                   const WordsFor& where);
 
 // Every edge is in one of them; they are in the order of their first edges.

@@ -74,6 +74,13 @@ class EdgeSorter {
     cancel_within_features(pieces);
     const auto first_line = std::find_if(pieces.begin(), pieces.end(), &is_line);
     const auto outlines = first_line - pieces.begin();
+    const bool has_line = first_line != pieces.end();
+    if (has_line) {
+      outlines_.lost_tags += std::count_if(first_line, pieces.end(), [&](const Piece& piece) {
+        return piece.tag != first_line->tag;
+      });
+      if (outlines > 0) ++outlines_.retagged_edges, pieces.front().tag = first_line->tag;
+    }
     if (outlines == 0 && !pieces.empty())
       add(pieces.front(), EdgeRole::line);
     else if (outlines == 1)
@@ -82,7 +89,9 @@ class EdgeSorter {
       add(pieces.front(), EdgeRole::inner), ++outlines_.shared_edges;
     else if (outlines > 1)
       reject_overlap(pieces[0], pieces[1]);
-    const std::size_t meant = outlines == 2 ? 2 : pieces.empty() ? 0 : 1;
+    const std::size_t meant = pieces.empty()             ? 0
+                              : outlines > 0 && has_line ? outlines + 1
+                                                         : std::max<std::ptrdiff_t>(outlines, 1);
     outlines_.dropped_edges += static_cast<std::int64_t>(given - meant);
   }
 
@@ -106,7 +115,7 @@ class EdgeSorter {
 
   void add(const Piece& piece, EdgeRole role) {
     edges_.push_back({piece.upward ? piece.low : piece.high, piece.upward ? piece.high : piece.low,
-                      role, piece.tag, piece.order});
+                      role, piece.tag, piece.order, piece.of_line});
   }
 
   [[noreturn]] void reject_overlap(const Piece& a, const Piece& b) const {
@@ -157,10 +166,7 @@ Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& poi
   }
   std::sort(edges.begin(), edges.end(),
             [](const Edge& a, const Edge& b) { return a.order < b.order; });
-  const bool has_polygons = std::any_of(routes.begin(), routes.end(), [](const Route& route) {
-    return route.kind != PathKind::line;
-  });
-  settle_lines(edges, static_cast<std::int64_t>(points.size()), has_polygons, where);
+  settle_lines(edges, points, where);
   outlines.curves = chains_of(edges, static_cast<std::int64_t>(points.size()));
   return outlines;
 }

@@ -42,16 +42,19 @@ struct Curve {
   bool closed;
   std::vector<std::int64_t> places;  // of closed ones, the first is not repeated
   std::vector<std::int32_t> tags;    // of the segments
+  bool of_line = false;
 };
 
 struct Outlines {
   std::vector<Curve> curves;
-  std::int64_t shared_edges = 0;   // of neighbours
-  std::int64_t dropped_edges = 0;  // there and back in one feature, or twice the same line
+  std::int64_t shared_edges = 0;    // of neighbours
+  std::int64_t dropped_edges = 0;   // there and back in one feature, or twice the same line
+  std::int64_t retagged_edges = 0;  // of outlines, that a line has, too: its tag counts
+  std::int64_t lost_tags = 0;       // of lines that have an edge in common with others
 };
 
-// Outlines enclose areas that do not overlap. Without any, closed lines bound the domain. Throws
-// Error with the place, for which `where` finds words.
+// Outlines enclose areas that do not overlap. Closed lines outside of all of them bound the domain,
+// too. Throws Error with the place, for which `where` finds words.
 using WordsFor = std::function<std::string(std::int64_t place)>;
 Outlines outlines_of(std::vector<Route> routes, const std::vector<Point<2>>& points,
                      const WordsFor& where);

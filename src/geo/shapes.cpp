@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
+#include "geo/shores.hpp"
 #include "geo/touching.hpp"
 
 namespace pnpbs::geo {
@@ -43,6 +44,20 @@ void check(pnpbs_status status, pnpbs_context context) {
 
 // Lengths that are off by more than this are told.
 constexpr double told_scale = 0.02;
+
+// Lines this near to the boundary run along it, over the extent of the layer: so far off they are
+// clicked on a screen that shows all of it.
+constexpr double along_shore = 1e-3;
+
+double extent_of(const std::vector<Point<2>>& points) {
+  Point<2> low = points.front(), high = low;
+  for (const Point<2>& point : points)
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      low[k] = std::min(low[k], point[k]);
+      high[k] = std::max(high[k], point[k]);
+    }
+  return std::max(high[0] - low[0], high[1] - low[1]);
+}
 
 // A place as messages show it: "x, y)", and where in the text that ends.
 struct PlaceInText {
@@ -121,10 +136,12 @@ void Shapes::project() {
     for (std::int64_t& place : route.places) place = place_of[place];
   for (std::size_t s = 0; s < spots.size(); ++s) layer_.spots[s].point = projected[spots[s]];
   places_ = places.points();
+  const double extent = places_.empty() ? 0 : extent_of(places_);
   scale_ = projection_.scale_at(places_);
   outlines_ = outlines_of(std::move(routes), places_, [&](std::int64_t place) {
     return with_degrees(point_text(places_[place]));
   });
+  lines_along_shore_ = retag_shores(outlines_.curves, places_, along_shore * extent);
 }
 
 void Shapes::take_notes() {
@@ -139,6 +156,20 @@ void Shapes::take_notes() {
     notes.push_back("in the projection '" + projection_.system().name() + "' lengths are " +
                     rounded_text(scale_.least) + " to " + rounded_text(scale_.greatest) +
                     " times what they are on the Earth, and d is meant in the projection");
+  if (outlines_.retagged_edges > 0)
+    notes.push_back(std::to_string(outlines_.retagged_edges) +
+                    " segments of polygons have the tag of the line that has them, too");
+  if (lines_along_shore_ == 1)
+    notes.emplace_back(
+        "a line runs along the boundary, to 0.001 of the extent: that part of the boundary has its "
+        "tag, and the line is no curve of its own");
+  else if (lines_along_shore_ > 1)
+    notes.push_back(std::to_string(lines_along_shore_) +
+                    " lines run along the boundary, to 0.001 of the extent: these parts of the "
+                    "boundary have their tags, and the lines are no curves of their own");
+  if (outlines_.lost_tags > 0)
+    notes.push_back("lines left out: " + std::to_string(outlines_.lost_tags) +
+                    " segments that another line has with another tag");
   if (outlines_.dropped_edges > 0)
     notes.push_back(std::to_string(outlines_.dropped_edges) +
                     " segments were left out that only repeat others or lead there and back "

@@ -47,6 +47,7 @@ class Shapes {
   Projection::Scale scale_;
   std::vector<Point<2>> places_;
   Outlines outlines_;
+  std::int64_t lines_along_shore_ = 0;
 };
 
 }  // namespace pnpbs::geo
