@@ -15,7 +15,7 @@ module pnpbs_geo
   implicit none
   private
 
-  public :: pnpbs_geo_shapes
+  public :: pnpbs_geo_shapes, pnpbs_geo_grid
   public :: pnpbs_geo_last_error, pnpbs_geo_build_info
 
   !> Shapes of one layer of a file, projected.
@@ -35,6 +35,17 @@ module pnpbs_geo
     procedure :: explain => geo_explain
     procedure :: note_count => geo_note_count
     procedure :: get_note => geo_get_note
+  end type
+
+  !> Values on a grid in a file, GeoTIFF, NetCDF and whatever else GDAL reads.
+  type :: pnpbs_geo_grid
+    private
+    type(c_ptr) :: c = c_null_ptr
+  contains
+    procedure :: read => grid_read
+    procedure :: destroy => grid_destroy
+    procedure :: values => grid_values
+    procedure :: extent => grid_extent
   end type
 
 contains
@@ -226,7 +237,96 @@ contains
     if (status >= 0) note = text_of(c)
   end subroutine
 
+  ! ------------------------------------------------------------ grids -------------------------
+
+  !> Reads a part of a grid. Local. What was read before should be destroyed first.
+  !>   path        a file, or anything else that GDAL opens
+  !>   low, high   (2) of the part that is wanted, in the projection of the points: domain%bounds, say
+  !>   variable    optional: its name in a file of several, or the number of a band
+  !>   projection  optional: of the points that it will be asked at, e.g. the wkt of
+  !>               shapes%projection; without, they are in the grid's own system
+  subroutine grid_read(self, path, low, high, variable, projection, stat, errmsg)
+    class(pnpbs_geo_grid), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    real(c_double), intent(in) :: low(:), high(:)
+    character(len=*), intent(in), optional :: variable, projection
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call given%check_rows('low', size(low), 2)
+    call given%check_rows('high', size(high), 2)
+    status = given%found()
+    if (.not. given%is_wrong()) &
+      status = c_geo_grid_read(c_text(path), given_text(variable), given_text(projection), low, &
+                               high, self%c)
+    call conclude_grid('read', status, stat, errmsg, given)
+  end subroutine
+
+  !> Destroys the grid. Local.
+  subroutine grid_destroy(self, stat, errmsg)
+    class(pnpbs_geo_grid), intent(inout) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude_grid('destroy', c_geo_grid_destroy(self%c), stat, errmsg)
+  end subroutine
+
+  !> Values at points: linear in each direction between the middles of the cells, constant beyond
+  !> the edge. Cells without data take the value of the nearest cell that has some. Local.
+  !>   coordinates  (2, n)
+  !>   values       (n)
+  !>   inside       optional: (n), false where a point lies beyond the edge, to half a cell
+  subroutine grid_values(self, coordinates, values, inside, stat, errmsg)
+    class(pnpbs_geo_grid), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    real(c_double), intent(out) :: values(:)
+    logical, intent(out), optional :: inside(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int32_t), allocatable :: within(:)
+    integer(c_int) :: status
+    values = 0
+    call given%check_rows('coordinates', size(coordinates, 1), 2)
+    call given%check_rows('values', size(values), size(coordinates, 2))
+    if (present(inside)) call given%check_rows('inside', size(inside), size(coordinates, 2))
+    status = given%found()
+    allocate (within(size(values)))
+    within = 0
+    if (.not. given%is_wrong()) &
+      status = c_geo_grid_values(self%c, size(values, kind=c_int64_t), coordinates, values, within)
+    if (present(inside) .and. .not. given%is_wrong()) inside = within /= 0
+    call conclude_grid('values', status, stat, errmsg, given)
+  end subroutine
+
+  !> What lies around all of the grid in the file, in the projection of the points. Local.
+  !>   low, high  (2)
+  subroutine grid_extent(self, low, high, stat, errmsg)
+    class(pnpbs_geo_grid), intent(in) :: self
+    real(c_double), intent(out) :: low(:), high(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    low = 0
+    high = 0
+    call given%check_rows('low', size(low), 2)
+    call given%check_rows('high', size(high), 2)
+    status = given%found()
+    if (.not. given%is_wrong()) status = c_geo_grid_extent(self%c, low, high)
+    call conclude_grid('extent', status, stat, errmsg, given)
+  end subroutine
+
   ! ------------------------------------------------------------ small helpers -----------------
+
+  subroutine conclude_grid(called, status, stat, errmsg, given)
+    character(len=*), intent(in) :: called
+    integer(c_int), intent(in) :: status
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    class(arguments), intent(in), optional :: given
+    call conclude('grid%' // called, status, stat, errmsg, given, pnpbs_geo_last_error())
+  end subroutine
 
   ! By one of the functions of C between degrees and x, y.
   subroutine converted(called, convert, self, coordinates, stat, errmsg)

@@ -123,5 +123,42 @@ module pnpbs_geo_c
       type(c_ptr), intent(out) :: note
       integer(c_int) :: c_geo_get_note
     end function
+
+    function c_geo_grid_read(path, variable, projection, low, high, grid) bind(C, &
+        name="pnpbs_geo_grid_read")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*), variable(*), projection(*)
+      real(c_double), intent(in) :: low(*), high(*)
+      type(c_ptr), intent(out) :: grid
+      integer(c_int) :: c_geo_grid_read
+    end function
+
+    function c_geo_grid_destroy(grid) bind(C, name="pnpbs_geo_grid_destroy")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: grid
+      integer(c_int) :: c_geo_grid_destroy
+    end function
+
+    function c_geo_grid_values(grid, n, coordinates, values, inside) bind(C, &
+        name="pnpbs_geo_grid_values")
+      import
+      implicit none
+      type(c_ptr), value :: grid
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*)
+      real(c_double), intent(out) :: values(*)
+      integer(c_int32_t), intent(out) :: inside(*)
+      integer(c_int) :: c_geo_grid_values
+    end function
+
+    function c_geo_grid_extent(grid, low, high) bind(C, name="pnpbs_geo_grid_extent")
+      import
+      implicit none
+      type(c_ptr), value :: grid
+      real(c_double), intent(out) :: low(*), high(*)
+      integer(c_int) :: c_geo_grid_extent
+    end function
   end interface
 end module pnpbs_geo_c

@@ -144,6 +144,45 @@ PNPBS_API pnpbs_status pnpbs_geo_note_count(pnpbs_geo_shapes shapes, int32_t *co
 PNPBS_API pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index,
                                           const char **note);
 
+/** Values on a grid in a file. Opaque. */
+typedef struct pnpbs_geo_grid_handle *pnpbs_geo_grid;
+
+/** Reads a part of a grid: GeoTIFF, NetCDF and whatever else GDAL reads. Local. Errors:
+ *  PNPBS_ERROR_FILE if it cannot be read or does not say where its cells lie, for a variable that
+ * is not there (the message lists those that are), and for more than 2 * 10^8 values in the part;
+ *  PNPBS_ERROR_SPACING with both extents where it has nothing in the part; PNPBS_ERROR_ARGUMENT.
+ *  @param[in] path        a file, or anything else that GDAL opens
+ *  @param[in] variable    its name in a file of several, as NetCDF's, or the number of a band; NULL
+ *                         if there is only one
+ *  @param[in] projection  of the points that it will be asked at, e.g. the wkt of
+ *                         pnpbs_geo_projection; they are projected to the grid's own system. NULL:
+ *                         they are in that
+ *  @param[in] low         [2] of the part that is wanted, as the points: pnpbs_domain_bounds, say
+ *  @param[in] high        [2]
+ *  @param[out] grid       the new handle; NULL on failure */
+PNPBS_API pnpbs_status pnpbs_geo_grid_read(const char *path, const char *variable,
+                                           const char *projection, const double *low,
+                                           const double *high, pnpbs_geo_grid *grid);
+
+/** Destroys the handle and sets it to NULL; takes NULL. Local. */
+PNPBS_API pnpbs_status pnpbs_geo_grid_destroy(pnpbs_geo_grid *grid);
+
+/** Values at points: linear in each direction between the middles of the cells, constant beyond
+ *  the edge. Cells without data take the value of the nearest cell that has some. For use in a
+ *  pnpbs_spacing_fn. Local.
+ *  @param[in] coordinates  [n][2]
+ *  @param[out] values      [n]
+ *  @param[out] inside      [n] 0 where a point lies beyond the edge, to half a cell, else 1; or
+ *                          NULL */
+PNPBS_API pnpbs_status pnpbs_geo_grid_values(pnpbs_geo_grid grid, int64_t n,
+                                             const double *coordinates, double *values,
+                                             int32_t *inside);
+
+/** What lies around all of the grid in the file, in the projection of the points. Local.
+ *  @param[out] low   [2]
+ *  @param[out] high  [2] */
+PNPBS_API pnpbs_status pnpbs_geo_grid_extent(pnpbs_geo_grid grid, double *low, double *high);
+
 #ifdef __cplusplus
 }
 #endif

@@ -4,6 +4,7 @@
 
 #include <gdal.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -13,6 +14,7 @@
 
 #include "api/floating_point.hpp"
 #include "base/error.hpp"
+#include "geo/grid.hpp"
 #include "geo/shapes.hpp"
 
 using namespace pnpbs;
@@ -33,34 +35,46 @@ struct Object {
 
 // ------------------------------------------------------------------ handles --------------------
 // As libpnpbs has them: keys, never addresses; in numbers that none of its own has.
+template <class Handle, class Object>
 class Registry {
  public:
-  pnpbs_geo_shapes add(std::shared_ptr<Object> object) {
+  Registry(const char* name, std::uintptr_t first) : name_(name), last_(first) {}
+
+  Handle add(std::shared_ptr<Object> object) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::uintptr_t key = ++last_;
     objects_[key] = std::move(object);
-    return reinterpret_cast<pnpbs_geo_shapes>(key);
+    return reinterpret_cast<Handle>(key);
   }
-  std::shared_ptr<Object> require(pnpbs_geo_shapes handle) {
+  std::shared_ptr<Object> require(Handle handle) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = objects_.find(reinterpret_cast<std::uintptr_t>(handle));
     if (found == objects_.end())
-      throw Error(ErrorKind::handle, handle ? "shapes: not a live handle" : "shapes: NULL");
+      throw Error(ErrorKind::handle,
+                  std::string(name_) + (handle ? ": not a live handle" : ": NULL"));
     return found->second;
   }
-  void remove(pnpbs_geo_shapes handle) {
+  void remove(Handle handle) {
     const std::lock_guard<std::mutex> lock(mutex_);
     objects_.erase(reinterpret_cast<std::uintptr_t>(handle));
   }
 
  private:
   std::mutex mutex_;
-  std::uintptr_t last_ = std::uintptr_t{1} << (sizeof(std::uintptr_t) * 8 - 4);
+  const char* name_;
+  std::uintptr_t last_;
   std::map<std::uintptr_t, std::shared_ptr<Object>> objects_;
 };
 
-Registry& registry() {
-  static Registry registry;
+constexpr std::uintptr_t first_key = std::uintptr_t{1} << (sizeof(std::uintptr_t) * 8 - 4);
+
+Registry<pnpbs_geo_shapes, Object>& registry() {
+  static Registry<pnpbs_geo_shapes, Object> registry("shapes", first_key);
+  return registry;
+}
+
+Registry<pnpbs_geo_grid, Grid>& grids() {
+  static Registry<pnpbs_geo_grid, Grid> registry("grid", 2 * first_key);
   return registry;
 }
 
@@ -80,6 +94,8 @@ pnpbs_status status_of(ErrorKind kind) {
       return PNPBS_ERROR_STATE;
     case ErrorKind::domain:
       return PNPBS_ERROR_DOMAIN;
+    case ErrorKind::spacing:
+      return PNPBS_ERROR_SPACING;
     case ErrorKind::file:
       return PNPBS_ERROR_FILE;
     case ErrorKind::memory:
@@ -120,6 +136,11 @@ pnpbs_status guarded(pnpbs_geo_shapes shapes, const Body& body) noexcept {
   return guarded([&] { body(*registry().require(shapes)); });
 }
 
+template <class Body>
+pnpbs_status guarded(pnpbs_geo_grid grid, const Body& body) noexcept {
+  return guarded([&] { body(*grids().require(grid)); });
+}
+
 void require_pointer(const void* pointer, const char* argument) {
   if (!pointer) throw Error(ErrorKind::argument, std::string("argument ") + argument + " is NULL");
 }
@@ -139,17 +160,21 @@ void write_text(const std::string& path, const std::string& text) {
     throw Error(ErrorKind::file, "cannot write '" + path + "'");
 }
 
+std::vector<Point<2>> points_from(std::int64_t n, const double* coordinates) {
+  if (n < 0) throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + " is negative");
+  if (n > 0) require_pointer(coordinates, "coordinates");
+  std::vector<Point<2>> points(static_cast<std::size_t>(n));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = {coordinates[2 * i], coordinates[2 * i + 1]};
+  return points;
+}
+
 // As PROJ's transformations take them, to degrees or from them.
 template <class Way>
 pnpbs_status change_coordinates(pnpbs_geo_shapes shapes, std::int64_t n, double* coordinates,
                                 const Way& way) {
   return guarded(shapes, [&](Object& object) {
-    if (n < 0)
-      throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + " is negative");
-    if (n > 0) require_pointer(coordinates, "coordinates");
-    std::vector<Point<2>> points(static_cast<std::size_t>(n));
-    for (std::size_t i = 0; i < points.size(); ++i)
-      points[i] = {coordinates[2 * i], coordinates[2 * i + 1]};
+    std::vector<Point<2>> points = points_from(n, coordinates);
     way(object.shapes.projection(), points);
     for (std::size_t i = 0; i < points.size(); ++i)
       coordinates[2 * i] = points[i][0], coordinates[2 * i + 1] = points[i][1];
@@ -271,5 +296,48 @@ pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index, const ch
                                            ": there are " + std::to_string(notes.size()) +
                                            " notes");
     *note = notes[static_cast<std::size_t>(index)].c_str();
+  });
+}
+
+pnpbs_status pnpbs_geo_grid_read(const char* path, const char* variable, const char* projection,
+                                 const double* low, const double* high, pnpbs_geo_grid* grid) {
+  return guarded([&] {
+    require_pointer(grid, "grid");
+    *grid = nullptr;
+    require_pointer(path, "path");
+    require_pointer(low, "low");
+    require_pointer(high, "high");
+    const Box<2> part{{low[0], low[1]}, {high[0], high[1]}};
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
+      if (!std::isfinite(low[k]) || !std::isfinite(high[k]) || !(low[k] <= high[k]))
+        throw Error(ErrorKind::argument, "arguments low and high: expected the corners of a box");
+    *grid = grids().add(
+        std::make_shared<Grid>(GridRequest{path, text_of(variable), text_of(projection), part}));
+  });
+}
+
+pnpbs_status pnpbs_geo_grid_destroy(pnpbs_geo_grid* grid) {
+  if (!grid || !*grid) return PNPBS_OK;
+  return guarded(*grid, [&](Grid&) {
+    grids().remove(*grid);
+    *grid = nullptr;
+  });
+}
+
+pnpbs_status pnpbs_geo_grid_values(pnpbs_geo_grid grid, int64_t n, const double* coordinates,
+                                   double* values, int32_t* inside) {
+  return guarded(grid, [&](Grid& object) {
+    const std::vector<Point<2>> points = points_from(n, coordinates);
+    if (n > 0) require_pointer(values, "values");
+    object.evaluate(points, values, inside);
+  });
+}
+
+pnpbs_status pnpbs_geo_grid_extent(pnpbs_geo_grid grid, double* low, double* high) {
+  return guarded(grid, [&](Grid& object) {
+    require_pointer(low, "low");
+    require_pointer(high, "high");
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
+      low[k] = object.extent().low[k], high[k] = object.extent().high[k];
   });
 }

@@ -21,6 +21,7 @@ program test_shapes
     '"coordinates": [19, 54.5]}}]}'])
   call context%create_serial
   call about_a_coast
+  call about_grids
   call about_errors
   call context%destroy
   call finish
@@ -92,6 +93,39 @@ contains
     call expect(stat == PNPBS_ERROR_HANDLE, 'destroyed shapes')
     call expect(shapes%explain('as it is (1, 2)') == 'as it is (1, 2)', 'message without shapes')
     call expect(index(pnpbs_geo_build_info(), 'GDAL: ') == 1, 'versions')
+  end subroutine
+
+  ! 3 longitude + latitude, in degrees by the file beside it.
+  subroutine about_grids
+    character(len=*), parameter :: name = 'fortran_depth.asc'
+    type(pnpbs_geo_shapes) :: shapes
+    type(pnpbs_geo_grid) :: grid
+    character(len=:), allocatable :: wkt
+    real(c_double) :: xy(2, 4), found(4), low(2), high(2)
+    logical :: inside(4)
+    call write_lines(name, [character(len=110) :: 'ncols 3', 'nrows 2', 'xllcenter 17', &
+                            'yllcenter 53', 'cellsize 2', '106 112 118', '104 110 116'])
+    call write_lines('fortran_depth.prj', [character(len=110) :: &
+      'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],', &
+      'PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]]'])
+    call shapes%read(path)
+    call shapes%projection(wkt=wkt)
+    xy = corners
+    call shapes%from_degrees(xy)
+    call grid%read(name, minval(xy, 2), maxval(xy, 2), projection=wkt)
+    call grid%values(xy, found, inside)
+    call expect(all(abs(found - [108, 114, 115, 109]) < 1d-4), 'values on a grid')
+    call expect(all(inside), 'all points are in the grid')
+    call grid%extent(low, high)
+    call expect(all(low < minval(xy, 2)) .and. all(high > maxval(xy, 2)), 'extent of a grid')
+    call grid%values(xy, found(:3), stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'values has an extent of 3')
+    call grid%destroy
+    call grid%extent(low, high, stat)
+    call expect(stat == PNPBS_ERROR_HANDLE, 'a destroyed grid')
+    call grid%read(name, [50d0, 10d0], [51d0, 11d0], stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_SPACING, errmsg, 'outside of the domain')
+    call shapes%destroy
   end subroutine
 
   function text_in(name) result(text)

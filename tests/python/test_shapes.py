@@ -48,6 +48,27 @@ class Shapes(unittest.TestCase):
         with self.assertRaises(PNPBSError):
             shapes.to_degrees(SQUARE)
 
+    def test_grids(self):
+        # 3 longitude + latitude, in degrees by the file beside it.
+        rows = [[3 * (17 + 0.5 * i) + 56 - 0.5 * j for i in range(9)] for j in range(7)]
+        path = self.folder / "depth.asc"
+        path.write_text("ncols 9\nnrows 7\nxllcenter 17\nyllcenter 53\ncellsize 0.5\n" +
+                        "\n".join(" ".join(map(str, row)) for row in rows) + "\n")
+        path.with_suffix(".prj").write_text(
+            'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],'
+            'PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]]')
+        with pnpbs.Shapes(self.path) as shapes:
+            corners = shapes.from_degrees(SQUARE[:4])
+            with pnpbs.GeoGrid(path, corners.min(axis=0), corners.max(axis=0),
+                               projection=shapes.projection.wkt) as depth:
+                np.testing.assert_allclose(depth(corners), [108, 114, 115, 109], rtol=1e-6)
+                self.assertEqual(list(depth.inside([corners[0], corners[0] + 1e6])), [True, False])
+                low, high = depth.extent
+                self.assertTrue(np.all(low < corners) and np.all(corners < high))
+        self.assertFalse(depth.is_open)
+        with self.assertRaisesRegex(PNPBSError, "outside of the domain"):
+            pnpbs.GeoGrid(path, (50, 10), (51, 11))
+
     def test_errors(self):
         for arguments, status, words in (
                 ({"layer": "sea"}, Status.ERROR_FILE, "no layer 'sea'"),

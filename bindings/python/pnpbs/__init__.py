@@ -25,15 +25,15 @@ from .fields import Transfer
 from .placement import Estimate, Placement, PopulationChange
 from .results import EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering, Stars
 from .rows import CompressedRows
-from .shapes import Projection, ShapeCounts, Shapes, geo_build_info
+from .shapes import GeoGrid, Projection, ShapeCounts, Shapes, geo_build_info
 from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unfinished_files,
                      file_dimension, format_table, library_version, mpi_library, option_table,
                      shutdown, statistic_table)
 
 __all__ = [
     "CompressedRows", "Context", "Domain", "EdgeBands", "Estimate", "ExchangePattern", "Facets",
-    "FormatRow", "Ghosts", "LeftOut", "Nodes", "Numbering", "OptionRow", "Outline", "PNPBSError",
-    "Placement", "PopulationChange", "Projection", "ShapeCounts", "Shapes", "Stars", "StatisticRow",
+    "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "Nodes", "Numbering", "OptionRow", "Outline",
+    "PNPBSError", "Placement", "PopulationChange", "Projection", "ShapeCounts", "Shapes", "Stars", "StatisticRow",
     "Status", "Transfer", "build_info", "discard_unfinished_files", "file_dimension", "format_table",
     "geo_build_info", "library_path", "library_version", "mpi_library", "option_table", "shutdown",
     "statistic_table",

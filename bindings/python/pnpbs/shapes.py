@@ -9,6 +9,7 @@ import os
 import pathlib
 from typing import Any, List, NamedTuple, Optional, Tuple, Union
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ._arrays import as_points
@@ -39,6 +40,12 @@ pnpbs_status pnpbs_geo_from_degrees(pnpbs_geo_shapes shapes, int64_t n, double *
 const char *pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char *message);
 pnpbs_status pnpbs_geo_note_count(pnpbs_geo_shapes shapes, int32_t *count);
 pnpbs_status pnpbs_geo_get_note(pnpbs_geo_shapes shapes, int32_t index, const char **note);
+pnpbs_status pnpbs_geo_grid_read(const char *path, const char *variable, const char *projection,
+    const double *low, const double *high, pnpbs_geo_grid *grid);
+pnpbs_status pnpbs_geo_grid_destroy(pnpbs_geo_grid *grid);
+pnpbs_status pnpbs_geo_grid_values(pnpbs_geo_grid grid, int64_t n, const double *coordinates,
+    double *values, int32_t *inside);
+pnpbs_status pnpbs_geo_grid_extent(pnpbs_geo_grid grid, double *low, double *high);
 """
 
 _SONAME = "libpnpbs_geo.so.0"
@@ -182,3 +189,59 @@ class Shapes(Handle):
         """A message about a domain of these shapes, with longitude and latitude of its places."""
         text = _library().pnpbs_geo_explain(self._live(), str(message).encode())
         return str(text.decode())
+
+
+class GeoGrid(Handle):
+    """Values on a grid in a file, GeoTIFF, NetCDF and whatever else GDAL reads; all methods are
+    local. Called with points it returns the values there, as a spacing does.
+
+    `low` and `high` are the corners of the part that is read, in the projection of the points.
+    `projection` is what these are, as that of `Shapes` or the `wkt` of its projection; by default
+    they are in the grid's own system. `variable` is the name of one in a file of several, or the
+    number of a band.
+
+        depth = pnpbs.GeoGrid("depth.tif", low, high, projection=shapes.projection.wkt)
+        placement.set_spacing(lambda x: np.clip(0.02 * depth(x), 0.5, 20))
+    """
+
+    def __init__(self, path: Path, low: ArrayLike, high: ArrayLike,
+                 variable: Union[str, int, None] = None, projection: Optional[Path] = None) -> None:
+        super().__init__()
+        handle = ctypes.c_void_p()
+        corners = [as_points(np.atleast_2d(np.asarray(corner, float)), 2, "corner")
+                   for corner in (low, high)]
+        _check(_library().pnpbs_geo_grid_read(
+            os.fsencode(path), _text(None if variable is None else str(variable)),
+            _text(projection), *corners, ctypes.byref(handle)))
+        self._handle = handle.value
+
+    def close(self) -> None:
+        """Releases what the library holds. Closing twice is allowed."""
+        if self.is_open:
+            _check(self._destroy(_library().pnpbs_geo_grid_destroy))
+
+    def __repr__(self) -> str:
+        return f"<pnpbs.GeoGrid, {'open' if self.is_open else 'closed'}>"
+
+    def __call__(self, points: ArrayLike) -> Doubles:
+        """Values at points, (n, 2): linear in each direction between the middles of the cells,
+        constant beyond the edge. Cells without data take the value of the nearest cell that has
+        some."""
+        return self._asked(points)[0]
+
+    def inside(self, points: ArrayLike) -> "np.ndarray[Any, np.dtype[np.bool_]]":
+        """Whether points, (n, 2), lie in the grid, or less than half a cell beyond its edge."""
+        return np.asarray(self._asked(points)[1] != 0)
+
+    def _asked(self, points: ArrayLike) -> Tuple[Doubles, "np.ndarray[Any, np.dtype[np.int32]]"]:
+        x = as_points(points, 2, "points")
+        values, inside = np.zeros(len(x)), np.zeros(len(x), np.int32)
+        _check(_library().pnpbs_geo_grid_values(self._live(), len(x), x, values, inside))
+        return values, inside
+
+    @property
+    def extent(self) -> Tuple[Doubles, Doubles]:
+        """What lies around all of the grid in the file, in the projection of the points."""
+        low, high = np.zeros(2), np.zeros(2)
+        _check(_library().pnpbs_geo_grid_extent(self._live(), low, high))
+        return low, high

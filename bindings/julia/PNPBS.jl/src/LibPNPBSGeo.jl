@@ -10,6 +10,7 @@ using Libdl
 using ..LibPNPBS: LibPNPBS, pnpbs_status, pnpbs_context, pnpbs_domain
 
 const pnpbs_geo_shapes = Ptr{Cvoid}
+const pnpbs_geo_grid = Ptr{Cvoid}
 
 const opened = Ref{Ptr{Cvoid}}(C_NULL)
 
@@ -84,5 +85,22 @@ pnpbs_geo_note_count(shapes, count) =
 pnpbs_geo_get_note(shapes, index, note) =
     @ccall $(symbol(:pnpbs_geo_get_note))(
         shapes::pnpbs_geo_shapes, index::Int32, note::Ptr{Cstring})::pnpbs_status
+
+pnpbs_geo_grid_read(path, variable, projection, low, high, grid) =
+    @ccall $(symbol(:pnpbs_geo_grid_read))(
+        path::Cstring, variable::Cstring, projection::Cstring, low::Ptr{Cdouble},
+        high::Ptr{Cdouble}, grid::Ptr{pnpbs_geo_grid})::pnpbs_status
+
+pnpbs_geo_grid_destroy(grid) =
+    @ccall $(symbol(:pnpbs_geo_grid_destroy))(grid::Ptr{pnpbs_geo_grid})::pnpbs_status
+
+pnpbs_geo_grid_values(grid, n, coordinates, values, inside) =
+    @ccall $(symbol(:pnpbs_geo_grid_values))(
+        grid::pnpbs_geo_grid, n::Int64, coordinates::Ptr{Cdouble}, values::Ptr{Cdouble},
+        inside::Ptr{Int32})::pnpbs_status
+
+pnpbs_geo_grid_extent(grid, low, high) =
+    @ccall $(symbol(:pnpbs_geo_grid_extent))(
+        grid::pnpbs_geo_grid, low::Ptr{Cdouble}, high::Ptr{Cdouble})::pnpbs_status
 
 end

@@ -44,6 +44,7 @@ export boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
 export write_checkpoint, read_checkpoint!
 export Shapes, add_shapes!, shape_counts, projection, notes, write_prj, to_degrees, from_degrees
+export GeoGrid, grid_values, inside_grid, grid_extent
 export explain, geo_build_info
 export option_table, statistic_table, format_table, library_version, build_info, mpi_library
 

@@ -172,3 +172,77 @@ explain(shapes::Shapes, message::AbstractString) =
 The versions of GDAL and PROJ that shapes are read with, one "name: version" per line.
 """
 geo_build_info() = string_or_empty(LibPNPBSGeo.pnpbs_geo_build_info())
+
+"""
+    GeoGrid(path, low, high; variable = nothing, projection = nothing)
+
+Values on a grid in a file, GeoTIFF, NetCDF and whatever else GDAL reads; everything about it is
+local. `low` and `high` are the corners of the part that is read, as the points that it will be
+asked at; `projection` is what these are, as that of [`Shapes`](@ref) or the `wkt` of its
+[`projection`](@ref), and without it they are in the grid's own system. `variable` is the name of
+one in a file of several, or the number of a band. `close` it when it is no longer needed.
+
+    depth = GeoGrid("depth.tif", low, high; projection = projection(shapes).wkt)
+    set_spacing!(placement, x -> clamp.(0.02 .* grid_values(depth, x), 0.5, 20))
+"""
+mutable struct GeoGrid
+    handle::LibPNPBSGeo.pnpbs_geo_grid
+end
+
+function GeoGrid(path::AbstractString, low, high; variable = nothing, projection = nothing)
+    handle = Ref{LibPNPBSGeo.pnpbs_geo_grid}(C_NULL)
+    check_geo(LibPNPBSGeo.pnpbs_geo_grid_read(path, string(something(variable, "")),
+                                              something(projection, ""), corner_of_part(low),
+                                              corner_of_part(high), handle))
+    return GeoGrid(handle[])
+end
+
+function corner_of_part(corner)
+    length(corner) == 2 || throw(DimensionMismatch("a corner of the part has x and y"))
+    return collect(Float64, corner)
+end
+
+Base.isopen(grid::GeoGrid) = grid.handle != C_NULL
+
+function Base.close(grid::GeoGrid)
+    handle = Ref(grid.handle)
+    isopen(grid) && check_geo(LibPNPBSGeo.pnpbs_geo_grid_destroy(handle))
+    grid.handle = C_NULL
+    return nothing
+end
+
+Base.show(io::IO, grid::GeoGrid) = print(io, "PNPBS.GeoGrid(", isopen(grid) ? "" : "closed", ")")
+
+"""
+    grid_values(grid, points) -> values
+
+Values at points, `2 x n`: linear in each direction between the middles of the cells, constant
+beyond the edge. Cells without data take the value of the nearest cell that has some.
+"""
+grid_values(grid::GeoGrid, points::AbstractMatrix) = asked_grid(grid, points)[1]
+
+"""
+    inside_grid(grid, points) -> BitVector
+
+Whether points, `2 x n`, lie in the grid, or less than half a cell beyond its edge.
+"""
+inside_grid(grid::GeoGrid, points::AbstractMatrix) = asked_grid(grid, points)[2] .!= 0
+
+function asked_grid(grid, points)
+    size(points, 1) == 2 || throw(DimensionMismatch("points have x and y: 2 rows"))
+    x = Matrix{Float64}(points)
+    values, inside = zeros(size(x, 2)), zeros(Int32, size(x, 2))
+    check_geo(LibPNPBSGeo.pnpbs_geo_grid_values(live(grid), size(x, 2), x, values, inside))
+    return values, inside
+end
+
+"""
+    grid_extent(grid) -> (low, high)
+
+What lies around all of the grid in the file, in the projection of the points.
+"""
+function grid_extent(grid::GeoGrid)
+    low, high = zeros(2), zeros(2)
+    check_geo(LibPNPBSGeo.pnpbs_geo_grid_extent(live(grid), low, high))
+    return low, high
+end

@@ -51,9 +51,34 @@ function test_shapes_of(folder)
     @test occursin("GDAL: ", geo_build_info())
 end
 
+# 3 longitude + latitude, in degrees by the file beside it.
+function test_grids_of(folder)
+    path = joinpath(folder, "depth.asc")
+    rows = [join((3 * (17 + 0.5i) + 56 - 0.5j for i in 0:8), " ") for j in 0:6]
+    write(path, "ncols 9\nnrows 7\nxllcenter 17\nyllcenter 53\ncellsize 0.5\n", join(rows, "\n"), "\n")
+    write(joinpath(folder, "depth.prj"),
+          """GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],
+             PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]]""")
+    write(joinpath(folder, "land.geojson"), COAST)
+    Shapes(joinpath(folder, "land.geojson")) do shapes
+        corners = from_degrees(shapes, COAST_CORNERS)
+        low, high = vec(minimum(corners, dims = 2)), vec(maximum(corners, dims = 2))
+        depth = GeoGrid(path, low, high; projection = projection(shapes).wkt)
+        @test isapprox(grid_values(depth, corners), [108, 114, 115, 109]; rtol = 1e-6)
+        @test inside_grid(depth, [corners[:, 1] corners[:, 1] .+ 1e6]) == [true, false]
+        @test all(grid_extent(depth)[1] .< low) && all(high .< grid_extent(depth)[2])
+        @test_throws DimensionMismatch grid_values(depth, zeros(3, 2))
+        close(depth)
+        @test repr(depth) == "PNPBS.GeoGrid(closed)"
+        @test fails(() -> grid_extent(depth), :error_handle, "closed")
+    end
+    @test fails(() -> GeoGrid(path, (50, 10), (51, 11)), :error_spacing, "outside of the domain")
+end
+
 @testset "shapes" begin
     if has_shapes()
         mktempdir(test_shapes_of)
+        mktempdir(test_grids_of)
     else
         @test occursin("GDAL", sprint(showerror, thrown(() -> Shapes("land.geojson"))))
     end

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geo/grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/point_text.hpp"
+#include "geo/raster_file.hpp"
+
+namespace pnpbs::geo {
+namespace {
+
+constexpr double no_end = std::numeric_limits<double>::infinity();
+
+Point<2> applied(const std::array<double, 6>& affine, const Point<2>& p) {
+  return {affine[0] + affine[1] * p[0] + affine[2] * p[1],
+          affine[3] + affine[4] * p[0] + affine[5] * p[1]};
+}
+
+bool is_somewhere(const Point<2>& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); }
+
+Box<2> box_around_finite(const std::vector<Point<2>>& points) {
+  Box<2> box{{no_end, no_end}, {-no_end, -no_end}};
+  for (const Point<2>& p : points) {
+    if (!is_somewhere(p)) continue;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      box.low[k] = std::min(box.low[k], p[k]);
+      box.high[k] = std::max(box.high[k], p[k]);
+    }
+  }
+  return box;
+}
+
+// Over a box, its sides included.
+std::vector<Point<2>> lattice_over(const Box<2>& box) {
+  constexpr int pieces = 32;
+  std::vector<Point<2>> points;
+  for (int i = 0; i <= pieces; ++i)
+    for (int j = 0; j <= pieces; ++j)
+      points.push_back({std::lerp(box.low[0], box.high[0], i / double{pieces}),
+                        std::lerp(box.low[1], box.high[1], j / double{pieces})});
+  return points;
+}
+
+std::string extents_text(const Box<2>& box) {
+  return "from " + rounded_point_text<2>(box.low) + " to " + rounded_point_text<2>(box.high);
+}
+
+// Spreads values from the cells that have one, step by step.
+bool fill_gaps(std::vector<double>& values, std::int64_t columns) {
+  std::deque<std::int64_t> front;
+  const auto count = static_cast<std::int64_t>(values.size());
+  for (std::int64_t i = 0; i < count; ++i)
+    if (!std::isnan(values[i])) front.push_back(i);
+  if (front.empty()) return false;
+  for (; !front.empty(); front.pop_front()) {
+    const std::int64_t from = front[0], column = from % columns;
+    const auto visit = [&](bool exists, std::int64_t to) {
+      if (!exists || !std::isnan(values[to])) return;
+      values[to] = values[from];
+      front.push_back(to);
+    };
+    visit(column > 0, from - 1);
+    visit(column + 1 < columns, from + 1);
+    visit(from >= columns, from - columns);
+    visit(from + columns < count, from + columns);
+  }
+  return true;
+}
+
+}  // namespace
+
+Grid::Grid(const GridRequest& request) {
+  const RasterFile file(request.path, request.variable);
+  name_ = file.name();
+  columns_ = file.columns(), rows_ = file.rows();
+  to_plane_ = file.to_plane();
+  if (!GDALInvGeoTransform(to_plane_.data(), to_cells_.data()))
+    throw Error(ErrorKind::file, name_ + ": its cells have no area");
+  choose_system(request, file.system());
+  measure_extent();
+  window_ = window_for(request);
+  values_ = file.read(window_.column, window_.row, window_.columns, window_.rows);
+  if (!fill_gaps(values_, window_.columns))
+    throw Error(ErrorKind::spacing, name_ + ": it has no data where the domain is");
+}
+
+void Grid::choose_system(const GridRequest& request, const ReferenceSystem& system) {
+  wraps_ = system.is_geographic() && system.has_degrees();
+  if (request.projection.empty() || !system) return;
+  const ReferenceSystem plane = ReferenceSystem::called(request.projection);
+  if (OSRIsSame(plane.get(), system.get())) return;
+  forward_.emplace(plane, system);
+  backward_.emplace(system, plane);
+}
+
+void Grid::measure_extent() {
+  std::vector<Point<2>> points =
+      lattice_over({{0, 0}, {static_cast<double>(columns_), static_cast<double>(rows_)}});
+  for (Point<2>& p : points) p = applied(to_plane_, p);
+  if (backward_) backward_->apply(points);
+  extent_ = box_around_finite(points);
+}
+
+std::vector<Point<2>> Grid::cells_of(std::vector<Point<2>> points) const {
+  if (forward_) forward_->apply(points);
+  const double middle = applied(
+      to_plane_, {0.5 * static_cast<double>(columns_), 0.5 * static_cast<double>(rows_)})[0];
+  for (Point<2>& p : points) {
+    if (wraps_ && is_somewhere(p)) p[0] = middle + std::remainder(p[0] - middle, 360);
+    p = applied(to_cells_, p);
+    p[0] -= 0.5, p[1] -= 0.5;
+  }
+  return points;
+}
+
+Grid::Window Grid::window_for(const GridRequest& request) const {
+  constexpr double more = 0.05;  // than the lattice saw: the sides are curved
+  const Box<2> box = box_around_finite(cells_of(lattice_over(request.part)));
+  const std::int64_t counts[2] = {columns_, rows_};
+  std::int64_t first[2], last[2];
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const double end = static_cast<double>(counts[k] - 1);
+    if (!(box.low[k] <= end + 0.5 && box.high[k] >= -0.5))
+      throw Error(ErrorKind::spacing, name_ + ": the grid lies outside of the domain, " +
+                                          extents_text(extent_) + ", and the domain reaches " +
+                                          extents_text(request.part) +
+                                          (forward_ ? "" : ": are they in the same system?"));
+    const double pad = 2 + more * (box.high[k] - box.low[k]);
+    first[k] = static_cast<std::int64_t>(std::clamp(std::floor(box.low[k] - pad), 0.0, end));
+    last[k] = static_cast<std::int64_t>(std::clamp(std::ceil(box.high[k] + pad), 0.0, end));
+  }
+  return {first[0], first[1], last[0] - first[0] + 1, last[1] - first[1] + 1};
+}
+
+void Grid::evaluate(const std::vector<Point<2>>& points, double* values,
+                    std::int32_t* inside) const {
+  const std::vector<Point<2>> cells = cells_of(points);
+  const double counts[2] = {static_cast<double>(columns_), static_cast<double>(rows_)};
+  const std::int64_t first[2] = {window_.column, window_.row};
+  const std::int64_t size[2] = {window_.columns, window_.rows};
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!is_somewhere(cells[i]))
+      throw Error(ErrorKind::spacing,
+                  point_text(points[i]) + " has no place in the coordinates of " + name_);
+    std::int64_t cell[2], next[2];
+    double fraction[2];
+    bool within = true;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      within = within && cells[i][k] >= -1 && cells[i][k] <= counts[k];
+      const double at = std::clamp(cells[i][k] - static_cast<double>(first[k]), 0.0,
+                                   static_cast<double>(size[k] - 1));
+      cell[k] = static_cast<std::int64_t>(at);
+      next[k] = std::min(cell[k] + 1, size[k] - 1);
+      fraction[k] = at - static_cast<double>(cell[k]);
+    }
+    const auto value = [&](std::int64_t column, std::int64_t row) {
+      return values_[static_cast<std::size_t>(column + size[0] * row)];
+    };
+    values[i] = std::lerp(std::lerp(value(cell[0], cell[1]), value(next[0], cell[1]), fraction[0]),
+                          std::lerp(value(cell[0], next[1]), value(next[0], next[1]), fraction[0]),
+                          fraction[1]);
+    if (inside) inside[i] = within ? 1 : 0;
+  }
+}
+
+}  // namespace pnpbs::geo

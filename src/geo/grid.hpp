@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values on a grid in a file that GDAL reads (GeoTIFF, NetCDF and others), asked for at points of
+// another projection: each is projected into the grid's own system, and values are linear in each
+// direction between the middles of its cells.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+#include "geo/reference_system.hpp"
+
+namespace pnpbs::geo {
+
+struct GridRequest {
+  std::string path;
+  std::string variable;    // "" if there is only one
+  std::string projection;  // of the points: as ReferenceSystem::called has it; "": the grid's own
+  Box<2> part;             // of the points' plane, that is read
+};
+
+class Grid {
+ public:
+  // Throws Error, of kind spacing where the grid has nothing in the part.
+  explicit Grid(const GridRequest& request);
+
+  // Constant beyond the grid's edge, and there inside[i] is 0; cells without data have the value of
+  // the nearest cell that has some. Throws Error where a point has no place in the grid's system.
+  void evaluate(const std::vector<Point<2>>& points, double* values, std::int32_t* inside) const;
+  const Box<2>& extent() const { return extent_; }  // around all of it, in the points' plane
+
+ private:
+  struct Window {
+    std::int64_t column, row, columns, rows;
+  };
+  // Columns and rows as fractions, the middle of the first cell at 0.
+  std::vector<Point<2>> cells_of(std::vector<Point<2>> points) const;
+  void choose_system(const GridRequest& request, const ReferenceSystem& system);
+  void measure_extent();
+  Window window_for(const GridRequest& request) const;
+
+  std::string name_;
+  std::int64_t columns_ = 0, rows_ = 0;
+  std::array<double, 6> to_plane_{}, to_cells_{};     // GDAL's affine transformations
+  std::optional<Transformation> forward_, backward_;  // from the points' plane to the grid's
+  bool wraps_ = false;  // the grid is in degrees, its longitudes may be any of those 360 apart
+  Box<2> extent_{};
+  Window window_{};
+  std::vector<double> values_;  // of the window
+};
+
+}  // namespace pnpbs::geo

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Values on grids in files, asked for in another projection; and what is said of files that have
+ * none. A value is 3 longitude + 2 latitude, which interpolation meets exactly in degrees.
+ */
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+#include "geo_support.h"
+
+enum { columns = 20, rows = 15 };
+static const double west = 18, north = 56, cell = 0.1;
+static const double everywhere_low[2] = {18, 54}, everywhere_high[2] = {20, 56};
+
+static double plane_at(double longitude, double latitude) { return 3 * longitude + 2 * latitude; }
+
+/* bands of the same, the second one doubled; from the row `empty` on there is no data. */
+static const char* write_grid(const char* name, int bands, int with_system, int empty) {
+  static char path[1024];
+  static float values[rows][columns];
+  double transform[6] = {0, 0, 0, 0, 0, 0};
+  GDALDatasetH dataset;
+  int band, i, j;
+  transform[0] = west, transform[1] = cell, transform[3] = north, transform[5] = -cell;
+  snprintf(path, sizeof path, "%s/%s", PNPBS_TEST_WORK_DIR, name);
+  GDALAllRegister();
+  dataset = GDALCreate(GDALGetDriverByName("GTiff"), path, columns, rows, bands, GDT_Float32, NULL);
+  ck_assert_ptr_nonnull(dataset);
+  if (with_system) {
+    OGRSpatialReferenceH system = OSRNewSpatialReference(NULL);
+    ck_assert_int_eq(OSRImportFromEPSG(system, 4326), OGRERR_NONE);
+    GDALSetSpatialRef(dataset, system);
+    OSRRelease(system);
+    GDALSetGeoTransform(dataset, transform);
+  }
+  for (band = 1; band <= bands; ++band) {
+    GDALRasterBandH handle = GDALGetRasterBand(dataset, band);
+    for (j = 0; j < rows; ++j)
+      for (i = 0; i < columns; ++i)
+        values[j][i] =
+            j >= empty
+                ? -9999
+                : (float)(band * plane_at(west + cell * (i + 0.5), north - cell * (j + 0.5)));
+    GDALSetRasterNoDataValue(handle, -9999);
+    ck_assert_int_eq(GDALRasterIO(handle, GF_Write, 0, 0, columns, rows, values[0], columns, rows,
+                                  GDT_Float32, 0, 0),
+                     CE_None);
+  }
+  GDALClose(dataset);
+  return path;
+}
+
+static double value_of(pnpbs_geo_grid grid, double x, double y, int32_t* inside) {
+  const double place[2] = {x, y};
+  double value = 0;
+  GEO_MUST(pnpbs_geo_grid_values(grid, 1, place, &value, inside));
+  return value;
+}
+
+START_TEST(in_its_own_system) {
+  pnpbs_geo_grid grid = NULL;
+  double low[2], high[2];
+  int32_t inside = -1;
+  GEO_MUST(pnpbs_geo_grid_read(write_grid("own.tif", 1, 1, rows), NULL, NULL, everywhere_low,
+                               everywhere_high, &grid));
+  ck_assert_double_eq_tol(value_of(grid, 19.03, 55.12, &inside), plane_at(19.03, 55.12), 1e-4);
+  ck_assert_int_eq(inside, 1);
+  /* Constant beyond the edge; the cells reach half a cell beyond their middles, and it counts from
+     another half on. A turn around the Earth is no way. */
+  ck_assert_double_eq_tol(value_of(grid, 17, 55.12, &inside), plane_at(18.05, 55.12), 1e-4);
+  ck_assert_int_eq(inside, 0);
+  ck_assert_double_eq_tol(value_of(grid, 17.96, 55.12, &inside), plane_at(18.05, 55.12), 1e-4);
+  ck_assert_int_eq(inside, 1);
+  ck_assert_double_eq_tol(value_of(grid, 19.03 - 360, 55.12, NULL), plane_at(19.03, 55.12), 1e-4);
+  GEO_MUST(pnpbs_geo_grid_extent(grid, low, high));
+  ck_assert_double_eq_tol(low[0], 18, 1e-9);
+  ck_assert_double_eq_tol(low[1], 54.5, 1e-9);
+  ck_assert_double_eq_tol(high[0], 20, 1e-9);
+  ck_assert_double_eq_tol(high[1], 56, 1e-9);
+  GEO_MUST(pnpbs_geo_grid_destroy(&grid));
+  ck_assert_ptr_null(grid);
+}
+END_TEST
+
+/* In Poland's coordinates, by the shapes' own projection there and back. */
+START_TEST(projected) {
+  pnpbs_geo_grid grid = NULL;
+  const char* wkt = NULL;
+  double low[2], high[2], place[2] = {19.2, 55.1};
+  geo_case it = geo_begin(
+      write_geojson("part.geojson", FEATURE("Polygon", "[[[18.5,54.8],[19.5,54.8],[19,55.5]]]")),
+      "EPSG:2180", "km", NULL);
+  GEO_MUST(pnpbs_geo_projection(it.shapes, NULL, NULL, NULL, &wkt, NULL));
+  ck_assert_int_eq(pnpbs_domain_bounds(it.domain, low, high), PNPBS_OK);
+  GEO_MUST(pnpbs_geo_grid_read(write_grid("part.tif", 1, 1, rows), NULL, wkt, low, high, &grid));
+  GEO_MUST(pnpbs_geo_from_degrees(it.shapes, 1, place));
+  ck_assert_double_eq_tol(value_of(grid, place[0], place[1], NULL), plane_at(19.2, 55.1), 1e-4);
+  GEO_MUST(pnpbs_geo_grid_extent(grid, low, high));
+  ck_assert_double_eq_tol(high[1] - low[1], 168, 3); /* 1.5 degrees, in kilometres */
+  GEO_MUST(pnpbs_geo_grid_destroy(&grid));
+  geo_end(&it);
+}
+END_TEST
+
+START_TEST(bands_and_gaps) {
+  pnpbs_geo_grid grid = NULL;
+  const char* const path = write_grid("bands.tif", 2, 1, 8);
+  GEO_MUST_FAIL(PNPBS_ERROR_FILE,
+                pnpbs_geo_grid_read(path, NULL, NULL, everywhere_low, everywhere_high, &grid),
+                "has 2 bands", "FILE:1");
+  GEO_MUST_FAIL(PNPBS_ERROR_FILE,
+                pnpbs_geo_grid_read(path, "3", NULL, everywhere_low, everywhere_high, &grid),
+                "no band '3'", "1, 2");
+  GEO_MUST(pnpbs_geo_grid_read(path, "2", NULL, everywhere_low, everywhere_high, &grid));
+  ck_assert_double_eq_tol(value_of(grid, 19.03, 55.5, NULL), 2 * plane_at(19.03, 55.5), 1e-4);
+  /* The last row with data is the eighth. */
+  ck_assert_double_eq_tol(value_of(grid, 19.03, 54.6, NULL), 2 * plane_at(19.03, 55.25), 1e-4);
+  GEO_MUST(pnpbs_geo_grid_destroy(&grid));
+}
+END_TEST
+
+START_TEST(what_cannot_be_read) {
+  const double far_low[2] = {30, 50}, far_high[2] = {31, 51}, south[2] = {18, 53},
+               north_of_it[2] = {19, 54.9};
+  pnpbs_geo_grid grid = NULL;
+  GEO_MUST_FAIL(
+      PNPBS_ERROR_SPACING,
+      pnpbs_geo_grid_read(write_grid("own.tif", 1, 1, rows), NULL, NULL, far_low, far_high, &grid),
+      "from (18, 54.5) to (20, 56)", "from (30, 50) to (31, 51)");
+  ck_assert_ptr_null(grid);
+  GEO_MUST_FAIL(
+      PNPBS_ERROR_SPACING,
+      pnpbs_geo_grid_read(write_grid("empty.tif", 1, 1, 0), NULL, NULL, south, north_of_it, &grid),
+      "empty.tif", "no data");
+  GEO_MUST_FAIL(PNPBS_ERROR_FILE,
+                pnpbs_geo_grid_read(write_grid("plain.tif", 1, 0, rows), NULL, NULL, everywhere_low,
+                                    everywhere_high, &grid),
+                "plain.tif", "no geographic reference");
+  GEO_MUST_FAIL(PNPBS_ERROR_FILE,
+                pnpbs_geo_grid_read(write_file("text.tif", "hello", 5), NULL, NULL, everywhere_low,
+                                    everywhere_high, &grid),
+                "cannot read", "text.tif");
+  GEO_MUST_FAIL(PNPBS_ERROR_FILE,
+                pnpbs_geo_grid_read("none.tif", NULL, NULL, everywhere_low, everywhere_high, &grid),
+                "none.tif", "no such file");
+  GEO_MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+                pnpbs_geo_grid_read("none.tif", NULL, NULL, everywhere_high, everywhere_low, &grid),
+                "low and high", "corners");
+  GEO_MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+                pnpbs_geo_grid_read(NULL, NULL, NULL, everywhere_low, everywhere_high, &grid),
+                "path", "NULL");
+  GEO_MUST_FAIL(PNPBS_ERROR_HANDLE, pnpbs_geo_grid_values(NULL, 0, NULL, NULL, NULL), "grid",
+                "NULL");
+  GEO_MUST(pnpbs_geo_grid_destroy(NULL));
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("grids in files");
+  TCase* cases = tcase_create("all");
+  tcase_add_test(cases, in_its_own_system);
+  tcase_add_test(cases, projected);
+  tcase_add_test(cases, bands_and_gaps);
+  tcase_add_test(cases, what_cannot_be_read);
+  suite_add_tcase(suite, cases);
+  return run_suite(suite);
+}
