@@ -14,12 +14,12 @@ void refuse(const std::string& what) { throw BadInput(what + "\nTry 'pnpbs --hel
 
 void require_arguments_that_fit(const Arguments& arguments) {
   if (arguments.domain.empty()) refuse("--domain is missing");
-  if (arguments.spacing.empty() && arguments.spacing_grid.empty()) {
-    refuse("--spacing or --spacing-grid is missing");
-  }
-  if (!arguments.spacing.empty() && !arguments.spacing_grid.empty()) {
-    refuse("--spacing and --spacing-grid exclude each other");
-  }
+  const std::size_t grids = arguments.spacing_grids.size();
+  if (arguments.spacing.empty() && grids == 0) refuse("--spacing or --spacing-grid is missing");
+  if (arguments.spacing.empty() && grids > 1)
+    refuse("several of --spacing-grid need a formula that says what d is of them: --spacing");
+  if (grids > 0 && (arguments.spacing == "auto" || spacing_file(arguments.spacing)))
+    refuse("--spacing-grid and a --spacing that is no formula exclude each other");
   if (arguments.spacing != "auto" && (arguments.min_spacing || arguments.max_spacing)) {
     refuse(
         "--min-spacing and --max-spacing are for --spacing auto; in a formula, min(...) and "

@@ -104,10 +104,12 @@ void add_input(CLI::App& app, Arguments& arguments) {
                  "columns x, y and d)")
       ->type_name("EXPR")
       ->group(group);
-  app.add_option("--spacing-grid", arguments.spacing_grid,
-                 "instead: d sampled on an ESRI ASCII grid (.asc)")
-      ->type_name("FILE")
-      ->group(group);
+  add_repeatable(app, "--spacing-grid", arguments.spacing_grids,
+                 "d sampled on a grid, in place of --spacing; or values that the\nformula of "
+                 "--spacing calls NAME (grid without one), as a depth;\nan ESRI ASCII grid (.asc), "
+                 "or what GDAL reads: .tif, .nc and\nothers, projected as the domain is; may be "
+                 "given several times");
+  app.get_option("--spacing-grid")->type_name("[NAME=]FILE[:VARIABLE]")->group(group);
   app.add_option_function<std::string>(
          "--feature-angle",
          [&arguments](const std::string& text) {

@@ -17,8 +17,8 @@ constexpr double default_feature_angle = 40;  // degrees
 
 struct Arguments {
   std::string domain;                              // a file, "-", or a body in words
-  std::string spacing;                             // a formula; empty if spacing_grid is set
-  std::string spacing_grid;                        // a file
+  std::string spacing;                             // a formula; may be empty with a grid
+  std::vector<std::string> spacing_grids;          // files, or NAME=FILE
   std::optional<double> min_spacing, max_spacing;  // of --spacing auto
   std::vector<std::string> outputs;
   std::string format;               // of standard output and of unknown extensions

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tool/exit.hpp"
+#include "tool/formula_text.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/names.hpp"
 #include "tool/numbers.hpp"
@@ -140,80 +141,6 @@ std::vector<std::string> known_names(const mu::Parser& parser) {
   return names;
 }
 
-// How many letters begin before the byte at `position`: in UTF-8, some bytes only continue one.
-std::size_t letters_before(const std::string& text, std::size_t position) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position),
-                    [](unsigned char c) { return (c & 0xC0) != 0x80; }));
-}
-
-// What an option was given.
-struct Source {
-  const std::string& option;
-  const std::string& text;
-};
-
-// The text on one line, and below it a mark under the byte at `position`.
-[[noreturn]] void fail(const Source& source, std::size_t position, const std::string& what) {
-  const std::string& text = source.text;
-  const std::size_t column = letters_before(text, std::min(position, text.size()));
-  std::string line = text;
-  std::ranges::replace_if(
-      line, [](unsigned char c) { return c < ' '; }, ' ');
-  throw BadInput(source.option + ", position " + std::to_string(column + 1) + ": " + what + "\n  " +
-                 line + "\n  " + std::string(column, ' ') + "^");
-}
-
-// muParser would assign to variables, and return the last of several values.
-void refuse_what_is_no_formula(const Source& source) {
-  const std::string& text = source.text;
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(source, 0, "empty expression");
-  for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1)) {
-    const bool comparison =
-        (at > 0 && std::string("<>!=").find(text[at - 1]) != std::string::npos) ||
-        (at + 1 < text.size() && text[at + 1] == '=');
-    if (!comparison) fail(source, at, "a formula assigns nothing (== compares)");
-  }
-}
-
-// Of the call whose opening parenthesis is at `open`: where it ends, or npos.
-struct Call {
-  int arguments = 1;
-  std::size_t end = std::string::npos;
-};
-Call call_at(const std::string& text, std::size_t open) {
-  Call call;
-  int depth = 0;
-  for (std::size_t at = open; at < text.size(); ++at) {
-    if (text[at] == '(') ++depth;
-    if (text[at] == ',' && depth == 1) ++call.arguments;
-    if (text[at] == ')' && --depth == 0) {
-      if (text.find_first_not_of(" \t", open + 1) == at) call.arguments = 0;
-      call.end = at;
-      break;
-    }
-  }
-  return call;
-}
-
-void refuse_other_hypots(const Source& source) {
-  constexpr std::string_view name = "hypot";
-  const std::string& text = source.text;
-  const auto in_name = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-  };
-  for (std::size_t at = text.find(name); at != std::string::npos;
-       at = text.find(name, at + name.size())) {
-    const std::size_t open = at + name.size();
-    if (open == text.size() || text[open] != '(' || (at > 0 && in_name(text[at - 1]))) continue;
-    const Call call = call_at(text, open);
-    if (call.end == std::string::npos || call.arguments == 2 || call.arguments == 3) continue;
-    fail(source, call.end,
-         std::string("too ") + (call.arguments < 2 ? "few" : "many") +
-             " arguments for 'hypot': it takes two, or three in space, as in hypot(x,y,z)");
-  }
-}
-
 std::string trimmed(std::string token) {
   const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
   while (!token.empty() && is_space(token.back())) token.pop_back();
@@ -261,14 +188,23 @@ std::string in_words(const mu::Parser::exception_type& error, const mu::Parser& 
   }
 }
 
+// A name in the formula, and its values at all places of a batch.
+struct FieldInFormula {
+  Expression::Field field;
+  double value = 1;
+  std::vector<double> values{};
+};
+
 }  // namespace
 
 struct Expression::Parser {
   mu::Parser parser;
+  std::vector<NamedGroup> groups;
+  std::vector<FieldInFormula> fields;
   int dimension;
   double place[3] = {0, 0, 0};
   double dist = 1, seglen = 1;  // there
-  bool asks_for_shape = false;
+  bool asks_for_shape = false;  // or for fields
   bool asks_dist = false, asks_seglen = false;
   pnpbs_domain domain = nullptr;
   pnpbs_context context = nullptr;
@@ -277,7 +213,31 @@ struct Expression::Parser {
     const auto& used = parser.GetUsedVar();
     asks_dist = used.contains("dist");
     asks_seglen = used.contains("seglen");
-    asks_for_shape = shape_was_asked || asks_dist || asks_seglen;
+    asks_for_shape = shape_was_asked || asks_dist || asks_seglen || !fields.empty();
+  }
+  // A name that means something else already is no group's.
+  void define_groups() {
+    const std::vector<std::string> known = known_names(parser);
+    std::erase_if(groups, [&](const NamedGroup& group) {
+      return std::ranges::find(known, group.identifier) != known.end();
+    });
+    for (NamedGroup& group : groups) parser.DefineVar(group.identifier, &group.tag);
+  }
+  void define_fields() {
+    for (FieldInFormula& each : fields) {
+      const std::vector<std::string> known = known_names(parser);
+      if (std::ranges::find(known, each.field.name) != known.end())
+        throw BadInput("--spacing-grid: '" + each.field.name +
+                       "' means something else in formulas, or is given twice: choose another "
+                       "name");
+      parser.DefineVar(each.field.name, &each.value);
+    }
+  }
+  void require_used_fields() const {
+    for (const FieldInFormula& each : fields)
+      if (!parser.GetUsedVar().contains(each.field.name))
+        throw BadInput("--spacing-grid: the formula of --spacing does not use '" + each.field.name +
+                       "'");
   }
   double value() {
     if (asks_dist) dist = distance_to(0);
@@ -286,10 +246,13 @@ struct Expression::Parser {
   }
 };
 
-Expression::Expression(const std::string& text, int dimension, const std::string& option,
-                       Names names)
+Expression::Expression(const std::string& given, int dimension, const std::string& option,
+                       Names names, std::vector<Field> fields)
     : parser_(std::make_unique<Parser>()) {
-  const Source source{option, text};
+  const FormulaSource source{option, given};
+  std::string text = given;
+  if (names == Names::shape_too) parser_->groups = groups_in(text);
+  for (Field& field : fields) parser_->fields.push_back({std::move(field)});
   refuse_what_is_no_formula(source);
   refuse_other_hypots(source);
   mu::Parser& parser = parser_->parser;
@@ -303,15 +266,19 @@ Expression::Expression(const std::string& text, int dimension, const std::string
       parser.DefineVar("dist", &parser_->dist);
       parser.DefineVar("seglen", &parser_->seglen);
     }
+    parser_->define_fields();
+    parser_->define_groups();
     shape_was_asked = false;
     parser.SetExpr(text);
     parser.Eval();
     parser_->find_out();
+    parser_->require_used_fields();
   } catch (const mu::Parser::exception_type& error) {
-    fail(source, static_cast<std::size_t>(std::max(0, error.GetPos())), in_words(error, parser));
+    fail_at(source, static_cast<std::size_t>(std::max(0, error.GetPos())), in_words(error, parser));
   }
   if (parser.GetNumResults() != 1) {
-    fail(source, text.find(','), "one value is wanted, not several (decimals come after a point)");
+    fail_at(source, text.find(','),
+            "one value is wanted, not several (decimals come after a point)");
   }
 }
 
@@ -321,6 +288,10 @@ void Expression::ask_shape_of(pnpbs_domain domain, pnpbs_context context) {
   parser_->domain = domain;
   parser_->context = context;
   if (!parser_->asks_for_shape) return;
+  if (!parser_->groups.empty()) {
+    const std::vector<GroupName> names = group_names(domain, context);
+    for (NamedGroup& group : parser_->groups) group.tag = tag_of_group(group.name, names);
+  }
   constexpr double anywhere[3] = {0, 0, 0};
   double value;
   at(1, anywhere, &value);
@@ -342,11 +313,17 @@ void Expression::at(std::int64_t n, const double* coordinates, double* values) c
     for (std::int64_t i = 0; i < n; ++i) values[i] = at(coordinates + parser_->dimension * i);
     return;
   }
+  for (FieldInFormula& each : parser_->fields) {
+    each.values.resize(static_cast<std::size_t>(n));
+    each.field.values(n, coordinates, each.values.data());
+  }
   ShapeAtPlaces shape{n, coordinates, parser_->domain};
   const ShapeForBatch telling(shape, parser_->context);
   for (std::int64_t i = 0; i < n; ++i) {
     shape.place = i;
     std::copy_n(coordinates + parser_->dimension * i, parser_->dimension, parser_->place);
+    for (FieldInFormula& each : parser_->fields)
+      each.value = each.values[static_cast<std::size_t>(i)];
     values[i] = parser_->value();
   }
 }
@@ -370,7 +347,9 @@ std::string expression_help() {
   return "x, y, z (of bodies), pi, e, numbers, + - * / ^ ( ), comparisons, a ? b : c, and the "
          "functions " +
          list +
-         "; in --spacing also dist, the distance to the boundary, dist(TAG), to what has the tag, "
+         "; in --spacing also dist, the distance to the boundary, dist(TAG) and dist(NAME), to "
+         "what has "
+         "the tag or the group's name, the names of --spacing-grid, "
          "seglen, the length of the input's edges, curvature(N), the d for N nodes per turn, and "
          "gap(N), the d for N nodes across, which grow by 0.15 per unit of distance";
 }

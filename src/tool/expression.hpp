@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tool/library.hpp"
 
@@ -14,15 +16,21 @@ namespace pnpbs::tool {
 class Expression {
  public:
   enum class Names { coordinates, shape_too };
+  // What a name in it stands for: values at n places.
+  struct Field {
+    std::string name;
+    std::function<void(std::int64_t n, const double* coordinates, double* values)> values;
+  };
 
   // `option` is the one that it was given by. Throws BadInput with the text and a mark below the
   // place of the error.
   Expression(const std::string& text, int dimension, const std::string& option,
-             Names names = Names::coordinates);
+             Names names = Names::coordinates, std::vector<Field> fields = {});
   ~Expression();
 
-  // The domain whose shape it asks for, if it does; it must outlive its use. Asks for all of that
-  // at one place. Local. Throws Failure if the domain does not have it.
+  // The domain whose shape it asks for, if it does; it must outlive its use. Finds the groups that
+  // it names, and asks for all of that at one place. Local. Throws Failure if the domain does not
+  // have it.
   void ask_shape_of(pnpbs_domain domain, pnpbs_context context);
 
   bool is_constant() const;  // neither a coordinate nor the shape occurs in it

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/geo_file.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 
-#include "base/build_config.hpp"
 #include "base/extension.hpp"
 #include "tool/exit.hpp"
 #include "tool/library.hpp"
@@ -22,51 +19,9 @@ bool is_in(const std::string& word, const List& list) {
   return std::ranges::find(list, word) != std::end(list);
 }
 
-void* open_library() {
-  void* const handle = ::dlopen(PNPBS_GEO_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-  if (handle) return handle;
-  const char* reason = ::dlerror();
-  throw Failure(ExitCode::failed,
-                std::string("GeoJSON, shapefiles and the like are read by GDAL, and the library "
-                            "that calls it cannot be opened (") +
-                    (reason ? reason : PNPBS_GEO_LIBRARY) +
-                    "). Install GDAL (Debian: libgdal-dev), configure PNPBS again "
-                    "(PNPBS_ENABLE_GEO) and build it.");
-}
-
 const char* or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
 
 }  // namespace
-
-// The functions of the library, by their names.
-struct GeoFile::Library {
-  template <class Function>
-  void find(Function& function, const char* name) const {
-    function = reinterpret_cast<Function>(::dlsym(handle, name));
-    if (!function)
-      throw Failure(ExitCode::failed, std::string(PNPBS_GEO_LIBRARY) + " has no " + name +
-                                          ": it is older than this command");
-  }
-
-  // Never closed: GDAL leaves behind what runs at the end of the process.
-  void* const handle = open_library();
-#define PNPBS_TOOL_FUNCTION(name)             \
-  decltype(&pnpbs_geo_##name) name = [this] { \
-    decltype(&pnpbs_geo_##name) found;        \
-    find(found, "pnpbs_geo_" #name);          \
-    return found;                             \
-  }()
-  PNPBS_TOOL_FUNCTION(last_error);
-  PNPBS_TOOL_FUNCTION(read);
-  PNPBS_TOOL_FUNCTION(destroy);
-  PNPBS_TOOL_FUNCTION(add_to_domain);
-  PNPBS_TOOL_FUNCTION(explain);
-  PNPBS_TOOL_FUNCTION(projection);
-  PNPBS_TOOL_FUNCTION(scale);
-  PNPBS_TOOL_FUNCTION(note_count);
-  PNPBS_TOOL_FUNCTION(get_note);
-#undef PNPBS_TOOL_FUNCTION
-};
 
 bool GeoFile::is_meant_by(const Arguments& arguments) {
   const std::string ending = extension_of(arguments.domain);
@@ -107,7 +62,7 @@ void GeoFile::check(pnpbs_status status) const {
 }
 
 void GeoFile::read() {
-  library_ = std::make_unique<Library>();
+  library_ = std::make_unique<GeoLibrary>();
   check(library_->read(path_.c_str(), or_null(layer_), or_null(projection_), or_null(unit_),
                        or_null(tag_field_), &shapes_));
 }

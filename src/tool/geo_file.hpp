@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Domains in files of geographers: GeoJSON, shapefiles and whatever else GDAL reads, by
-// libpnpbs_geo. That is opened when such a file is named and not before: with the hundred libraries
-// behind GDAL, every start would take a tenth of a second longer.
+// libpnpbs_geo.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "pnpbs/pnpbs_geo.h"
 #include "tool/arguments.hpp"
+#include "tool/geo_library.hpp"
 
 namespace pnpbs::tool {
 
@@ -38,11 +37,10 @@ class GeoFile {
   std::vector<std::string> notes() const;
 
  private:
-  struct Library;
   void check(pnpbs_status status) const;
 
   std::string path_, layer_, projection_, unit_, tag_field_;
-  std::unique_ptr<Library> library_;
+  std::unique_ptr<GeoLibrary> library_;
   pnpbs_geo_shapes shapes_ = nullptr;
 };
 

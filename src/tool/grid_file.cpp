@@ -223,22 +223,25 @@ Grid read_grid(const std::string& path, int dimension) {
   return grid;
 }
 
-double value_at(const Grid& grid, const double* place) {
-  std::int64_t cell[2], next[2];
-  double fraction[2];
-  for (const int k : {0, 1}) {
+double value_at(const Grid& grid, const double* place, int dimension) {
+  std::int64_t cell[3] = {0, 0, 0}, next[3] = {0, 0, 0};
+  double fraction[3] = {0, 0, 0};
+  for (int k = 0; k < dimension; ++k) {
     const double last = static_cast<double>(grid.size[k] - 1);
     const double at = std::clamp((place[k] - grid.origin[k]) / grid.step[k], 0.0, last);
     cell[k] = static_cast<std::int64_t>(at);
     next[k] = std::min(cell[k] + 1, grid.size[k] - 1);
     fraction[k] = at - static_cast<double>(cell[k]);
   }
-  const auto value = [&](std::int64_t i, std::int64_t j) {
-    return grid.values[static_cast<std::size_t>(i + grid.size[0] * j)];
+  const auto in_row = [&](std::int64_t j, std::int64_t layer) {
+    const double* row = grid.values.data() + grid.size[0] * (j + grid.size[1] * layer);
+    return std::lerp(row[cell[0]], row[next[0]], fraction[0]);
   };
-  return std::lerp(std::lerp(value(cell[0], cell[1]), value(next[0], cell[1]), fraction[0]),
-                   std::lerp(value(cell[0], next[1]), value(next[0], next[1]), fraction[0]),
-                   fraction[1]);
+  const auto in_layer = [&](std::int64_t layer) {
+    return std::lerp(in_row(cell[1], layer), in_row(next[1], layer), fraction[1]);
+  };
+  const double low = in_layer(cell[2]);
+  return fraction[2] == 0 ? low : std::lerp(low, in_layer(next[2]), fraction[2]);
 }
 
 }  // namespace pnpbs::tool

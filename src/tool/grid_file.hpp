@@ -27,8 +27,8 @@ struct Grid {
 // values are those of all heights; with layers, dimension must be 3.
 Grid read_grid(const std::string& path, int dimension);
 
-// Between the grid's points in the plane, at (x, y) in the lowest layer: linear in each direction,
-// constant beyond the border, as pnpbs_placement_set_spacing_grid has it.
-double value_at(const Grid& grid, const double* place);
+// Between the grid's points: linear in each direction, constant beyond the border, as
+// pnpbs_placement_set_spacing_grid has it. Of two dimensions: in the lowest layer.
+double value_at(const Grid& grid, const double* place, int dimension);
 
 }  // namespace pnpbs::tool

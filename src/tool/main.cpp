@@ -57,6 +57,17 @@ ExitCode exit_code_of_run(pnpbs_status status) {
   }
 }
 
+// Notes on the file of geographers, the library's warnings, and those of grids.
+std::vector<std::string> for_report(const GeoFile* geo, pnpbs_context context,
+                                    pnpbs_placement placement,
+                                    const std::vector<std::string>& of_grids) {
+  std::vector<std::string> warnings;
+  if (geo) warnings = geo->notes();
+  for (const auto& more : {warnings_of(context, placement), of_grids})
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  return warnings;
+}
+
 // How a file of geographers was taken: before d is asked for, since its unit hangs on it.
 void tell_projection(const GeoFile& geo) {
   const GeoFile::Projection projection = geo.projection();
@@ -173,10 +184,11 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   wishes.source->read(domain, context, ranks);
   const GeoFile* geo = wishes.source->geo();
   if (geo && ranks.is_first() && !arguments.quiet) tell_projection(*geo);
-  if (arguments.simplify)
-    ranks.agreed([&] {
+  ranks.agreed([&] {
+    wishes.spacing->read_grids(domain, context, geo);
+    if (arguments.simplify)
       wishes.spacing->simplify(domain, context, *arguments.simplify, arguments.smallest);
-    });
+  });
   PictureLook look;
   std::optional<BodyFigures> body;
   ranks.agreed([&] {
@@ -199,12 +211,11 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   Statistics statistics(placement);
   if (outputs->has_pictures()) outputs->write_pictures({placement, domain, context, ranks, look});
   if (body) body->area = boundary_area(placement, context, ranks);
-  std::vector<std::string> warnings = warnings_of(context, placement);
-  if (geo) {
-    const std::vector<std::string> notes = geo->notes();
-    warnings.insert(warnings.begin(), notes.begin(), notes.end());
-    outputs->write_projection(geo->projection().prj);
-  }
+  const std::vector<std::string> of_grids =
+      wishes.spacing->warnings(placement, domain, context, ranks);
+  if (ranks.is_first() && !arguments.quiet) warn(of_grids);
+  const std::vector<std::string> warnings = for_report(geo, context, placement, of_grids);
+  if (geo) outputs->write_projection(geo->projection().prj);
   const std::vector<GroupName> groups = group_names(domain, context);
   outputs->write_report(report_text(arguments, geo, statistics, groups, warnings));
   give_up_if_any_is_interrupted(ranks);

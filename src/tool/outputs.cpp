@@ -10,6 +10,7 @@
 #include "tool/exit.hpp"
 #include "tool/geo_file.hpp"
 #include "tool/interrupt.hpp"
+#include "tool/named_grid.hpp"
 #include "tool/names.hpp"
 #include "tool/spacing_file.hpp"
 
@@ -65,10 +66,11 @@ Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
   for (const std::string& path : arguments.outputs) add(path, format_of(path, otherwise));
   if (!arguments.report.empty()) add(arguments.report, nullptr);
   if (GeoFile::is_meant_by(arguments)) add_projections(arguments.domain);
+  std::vector<std::string> inputs{arguments.domain, file_of_spacing(arguments),
+                                  arguments.projection};
+  for (const std::string& grid : arguments.spacing_grids) inputs.push_back(path_of_grid(grid));
   for (const Output& output : outputs_)
-    for (const std::string& input : {arguments.domain, arguments.spacing_grid,
-                                     file_of_spacing(arguments), arguments.projection})
-      refuse_to_replace(input, output.file.path());
+    for (const std::string& input : inputs) refuse_to_replace(input, output.file.path());
   for (const std::string& path : {arguments.checkpoint, arguments.restart}) refuse_checkpoint(path);
   check_pictures(arguments);
   if (ranks_.is_first()) check_writable();

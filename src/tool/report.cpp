@@ -81,11 +81,11 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   if (arguments.surfaces_only) report["surfaces_only"] = true;
   if (!arguments.inner.empty()) report["inner"] = arguments.inner;
   if (!groups.empty()) report["groups"] = groups_of(groups);
-  if (arguments.spacing_grid.empty()) {
-    report["spacing"] = arguments.spacing;
-  } else {
-    report["spacing_grid"] = arguments.spacing_grid;
-  }
+  if (!arguments.spacing.empty()) report["spacing"] = arguments.spacing;
+  if (arguments.spacing_grids.size() == 1)
+    report["spacing_grid"] = arguments.spacing_grids[0];
+  else if (!arguments.spacing_grids.empty())
+    report["spacing_grid"] = arguments.spacing_grids;
   report["options"] = options_of(arguments);
   for (const auto& [name, value] : statistics.all())
     insert(report, name, std::visit(AsJson(), value));

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/spacing.hpp"
 
+#include <algorithm>
+#include <array>
+
+#include "spacing/beside_domain.hpp"
+
 namespace pnpbs::tool {
 namespace {
 
@@ -10,22 +15,70 @@ constexpr double nodes_per_turn = 20, nodes_across = 3, nodes_per_edge = 1, grow
 std::int32_t call_grid(std::int64_t n, std::int32_t dim, const double* coordinates, double* d,
                        void* user) {
   const Grid& grid = *static_cast<const Grid*>(user);
-  for (std::int64_t i = 0; i < n; ++i) d[i] = value_at(grid, coordinates + dim * i);
+  for (std::int64_t i = 0; i < n; ++i) d[i] = value_at(grid, coordinates + dim * i, dim);
   return 0;
+}
+
+Box<3> bounds_of(pnpbs_domain domain, pnpbs_context context) {
+  Box<3> box{};
+  check(pnpbs_domain_bounds(domain, box.low.data(), box.high.data()), context);
+  return box;
+}
+
+// "from (0, 0) to (1, 1), the domain from (0, 0) to (2, 2)"
+template <int Dim>
+std::string extents_in(const Box<3>& grid, const Box<3>& domain) {
+  Box<Dim> boxes[2];
+  for (int k = 0; k < Dim; ++k)
+    for (const int which : {0, 1}) {
+      boxes[which].low[k] = (which == 0 ? grid : domain).low[k];
+      boxes[which].high[k] = (which == 0 ? grid : domain).high[k];
+    }
+  return extent_text<Dim>(boxes[0], boxes[1]) + ", the domain " +
+         extent_text<Dim>(boxes[1], boxes[1]);
 }
 
 }  // namespace
 
 Spacing::Spacing(const Arguments& arguments, int dimension)
-    : min_(arguments.min_spacing.value_or(0)), max_(arguments.max_spacing.value_or(0)) {
+    : dimension_(dimension),
+      min_(arguments.min_spacing.value_or(0)),
+      max_(arguments.max_spacing.value_or(0)) {
   if (arguments.spacing == "auto") return;
   file_ = spacing_file(arguments.spacing);
   if (file_) return;
-  if (arguments.spacing_grid.empty()) {
-    expression_ = std::make_unique<Expression>(arguments.spacing, dimension, "--spacing",
-                                               Expression::Names::shape_too);
-  } else {
-    grid_ = std::make_unique<Grid>(read_grid(arguments.spacing_grid, dimension));
+  std::vector<Expression::Field> fields;
+  for (const std::string& text : arguments.spacing_grids) {
+    grids_.push_back(std::make_unique<NamedGrid>(text, dimension));
+    const NamedGrid* grid = grids_.back().get();
+    fields.push_back({grid->name(), [grid](std::int64_t n, const double* x, double* values) {
+                        grid->evaluate(n, x, values, nullptr);
+                      }});
+  }
+  const bool alone = arguments.spacing.empty();
+  if (alone && grids_.size() == 1 && grids_[0]->text_grid()) return;
+  expression_ =
+      std::make_unique<Expression>(alone ? grids_[0]->name() : arguments.spacing, dimension,
+                                   "--spacing", Expression::Names::shape_too, std::move(fields));
+}
+
+const Grid* Spacing::grid() const {
+  return expression_ || grids_.empty() ? nullptr : grids_[0]->text_grid();
+}
+
+void Spacing::read_grids(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo) {
+  if (grids_.empty()) return;
+  const std::string projection = geo ? geo->projection().wkt : "";
+  const Box<3> bounds = bounds_of(domain, context);
+  for (const auto& each : grids_) {
+    each->open(projection, bounds);
+    if (expression_ || each->text_grid()) continue;
+    expression_ = std::make_unique<Expression>(
+        each->name(), dimension_, "--spacing-grid", Expression::Names::coordinates,
+        std::vector<Expression::Field>{
+            {each->name(), [grid = each.get()](std::int64_t n, const double* x, double* values) {
+               grid->evaluate(n, x, values, nullptr);
+             }}});
   }
 }
 
@@ -38,9 +91,9 @@ void Spacing::simplify(pnpbs_domain domain, pnpbs_context context, double tolera
     return;
   }
   if (expression_) expression_->ask_shape_of(domain, context);
-  check(pnpbs_domain_simplify(domain, grid_ ? call_grid : call_expression,
-                              grid_ ? grid_.get() : expression_->as_user(), tolerance, smallest,
-                              nullptr, nullptr),
+  void* const user = grid() ? const_cast<Grid*>(grid()) : expression_->as_user();
+  check(pnpbs_domain_simplify(domain, grid() ? call_grid : call_expression, user, tolerance,
+                              smallest, nullptr, nullptr),
         context);
 }
 
@@ -51,17 +104,15 @@ void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_cont
           context);
     return;
   }
-  if (!grid_ && !expression_) {
+  if (!grid() && !expression_) {
     check(pnpbs_placement_set_spacing_from_shape(placement, nodes_per_turn, nodes_across,
                                                  nodes_per_edge, growth, min_, max_),
           context);
     return;
   }
   if (expression_) ranks.agreed([&] { expression_->ask_shape_of(domain, context); });
-  if (grid_) {
-    check(pnpbs_placement_set_spacing_grid(placement, grid_->size, grid_->origin, grid_->step,
-                                           grid_->values.data()),
-          context);
+  if (grid()) {
+    check(set_grid(placement), context);
   } else if (expression_->is_constant()) {
     constexpr double anywhere[3] = {0, 0, 0};
     check(pnpbs_placement_set_spacing_constant(placement, expression_->at(anywhere)), context);
@@ -69,6 +120,45 @@ void Spacing::give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_cont
     check(pnpbs_placement_set_spacing_callback(placement, call_expression, expression_->as_user()),
           context);
   }
+}
+
+pnpbs_status Spacing::set_grid(pnpbs_placement placement) const {
+  return pnpbs_placement_set_spacing_grid(placement, grid()->size, grid()->origin, grid()->step,
+                                          grid()->values.data());
+}
+
+std::vector<std::string> Spacing::warnings(pnpbs_placement placement, pnpbs_domain domain,
+                                           pnpbs_context context, const Ranks& ranks) const {
+  std::vector<std::string> warnings;
+  if (!expression_ || grids_.empty()) return warnings;
+  std::int64_t own = 0;
+  std::vector<double> coordinates, values;
+  std::vector<std::int32_t> inside;
+  ranks.agreed([&] {
+    check(pnpbs_placement_count(placement, &own), context);
+    coordinates.resize(static_cast<std::size_t>(dimension_ * own));
+    values.resize(static_cast<std::size_t>(own));
+    inside.resize(values.size());
+    check(pnpbs_placement_get_nodes(placement, own, coordinates.data(), nullptr, nullptr, nullptr),
+          context);
+  });
+  for (const auto& each : grids_) {
+    ranks.agreed([&] { each->evaluate(own, coordinates.data(), values.data(), inside.data()); });
+    const auto beyond = static_cast<std::int64_t>(std::count(inside.begin(), inside.end(), 0));
+    std::int64_t nodes = 0, outside = 0;
+    for (const auto& [its_nodes, its_outside] :
+         ranks.gather(std::vector<std::array<std::int64_t, 2>>{{own, beyond}}))
+      nodes += its_nodes, outside += its_outside;
+    if (outside > 0)
+      warnings.push_back(
+          "the grid '" + each->name() + "' (" + each->path() +
+          ") covers only a part of the domain: of " + std::to_string(nodes) + " nodes, " +
+          std::to_string(outside) +
+          " lie beyond its edge; there its values are those at the edge. The grid reaches " +
+          (dimension_ == 2 ? extents_in<2> : extents_in<3>)(each->extent(),
+                                                            bounds_of(domain, context)));
+  }
+  return warnings;
 }
 
 }  // namespace pnpbs::tool

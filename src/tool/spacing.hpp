@@ -4,11 +4,14 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tool/arguments.hpp"
 #include "tool/expression.hpp"
-#include "tool/grid_file.hpp"
+#include "tool/geo_file.hpp"
 #include "tool/library.hpp"
+#include "tool/named_grid.hpp"
 #include "tool/ranks.hpp"
 #include "tool/spacing_file.hpp"
 
@@ -18,6 +21,10 @@ class Spacing {
  public:
   Spacing(const Arguments& arguments, int dimension);
 
+  // Before anything else: reads the grids where the domain is, in its projection. Local. Throws
+  // Failure.
+  void read_grids(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo);
+
   // Leaves out of a domain in the plane what is finer than d. Local. Throws Failure.
   void simplify(pnpbs_domain domain, pnpbs_context context, double tolerance, double smallest);
 
@@ -26,10 +33,18 @@ class Spacing {
   void give_to(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,
                const Ranks& ranks);
 
+  // Of grids in a formula that do not reach all nodes; on the first rank. Collective.
+  std::vector<std::string> warnings(pnpbs_placement placement, pnpbs_domain domain,
+                                    pnpbs_context context, const Ranks& ranks) const;
+
  private:
-  double min_, max_;                        // of auto, 0: none
-  std::unique_ptr<Expression> expression_;  // none of these: auto
-  std::unique_ptr<Grid> grid_;
+  const Grid* grid() const;  // that the library takes as it is, or nullptr
+  pnpbs_status set_grid(pnpbs_placement placement) const;
+
+  int dimension_;
+  double min_, max_;  // of auto, 0: none
+  std::vector<std::unique_ptr<NamedGrid>> grids_;
+  std::unique_ptr<Expression> expression_;  // neither this nor a grid nor a file: auto
   std::optional<SpacingFile> file_;
 };
 

@@ -58,7 +58,8 @@ class Usage(CommandTest):
 
     def test_contradictions(self):
         ask = ("--domain", self.square, "--spacing", "0.1")
-        self.assertIn("exclude", self.refuse(*ask, "--spacing-grid", "g.asc"))
+        self.assertIn("exclude", self.refuse("--domain", self.square, "--spacing", "auto",
+                                             "--spacing-grid", "g.asc"))
         self.assertIn("twice", self.refuse(*ask, "-o", "a.csv", "-o", "./a.csv"))
         self.assertIn("twice", self.refuse(*ask, "-o", "-", "--format", "csv", "--report", "-"))
         self.refuse(*ask, "--spacing", "0.2")

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/formula_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "tool/exit.hpp"
+#include "tool/names.hpp"
+
+namespace pnpbs::tool {
+namespace {
+
+// How many letters begin before the byte at `position`: in UTF-8, some bytes only continue one.
+std::size_t letters_before(const std::string& text, std::size_t position) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position),
+                    [](unsigned char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+void fail_at(const FormulaSource& source, std::size_t position, const std::string& what) {
+  const std::string& text = source.text;
+  const std::size_t column = letters_before(text, std::min(position, text.size()));
+  std::string line = text;
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' '; }, ' ');
+  throw BadInput(source.option + ", position " + std::to_string(column + 1) + ": " + what + "\n  " +
+                 line + "\n  " + std::string(column, ' ') + "^");
+}
+
+void refuse_what_is_no_formula(const FormulaSource& source) {
+  const std::string& text = source.text;
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    fail_at(source, 0, "empty expression");
+  for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1)) {
+    const bool comparison =
+        (at > 0 && std::string("<>!=").find(text[at - 1]) != std::string::npos) ||
+        (at + 1 < text.size() && text[at + 1] == '=');
+    if (!comparison) fail_at(source, at, "a formula assigns nothing (== compares)");
+  }
+}
+
+namespace {
+
+// Of the call whose opening parenthesis is at `open`: where it ends, or npos.
+struct Call {
+  int arguments = 1;
+  std::size_t end = std::string::npos;
+};
+Call call_at(const std::string& text, std::size_t open) {
+  Call call;
+  int depth = 0;
+  for (std::size_t at = open; at < text.size(); ++at) {
+    if (text[at] == '(') ++depth;
+    if (text[at] == ',' && depth == 1) ++call.arguments;
+    if (text[at] == ')' && --depth == 0) {
+      if (text.find_first_not_of(" \t", open + 1) == at) call.arguments = 0;
+      call.end = at;
+      break;
+    }
+  }
+  return call;
+}
+
+bool in_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+}  // namespace
+
+void refuse_other_hypots(const FormulaSource& source) {
+  constexpr std::string_view name = "hypot";
+  const std::string& text = source.text;
+  for (std::size_t at = text.find(name); at != std::string::npos;
+       at = text.find(name, at + name.size())) {
+    const std::size_t open = at + name.size();
+    if (open == text.size() || text[open] != '(' || (at > 0 && in_name(text[at - 1]))) continue;
+    const Call call = call_at(text, open);
+    if (call.end == std::string::npos || call.arguments == 2 || call.arguments == 3) continue;
+    fail_at(source, call.end,
+            std::string("too ") + (call.arguments < 2 ? "few" : "many") +
+                " arguments for 'hypot': it takes two, or three in space, as in hypot(x,y,z)");
+  }
+}
+
+std::vector<NamedGroup> groups_in(std::string& text) {
+  constexpr std::string_view name = "dist";
+  std::vector<NamedGroup> groups;
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const std::size_t open = text.find_first_not_of(" \t", at + name.size());
+    if (open == std::string::npos || text[open] != '(' || (at > 0 && in_name(text[at - 1])))
+      continue;
+    const std::size_t begin = text.find_first_not_of(" \t", open + 1);
+    if (begin == std::string::npos) break;
+    const char quote = text[begin] == '\'' || text[begin] == '"' ? text[begin] : '\0';
+    std::size_t end = begin + 1;
+    if (quote)
+      end = text.find(quote, end) == std::string::npos ? text.size() : text.find(quote, end) + 1;
+    else
+      while (end < text.size() && in_name(text[end])) ++end;
+    const std::size_t close = text.find_first_not_of(" \t", end);
+    if (close == std::string::npos || text[close] != ')') continue;
+    if (!quote && (std::isdigit(static_cast<unsigned char>(text[begin])) || !in_name(text[begin])))
+      continue;
+    std::string group = text.substr(begin, end - begin);
+    if (quote) {
+      std::replace_if(
+          text.begin() + static_cast<std::ptrdiff_t>(begin),
+          text.begin() + static_cast<std::ptrdiff_t>(end), [](char c) { return !in_name(c); }, '_');
+      group = group.substr(1, group.size() - 2);
+    }
+    groups.push_back({group, text.substr(begin, end - begin)});
+  }
+  return groups;
+}
+
+double tag_of_group(const std::string& group, const std::vector<GroupName>& names) {
+  std::vector<std::string> known;
+  const GroupName* found = nullptr;
+  for (const GroupName& each : names) {
+    known.push_back(each.name);
+    if (each.name == group && (!found || each.dimension > found->dimension)) found = &each;
+  }
+  if (found) return found->tag;
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  throw BadInput("--spacing: dist(" + group + "): the domain has no group of that name" +
+                 did_you_mean(group, known) +
+                 (known.empty() ? " (it has no named ones)" : " (it has: " + list + ")"));
+}
+
+}  // namespace pnpbs::tool

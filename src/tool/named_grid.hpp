@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A grid that the user names, --spacing-grid NAME=FILE:VARIABLE, for use in formulas: read here if
+// it is an ESRI ASCII grid, by GDAL otherwise, which projects it as the domain is.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "base/types.hpp"
+#include "tool/geo_library.hpp"
+#include "tool/grid_file.hpp"
+
+namespace pnpbs::tool {
+
+class NamedGrid {
+ public:
+  // "FILE" is called "grid". Reads what needs no GDAL. Throws BadInput.
+  NamedGrid(const std::string& text, int dimension);
+  ~NamedGrid();
+  NamedGrid(const NamedGrid&) = delete;
+  NamedGrid& operator=(const NamedGrid&) = delete;
+
+  const std::string& name() const { return name_; }
+  const std::string& path() const { return path_; }
+  // nullptr if GDAL reads it.
+  const Grid* text_grid() const { return text_.get(); }
+
+  // Before its values are asked for: reads what GDAL reads, where the domain is. The projection of
+  // the domain is "" if that is not known. Throws Failure, also if the grid lies beside the domain.
+  void open(const std::string& projection, const Box<3>& domain);
+  // inside[i] is 0 where a point lies beyond the grid's edge, to half a cell; or nullptr.
+  void evaluate(std::int64_t n, const double* coordinates, double* values,
+                std::int32_t* inside) const;
+  Box<3> extent() const;
+
+ private:
+  void evaluate_text(std::int64_t n, const double* coordinates, double* values,
+                     std::int32_t* inside) const;
+  void check(pnpbs_status status) const;
+
+  int dimension_;
+  std::string name_, path_, variable_;
+  std::unique_ptr<Grid> text_;
+  std::unique_ptr<GeoLibrary> library_;
+  pnpbs_geo_grid grid_ = nullptr;
+};
+
+// The file in such a text.
+std::string path_of_grid(const std::string& text);
+
+}  // namespace pnpbs::tool
