@@ -13,6 +13,7 @@ enum class ExitCode {
   bad_input = 2,
   not_converged = 3,
   spacing_missed = 4,
+  input_left_out = 5,
   interrupted = 130
 };
 

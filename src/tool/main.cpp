@@ -68,6 +68,14 @@ std::vector<std::string> for_report(const GeoFile* geo, pnpbs_context context,
   return warnings;
 }
 
+// Whether some of a coast is not in the result: lines outside of the polygons, above all.
+bool leave_out_shapes(const std::vector<std::string>& warnings) {
+  return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.starts_with("outside the domain and left out: ") ||
+           warning.starts_with("lines left out: ");
+  });
+}
+
 // How a file of geographers was taken: before d is asked for, since its unit hangs on it.
 void tell_projection(const GeoFile& geo) {
   const GeoFile::Projection projection = geo.projection();
@@ -225,7 +233,7 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   if (ranks.is_first() && !arguments.quiet && !outputs->use_standard_output()) {
     std::cout << summary_text(statistics, body, outputs->files());
   }
-  return exit_code_of_run(status);
+  return geo && leave_out_shapes(warnings) ? ExitCode::input_left_out : exit_code_of_run(status);
 }
 
 // Whoever reads may stop before the end, as head does.

@@ -12,7 +12,8 @@ COMMAND = os.environ["PNPBS_COMMAND"]
 DATA = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"]) / "examples" / "data"
 LAKE = DATA / "lake_victoria.poly"
 
-DONE, FAILED, BAD_INPUT, NOT_CONVERGED, SPACING_MISSED, INTERRUPTED = 0, 1, 2, 3, 4, 130
+DONE, FAILED, BAD_INPUT, NOT_CONVERGED, SPACING_MISSED, LEFT_OUT = range(6)
+INTERRUPTED = 130
 
 # A unit square with a square hole; markers 1 outside, 2 inside.
 SQUARE = """\

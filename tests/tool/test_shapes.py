@@ -12,7 +12,7 @@ import unittest
 
 import numpy as np
 
-from command import COMMAND, LAKE, CommandTest
+from command import COMMAND, LAKE, LEFT_OUT, CommandTest
 
 BUILT = os.environ["PNPBS_GEO"] == "1"
 
@@ -111,6 +111,34 @@ class Shapes(ShapesTest):
         ask = ("--domain", path, "--spacing", "20")
         self.assertIn("it has: land", self.refuse(*ask, "--layer", "sea"))
         self.assertIn("it has: name, code", self.refuse(*ask, "--tag-field", "tag"))
+
+    def test_a_line_along_the_shore_is_an_open_boundary(self):
+        # Drawn by hand: some 20 m off, and not from corner to corner.
+        path = self.geojson(LAND, feature("LineString", [[20.0003, 54.2], [19.9998, 55.0002]],
+                                          name="open"))
+        x, report, err = self.nodes("--tag-field", "name", domain=path, spacing="5")
+        self.assertIn("note: a line runs along the boundary", err)
+        self.assertEqual([group["name"] for group in report["groups"]], ["land", "open"])
+        table = np.genfromtxt(self.folder / "nodes.csv", delimiter=",", names=True)
+        length = 0.8 * 111.3  # km
+        self.assertAlmostEqual(np.sum(table["tag"] == 2), length / 5, delta=2)
+        self.assertLess(np.ptp(x[table["tag"] == 2][:, 0]), 8)
+
+    def test_what_is_left_out_of_a_coast(self):
+        """A coast whose lines do not close, and an island: only that would be meshed."""
+        island = feature("Polygon", [closed([[18.8, 54.4], [19.2, 54.4], [19.2, 54.6]])], name="i")
+        coast = feature("LineString", SQUARE[:4], name="coast")
+        ask = ("--spacing", "5", "--unit", "km", "--tag-field", "name", "-o", "nodes.csv",
+               "--report", "report.json")
+        _, err = self.run_command("--domain", self.geojson(island, coast), *ask, code=LEFT_OUT)
+        self.assertIn("warning: outside the domain and left out: ", err.decode())
+        self.assertIn("nodes.csv", self.files())
+        # With the open boundary that closes it, the island is one.
+        ends = feature("LineString", [SQUARE[3], SQUARE[0]], name="open")
+        self.run_command("--domain", self.geojson(island, coast, ends), *ask)
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual([group["name"] for group in report["groups"]], ["i", "coast", "open"])
+        self.assertGreater(report["nodes"], 500)
 
     def test_what_is_refused(self):
         path = self.geojson(LAND)
