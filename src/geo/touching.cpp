@@ -148,6 +148,10 @@ class Splitter {
     return places;
   }
 
+  bool is_at(Place place, Place end) const {
+    return distance<2>(points_[place], points_[end]) <= on_it * grid_->extent();
+  }
+
   std::vector<Place> stops_on(Place a, Place b, std::int64_t feature) {
     std::vector<std::pair<double, Place>> stops;
     const double extent = grid_->extent();
@@ -155,7 +159,9 @@ class Splitter {
       if (place == a || place == b) return;
       const auto [t, distance] = foot_of(points_[place], points_[a], points_[b]);
       if (!(t > 0 && t < 1) || distance > nearly_on_it * extent) return;
-      if (distance <= on_it * extent)
+      // What all but is an end of the segment would leave next to nothing of it.
+      const bool at_end = is_at(place, a) || is_at(place, b);
+      if (distance <= on_it * extent && !at_end)
         stops.push_back({t, place});
       else if (!near_miss_ && feature_[place] != feature)
         near_miss_ = NearMiss{place, feature_[place], feature};

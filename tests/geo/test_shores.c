@@ -66,6 +66,8 @@ START_TEST(near_the_boundary) {
   expect_lengths(LINE(5, "[[10.005,2],[9.994,4],[10.003,7]]"), 35, 5, 0);
   expect_lengths(LINE(5, "[[8,-0.006],[9.995,0.004],[10.007,3]]"), 35, 5, 0);
   expect_lengths(LINE(5, "[[10.004,0.006],[9.995,10.003]]"), 30, 10, 0);
+  /* What rounding leaves is no segment of its own. */
+  expect_lengths(LINE(5, "[[10,1e-13],[10,9.9999999999999]]"), 30, 10, 0);
   expect_lengths(
       LINE(5, "[[0.002,-0.005],[10.004,0.003],[9.996,10.005],[0.003,9.998],[0.002,-0.005]]"), 0, 40,
       0);
