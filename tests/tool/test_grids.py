@@ -4,11 +4,12 @@ says whether the command was built with GDAL."""
 
 import json
 import os
+import subprocess
 import unittest
 
 import numpy as np
 
-from command import BAD_INPUT, DONE, CommandTest
+from command import BAD_INPUT, COMMAND, DONE, FAILED, NOT_CONVERGED, CommandTest
 from rasters import write_geotiff, write_netcdf
 
 BUILT = os.environ["PNPBS_GEO"] == "1"
@@ -33,7 +34,7 @@ def grid(x=-0.1, y=-0.1, step=0.3):
 
 
 class GridsTest(CommandTest):
-    def table(self, *arguments, codes=(DONE, 3, 4)):
+    def table(self, *arguments, codes=(DONE, NOT_CONVERGED, 4)):
         """The nodes of a run, its report, and what it said."""
         process = self.start(*arguments, *QUICK, "-o", "nodes.csv", "--report", "report.json")
         _, err = process.communicate()
@@ -272,6 +273,32 @@ class Rasters(GridsTest):
                       4326)
         _, _, err = self.table(*self.ask, "--spacing-grid", "d.tif")
         self.assertIn("covers only a part of the domain", err)
+
+    @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")
+    def test_ranks(self):
+        write_geotiff(self.folder / "d.tif", self.depths(19, 55.5, 0.05, 60, 40), 19, 55.5, 0.05,
+                      4326)
+        ask = (*self.ask, "--spacing-grid", "d.tif", *QUICK, "-o")
+        _, one = self.run_command(*ask, "one.csv", code=NOT_CONVERGED)
+        import ranks  # pylint: disable=import-outside-toplevel  # needs MPI
+        two = subprocess.run([*ranks.MPIRUN, "-np", "2", COMMAND, *ask, "two.csv"], check=False,
+                             cwd=self.folder, stderr=subprocess.PIPE)
+        self.assertEqual(two.returncode, NOT_CONVERGED)
+        self.assertEqual((self.folder / "one.csv").read_bytes(),
+                         (self.folder / "two.csv").read_bytes())
+        warning = [line for line in one.splitlines() if b"covers only" in line]
+        self.assertEqual(len(warning), 1)
+        self.assertEqual(warning, [line for line in two.stderr.splitlines() if b"covers" in line])
+
+    def test_without_the_library(self):
+        write_geotiff(self.folder / "d.tif", self.depths(17.5, 55.5, 0.05, 60, 40), 17.5, 55.5,
+                      0.05, 4326)
+        folder = self.folder / "lib"
+        folder.mkdir()
+        (folder / "libpnpbs_geo.so.0").write_text("no library")
+        message = self.refuse("--domain", self.square, "--spacing-grid", "d.tif", code=FAILED,
+                              environment={"LD_LIBRARY_PATH": str(folder)})
+        self.assertIn("libgdal-dev", message)
 
     def test_files_that_are_none(self):
         (self.folder / "no.tif").write_text("no raster")
