@@ -42,7 +42,7 @@ Case make_case(const CaseSpec& spec) {
   const int dim = spec.dimensions == Dimensions::plane   ? 2
                   : spec.dimensions == Dimensions::space ? 3
                                                          : (in_plane ? 2 : 3);
-  const double nodes = body_random.scale(120, dim == 2 ? 1500 : 600) * spec.share;
+  const double nodes = body_random.scale(120, dim == 2 ? 1000 : 400) * spec.share;
   made.body = spec.files.empty() ? random_body(body_random, dim, nodes, files_of(spec))
                                  : random_file(body_random, spec.files);
   made.spacing = random_spacing(spacing_random, made.body);
@@ -60,6 +60,7 @@ Case make_case(const CaseSpec& spec) {
   made.name = made.body.name + " d=" + made.spacing.name();
   if (made.adapts) made.name += made.at_nodes ? "+at-nodes" : "+" + made.second.name();
   if (made.by_steps) made.name += " by-steps";
+  for (const auto& [key, value] : made.options) made.name += " " + key + "=" + value;
   return made;
 }
 
