@@ -26,7 +26,7 @@ class RanksTest(CommandTest):
         process = self.start_ranks(
             ranks, *arguments, stdin=subprocess.DEVNULL if stdin is None else subprocess.PIPE, **more
         )
-        out, err = process.communicate(stdin, timeout=60)
+        out, err = process.communicate(stdin, timeout=300)
         self.assertEqual(process.returncode, code, err.decode(errors="replace"))
         return out, err.decode()
 

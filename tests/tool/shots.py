@@ -52,14 +52,14 @@ class ShotTest(RanksTest):
 
     def ranks_of(self, process, count):
         children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
-        for _ in range(200):
+        for _ in range(5000):
             found = [int(child) for child in children.read_text().split()]
             if len(found) >= count:
                 return found
             time.sleep(0.02)
         self.fail("mpirun starts no ranks")
 
-    def wait_aside(self, process, patience=30):
+    def wait_aside(self, process, patience=300):
         """Until a file is written aside in earnest: with something in it."""
         end = time.monotonic() + patience
         while time.monotonic() < end and process.poll() is None:

@@ -45,13 +45,13 @@ class Checkpoints(CommandTest):
                                  "--checkpoint-every", "30", "--report", "-", "-q")
             path = self.folder / "a.vtkhdf"
             before = path.stat().st_mtime_ns if path.exists() else 0
-            deadline = time.monotonic() + 60
+            deadline = time.monotonic() + 300
             while not path.exists() or path.stat().st_mtime_ns == before:
                 self.assertLess(time.monotonic(), deadline)
                 self.assertIsNone(process.poll(), "it should still be running")
                 time.sleep(0.005)
             process.send_signal(number)
-            _, err = process.communicate(timeout=60)
+            _, err = process.communicate(timeout=300)
             if number != signal.SIGKILL:
                 self.assertEqual(process.returncode, INTERRUPTED, err)
                 self.assertIn(b"--restart 'a.vtkhdf' goes on from step", err)
@@ -98,12 +98,12 @@ class Checkpoints(CommandTest):
         square = ("--domain", self.square, "--spacing", "0.02", "--set", "steps=1000000", "--set",
                   "tolerance_mean=0")
         process = self.start(*square, "--checkpoint", "a.vtkhdf", "--checkpoint-every", "5", "-q")
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 300
         while not (self.folder / "a.vtkhdf").exists():
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.005)
         process.send_signal(signal.SIGKILL)
-        process.communicate(timeout=60)
+        process.communicate(timeout=300)
         report = self.report(*square, "--restart", "a.vtkhdf", "--set", "steps=1")
         self.assertEqual((report["finished"], report["stop_reason"]), (1, "step limit"))
 

@@ -26,7 +26,7 @@ class Hdf5Files(CommandTest):
             [*([MPIEXEC, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle",
                 "1", "-np", str(ranks)] if ranks > 1 else []), COMMAND, *map(str, ask), "-q"],
             cwd=self.folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True,
-            timeout=100, check=False)
+            timeout=300, check=False)
         self.assertEqual(process.returncode, 0, process.stderr.decode())
 
     def contents(self):

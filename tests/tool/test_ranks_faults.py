@@ -30,7 +30,7 @@ class Faults(ShotTest):
             settings = [f"{name}={value}" for name, value in arm.items()]
             process = self.start_ranks(ranks, *self.arguments(),
                                        command=("env", *settings, COMMAND))
-        _, err = process.communicate(timeout=30)
+        _, err = process.communicate(timeout=300)
         call = log.read_text().strip() if log.exists() else None
         hint = f"call {at} on rank {rank} of {ranks}, {call}: {err.decode(errors='replace')}"
         new = self.are_new()

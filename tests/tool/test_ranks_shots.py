@@ -21,7 +21,7 @@ class Signals(ShotTest):
         process = self.start_ranks(self.RANKS, *self.arguments())
         try:
             shoot(process)
-            _, err = process.communicate(timeout=30)
+            _, err = process.communicate(timeout=300)
         except BaseException:
             process.kill()
             raise
@@ -82,7 +82,7 @@ class Killed(ShotTest):
             ranks = self.ranks_of(process, self.RANKS)
             wait(process)
             os.kill(ranks[rank], signal.SIGKILL)
-            process.communicate(timeout=20)
+            process.communicate(timeout=300)
         except BaseException:
             process.kill()
             raise

@@ -82,7 +82,7 @@ class VolumeTest(unittest.TestCase):
         mpi = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
                "-np", str(ranks)] if ranks > 1 else []
         subprocess.run([*mpi, PROGRAM, body, str(spacing), str(elements), *names], check=True,
-                       cwd=self.folder, env=dict(os.environ, OMP_NUM_THREADS="1"), timeout=100)
+                       cwd=self.folder, env=dict(os.environ, OMP_NUM_THREADS="1"), timeout=300)
 
     def grid(self, name="a.vtu", kind=vtk.vtkXMLUnstructuredGridReader):
         return read_with_vtk(self.folder / name, kind)
