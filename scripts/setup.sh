@@ -17,8 +17,8 @@ usage: scripts/setup.sh [--tests] [--kokkos VERSION]...
 
 Packages are installed with apt-get, as root or through sudo; otherwise the script lists what is
 missing. If CMake finds no Kokkos from 4.5 on, $default_kokkos is built into .deps/kokkos, from source
-that comes from PyPI (pip's own settings say which index is asked). CC, CXX and CMAKE_PREFIX_PATH
-are respected.
+that comes from PyPI (pip's own settings say which index is asked). CC, CXX, CMAKE_PREFIX_PATH
+and HDF5_ROOT are respected.
 TEXT
 }
 
@@ -53,6 +53,11 @@ say() { printf '== %s\n' "$*"; }
 have() { command -v "$1" > /dev/null 2>&1; }
 cxx() { have "${CXX:-c++}" && have "${CC:-cc}"; }
 header() { echo "#include <$1>" | "${CXX:-c++}" -std=c++20 -E -x c++ - > /dev/null 2>&1; }
+# Optional to build; without it there are no checkpoints, no .vtkhdf and no .xdmf files.
+hdf5() {
+  header hdf5.h || header hdf5/serial/hdf5.h || header hdf5/openmpi/hdf5.h ||
+    [ -e "${HDF5_ROOT:-/nowhere}/include/hdf5.h" ]
+}
 module() { have pkg-config && pkg-config --exists "$1"; }
 new_cmake() {
   have cmake || return 1
@@ -89,6 +94,7 @@ missing() {
   have mpicc || echo libopenmpi-dev
   have mpirun || echo openmpi-bin
   header metis.h || echo libmetis-dev
+  hdf5 || echo libhdf5-dev
   header CLI/CLI.hpp || echo libcli11-dev
   header nlohmann/json.hpp || echo nlohmann-json3-dev
   module muparser || echo libmuparser-dev
@@ -103,7 +109,6 @@ missing() {
     have mpifort || echo libopenmpi-dev
     # Optional to build; in the tests GeoJSON and shapefiles are read.
     have gdal-config || echo libgdal-dev
-    header hdf5.h || header hdf5/serial/hdf5.h || header hdf5/openmpi/hdf5.h || echo libhdf5-dev
     header CGAL/Constrained_Delaunay_triangulation_2.h || echo libcgal-dev
   fi
   if [ $with_tests = yes ] || [ ${#more_kokkos[@]} -gt 0 ] || no_kokkos; then
