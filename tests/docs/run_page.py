@@ -4,7 +4,7 @@
 
   ```c place.c      a name behind the language: the block is written to that file
   ```sh             with a ```text block right behind it: its commands are run, in the order of the
-  ```text           page, all in one folder, and print exactly this
+  ```text           page, all in one folder, and print this, figures nearly (figures.py)
   ```sh             alone: for the reader, not run
 
 Every named file must be used by a command that is run, and no program may be without a name. The
@@ -21,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 
+from figures import Outputs
 from pages import blocks
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -34,6 +35,7 @@ TOOLS = {
     "julia": "",  # as its users start it: with other options, d may differ in the last bit
     "python3": "-B",
 }
+NOTHING_TO_TEST = 77  # ctest calls it skipped
 PROGRAMS = {
     "c": r"\bint main\(",
     "fortran": r"^\s*end program",
@@ -90,16 +92,15 @@ def missing_tool(commands, path):
     return None
 
 
-def run(block, expected, folder, variables):
+def run(block, expected, outputs, folder, variables):
     """What is wrong with what the commands print, or None; and what they print."""
     done = subprocess.run(["sh", "-e", "-c", block.text], cwd=folder, env=variables, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE)
     if done.returncode != 0:
         return f"exit code {done.returncode}\n{done.stdout}{done.stderr}", expected
-    if done.stdout != expected:
-        return f"expected\n{expected}printed\n{done.stdout}{done.stderr}", done.stdout
-    return None, done.stdout
+    difference = outputs.differ(expected, done.stdout)
+    return difference and difference + done.stderr, done.stdout
 
 
 def with_output(page, block, expected, printed):
@@ -122,14 +123,15 @@ def unused(page, commands):
 
 
 def run_page(prefix, page, update=None):
-    """Lines that tell what is wrong with a page. update(page) gets it as it should be."""
+    """Lines that tell what is wrong with a page, or None where it has nothing that can be run here.
+    update(page) gets it as it should be."""
     found = blocks(page)
     pairs = [(one, other.text) for one, other in zip(found, found[1:])
              if one.language == "sh" and other.language == "text" and other.follows]
     if not pairs:
         return ["nothing on this page is run"]
     wrong = list(unused(found, "".join(one.text for one, _ in pairs)))
-    outputs = []
+    outputs, ran = Outputs(), []
     with tempfile.TemporaryDirectory() as name:
         work = pathlib.Path(name)
         put_tools(work / "tools")
@@ -145,23 +147,25 @@ def run_page(prefix, page, update=None):
             if tool:
                 print(f"line {block.line}: left out, for there is no {tool}")
                 continue
-            difference, printed = run(block, expected, folder, variables)
-            outputs.append((block, expected, printed))
+            difference, printed = run(block, expected, outputs, folder, variables)
+            ran.append((block, expected, printed))
             print(f"line {block.line}: " + ("differs" if difference else "as the page has it"))
             if difference:
                 wrong.append(f"line {block.line}: {difference}")
     if update:
         # From the last one up, so that the lines before stay where they are.
-        for block, expected, printed in reversed(outputs):
+        for block, expected, printed in reversed(ran):
             page = with_output(page, block, expected, printed)
         update(page)
-    return wrong
+    return wrong if wrong or ran else None
 
 
 def main():
     prefix, page = (pathlib.Path(one).resolve() for one in sys.argv[1:3])
     update = page.write_text if "--update" in sys.argv else None
     wrong = run_page(prefix, page.read_text(), update)
+    if wrong is None:
+        sys.exit(NOTHING_TO_TEST)
     print("\n".join(wrong))
     sys.exit(1 if wrong else 0)
 
