@@ -130,10 +130,11 @@ template <int Dim>
 NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements)
     : placement_(placement), comm_(placement.communicator()) {
   prepare(placement, elements);
+  owned_ = placement.count();
   contents_.dimension = Dim;
   contents_.with_elements = elements;
   contents_.names = &placement.domain().names();
-  std::vector<std::int64_t> counts{placement.count(), 0, 0};
+  std::vector<std::int64_t> counts{owned_, 0, 0};
   if (elements) {
     placement.for_elements([&](const auto&) { ++counts[1]; });
     const auto count_facet = [&](const auto&...) { ++counts[2]; };
@@ -150,8 +151,7 @@ NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements)
   contents_.facets = counts[2];
   if (comm_.size() == 1) return;
   const View<std::int64_t> id = placement.level().nodes.id;
-  blocks_.emplace(comm_, placement.count(),
-                  [&](std::int64_t place) { return id(placement.node_at(place)); });
+  blocks_.emplace(comm_, owned_, [&](std::int64_t place) { return id(placement.node_at(place)); });
   std::vector<std::int64_t> numbers;
   for (std::int64_t number = 0; number < contents_.nodes; number += kWindow)
     numbers.push_back(number);
@@ -163,11 +163,10 @@ NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements)
 // The place of this rank's first node in this part or in one behind it.
 template <int Dim>
 std::int64_t NodesById<Dim>::first_place_in(std::size_t part) const {
-  const std::int64_t owned = placement_.count();
-  if (!blocks_) return std::min(static_cast<std::int64_t>(part) * kWindow, owned);
-  if (part >= bounds_.size()) return owned;
+  if (!blocks_) return std::min(static_cast<std::int64_t>(part) * kWindow, owned_);
+  if (part >= bounds_.size()) return owned_;
   const View<std::int64_t> id = placement_.level().nodes.id;
-  const auto places = std::views::iota(std::int64_t{0}, owned);
+  const auto places = std::views::iota(std::int64_t{0}, owned_);
   return *std::ranges::lower_bound(
       places, bounds_[part], {}, [&](std::int64_t place) { return id(placement_.node_at(place)); });
 }
@@ -288,7 +287,7 @@ template <int Dim>
 std::vector<TagGroup> NodesById<Dim>::node_groups() const {
   const Nodes<Dim>& nodes = placement_.level().nodes;
   TagGroups groups;
-  for (std::int64_t place = 0; place < placement_.count(); ++place) {
+  for (std::int64_t place = 0; place < owned_; ++place) {
     const std::int64_t i = placement_.node_at(place);
     const Point<Dim> x = nodes.position(i);
     groups.add<Dim>(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});

@@ -44,6 +44,7 @@ class NodesById : public NodeSource {
 
   const PlacementOf<Dim>& placement_;
   const Communicator& comm_;
+  std::int64_t owned_ = 0;  // nodes of this rank
   // More ranks than one know nodes of others by their ids; one alone by their places, which are
   // the numbers.
   std::optional<IdBlocks> blocks_;

@@ -207,6 +207,7 @@ class Placement {
   std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1, quality_version_ = -1,
                exchange_version_ = -1;
   std::vector<std::int32_t> by_id_, place_;
+  std::int64_t owned_in_order_ = 0;  // of by_id_, the first ones
   std::shared_ptr<const ExchangePattern> exchange_pattern_;
   GhostUpdate ghost_update_;
   GhostSum ghost_sum_;

@@ -61,7 +61,8 @@ class PlacementOf : public Placement {
   Estimate estimate() override;
 
   bool has_nodes() const override { return level_ != nullptr; }
-  std::int64_t count() const override { return level_ ? level_->owned_count() : 0; }
+  // Counts them, unless the order of nodes has.
+  std::int64_t count() const override;
   NodeColumns nodes() const override;
   const Level<Dim>& level() const { return *level_; }
   const Domain<Dim>& domain() const { return *domain_; }

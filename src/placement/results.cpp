@@ -53,6 +53,12 @@ std::int64_t Placement::global_count() const {
 }
 
 template <int Dim>
+std::int64_t PlacementOf<Dim>::count() const {
+  if (!level_) return 0;
+  return order_version_ == level_->version() ? owned_in_order_ : level_->owned_count();
+}
+
+template <int Dim>
 void PlacementOf<Dim>::prepare_order() {
   require_kokkos();
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
@@ -62,6 +68,7 @@ void PlacementOf<Dim>::prepare_order() {
   by_id_.clear();
   by_id_.reserve(static_cast<std::size_t>(nodes.count));
   append_by_id(nodes, true, by_id_);
+  owned_in_order_ = std::ssize(by_id_);
   append_by_id(nodes, false, by_id_);
   place_.resize(by_id_.size());
   for (std::size_t p = 0; p < by_id_.size(); ++p)
