@@ -1060,12 +1060,17 @@ PNPBS_API pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t
 /** Writes the nodes of all ranks into one file. The extension is the format:
  *    .vtu   VTK's unstructured grid: nodes with id, tag and spacing; triangles with their quality,
  *           2 r_in / R, or tetrahedra with theirs, 3 r_in / R (without elements: one vertex cell
- *           per node)
+ *           per node). The facets, which are the edges of boundary and inner curves or the
+ *           triangles of boundary and inner surfaces, are in a second grid with their tag,
+ *           mesh_facets.vtu for mesh.vtu: its points are the same nodes. Of surfaces alone the
+ *           triangles are the cells of mesh.vtu, and there is no second grid, nor beside streams
+ *           and devices
  *    .pvtu  the same as a file that names one piece per rank, written by that rank beside it:
  *           mesh_0.vtu, mesh_1.vtu, ... for mesh.pvtu. Nodes of other ranks that a piece's elements
  *           need are in it, too, marked by vtkGhostType.
- *    .vtkhdf the same as one file by HDF5, VTK's 1.0; no checkpoint
- *    .xdmf  the same as XDMF 3, which tells of the arrays in a second file of the same name, .h5
+ *    .vtkhdf the same as .vtu as one file by HDF5, VTK's 1.0, and one of facets; no checkpoint
+ *    .xdmf  the same as XDMF 3, which tells of the arrays in a second file of the same name, .h5;
+ *           its grids are called mesh and facets, and points of the plane have two coordinates
  *    .msh   Gmsh's format 4.1: nodes, triangles and the edges of boundary and inner curves, or
  *           tetrahedra and the triangles of boundary and inner surfaces; the tags of these as
  *           physical groups with their names, or "tag_7" (without elements: one point per node).

@@ -14,7 +14,7 @@ namespace {
 
 std::vector<io::FileWish> wishes_of(std::int32_t n, const char* const* paths,
                                     const char* const* formats, const std::int32_t* elements,
-                                    int dimension) {
+                                    const Placement& placement) {
   require_count(n, "n");
   if (n > 0) require_pointer(paths, "paths");
   std::vector<io::FileWish> wishes;
@@ -22,7 +22,7 @@ std::vector<io::FileWish> wishes_of(std::int32_t n, const char* const* paths,
     const std::string at = "[" + std::to_string(k) + "]";
     require_pointer(paths[k], ("paths" + at).c_str());
     const char* format = formats && formats[k] ? formats[k] : "";
-    io::add_wish(paths[k], format, elements && elements[k], dimension, wishes);
+    io::add_wish(paths[k], format, elements && elements[k], placement, wishes);
   }
   return wishes;
 }
@@ -50,8 +50,7 @@ pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     const Computing computing(*object.context);
     const Communicator& comm = object.placement->communicator();
     std::vector<io::FileWish> wishes;
-    agreed(comm,
-           [&] { wishes = wishes_of(n, paths, formats, elements, object.placement->dimension()); });
+    agreed(comm, [&] { wishes = wishes_of(n, paths, formats, elements, *object.placement); });
     require_same_wishes(comm, wishes);
     io::write_files(*object.placement, wishes);
     return PNPBS_OK;

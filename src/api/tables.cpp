@@ -89,7 +89,9 @@ pnpbs_status pnpbs_format_info(int32_t index, const char** name, const char** he
     give(name, format.name);
     give(help, format.help);
     if (binary) *binary = format.binary;
-    if (elements) *elements = format.elements == io::Elements::on_request;
+    if (elements)
+      *elements =
+          format.elements == io::Elements::on_request || format.elements == io::Elements::grid;
     return PNPBS_OK;
   });
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "base/extension.hpp"
 #include "base/small_letters.hpp"
@@ -12,13 +13,13 @@ namespace {
 
 constexpr std::array table{
     Format{"vtu", "VTK unstructured grid: nodes, elements, id, tag, spacing, quality", true,
-           Elements::on_request, false, false, write_vtu},
-    Format{"pvtu", "the same as one .vtu piece per rank beside it", false, Elements::on_request,
-           false, false, nullptr},
-    Format{"vtkhdf", "the same as one VTKHDF file; needs HDF5", true, Elements::on_request, false,
-           true, write_vtkhdf},
+           Elements::grid, false, false, write_vtu},
+    Format{"pvtu", "the same as one .vtu piece per rank beside it", false, Elements::grid, false,
+           false, nullptr},
+    Format{"vtkhdf", "the same as one VTKHDF file; needs HDF5", true, Elements::grid, false, true,
+           write_vtkhdf},
     Format{"xdmf", "the same as XDMF 3 with its arrays in a .h5 file beside it; needs HDF5", false,
-           Elements::on_request, false, true, write_xdmf},
+           Elements::grid, false, true, write_xdmf},
     Format{"msh", "Gmsh's format 4.1: nodes, elements, facets of the boundary; named groups", false,
            Elements::on_request, false, false, write_msh},
     Format{"msh2", "Gmsh's format 2.2, for programs that do not read 4.1", false,
@@ -36,11 +37,19 @@ constexpr std::array table{
 constexpr Format heavy_data{"h5", "arrays of a .xdmf file", true, Elements::on_request, false,
                             true, write_heavy_data};
 
+const std::string kFacets = "_facets";
+
 }  // namespace
 
 std::span<const Format> formats() { return table; }
 
 const Format& heavy_data_format() { return heavy_data; }
+
+std::string facets_path(const std::string& path) {
+  const std::filesystem::path whole(path);
+  return (whole.parent_path() / (whole.stem().string() + kFacets + whole.extension().string()))
+      .string();
+}
 
 std::string list_of_formats() {
   std::string list;

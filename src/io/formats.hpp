@@ -11,7 +11,8 @@
 
 namespace pnpbs::io {
 
-enum class Elements { never, on_request, beside, always };  // beside: in files beside
+// beside: in files beside. grid: in the file, and the facets in one beside it.
+enum class Elements { never, on_request, grid, beside, always };
 
 struct Format {
   const char* name;  // also the extension, without its dot
@@ -30,6 +31,7 @@ std::string list_of_formats();
 // Of the file of arrays beside a .xdmf file, which nobody asks for by itself.
 const Format& heavy_data_format();
 std::string heavy_data_path(const std::string& path);  // of the .xdmf file
+std::string facets_path(const std::string& path);      // of the file of facets beside a grid's
 
 // nullptr if there is none.
 const Format* format_by_name(std::string_view name);
@@ -46,8 +48,7 @@ void write_msh(const NodeSource& nodes, SharedFile& file);
 void write_msh2(const NodeSource& nodes, SharedFile& file);
 void write_csv(const NodeSource& nodes, SharedFile& file);
 
-// The file that names the pieces. Collective. elements: as the pieces have them.
-void write_pvtu(const std::vector<std::string>& pieces, int dimension, bool elements,
-                SharedFile& file);
+// The file that names the pieces. Collective. like: what any of them holds.
+void write_pvtu(const std::vector<std::string>& pieces, const Contents& like, SharedFile& file);
 
 }  // namespace pnpbs::io

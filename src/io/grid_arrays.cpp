@@ -8,6 +8,7 @@ namespace pnpbs::io {
 namespace {
 
 constexpr std::uint8_t vtk_vertex = 1;
+constexpr std::uint8_t vtk_line = 3;
 constexpr std::uint8_t vtk_triangle = 5;
 constexpr std::uint8_t vtk_tetrahedron = 10;
 
@@ -26,7 +27,7 @@ GridArray of_nodes(const std::string& name, const Contents& all,
           }};
 }
 
-// The same of the elements, so many values each.
+// The same of the elements, and of the facets, so many values each.
 template <typename Value>
 GridArray of_elements(const std::string& name, const Contents& all,
                       std::vector<Value> ElementRows::*member, int values) {
@@ -36,18 +37,13 @@ GridArray of_elements(const std::string& name, const Contents& all,
           }};
 }
 
-// An array of the elements, and behind it, in space, that of the boundary's facets.
 template <typename Value>
-GridArray with_facets(const GridArray& elements, const Contents& all,
-                      std::vector<Value> FacetRows::*member, int values) {
-  if (all.dimension == 2) return elements;
-  GridArray both = elements;
-  both.rows += all.facets * values;
-  both.write = [first = elements.write, member](const NodeSource& nodes, SharedFile& file) {
-    first(nodes, file);
-    nodes.for_facets([&](const FacetRows& rows) { append_array(file, rows.*member); });
-  };
-  return both;
+GridArray of_facets(const std::string& name, const Contents& all,
+                    std::vector<Value> FacetRows::*member, int values) {
+  return {name, number_type<Value>(), all.facets * values, 1,
+          [member](const NodeSource& nodes, SharedFile& file) {
+            nodes.for_facets([&](const FacetRows& rows) { append_array(file, rows.*member); });
+          }};
 }
 
 // Values that follow from their number alone; the ranks take turns.
@@ -67,52 +63,45 @@ GridArray computed(const std::string& name, std::int64_t count, At at) {
           }};
 }
 
-// The corners of so many cells.
-auto corners_before(const Contents& all) {
-  return
-      [corners = all.with_elements ? all.element_corners() : 1, facet_corners = all.facet_corners(),
-       elements = all.with_elements ? all.elements : all.nodes](std::int64_t cells) {
-        const std::int64_t before = std::min(cells, elements);
-        return corners * before + facet_corners * (cells - before);
-      };
+std::uint8_t vtk_type(const Contents& all) {
+  constexpr std::array<std::uint8_t, 5> of_corners{0, vtk_vertex, vtk_line, vtk_triangle,
+                                                   vtk_tetrahedron};
+  return of_corners[static_cast<std::size_t>(all.cell_corners())];
 }
 
 }  // namespace
 
-std::int64_t cells_of(const Contents& all) {
-  if (!all.with_elements) return all.nodes;
-  return all.elements + (all.dimension == 3 ? all.facets : 0);
-}
-
+// Beside a grid of the elements, which has the rest.
 std::vector<GridArray> point_data(const Contents& all) {
-  std::vector<GridArray> data{of_nodes("id", all, &NodeRows::ids),
-                              of_nodes("tag", all, &NodeRows::tags),
-                              of_nodes("spacing", all, &NodeRows::spacing)};
+  std::vector<GridArray> data{of_nodes("id", all, &NodeRows::ids)};
+  if (!all.is_beside) {
+    data.push_back(of_nodes("tag", all, &NodeRows::tags));
+    data.push_back(of_nodes("spacing", all, &NodeRows::spacing));
+  }
   if (all.is_piece) data.push_back(of_nodes("vtkGhostType", all, &NodeRows::ghosts));
   return data;
 }
 
-// In space, elements have the tag 0.
+// The tag comes first, where DOLFINx expects it.
 std::vector<GridArray> cell_data(const Contents& all) {
-  std::vector<GridArray> data{with_facets(of_elements("quality", all, &ElementRows::quality, 1),
-                                          all, &FacetRows::quality, 1)};
-  if (all.dimension == 3)
-    data.push_back(with_facets(
-        computed<std::int32_t>("tag", all.elements, [](std::int64_t) { return std::int32_t{0}; }),
-        all, &FacetRows::tags, 1));
+  if (all.cells == Cells::nodes) return {};
+  if (all.cells == Cells::elements) return {of_elements("quality", all, &ElementRows::quality, 1)};
+  std::vector<GridArray> data{of_facets("tag", all, &FacetRows::tags, 1)};
+  if (all.dimension == 3) data.push_back(of_facets("quality", all, &FacetRows::quality, 1));
   return data;
 }
 
-GridArray point_array(const Contents& all) {
-  return {"Points", NumberType::real, all.nodes, 3,
-          [dimension = static_cast<std::size_t>(all.dimension)](const NodeSource& nodes,
-                                                                SharedFile& file) {
+GridArray point_array(const Contents& all, int coordinates) {
+  return {"Points", NumberType::real, all.nodes, coordinates,
+          [dimension = static_cast<std::size_t>(all.dimension),
+           size = static_cast<std::size_t>(coordinates) * sizeof(double)](const NodeSource& nodes,
+                                                                          SharedFile& file) {
             nodes.for_nodes([&](const NodeRows& rows) {
               file.append([&](Sink& sink) {
                 for (std::size_t i = 0; i < rows.ids.size(); ++i) {
                   std::array<double, 3> point{};
                   std::copy_n(&rows.x[dimension * i], dimension, point.data());
-                  sink.bytes(point.data(), sizeof point);
+                  sink.bytes(point.data(), size);
                 }
               });
             });
@@ -120,31 +109,28 @@ GridArray point_array(const Contents& all) {
 }
 
 GridArray corner_array(const Contents& all) {
-  if (!all.with_elements)
-    return computed<std::int64_t>("connectivity", all.nodes, [](std::int64_t i) { return i; });
-  return with_facets(of_elements("connectivity", all, &ElementRows::corners, all.element_corners()),
-                     all, &FacetRows::corners, all.facet_corners());
+  const std::string name = "connectivity";
+  const int corners = all.cell_corners();
+  if (all.cells == Cells::elements) return of_elements(name, all, &ElementRows::corners, corners);
+  if (all.cells == Cells::facets) return of_facets(name, all, &FacetRows::corners, corners);
+  return computed<std::int64_t>(name, all.nodes, [](std::int64_t i) { return i; });
 }
 
 GridArray cell_ends(const Contents& all) {
   return computed<std::int64_t>(
-      "offsets", cells_of(all),
-      [before = corners_before(all)](std::int64_t i) { return before(i + 1); });
+      "offsets", all.cell_count(),
+      [corners = all.cell_corners()](std::int64_t i) { return corners * (i + 1); });
 }
 
 GridArray cell_bounds(const Contents& all) {
-  return computed<std::int64_t>("offsets", cells_of(all) + 1, corners_before(all));
+  return computed<std::int64_t>(
+      "offsets", all.cell_count() + 1,
+      [corners = all.cell_corners()](std::int64_t i) { return corners * i; });
 }
 
 GridArray cell_types(const Contents& all) {
-  const std::uint8_t element = !all.with_elements   ? vtk_vertex
-                               : all.dimension == 2 ? vtk_triangle
-                                                    : vtk_tetrahedron;
-  return computed<std::uint8_t>(
-      "types", cells_of(all),
-      [element, elements = all.with_elements ? all.elements : all.nodes](std::int64_t i) {
-        return i < elements ? element : vtk_triangle;
-      });
+  return computed<std::uint8_t>("types", all.cell_count(),
+                                [type = vtk_type(all)](std::int64_t) { return type; });
 }
 
 }  // namespace pnpbs::io

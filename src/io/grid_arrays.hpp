@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file of an unstructured grid holds of the nodes: its arrays, and how each is written. In
-// space the facets of the boundary are cells, too, behind the elements.
+// What a file of an unstructured grid holds of the nodes: its arrays, and how each is written.
 #pragma once
 
 #include <algorithm>
@@ -26,14 +25,12 @@ struct GridArray {
   std::uint64_t bytes() const { return static_cast<std::uint64_t>(rows * columns) * size_of(type); }
 };
 
-std::int64_t cells_of(const Contents& all);
-
 std::vector<GridArray> point_data(const Contents& all);
-std::vector<GridArray> cell_data(const Contents& all);  // of grids with elements
-GridArray point_array(const Contents& all);             // x, y, z
+std::vector<GridArray> cell_data(const Contents& all);
+// x, y and z, or so many of them.
+GridArray point_array(const Contents& all, int coordinates = 3);
 
-// The numbers of the cells' corners, one cell behind the other. Without elements each node is a
-// cell of its own.
+// The numbers of the cells' corners, one cell behind the other.
 GridArray corner_array(const Contents& all);
 // Where in them each cell ends; or, with one more, where each begins and the last one ends.
 GridArray cell_ends(const Contents& all);

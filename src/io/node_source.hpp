@@ -14,14 +14,26 @@
 
 namespace pnpbs::io {
 
+// What the cells of a grid are. Those of one file are all of one kind, since many programs read no
+// others.
+enum class Cells { nodes, elements, facets };
+
 // What all ranks hold together. Nodes, elements and facets are numbered through, from 0.
 struct Contents {
   int dimension = 2;
   bool is_piece = false;       // one of many, which stands for itself and knows ghosts
   bool with_elements = false;  // and facets?
+  Cells cells = Cells::nodes;  // of surfaces alone, which have no elements, the facets
+  bool is_beside = false;      // a grid of the facets beside that of the elements
   std::int64_t nodes = 0, elements = 0, facets = 0;
   const GroupNames* names = nullptr;  // of tags; none of pieces
 
+  int cell_corners() const {
+    return cells == Cells::nodes ? 1 : cells == Cells::elements ? dimension + 1 : dimension;
+  }
+  std::int64_t cell_count() const {
+    return cells == Cells::nodes ? nodes : cells == Cells::elements ? elements : facets;
+  }
   int element_corners() const { return dimension + 1; }
   int facet_corners() const { return dimension; }
 };
@@ -74,6 +86,31 @@ class NodeSource {
 
  protected:
   Contents contents_;
+};
+
+// The facets of another source, for a grid beside that of its elements; their corners are numbered
+// as there.
+class FacetsBeside : public NodeSource {
+ public:
+  // That outlives this.
+  explicit FacetsBeside(const NodeSource& of) : of_(of) {
+    contents_ = of.contents();
+    contents_.cells = Cells::facets;
+    contents_.is_beside = true;
+  }
+
+  void for_nodes(const std::function<void(const NodeRows&)>& visit) const override {
+    of_.for_nodes(visit);
+  }
+  void for_elements(const std::function<void(const ElementRows&)>& visit) const override {
+    of_.for_elements(visit);
+  }
+  void for_facets(const std::function<void(const FacetRows&)>& visit) const override {
+    of_.for_facets(visit);
+  }
+
+ private:
+  const NodeSource& of_;
 };
 
 }  // namespace pnpbs::io

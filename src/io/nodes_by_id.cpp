@@ -133,6 +133,7 @@ NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements)
   owned_ = placement.count();
   contents_.dimension = Dim;
   contents_.with_elements = elements;
+  contents_.cells = cells_of(placement, elements);
   contents_.names = &placement.domain().names();
   std::vector<std::int64_t> counts{owned_, 0, 0};
   if (elements) {

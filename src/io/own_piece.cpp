@@ -15,18 +15,21 @@ OwnPiece<Dim>::OwnPiece(const PlacementOf<Dim>& placement, bool elements)
   contents_.dimension = Dim;
   contents_.is_piece = true;
   contents_.with_elements = elements;
+  contents_.cells = cells_of(placement, elements);
   if (elements) {
     placement.for_elements([&](const auto& places) {
       ++contents_.elements;
       for (const std::int64_t place : places) know(place);
     });
+    const auto add = [&](const auto& places, auto...) {
+      ++contents_.facets;
+      for (const std::int64_t place : places) know(place);
+    };
     if constexpr (Dim == 3) {
-      const auto add = [&](const auto& places, auto...) {
-        ++contents_.facets;
-        for (const std::int64_t place : places) know(place);
-      };
       placement.for_open_facets(add);
       placement.for_inner_facets(add);
+    } else {
+      placement.for_boundary_facets(add);
     }
   }
   contents_.nodes = owned_ + static_cast<std::int64_t>(ghosts_.size());
@@ -83,19 +86,22 @@ void OwnPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>& 
   });
 }
 
-// In the plane, pieces have none.
 template <int Dim>
 void OwnPiece<Dim>::for_facets(const std::function<void(const FacetRows&)>& visit) const {
-  if constexpr (Dim == 3) {
+  FacetRows rows;
+  const auto add = [&](const auto& places, std::int32_t tag) {
+    for (const std::int64_t place : places) rows.corners.push_back(number(place));
+    rows.tags.push_back(tag);
+    rows.quality.push_back(facet_quality(placement_, places));
+  };
+  if constexpr (Dim == 2) {
+    placement_.for_boundary_facets(add);
+    visit(rows);
+  } else {
     std::int64_t before = 0;
     for_windows([&](std::int64_t begin, std::int64_t end) {
-      FacetRows rows;
+      rows = FacetRows();
       rows.first = before;
-      const auto add = [&](const auto& places, std::int32_t tag) {
-        for (const std::int64_t place : places) rows.corners.push_back(number(place));
-        rows.tags.push_back(tag);
-        rows.quality.push_back(facet_quality(placement_, places));
-      };
       placement_.for_boundary_facets(begin, end, add);
       placement_.for_inner_facets(begin, end, add);
       before += static_cast<std::int64_t>(rows.tags.size());

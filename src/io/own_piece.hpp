@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One rank's own nodes and elements and, in space, facets of the boundary, with the ghosts that
-// these need; numbered by itself.
+// One rank's own nodes, elements and facets, with the ghosts that these need; numbered by itself.
 #pragma once
 
 #include "io/node_source.hpp"

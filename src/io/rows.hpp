@@ -38,6 +38,12 @@ float facet_quality(const PlacementOf<Dim>& placement, const std::array<std::int
     return 0;
 }
 
+template <int Dim>
+Cells cells_of(const PlacementOf<Dim>& placement, bool elements) {
+  if (!elements) return Cells::nodes;
+  return placement.surfaces_alone() ? Cells::facets : Cells::elements;
+}
+
 // Makes ready what for_elements and for_facets need, or only the order. Collective.
 void prepare(Placement& placement, bool elements);
 

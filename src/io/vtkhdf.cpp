@@ -16,9 +16,8 @@ namespace {
 std::vector<PlacedArray> vtk_arrays(const Contents& all) {
   const std::string vtk = "/VTKHDF/";
   std::vector<PlacedArray> arrays = placed_in(vtk + "PointData", point_data(all));
-  if (all.with_elements)
-    for (PlacedArray& array : placed_in(vtk + "CellData", cell_data(all)))
-      arrays.push_back(std::move(array));
+  for (PlacedArray& array : placed_in(vtk + "CellData", cell_data(all)))
+    arrays.push_back(std::move(array));
   arrays.push_back({vtk + "Points", point_array(all)});
   arrays.push_back({vtk + "Connectivity", corner_array(all)});
   arrays.push_back({vtk + "Offsets", cell_bounds(all)});
@@ -31,9 +30,9 @@ std::vector<PlacedArray> vtk_arrays(const Contents& all) {
 void write_vtkhdf(const NodeSource& nodes, SharedFile& file) {
   const Contents& all = nodes.contents();
   write_by_hdf5(nodes, file, vtk_arrays(all), [&](hdf5::NewFile& made) {
-    begin_vtk_grid(made, all.nodes, cells_of(all), corner_array(all).rows);
-    made.set("/VTKHDF/PointData", "Scalars", std::string("spacing"));
-    if (all.with_elements) made.add_group("/VTKHDF/CellData");
+    begin_vtk_grid(made, all.nodes, all.cell_count(), corner_array(all).rows);
+    if (!all.is_beside) made.set("/VTKHDF/PointData", "Scalars", std::string("spacing"));
+    if (all.cells != Cells::nodes) made.add_group("/VTKHDF/CellData");
   });
 }
 

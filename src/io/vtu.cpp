@@ -22,7 +22,7 @@ struct Part {
 
 std::vector<Part> parts_of(const Contents& all) {
   std::vector<Part> parts{{"PointData", point_data(all)}};
-  if (all.with_elements) parts.push_back({"CellData", cell_data(all)});
+  if (all.cells != Cells::nodes) parts.push_back({"CellData", cell_data(all)});
   parts.push_back({"Points", {point_array(all)}});
   parts.push_back({"Cells", {corner_array(all), cell_ends(all), cell_types(all)}});
   return parts;
@@ -46,12 +46,20 @@ std::string name_of(NumberType type) {
   return "";
 }
 
+// The array that viewers show first.
+std::string scalars_of(const Part& part) {
+  if (part.name != "PointData" && part.name != "CellData") return "";
+  for (const GridArray& array : part.arrays)
+    if (array.name == "spacing" || (array.name == "tag" && part.name == "CellData"))
+      return " Scalars=\"" + array.name + "\"";
+  return "";
+}
+
 std::string declaration(const std::vector<Part>& parts) {
   std::string text;
   std::uint64_t offset = 0;
   for (const Part& part : parts) {
-    text +=
-        "      <" + part.name + (part.name == "PointData" ? " Scalars=\"spacing\"" : "") + ">\n";
+    text += "      <" + part.name + scalars_of(part) + ">\n";
     for (const GridArray& array : part.arrays) {
       text += "        <DataArray type=\"" + name_of(array.type) + "\" Name=\"" + array.name + "\"";
       if (array.columns > 1)
@@ -78,7 +86,7 @@ void write_vtu(const NodeSource& nodes, SharedFile& file) {
   file.append_text(opening("UnstructuredGrid") +
                    "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
                    std::to_string(nodes.contents().nodes) + "\" NumberOfCells=\"" +
-                   std::to_string(cells_of(nodes.contents())) + "\">\n" + declaration(parts) +
+                   std::to_string(nodes.contents().cell_count()) + "\">\n" + declaration(parts) +
                    "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
   for (const Part& part : parts) {
     for (const GridArray& array : part.arrays) {
@@ -92,16 +100,11 @@ void write_vtu(const NodeSource& nodes, SharedFile& file) {
   file.append_text("\n  </AppendedData>\n</VTKFile>\n");
 }
 
-void write_pvtu(const std::vector<std::string>& pieces, int dimension, bool elements,
-                SharedFile& file) {
+void write_pvtu(const std::vector<std::string>& pieces, const Contents& like, SharedFile& file) {
   std::string text = opening("PUnstructuredGrid") + "  <PUnstructuredGrid GhostLevel=\"0\">\n";
-  Contents declared;  // nothing, but with all the arrays that pieces have
-  declared.dimension = dimension;
-  declared.with_elements = elements;
-  declared.is_piece = true;
-  for (const Part& part : parts_of(declared)) {
+  for (const Part& part : parts_of(like)) {
     if (part.name == "Cells") continue;  // a reader knows what they look like
-    text += "    <P" + part.name + (part.name == "PointData" ? " Scalars=\"spacing\"" : "") + ">\n";
+    text += "    <P" + part.name + scalars_of(part) + ">\n";
     for (const GridArray& array : part.arrays)
       text += "      <PDataArray type=\"" + name_of(array.type) + "\" Name=\"" + array.name +
               "\" NumberOfComponents=\"" + std::to_string(array.columns) + "\"/>\n";

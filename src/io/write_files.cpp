@@ -50,12 +50,37 @@ void require_hdf5_for(const std::vector<FileWish>& wishes, const Communicator& c
 }
 
 // XDMF names a file and what is in it with a colon between.
-void add_heavy_data(const std::string& path, bool elements, std::vector<FileWish>& wishes) {
+// DOLFINx takes the file of arrays for one of the same name.
+void add_heavy_data(const FileWish& of, std::vector<FileWish>& wishes) {
+  const std::string& path = of.path;
   const std::string heavy = heavy_data_path(path);
   if (std::filesystem::path(heavy).filename().string().find(':') != std::string::npos)
     refuse("XDMF cannot tell of a file with ':' in its name, as '" + heavy +
            "' would have beside '" + path + "': choose another name");
-  wishes.push_back({heavy, &heavy_data_format(), elements});
+  wishes.push_back({heavy, &heavy_data_format(), of.elements, of.facets});
+}
+
+void require_possible(const std::string& path, const Format& format, bool elements, int dimension) {
+  if (format.bodies_only && dimension == 2)
+    refuse(std::string("a .") + format.name + " file is of bodies, none of the plane: '" + path +
+           "'");
+  if (!format.write && path == "-")
+    refuse("a file in pieces cannot go to standard output; take vtu instead of pvtu");
+  if (format.by_hdf5) require_places(path, format);
+  if (elements && format.elements == Elements::never)
+    refuse(std::string("a .") + format.name + " file has no place for elements: '" + path + "'");
+  if (elements && format.elements == Elements::beside && path == "-")
+    refuse("elements would go to a second file beside standard output: ask for ele there");
+}
+
+bool has_elements(const Placement& placement) {
+  return in_its_dimension(placement, [](const auto& in) { return !in.surfaces_alone(); });
+}
+
+// Not for streams and devices, which have no files beside them.
+bool has_room_beside(const std::string& path) {
+  std::error_code error;
+  return path != "-" && !path.starts_with("/dev/") && !std::filesystem::is_other(path, error);
 }
 
 // The files of one call.
@@ -96,7 +121,10 @@ class Writing {
     std::optional<NodesById<Dim>>& nodes = wish.elements ? with_elements_ : nodes_only_;
     if (!nodes) nodes.emplace(placement_, wish.elements);
     SharedFile& file = open(comm(), wish.path);
-    wish.format->write(*nodes, file);
+    if (wish.facets)
+      wish.format->write(FacetsBeside(*nodes), file);
+    else
+      wish.format->write(*nodes, file);
     file.close();
   }
 
@@ -105,8 +133,15 @@ class Writing {
     prepare(placement_, wish.elements);
     agreed(*comm(), [&] {
       const OwnPiece<Dim> piece(placement_, wish.elements);
+      like_ = piece.contents();
       SharedFile& file = open(serial_communicator(), piece_path(wish.path, comm()->rank()));
-      write_vtu(piece, file);
+      if (wish.facets) {
+        const FacetsBeside facets(piece);
+        like_ = facets.contents();
+        write_vtu(facets, file);
+      } else {
+        write_vtu(piece, file);
+      }
       file.close();
     });
   }
@@ -115,7 +150,7 @@ class Writing {
     std::vector<std::string> pieces;
     for (int rank = 0; rank < comm()->size(); ++rank) pieces.push_back(piece_path(wish.path, rank));
     SharedFile& file = open(comm(), wish.path);
-    write_pvtu(pieces, Dim, wish.elements, file);
+    write_pvtu(pieces, like_, file);
     file.close();
   }
 
@@ -130,33 +165,31 @@ class Writing {
   const std::int64_t nodes_ = placement_.global_count();
   std::size_t expected_, done_ = 0;
   std::optional<NodesById<Dim>> with_elements_, nodes_only_;
+  Contents like_;  // of this rank's piece
   std::vector<std::unique_ptr<SharedFile>> files_;
 };
 
 }  // namespace
 
-void add_wish(const std::string& path, const std::string& format_name, bool elements, int dimension,
-              std::vector<FileWish>& wishes) {
+void add_wish(const std::string& path, const std::string& format_name, bool elements,
+              const Placement& placement, std::vector<FileWish>& wishes) {
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
-  if (format.bodies_only && dimension == 2)
-    refuse(std::string("a .") + format.name + " file is of bodies, none of the plane: '" + path +
-           "'");
-  if (!format.write && path == "-")
-    refuse("a file in pieces cannot go to standard output; take vtu instead of pvtu");
-  if (format.by_hdf5) require_places(path, format);
-  if (elements && format.elements == Elements::never)
-    refuse(std::string("a .") + format.name + " file has no place for elements: '" + path + "'");
-  const bool beside = elements && format.elements == Elements::beside;
-  if (beside && path == "-")
-    refuse("elements would go to a second file beside standard output: ask for ele there");
+  require_possible(path, format, elements, placement.dimension());
   const bool holds_elements =
-      format.elements == Elements::always || (elements && format.elements == Elements::on_request);
-  wishes.push_back({path, &format, holds_elements});
-  if (format.write == write_xdmf) add_heavy_data(path, holds_elements, wishes);
-  if (!beside) return;
+      format.elements == Elements::always ||
+      (elements && (format.elements == Elements::on_request || format.elements == Elements::grid));
+  std::vector<FileWish> grids{{path, &format, holds_elements}};
+  if (elements && format.elements == Elements::grid && has_elements(placement) &&
+      has_room_beside(path))
+    grids.push_back({facets_path(path), &format, true, true});
+  for (const FileWish& grid : grids) {
+    wishes.push_back(grid);
+    if (format.write == write_xdmf) add_heavy_data(grid, wishes);
+  }
+  if (!elements || format.elements != Elements::beside) return;
   wishes.push_back({with_extension(path, "ele"), format_by_name("ele"), true});
-  if (dimension == 3)
+  if (placement.dimension() == 3)
     wishes.push_back({with_extension(path, "face"), format_by_name("face"), true});
 }
 

@@ -14,13 +14,14 @@ struct FileWish {
   std::string path;
   const Format* format;
   bool elements;
+  bool facets = false;  // of a grid, in a file beside that of its elements
 };
 
-// What is wanted of one file: in its format by name, or by extension if that is empty. Where the
-// elements are in files beside it, these are wishes of their own. Throws
+// What is wanted of one file of a placement: in its format by name, or by extension if that is
+// empty. Where elements or facets are in files beside it, these are wishes of their own. Throws
 // Error(ErrorKind::argument).
-void add_wish(const std::string& path, const std::string& format, bool elements, int dimension,
-              std::vector<FileWish>& wishes);
+void add_wish(const std::string& path, const std::string& format, bool elements,
+              const Placement& placement, std::vector<FileWish>& wishes);
 
 // Names of the pieces of a .pvtu file.
 std::string piece_path(const std::string& path, int rank);

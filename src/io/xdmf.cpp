@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // XDMF 3 (https://www.xdmf.org): a small file of XML that tells what the arrays mean which lie in a
-// file by HDF5 beside it, those of the .vtu file. In space, where tetrahedra and triangles are
-// mixed, each cell's corners follow the number of its kind.
+// file by HDF5 beside it, those of the .vtu file. Points of the plane have two coordinates, by
+// which DOLFINx knows it.
 #include <filesystem>
-#include <span>
 
 #include "io/formats.hpp"
 #include "io/grid_arrays.hpp"
@@ -14,47 +13,12 @@ namespace pnpbs::io {
 
 namespace {
 
-constexpr std::int64_t kXdmfTriangle = 4, kXdmfTetrahedron = 6;
-
-// The corners of `count` cells, each cell's behind the number of its kind.
-void append_kind_and_corners(std::int64_t kind, const std::vector<std::int64_t>& corners,
-                             std::size_t each, SharedFile& file) {
-  file.append([&](Sink& sink) {
-    for (std::size_t at = 0; at < corners.size(); at += each) {
-      sink.bytes(&kind, sizeof kind);
-      sink.array(std::span(corners).subspan(at, each));
-    }
-  });
-}
-
-GridArray mixed_cells(const Contents& all) {
-  const auto corners = static_cast<std::size_t>(all.element_corners());
-  const auto facet_corners = static_cast<std::size_t>(all.facet_corners());
-  return {"cells", NumberType::int64,
-          all.elements * (all.element_corners() + 1) + all.facets * (all.facet_corners() + 1), 1,
-          [=](const NodeSource& nodes, SharedFile& file) {
-            nodes.for_elements([&](const ElementRows& rows) {
-              append_kind_and_corners(kXdmfTetrahedron, rows.corners, corners, file);
-            });
-            nodes.for_facets([&](const FacetRows& rows) {
-              append_kind_and_corners(kXdmfTriangle, rows.corners, facet_corners, file);
-            });
-          }};
-}
-
-// Of cells of one kind a row for each.
-GridArray uniform_cells(const Contents& all) {
-  GridArray cells = corner_array(all);
-  cells.columns = all.with_elements ? all.element_corners() : 1;
-  cells.rows /= cells.columns;
-  return cells;
-}
-
-bool is_mixed(const Contents& all) { return all.with_elements && all.dimension == 3; }
-
+// A row for each cell.
 PlacedArray placed_cells(const Contents& all) {
-  if (is_mixed(all)) return {"/cells", mixed_cells(all)};
-  return {"/cells", uniform_cells(all), true};
+  GridArray cells = corner_array(all);
+  cells.columns = all.cell_corners();
+  cells.rows /= cells.columns;
+  return {"/cells", std::move(cells), true};
 }
 
 std::vector<PlacedArray> xdmf_point_data(const Contents& all) {
@@ -62,10 +26,12 @@ std::vector<PlacedArray> xdmf_point_data(const Contents& all) {
 }
 
 std::vector<PlacedArray> xdmf_cell_data(const Contents& all) {
-  return placed_in("/cell_data", all.with_elements ? cell_data(all) : std::vector<GridArray>());
+  return placed_in("/cell_data", cell_data(all));
 }
 
-PlacedArray placed_points(const Contents& all) { return {"/points", point_array(all)}; }
+PlacedArray placed_points(const Contents& all) {
+  return {"/points", point_array(all, all.dimension)};
+}
 
 // ------------------------------------------------------------------ the part in XML ------------
 
@@ -104,11 +70,10 @@ std::string attributes(const std::string& heavy, const std::string& center,
 }
 
 std::string topology(const Contents& all) {
-  const std::string kind = is_mixed(all)       ? "Mixed"
-                           : all.with_elements ? "Triangle"
-                                               : "Polyvertex\" NodesPerElement=\"1";
-  return "      <Topology TopologyType=\"" + kind + "\" NumberOfElements=\"" +
-         std::to_string(cells_of(all)) + "\">\n";
+  const char* const kinds[] = {"", "Polyvertex\" NodesPerElement=\"1",
+                               "Polyline\" NodesPerElement=\"2", "Triangle", "Tetrahedron"};
+  return std::string("      <Topology TopologyType=\"") + kinds[all.cell_corners()] +
+         "\" NumberOfElements=\"" + std::to_string(all.cell_count()) + "\">\n";
 }
 
 }  // namespace
@@ -117,16 +82,19 @@ std::string heavy_data_path(const std::string& path) {
   return std::filesystem::path(path).replace_extension("h5").string();
 }
 
+// DOLFINx finds grids by their names, takes the first attribute for the tags of facets, and PyVista
+// asks for a time.
 void write_xdmf(const NodeSource& nodes, SharedFile& file) {
   const Contents& all = nodes.contents();
   const std::string heavy = std::filesystem::path(heavy_data_path(file.path())).filename().string();
   file.append_text(
-      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
-      "    <Grid Name=\"Grid\" GridType=\"Uniform\">\n" +
-      topology(all) + item(heavy, placed_cells(all)) + "      </Topology>\n" +
-      "      <Geometry GeometryType=\"XYZ\">\n" + item(heavy, placed_points(all)) +
-      "      </Geometry>\n" + attributes(heavy, "Node", xdmf_point_data(all)) +
-      attributes(heavy, "Cell", xdmf_cell_data(all)) + "    </Grid>\n  </Domain>\n</Xdmf>\n");
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n    <Grid Name=\"" +
+      std::string(all.is_beside ? "facets" : "mesh") +
+      "\" GridType=\"Uniform\">\n      <Time Value=\"0\"/>\n" + topology(all) +
+      item(heavy, placed_cells(all)) + "      </Topology>\n" + "      <Geometry GeometryType=\"" +
+      (all.dimension == 2 ? "XY" : "XYZ") + "\">\n" + item(heavy, placed_points(all)) +
+      "      </Geometry>\n" + attributes(heavy, "Cell", xdmf_cell_data(all)) +
+      attributes(heavy, "Node", xdmf_point_data(all)) + "    </Grid>\n  </Domain>\n</Xdmf>\n");
 }
 
 void write_heavy_data(const NodeSource& nodes, SharedFile& file) {
@@ -137,7 +105,7 @@ void write_heavy_data(const NodeSource& nodes, SharedFile& file) {
   arrays.push_back(placed_cells(all));
   write_by_hdf5(nodes, file, arrays, [&](hdf5::NewFile& made) {
     made.add_group("/point_data");
-    if (all.with_elements) made.add_group("/cell_data");
+    if (all.cells != Cells::nodes) made.add_group("/cell_data");
   });
 }
 

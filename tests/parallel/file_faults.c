@@ -16,17 +16,21 @@
 static const char* const asked[] = {"a.vtu", "b.pvtu", "c.csv", "d.node", "e.vtkhdf", "f.xdmf"};
 static const int32_t elements[] = {1, 1, 0, 1, 1, 1};
 static int asked_count = 6;
-static char files[16][20]; /* all that these are */
+static char files[32][20]; /* all that these are */
 static int file_count;
 
 static void list_files(void) {
-  static const char* const fixed[] = {"a.vtu", "b.pvtu",   "c.csv",  "d.node",
-                                      "d.ele", "e.vtkhdf", "f.xdmf", "f.h5"};
+  static const char* const fixed[] = {
+      "a.vtu",    "a_facets.vtu",    "b.pvtu", "b_facets.pvtu", "c.csv", "d.node",     "d.ele",
+      "e.vtkhdf", "e_facets.vtkhdf", "f.xdmf", "f_facets.xdmf", "f.h5",  "f_facets.h5"};
   const int with_hdf5 = strstr(pnpbs_build_info(), "HDF5: none") == NULL;
   if (!with_hdf5) asked_count = 4;
-  for (file_count = 0; file_count < (with_hdf5 ? 8 : 5); ++file_count)
+  for (file_count = 0; file_count < (with_hdf5 ? 13 : 7); ++file_count)
     strcpy(files[file_count], fixed[file_count]);
-  for (int r = 0; r < size; ++r) snprintf(files[file_count++], sizeof *files, "b_%d.vtu", r);
+  for (int r = 0; r < size; ++r) {
+    snprintf(files[file_count++], sizeof *files, "b_%d.vtu", r);
+    snprintf(files[file_count++], sizeof *files, "b_facets_%d.vtu", r);
+  }
 }
 
 /* --- what is in the folder; rank 0 looks -------------------------------------------------------

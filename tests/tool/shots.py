@@ -25,7 +25,8 @@ class ShotTest(RanksTest):
                 "--set", "sweeps=0", *outputs, "--report", "f.json", "--quiet")
 
     def targets(self):
-        return [*self.NAMES, *(f"d_{rank}.vtu" for rank in range(self.RANKS)), "f.json"]
+        pieces = (f"{name}_{rank}.vtu" for name in ("d", "d_facets") for rank in range(self.RANKS))
+        return [*self.NAMES, "a_facets.vtu", "d_facets.pvtu", *pieces, "f.json"]
 
     def lay_old_files(self):
         for name in self.targets():

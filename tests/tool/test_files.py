@@ -49,7 +49,8 @@ class Agreement(CommandTest):
         names = ["a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.csv", "a.svg", "a.png"]
         outputs = [word for name in names for word in ("--output", name)]
         self.place(*outputs, "--report", "a.json", spacing="0.05 + 0.05*x")
-        self.assertEqual(self.files(), sorted([*names, "a_0.vtu", "a.json", "square.poly"]))
+        beside = ["a_0.vtu", "a_facets.vtu", "a_facets.pvtu", "a_facets_0.vtu"]
+        self.assertEqual(self.files(), sorted([*names, *beside, "a.json", "square.poly"]))
         self.report = json.loads((self.folder / "a.json").read_text())
         self.grid = read_with_vtk(self.folder / "a.vtu")
 
@@ -62,6 +63,7 @@ class Agreement(CommandTest):
         self.check_msh("a.msh2", "2.2 0 8")
         self.check_node()
         self.check_ele()
+        self.check_facets()
         self.check_csv()
         self.check_svg()
         self.check_png()
@@ -99,6 +101,21 @@ class Agreement(CommandTest):
         self.assertEqual([block.type for block in mesh.cells], ["triangle"])
         self.assertEqual(len(mesh.cells[0].data), self.grid.GetNumberOfCells())
         numpy.testing.assert_array_equal(mesh.point_data["id"], point_array(self.grid, "id"))
+
+    # The edges of the boundary, as the .msh file has them, by numbers of the same nodes.
+    def check_facets(self):
+        points = vtk_to_numpy(self.grid.GetPoints().GetData())
+        lines, tags = read_msh(self.folder / "a.msh", points)[0]["line"]
+        for name, kind in (("a_facets.vtu", vtk.vtkXMLUnstructuredGridReader),
+                           ("a_facets.pvtu", vtk.vtkXMLPUnstructuredGridReader)):
+            facets = read_with_vtk(self.folder / name, kind)
+            numpy.testing.assert_array_equal(vtk_to_numpy(facets.GetPoints().GetData()), points)
+            numpy.testing.assert_array_equal(point_array(facets, "id"), point_array(self.grid, "id"))
+            self.assertEqual({facets.GetCellType(i) for i in range(len(lines))}, {vtk.VTK_LINE})
+            corners = vtk_to_numpy(facets.GetCells().GetConnectivityArray()).reshape(-1, 2)
+            found = vtk_to_numpy(facets.GetCellData().GetArray("tag"))
+            self.assertEqual(sorted(zip(corners.tolist(), found.tolist())),
+                             sorted(zip(lines.tolist(), tags.tolist())))
 
     def check_pieces(self):
         whole = read_with_vtk(self.folder / "a.pvtu", vtk.vtkXMLPUnstructuredGridReader)

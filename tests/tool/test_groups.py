@@ -214,7 +214,7 @@ class InnerSurfaces(GroupTest):
             x = mesh.points[triangles]
             normals = numpy.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
             self.assertTrue((normals @ numpy.cross(sheet[1] - sheet[0], sheet[2] - sheet[0]) > 0).all())
-            grid = meshio.read(self.folder / "a.vtu")
+            grid = meshio.read(self.folder / "a_facets.vtu")
             self.assertEqual(len(grid.cells_dict["triangle"]), len(mesh.cells_dict["triangle"]))
         # There and back.
         self.fill("a.msh", "-o", "b.msh", spacing="0.1")

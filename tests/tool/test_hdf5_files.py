@@ -4,11 +4,17 @@
 import os
 import subprocess
 import unittest
+import xml.etree.ElementTree
 
 import h5py
 import meshio
 import numpy
 import vtk
+
+try:
+    import pyvista
+except ImportError:
+    pyvista = None
 
 from command import BAD_INPUT, COMMAND, FAILED, CommandTest
 from readers import grid_arrays, read_with_vtk
@@ -16,6 +22,7 @@ from readers import grid_arrays, read_with_vtk
 NO_HDF5 = os.environ.get("PNPBS_NO_HDF5")
 MPIEXEC = os.environ.get("PNPBS_MPIEXEC")
 FILES = ("a.vtkhdf", "a.xdmf", "a.h5")
+FACETS = ("a_facets.vtkhdf", "a_facets.xdmf", "a_facets.h5")
 BOX = ("--domain", "box(0,0,0, 1,0.8,0.6)", "--spacing", "0.15")
 OUTPUTS = ("-o", "a.vtu", "-o", "a.vtkhdf", "-o", "a.xdmf")
 
@@ -30,34 +37,52 @@ class Hdf5Files(CommandTest):
         self.assertEqual(process.returncode, 0, process.stderr.decode())
 
     def contents(self):
-        return {name: (self.folder / name).read_bytes() for name in FILES}
+        return {name: (self.folder / name).read_bytes() for name in self.names}
 
-    def check(self, ask, kinds):
+    # kinds: of the cells of a file, and of one of facets beside it.
+    def check(self, ask, *kinds):
         self.write(*ask, *OUTPUTS)
-        self.assertEqual(self.files(), sorted([*FILES, "a.vtu", "square.poly"]))
-        self.expected = grid_arrays(read_with_vtk(self.folder / "a.vtu"))
-        self.check_vtk("a.vtkhdf", vtk.vtkHDFReader)
-        self.check_vtk("a.xdmf", vtk.vtkXdmfReader)
-        self.check_meshio(kinds)
-        self.check_h5py()
+        self.names = FILES + (FACETS if len(kinds) > 1 else ())
+        vtu = ["a.vtu", "a_facets.vtu"][: len(kinds)]
+        self.assertEqual(self.files(), sorted([*self.names, *vtu, "square.poly"]))
+        for name, kind in zip(("a", "a_facets"), kinds):
+            self.check_grid(name, kind)
         self.check_ranks(ask)
 
-    # VTK's reader of XDMF has numbers of other types, and takes nodes for sets of one node.
+    def check_grid(self, name, kind):
+        self.expected = grid_arrays(read_with_vtk(self.folder / f"{name}.vtu"))
+        self.check_vtk(f"{name}.vtkhdf", vtk.vtkHDFReader)
+        self.check_vtk(f"{name}.xdmf", vtk.vtkXdmfReader)
+        self.check_meshio(name, kind)
+        self.check_pyvista(name)
+        self.check_dolfinx(name, kind)
+        self.check_h5py(name)
+
+    # VTK's reader of XDMF has numbers of other types, and takes nodes and edges for chains.
     def check_vtk(self, name, reader):
         found = grid_arrays(read_with_vtk(self.folder / name, reader))
         self.assertEqual(set(found), set(self.expected))
-        if name == "a.xdmf":
+        if name.endswith(".xdmf"):
             found["types"][found["types"] == vtk.VTK_POLY_VERTEX] = vtk.VTK_VERTEX
+            found["types"][found["types"] == vtk.VTK_POLY_LINE] = vtk.VTK_LINE
         for key, array in self.expected.items():
             with self.subTest(name, key=key):
                 numpy.testing.assert_array_equal(found[key], array)
-                if name == "a.vtkhdf":
+                if name.endswith(".vtkhdf"):
                     self.assertEqual(found[key].dtype, array.dtype)
 
-    def check_meshio(self, kinds):
-        mesh, other = meshio.read(self.folder / "a.xdmf"), meshio.read(self.folder / "a.vtu")
-        self.assertEqual([block.type for block in mesh.cells], kinds)
-        numpy.testing.assert_array_equal(mesh.points, other.points)
+    # meshio knows no time of a grid.
+    def check_meshio(self, name, kind):
+        text = (self.folder / f"{name}.xdmf").read_text()
+        self.assertEqual(text.count('<Time Value="0"/>'), 1)
+        timeless = self.folder / "timeless.xdmf"
+        timeless.write_text(text.replace('<Time Value="0"/>', ""))
+        mesh, other = meshio.read(timeless), meshio.read(self.folder / f"{name}.vtu")
+        timeless.unlink()
+        self.assertEqual([block.type for block in mesh.cells], [kind])
+        dimension = mesh.points.shape[1]
+        numpy.testing.assert_array_equal(mesh.points, other.points[:, :dimension])
+        self.assertFalse(other.points[:, dimension:].any())
         for ours, theirs in zip(mesh.cells, other.cells, strict=True):
             self.assertEqual(ours.type, theirs.type)
             numpy.testing.assert_array_equal(ours.data, theirs.data)
@@ -69,13 +94,42 @@ class Hdf5Files(CommandTest):
             for ours, theirs in zip(mesh.cell_data[name], blocks, strict=True):
                 numpy.testing.assert_array_equal(ours, theirs)
 
-    def check_h5py(self):
-        with h5py.File(self.folder / "a.vtkhdf") as file, h5py.File(self.folder / "a.h5") as heavy:
+    def check_pyvista(self, name):
+        for end in ("vtu", "vtkhdf", "xdmf") if pyvista else ():
+            mesh = pyvista.read(self.folder / f"{name}.{end}")
+            numpy.testing.assert_array_equal(mesh.points, self.expected["points"])
+            self.assertEqual(mesh.n_cells, len(self.expected["types"]))
+
+    # What DOLFINx's XDMFFile asks for: grids by these names, arrays in the file of the same name
+    # with the extension .h5, cells of one kind in a table, and the tags of facets as the first
+    # attribute.
+    def check_dolfinx(self, name, kind):
+        kinds = {"Polyvertex": "vertex", "Polyline": "line", "Triangle": "triangle",
+                 "Tetrahedron": "tetra"}
+        grid, = xml.etree.ElementTree.parse(self.folder / f"{name}.xdmf").findall("Domain/Grid")
+        self.assertEqual(grid.get("Name"), "facets" if name.endswith("_facets") else "mesh")
+        topology, geometry = grid.find("Topology"), grid.find("Geometry")
+        self.assertEqual(kinds[topology.get("TopologyType")], kind)
+        dimension = {"XY": 2, "XYZ": 3}[geometry.get("GeometryType")]
+        with h5py.File(self.folder / f"{name}.h5") as file:
+            for item in grid.iter("DataItem"):
+                heavy, path = item.text.split(":")
+                self.assertEqual(heavy, f"{name}.h5")
+                self.assertEqual(" ".join(map(str, file[path].shape)), item.get("Dimensions"))
+            self.assertEqual(file["points"].shape[1], dimension)
+            self.assertEqual(file["cells"].ndim, 2)
+        if name.endswith("_facets"):
+            self.assertEqual(grid.find("Attribute").get("Name"), "tag")
+
+    def check_h5py(self, name):
+        with (h5py.File(self.folder / f"{name}.vtkhdf") as file,
+              h5py.File(self.folder / f"{name}.h5") as heavy):
             grid = file["VTKHDF"]
             self.assertEqual(list(grid.attrs["Version"]), [1, 0])
             self.assertEqual(grid.attrs["Type"], b"UnstructuredGrid")
             self.assertEqual(list(grid["NumberOfPoints"]), [len(self.expected["points"])])
-            numpy.testing.assert_array_equal(heavy["points"], self.expected["points"])
+            points = numpy.asarray(heavy["points"])
+            numpy.testing.assert_array_equal(points, self.expected["points"][:, : points.shape[1]])
             for (place, name) in (key for key in self.expected if isinstance(key, tuple)):
                 ours, theirs = grid[f"{place.title()}Data/{name}"], heavy[f"{place}_data/{name}"]
                 self.assertEqual(ours.dtype, self.expected[place, name].dtype)
@@ -86,23 +140,23 @@ class Hdf5Files(CommandTest):
     def check_ranks(self, ask):
         expected = self.contents()
         for ranks in (1, 2, 3) if MPIEXEC else (1,):
-            for name in FILES:
+            for name in self.names:
                 (self.folder / name).write_text("old")
             self.write(*ask, *OUTPUTS, ranks=ranks)
             for name, content in self.contents().items():
                 self.assertEqual(content, expected[name], f"{name}, {ranks}")
 
     def test_plane(self):
-        self.check(("--domain", self.square, "--spacing", "0.03 + 0.05*x"), ["triangle"])
+        self.check(("--domain", self.square, "--spacing", "0.03 + 0.05*x"), "triangle", "line")
 
     def test_space(self):
-        self.check(BOX, ["tetra", "triangle"])
+        self.check(BOX, "tetra", "triangle")
 
     def test_nodes_only(self):
-        self.check(("--domain", self.square, "--spacing", "0.1", "--nodes-only"), ["vertex"])
+        self.check(("--domain", self.square, "--spacing", "0.1", "--nodes-only"), "vertex")
 
     def test_nodes_of_a_body_only(self):
-        self.check((*BOX, "--nodes-only"), ["vertex"])
+        self.check((*BOX, "--nodes-only"), "vertex")
 
     # More rows than a rank writes at a time, and than are in a window.
     def test_many_nodes(self):
@@ -113,7 +167,7 @@ class Hdf5Files(CommandTest):
         self.expected = grid_arrays(read_with_vtk(self.folder / "a.vtu"))
         self.assertGreater(len(self.expected["points"]), 20000)
         self.check_vtk("a.vtkhdf", vtk.vtkHDFReader)
-        self.check_meshio(["triangle"])
+        self.check_meshio("a", "triangle")
 
 
 class Refused(CommandTest):

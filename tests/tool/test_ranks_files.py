@@ -13,7 +13,7 @@ from command import LAKE, NOT_CONVERGED
 from ranks import RanksTest
 from readers import point_array, read_with_vtk
 
-SAME_BYTES = ("a.vtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.csv", "a.svg")
+SAME_BYTES = ("a.vtu", "a_facets.vtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.csv", "a.svg")
 
 
 def grid_by_ids(grid):
@@ -30,6 +30,13 @@ def grid_by_ids(grid):
     quality = vtk_to_numpy(grid.GetCellData().GetArray("quality"))
     triangles = [(*row, q) for row, q in zip(corners.tolist(), quality.tolist(), strict=True)]
     return sorted(nodes), sorted(triangles)
+
+
+def facets_by_ids(grid):
+    ids = point_array(grid, "id")
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 2)
+    tags = vtk_to_numpy(grid.GetCellData().GetArray("tag"))
+    return sorted(zip(ids[corners].tolist(), tags.tolist()))
 
 
 class InnerSurfaces(RanksTest):
@@ -63,7 +70,7 @@ class InnerSurfaces(RanksTest):
 
 class SameFiles(RanksTest):
     def outputs(self):
-        names = (*SAME_BYTES, "a.pvtu")
+        names = (*(name for name in SAME_BYTES if "facets" not in name), "a.pvtu")
         return [*(word for name in names for word in ("-o", name)), "--report", "a.json"]
 
     def check(self, spacing, all_ranks):
@@ -73,6 +80,7 @@ class SameFiles(RanksTest):
         expected = {name: (self.folder / name).read_bytes() for name in SAME_BYTES}
         report = json.loads((self.folder / "a.json").read_text())
         grid = grid_by_ids(read_with_vtk(self.folder / "a.vtu"))
+        facets = facets_by_ids(read_with_vtk(self.folder / "a_facets.vtu"))
         for ranks in all_ranks:
             for name in self.files():
                 if name.startswith("a"):
@@ -84,10 +92,13 @@ class SameFiles(RanksTest):
             again = json.loads((self.folder / "a.json").read_text())
             self.assertEqual((again["hash"], again["ranks"]), (report["hash"], ranks))
             pieces = [f"a_{rank}.vtu" for rank in range(ranks)]
-            self.assertEqual(self.files(), sorted([*expected, "a.pvtu", "a.json", "square.poly",
-                                                   *pieces]))
+            self.assertEqual(self.files(), sorted([
+                *expected, "a.pvtu", "a.json", "square.poly", *pieces, "a_facets.pvtu",
+                *(piece.replace("a_", "a_facets_") for piece in pieces)]))
             whole = read_with_vtk(self.folder / "a.pvtu", vtk.vtkXMLPUnstructuredGridReader)
             self.assertEqual(grid_by_ids(whole), grid)
+            self.assertEqual(facets_by_ids(read_with_vtk(
+                self.folder / "a_facets.pvtu", vtk.vtkXMLPUnstructuredGridReader)), facets)
         return [read_with_vtk(self.folder / piece).GetNumberOfPoints() for piece in pieces]
 
     def test_graded(self):

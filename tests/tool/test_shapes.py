@@ -177,7 +177,7 @@ class Shapes(ShapesTest):
                                   "a.vtu", "--output", "a.csv", "--output", "b.node", "--output",
                                   "c.svg")
         self.assertEqual(set(self.files()) - {"land.geojson", "square.poly"},
-                         {"a.vtu", "a.csv", "a.prj", "b.node", "b.prj", "c.svg"})
+                         {"a.vtu", "a_facets.vtu", "a.csv", "a.prj", "b.node", "b.prj", "c.svg"})
         self.assertIn("b.prj", out.decode())
 
     @unittest.skipUnless("PNPBS_MPIEXEC" in os.environ, "without MPI")

@@ -18,17 +18,22 @@ from readers import (point_array, read_csv, read_ele, read_face, read_msh, read_
 PROGRAM = os.environ["PNPBS_WRITE_VOLUMES"]
 MPIEXEC = os.environ.get("PNPBS_MPIEXEC")
 SIZE = numpy.array([1.0, 0.8, 0.6])
-SAME_BYTES = ("a.vtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.face", "a.csv")
+SAME_BYTES = ("a.vtu", "a_facets.vtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.face", "a.csv")
 FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # of a tetrahedron, as seen from outside
 
 
-def cells_of(grid):
-    """Tetrahedra and triangles, and their data."""
-    kinds = numpy.array([grid.GetCellType(i) for i in range(grid.GetNumberOfCells())])
-    numbers = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    count = int((kinds == vtk.VTK_TETRA).sum())
-    assert (kinds[:count] == vtk.VTK_TETRA).all() and (kinds[count:] == vtk.VTK_TRIANGLE).all()
-    return numbers[: 4 * count].reshape(-1, 4), numbers[4 * count :].reshape(-1, 3)
+def cells_of(grid, kind, corners):
+    """The corners of its cells, which are all of one kind."""
+    assert {grid.GetCellType(i) for i in range(grid.GetNumberOfCells())} <= {kind}
+    return vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, corners)
+
+
+def tetrahedra_of(grid):
+    return cells_of(grid, vtk.VTK_TETRA, 4)
+
+
+def triangles_of(grid):
+    return cells_of(grid, vtk.VTK_TRIANGLE, 3)
 
 
 def cell_array(grid, name):
@@ -92,11 +97,12 @@ class Alone(VolumeTest):
     def place(self, body, spacing):
         self.write(body, spacing, "a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.node", "a.csv")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
-                         sorted([*SAME_BYTES, "a.pvtu", "a_0.vtu"]))
+                         sorted([*SAME_BYTES, "a.pvtu", "a_0.vtu", "a_facets.pvtu", "a_facets_0.vtu"]))
         self.vtu = self.grid()
         self.points = vtk_to_numpy(self.vtu.GetPoints().GetData())
-        self.tetrahedra, self.triangles = cells_of(self.vtu)
-        self.tags = cell_array(self.vtu, "tag")[len(self.tetrahedra):]
+        self.facets = self.grid("a_facets.vtu")
+        self.tetrahedra, self.triangles = tetrahedra_of(self.vtu), triangles_of(self.facets)
+        self.tags = cell_array(self.facets, "tag")
         self.assertGreater(len(self.points), 3000)
         self.check_cells()
         self.check_meshio()
@@ -109,26 +115,29 @@ class Alone(VolumeTest):
     def check_cells(self):
         self.assertGreater(volumes(self.points, self.tetrahedra).min(), 0)
         numpy.testing.assert_array_equal(turned(self.triangles), turned(open_faces(self.tetrahedra)))
-        quality = cell_array(self.vtu, "quality")
         expected = tetrahedron_quality(self.points, self.tetrahedra)
-        numpy.testing.assert_allclose(quality[: len(expected)], expected, rtol=1e-4, atol=1e-5)
+        numpy.testing.assert_allclose(cell_array(self.vtu, "quality"), expected, rtol=1e-4,
+                                      atol=1e-5)
         x = self.points[self.triangles]
         a, b, c = (numpy.linalg.norm(x[:, k] - x[:, k - 1], axis=1) for k in range(3))
         expected = 16 * areas(self.points, self.triangles) ** 2 / (a * b * c * (a + b + c))
-        numpy.testing.assert_allclose(quality[len(self.tetrahedra):], expected, rtol=1e-5)
-        self.assertFalse(cell_array(self.vtu, "tag")[: len(self.tetrahedra)].any())
+        numpy.testing.assert_allclose(cell_array(self.facets, "quality"), expected, rtol=1e-5)
         ids = point_array(self.vtu, "id")
+        numpy.testing.assert_array_equal(point_array(self.facets, "id"), ids)
+        numpy.testing.assert_array_equal(vtk_to_numpy(self.facets.GetPoints().GetData()),
+                                         self.points)
         self.assertTrue((numpy.diff(ids) > 0).all())
         on_boundary = numpy.zeros(len(ids), bool)
         on_boundary[self.triangles] = True
         numpy.testing.assert_array_equal(on_boundary, point_array(self.vtu, "tag") != 0)
 
     def check_meshio(self):
-        mesh = meshio.read(self.folder / "a.vtu")
-        self.assertEqual([block.type for block in mesh.cells], ["tetra", "triangle"])
+        mesh, facets = (meshio.read(self.folder / name) for name in ("a.vtu", "a_facets.vtu"))
+        self.assertEqual([block.type for block in mesh.cells], ["tetra"])
         numpy.testing.assert_array_equal(mesh.cells[0].data, self.tetrahedra)
-        numpy.testing.assert_array_equal(mesh.cells[1].data, self.triangles)
-        numpy.testing.assert_array_equal(mesh.cell_data["tag"][1], self.tags)
+        self.assertEqual([block.type for block in facets.cells], ["triangle"])
+        numpy.testing.assert_array_equal(facets.cells[0].data, self.triangles)
+        numpy.testing.assert_array_equal(facets.cell_data["tag"][0], self.tags)
 
     def check_msh(self, name):
         cells, groups = read_msh(self.folder / name, self.points)
@@ -164,6 +173,8 @@ class Alone(VolumeTest):
         numpy.testing.assert_array_equal(vtk_to_numpy(whole.GetPoints().GetData()), self.points)
         self.assertFalse(point_array(whole, "vtkGhostType").any())
         self.assertEqual(whole.GetNumberOfCells(), self.vtu.GetNumberOfCells())
+        facets = self.grid("a_facets.pvtu", vtk.vtkXMLPUnstructuredGridReader)
+        numpy.testing.assert_array_equal(turned(triangles_of(facets)), turned(self.triangles))
 
     def test_box(self):
         self.place("box", 0.06)
@@ -206,7 +217,7 @@ class OverRanks(VolumeTest):
         names = ("a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.node", "a.csv")
         self.write("box", 0.06, *names)
         expected = {name: (self.folder / name).read_bytes() for name in SAME_BYTES}
-        grid = self.grid()
+        grid, facets = self.grid(), self.grid("a_facets.vtu")
         for ranks in (2, 3):
             for path in self.folder.iterdir():
                 path.unlink()
@@ -214,24 +225,24 @@ class OverRanks(VolumeTest):
             for name, content in expected.items():
                 self.assertEqual((self.folder / name).read_bytes(), content, f"{name}, {ranks}")
             whole = self.grid("a.pvtu", vtk.vtkXMLPUnstructuredGridReader)
-            pieces = [self.grid(f"a_{rank}.vtu") for rank in range(ranks)]
+            pieces = [[self.grid(f"{name}_{rank}.vtu") for name in ("a", "a_facets")]
+                      for rank in range(ranks)]
             self.assertEqual(whole.GetNumberOfCells(), grid.GetNumberOfCells())
-            self.assertEqual(self.by_ids(pieces), self.by_ids([grid]))
+            self.assertEqual(self.by_ids(pieces), self.by_ids([(grid, facets)]))
 
-    def by_ids(self, grids):
+    def by_ids(self, pieces):
         """Own nodes and all cells as sets that know nothing of numbers in the files."""
         found = [[], [], []]
-        for grid in grids:
+        for grid, facets in pieces:
             ids = point_array(grid, "id")
             own = numpy.ones(len(ids), bool)
             if grid.GetPointData().HasArray("vtkGhostType"):
                 own = point_array(grid, "vtkGhostType") == 0
             found[0] += zip(ids[own].tolist(), vtk_to_numpy(grid.GetPoints().GetData())[own].tolist())
-            tetrahedra, triangles = cells_of(grid)
-            quality, tags = (cell_array(grid, name).tolist() for name in ("quality", "tag"))
-            found[1] += zip(ids[tetrahedra].tolist(), quality)
-            count = len(tetrahedra)
-            found[2] += zip(ids[triangles].tolist(), quality[count:], tags[count:])
+            found[1] += zip(ids[tetrahedra_of(grid)].tolist(),
+                            cell_array(grid, "quality").tolist())
+            quality, tags = (cell_array(facets, name).tolist() for name in ("quality", "tag"))
+            found[2] += zip(point_array(facets, "id")[triangles_of(facets)].tolist(), quality, tags)
         return [sorted(rows) for rows in found]
 
 
