@@ -200,6 +200,10 @@ module pnpbs
     procedure :: get_warning => placement_get_warning
     procedure :: write => placement_write
     procedure :: write_files => placement_write_files
+    procedure, private :: placement_add_output_field
+    procedure, private :: placement_add_output_field_columns
+    generic :: add_output_field => placement_add_output_field, placement_add_output_field_columns
+    procedure :: clear_output_fields => placement_clear_output_fields
     procedure :: write_checkpoint => placement_write_checkpoint
     procedure :: read_checkpoint => placement_read_checkpoint
     procedure :: handle => placement_handle
@@ -2655,6 +2659,48 @@ contains
     status = c_placement_write_files(self%c, int(given%capacity(n), c_int32_t), a_paths, &
                                      all_formats, c_loc(with_elements(1)))
     call conclude('placement%write_files', status, stat, errmsg, given)
+  end subroutine
+
+  !> Adds a field of the caller's to the files that are written from now on: beside id, tag and
+  !> spacing in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as $NodeData. Other formats leave
+  !> it out. The values are copied. They belong to the nodes there are: once these have moved or
+  !> changed their ranks, writing is PNPBS_ERROR_STATE until clear_output_fields. When files are
+  !> written, all ranks must have added the same fields in the same order. Local. Errors:
+  !> PNPBS_ERROR_ARGUMENT for a name that is taken, more than 9 components, or too few values;
+  !> PNPBS_ERROR_STATE without nodes.
+  !>   name    1 to 63 letters, digits, '_' and '-'; none of id, tag, spacing, quality and
+  !>           vtkGhostType; blanks at its end do not count
+  !>   values  (n), or (components, n): of this rank's nodes at least; what is behind, its ghosts',
+  !>           does not count
+  subroutine placement_add_output_field(self, name, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: values(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%add_output_field', &
+                  c_placement_add_output_field(self%c, c_text(name), size(values, kind=c_int64_t), &
+                                               1_c_int32_t, values), stat, errmsg)
+  end subroutine
+
+  subroutine placement_add_output_field_columns(self, name, values, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: values(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%add_output_field', &
+                  c_placement_add_output_field(self%c, c_text(name), size(values, 2, c_int64_t), &
+                                               size(values, 1, c_int32_t), values), stat, errmsg)
+  end subroutine
+
+  !> Forgets the fields that add_output_field has added. Local.
+  subroutine placement_clear_output_fields(self, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%clear_output_fields', c_placement_clear_output_fields(self%c), stat, &
+                  errmsg)
   end subroutine
 
   !> Writes a checkpoint: a file from which read_checkpoint goes on, in another process and on any

@@ -1212,6 +1212,26 @@ module pnpbs_c
       integer(c_int) :: c_placement_write_files
     end function
 
+    function c_placement_add_output_field(placement, name, n, components, values) bind(C, &
+      name="pnpbs_placement_add_output_field")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: components
+      real(c_double), intent(in) :: values(*)
+      integer(c_int) :: c_placement_add_output_field
+    end function
+
+    function c_placement_clear_output_fields(placement) bind(C, &
+      name="pnpbs_placement_clear_output_fields")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int) :: c_placement_clear_output_fields
+    end function
+
     function c_placement_write_checkpoint(placement, path) bind(C, &
       name="pnpbs_placement_write_checkpoint")
       import

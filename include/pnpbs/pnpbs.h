@@ -1110,6 +1110,27 @@ PNPBS_API pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, in
                                                    const char *const *formats,
                                                    const int32_t *elements);
 
+/** Adds a field of the caller's, of `components` numbers at each node, to the files that are
+ * written from now on: beside id, tag and spacing in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and
+ * .msh2 as $NodeData. Other formats leave it out. The values are copied. They belong to the nodes
+ * there are: once these have moved or changed their ranks, writing is PNPBS_ERROR_STATE until
+ *  pnpbs_placement_clear_output_fields. When files are written, all ranks must have added the same
+ *  fields in the same order, or it is PNPBS_ERROR_ARGUMENT. Local. Errors: PNPBS_ERROR_ARGUMENT for
+ *  a name that is taken, fewer than 1 or more than 9 components, or too few values;
+ *  PNPBS_ERROR_STATE without nodes.
+ *  @param[in] name        1 to 63 letters, digits, '_' and '-'; none of id, tag, spacing, quality
+ *                         and vtkGhostType
+ *  @param[in] n           entries of the array: at least this rank's nodes; those behind, its
+ *                         ghosts', do not count
+ *  @param[in] components  numbers at each node; Gmsh's files have 1, 3 or 9, the last ones 0
+ *  @param[in] values      [n][components] in the order of pnpbs_placement_get_nodes */
+PNPBS_API pnpbs_status pnpbs_placement_add_output_field(pnpbs_placement placement, const char *name,
+                                                        int64_t n, int32_t components,
+                                                        const double *values);
+
+/** Forgets the fields that pnpbs_placement_add_output_field has added. Local. */
+PNPBS_API pnpbs_status pnpbs_placement_clear_output_fields(pnpbs_placement placement);
+
 /** Writes a checkpoint: one file from which pnpbs_placement_read_checkpoint goes on, in another
  *  process and on any number of ranks, as if there had been no interruption: bit for bit. It holds
  *  the nodes with their velocities, where the run is in its schedule, and what tells another

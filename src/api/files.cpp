@@ -52,13 +52,31 @@ pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     std::vector<io::FileWish> wishes;
     agreed(comm, [&] { wishes = wishes_of(n, paths, formats, elements, *object.placement); });
     require_same_wishes(comm, wishes);
-    io::write_files(*object.placement, wishes);
+    io::write_files(*object.placement, object.output_fields, wishes);
     return PNPBS_OK;
   });
 }
 
 pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char* path, int32_t elements) {
   return pnpbs_placement_write_files(placement, 1, &path, nullptr, &elements);
+}
+
+pnpbs_status pnpbs_placement_add_output_field(pnpbs_placement placement, const char* name,
+                                              int64_t n, int32_t components, const double* values) {
+  return guarded(placement, [&](PlacementObject& object) {
+    const Computing computing(*object.context);
+    require_pointer(name, "name");
+    object.output_fields.add(*object.placement, name, n, components, values);
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_clear_output_fields(pnpbs_placement placement) {
+  return guarded(placement, [&](PlacementObject& object) {
+    require_not_in_callback(*object.context);
+    object.output_fields.clear();
+    return PNPBS_OK;
+  });
 }
 
 // From a monitor, too, where that is asked between two steps.

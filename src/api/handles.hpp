@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "comm/communicator.hpp"
 #include "domain/domain.hpp"
+#include "io/output_fields.hpp"
 #include "placement/field_transfer.hpp"
 #include "placement/placement_of.hpp"
 #include "pnpbs/pnpbs.h"
@@ -41,6 +42,7 @@ struct DomainObject {
 struct PlacementObject {
   std::shared_ptr<Context> context;
   std::unique_ptr<Placement> placement;
+  io::OutputFields output_fields{};
 };
 
 struct TransferObject {

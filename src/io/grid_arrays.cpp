@@ -69,6 +69,14 @@ std::uint8_t vtk_type(const Contents& all) {
   return of_corners[static_cast<std::size_t>(all.cell_corners())];
 }
 
+GridArray field_array(const Contents& all, std::size_t field) {
+  const OutputField& of = (*all.fields)[field];
+  return {of.name, NumberType::real, all.nodes, static_cast<int>(of.components),
+          [field](const NodeSource& nodes, SharedFile& file) {
+            nodes.for_field(field, [&](const FieldRows& rows) { append_array(file, rows.values); });
+          }};
+}
+
 }  // namespace
 
 // Beside a grid of the elements, which has the rest.
@@ -77,6 +85,7 @@ std::vector<GridArray> point_data(const Contents& all) {
   if (!all.is_beside) {
     data.push_back(of_nodes("tag", all, &NodeRows::tags));
     data.push_back(of_nodes("spacing", all, &NodeRows::spacing));
+    for (std::size_t k = 0; k < all.field_count(); ++k) data.push_back(field_array(all, k));
   }
   if (all.is_piece) data.push_back(of_nodes("vtkGhostType", all, &NodeRows::ghosts));
   return data;

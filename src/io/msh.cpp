@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "io/msh_data.hpp"
 #include "io/msh_groups.hpp"
 #include "io/numbered_rows.hpp"
 #include "io/rows_by_tag.hpp"
@@ -39,6 +40,7 @@ class Writer {
     write_entities();
     write_nodes();
     write_elements();
+    append_node_data(nodes_, file_);
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "io/msh_data.hpp"
 #include "io/msh_groups.hpp"
 #include "io/numbered_rows.hpp"
 
@@ -105,6 +106,7 @@ void write_msh2(const NodeSource& nodes, SharedFile& file) {
     write_nodes_as_elements(nodes, file);
   }
   file.append_text("$EndElements\n");
+  append_node_data(nodes, file);
 }
 
 }  // namespace pnpbs::io

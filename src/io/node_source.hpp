@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "domain/group_names.hpp"
+#include "io/output_fields.hpp"
 
 namespace pnpbs::io {
 
@@ -26,7 +27,10 @@ struct Contents {
   Cells cells = Cells::nodes;  // of surfaces alone, which have no elements, the facets
   bool is_beside = false;      // a grid of the facets beside that of the elements
   std::int64_t nodes = 0, elements = 0, facets = 0;
-  const GroupNames* names = nullptr;  // of tags; none of pieces
+  const GroupNames* names = nullptr;                 // of tags; none of pieces
+  const std::vector<OutputField>* fields = nullptr;  // none: no field of the caller's
+
+  std::size_t field_count() const { return fields ? fields->size() : 0; }
 
   int cell_corners() const {
     return cells == Cells::nodes ? 1 : cells == Cells::elements ? dimension + 1 : dimension;
@@ -45,6 +49,12 @@ struct NodeRows {
   std::vector<std::int32_t> tags;    // [nodes], 0: inner node
   std::vector<double> spacing;       // [nodes], d at the node
   std::vector<std::uint8_t> ghosts;  // [nodes], 1: another rank's; pieces only
+};
+
+// Of one field of the caller's.
+struct FieldRows {
+  std::int64_t first = 0;
+  std::vector<double> values;  // [nodes][components]
 };
 
 struct ElementRows {
@@ -77,6 +87,8 @@ class NodeSource {
   // other, empty ones included, and may do collective work. The parts of a window are in the order
   // of the ranks. Collective.
   virtual void for_nodes(const std::function<void(const NodeRows&)>& visit) const = 0;
+  virtual void for_field(std::size_t field,
+                         const std::function<void(const FieldRows&)>& visit) const = 0;
   virtual void for_elements(const std::function<void(const ElementRows&)>& visit) const = 0;
   virtual void for_facets(const std::function<void(const FacetRows&)>& visit) const = 0;
 
@@ -101,6 +113,10 @@ class FacetsBeside : public NodeSource {
 
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override {
     of_.for_nodes(visit);
+  }
+  void for_field(std::size_t field,
+                 const std::function<void(const FieldRows&)>& visit) const override {
+    of_.for_field(field, visit);
   }
   void for_elements(const std::function<void(const ElementRows&)>& visit) const override {
     of_.for_elements(visit);

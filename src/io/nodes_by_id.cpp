@@ -24,6 +24,11 @@ struct NodeRow {
   std::int64_t tag;
 };
 
+struct FieldValue {
+  std::int64_t id, component;
+  double value;
+};
+
 // Nodes by their labels: see NodesById::label.
 template <int Dim>
 struct ElementRow {
@@ -127,7 +132,8 @@ class TagGroups {
 }  // namespace
 
 template <int Dim>
-NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements)
+NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements,
+                          const std::vector<OutputField>& fields)
     : placement_(placement), comm_(placement.communicator()) {
   prepare(placement, elements);
   owned_ = placement.count();
@@ -135,6 +141,7 @@ NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements)
   contents_.with_elements = elements;
   contents_.cells = cells_of(placement, elements);
   contents_.names = &placement.domain().names();
+  contents_.fields = &fields;
   std::vector<std::int64_t> counts{owned_, 0, 0};
   if (elements) {
     placement.for_elements([&](const auto&) { ++counts[1]; });
@@ -225,6 +232,26 @@ void NodesById<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit
     NodeRows rows =
         sorted_nodes<Dim>(brought(std::move(own), [](const NodeRow<Dim>& n) { return n.id; }));
     rows.first = window.first;
+    visit(rows);
+  });
+}
+
+template <int Dim>
+void NodesById<Dim>::for_field(std::size_t field,
+                               const std::function<void(const FieldRows&)>& visit) const {
+  const OutputField& of = (*contents_.fields)[field];
+  const View<std::int64_t> id = placement_.level().nodes.id;
+  for_windows([&](const Window& window) {
+    std::vector<FieldValue> values;
+    for (std::int64_t place = window.begin; place < window.end; ++place)
+      for (std::int64_t c = 0; c < of.components; ++c)
+        values.push_back({id(placement_.node_at(place)), c,
+                          of.values[static_cast<std::size_t>(place * of.components + c)]});
+    values = brought(std::move(values), [](const FieldValue& v) { return v.id; });
+    std::ranges::sort(values, {}, [](const FieldValue& v) { return std::pair(v.id, v.component); });
+    FieldRows rows;
+    rows.first = window.first;
+    for (const FieldValue& value : values) rows.values.push_back(value.value);
     visit(rows);
   });
 }

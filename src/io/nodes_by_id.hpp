@@ -16,9 +16,11 @@ template <int Dim>
 class NodesById : public NodeSource {
  public:
   // Collective.
-  NodesById(PlacementOf<Dim>& placement, bool elements);
+  NodesById(PlacementOf<Dim>& placement, bool elements, const std::vector<OutputField>& fields);
 
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
+  void for_field(std::size_t field,
+                 const std::function<void(const FieldRows&)>& visit) const override;
   void for_elements(const std::function<void(const ElementRows&)>& visit) const override;
   void for_facets(const std::function<void(const FacetRows&)>& visit) const override;
   std::vector<TagGroup> node_groups() const override;

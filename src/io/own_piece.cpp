@@ -8,12 +8,14 @@
 namespace pnpbs::io {
 
 template <int Dim>
-OwnPiece<Dim>::OwnPiece(const PlacementOf<Dim>& placement, bool elements)
+OwnPiece<Dim>::OwnPiece(const PlacementOf<Dim>& placement, bool elements,
+                        const std::vector<OutputField>& fields)
     : placement_(placement),
       owned_(placement.count()),
       number_(static_cast<std::size_t>(placement.level().nodes.count - owned_), -1) {
   contents_.dimension = Dim;
   contents_.is_piece = true;
+  contents_.fields = &fields;
   contents_.with_elements = elements;
   contents_.cells = cells_of(placement, elements);
   if (elements) {
@@ -51,14 +53,28 @@ void OwnPiece<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit)
     NodeRows rows;
     rows.first = begin;
     for (std::int64_t k = begin; k < std::min(begin + kWindow, contents_.nodes); ++k) {
-      const bool ghost = k >= owned_;
-      const std::int64_t place = ghost ? ghosts_[static_cast<std::size_t>(k - owned_)] : k;
-      const std::int64_t i = placement_.node_at(place);
+      const std::int64_t i = placement_.node_at(place_of_number(k));
       for (std::size_t axis = 0; axis < Dim; ++axis) rows.x.push_back(nodes.x[axis](i));
       rows.ids.push_back(nodes.id(i));
       rows.tags.push_back(nodes.tag(i));
       rows.spacing.push_back(nodes.d(i));
-      rows.ghosts.push_back(ghost);
+      rows.ghosts.push_back(k >= owned_);
+    }
+    visit(rows);
+  }
+}
+
+template <int Dim>
+void OwnPiece<Dim>::for_field(std::size_t field,
+                              const std::function<void(const FieldRows&)>& visit) const {
+  const OutputField& of = (*contents_.fields)[field];
+  for (std::int64_t begin = 0; begin < contents_.nodes; begin += kWindow) {
+    FieldRows rows;
+    rows.first = begin;
+    for (std::int64_t k = begin; k < std::min(begin + kWindow, contents_.nodes); ++k) {
+      const auto values =
+          of.values.begin() + place_of_number(k) * static_cast<std::ptrdiff_t>(of.components);
+      rows.values.insert(rows.values.end(), values, values + of.components);
     }
     visit(rows);
   }

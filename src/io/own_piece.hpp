@@ -10,11 +10,14 @@ namespace pnpbs::io {
 template <int Dim>
 class OwnPiece : public NodeSource {
  public:
-  // Local, after rows.hpp's prepare.
-  OwnPiece(const PlacementOf<Dim>& placement, bool elements);
+  // Local, after rows.hpp's prepare. fields: with values at ghosts.
+  OwnPiece(const PlacementOf<Dim>& placement, bool elements,
+           const std::vector<OutputField>& fields);
 
   // Local.
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
+  void for_field(std::size_t field,
+                 const std::function<void(const FieldRows&)>& visit) const override;
   void for_elements(const std::function<void(const ElementRows&)>& visit) const override;
   void for_facets(const std::function<void(const FacetRows&)>& visit) const override;
 
@@ -22,6 +25,9 @@ class OwnPiece : public NodeSource {
   void know(std::int64_t place);
   std::int64_t number(std::int64_t place) const {
     return place < owned_ ? place : number_[static_cast<std::size_t>(place - owned_)];
+  }
+  std::int64_t place_of_number(std::int64_t number) const {
+    return number < owned_ ? number : ghosts_[static_cast<std::size_t>(number - owned_)];
   }
   // Calls visit(begin, end) for windows of the own nodes.
   template <class Visit>

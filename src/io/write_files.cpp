@@ -87,8 +87,8 @@ bool has_room_beside(const std::string& path) {
 template <int Dim>
 class Writing {
  public:
-  Writing(PlacementOf<Dim>& placement, std::size_t files)
-      : placement_(placement), expected_(files) {}
+  Writing(PlacementOf<Dim>& placement, const OutputFields& fields, std::size_t files)
+      : placement_(placement), fields_(fields), expected_(files) {}
 
   void add(const FileWish& wish) {
     if (wish.format->write) {
@@ -119,7 +119,7 @@ class Writing {
 
   void add_file(const FileWish& wish) {
     std::optional<NodesById<Dim>>& nodes = wish.elements ? with_elements_ : nodes_only_;
-    if (!nodes) nodes.emplace(placement_, wish.elements);
+    if (!nodes) nodes.emplace(placement_, wish.elements, fields_.all());
     SharedFile& file = open(comm(), wish.path);
     if (wish.facets)
       wish.format->write(FacetsBeside(*nodes), file);
@@ -131,8 +131,9 @@ class Writing {
   // Each rank alone; what fails on one is told to all.
   void add_piece(const FileWish& wish) {
     prepare(placement_, wish.elements);
+    if (fields_with_ghosts_.empty()) fields_with_ghosts_ = fields_.with_ghosts(placement_);
     agreed(*comm(), [&] {
-      const OwnPiece<Dim> piece(placement_, wish.elements);
+      const OwnPiece<Dim> piece(placement_, wish.elements, fields_with_ghosts_);
       like_ = piece.contents();
       SharedFile& file = open(serial_communicator(), piece_path(wish.path, comm()->rank()));
       if (wish.facets) {
@@ -162,6 +163,8 @@ class Writing {
   }
 
   PlacementOf<Dim>& placement_;
+  const OutputFields& fields_;
+  std::vector<OutputField> fields_with_ghosts_;  // once a piece needs them
   const std::int64_t nodes_ = placement_.global_count();
   std::size_t expected_, done_ = 0;
   std::optional<NodesById<Dim>> with_elements_, nodes_only_;
@@ -199,13 +202,15 @@ std::string piece_path(const std::string& path, int rank) {
       .string();
 }
 
-void write_files(Placement& placement, const std::vector<FileWish>& wishes) {
+void write_files(Placement& placement, const OutputFields& fields,
+                 const std::vector<FileWish>& wishes) {
   const Communicator& comm = placement.communicator();
   // What one rank cannot do at any step of it, all give up.
   agreed(comm, [&] {
     require_hdf5_for(wishes, comm);
+    fields.require_current(placement);
     in_its_dimension(placement, [&]<int Dim>(PlacementOf<Dim>& it) {
-      Writing<Dim> writing(it, wishes.size());
+      Writing<Dim> writing(it, fields, wishes.size());
       for (const FileWish& wish : wishes) writing.add(wish);
       writing.publish();
     });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/formats.hpp"
+#include "io/output_fields.hpp"
 #include "placement/placement.hpp"
 
 namespace pnpbs::io {
@@ -26,7 +27,8 @@ void add_wish(const std::string& path, const std::string& format, bool elements,
 // Names of the pieces of a .pvtu file.
 std::string piece_path(const std::string& path, int rank);
 
-// Collective; the monitor may stop it.
-void write_files(Placement& placement, const std::vector<FileWish>& wishes);
+// With these fields, in the formats that have room for any. Collective; the monitor may stop it.
+void write_files(Placement& placement, const OutputFields& fields,
+                 const std::vector<FileWish>& wishes);
 
 }  // namespace pnpbs::io

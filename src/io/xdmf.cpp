@@ -59,13 +59,16 @@ std::string item(const std::string& heavy, const PlacedArray& placed) {
          "\" Format=\"HDF\">" + in_xml(heavy) + ":" + placed.path + "</DataItem>\n";
 }
 
+// A vector may have any number of components; VTK's reader does not take matrices.
+std::string kind_of_attribute(int components) { return components == 1 ? "Scalar" : "Vector"; }
+
 std::string attributes(const std::string& heavy, const std::string& center,
                        const std::vector<PlacedArray>& arrays) {
   std::string text;
   for (const PlacedArray& placed : arrays)
-    text += "      <Attribute Name=\"" + placed.array.name +
-            "\" AttributeType=\"Scalar\" Center=\"" + center + "\">\n" + item(heavy, placed) +
-            "      </Attribute>\n";
+    text += "      <Attribute Name=\"" + placed.array.name + "\" AttributeType=\"" +
+            kind_of_attribute(placed.array.columns) + "\" Center=\"" + center + "\">\n" +
+            item(heavy, placed) + "      </Attribute>\n";
   return text;
 }
 

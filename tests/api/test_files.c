@@ -308,6 +308,79 @@ START_TEST(nothing_unfinished_to_discard) {
 }
 END_TEST
 
+static void must_refuse_field(pnpbs_placement p, const char* name, int64_t n, int32_t components,
+                              const double* values, const char* word) {
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_add_output_field(p, name, n, components, values),
+            word, "");
+}
+
+START_TEST(fields_that_are_refused) {
+  static const char* const ours[] = {"id", "tag", "spacing", "quality", "vtkGhostType", "ID"};
+  static const char* const bad[] = {"",
+                                    "a b",
+                                    "a/b",
+                                    "a\"b",
+                                    "<a>",
+                                    ".",
+                                    "gr\xc3\xb6\xc3\x9f"
+                                    "e"};
+  char long_name[65];
+  job it = placed_square();
+  int64_t n = 0;
+  double* values;
+  int k;
+  MUST(pnpbs_placement_count(it.placement, &n));
+  values = calloc((size_t)n * 10, sizeof *values);
+  for (k = 0; k < COUNT_OF(ours); ++k)
+    must_refuse_field(it.placement, ours[k], n, 1, values, "that files have anyway");
+  for (k = 0; k < COUNT_OF(bad); ++k)
+    must_refuse_field(it.placement, bad[k], n, 1, values, "letters, digits");
+  memset(long_name, 'a', 64);
+  long_name[64] = 0;
+  must_refuse_field(it.placement, long_name, n, 1, values, "1 to 63");
+  MUST(pnpbs_placement_add_output_field(it.placement, long_name + 1, n, 9, values));
+  must_refuse_field(it.placement, long_name + 1, n, 1, values, "there is an output field");
+  must_refuse_field(it.placement, "u", n, 0, values, "components = 0");
+  must_refuse_field(it.placement, "u", n, 10, values, "1 to 9");
+  must_refuse_field(it.placement, "u", n - 1, 1, values, "every one has its values");
+  must_refuse_field(it.placement, "u", n, 1, NULL, "values is NULL");
+  must_refuse_field(it.placement, NULL, n, 1, values, "name is NULL");
+  MUST_BE(PNPBS_ERROR_HANDLE, pnpbs_placement_add_output_field(NULL, "u", n, 1, values));
+  MUST_BE(PNPBS_ERROR_HANDLE, pnpbs_placement_clear_output_fields(NULL));
+  MUST(pnpbs_placement_add_output_field(it.placement, "u", n, 1, values));
+  free(values);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(fields_belong_to_the_nodes_there_are) {
+  job it = square_job(1);
+  double values[2000] = {0};
+  int64_t n = 0, plain, entries;
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_add_output_field(it.placement, "u", 2000, 1, values),
+            "no nodes", "");
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST(pnpbs_placement_count(it.placement, &n));
+  MUST(pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1));
+  plain = size_of("a.vtu");
+  MUST(pnpbs_placement_add_output_field(it.placement, "u", 1000, 2, values));
+  /* Lists and stars are no other nodes. */
+  MUST(pnpbs_placement_adjacency_size(it.placement, &entries));
+  MUST(pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1));
+  ck_assert_int_gt(size_of("a.vtu"), plain + 16 * n);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.11));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1), "'u'",
+            "clear the output fields");
+  ck_assert_int_gt(size_of("a.vtu"), plain + 16 * n);
+  MUST(pnpbs_placement_clear_output_fields(it.placement));
+  MUST(pnpbs_placement_write(it.placement, in_folder("a.vtu"), 1));
+  ck_assert_int_lt(size_of("a.vtu"), plain);
+  job_end(&it);
+}
+END_TEST
+
 int main(void) {
   Suite* suite = suite_create("files");
   TCase* tests = tcase_create("files");
@@ -324,6 +397,8 @@ int main(void) {
   tcase_add_test(tests, stopped_by_the_monitor);
   tcase_add_test(tests, not_from_inside_a_callback);
   tcase_add_test(tests, nothing_unfinished_to_discard);
+  tcase_add_test(tests, fields_that_are_refused);
+  tcase_add_test(tests, fields_belong_to_the_nodes_there_are);
   suite_add_tcase(suite, tests);
   return run_suite(suite);
 }

@@ -85,7 +85,7 @@ void expect_same_kernels(pnpbs::Placement& few, pnpbs::Placement& more) {
       const auto kernels_to_write = [&](pnpbs::Placement& placement) {
         std::vector<pnpbs::io::FileWish> wishes;
         pnpbs::io::add_wish(path, "", elements, placement, wishes);
-        return kernels_of([&] { pnpbs::io::write_files(placement, wishes); });
+        return kernels_of([&] { pnpbs::io::write_files(placement, {}, wishes); });
       };
       const std::int64_t of_few = kernels_to_write(few), of_more = kernels_to_write(more);
       ck_assert_msg(of_more <= of_few + kMaxMore, "%s: %lld kernels for %lld nodes, %lld for %lld",

@@ -336,9 +336,29 @@ contains
     call expect_failure(stat, PNPBS_ERROR_FILE, errmsg, 'no/such/folder')
     call placement%write_files(paths, ['csv'], stat=stat, errmsg=errmsg)
     call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'formats has room for 1; 3')
+    call about_output_fields(placement, nodes)
     call about_checkpoints(placement)
     call placement%destroy
     call domain%destroy
+  end subroutine
+
+  subroutine about_output_fields(placement, nodes)
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int64_t), intent(in) :: nodes
+    real(c_double) :: x(2, nodes)
+    integer(c_int64_t) :: plain
+    call placement%get_nodes(x)
+    call placement%write('fortran_a.msh')
+    plain = lines_of('fortran_a.msh')
+    call placement%add_output_field('flow', x)
+    call placement%add_output_field('u ', x(1, :))
+    call placement%write('fortran_a.msh')
+    call expect(lines_of('fortran_a.msh') == plain + 2 * (nodes + 10), 'fields in the file')
+    call placement%add_output_field('u', x(1, :), stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '"u"')
+    call placement%clear_output_fields
+    call placement%write('fortran_a.msh')
+    call expect(lines_of('fortran_a.msh') == plain, 'fields are forgotten')
   end subroutine
 
   subroutine about_checkpoints(placement)

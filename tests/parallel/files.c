@@ -85,6 +85,25 @@ static int32_t stop_on_rank_1(double fraction, int64_t step, int64_t nodes, doub
   return rank == 1;
 }
 
+static void test_fields_that_differ(pnpbs_placement placement) {
+  int64_t n = 0;
+  double* values;
+  pnpbs_placement_count(placement, &n);
+  values = calloc((size_t)n * 2 + 1, sizeof *values);
+  expect(
+      pnpbs_placement_add_output_field(placement, rank == 1 ? "v" : "u", n, 1, values) == PNPBS_OK,
+      "a field");
+  expect_on_all(pnpbs_placement_write(placement, "a.csv", 0), PNPBS_ERROR_ARGUMENT,
+                "differ between ranks");
+  pnpbs_placement_clear_output_fields(placement);
+  expect(pnpbs_placement_add_output_field(placement, "u", n, rank == 1 ? 1 : 2, values) == PNPBS_OK,
+         "a field");
+  expect_on_all(pnpbs_placement_write(placement, "a.csv", 0), PNPBS_ERROR_ARGUMENT,
+                "differ between ranks");
+  pnpbs_placement_clear_output_fields(placement);
+  free(values);
+}
+
 static void test_faults(void) {
   const int with_hdf5 = strstr(pnpbs_build_info(), "HDF5: none") == NULL;
   pnpbs_placement placement = square_placement();
@@ -107,6 +126,7 @@ static void test_faults(void) {
                 PNPBS_ERROR_ARGUMENT, "rank 1");
   expect_on_all(pnpbs_placement_write(placement, rank == 1 ? NULL : "a.vtu", 1),
                 PNPBS_ERROR_ARGUMENT, "rank 1");
+  test_fields_that_differ(placement);
   /* A stop asked for on one rank stops all. */
   expect(pnpbs_placement_set_monitor(placement, stop_on_rank_1, NULL) == PNPBS_OK, "monitor");
   expect_on_all(pnpbs_placement_write(placement, "a.vtu", 1), PNPBS_STOPPED, "");

@@ -108,6 +108,21 @@ class Results(Case):
                                          pathlib.Path(folder, "none", "nodes.vtu"))
             self.assertIn("nodes.vtu", message)
 
+    def test_output_fields(self):
+        nodes = self.placement.nodes()
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "a.msh")
+            self.placement.add_output_field("u", range(len(nodes.ids)))
+            self.placement.add_output_field("flow", nodes.points).write(path)
+            rows = path.read_text(encoding="ascii").splitlines()
+            at = rows.index('"flow"') + 7
+            found = np.array([row.split() for row in rows[at : at + len(nodes.ids)]], float)
+            np.testing.assert_array_equal(found[:, 1:3], nodes.points[np.argsort(nodes.ids)])
+            self.assertIn('"u"', self.assert_status(
+                Status.ERROR_ARGUMENT, self.placement.add_output_field, "u", nodes.spacing))
+            self.placement.clear_output_fields().write(path)
+            self.assertNotIn('"flow"', path.read_text(encoding="ascii"))
+
     def test_checkpoints(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "a.vtkhdf")

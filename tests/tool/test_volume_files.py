@@ -17,6 +17,7 @@ from readers import (point_array, read_csv, read_ele, read_face, read_msh, read_
 
 PROGRAM = os.environ["PNPBS_WRITE_VOLUMES"]
 MPIEXEC = os.environ.get("PNPBS_MPIEXEC")
+HAVE_HDF5 = os.environ.get("PNPBS_HAVE_HDF5") == "1"
 SIZE = numpy.array([1.0, 0.8, 0.6])
 SAME_BYTES = ("a.vtu", "a_facets.vtu", "a.msh", "a.msh2", "a.node", "a.ele", "a.face", "a.csv")
 FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # of a tetrahedron, as seen from outside
@@ -209,6 +210,74 @@ class NodesOnly(VolumeTest):
         self.assertEqual(set(point_array(grid, "tag")), set(range(7)))
         cells, _ = read_msh(self.folder / "a.msh", points)
         self.assertEqual(list(cells), ["vertex"])
+
+
+class OutputFields(VolumeTest):
+    """Fields of the caller's, which write_volumes makes from places."""
+
+    COMPONENTS = {"u-1": 1, "Flow_2": 2, "moved": 3, "stress": 6}
+
+    def expected(self, points):
+        both = numpy.hstack([points, points**2])
+        return {name: both[:, :count].squeeze() for name, count in self.COMPONENTS.items()}
+
+    def check(self, grid, points, point_data):
+        for name, values in self.expected(points).items():
+            found = point_data(grid, name)
+            if values.ndim == 2:  # by XDMF, VTK makes a vector of space of one of the plane
+                self.assertFalse(found[:, values.shape[1]:].any())
+                found = found[:, : values.shape[1]]
+            numpy.testing.assert_array_equal(found, values, name)
+
+    def check_vtk(self, name, reader):
+        grid = self.grid(name, reader)
+        self.check(grid, vtk_to_numpy(grid.GetPoints().GetData()), point_array)
+        self.assertEqual(point_array(grid, "vtkGhostType").max() if "_" in name else 0,
+                         1 if "_" in name else 0)
+
+    # Rows have the numbers of nodes, which follow the ids as the points of the .vtu file do. meshio
+    # does not look at them.
+    def check_msh(self, name, points):
+        lines = (self.folder / name).read_text().splitlines()
+        for field, values in self.expected(points).items():
+            at = lines.index(f'"{field}"')
+            self.assertEqual(lines[at - 2 : at], ["$NodeData", "1"])
+            count = self.COMPONENTS[field]
+            # Gmsh's vectors and tensors are of space.
+            written = 1 if count == 1 else 3 if count <= 3 else 9
+            self.assertEqual(lines[at + 1 : at + 7],
+                             ["1", "0", "3", "0", str(written), str(len(points))])
+            end = at + 7 + len(points)
+            self.assertEqual(lines[end], "$EndNodeData")
+            rows = numpy.array([line.split() for line in lines[at + 7 : end]], float)
+            self.assertEqual(rows.shape[1], 1 + written)
+            numpy.testing.assert_array_equal(rows[:, 0], numpy.arange(len(points)) + 1)
+            numpy.testing.assert_array_equal(rows[:, 1 : 1 + count].squeeze(), values)
+            self.assertFalse(rows[:, 1 + count :].any())
+
+    def test_all_formats(self):
+        names = ["a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.csv"]
+        by_hdf5 = ["a.vtkhdf", "a.xdmf"] if HAVE_HDF5 else []
+        self.write("box", 0.2, *names, *by_hdf5, elements=2)
+        for name, reader in (("a.vtu", vtk.vtkXMLUnstructuredGridReader),
+                             ("a.pvtu", vtk.vtkXMLPUnstructuredGridReader),
+                             ("a.vtkhdf", vtk.vtkHDFReader), ("a.xdmf", vtk.vtkXdmfReader)):
+            if name in (*names, *by_hdf5):
+                self.check_vtk(name, reader)
+        points = vtk_to_numpy(self.grid().GetPoints().GetData())
+        self.check_msh("a.msh", points)
+        self.check_msh("a.msh2", points)
+        facets = self.grid("a_facets.vtu").GetPointData()
+        self.assertFalse(any(facets.HasArray(name) for name in self.COMPONENTS))
+        if not MPIEXEC:
+            return
+        same = [name for name in (*names, *by_hdf5) if name != "a.pvtu"] + ["a.h5"] * HAVE_HDF5
+        alone = {name: (self.folder / name).read_bytes() for name in same}
+        self.write("box", 0.2, *names, *by_hdf5, elements=2, ranks=3)
+        for name, content in alone.items():
+            self.assertEqual((self.folder / name).read_bytes(), content, name)
+        self.check_vtk("a.pvtu", vtk.vtkXMLPUnstructuredGridReader)
+        self.check_vtk("a_1.vtu", vtk.vtkXMLUnstructuredGridReader)
 
 
 @unittest.skipUnless(MPIEXEC, "no MPI")

@@ -4,7 +4,9 @@
  * 1 x 0.8 x 0.6 whose sides have the tags 1 to 6 (low x, high x, low y, ...), or a ball of radius
  * 0.5 around (1, 2, 3) with the tag 7. Alone, or over ranks.
  *
- *   write_volumes box|ball d elements(0|1) file ... */
+ *   write_volumes box|ball d elements(0|1|2) file ...
+ *
+ * 2: with fields of 1, 2, 3 and 6 components as well, of the places of nodes. */
 #include <pnpbs/pnpbs.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,6 +52,28 @@ static void add_tagged_box(pnpbs_domain domain) {
   must(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 8, vertices, 12, corners, tags, 40), "box");
 }
 
+/* x, y, z and then their squares, as many of these as a field has components. */
+static void add_fields(pnpbs_placement placement) {
+  static const char* const names[] = {"u-1", "Flow_2", "moved", "stress"};
+  static const int32_t components[] = {1, 2, 3, 6};
+  int64_t n, i;
+  double *x, *values;
+  int k;
+  must(pnpbs_placement_count(placement, &n), "count");
+  x = malloc((size_t)(3 * n + 1) * sizeof *x);
+  values = malloc((size_t)(6 * n + 1) * sizeof *values);
+  must(pnpbs_placement_get_nodes(placement, n, x, NULL, NULL, NULL), "nodes");
+  for (k = 0; k < 4; ++k) {
+    const int32_t each = components[k];
+    for (i = 0; i < n * each; ++i) {
+      const double at = x[3 * (i / each) + i % each % 3];
+      values[i] = i % each < 3 ? at : at * at;
+    }
+    must(pnpbs_placement_add_output_field(placement, names[k], n, each, values), "field");
+  }
+  free(x), free(values);
+}
+
 int main(int argc, char** argv) {
   const double centre[] = {1, 2, 3};
   const pnpbs_context context = begin(&argc, &argv);
@@ -69,6 +93,7 @@ int main(int argc, char** argv) {
   must(pnpbs_placement_set_spacing_constant(placement, atof(argv[2])), "spacing");
   must(pnpbs_placement_run(placement), "run");
   must(pnpbs_placement_check(placement), "check");
+  if (atoi(argv[3]) == 2) add_fields(placement);
   must(pnpbs_placement_write_files(placement, argc - 4, (const char* const*)argv + 4, NULL,
                                    elements),
        "files");

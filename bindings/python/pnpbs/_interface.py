@@ -202,6 +202,9 @@ pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t n,
 pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path, int32_t elements);
 pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     const char *const *paths, const char *const *formats, const int32_t *elements);
+pnpbs_status pnpbs_placement_add_output_field(pnpbs_placement placement, const char *name,
+    int64_t n, int32_t components, const double *values);
+pnpbs_status pnpbs_placement_clear_output_fields(pnpbs_placement placement);
 pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement, const char *path);
 pnpbs_status pnpbs_placement_read_checkpoint(pnpbs_placement placement, const char *path);
 pnpbs_status pnpbs_discard_unfinished_files(void);

@@ -9,6 +9,7 @@ import os
 from typing import Any, Dict, List, NamedTuple, Sequence, TypeVar, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._types import Doubles, Ids, Int32s, Path
 from .errors import Status
@@ -273,6 +274,23 @@ class Results(PlacementHandle):
         wanted = np.full(len(paths), elements, np.int32)
         return self._call("write_files", len(paths), (ctypes.c_char_p * len(paths))(*encoded), None,
                           wanted)
+
+    def add_output_field(self: _Self, name: str, values: ArrayLike) -> _Self:
+        """Adds a field of your own to the files that are written from now on: beside `id`, `tag` and
+        `spacing` in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `$NodeData`. `values` are
+        (n,) or (n, ...) numbers, up to 9 at each node, those of this rank's nodes in the order of
+        `nodes`; entries behind, the ghosts', do not count. They are copied, and belong to the nodes
+        there are: once these have moved, `write` raises until `clear_output_fields`. All ranks add
+        the same fields in the same order. A name has 1 to 63 letters, digits, "_" and "-". Local."""
+        field = np.atleast_1d(np.ascontiguousarray(values, np.float64))
+        components = int(np.prod(field.shape[1:], dtype=np.int64))
+        self._call("add_output_field", name.encode(), len(field), components, field)
+        return self
+
+    def clear_output_fields(self: _Self) -> _Self:
+        """Forgets the fields that `add_output_field` has added. Local."""
+        self._call("clear_output_fields")
+        return self
 
     def write_checkpoint(self: _Self, path: Path) -> _Self:
         """Writes a file from which `read_checkpoint` goes on, in another process and on any number of

@@ -545,6 +545,15 @@ pnpbs_placement_write_files(placement, n, paths, formats, elements) =
         placement::pnpbs_placement, n::Int32, paths::Ptr{Cstring}, formats::Ptr{Cstring},
         elements::Ptr{Int32})::pnpbs_status
 
+pnpbs_placement_add_output_field(placement, name, n, components, values) =
+    @ccall $(symbol(:pnpbs_placement_add_output_field))(
+        placement::pnpbs_placement, name::Cstring, n::Int64, components::Int32,
+        values::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_clear_output_fields(placement) =
+    @ccall $(symbol(:pnpbs_placement_clear_output_fields))(
+        placement::pnpbs_placement)::pnpbs_status
+
 pnpbs_placement_write_checkpoint(placement, path) =
     @ccall $(symbol(:pnpbs_placement_write_checkpoint))(
         placement::pnpbs_placement, path::Cstring)::pnpbs_status

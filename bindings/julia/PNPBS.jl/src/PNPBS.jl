@@ -42,6 +42,7 @@ export Transfer, at_nodes, at_points, linear_nodes
 export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
 export boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, warnings, write_file, write_files
+export add_output_field, clear_output_fields
 export write_checkpoint, read_checkpoint!
 export Shapes, add_shapes!, shape_counts, projection, notes, write_prj, to_degrees, from_degrees
 export GeoGrid, grid_values, inside_grid, grid_extent

@@ -388,6 +388,34 @@ function write_files(placement::Placement, paths::AbstractVector{<:AbstractStrin
 end
 
 """
+    add_output_field(placement, name, values) -> Placement
+
+Adds a field of your own to the files that are written from now on: beside `id`, `tag` and `spacing`
+in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `\$NodeData`. `values` is a vector with an
+entry for each node of this rank, or an array whose last index is that, with up to 9 components;
+entries behind, the ghosts', do not count. The values are copied. They belong to the nodes there
+are: once these have moved, writing fails until [`clear_output_fields`](@ref). All ranks add the
+same fields in the same order. A name has 1 to 63 letters, digits, `_` and `-`. Local.
+"""
+function add_output_field(placement::Placement, name::AbstractString,
+                          values::AbstractArray{<:Real})
+    check(placement,
+          LibPNPBS.pnpbs_placement_add_output_field(live(placement), name, places_of(values),
+                                                    components_of(values), dense(values)))
+    return placement
+end
+
+"""
+    clear_output_fields(placement) -> Placement
+
+Forgets the fields that [`add_output_field`](@ref) has added. Local.
+"""
+function clear_output_fields(placement::Placement)
+    check(placement, LibPNPBS.pnpbs_placement_clear_output_fields(live(placement)))
+    return placement
+end
+
+"""
     write_checkpoint(placement, path) -> Placement
 
 Writes a file from which [`read_checkpoint!`](@ref) goes on, in another process and on any number of

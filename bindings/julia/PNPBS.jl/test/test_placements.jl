@@ -162,6 +162,16 @@ end
                               elements = [true, false]) === :ok
             @test read(b) == read(path)
             @test length(readlines(joinpath(folder, "a.ele"))) > size(triangles(placement), 2)
+            mesh = joinpath(folder, "a.msh")
+            add_output_field(add_output_field(placement, "u", 1:n), "flow", placed.points)
+            @test write_file(placement, mesh) === :ok
+            rows = readlines(mesh)
+            at = findfirst(==("\"flow\""), rows)
+            @test [parse.(Float64, split(row)) for row in rows[(at + 7):(at + 6 + n)]] ==
+                  [[k; placed.points[:, i]; 0] for (k, i) in enumerate(order)]
+            @test fails(() -> add_output_field(placement, "u", 1:n), :error_argument, "\"u\"")
+            clear_output_fields(placement)
+            @test write_file(placement, mesh) === :ok && !("\"flow\"" in readlines(mesh))
             unknown = joinpath(folder, "x.xyz")
             @test fails(() -> write_file(placement, unknown), :error_argument, "xyz")
             @test fails(() -> write_file(placement, "/none/x.csv"), :error_file, "/none")

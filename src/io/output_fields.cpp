@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/output_fields.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "base/mixed_hash.hpp"
+#include "base/small_letters.hpp"
+#include "comm/ghost_update.hpp"
+
+namespace pnpbs::io {
+
+namespace {
+
+constexpr std::size_t kLongestFieldName = 63;
+constexpr std::int64_t kMaxComponents = 9;  // of a tensor in space: Gmsh's largest, too
+
+[[noreturn]] void refuse_field(const std::string& what) { throw Error(ErrorKind::argument, what); }
+
+bool is_allowed(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-';
+}
+
+// What means the same in XML, in paths of HDF5 and in quotation marks.
+void require_name(const std::string& name) {
+  if (name.empty() || name.size() > kLongestFieldName || !std::ranges::all_of(name, is_allowed))
+    refuse_field("argument name = \"" + name + "\"; an output field has a name of 1 to " +
+                 std::to_string(kLongestFieldName) + " letters, digits, '_' and '-'");
+  constexpr std::string_view ours[] = {"id", "tag", "spacing", "quality", "vtkghosttype"};
+  if (std::ranges::find(ours, in_small_letters(name)) != std::end(ours))
+    refuse_field("argument name = \"" + name +
+                 "\" is that of an array that files have anyway; choose "
+                 "another");
+}
+
+// Of ids and coordinates of this rank's nodes, in their order.
+std::uint64_t hash_of_nodes(Placement& placement) {
+  placement.prepare_order();
+  const NodeColumns nodes = placement.nodes();
+  std::uint64_t hash = 0;
+  const std::int64_t owned = placement.count();
+  for (std::int64_t place = 0; place < owned; ++place) {
+    const std::int64_t i = placement.node_at(place);
+    hash = mixed(hash ^ static_cast<std::uint64_t>(nodes.id(i)));
+    for (int axis = 0; axis < placement.dimension(); ++axis)
+      hash = mixed_with(hash, nodes.x[static_cast<std::size_t>(axis)](i));
+  }
+  return hash;
+}
+
+}  // namespace
+
+void OutputFields::add(Placement& placement, const std::string& name, std::int64_t n,
+                       std::int64_t components, const double* values) {
+  require_name(name);
+  if (std::ranges::find(all_, name, &OutputField::name) != all_.end())
+    refuse_field("argument name = \"" + name +
+                 "\": there is an output field of that name; clear the output fields first");
+  if (components < 1 || components > kMaxComponents)
+    refuse_field("argument components = " + std::to_string(components) +
+                 "; an output field has 1 to " + std::to_string(kMaxComponents));
+  const std::uint64_t hash = hash_of_nodes(placement);
+  const std::int64_t owned = placement.count();
+  if (n < owned)
+    refuse_field("argument n = " + std::to_string(n) + "; this rank has " + std::to_string(owned) +
+                 " nodes, and every one has its values");
+  if (owned > 0 && !values) refuse_field("argument values is NULL");
+  all_.push_back(
+      {name, components, std::vector<double>(values, values + owned * components), hash});
+}
+
+void OutputFields::require_current(Placement& placement) const {
+  const Communicator& comm = placement.communicator();
+  agreed(comm, [&] {
+    const std::uint64_t hash = all_.empty() ? 0 : hash_of_nodes(placement);
+    for (const OutputField& field : all_)
+      if (field.nodes_hash != hash)
+        throw Error(ErrorKind::state,
+                    "the output field '" + field.name +
+                        "' belongs to nodes that have moved or changed their ranks since it was "
+                        "added: clear the output fields, and add it again");
+  });
+  std::uint64_t kinds = 0;
+  for (const OutputField& field : all_) {
+    for (const char c : field.name) kinds = mixed(kinds ^ static_cast<unsigned char>(c));
+    kinds = mixed(kinds ^ static_cast<std::uint64_t>(field.components + 256));
+  }
+  if (!comm.same_on_all(kinds))
+    refuse_field(
+        "the output fields differ between ranks: add the same ones in the same order on all");
+}
+
+std::vector<OutputField> OutputFields::with_ghosts(Placement& placement) const {
+  if (all_.empty()) return {};
+  const auto pattern = placement.exchange_pattern();
+  const auto places = static_cast<std::size_t>(placement.nodes().count);
+  std::vector<OutputField> fields;
+  for (const OutputField& field : all_) {
+    GhostUpdate update;
+    agreed(placement.communicator(), [&] {
+      fields.push_back(field);
+      fields.back().values.resize(places * static_cast<std::size_t>(field.components));
+      update.pack(placement.communicator(), pattern, field.components, fields.back().values.data());
+    });
+    update.start();
+    update.wait();
+    update.unpack(fields.back().values.data());
+  }
+  return fields;
+}
+
+}  // namespace pnpbs::io

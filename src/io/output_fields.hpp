@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields of the caller's that files hold beside what is the library's: values at nodes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "placement/placement.hpp"
+
+namespace pnpbs::io {
+
+struct OutputField {
+  std::string name;
+  std::int64_t components = 1;
+  std::vector<double> values;    // [places][components]
+  std::uint64_t nodes_hash = 0;  // of the nodes that it belongs to
+};
+
+class OutputFields {
+ public:
+  // values: [n][components], in places; those of ghosts are left out. Throws
+  // Error(ErrorKind::argument). Local.
+  void add(Placement& placement, const std::string& name, std::int64_t n, std::int64_t components,
+           const double* values);
+  void clear() { all_.clear(); }
+  const std::vector<OutputField>& all() const { return all_; }
+  // Throws unless they belong to the nodes there are, and are the same on all ranks. Collective.
+  void require_current(Placement& placement) const;
+  // With values at ghosts, too. Collective.
+  std::vector<OutputField> with_ghosts(Placement& placement) const;
+
+ private:
+  std::vector<OutputField> all_;
+};
+
+}  // namespace pnpbs::io
