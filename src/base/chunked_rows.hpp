@@ -22,7 +22,7 @@ class ChunkedRows {
   template <class MakeWriter>
   void build(const char* label, std::int64_t rows, const MakeWriter& make_writer) {
     chunks_.resize(static_cast<std::size_t>((rows + ChunkRows - 1) / ChunkRows));
-    for_each_guarded(label, static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t c) {
+    for_each(label, static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t c) {
       Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
       chunk.entries.clear();
       auto writer = make_writer();
@@ -40,7 +40,7 @@ class ChunkedRows {
   template <class Again, class MakeWriter>
   void rewrite(const char* label, std::int64_t rows, const Again& again,
                const MakeWriter& make_writer) {
-    for_each_guarded(label, static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t c) {
+    for_each(label, static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t c) {
       const std::int64_t first = c * ChunkRows, last = std::min(first + ChunkRows, rows);
       std::int64_t i = first;
       while (i < last && !again(i)) ++i;

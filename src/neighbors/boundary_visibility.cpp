@@ -38,7 +38,7 @@ void BoundaryVisibility::look(const Nodes<2>& nodes, const NearEdges& near_edges
                               const DomainMap<2>& map, const IncidentSectors& sectors) {
   constexpr std::int64_t kChunk = 256;
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
-  for_each_guarded("pnpbs::BoundaryVisibility::look", chunks, [&](std::int64_t chunk) {
+  for_each("pnpbs::BoundaryVisibility::look", chunks, [&](std::int64_t chunk) {
     const std::int64_t last = std::min((chunk + 1) * kChunk, nodes.count);
     for (std::int64_t i = chunk * kChunk; i < last; ++i)
       if (!nodes.moves(i)) look_from(nodes, i, near_edges, map, sectors);

@@ -47,7 +47,7 @@ void sum_component(std::int64_t n, std::int64_t components, const double* x, con
   static_assert(kChunk <= ExactProducts::kMaxTerms);
   ExactSum sum;
   std::mutex adding;
-  for_each_guarded("pnpbs::sum_component", (n + kChunk - 1) / kChunk, [&](std::int64_t chunk) {
+  for_each("pnpbs::sum_component", (n + kChunk - 1) / kChunk, [&](std::int64_t chunk) {
     ExactProducts products;
     const std::int64_t end = std::min(n, (chunk + 1) * kChunk);
     for (std::int64_t i = chunk * kChunk; i < end; ++i)

@@ -138,7 +138,7 @@ class Fitting {
   std::int64_t sum_columns() const { return M::kAll + kOfField * components_; }
   std::vector<double> sums() const {
     std::vector<double> all(static_cast<std::size_t>(placement_.count() * sum_columns()));
-    for_each_guarded("pnpbs::ParabolicFits::sums", placement_.count(), [&](std::int64_t p) {
+    for_each("pnpbs::ParabolicFits::sums", placement_.count(), [&](std::int64_t p) {
       double* const own = all.data() + p * sum_columns();
       std::array<double, M::kAll> here;
       for (const std::int64_t q : neighbours(p)) {
@@ -158,7 +158,7 @@ class Fitting {
   std::int64_t fit_columns() const { return 1 + M::kFitted * components_; }
   std::vector<double> fits(const std::vector<double>& sums) const {
     std::vector<double> all(static_cast<std::size_t>(placement_.count() * fit_columns()));
-    for_each_guarded("pnpbs::ParabolicFits::fits", placement_.count(),
+    for_each("pnpbs::ParabolicFits::fits", placement_.count(),
                      [&](std::int64_t p) { fit(p, sums, all.data() + p * fit_columns()); });
     return all;
   }

@@ -92,7 +92,7 @@ PopulationChange<Dim> choose_population_change(
     const std::function<Point<Dim>(std::int64_t)>& free_place,
     const std::function<bool(const Point<Dim>&, double)>& fits) {
   const View<Bid<Dim>> bids = make_view<Bid<Dim>>("pnpbs::population::bids", nodes.count);
-  for_each_guarded("pnpbs::population::bid", nodes.count, [&](std::int64_t i) {
+  for_each("pnpbs::population::bid", nodes.count, [&](std::int64_t i) {
     Bid<Dim> bid{0, nodes.id(i), nodes.position(i), Action::none};
     if (nodes.moves(i)) {
       const double ratio = ratios(i);
@@ -119,7 +119,7 @@ PopulationChange<Dim> choose_population_change(
   for (std::int32_t i = 0; i < nodes.count; ++i)
     if (bids(i).action != Action::none) bidders.push_back(i);
   std::vector<char> winner(bidders.size());
-  for_each_guarded("pnpbs::population::contest", static_cast<std::int64_t>(bidders.size()),
+  for_each("pnpbs::population::contest", static_cast<std::int64_t>(bidders.size()),
                    [&](std::int64_t b) {
                      const auto k = static_cast<std::size_t>(b);
                      winner[k] = wins<Dim>(nodes, lists, bids, bidders[k]);

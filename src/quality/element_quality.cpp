@@ -47,7 +47,7 @@ struct RatioSums {
   std::int64_t edges = 0, excess = 0, squares = 0;  // of ratio - 1, in fixed point
 
   void add(double ratio) {
-    constexpr double kMax = 1024;  // lest fixed-point numbers overflow
+    constexpr double kMax = 33;  // 2^21 squares of 32 fit into fixed point
     const double excess_of_one = std::min(ratio, kMax) - 1;
     ++edges;
     excess += fixed_point(excess_of_one);

@@ -24,7 +24,7 @@ void set(std::vector<char>& flags, std::int64_t i) {
 
 template <class Body>
 void for_chunks(const char* label, std::int64_t count, const Body& body) {
-  for_each_guarded(label, (count + kChunk - 1) / kChunk,
+  for_each(label, (count + kChunk - 1) / kChunk,
                    [&](std::int64_t c) { body(c * kChunk, std::min((c + 1) * kChunk, count)); });
 }
 

@@ -237,7 +237,7 @@ PopulationChange<2> choose_defect_repairs(
   std::vector<Defect> defects = find_defects(in);
   // Of a cluster only the worst is tried: what helps one helps the others, and far from rest, where
   // nearly every node is a defect, that is all it may cost.
-  for_each_guarded("pnpbs::defects::try", static_cast<std::int64_t>(defects.size()),
+  for_each("pnpbs::defects::try", static_cast<std::int64_t>(defects.size()),
                    [&](std::int64_t k) {
                      Defect& defect = defects[static_cast<std::size_t>(k)];
                      if (leads(in, defects, defect, kClusterRings, &Defect::is_worse_than))

@@ -68,7 +68,7 @@ void SliverRepair::find_slivers() {
   constexpr std::int64_t kChunk = 1024;
   std::vector<std::vector<TetrahedronNodes>> found(
       static_cast<std::size_t>((nodes_.count + kChunk - 1) / kChunk));
-  for_each_guarded("pnpbs::SliverRepair::find", std::ssize(found), [&](std::int64_t chunk) {
+  for_each("pnpbs::SliverRepair::find", std::ssize(found), [&](std::int64_t chunk) {
     for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes_.count); ++i)
       add_slivers_at(
           i, [](std::int32_t) { return true; }, found[static_cast<std::size_t>(chunk)]);
@@ -96,7 +96,7 @@ void SliverRepair::accept(const std::vector<StarChange>& changes) {
     return std::any_of(sliver.begin(), sliver.end(), is_affected);
   });
   std::vector<std::vector<TetrahedronNodes>> found(affected.size());
-  for_each_guarded("pnpbs::SliverRepair::accept", std::ssize(affected), [&](std::int64_t c) {
+  for_each("pnpbs::SliverRepair::accept", std::ssize(affected), [&](std::int64_t c) {
     const auto k = static_cast<std::size_t>(c);
     for (const std::int32_t i : affected[k]) add_slivers_at(i, is_affected, found[k]);
   });
@@ -165,7 +165,7 @@ std::vector<char> SliverRepair::winners() const {
     boxes.push_back(box_around<3>(nodes_.position(attempt.node), reach(attempt.node)));
   const BoxTree<3> tree(std::move(boxes));
   std::vector<char> wins(attempts_.size());
-  for_each_guarded("pnpbs::SliverRepair::winners", std::ssize(attempts_), [&](std::int64_t a) {
+  for_each("pnpbs::SliverRepair::winners", std::ssize(attempts_), [&](std::int64_t a) {
     const Attempt& own = attempts_[static_cast<std::size_t>(a)];
     if (!nodes_.owned(own.node)) return;
     const Point<3> x = nodes_.position(own.node);
@@ -327,7 +327,7 @@ void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
 
 std::int64_t SliverRepair::move() {
   const std::vector<char> wins = winners();
-  for_each_guarded("pnpbs::SliverRepair::move", std::ssize(attempts_), [&](std::int64_t a) {
+  for_each("pnpbs::SliverRepair::move", std::ssize(attempts_), [&](std::int64_t a) {
     if (!wins[static_cast<std::size_t>(a)]) return;
     Attempt& attempt = attempts_[static_cast<std::size_t>(a)];
     nodes_.moves(attempt.node) ? try_moves(attempt) : try_moves_along_surface(attempt);

@@ -121,7 +121,7 @@ void StarChanges::put(std::int32_t i, Star star) {
 std::vector<std::vector<std::int32_t>> StarChanges::accept(std::span<const StarChange> changes) {
   std::vector<std::vector<std::int32_t>> affected(changes.size());
   std::vector<std::vector<Star>> after(changes.size());
-  for_each_guarded("pnpbs::StarChanges::accept", std::ssize(changes), [&](std::int64_t c) {
+  for_each("pnpbs::StarChanges::accept", std::ssize(changes), [&](std::int64_t c) {
     const auto k = static_cast<std::size_t>(c);
     affected[k] = corners_of(changes[k]);
     for (const std::int32_t i : affected[k]) after[k].push_back(star_after(i, changes[k]));

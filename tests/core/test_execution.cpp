@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parallel loops: what a body throws comes to the caller, and does not end the process.
+#include <cstdint>
+#include <new>
+#include <vector>
+
+#include "base/execution.hpp"
+#include "run_kernel_suite.hpp"
+
+namespace {
+
+constexpr std::int64_t kBodies = 10000;
+
+// Throws in a few bodies, among them one of the last thread's.
+std::int64_t throwing(std::int64_t i) {
+  if (i % 3333 == 3332) throw std::bad_alloc();
+  return i;
+}
+
+template <class Loop>
+bool throws(const Loop& loop) {
+  try {
+    loop();
+  } catch (const std::bad_alloc&) {
+    return true;
+  }
+  return false;
+}
+
+START_TEST(exceptions_come_to_the_caller) {
+  ck_assert(
+      throws([] { pnpbs::for_each("for_each", kBodies, [](std::int64_t i) { throwing(i); }); }));
+  ck_assert(throws([] {
+    pnpbs::max_of("max_of", kBodies, 0.0,
+                  [](std::int64_t i) { return static_cast<double>(throwing(i)); });
+  }));
+  ck_assert(throws([] { pnpbs::sum_of("sum_of", kBodies, throwing); }));
+}
+END_TEST
+
+START_TEST(bodies_run_though_one_has_thrown) {
+  std::vector<char> ran(kBodies, 0);
+  ck_assert(throws([&] {
+    pnpbs::for_each("for_each", kBodies, [&](std::int64_t i) {
+      ran[static_cast<std::size_t>(i)] = 1;
+      throwing(i);
+    });
+  }));
+  for (const char one : ran) ck_assert_int_eq(one, 1);
+}
+END_TEST
+
+// The bound that is stated: terms of 1 of 2^31 - 1 nodes, and no more.
+START_TEST(fixed_point_sums_have_room) {
+  const auto most = static_cast<std::uint64_t>(pnpbs::fixed_point(1)) * 0x7fffffffu;
+  ck_assert_double_eq(pnpbs::from_fixed_point(most), 0x1p31 - 1);
+  ck_assert_double_lt(pnpbs::from_fixed_point(most + (std::uint64_t{1} << 32)), 0);
+}
+END_TEST
+
+}  // namespace
+
+int main() {
+  return run_kernel_suite("execution",
+                          {exceptions_come_to_the_caller, bodies_run_though_one_has_thrown,
+                           fixed_point_sums_have_room});
+}
