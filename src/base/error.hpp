@@ -29,6 +29,8 @@ enum class ErrorKind {
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  // With the text of another, which needs no memory.
+  Error(ErrorKind kind, const Error& text) : std::runtime_error(text), kind_(kind) {}
   ErrorKind kind() const { return kind_; }
 
  private:

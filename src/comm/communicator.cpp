@@ -5,7 +5,6 @@
 #include <array>
 #include <cstring>
 #include <new>
-#include <numeric>
 
 namespace pnpbs {
 
@@ -45,17 +44,16 @@ class SerialCommunicator : public Communicator {
   void sum_entries(std::vector<std::int64_t>&) const override {}
   std::int64_t exclusive_scan(std::int64_t) const override { return 0; }
   void broadcast_bytes(char*, std::size_t, int) const override {}
-  std::vector<std::uint64_t> allgather_sizes(std::uint64_t mine) const override { return {mine}; }
-  void allgather_bytes(const Bytes& mine, const std::vector<std::uint64_t>&,
-                       Bytes& all) const override {
-    all = mine;
-  }
+  void allgather_sizes(std::uint64_t, std::vector<std::uint64_t>&) const override {}
+  void allgather_bytes(const Bytes&, const std::vector<int>&, const std::vector<int>&,
+                       Bytes&) const override {}
+  int message_length(std::uint64_t) const override { return 0; }
 };
 
 // Kind and text of a failure, in a message of one size: telling of it needs no memory.
 struct FailureNote {
   ErrorKind kind = ErrorKind::internal;
-  std::array<char, 1020> text{};
+  std::array<char, 4092> text{};
 
   void set(ErrorKind of, const char* what) {
     kind = of;
@@ -81,6 +79,9 @@ FailureNote describe(std::exception_ptr failure) {
   return note;
 }
 
+// For a rank that has no memory for the text: it throws the same as the others all the same.
+const AgreedError kNoRoomForText(ErrorKind::memory, kOutOfMemory);
+
 }  // namespace
 
 // The lowest failed rank is the largest of size - rank.
@@ -93,7 +94,11 @@ Communicator::Reduction Communicator::reduce_or_fail(Reduction mine,
   FailureNote note;
   if (rank() == failed) note = describe(failure);
   broadcast_bytes(reinterpret_cast<char*>(&note), sizeof note, failed);
-  throw AgreedError(note.kind, "rank " + std::to_string(failed) + ": " + note.text.data());
+  try {
+    throw AgreedError(note.kind, "rank " + std::to_string(failed) + ": " + note.text.data());
+  } catch (const std::bad_alloc&) {
+    throw AgreedError(note.kind, kNoRoomForText);
+  }
 }
 
 void agree_on_failure(const Communicator& comm, std::exception_ptr failure) {
@@ -143,11 +148,26 @@ void Communicator::broadcast(Bytes& bytes, int root) const {
 }
 
 Bytes Communicator::allgather(const Bytes& mine) const {
-  reduce_or_fail({});
-  const std::vector<std::uint64_t> sizes = allgather_sizes(mine.size());
+  if (size() == 1) {
+    reduce_or_fail({});
+    return mine;
+  }
+  std::vector<std::uint64_t> sizes;
+  agreed(*this, [&] { sizes.resize(static_cast<std::size_t>(size())); });
+  allgather_sizes(mine.size(), sizes);
   Bytes all;
-  agreed(*this, [&] { all.resize(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0})); });
-  allgather_bytes(mine, sizes, all);
+  std::vector<int> lengths, offsets;
+  agreed(*this, [&] {
+    std::uint64_t offset = 0;
+    for (const std::uint64_t size : sizes) {
+      offsets.push_back(message_length(offset));
+      lengths.push_back(message_length(size));
+      offset += size;
+    }
+    message_length(offset);
+    all.resize(offset);
+  });
+  allgather_bytes(mine, lengths, offsets, all);
   return all;
 }
 

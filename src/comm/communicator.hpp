@@ -99,9 +99,12 @@ class Communicator {
   virtual void sum_entries(std::vector<std::int64_t>& values) const = 0;
   virtual std::int64_t exclusive_scan(std::int64_t value) const = 0;
   virtual void broadcast_bytes(char* bytes, std::size_t n, int root) const = 0;
-  virtual std::vector<std::uint64_t> allgather_sizes(std::uint64_t mine) const = 0;
-  virtual void allgather_bytes(const Bytes& mine, const std::vector<std::uint64_t>& sizes,
-                               Bytes& all) const = 0;
+  // These find all their memory before ranks wait for each other: `all` has its size.
+  virtual void allgather_sizes(std::uint64_t mine, std::vector<std::uint64_t>& all) const = 0;
+  virtual void allgather_bytes(const Bytes& mine, const std::vector<int>& sizes,
+                               const std::vector<int>& offsets, Bytes& all) const = 0;
+  // Throws if that many bytes are too many for allgather_bytes().
+  virtual int message_length(std::uint64_t size) const = 0;
 
  private:
   friend void agree_on_failure(const Communicator& comm, std::exception_ptr failure);

@@ -5,6 +5,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/build_config.hpp"
 #include "comm/communicator.hpp"
@@ -99,6 +100,10 @@ class MpiCommunicator : public Communicator {
           "MPI_Comm_split_type");
     MPI_Comm_size(node, &ranks_on_node_);
     MPI_Comm_free(&node);
+    const auto ranks = static_cast<std::size_t>(size_);
+    requests_.reserve(2 * ranks);
+    sizes_in_.resize(ranks);
+    sizes_out_.resize(ranks);
     check(MPI_Type_contiguous(sizeof(Reduction), MPI_BYTE, &reduction_), "MPI_Type_contiguous");
     check(MPI_Type_commit(&reduction_), "MPI_Type_commit");
     check(MPI_Op_create(combine, 1, &combining_), "MPI_Op_create");
@@ -118,63 +123,36 @@ class MpiCommunicator : public Communicator {
   int size() const override { return size_; }
   int ranks_on_node() const override { return ranks_on_node_; }
 
-  // Sizes first, then the messages, in pieces of limited size: those of a message that finds no
-  // room here are received one by one and dropped, because its sender must not wait for ever.
+  // Sizes first, then the messages, in pieces of limited size: those of a rank that finds no room
+  // here are received one by one and dropped, because its neighbours must not wait for ever. All
+  // memory is found before the first receive is posted: what is under way must stay where it is.
   std::vector<Bytes> exchange(const std::vector<int>& neighbours,
                               const std::vector<Bytes>& outgoing) const override {
     require_mpi_runs();
-    const std::size_t n = neighbours.size();
-    std::vector<std::uint64_t> sizes_out(n), sizes_in(n);
-    std::vector<MPI_Request> requests(2 * n);
-    for (std::size_t k = 0; k < n; ++k) {
-      sizes_out[k] = outgoing[k].size();
-      MPI_Irecv(&sizes_in[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_, &requests[k]);
-      MPI_Isend(&sizes_out[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_, &requests[n + k]);
+    exchange_sizes(neighbours, outgoing);
+    std::vector<Bytes> incoming;
+    std::exception_ptr failure;
+    attempt(failure, [&] {
+      incoming.resize(neighbours.size());
+      for (std::size_t k = 0; k < neighbours.size(); ++k) incoming[k].resize(sizes_in_[k]);
+      reserve_requests(outgoing, incoming);
+    });
+    if (failure) {
+      exchange_in_turn(neighbours, outgoing, nullptr);
+      std::rethrow_exception(failure);
     }
-    wait_for(requests);
-    requests.clear();
-    std::vector<Bytes> incoming(n);
-    std::vector<std::size_t> dropped;
-    for (std::size_t k = 0; k < n; ++k) {
-      try {
-        incoming[k].resize(sizes_in[k]);
-        for_pieces(sizes_in[k], [&](std::uint64_t at, int length) {
-          MPI_Irecv(incoming[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
-                    &requests.emplace_back());
-        });
-      } catch (const std::bad_alloc&) {
-        dropped.push_back(k);
-      }
-    }
-    for (std::size_t k = 0; k < n; ++k)
-      for_pieces(sizes_out[k], [&](std::uint64_t at, int length) {
-        MPI_Isend(outgoing[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
-                  &requests.emplace_back());
-      });
-    for (const std::size_t k : dropped)
-      for_pieces(sizes_in[k], [&](std::uint64_t, int length) {
-        MPI_Recv(dropped_.get(), length, MPI_BYTE, neighbours[k], kDataTag, comm_,
-                 MPI_STATUS_IGNORE);
-      });
-    wait_for(requests);
-    if (!dropped.empty()) throw std::bad_alloc();
+    exchange_at_once(neighbours, outgoing, incoming);
     return incoming;
   }
 
+  // Throws for no lack of memory: nobody is ready to be told.
   void exchange_known(const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
                       std::vector<Bytes>& incoming) const override {
-    requests_.clear();
-    for (std::size_t k = 0; k < neighbours.size(); ++k)
-      for_pieces(incoming[k].size(), [&](std::uint64_t at, int length) {
-        MPI_Irecv(incoming[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
-                  &requests_.emplace_back());
-      });
-    for (std::size_t k = 0; k < neighbours.size(); ++k)
-      for_pieces(outgoing[k].size(), [&](std::uint64_t at, int length) {
-        MPI_Isend(outgoing[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
-                  &requests_.emplace_back());
-      });
-    wait_for(requests_);
+    std::exception_ptr failure;
+    attempt(failure, [&] { reserve_requests(outgoing, incoming); });
+    if (!failure) return exchange_at_once(neighbours, outgoing, incoming);
+    for (std::size_t k = 0; k < neighbours.size(); ++k) sizes_in_[k] = incoming[k].size();
+    exchange_in_turn(neighbours, outgoing, &incoming);
   }
 
   std::unique_ptr<KnownExchange> known_exchange(const std::vector<int>& neighbours,
@@ -230,30 +208,95 @@ class MpiCommunicator : public Communicator {
   void broadcast_bytes(char* bytes, std::size_t n, int root) const override {
     check(MPI_Bcast(bytes, count(n), MPI_BYTE, root, comm_), "MPI_Bcast");
   }
-  std::vector<std::uint64_t> allgather_sizes(std::uint64_t mine) const override {
-    std::vector<std::uint64_t> all(static_cast<std::size_t>(size_));
+  void allgather_sizes(std::uint64_t mine, std::vector<std::uint64_t>& all) const override {
     check(MPI_Allgather(&mine, 1, MPI_UINT64_T, all.data(), 1, MPI_UINT64_T, comm_),
           "MPI_Allgather");
-    return all;
   }
-  void allgather_bytes(const Bytes& mine, const std::vector<std::uint64_t>& sizes,
-                       Bytes& all) const override {
-    count(all.size());  // offsets are no longer either
-    std::vector<int> counts, offsets;
-    int offset = 0;
-    for (const std::uint64_t size : sizes) {
-      offsets.push_back(offset);
-      counts.push_back(static_cast<int>(size));
-      offset += counts.back();
-    }
-    check(MPI_Allgatherv(mine.data(), count(mine.size()), MPI_BYTE, all.data(), counts.data(),
+  void allgather_bytes(const Bytes& mine, const std::vector<int>& sizes,
+                       const std::vector<int>& offsets, Bytes& all) const override {
+    check(MPI_Allgatherv(mine.data(), count(mine.size()), MPI_BYTE, all.data(), sizes.data(),
                          offsets.data(), MPI_BYTE, comm_),
           "MPI_Allgatherv");
   }
+  int message_length(std::uint64_t size) const override { return count(size); }
 
  private:
   // And those of sparse exchanges. What is waited for later must not meet what comes between.
   static constexpr int kSizeTag = 1, kDataTag = 2, kKnownTag = 6;
+
+  void exchange_sizes(const std::vector<int>& neighbours,
+                      const std::vector<Bytes>& outgoing) const {
+    requests_.clear();
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+      sizes_out_[k] = outgoing[k].size();
+      MPI_Irecv(&sizes_in_[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_,
+                &requests_.emplace_back());
+      MPI_Isend(&sizes_out_[k], 1, MPI_UINT64_T, neighbours[k], kSizeTag, comm_,
+                &requests_.emplace_back());
+    }
+    wait_for(requests_);
+  }
+
+  void reserve_requests(const std::vector<Bytes>& outgoing,
+                        const std::vector<Bytes>& incoming) const {
+    std::uint64_t pieces = 0;
+    for (const Bytes& bytes : outgoing) pieces += mpi::pieces(bytes.size());
+    for (const Bytes& bytes : incoming) pieces += mpi::pieces(bytes.size());
+    requests_.reserve(pieces);
+  }
+
+  void exchange_at_once(const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
+                        std::vector<Bytes>& incoming) const {
+    requests_.clear();
+    for (std::size_t k = 0; k < neighbours.size(); ++k)
+      for_pieces(incoming[k].size(), [&](std::uint64_t at, int length) {
+        MPI_Irecv(incoming[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
+                  &requests_.emplace_back());
+      });
+    for (std::size_t k = 0; k < neighbours.size(); ++k)
+      for_pieces(outgoing[k].size(), [&](std::uint64_t at, int length) {
+        MPI_Isend(outgoing[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
+                  &requests_.emplace_back());
+      });
+    wait_for(requests_);
+  }
+
+  // Needs no memory: a piece to and from one neighbour at a time. What comes goes to `incoming`, or
+  // is dropped if that is NULL. Ranks that do this take their pairs in the same order, that of the
+  // lower rank and then the higher one, so that no ring of them waits for each other.
+  void exchange_in_turn(const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
+                        std::vector<Bytes>* incoming) const {
+    const auto pair_with = [this](int other) {
+      return std::pair(std::min(rank_, other), std::max(rank_, other));
+    };
+    std::pair<int, int> last(-1, -1);
+    for (std::size_t n = 0; n < neighbours.size(); ++n) {
+      std::size_t next = neighbours.size();
+      for (std::size_t k = 0; k < neighbours.size(); ++k)
+        if (pair_with(neighbours[k]) > last &&
+            (next == neighbours.size() || pair_with(neighbours[k]) < pair_with(neighbours[next])))
+          next = k;
+      last = pair_with(neighbours[next]);
+      exchange_with(neighbours[next], outgoing[next], sizes_in_[next],
+                    incoming ? (*incoming)[next].data() : nullptr);
+    }
+  }
+
+  void exchange_with(int neighbour, const Bytes& outgoing, std::uint64_t size, char* to) const {
+    const std::uint64_t end = std::max<std::uint64_t>(outgoing.size(), size);
+    const auto partner = [&](bool any) { return any ? neighbour : MPI_PROC_NULL; };
+    const auto length_of = [](std::uint64_t all, std::uint64_t at) {
+      return at < all ? static_cast<int>(std::min<std::uint64_t>(kPiece, all - at)) : 0;
+    };
+    for (std::uint64_t at = 0; at < end; at += kPiece) {
+      const int sent = length_of(outgoing.size(), at), received = length_of(size, at);
+      check(
+          MPI_Sendrecv(sent > 0 ? outgoing.data() + at : nullptr, sent, MPI_BYTE, partner(sent > 0),
+                       kDataTag, to && received > 0 ? to + at : dropped_.get(), received, MPI_BYTE,
+                       partner(received > 0), kDataTag, comm_, MPI_STATUS_IGNORE),
+          "MPI_Sendrecv");
+    }
+  }
 
   static void combine(void* in, void* in_out, int* length, MPI_Datatype*) {
     const auto* from = static_cast<const Reduction*>(in);
@@ -269,7 +312,10 @@ class MpiCommunicator : public Communicator {
   MPI_Datatype reduction_ = MPI_DATATYPE_NULL;
   MPI_Op combining_ = MPI_OP_NULL;
   int rank_ = 0, size_ = 1, ranks_on_node_ = 1;
-  mutable std::vector<MPI_Request> requests_;  // of renewals: kept, so that they need no memory
+  // Kept, so that exchanges need no memory: requests, and the sizes of messages from and to as many
+  // neighbours as there may be.
+  mutable std::vector<MPI_Request> requests_;
+  mutable std::vector<std::uint64_t> sizes_in_, sizes_out_;
   std::unique_ptr<char[]> dropped_ = std::make_unique<char[]>(kPiece);
 };
 

@@ -179,13 +179,20 @@ void expect_failure(int bad, pnpbs::ErrorKind kind, const std::string& part, con
   try {
     pnpbs::agreed(*comm, work);
   } catch (const pnpbs::Error& error) {
+    refused_from = kNoLimit;
     told = error.what();
     expect(error.kind() == kind, part + ": kind of the error");
   } catch (const std::bad_alloc&) {
+    refused_from = kNoLimit;
     told = part;
     expect(comm->size() == 1, "an error that ranks agree on");
   }
-  const std::string begin = comm->size() > 1 ? "rank " + std::to_string(bad) + ": " : "";
+  refused_from = kNoLimit;
+  // A rank that has no memory for the text says only what it lacks.
+  const bool lacks = kind == pnpbs::ErrorKind::memory && comm->rank() == bad;
+  const std::string begin = comm->size() > 1 && !(lacks && told.find("rank") != 0)
+                                ? "rank " + std::to_string(bad) + ": "
+                                : "";
   expect(told.find(begin) == 0 && told.find(part) != std::string::npos,
          "wanted \"" + begin + part + "\", got \"" + told + "\"");
 }
@@ -219,6 +226,61 @@ void check_no_memory() {
     }
 }
 
+// No memory at all on some ranks: one, every other one, all. What others send them is dropped, or
+// taken where there is room for it already; what they send arrives.
+void check_neighbours_without_memory() {
+  std::vector<int> others(static_cast<std::size_t>(comm->size()));
+  std::iota(others.begin(), others.end(), 0);
+  others.erase(others.begin() + comm->rank());
+  const auto filled = [](int from, std::uint64_t pieces) {
+    return Bytes(pieces * kPiece - 5, static_cast<char>('a' + from));
+  };
+  for (const int pattern : {0, 1, 2}) {
+    // More and more pieces, so that no memory of an earlier exchange is enough for the next.
+    const std::uint64_t pieces = 3 + 2 * static_cast<std::uint64_t>(pattern);
+    const bool bad = (pattern == 0 && comm->rank() == comm->size() / 2) ||
+                     (pattern == 1 && comm->rank() % 2 == 0) || pattern == 2;
+    const std::vector<Bytes> outgoing(others.size(), filled(comm->rank(), pieces));
+    std::vector<Bytes> known(others.size(), Bytes(outgoing.empty() ? 0 : outgoing[0].size()));
+    std::vector<Bytes> incoming;
+    const std::int64_t before = message_counts::counts.messages;
+    bool told = false;
+    refused_from = bad ? 1 : kNoLimit;
+    comm->exchange_known(others, outgoing, known);
+    const bool in_turn = message_counts::counts.messages == before && !others.empty();
+    try {
+      incoming = comm->exchange(others, outgoing);
+    } catch (const std::bad_alloc&) {
+      told = true;
+    }
+    refused_from = kNoLimit;
+    const std::string what = "pattern " + std::to_string(pattern);
+    expect(told == (bad && !others.empty()), what + ": told of a lack of memory");
+    expect(in_turn == (bad && !others.empty()), what + ": exchanged without memory");
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      expect(known[k] == filled(others[k], pieces), what + ": a message with room");
+      expect(bad || incoming[k] == filled(others[k], pieces), what + ": a message");
+    }
+  }
+}
+
+// ------------------------------------------------------------------ what all give --------------
+
+// Every rank throws when one has no memory for what the others give.
+void check_gathering() {
+  for (int bad = 0; bad < comm->size() && comm->size() > 1; ++bad)
+    for (const std::size_t limit : {std::size_t{1}, std::size_t{20000}}) {
+      const Bytes mine(20000, static_cast<char>(comm->rank()));
+      expect_failure(bad, pnpbs::ErrorKind::memory, "memory", [&] {
+        refused_from = comm->rank() == bad ? limit : kNoLimit;
+        comm->allgather(mine);
+      });
+      refused_from = kNoLimit;
+      expect(comm->allgather(mine).size() == mine.size() * static_cast<std::size_t>(comm->size()),
+             "what all give");
+    }
+}
+
 // ------------------------------------------------------------------ sums over ranks ------------
 
 void check_sums() {
@@ -249,6 +311,8 @@ void check_all() {
   check_records();
   check_failures();
   check_no_memory();
+  check_neighbours_without_memory();
+  check_gathering();
   check_sums();
   check_spans();
 }
