@@ -237,6 +237,23 @@ START_TEST(closed_curves_have_three_edges) {
 }
 END_TEST
 
+// Nodes on both sides of a slit see each other only if the domain lies between them.
+START_TEST(nodes_beside_another_curve_are_named) {
+  const double mouth = 1e-6;
+  PlaneDomain wedge;
+  add_loop(wedge, {{0, 0, 1, 0, 1, mouth}});
+  const Boundary inside = lay(wedge, constant(0.1));
+  expect_valid(inside);
+  ck_assert(warns(inside, "boundary nodes closer than a tenth of it to another edge"));
+  ck_assert(warns(inside, "(distance 1e-07, spacing 0.1)"));
+  PlaneDomain slit;
+  add_loop(slit, {{-1, -1, 1, -1, 1, 0, 0, 0, 1, mouth, 1, 1, -1, 1}});
+  const Boundary outside = lay(slit, constant(0.1));
+  expect_valid(outside);
+  ck_assert(!warns(outside, "to another edge"));
+}
+END_TEST
+
 START_TEST(two_arcs_do_not_collapse) {
   PlaneDomain domain;
   domain.add_arc(pnpbs::CurveRole::boundary, {0, 0}, 1, 0, pi, 1);
@@ -420,13 +437,24 @@ START_TEST(every_time_the_same) {
 END_TEST
 
 int main() {
-  return run_suite(
-      "boundary",
-      {uniform_square, equal_steps_of_the_integral, number_of_steps_is_rounded,
-       nodes_lie_on_the_true_curve, steps_on_an_unevenly_parametrised_curve,
-       spacing_is_asked_on_the_curves_only_and_in_batches, closed_curves_have_three_edges,
-       two_arcs_do_not_collapse, chords_that_would_cut_are_halved, islands_stay_inside,
-       fixed_nodes_stay_inside, curves_keep_their_order_about_a_corner, lakes_at_any_spacing,
-       smooth_lakes_at_any_spacing, short_edges_are_told, close_fixed_nodes_are_told, bad_spacing,
-       callbacks_that_change_their_mind, every_time_the_same});
+  return run_suite("boundary", {uniform_square,
+                                equal_steps_of_the_integral,
+                                number_of_steps_is_rounded,
+                                nodes_lie_on_the_true_curve,
+                                steps_on_an_unevenly_parametrised_curve,
+                                spacing_is_asked_on_the_curves_only_and_in_batches,
+                                closed_curves_have_three_edges,
+                                nodes_beside_another_curve_are_named,
+                                two_arcs_do_not_collapse,
+                                chords_that_would_cut_are_halved,
+                                islands_stay_inside,
+                                fixed_nodes_stay_inside,
+                                curves_keep_their_order_about_a_corner,
+                                lakes_at_any_spacing,
+                                smooth_lakes_at_any_spacing,
+                                short_edges_are_told,
+                                close_fixed_nodes_are_told,
+                                bad_spacing,
+                                callbacks_that_change_their_mind,
+                                every_time_the_same});
 }

@@ -619,6 +619,22 @@ START_TEST(crossing_in_a_graph_numbered_from_one) {
 }
 END_TEST
 
+// A comb of 25 teeth across a segment.
+START_TEST(up_to_twenty_crossings_are_listed) {
+  Graph graph = square_graph(60);
+  const std::int64_t west = graph.vertex(1, 30), east = graph.vertex(59, 30);
+  graph.segment(west, east);
+  for (int tooth = 0; tooth < 25; ++tooth) {
+    const double x = 2 + 2 * tooth;
+    const std::int64_t low = graph.vertex(x, 29), high = graph.vertex(x, 31);
+    graph.segment(low, high);
+  }
+  PlaneDomain domain;
+  graph.add_to(domain);
+  expect_domain_error(domain, {" cross at (2, 30)", " cross at (40, 30)", "; and more"});
+}
+END_TEST
+
 START_TEST(overlapping_segments) {
   Graph graph = square_graph(4);
   const std::int64_t a = graph.vertex(1, 0), b = graph.vertex(3, 0);
@@ -932,6 +948,7 @@ int main() {
                                     self_intersection,
                                     crossing_curves,
                                     crossing_in_a_graph_numbered_from_one,
+                                    up_to_twenty_crossings_are_listed,
                                     overlapping_segments,
                                     duplicate_vertices,
                                     unclosed_boundary,

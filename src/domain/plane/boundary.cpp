@@ -11,6 +11,7 @@
 #include "domain/plane/faces.hpp"
 #include "domain/plane/plane_sweep.hpp"
 #include "domain/plane/point_tree.hpp"
+#include "predicates/plane.hpp"
 
 namespace pnpbs {
 
@@ -47,6 +48,7 @@ class Layer {
     ask_spacing();
     refuse_far_too_fine();
     warn_of_short_edges();
+    warn_of_close_edges();
     warn_of_close_fixed_nodes();
     return std::move(boundary_);
   }
@@ -289,6 +291,46 @@ class Layer {
         "the spacing is larger than the feature at " + std::to_string(all.size()) +
         " boundary edges shorter than half of it; the worst: " +
         worst_text(all, "length", [this](std::int32_t e) { return track(e).curve().name; }));
+  }
+
+  // Nodes of one curve beside another, with the domain between: at a slit or a sharp corner. Those
+  // of short edges have had their warning.
+  void warn_of_close_edges() {
+    constexpr double kClose = 0.1;
+    const auto is_short = [&](std::int32_t a, std::int32_t b) {
+      return distance<2>(positions_[a], positions_[b]) < 0.25 * (d_[a] + d_[b]);
+    };
+    std::vector<char> at_short_edge(positions_.size(), 0);
+    for (const auto& [a, b] : ends_)
+      if (is_short(a, b)) at_short_edge[a] = at_short_edge[b] = 1;
+    const PointTree tree({positions_.begin(), positions_.begin() + boundary_.first_fixed});
+    std::vector<Worst> nearest(positions_.size(), {HUGE_VAL, 0, 0, 0});
+    for (std::int32_t e = 0; e < static_cast<std::int32_t>(ends_.size()); ++e) {
+      const auto [a, b] = ends_[e];
+      if (is_short(a, b)) continue;
+      tree.for_each_near(positions_[a], positions_[b], kClose * std::max(d_[a], d_[b]),
+                         [&](std::int32_t node, double distance) {
+                           const double d = d_[node];
+                           if (node == a || node == b || at_short_edge[node] != 0 ||
+                               distance >= kClose * d || !faces_inside(e, node))
+                             return;
+                           nearest[node] = std::min(nearest[node], {distance / d, e, distance, d});
+                         });
+    }
+    std::erase_if(nearest, [](const Worst& worst) { return worst.ratio == HUGE_VAL; });
+    if (nearest.empty()) return;
+    boundary_.warnings.push_back(
+        "the spacing is larger than the feature at " + std::to_string(nearest.size()) +
+        " boundary nodes closer than a tenth of it to another edge; the worst: beside " +
+        worst_text(nearest, "distance", [this](std::int32_t e) { return track(e).curve().name; }));
+  }
+
+  // Does the domain lie on that side of the edge on which the node does?
+  bool faces_inside(std::int32_t edge, std::int32_t node) const {
+    const int side =
+        orientation(positions_[ends_[edge][0]], positions_[ends_[edge][1]], positions_[node]);
+    const BoundaryCurve& curve = track(edge).curve();
+    return side > 0 ? curve.left_inside : side < 0 && curve.right_inside;
   }
 
   void warn_of_close_fixed_nodes() {

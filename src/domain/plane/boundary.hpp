@@ -26,8 +26,9 @@ struct Boundary : BoundaryMesh<2> {
 // or passes a node on the wrong side, are halved on their curve until none does, with a warning
 // that names the curve. The paper's repeated bisection
 // (section 2.1) has the same result. d is asked on the curves only. Warns where d is larger than
-// the feature (edges shorter than half of d: the worst few are named, with the number of them),
-// and where a fixed node is closer than 0.4 d to an edge or to another fixed node.
+// the feature (edges shorter than half of d, nodes closer than 0.1 d to another edge across the
+// inside: the worst few are named, with the number of them), and where a fixed node is closer than
+// 0.4 d to an edge or to another fixed node.
 // Throws Error(ErrorKind::spacing) if there would be more than `max_nodes`.
 Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing,
                              std::int64_t max_nodes = (std::int64_t{1} << 31) - 2);

@@ -8,14 +8,13 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/domain_error.hpp"
+#include "domain/plane/conflicts.hpp"
 #include "domain/plane/domain_extent.hpp"
 #include "domain/plane/domain_graph.hpp"
 #include "domain/plane/faces.hpp"
 #include "domain/plane/plane_sweep.hpp"
 #include "domain/plane/sampling.hpp"
-#include "domain/plane/segments.hpp"
 #include "domain/plane/smooth_contacts.hpp"
-#include "predicates/plane.hpp"
 
 namespace pnpbs {
 
@@ -34,7 +33,7 @@ class Resolver {
 
   ResolvedDomain run() {
     make_graph();
-    reject_conflicts();
+    reject_conflicts({sources_, holes_, fixed_nodes_, graph_, points_, sweep_});
     const bool graph_rule = std::any_of(sources_.begin(), sources_.end(), [](const auto& source) {
       return source.kind == Kind::graph;
     });
@@ -102,54 +101,7 @@ class Resolver {
            point_text(points_[vertex]);
   }
 
-  bool is_hole(std::int32_t point) const {
-    return static_cast<std::size_t>(point) >= graph_.vertices.size();
-  }
-  const Hole& hole_at(std::int32_t point) const {
-    return holes_[static_cast<std::size_t>(point) - graph_.vertices.size()];
-  }
-
-  // ------------------------------------------------------------ what must not meet
-  void reject_conflicts() const {
-    for (const SweepConflict& conflict : sweep_.conflicts) {
-      if (conflict.other >= 0) {
-        reject_meeting_edges(conflict.edge, conflict.other);
-      } else if (is_hole(conflict.vertex)) {
-        reject_hole_on(hole_at(conflict.vertex), edge_name(conflict.edge));
-      } else {
-        reject_domain(name_and_place(conflict.vertex) + " lies on " + edge_name(conflict.edge));
-      }
-    }
-    for (const VertexPair& pair : sweep_.coincident) {
-      if (is_hole(pair[0])) continue;
-      const std::string name = vertex_name(graph_.vertices[pair[0]], sources_, fixed_nodes_);
-      if (is_hole(pair[1])) reject_hole_on(hole_at(pair[1]), name);
-      reject_domain(name + " and " + vertex_name(graph_.vertices[pair[1]], sources_, fixed_nodes_) +
-                    " touch at " + point_text(points_[pair[0]]));
-    }
-  }
-
-  [[noreturn]] static void reject_hole_on(const Hole& hole, const std::string& name) {
-    reject_domain(hole.name + " at " + point_text(hole.point) + " lies on " + name +
-                  ": move it into the region it stands for");
-  }
-
-  [[noreturn]] void reject_meeting_edges(std::int32_t first, std::int32_t second) const {
-    if (second < first) std::swap(first, second);
-    const auto [a, b] = graph_.ends[first];
-    const auto [c, d] = graph_.ends[second];
-    const bool common_end = a == c || a == d || b == c || b == d;
-    const bool on_a_line = orientation(points_[a], points_[b], points_[c]) == 0 &&
-                           orientation(points_[a], points_[b], points_[d]) == 0;
-    const Point<2> where = common_end || on_a_line
-                               ? points_[c]
-                               : crossing_point(points_[a], points_[b], points_[c], points_[d]);
-    const std::string name = edge_name(first), other = edge_name(second);
-    const std::string what = common_end || on_a_line ? " overlap at " : " cross at ";
-    if (name == other) reject_domain(name + " meets itself at " + point_text(where));
-    reject_domain(name + " and " + other + what + point_text(where));
-  }
-
+  // ------------------------------------------------------------ what bounds it
   // Every vertex must end an even number of boundary segments.
   void require_closed_boundary() const {
     std::vector<char> odd(graph_.vertices.size(), 0);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/plane/conflicts.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/point_text.hpp"
+#include "domain/domain_error.hpp"
+#include "domain/plane/segments.hpp"
+#include "predicates/plane.hpp"
+#include "tree/box_tree.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+class Conflicts {
+ public:
+  explicit Conflicts(const SweptGraph& swept) : swept_(swept) {}
+
+  // Each place once: as the sweep came upon them, and then crossings that it has not looked for,
+  // since it leaves out one of two edges that meet. No more than so many.
+  std::vector<std::string> texts(std::size_t max) const {
+    std::vector<std::string> texts;
+    const auto add = [&](std::string text) {
+      if (texts.size() < max && std::ranges::find(texts, text) == texts.end())
+        texts.push_back(std::move(text));
+    };
+    for (const SweepConflict& conflict : swept_.sweep.conflicts) add(text_of(conflict));
+    for (const VertexPair& pair : swept_.sweep.coincident)
+      if (!is_hole(pair[0])) add(text_of(pair));
+    if (!texts.empty() && texts.size() < max)
+      for_crossings([&](std::int32_t edge, std::int32_t other) {
+        add(text_of_meeting(edge, other));
+        return texts.size() < max;
+      });
+    return texts;
+  }
+
+ private:
+  std::string edge_name(std::int32_t edge) const {
+    const GraphEdge& of = swept_.graph.edges[edge];
+    return swept_.sources[of.source].segment_name(of.segment);
+  }
+  std::string name_of(std::int32_t vertex) const {
+    return vertex_name(swept_.graph.vertices[vertex], swept_.sources, swept_.fixed_nodes);
+  }
+  const Point<2>& point(std::int32_t vertex) const { return swept_.points[vertex]; }
+
+  bool is_hole(std::int32_t point) const {
+    return static_cast<std::size_t>(point) >= swept_.graph.vertices.size();
+  }
+  std::string text_of_hole_on(std::int32_t point, const std::string& name) const {
+    const Hole& hole = swept_.holes[static_cast<std::size_t>(point) - swept_.graph.vertices.size()];
+    return hole.name + " at " + point_text(hole.point) + " lies on " + name +
+           ": move it into the region it stands for";
+  }
+
+  std::string text_of(const SweepConflict& conflict) const {
+    if (conflict.other >= 0) return text_of_meeting(conflict.edge, conflict.other);
+    if (is_hole(conflict.vertex)) return text_of_hole_on(conflict.vertex, edge_name(conflict.edge));
+    return name_of(conflict.vertex) + " " + point_text(point(conflict.vertex)) + " lies on " +
+           edge_name(conflict.edge);
+  }
+
+  std::string text_of(const VertexPair& coincident) const {
+    if (is_hole(coincident[1])) return text_of_hole_on(coincident[1], name_of(coincident[0]));
+    return name_of(coincident[0]) + " and " + name_of(coincident[1]) + " touch at " +
+           point_text(point(coincident[0]));
+  }
+
+  std::string text_of_meeting(std::int32_t first, std::int32_t second) const {
+    if (second < first) std::swap(first, second);
+    const auto [a, b] = swept_.graph.ends[first];
+    const auto [c, d] = swept_.graph.ends[second];
+    const bool common_end = a == c || a == d || b == c || b == d;
+    const bool on_a_line = orientation(point(a), point(b), point(c)) == 0 &&
+                           orientation(point(a), point(b), point(d)) == 0;
+    const Point<2> where =
+        common_end || on_a_line ? point(c) : crossing_point(point(a), point(b), point(c), point(d));
+    const std::string name = edge_name(first), other = edge_name(second);
+    const std::string what = common_end || on_a_line ? " overlap at " : " cross at ";
+    if (name == other) return name + " meets itself at " + point_text(where);
+    return name + " and " + other + what + point_text(where);
+  }
+
+  bool cross(std::int32_t edge, std::int32_t other) const {
+    const auto [a, b] = swept_.graph.ends[edge];
+    const auto [c, d] = swept_.graph.ends[other];
+    return cross_properly(point(a), point(b), point(c), point(d));
+  }
+
+  // Until visit(edge, other) returns false, or there were enough to look at.
+  template <class Visit>
+  void for_crossings(const Visit& visit) const {
+    std::int64_t to_look_at = 10'000'000;
+    std::vector<Box<2>> boxes;
+    for (const auto& [a, b] : swept_.graph.ends)
+      boxes.push_back(joined(Box<2>{point(a), point(a)}, Box<2>{point(b), point(b)}));
+    const BoxTree<2> tree(boxes);
+    bool goes_on = true;
+    for (std::int32_t edge = 0; goes_on && edge < static_cast<std::int32_t>(boxes.size()); ++edge)
+      tree.for_meeting(boxes[static_cast<std::size_t>(edge)], [&](std::int32_t other) {
+        goes_on = goes_on && --to_look_at > 0;
+        if (goes_on && other > edge && cross(edge, other)) goes_on = visit(edge, other);
+      });
+  }
+
+  const SweptGraph& swept_;
+};
+
+}  // namespace
+
+void reject_conflicts(const SweptGraph& swept) {
+  constexpr std::size_t kListed = 20;
+  std::vector<std::string> texts = Conflicts(swept).texts(kListed + 1);
+  if (texts.empty()) return;
+  if (texts.size() > kListed) texts.back() = "and more";
+  std::string list = texts.front();
+  for (std::size_t k = 1; k < texts.size(); ++k) list += "; " + texts[k];
+  reject_domain(list);
+}
+
+}  // namespace pnpbs
