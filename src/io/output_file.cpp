@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "io/abandoned_files.hpp"
 
 namespace pnpbs::io {
 namespace {
@@ -34,10 +35,12 @@ std::string behind_links(const std::string& path) {
   return std::filesystem::is_symlink(target, error) ? path : target.string();
 }
 
-std::string unused_name_beside(const std::string& target) {
+// For what may be the only copy of a file: nobody removes it but who has made it.
+std::string name_for_old_beside(const std::string& target) {
   static std::random_device random;
   const std::filesystem::path folder = std::filesystem::path(target).parent_path();
-  const std::string name = ".pnpbs-" + std::to_string(::getpid()) + "-" + std::to_string(random());
+  const std::string name =
+      ".pnpbs-old-" + std::to_string(::getpid()) + "-" + std::to_string(random());
   return (folder / name).string();
 }
 
@@ -80,7 +83,7 @@ void OutputFile::check() const {
 
 int OutputFile::open_aside(std::unique_ptr<Temporary>& temporary) const {
   // Listed before it is created, so that no signal finds it unlisted.
-  temporary = std::make_unique<Temporary>(unused_name_beside(target_));
+  temporary = std::make_unique<Temporary>(unfinished_name_beside(target_));
   const int descriptor = ::open(temporary->path(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     temporary->keep();  // it is not ours
@@ -96,7 +99,10 @@ int OutputFile::open_aside(std::unique_ptr<Temporary>& temporary) const {
 }
 
 int OutputFile::open() {
-  if (written_aside()) return open_aside(temporary_);
+  if (written_aside()) {
+    remove_abandoned_beside(target_);
+    return open_aside(temporary_);
+  }
   const int descriptor =
       is_standard_output() ? ::dup(STDOUT_FILENO) : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) fail(quoted(), errno);
@@ -131,7 +137,7 @@ void OutputFile::seal() {
 // By a second link, so that its name never stands for nothing; where the file system has no links,
 // by another name.
 void OutputFile::set_old_aside() {
-  const std::string aside = unused_name_beside(target_);
+  const std::string aside = name_for_old_beside(target_);
   old_is_linked_ = ::link(target_.c_str(), aside.c_str()) == 0;
   if (!old_is_linked_ && std::rename(target_.c_str(), aside.c_str()) != 0) {
     if (errno != ENOENT) fail(quoted(), errno);
