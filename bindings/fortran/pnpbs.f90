@@ -35,6 +35,7 @@ module pnpbs
   private
 
   public :: PNPBS_OK, PNPBS_NOT_CONVERGED, PNPBS_STOPPED, PNPBS_SPACING_MISSED
+  public :: PNPBS_NOT_CONFORMING
   public :: PNPBS_ERROR_ARGUMENT, PNPBS_ERROR_HANDLE, PNPBS_ERROR_STATE, PNPBS_ERROR_DOMAIN
   public :: PNPBS_ERROR_SPACING, PNPBS_ERROR_KEY, PNPBS_ERROR_CAPACITY, PNPBS_ERROR_FILE
   public :: PNPBS_ERROR_CALLBACK, PNPBS_ERROR_MEMORY, PNPBS_ERROR_MPI, PNPBS_ERROR_KOKKOS
@@ -1571,7 +1572,8 @@ contains
   !> used up, finish. Afterwards it starts a new schedule from the nodes there are. Collective.
   !> stat: PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether the
   !> bubbles rest or not, if in one of the bands of get_edge_bands with 50 edges or more the mean is
-  !> off 1 by more than 0.1: then there is a warning that names the band; PNPBS_STOPPED.
+  !> off 1 by more than 0.1: then there is a warning that names the band; PNPBS_NOT_CONFORMING, if
+  !> the elements do not fill the domain: then there is a warning that says where; PNPBS_STOPPED.
   subroutine placement_run(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -2245,9 +2247,9 @@ contains
   !> conforming triangulation of the domain, each in the stars of all its corners, with every boundary
   !> edge, and their areas or volumes add up to what the boundary encloses; in space the boundary
   !> triangles are closed, and cut off no more of the domain than chords do. It takes about as long as
-  !> making lists and stars, and no rank holds more than its share. Collective. Errors:
-  !> PNPBS_ERROR_INTERNAL if something is wrong: the message says what, with ids and coordinates;
-  !> PNPBS_ERROR_STATE without nodes.
+  !> making lists and stars, and no rank holds more than its share. Collective. stat: PNPBS_OK;
+  !> PNPBS_NOT_CONFORMING where run tells it, too. Errors: PNPBS_ERROR_INTERNAL if something else is
+  !> wrong: the message says what, with ids and coordinates; PNPBS_ERROR_STATE without nodes.
   subroutine placement_check(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat

@@ -18,6 +18,7 @@ module pnpbs_c
   integer(c_int), parameter :: PNPBS_NOT_CONVERGED = 1        !< stopped at the step limit
   integer(c_int), parameter :: PNPBS_STOPPED = 2              !< stopped by the monitor
   integer(c_int), parameter :: PNPBS_SPACING_MISSED = 3       !< somewhere nodes do not follow d
+  integer(c_int), parameter :: PNPBS_NOT_CONFORMING = 4       !< elements do not fill the domain
   integer(c_int), parameter :: PNPBS_ERROR_ARGUMENT = -1      !< invalid argument
   integer(c_int), parameter :: PNPBS_ERROR_HANDLE = -2        !< not a live handle
   integer(c_int), parameter :: PNPBS_ERROR_STATE = -3         !< call not allowed in this state

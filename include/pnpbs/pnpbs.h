@@ -74,6 +74,7 @@ extern "C" {
   X(PNPBS_NOT_CONVERGED, 1, "the step limit was reached before the bubbles rested") \
   X(PNPBS_STOPPED, 2, "stopped by the monitor")                                     \
   X(PNPBS_SPACING_MISSED, 3, "somewhere the nodes do not follow the spacing")       \
+  X(PNPBS_NOT_CONFORMING, 4, "the elements do not fill the domain")                 \
   X(PNPBS_ERROR_ARGUMENT, -1, "invalid argument")                                   \
   X(PNPBS_ERROR_HANDLE, -2, "not a live handle")                                    \
   X(PNPBS_ERROR_STATE, -3, "call not allowed in this state")                        \
@@ -697,9 +698,12 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  Returns PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether
  *  the bubbles rest or not, if in one of the bands of pnpbs_placement_get_edge_bands with 50 edges
  *  or more the mean is off 1 by more than 0.1: then there is a warning that names the band;
- *  PNPBS_STOPPED. In space there is a warning, too, where the tetrahedra's boundary does not follow
- *  the surfaces (statistic `missing_faces`), or nodes are in no tetrahedron: see the option
- *  `resolve`. */
+ *  PNPBS_NOT_CONFORMING, whatever else is true, if there are no tetrahedra, nodes are in none, their
+ *  volume is off the domain's by more than 0.001 of it and more than their boundary's faces can cut
+ *  off, or triangles of surfaces alone do not join: then there is a warning that says so;
+ *  PNPBS_STOPPED. The nodes are valid in all these cases. In space there is a warning, too, where
+ *  the tetrahedra's boundary does not follow the surfaces (statistic `missing_faces`): see the
+ *  option `resolve`. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
 /** The dimension of the placement's domain. Local.
@@ -940,10 +944,12 @@ PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placem
  *  conforming triangulation of the domain, each in the stars of all its corners, with every
  *  boundary edge, and their areas or volumes add up to what the boundary encloses; in space the
  *  boundary triangles are closed, and cut off no more of the domain than chords do; on surfaces
- * alone every edge has a triangle on both sides, at borders on one, and the areas add up. It takes
- * about as long as making lists and stars, and no rank holds more than its share. Collective.
- * Errors: PNPBS_ERROR_INTERNAL if something is wrong: the message says what, with ids and
- * coordinates; PNPBS_ERROR_STATE without nodes. */
+ *  alone every edge has a triangle on both sides, at borders on one, and the areas add up. It takes
+ *  about as long as making lists and stars, and no rank holds more than its share. Collective.
+ *  Returns PNPBS_OK; PNPBS_NOT_CONFORMING where a run returns it, too: pnpbs_last_error says where,
+ *  and all that the elements there are must keep holds. Errors: PNPBS_ERROR_INTERNAL if something
+ *  else is wrong: the message says what, with ids and coordinates; PNPBS_ERROR_STATE without nodes.
+ */
 PNPBS_API pnpbs_status pnpbs_placement_check(pnpbs_placement placement);
 
 /** A statistic by key (see pnpbs_statistic_info). Collective (some are computed when asked).

@@ -270,8 +270,14 @@ pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, i
 }
 
 pnpbs_status pnpbs_placement_check(pnpbs_placement placement) {
-  return collective(placement, [](Placement& p) {
-    in_its_dimension(p, [](auto& in) { check_results(in); });
+  std::string lacking;
+  const pnpbs_status status = collective(placement, [&](Placement& p) {
+    in_its_dimension(p, [&](auto& in) { lacking = check_results(in); });
     return PNPBS_OK;
+  });
+  if (status != PNPBS_OK || lacking.empty()) return status;
+  return guarded(placement, [&](PlacementObject& object) {
+    thread_error() = object.context->last_error = lacking;
+    return PNPBS_NOT_CONFORMING;
   });
 }

@@ -22,6 +22,8 @@ pnpbs_status status_of(Outcome outcome) {
       return PNPBS_STOPPED;
     case Outcome::spacing_missed:
       return PNPBS_SPACING_MISSED;
+    case Outcome::not_conforming:
+      return PNPBS_NOT_CONFORMING;
     case Outcome::not_converged:
       break;
   }

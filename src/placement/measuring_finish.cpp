@@ -2,23 +2,9 @@
 // What the stars of a finished run in space tell, the same from which results are handed out.
 #include <string>
 
-#include "placement/placement_of.hpp"
+#include "placement/conformity.hpp"
 
 namespace pnpbs {
-
-namespace {
-
-// Of surfaces alone: owned nodes that no triangle has, or, between features, not all around.
-std::uint64_t nodes_without_star(const Level<3>& level) {
-  const Nodes<3>& nodes = level.nodes;
-  if (!level.ground.surfaces_alone()) return 0;
-  return sum_of("pnpbs::nodes_without_star", nodes.count, [&](std::int64_t i) -> std::uint64_t {
-    if (!nodes.owned(i)) return 0;
-    return level.stars.size(i) == 0 || (nodes.moves(i) && !level.stars.closed(i));
-  });
-}
-
-}  // namespace
 
 // Collective.
 template <>
@@ -34,11 +20,19 @@ void PlacementOf<3>::measure_finish() {
         " decisions looked beyond what a rank knows (statistic unknown_uses); on "
         "one rank they do not");
   surface_fit_ = measure_surface_fit(*level_);
-  const std::uint64_t without = comm_->allreduce_sum(nodes_without_star(*level_));
-  if (without > 0)
-    warnings_.push_back("triangles are missing around " + std::to_string(without) +
-                        " nodes, where the surface is rougher than the spacing resolves: use a "
-                        "smaller spacing there, or a larger feature_angle");
+}
+
+// In the plane they do, as soon as the boundary is one that encloses something.
+template <>
+bool PlacementOf<2>::elements_conform() {
+  return true;
+}
+template <>
+bool PlacementOf<3>::elements_conform() {
+  const Conformity<3> conformity = conformity_of(*this);
+  const std::string text = text_of(conformity, *this);
+  if (!text.empty()) warnings_.push_back(text);
+  return conformity.holds();
 }
 
 }  // namespace pnpbs

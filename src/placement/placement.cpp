@@ -128,7 +128,8 @@ Outcome PlacementOf<Dim>::run() {
     if (outcome == Outcome::stopped) return outcome;
     if (finish() == Outcome::stopped) return Outcome::stopped;
     warn_of_surface_fit();
-    return spacing_missed() ? Outcome::spacing_missed : outcome;
+    const bool conforms = elements_conform(), missed = spacing_missed();
+    return !conforms ? Outcome::not_conforming : missed ? Outcome::spacing_missed : outcome;
   });
 }
 

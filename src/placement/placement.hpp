@@ -44,7 +44,8 @@ struct ProgressPart {
 };
 
 // spacing_missed: somewhere the nodes do not follow d, whether the bubbles rest or not.
-enum class Outcome { converged, not_converged, stopped, spacing_missed };
+// not_conforming: the elements do not fill the domain, whatever else is true.
+enum class Outcome { converged, not_converged, stopped, spacing_missed, not_conforming };
 
 // Why a run ended, for the report.
 enum class StopReason { none, rest, step_limit, monitor };

@@ -220,6 +220,7 @@ class PlacementOf : public Placement {
   void repair_defects();
   Outcome finish();
   void measure_finish() requires(Dim == 3);
+  bool elements_conform();  // if not there is a warning; collective
 
   std::shared_ptr<Domain<Dim>> domain_;
   std::shared_ptr<const Spacing<Dim>> spacing_;

@@ -47,11 +47,6 @@ void Placement::warn_of_surface_fit() {
   const std::string what_helps =
       std::string("make it smaller there") +
       (options_.integer("resolve") == 0 ? ", or try the option resolve" : "");
-  if (fit.isolated_nodes > 0)
-    warnings_.push_back("in no tetrahedron: " + std::to_string(fit.isolated_nodes) +
-                        " boundary nodes, one of them at " +
-                        rounded_point_text<3>(fit.isolated_at) +
-                        "; the spacing is too coarse for the shape: " + what_helps);
   if (fit.missing_faces > 0)
     warnings_.push_back("the boundary of the tetrahedra does not follow the surface at " +
                         std::to_string(fit.missing_faces) +

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "comm/records.hpp"
+#include "placement/conformity.hpp"
 #include "placement/node_check.hpp"
 #include "predicates/plane.hpp"
 
@@ -25,12 +26,13 @@ class ResultCheck : public NodeCheck<2> {
     sectors_.build(boundary_);
   }
 
-  void check() const {
+  void check(bool conforms) const {
     check_ids();
     check_places();
     check_sides();
     check_boundary_nodes();
     check_lists();
+    if (!conforms) return;
     check_stars();
     check_area();
   }
@@ -216,9 +218,11 @@ void ResultCheck::check_area() const {
 
 }  // namespace
 
-void check_results(PlacementOf<2>& placement) {
+std::string check_results(PlacementOf<2>& placement) {
   placement.prepare_stars();
-  ResultCheck(placement).check();
+  const Conformity<2> conformity = conformity_of(placement);
+  ResultCheck(placement).check(conformity.holds());
+  return text_of(conformity, placement);
 }
 
 }  // namespace pnpbs

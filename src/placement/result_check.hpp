@@ -3,11 +3,15 @@
 // out: nodes, lists and stars, over all ranks.
 #pragma once
 
+#include <string>
+
 #include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
-// Throws Error(ErrorKind::internal), which says what is wrong and at which nodes, unless
+// Where elements are missing without which they cannot fill the domain (conformity.hpp), says so;
+// otherwise empty. Throws Error(ErrorKind::internal), which says what is wrong and at which nodes,
+// unless
 // - ids are unique, no two nodes lie in one place, all lie inside or are nodes of the boundary,
 //   and all of those are there,
 // - node i is in the list of node j where j is in that of i,
@@ -16,7 +20,7 @@ namespace pnpbs {
 //   triangles are one conforming triangulation, which holds all edges of the boundary,
 // - the triangles' areas add up to the domain's.
 // No rank learns more than what its own nodes and ghosts are. Collective.
-void check_results(PlacementOf<2>& placement);
+std::string check_results(PlacementOf<2>& placement);
 // The same in space, unless
 // - ids and places as there, all nodes lie inside, on a surface or where they were laid on the
 //   features, and all of those are there,
@@ -26,14 +30,13 @@ void check_results(PlacementOf<2>& placement);
 // - the faces with a tetrahedron on one side only are closed surfaces, which enclose the volume of
 //   the tetrahedra, and that of the domain but for what they may cut off.
 // Collective.
-void check_results(PlacementOf<3>& placement);
+std::string check_results(PlacementOf<3>& placement);
 // The same of surfaces alone, unless
 // - ids, places, nodes and lists as there,
-// - every node has a triangle, and each triangle is in the stars of its three corners,
-// - an edge has as many triangles as there are sheets of the surfaces: one where these end, two
-//   that turn it both ways between features,
-// - their areas add up to that of the surfaces, but for what lies between these and them.
+// - each triangle is in the stars of its three corners,
+// - if they conform, their areas add up to that of the surfaces, but for what lies between these
+//   and them.
 // After prepare_stars. Collective.
-void check_surfaces(const PlacementOf<3>& placement);
+void check_surfaces(const PlacementOf<3>& placement, bool conforms);
 
 }  // namespace pnpbs

@@ -10,6 +10,12 @@
 
 namespace pnpbs {
 
+VolumeNodeCheck::VolumeNodeCheck(const PlacementOf<3>& placement)
+    : NodeCheck<3>(placement), ground_(level_.ground) {
+  for (const std::shared_ptr<const LevelSet>& set : ground_.domain().level_sets().sets)
+    if (set) resolution_ = std::max(resolution_, set->resolution());
+}
+
 std::array<Point<3>, 3> VolumeNodeCheck::positions_at(const Three& places) const {
   return {position(p_.node_at(places[0])), position(p_.node_at(places[1])),
           position(p_.node_at(places[2]))};
@@ -57,6 +63,9 @@ double VolumeNodeCheck::max_gap(const std::array<Point<3>, 3>& corners) const {
       for (std::size_t k = 0; k < 3; ++k) x[k] += weights[corner] * corners[corner][k];
     gap = std::max(gap, gap_to_surface(x));
   }
+  // Nodes of a level set lie on it, and so off its triangles where these round its edges.
+  if (resolution_ > 0)
+    for (const Point<3>& corner : corners) gap = std::max(gap, gap_to_surface(corner));
   return gap;
 }
 

@@ -12,8 +12,7 @@ namespace pnpbs {
 
 class VolumeNodeCheck : public NodeCheck<3> {
  public:
-  explicit VolumeNodeCheck(const PlacementOf<3>& placement)
-      : NodeCheck<3>(placement), ground_(level_.ground) {}
+  explicit VolumeNodeCheck(const PlacementOf<3>& placement);
 
   // The nodes and their lists, by themselves.
   void check_nodes_and_lists() const {
@@ -38,6 +37,7 @@ class VolumeNodeCheck : public NodeCheck<3> {
   double max_gap(const std::array<Point<3>, 3>& corners) const;
 
   const Ground<3>& ground_;
+  double resolution_ = 0;  // of the domain's level sets; 0 without any
 
  private:
   // Each node lies where its carrier is: on its surface, its feature edge, inside.

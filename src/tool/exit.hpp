@@ -14,6 +14,7 @@ enum class ExitCode {
   not_converged = 3,
   spacing_missed = 4,
   input_left_out = 5,
+  not_conforming = 6,
   interrupted = 130
 };
 

@@ -52,6 +52,8 @@ ExitCode exit_code_of_run(pnpbs_status status) {
       return ExitCode::not_converged;
     case PNPBS_SPACING_MISSED:
       return ExitCode::spacing_missed;
+    case PNPBS_NOT_CONFORMING:
+      return ExitCode::not_conforming;
     default:
       return ExitCode::done;
   }
@@ -95,7 +97,7 @@ std::int64_t statistic(pnpbs_placement placement, const char* key, pnpbs_context
   return value;
 }
 
-// Initialises, or goes on from a checkpoint; warns; runs, unless that was done already.
+// Initialises, or goes on from a checkpoint; warns; runs, unless that was done already; checks.
 pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Arguments& arguments,
                    const Ranks& ranks) {
   const bool talk = ranks.is_first() && !arguments.quiet;
@@ -121,6 +123,8 @@ pnpbs_status place(pnpbs_context context, pnpbs_placement placement, const Argum
   if (talk) warn(warnings_of(context, placement), warnings.size());
   if (ranks.any(interrupted())) throw Failure(ExitCode::interrupted, checkpoints.words_at_stop());
   checkpoints.write();
+  if (arguments.check && check(pnpbs_placement_check(placement), context) == PNPBS_NOT_CONFORMING)
+    return PNPBS_NOT_CONFORMING;
   return status;
 }
 
@@ -215,7 +219,6 @@ ExitCode run(const Arguments& arguments, const Ranks& ranks) {
   outputs->check_with_library(placement, context);
   const pnpbs_status status = place(context, placement, arguments, ranks);
 
-  if (arguments.check) check(pnpbs_placement_check(placement), context);
   Statistics statistics(placement);
   if (outputs->has_pictures()) outputs->write_pictures({placement, domain, context, ranks, look});
   if (body) body->area = boundary_area(placement, context, ranks);

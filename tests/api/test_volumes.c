@@ -236,6 +236,77 @@ static int32_t graded_from_a_layer(int64_t n, int32_t dim, const double* xyz, do
   return 0;
 }
 
+/* A ball of radius 0.3: the nodes are valid, but there is nothing between them. Run, warning and
+ * check say so alike. */
+START_TEST(bodies_that_the_spacing_does_not_resolve) {
+  static const double centre[] = {0, 0, 0};
+  static const struct {
+    double d;
+    int filled;
+    const char* words;
+  } cases[] = {{5, 1, "no tetrahedron at all"},
+               {5, 0, "no triangle at all"},
+               {1, 0, "no triangle at all"},
+               {0.5, 0, "in no triangle: "},
+               {0.2, 1, NULL},
+               {0.2, 0, NULL}};
+  const int conforms = cases[_i].words == NULL;
+  job it = {NULL, NULL, NULL};
+  pnpbs_status status;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_ball(it.domain, centre, 0.3, 1));
+  if (!cases[_i].filled) MUST(pnpbs_domain_set_filled(it.domain, 0));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, cases[_i].d));
+  status = pnpbs_placement_run(it.placement);
+  if (conforms) {
+    ck_assert_int_ge(status, 0);
+    ck_assert_int_ne(status, PNPBS_NOT_CONFORMING);
+  } else {
+    ck_assert_int_eq(status, PNPBS_NOT_CONFORMING);
+    ck_assert_int_eq(warnings_with(it.placement, cases[_i].words), 1);
+  }
+  MUST_BE(conforms ? PNPBS_OK : PNPBS_NOT_CONFORMING, pnpbs_placement_check(it.placement));
+  if (!conforms) ck_assert_ptr_nonnull(strstr(MESSAGE(), cases[_i].words));
+  job_end(&it);
+}
+END_TEST
+
+/* Boundary nodes lie on the surface but for rounding: of a part of 2^-48 of the largest coordinate.
+ */
+START_TEST(bodies_far_from_the_origin) {
+  static const double offsets[] = {0, 1e5, -1e8, 1e9};
+  const double at = offsets[_i], centre[] = {at, 0.3 * at, -at};
+  const double begin[] = {at + 0.1, 0.3 * at, -at}, end[] = {at + 0.7, 0.3 * at + 0.4, 0.5 - at};
+  int body;
+  for (body = 0; body < 2; ++body) {
+    job it = {NULL, NULL, NULL};
+    volume v;
+    int64_t i, on_surface = 0;
+    MUST(pnpbs_context_create_serial(&it.context));
+    MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+    if (body == 0) MUST(pnpbs_domain_add_ball(it.domain, centre, 0.5, 1));
+    if (body == 1) MUST(pnpbs_domain_add_cylinder(it.domain, begin, end, 0.4, 1));
+    job_place(&it);
+    MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.17));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    MUST(pnpbs_placement_check(it.placement));
+    v = volume_of(it.placement);
+    for (i = 0; i < v.n; ++i) {
+      double gap;
+      if (v.tags[i] == 0) continue;
+      MUST(pnpbs_domain_distance(it.domain, 0, 1, v.xyz + 3 * i, &gap));
+      ck_assert_double_le(gap, 0x1p-48 * (fabs(at) + 1));
+      ++on_surface;
+    }
+    ck_assert_int_gt(on_surface, 50);
+    volume_free(&v);
+    job_end(&it);
+  }
+}
+END_TEST
+
 START_TEST(flat_sides_follow_the_surface) {
   job it = body_job(volume_unit_box);
   MUST(pnpbs_placement_set_spacing_callback(it.placement, graded_from_a_layer, NULL));
@@ -605,6 +676,8 @@ int main(void) {
   tcase_add_test(tests, bad_spacings);
   tcase_add_test(tests, too_many_nodes);
   tcase_add_loop_test(tests, fine_in_a_small_place, 0, sizeof fine_places / sizeof *fine_places);
+  tcase_add_loop_test(tests, bodies_that_the_spacing_does_not_resolve, 0, 6);
+  tcase_add_loop_test(tests, bodies_far_from_the_origin, 0, 4);
   tcase_add_test(tests, flat_sides_follow_the_surface);
   tcase_add_test(tests, fine_at_a_line_in_a_low_box);
   tcase_add_test(tests, walls_as_thick_as_d);

@@ -15,12 +15,11 @@
 template <int Dim>
 std::string complaint_of(pnpbs::PlacementOf<Dim>& placement) {
   try {
-    pnpbs::check_results(placement);
+    return pnpbs::check_results(placement);
   } catch (const pnpbs::Error& error) {
     ck_assert(error.kind() == pnpbs::ErrorKind::internal);
     return error.what();
   }
-  return "";
 }
 
 // Spoils right results; their check must then say all of the words that `spoil` returns.

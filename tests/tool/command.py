@@ -12,7 +12,7 @@ COMMAND = os.environ["PNPBS_COMMAND"]
 DATA = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"]) / "examples" / "data"
 LAKE = DATA / "lake_victoria.poly"
 
-DONE, FAILED, BAD_INPUT, NOT_CONVERGED, SPACING_MISSED, LEFT_OUT = range(6)
+DONE, FAILED, BAD_INPUT, NOT_CONVERGED, SPACING_MISSED, LEFT_OUT, NOT_CONFORMING = range(7)
 INTERRUPTED = 130
 
 # A unit square with a square hole; markers 1 outside, 2 inside.

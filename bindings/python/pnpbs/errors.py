@@ -14,13 +14,14 @@ class Status(enum.IntEnum):
 
     Of a run: `OK`; `NOT_CONVERGED`, the step limit came before the bubbles rested, which is no
     failure; `SPACING_MISSED`, in one of the bands of `Placement.edge_bands` with 50 edges or more the
-    mean is off 1 by more than 0.1; `STOPPED` by the monitor. In all four cases the nodes are
-    valid."""
+    mean is off 1 by more than 0.1; `NOT_CONFORMING`, the elements do not fill the domain; `STOPPED`
+    by the monitor. In all these cases the nodes are valid."""
 
     OK = 0
     NOT_CONVERGED = 1
     STOPPED = 2
     SPACING_MISSED = 3
+    NOT_CONFORMING = 4
     ERROR_ARGUMENT = -1
     ERROR_HANDLE = -2
     ERROR_STATE = -3

@@ -218,10 +218,11 @@ class Results(PlacementHandle):
         self._call(name, count.value, ctypes.byref(count), *found)
         return found
 
-    def check(self) -> None:
-        """Checks that the results keep what is promised of them; a `PNPBSError` with
-        `Status.ERROR_INTERNAL` says what is wrong, with ids and coordinates. Collective."""
-        self._call("check")
+    def check(self) -> Status:
+        """Checks that the results keep what is promised of them. `Status.NOT_CONFORMING` where `run`
+        tells it, too; if anything else is wrong, a `PNPBSError` with `Status.ERROR_INTERNAL` says
+        what, with ids and coordinates. Collective."""
+        return self._call("check")
 
     # ------------------------------------------------------------ statistics -------------------
 

@@ -114,18 +114,16 @@ class Fitting {
 
 SurfaceFit measure_surface_fit(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
-  FoundNodes<3> missing, isolated;
+  FoundNodes<3> missing;
   agreed(*level.comm, [&] {
     const Fitting fitting(level);
     for (std::int64_t i = 0; i < nodes.count; ++i) {
       if (!nodes.owned(i) || nodes.carrier(i) == Carrier::free) continue;
       missing.add(fitting.missing_at(i), nodes.id(i), nodes.position(i));
-      isolated.add(level.stars.size(i) == 0, nodes.id(i), nodes.position(i));
     }
   });
   missing = over_ranks(*level.comm, missing);
-  isolated = over_ranks(*level.comm, isolated);
-  return {missing.count, missing.at, isolated.count, isolated.at};
+  return {missing.count, missing.at};
 }
 
 }  // namespace pnpbs

@@ -17,9 +17,6 @@ struct SurfaceFit {
   // which are none of the surfaces.
   std::int64_t missing_faces = 0;
   Point<3> missing_at{};  // a node of one of them
-  // Nodes in no tetrahedron.
-  std::int64_t isolated_nodes = 0;
-  Point<3> isolated_at{};
 };
 
 // Of the surfaces that bound the domain, over all ranks, by the stars and lists there are. Of two

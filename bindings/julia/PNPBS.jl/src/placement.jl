@@ -308,7 +308,8 @@ Places the nodes: the whole job. Run again, after another spacing perhaps, it st
 there are. The outcome is `:ok`; `:not_converged` if the step limit came before the bubbles rested,
 which is no failure; `:spacing_missed` if in one of the bands of [`edge_bands`](@ref) with 50 edges
 or more the mean is off 1 by more than 0.1, whether the bubbles rest or not, with a warning that
-names the band; or `:stopped` by the monitor. In all cases the nodes are valid. Collective.
+names the band; `:not_conforming` if the elements do not fill the domain, with a warning that says
+where; or `:stopped` by the monitor. In all cases the nodes are valid. Collective.
 
 Ctrl-C ends it, as every call that computes, within a second or two with an `InterruptException`;
 the nodes are then as if a monitor had stopped the run, which is what it returns on the other ranks.

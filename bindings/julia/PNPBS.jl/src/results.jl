@@ -258,18 +258,17 @@ function facets(placement, get, rows)
 end
 
 """
-    check_results(placement)
+    check_results(placement) -> Symbol
 
 Checks that the results keep what is promised of them: unique ids, no two nodes in one place, all
 inside or on the boundary; symmetric adjacency lists; stars that are one conforming triangulation of
 the domain, with every boundary edge and the right area, or in space a closed boundary and the right
-volume. A [`PNPBSError`](@ref) with status `:error_internal` says what is wrong, with ids and
+volume. The outcome is `:ok`, or `:not_conforming` where [`run!`](@ref) tells it, too. If anything
+else is wrong, a [`PNPBSError`](@ref) with status `:error_internal` says what, with ids and
 coordinates. Collective.
 """
-function check_results(placement::Placement)
+check_results(placement::Placement) =
     check(placement, LibPNPBS.pnpbs_placement_check(live(placement)))
-    return nothing
-end
 
 # ---------------------------------------------------------------- statistics --------------------
 """

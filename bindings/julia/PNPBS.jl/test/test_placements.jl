@@ -140,7 +140,7 @@ end
         hash = statistic(placement, "hash")
         rebalance!(placement)
         @test statistic(placement, "hash") == hash
-        @test check_results(placement) === nothing
+        @test check_results(placement) === :ok
     end
 end
 

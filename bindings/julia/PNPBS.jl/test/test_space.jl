@@ -112,7 +112,7 @@ end
         domain = Domain(context; dim = 3)
         add_box!(domain, (0, 0, 0), (1, 1, 1); tag = 5)
         placement = placed_in(domain, 0.25)
-        @test ndims(placement) == 3 && check_results(placement) === nothing
+        @test ndims(placement) == 3 && check_results(placement) === :ok
         n, placed = node_count(placement), nodes(placement)
         @test size(placed.points) == (3, n) && all(0 .<= placed.points .<= 1)
         corners = tetrahedra(placement)

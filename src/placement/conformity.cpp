@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "placement/conformity.hpp"
+
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "placement/surface_edges.hpp"
+#include "spacing/spacing_range.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+bool in_no_element(const Level<2>& level, std::int64_t i) {
+  bool none = true;
+  level.stars.for_simplices(i, [&](const DelaunayStars::Corners&) { none = false; });
+  return none;
+}
+bool in_no_element(const Level<3>& level, std::int64_t i) {
+  if (!level.ground.surfaces_alone()) return level.stars.size(i) == 0;
+  bool none = true;
+  level.stars.for_triangles(i, [&](const std::array<std::int32_t, 2>&) { none = false; });
+  return none;
+}
+
+FoundNodes<2> unmatched_edges(const PlacementOf<2>&) { return {}; }
+FoundNodes<3> unmatched_edges(const PlacementOf<3>& placement) {
+  FoundNodes<3> found;
+  if (!placement.surfaces_alone()) return found;
+  for_unmatched_edges(placement, [&](const SurfaceEdge& edge) { found.add(1, edge.low, edge.at); });
+  return over_ranks(placement.communicator(), found);
+}
+
+ElementMeasure measure_in(const PlacementOf<2>&) { return {}; }
+ElementMeasure measure_in(const PlacementOf<3>& placement) { return measure_if_far_off(placement); }
+
+const char* elements_of(const PlacementOf<2>&) { return "triangle"; }
+const char* elements_of(const PlacementOf<3>& placement) {
+  return placement.surfaces_alone() ? "triangle" : "tetrahedron";
+}
+
+}  // namespace
+
+template <int Dim>
+Conformity<Dim> conformity_of(const PlacementOf<Dim>& placement) {
+  const Communicator& comm = placement.communicator();
+  const Level<Dim>& level = placement.level();
+  const Nodes<Dim>& nodes = level.nodes;
+  Conformity<Dim> result;
+  FoundNodes<Dim> isolated;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (!nodes.owned(i)) continue;
+    ++result.nodes;
+    if (in_no_element(level, i)) isolated.add(1, nodes.id(i), nodes.position(i));
+  }
+  result.nodes =
+      static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(result.nodes)));
+  result.isolated = over_ranks(comm, isolated);
+  agreed(comm, [&] {
+    result.unmatched = unmatched_edges(placement);
+    result.measure = measure_in(placement);
+  });
+  return result;
+}
+
+template <int Dim>
+std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& placement) {
+  const Level<Dim>& level = placement.level();
+  const std::string element = elements_of(placement);
+  if (!conformity.any_elements()) {
+    const SpacingRange d = spacing_range<Dim>(*level.comm, level.nodes);
+    const double side = size_of<Dim>(level.ground.bounds());
+    return "no " + element + " at all, among " + std::to_string(conformity.nodes) + " nodes" +
+           (d.empty() ? "" : " with a spacing of " + rounded_text(d.min) + " or more") +
+           ": the longest side of the domain is " + rounded_text(side) +
+           ", and the spacing does not resolve its shape: make it smaller";
+  }
+  if (conformity.isolated.count > 0)
+    return "in no " + element + ": " + std::to_string(conformity.isolated.count) +
+           " nodes, one of them at " + rounded_point_text<Dim>(conformity.isolated.at) +
+           "; the spacing is too coarse for the shape: make it smaller there";
+  if (conformity.unmatched.count > 0)
+    return "the triangles do not join at " + std::to_string(conformity.unmatched.count) +
+           " edges, one of them at " + rounded_point_text<Dim>(conformity.unmatched.at) +
+           ", where the surface is rougher than the spacing resolves: use a smaller spacing "
+           "there, or a larger feature_angle";
+  if (conformity.measure.far_off())
+    return (element == "triangle" ? "the triangles have the area "
+                                  : "the tetrahedra have the volume ") +
+           rounded_text(conformity.measure.elements) + ", the domain " +
+           rounded_text(conformity.measure.domain) + ", and no more than " +
+           rounded_text(conformity.measure.between) +
+           " can lie between them: the spacing does not resolve the shape: make it smaller";
+  return "";
+}
+
+template struct Conformity<2>;
+template struct Conformity<3>;
+template Conformity<2> conformity_of(const PlacementOf<2>&);
+template Conformity<3> conformity_of(const PlacementOf<3>&);
+template std::string text_of(const Conformity<2>&, const PlacementOf<2>&);
+template std::string text_of(const Conformity<3>&, const PlacementOf<3>&);
+
+}  // namespace pnpbs

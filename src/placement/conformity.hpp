@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Do the elements fill the domain? What can be told of that for certain: the same at the end of a
+// run, for its outcome and its warning, and by the check of the results.
+#pragma once
+
+#include <string>
+
+#include "level/found_nodes.hpp"
+#include "placement/element_measure.hpp"
+#include "placement/placement_of.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+struct Conformity {
+  std::int64_t nodes = 0;     // over all ranks, as all here
+  FoundNodes<Dim> isolated;   // nodes in no element
+  FoundNodes<Dim> unmatched;  // edges of surfaces alone with more or fewer triangles than sheets
+                              // meet there; found at the end that has the lesser id
+
+  ElementMeasure measure;  // in space, if what the elements fill may be far off
+
+  bool any_elements() const { return isolated.count < nodes; }
+  bool holds() const {
+    return any_elements() && isolated.count == 0 && unmatched.count == 0 && !measure.far_off();
+  }
+};
+
+// After prepare_stars. Collective.
+template <int Dim>
+Conformity<Dim> conformity_of(const PlacementOf<Dim>& placement);
+
+// What is wrong, with places; empty if nothing is. Collective.
+template <int Dim>
+std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& placement);
+
+}  // namespace pnpbs
