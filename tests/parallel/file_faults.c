@@ -16,7 +16,7 @@
 static const char* const asked[] = {"a.vtu", "b.pvtu", "c.csv", "d.node", "e.vtkhdf", "f.xdmf"};
 static const int32_t elements[] = {1, 1, 0, 1, 1, 1};
 static int asked_count = 6;
-static char files[32][20]; /* all that these are */
+static char files[32][32]; /* all that these are */
 static int file_count;
 
 static void list_files(void) {
@@ -72,7 +72,7 @@ static void check_folder(const char* what, int written, int old_there, int unlin
   int left;
   for (int k = 0; k < file_count; ++k) {
     char text[512];
-    snprintf(text, sizeof text, "%s: %s is not %s", what, files[k], written ? "new" : "old");
+    snprintf(text, sizeof text, "%s: %.31s is not %s", what, files[k], written ? "new" : "old");
     expect(written ? !is_old(files[k], old_there) && access(files[k], F_OK) == 0
                    : is_old(files[k], old_there),
            text);

@@ -26,13 +26,14 @@ std::size_t refused_from = kNoLimit;  // bytes: a machine that has no more memor
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+// Not inline: else the compiler sees malloc here and delete there, and warns.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   void* memory = size < refused_from ? std::malloc(size > 0 ? size : 1) : nullptr;
   if (!memory) throw std::bad_alloc();
   return memory;
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
