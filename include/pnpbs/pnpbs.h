@@ -901,15 +901,16 @@ PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, 
 PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
                                                       int64_t *count, int64_t *tetrahedra);
 
-/** Every element with a corner among this rank's nodes, whichever rank it belongs to: triangles in
- *  the plane, tetrahedra in space, triangles on surfaces alone. With these a rank assembles the rows
- *  of its nodes by itself, without a message. An element whose corners have several owners comes on
- *  each of these ranks. The corner with the least id comes first; so an element belongs to this
- *  rank, as pnpbs_placement_get_triangles and its relatives deal them out, if its first corner is a
- *  node of this rank. The others follow in the same orientation as there, in a tetrahedron the least
- *  id of the three first. Elements are in the order of the ids of their corners: so those of a node
- *  are the same, in the same order, for any number of ranks, and a row that adds them up in this
- *  order has the same bits. Collective. Ask with capacity 0 for the count.
+/** Every element with a corner among this rank's nodes, whichever rank it belongs to: triangles
+ *  in the plane, tetrahedra in space, triangles on surfaces alone. With these a rank assembles
+ *  the rows of its nodes by itself, without a message. An element whose corners have several
+ *  owners comes on each of these ranks. The corner with the least id comes first; so an element
+ *  belongs to this rank, as pnpbs_placement_get_triangles and its relatives deal them out, if its
+ *  first corner is a node of this rank. The others follow in the same orientation as there, in a
+ *  tetrahedron the least id of the three first. Elements are in the order of the ids of their
+ *  corners: so those of a node are the same, in the same order, for any number of ranks, and a
+ *  row that adds them up in this order has the same bits. Collective. Ask with capacity 0 for the
+ *  count.
  *  @param[in]  capacity  elements the array has room for; too small is PNPBS_ERROR_CAPACITY
  *  @param[out] count     number of elements
  *  @param[out] corners   3 or 4: corners of an element; may be NULL

@@ -12,7 +12,8 @@ from typing import NamedTuple
 CLASSES = {"Context": ("context", "context"), "Domain": ("domain", "domain"),
            "Placement": ("placement", "placement"), "Results": ("placement", "placement"),
            "Fields": ("placement", "placement"), "PlacementHandle": ("placement", "placement"),
-           "Transfer": ("transfer", "transfer"), "Shapes": ("geo", "shapes")}
+           "Transfer": ("transfer", "transfer"), "Shapes": ("geo", "shapes"),
+           "GeoGrid": ("geo_grid", "grid")}
 # What reaches the user in another way than through a function that he calls.
 OTHERWISE = {"pnpbs_last_error": "PNPBSError", "pnpbs_geo_last_error": "PNPBSError",
              "pnpbs_status_string": "Status", "pnpbs_placement_write": "placement.write"}

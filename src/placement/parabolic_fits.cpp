@@ -159,7 +159,7 @@ class Fitting {
   std::vector<double> fits(const std::vector<double>& sums) const {
     std::vector<double> all(static_cast<std::size_t>(placement_.count() * fit_columns()));
     for_each("pnpbs::ParabolicFits::fits", placement_.count(),
-                     [&](std::int64_t p) { fit(p, sums, all.data() + p * fit_columns()); });
+             [&](std::int64_t p) { fit(p, sums, all.data() + p * fit_columns()); });
     return all;
   }
 

@@ -120,10 +120,10 @@ PopulationChange<Dim> choose_population_change(
     if (bids(i).action != Action::none) bidders.push_back(i);
   std::vector<char> winner(bidders.size());
   for_each("pnpbs::population::contest", static_cast<std::int64_t>(bidders.size()),
-                   [&](std::int64_t b) {
-                     const auto k = static_cast<std::size_t>(b);
-                     winner[k] = wins<Dim>(nodes, lists, bids, bidders[k]);
-                   });
+           [&](std::int64_t b) {
+             const auto k = static_cast<std::size_t>(b);
+             winner[k] = wins<Dim>(nodes, lists, bids, bidders[k]);
+           });
   PopulationChange<Dim> change;
   for (std::size_t b = 0; b < bidders.size(); ++b) {
     if (winner[b] == 0) continue;

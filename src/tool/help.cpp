@@ -67,7 +67,8 @@ std::string help_tables() {
   return format_table() + "\nFormulas may have:\n  " + wrapped(expression_help(), 2) +
          option_table() +
          "\nExit codes: 0 done, 1 failed, 2 bad usage or input; 3 not converged, 4 somewhere the "
-         "nodes do\nnot follow the spacing, 5 parts of a coast were left out, 6 the elements do not "
+         "nodes do\nnot follow the spacing, 5 parts of a coast were left out, 6 the elements do "
+         "not "
          "fill the\ndomain (files are written); 130 interrupted (no file is written but a "
          "checkpoint).\n";
 }

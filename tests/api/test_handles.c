@@ -138,6 +138,11 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_update_ghosts, (handle, 1, 1, out.reals + 1))                                       \
   X(placement_begin_update_ghosts, (handle, 1, 1, grid))                                          \
   X(placement_end_update_ghosts, (handle, 1, 1, out.reals + 1))                                   \
+  X(placement_add_from_ghosts, (handle, 1, 1, out.reals + 1))                                     \
+  X(placement_get_incident_elements,                                                              \
+    (handle, 1, out.integers + 1, out.small + 2, out.integers + 3))                               \
+  X(placement_add_output_field, (handle, "height", 1, 1, grid))                                   \
+  X(placement_clear_output_fields, (handle))                                                      \
   X(placement_sum, (handle, 1, 1, grid, out.reals + 1))                                           \
   X(placement_dot, (handle, 1, 1, grid, grid + 1, out.reals + 1))                                 \
   X(placement_check, (handle))                                                                    \

@@ -25,7 +25,7 @@ void set(std::vector<char>& flags, std::int64_t i) {
 template <class Body>
 void for_chunks(const char* label, std::int64_t count, const Body& body) {
   for_each(label, (count + kChunk - 1) / kChunk,
-                   [&](std::int64_t c) { body(c * kChunk, std::min((c + 1) * kChunk, count)); });
+           [&](std::int64_t c) { body(c * kChunk, std::min((c + 1) * kChunk, count)); });
 }
 
 // Where owned nodes are, by their ids: in a table where these are dense.

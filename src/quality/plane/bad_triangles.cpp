@@ -120,9 +120,8 @@ bool BadTriangleRepair::comes_first(const Candidate& candidate) const {
 }
 
 std::int64_t BadTriangleRepair::round() {
-  for_each("pnpbs::BadTriangleRepair::look_around",
-                   static_cast<std::int64_t>(candidates_.size()),
-                   [&](std::int64_t c) { look_around(candidates_[static_cast<std::size_t>(c)]); });
+  for_each("pnpbs::BadTriangleRepair::look_around", static_cast<std::int64_t>(candidates_.size()),
+           [&](std::int64_t c) { look_around(candidates_[static_cast<std::size_t>(c)]); });
   std::int64_t moved = 0;
   for (const Candidate& candidate : candidates_) {
     if (!candidate.wants || !comes_first(candidate)) continue;

@@ -237,12 +237,11 @@ PopulationChange<2> choose_defect_repairs(
   std::vector<Defect> defects = find_defects(in);
   // Of a cluster only the worst is tried: what helps one helps the others, and far from rest, where
   // nearly every node is a defect, that is all it may cost.
-  for_each("pnpbs::defects::try", static_cast<std::int64_t>(defects.size()),
-                   [&](std::int64_t k) {
-                     Defect& defect = defects[static_cast<std::size_t>(k)];
-                     if (leads(in, defects, defect, kClusterRings, &Defect::is_worse_than))
-                       Trial(in, defect).find_best_repair();
-                   });
+  for_each("pnpbs::defects::try", static_cast<std::int64_t>(defects.size()), [&](std::int64_t k) {
+    Defect& defect = defects[static_cast<std::size_t>(k)];
+    if (leads(in, defects, defect, kClusterRings, &Defect::is_worse_than))
+      Trial(in, defect).find_best_repair();
+  });
   PopulationChange<2> change;
   for (const Defect& defect : defects) {
     if (defect.gain == 0 || !leads(in, defects, defect, kContestRings, &Defect::gains_more_than))
