@@ -26,6 +26,7 @@
 #include "tool/spacing.hpp"
 #include "tool/statistics.hpp"
 #include "tool/summary.hpp"
+#include "tool/waiting_threads.hpp"
 
 namespace pnpbs::tool {
 namespace {
@@ -297,4 +298,7 @@ ExitCode start(int argc, char** argv) {
 }  // namespace
 }  // namespace pnpbs::tool
 
-int main(int argc, char** argv) { return static_cast<int>(pnpbs::tool::start(argc, argv)); }
+int main(int argc, char** argv) {
+  pnpbs::tool::let_threads_sleep_if_oversubscribed(argv);
+  return static_cast<int>(pnpbs::tool::start(argc, argv));
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/waiting_threads.hpp"
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+namespace pnpbs::tool {
+namespace {
+
+// Of Open MPI, MPICH and its kin, and MVAPICH: how many processes of the job this machine has.
+constexpr const char* ranks_here[] = {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS",
+                                      "MV2_COMM_WORLD_LOCAL_SIZE"};
+constexpr const char* threads_of_one[] = {"OMP_NUM_THREADS", "KOKKOS_NUM_THREADS"};
+
+template <std::size_t N>
+int first_number(const char* const (&variables)[N]) {
+  for (const char* variable : variables)
+    if (const char* value = std::getenv(variable)) return std::atoi(value);
+  return 0;
+}
+
+int threads_asked_for(char** argv) {
+  for (char** argument = argv; *argument; ++argument) {
+    if (std::strcmp(*argument, "--threads") == 0 && argument[1]) return std::atoi(argument[1]);
+    if (std::strncmp(*argument, "--threads=", 10) == 0) return std::atoi(*argument + 10);
+  }
+  return first_number(threads_of_one);
+}
+
+int cores() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+}  // namespace
+
+// Where no number of threads is asked for, there are as many as cores.
+void let_threads_sleep_if_oversubscribed(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
+  const int threads = threads_asked_for(argv);
+  if (threads < 2 || threads * std::max(1, first_number(ranks_here)) <= cores()) return;
+  setenv("OMP_WAIT_POLICY", "passive", 0);
+  execv("/proc/self/exe", argv);  // returns if it cannot: then they spin
+}
+
+}  // namespace pnpbs::tool
