@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/leading_count.hpp"
 #include "comm/records.hpp"
 
 namespace pnpbs {
@@ -21,8 +21,7 @@ struct OwnedIds {
   const std::function<std::int64_t(std::int64_t)>& id;
 
   std::int64_t count_below(std::int64_t bound) const {
-    const auto all = std::views::iota(std::int64_t{0}, count);
-    return *std::ranges::lower_bound(all, bound, {}, std::cref(id));
+    return leading_count(count, [&](std::int64_t place) { return id(place) < bound; });
   }
 };
 

@@ -76,8 +76,9 @@ ShapeIndex<Dim>::ShapeIndex(Shape<Dim> shape) : shape_(std::move(shape)) {
   boundary_ = select([any](const ShapePiece<Dim>& piece) { return piece.bounds() || !any; });
   facets_ = select([](const ShapePiece<Dim>& piece) { return piece.is_facet(); });
   for (const ShapePiece<Dim>& piece : shape_) tagged_[piece.tag];
-  for (auto& [tag, selection] : tagged_)
-    selection = select([tag](const ShapePiece<Dim>& piece) { return piece.tag == tag; });
+  for (auto& tagged : tagged_)
+    tagged.second =
+        select([tag = tagged.first](const ShapePiece<Dim>& piece) { return piece.tag == tag; });
   Box<Dim> all = box_of<Dim>(shape_[0].corners);
   for (const ShapePiece<Dim>& piece : shape_) all = joined(all, box_of<Dim>(piece.corners));
   size_ = distance<Dim>(all.low, all.high);

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <span>
 #include <tuple>
 #include <utility>
 
+#include "base/leading_count.hpp"
 #include "comm/records.hpp"
 #include "io/rows.hpp"
 
@@ -174,9 +174,8 @@ std::int64_t NodesById<Dim>::first_place_in(std::size_t part) const {
   if (!blocks_) return std::min(static_cast<std::int64_t>(part) * kWindow, owned_);
   if (part >= bounds_.size()) return owned_;
   const View<std::int64_t> id = placement_.level().nodes.id;
-  const auto places = std::views::iota(std::int64_t{0}, owned_);
-  return *std::ranges::lower_bound(
-      places, bounds_[part], {}, [&](std::int64_t place) { return id(placement_.node_at(place)); });
+  return leading_count(
+      owned_, [&](std::int64_t place) { return id(placement_.node_at(place)) < bounds_[part]; });
 }
 
 template <int Dim>

@@ -32,9 +32,10 @@ class RowsByTag {
   template <class Write>
   void append(std::int32_t tag, SharedFile& file, const Write& write) const {
     for (const std::vector<Row>& window : windows_) {
-      const auto rows = std::ranges::equal_range(window, tag, {}, &Row::tag);
+      const auto begin = std::ranges::lower_bound(window, tag, {}, &Row::tag);
+      const auto end = std::ranges::upper_bound(window, tag, {}, &Row::tag);
       file.append([&](Sink& sink) {
-        for (const Row& row : rows) write(row, sink);
+        for (auto row = begin; row != end; ++row) write(*row, sink);
       });
     }
   }

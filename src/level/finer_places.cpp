@@ -40,8 +40,8 @@ std::vector<Place> finer_places_of_own(const Level<3>& level) {
   }
   std::ranges::sort(found, {},
                     [](const Found& one) { return std::tie(one.leaf, one.place.d, one.place.x); });
-  const auto others = std::ranges::unique(found, {}, &Found::leaf);
-  found.erase(others.begin(), others.end());
+  const auto same_leaf = [](const Found& a, const Found& b) { return a.leaf == b.leaf; };
+  found.erase(std::unique(found.begin(), found.end(), same_leaf), found.end());
   std::vector<Place> places;
   for (const Found& one : found) places.push_back(one.place);
   return places;

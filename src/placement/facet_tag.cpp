@@ -25,7 +25,7 @@ std::vector<std::int32_t> common_patches(const Level<3>& level,
                                          const std::array<std::int64_t, 3>& nodes) {
   std::vector<std::int32_t> common = patches_at(level, nodes[0]);
   std::ranges::sort(common);
-  common.erase(std::ranges::unique(common).begin(), common.end());
+  common.erase(std::unique(common.begin(), common.end()), common.end());
   for (const std::int64_t i : {nodes[1], nodes[2]}) {
     const std::vector<std::int32_t> there = patches_at(level, i);
     std::erase_if(

@@ -85,7 +85,7 @@ std::int32_t InnerFacets::crossed_facet(const Point<3>& from, const Point<3>& to
       crossed_.push_back(f);
   });
   std::ranges::sort(crossed_);  // a facet may come more than once
-  crossed_.erase(std::ranges::unique(crossed_).begin(), crossed_.end());
+  crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
   return crossed_.size() % 2 == 1 ? crossed_.front() : -1;
 }
 

@@ -165,7 +165,7 @@ class PlacementOf : public Placement {
   std::shared_ptr<const Spacing<Dim>> growth_limited(std::shared_ptr<const Spacing<Dim>> spacing,
                                                      const Settings& settings,
                                                      const std::function<void()>& beat) const;
-  void warn_of_coarse_spacing() requires(Dim == 3);
+  void warn_of_coarse_spacing();  // in space
   void warn_of_partial_extent();
   static bool too_steep(const SteepestGrowth<Dim>& steepest);
   static std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
@@ -188,12 +188,12 @@ class PlacementOf : public Placement {
   TakenNodes put_first_nodes(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& from_coarser,
                              int which, Outcome& outcome);
   void settle_surfaces(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& nodes, Outcome& outcome,
-                       bool multiplied = false) requires(Dim == 3);
-  std::int64_t put_on_surfaces(Level<Dim>& level, GivenNodes<Dim> nodes) requires(Dim == 3);
+                       bool multiplied = false);                           // in space
+  std::int64_t put_on_surfaces(Level<Dim>& level, GivenNodes<Dim> nodes);  // in space
   TakenNodes begin_on_surfaces(Level<Dim>& finest,
                                const std::shared_ptr<const Spacing<Dim>>& spacing,
-                               const Settings& settings, Outcome& outcome) requires(Dim == 3);
-  int surface_levels_that_pay(const Level<Dim>& finest) const requires(Dim == 3);
+                               const Settings& settings, Outcome& outcome);  // in space
+  int surface_levels_that_pay(const Level<Dim>& finest) const;               // in space
   GivenNodes<Dim> nodes_from_coarser_levels(const Level<Dim>& finest,
                                             const std::shared_ptr<const Spacing<Dim>>& spacing,
                                             const Settings& settings, Outcome& outcome);
@@ -204,7 +204,7 @@ class PlacementOf : public Placement {
   Outcome knowing_finer_places(const Work& work);
   template <class Steps>
   Outcome taking_steps(const Steps& steps);
-  void remember(const FinerPlaces& found) requires(Dim == 3);
+  void remember(const FinerPlaces& found);  // in space
   // Shares of a run's work, for its progress: coarser levels, and steps without the finish.
   static constexpr double kCoarseShare = 0.5, kStepsShare = 0.9;
   bool bubbles_rest() const;
@@ -219,7 +219,7 @@ class PlacementOf : public Placement {
   void fill(Level<Dim>& level, LaidNodes<Dim> laid);
   void repair_defects();
   Outcome finish();
-  void measure_finish() requires(Dim == 3);
+  void measure_finish();  // in space
   bool elements_conform();  // if not there is a warning; collective
 
   std::shared_ptr<Domain<Dim>> domain_;

@@ -58,8 +58,9 @@ bool AgreedTriangles::walk_around_hole(std::int64_t i, const Gap& gap) {
 }
 
 void AgreedTriangles::begin_with_least_id() {
-  std::ranges::rotate(hole_, std::ranges::min_element(
-                                 hole_, {}, [this](std::int32_t node) { return nodes_.id(node); }));
+  const auto least =
+      std::ranges::min_element(hole_, {}, [this](std::int32_t node) { return nodes_.id(node); });
+  std::rotate(hole_.begin(), least, hole_.end());
 }
 
 Point<3> AgreedTriangles::hole_normal() const {

@@ -22,8 +22,7 @@ class SurfaceStarWriter {
       neighbours_.insert(neighbours_.end(), others.begin(), others.end());
     std::ranges::sort(neighbours_, {}, [this](std::int32_t j) { return nodes_.id(j); });
     const bool closed = each_comes_twice();
-    const auto rest = std::ranges::unique(neighbours_);
-    neighbours_.erase(rest.begin(), rest.end());
+    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
     out.push_back(VolumeStars::header(neighbours_.size(), closed));
     out.insert(out.end(), neighbours_.begin(), neighbours_.end());
     for (const AgreedTriangles::Others& others : triangles_)

@@ -247,7 +247,7 @@ VolumeStar::Facet VolumeStar::facet_of(const Edge& edge, std::int32_t corner) co
 bool VolumeStar::all_surely_below(const Plane& plane, const Corners& facet) const {
   const double *x = y_[0].data(), *y = y_[1].data(), *z = y_[2].data();
   const double limit = plane.offset - kRounding;
-  const auto [nx, ny, nz] = plane.normal;
+  const double nx = plane.normal[0], ny = plane.normal[1], nz = plane.normal[2];
   for (std::size_t first = 0; first < candidates_.size(); first += kWord) {
     std::uint64_t bits = bits_where(first, candidates_.size(), [=](std::size_t k) {
       return nx * x[k] + ny * y[k] + nz * z[k] > limit;
@@ -268,8 +268,8 @@ bool VolumeStar::find_facet(const Edge& edge, Facet& facet) const {
   const double *x = y_[0].data(), *y = y_[1].data(), *z = y_[2].data();
   double* const slopes = slopes_.data();
   const std::size_t n = candidates_.size(), padded = (n + kGroup - 1) & ~(kGroup - 1);
-  const auto [nx, ny, nz] = normal;
-  const auto [ux, uy, uz] = up;
+  const double nx = normal[0], ny = normal[1], nz = normal[2];
+  const double ux = up[0], uy = up[1], uz = up[2];
   double steepest = kNoSlope;
 #pragma omp simd reduction(max : steepest)
   for (std::size_t k = 0; k < padded; ++k) {

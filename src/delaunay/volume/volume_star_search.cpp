@@ -61,7 +61,7 @@ bool VolumeStar::may_matter(const Point<3>& x) const {
 std::uint64_t VolumeStar::may_matter_bits(const std::array<const double*, 3>& x,
                                           std::size_t n) const {
   const double *x0 = x[0], *x1 = x[1], *x2 = x[2];
-  const auto [c0, c1, c2] = centre_.x;
+  const double c0 = centre_.x[0], c1 = centre_.x[1], c2 = centre_.x[2];
   const double farthest = search_reach_ * kBeyond, unit = unit_;
   const std::uint64_t near = bits_where(n, [=](std::size_t k) {
     const double dx = x0[k] - c0, dy = x1[k] - c1, dz = x2[k] - c2;
@@ -70,7 +70,7 @@ std::uint64_t VolumeStar::may_matter_bits(const std::array<const double*, 3>& x,
   if (nothing_found_ || near == 0) return near;
   std::uint64_t beyond = 0;
   const auto add_beyond = [&](const Point<3>& normal, double offset) {
-    const auto [nx, ny, nz] = normal;
+    const double nx = normal[0], ny = normal[1], nz = normal[2];
     beyond |= bits_where(n, [=](std::size_t k) {
       const double dx = x0[k] - c0, dy = x1[k] - c1, dz = x2[k] - c2;
       return (nx * dx + ny * dy + nz * dz) * unit > offset * (dx * dx + dy * dy + dz * dz);

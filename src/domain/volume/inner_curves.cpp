@@ -19,7 +19,7 @@ Box<3> box_of(const Point<3>& a, const Point<3>& b, double reach) {
 
 void check_against_surface(CurveSegment& segment, const Triangulation& surface,
                            const BoxTree<3>& tree) {
-  const auto& [p, q] = segment.ends;
+  const auto p = segment.ends[0], q = segment.ends[1];
   const Point<3>&x = surface.vertices[p], &y = surface.vertices[q];
   std::int32_t met = -1;
   tree.for_meeting(box_of(x, y, 0), [&](std::int32_t t) {

@@ -92,7 +92,7 @@ class Fitting {
 
   // Is the triangle of node i, one of `own`, in the other fan, or one that differs by a diagonal?
   bool is_in(const Fan& other, const Fan& own, const Side& side, std::int64_t i) const {
-    const auto [a, b] = side;
+    const auto a = side.first, b = side.second;
     if (has(other, a, b)) return true;
     // The other diagonal ends here ...
     for (auto next = std::ranges::lower_bound(other, Side{a, -1});
