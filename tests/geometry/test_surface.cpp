@@ -135,8 +135,8 @@ START_TEST(test_sees_on_a_cube) {
   const PlacesOnCube cube;
   for (const auto& [a, on_a] : cube.places)
     for (const auto& [b, on_b] : cube.places) {
-      const bool share =
-          std::any_of(on_a.begin(), on_a.end(), [&](int side) { return on_b.contains(side); });
+      const bool share = std::any_of(
+          on_a.begin(), on_a.end(), [&b_sides = on_b](int side) { return b_sides.contains(side); });
       quick_assert(cube.c.surface.sees(a, b) == share);
     }
 }
@@ -155,7 +155,7 @@ START_TEST(test_shares_a_patch_on_a_cube) {
       const auto& [at, on] =
           cube.places[static_cast<std::size_t>(random.below(std::ssize(cube.places)))];
       place = at;
-      std::erase_if(common, [&](int side) { return !on.contains(side); });
+      std::erase_if(common, [&sides = on](int side) { return !sides.contains(side); });
     }
     quick_assert(surface.share_patch(places) == !common.empty());
     shared += !common.empty();
