@@ -219,7 +219,7 @@ class PlacementOf : public Placement {
   void fill(Level<Dim>& level, LaidNodes<Dim> laid);
   void repair_defects();
   Outcome finish();
-  void measure_finish();  // in space
+  void measure_finish();    // in space
   bool elements_conform();  // if not there is a warning; collective
 
   std::shared_ptr<Domain<Dim>> domain_;

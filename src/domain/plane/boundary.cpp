@@ -306,7 +306,7 @@ class Layer {
     const PointTree tree({positions_.begin(), positions_.begin() + boundary_.first_fixed});
     std::vector<Worst> nearest(positions_.size(), {HUGE_VAL, 0, 0, 0});
     for (std::int32_t e = 0; e < static_cast<std::int32_t>(ends_.size()); ++e) {
-      const auto [a, b] = ends_[e];
+      const std::int32_t a = ends_[e][0], b = ends_[e][1];
       if (is_short(a, b)) continue;
       tree.for_each_near(positions_[a], positions_[b], kClose * std::max(d_[a], d_[b]),
                          [&](std::int32_t node, double distance) {
