@@ -36,6 +36,12 @@ class RanksTest(CommandTest):
         out, err = self.run_ranks(ranks, *arguments, code=code, **more)
         self.assertEqual(out, b"")
         self.assertEqual(self.files(), before)
-        told = [line for line in err.splitlines() if line.startswith("pnpbs: ")]
+        told = errors(err)
         self.assertEqual(len(told), 1, err)
         return told[0]
+
+
+def errors(err):
+    """The lines that say why a run failed; warnings may come before them."""
+    return [line for line in err.splitlines()
+            if line.startswith("pnpbs: ") and not line.startswith("pnpbs: warning: ")]

@@ -8,7 +8,7 @@ import time
 import unittest
 
 from command import COMMAND, DONE, FAILED, INTERRUPTED, LAKE
-from ranks import RanksTest
+from ranks import RanksTest, errors
 
 
 class Failing(RanksTest):
@@ -73,7 +73,7 @@ class Interrupting(RanksTest):
         os.kill(ranks[1], signal.SIGINT)
         _, err = process.communicate(timeout=300)
         self.assertEqual(process.returncode, INTERRUPTED, err)
-        self.assertEqual(err.count(b"pnpbs: "), 1)
+        self.assertEqual(len(errors(err.decode())), 1, err)
         self.assertEqual(self.files(), ["square.poly"])
 
     def test_mpirun(self):
