@@ -18,13 +18,17 @@ struct Box {
 };
 
 template <int Dim>
-inline Box<Dim> box_around(const Point<Dim>& x, double reach) {
-  Box<Dim> box{x, x};
+inline Box<Dim> widened(Box<Dim> box, double way) {
   for (int k = 0; k < Dim; ++k) {
-    box.low[k] -= reach;
-    box.high[k] += reach;
+    box.low[k] -= way;
+    box.high[k] += way;
   }
   return box;
+}
+
+template <int Dim>
+inline Box<Dim> box_around(const Point<Dim>& x, double reach) {
+  return widened(Box<Dim>{x, x}, reach);
 }
 
 template <int Dim>

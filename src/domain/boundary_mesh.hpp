@@ -51,6 +51,9 @@ template <int Dim>
 struct BoundaryMesh {
   std::vector<BoundaryNode<Dim>> nodes;
   std::vector<BoundaryFacet<Dim>> facets;
+  // Nodes placed on the facets are no farther from them than this: those of a level set are where
+  // it is 0, which may be in a cell of a background tree that no facet meets.
+  double node_distance = 0;
 };
 
 // Where the corners of a facet are.

@@ -37,12 +37,21 @@ template <int Dim>
 void FacetCells<Dim>::add_children(const BackgroundTree<Dim>& tree, std::int32_t parent) {
   const std::int32_t first = tree.cell(parent).first_child;
   for (std::int32_t c = first; c < first + BackgroundTree<Dim>::kChildren; ++c) {
-    const Box<Dim> room = tree.cell_box_with_room(c);
+    const Box<Dim> room = widened(tree.cell_box_with_room(c), mesh_.node_distance);
     for (std::size_t k = offset_[index(parent)]; k < offset_[index(parent) + 1]; ++k)
       if (may_meet_box(corners_[index(facets_[k])], room)) facets_.push_back(facets_[k]);
     offset_.push_back(facets_.size());
     references_.push_back(reference_in(tree.cell_box(c), parent));
   }
+}
+
+template <int Dim>
+std::vector<std::int32_t> FacetCells<Dim>::meeting(const BackgroundTree<Dim>& tree,
+                                                   std::int32_t c) const {
+  std::vector<std::int32_t> found;
+  for (const std::int32_t f : facets(c))
+    if (may_meet_box(corners_[index(f)], tree.cell_box_with_room(c))) found.push_back(f);
+  return found;
 }
 
 template <int Dim>

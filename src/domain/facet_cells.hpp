@@ -26,7 +26,7 @@ class FacetCells {
   explicit FacetCells(const BoundaryMesh<Dim>& mesh);
 
   // Cells are added in their order, the root first. A child inherits the facets of its parent that
-  // meet it.
+  // meet it, or have nodes in it.
   void add_root(const BackgroundTree<Dim>& tree);
   void add_children(const BackgroundTree<Dim>& tree, std::int32_t parent);
 
@@ -34,6 +34,8 @@ class FacetCells {
   std::span<const std::int32_t> facets(std::int32_t c) const {
     return {facets_.data() + offset_[index(c)], facets_.data() + offset_[index(c) + 1]};
   }
+  // Without those that only have nodes in it, which stay however often cells are split.
+  std::vector<std::int32_t> meeting(const BackgroundTree<Dim>& tree, std::int32_t c) const;
   bool crossed(std::int32_t c) const { return offset_[index(c)] < offset_[index(c) + 1]; }
   bool outside(std::int32_t c) const { return !crossed(c) && !reference(c).inside; }
   // Never on a facet.

@@ -27,6 +27,27 @@ KnownRegion<Dim> known_after_exchange(Level<Dim>& level, int hops) {
   return KnownRegion<Dim>(tree.tree(), known);
 }
 
+// Owned nodes whose lists could miss a node: there are none, or results would depend on the ranks.
+template <int Dim>
+std::int64_t lists_beyond_known(const Level<Dim>& level, const KnownRegion<Dim>& known,
+                                double radius) {
+  if (!level.distributed()) return 0;
+  const BackgroundTree<Dim>& tree = level.tree->tree();
+  const Distribution<Dim>& distribution = level.tree->distribution();
+  const Buckets<Dim>& buckets = level.neighbourhood.buckets();
+  std::int64_t found = 0;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    const std::int32_t begin = buckets.begin(leaf), end = buckets.end(leaf);
+    std::int64_t owned = 0;
+    for (std::int32_t i = begin; i < end; ++i) owned += level.nodes.owned(i);
+    if (owned == 0) continue;
+    const Box<Dim> reached = widened(tree.cell_box(tree.leaf_cell(leaf)),
+                                     radius * level.map().leaf_max_spacing(leaf));
+    if (distribution.holder(leaf) < 0 || !known.covers(tree, reached)) found += owned;
+  }
+  return found;
+}
+
 template <int Dim>
 void sort_nodes(Level<Dim>& level) {
   if (level.neighbourhood.sort_nodes(level.nodes, *level.tree, level.settings))
@@ -71,6 +92,7 @@ void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
     agreed(*level.comm, [&] { rebuild_lists(level, radius); });
   }
   level.stars_before.forget();
+  level.unknown_uses += lists_beyond_known(level, known, radius);
 }
 
 template <int Dim>

@@ -61,15 +61,6 @@ class Needs {
   std::vector<std::pair<std::int32_t, std::int32_t>> front_;  // leaf and rank that came last
 };
 
-template <int Dim>
-Box<Dim> widened(Box<Dim> box, double way) {
-  for (int k = 0; k < Dim; ++k) {
-    box.low[k] -= way;
-    box.high[k] += way;
-  }
-  return box;
-}
-
 // The leaves within so many hops of these, and they themselves; marks them.
 template <int Dim>
 std::vector<std::int32_t> reached_from(const LeafGraph<Dim>& graph,

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "domain/clearance.hpp"
+#include "domain/volume/level_set.hpp"
+#include "domain/volume/volume_domain.hpp"
 #include "geometry/expect_error.hpp"
 #include "mapped_volume.hpp"
 #include "random.hpp"
@@ -419,11 +421,53 @@ START_TEST(clearance_is_reached_where_there_is_room) {
 }
 END_TEST
 
+// Nodes of a level set are where it is 0, beside the triangles: what is in a leaf outside the
+// domain belongs to no rank.
+START_TEST(no_nodes_of_level_sets_outside) {
+  const auto torus = [](std::int64_t n, const P* x, double* f) {
+    for (std::int64_t i = 0; i < n; ++i)
+      f[i] = std::hypot(std::hypot(x[i][0], x[i][1]) - 1, x[i][2]) - 0.4;
+  };
+  // Of edges up to the square root of 3 resolutions long, where the radius is 0.4.
+  constexpr double kResolution = 0.2, kDeviation = 3 * kResolution * kResolution / (8 * 0.4);
+  pnpbs::VolumeDomain domain;
+  domain.add_level_set(torus, {{-1.5, -1.5, -0.5}, {1.5, 1.5, 0.5}}, kResolution, 1);
+  domain.check();
+  const pnpbs::BoundaryMesh<3>& mesh = domain.mesh();
+  ck_assert_double_ge(mesh.node_distance, kDeviation);
+  ck_assert_double_le(mesh.node_distance, 2 * kDeviation);
+  pnpbs::DomainMap<3> map;
+  map.build(domain.bounds(), mesh, evaluator_of(constant(0.03)), 1'000'000);
+  Random random(1);
+  std::vector<P> nodes;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    const auto [a, b, c] = pnpbs::corners_of(mesh, mesh.facets[f]);
+    for (int k = 0; k < 10; ++k) {
+      const double u = random.between(0, 1), v = random.between(0, 1 - u);
+      P x;
+      for (std::size_t d = 0; d < 3; ++d) x[d] = a[d] + u * (b[d] - a[d]) + v * (c[d] - a[d]);
+      nodes.push_back(x);
+    }
+  }
+  const std::vector<P> on_facets = nodes;
+  domain.level_sets().sets[0]->project(nodes, mesh.node_distance);
+  std::size_t off_the_facets = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    double f = 0;
+    torus(1, &nodes[k], &f);
+    ck_assert_double_le(std::fabs(f), 1e-14);
+    quick_assert(!map.leaf_outside(map.tree().leaf_at(nodes[k])));
+    off_the_facets += pnpbs::distance<3>(nodes[k], on_facets[k]) > 0.2 * kDeviation;
+  }
+  ck_assert_uint_ge(off_the_facets, nodes.size() / 20);
+}
+END_TEST
+
 int main() {
   return run_kernel_suite(
       "volume_domain",
       {sides_of_a_sphere, sides_of_pierced_blocks, ways_cross_as_often_as_they_should,
        nearest_points, facets_of_leaves, leaf_sizes_follow_d, leaves_hold_few_boundary_nodes,
        finest_leaves_there_can_be, too_many_nodes, walls_hold,
-       clearance_is_reached_where_there_is_room});
+       clearance_is_reached_where_there_is_room, no_nodes_of_level_sets_outside});
 }

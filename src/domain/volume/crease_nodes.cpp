@@ -53,8 +53,11 @@ void put_on_creases(const VolumeDomain& domain, FeatureNodes& laid) {
                           shifted(at.normals[0], 1, at.normals[1])});
     }
     const auto found = find_crease_points(*set, searches);
-    for (std::size_t k = 0; k < found.size(); ++k)
-      if (found[k]) laid.nodes[nodes[k]].position = found[k]->position;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      Point<3>& x = laid.nodes[nodes[k]].position;
+      if (found[k] && distance<3>(found[k]->position, x) <= domain.mesh().node_distance)
+        x = found[k]->position;
+    }
   }
 }
 

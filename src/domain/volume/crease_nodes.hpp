@@ -10,8 +10,8 @@
 
 namespace pnpbs {
 
-// Those between corners move onto the edges of f. One for which no edge is found within about the
-// resolution stays.
+// Those between corners move onto the edges of f. One for which no edge is found as near as nodes
+// may be to the facets stays.
 void put_on_creases(const VolumeDomain& domain, FeatureNodes& laid);
 
 // The gradients of f beside a node on its edge, of length 1; 0 for other nodes.

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/limits.hpp"
 #include "domain/given_values.hpp"
 #include "domain/volume/level_set_creases.hpp"
 #include "domain/volume/level_set_surface.hpp"
+#include "domain/volume/node_distance.hpp"
 #include "domain/volume/primitives.hpp"
 #include "domain/volume/volume_resolver.hpp"
 
@@ -193,7 +195,14 @@ void VolumeDomain::check() {
   resolved->warnings.insert(resolved->warnings.begin(), given_warnings_.begin(),
                             given_warnings_.end());
   resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
-  resolved_ = std::move(resolved);
+  const auto before = std::exchange(resolved_, resolved);
+  try {
+    resolved->mesh.node_distance = std::numeric_limits<double>::infinity();  // not known yet
+    resolved->mesh.node_distance = largest_node_distance(*this);
+  } catch (...) {
+    resolved_ = before;
+    throw;
+  }
   checked_ = true;
 }
 

@@ -11,6 +11,7 @@ Ground<3>::Ground(std::shared_ptr<const VolumeDomain> domain,
                   std::shared_ptr<const Spacing<3>> spacing, const NodeLimit& limit)
     : domain_(std::move(domain)),
       spacing_(std::move(spacing)),
+      bounds_(widened(domain_->bounds(), domain_->mesh().node_distance)),
       surface_(domain_->mesh(), domain_->features()) {
   features_ = lay_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), limit);
   put_on_creases(*domain_, features_);

@@ -36,7 +36,7 @@ class Ground<3> {
   Ground& operator=(const Ground&) = delete;
 
   const VolumeDomain& domain() const { return *domain_; }
-  const Box<3>& bounds() const { return domain_->bounds(); }
+  const Box<3>& bounds() const { return bounds_; }  // of all nodes
   double measure() const { return domain_->volume(); }
   bool surfaces_alone() const { return !domain_->filled(); }
   const Spacing<3>& spacing() const { return *spacing_; }
@@ -71,6 +71,7 @@ class Ground<3> {
 
   std::shared_ptr<const VolumeDomain> domain_;
   std::shared_ptr<const Spacing<3>> spacing_;
+  Box<3> bounds_;
   Surface surface_;
   FeatureNodes features_;
   std::vector<char> patch_bounds_;  // of each patch: is the domain on one side of it?

@@ -140,7 +140,7 @@ void put_on_level_sets(const Ground<3>& ground, GivenNodes<3>& nodes) {
         on_set.push_back(i);
         x.push_back(nodes[i].position);
       }
-    set->project(x, set->resolution());
+    set->project(x, ground.boundary().node_distance);
     for (std::size_t k = 0; k < on_set.size(); ++k) nodes[on_set[k]].position = x[k];
   }
 }

@@ -16,7 +16,8 @@ const char* const kUsage =
     "            [--plane | --space] [--data FOLDER] [--files FILE,...] [--shrink] [--all]\n"
     "            [--ranks N [--interval N] [--metis-seed N] [--rebalance] [--serial]]\n"
     "            [--threads N,...] [--once] [--default-options] [--share X] [--set KEY=VALUE]\n"
-    "            [--nodes N [--slope X --from X,Y,Z]] [--expect-differences]\n";
+    "            [--option KEY=VALUE] [--nodes N [--slope X --from X,Y,Z]] "
+    "[--expect-differences]\n";
 
 namespace {
 
@@ -118,6 +119,8 @@ bool take_value(const std::string& word, const std::string& value, Arguments& ma
       made.threads.push_back(static_cast<int>(number(part)));
   } else if (word == "--set" && equals != std::string::npos) {
     made.extra.emplace_back(value.substr(0, equals), value.substr(equals + 1));
+  } else if (word == "--option" && equals != std::string::npos) {
+    made.spec.options.emplace_back(value.substr(0, equals), value.substr(equals + 1));
   } else {
     return take_group(word, value, made) || take_explicit(word, value, made);
   }
@@ -167,6 +170,7 @@ std::string arguments_of(const CaseSpec& spec) {
   if (spec.once) text += " --once";
   if (spec.default_options) text += " --default-options";
   if (spec.share != 1) text += " --share " + text_of(spec.share);
+  for (const auto& [key, value] : spec.options) text += " --option " + key + "=" + value;
   return text;
 }
 

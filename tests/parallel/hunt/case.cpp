@@ -26,6 +26,7 @@ Case explicit_case(const CaseSpec& spec) {
   made.spacing.from = spec.from;
   made.spacing.directions = dim;
   made.wanted_nodes = spec.nodes * spec.share;
+  made.options = spec.options;
   return made;
 }
 
@@ -52,6 +53,7 @@ Case make_case(const CaseSpec& spec) {
       !made.body.solids.empty())
     made.wanted_nodes = nodes;
   if (!spec.default_options) made.options = random_options(option_random, made.body.dim);
+  made.options.insert(made.options.end(), spec.options.begin(), spec.options.end());
   made.by_steps = schedule_random.chance(0.2) && !spec.once;
   made.steps = schedule_random.pick(1, 30);
   made.adapts = schedule_random.chance(0.25) && !spec.once;

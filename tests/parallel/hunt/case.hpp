@@ -16,6 +16,8 @@ namespace hunt {
 
 enum class Dimensions { both, plane, space };
 
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
 struct CaseSpec {
   std::uint64_t seed = 1, number = 0;
   Dimensions dimensions = Dimensions::both;
@@ -29,9 +31,8 @@ struct CaseSpec {
   bool is_explicit = false;
   double slope = 0, nodes = 0;
   Point from{};
+  Settings options;  // besides the random ones
 };
-
-using Settings = std::vector<std::pair<std::string, std::string>>;
 
 struct Case {
   std::string name;

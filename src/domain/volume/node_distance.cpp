@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/node_distance.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/space_vectors.hpp"
+#include "domain/volume/crease_nodes.hpp"
+#include "domain/volume/features.hpp"
+#include "domain/volume/level_set.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr std::size_t kPointsAtOnce = 1 << 14;  // points that f is asked for at a time
+
+Point<3> middle_of(const Point<3>& a, const Point<3>& b) {
+  return shifted(a, 0.5, difference(b, a));
+}
+
+double largest_distance(const std::vector<Point<3>>& from, const std::vector<Point<3>>& to) {
+  double largest = 0;
+  for (std::size_t k = 0; k < from.size(); ++k)
+    largest = std::max(largest, distance<3>(from[k], to[k]));
+  return largest;
+}
+
+// Of these points, which are cleared.
+double distance_to_zero(const LevelSet& set, std::vector<Point<3>>& points) {
+  const std::vector<Point<3>> before = points;
+  set.project(points, set.resolution());
+  const double largest = largest_distance(before, points);
+  points.clear();
+  return largest;
+}
+
+// In the middle of each triangle and of its sides.
+double distance_to_triangles(const VolumeDomain& domain, const LevelSet& set) {
+  const BoundaryMesh<3>& mesh = domain.mesh();
+  std::vector<Point<3>> points;
+  double largest = 0;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    if (domain.level_sets().at(static_cast<std::int32_t>(f)) != &set) continue;
+    const auto [a, b, c] = corners_of(mesh, mesh.facets[f]);
+    for (const Point<3>& x : {middle_of(a, b), middle_of(b, c), middle_of(c, a),
+                              shifted(middle_of(a, b), 1.0 / 3, difference(c, middle_of(a, b)))})
+      points.push_back(x);
+    if (points.size() >= kPointsAtOnce) largest = std::max(largest, distance_to_zero(set, points));
+  }
+  return std::max(largest, distance_to_zero(set, points));
+}
+
+// In the middle of each feature edge.
+double distance_to_creases(const VolumeDomain& domain) {
+  const Features& features = domain.features();
+  FeatureNodes middles;
+  std::vector<Point<3>> before, after;
+  for (std::size_t c = 0; c < features.curves.size(); ++c) {
+    const FeatureCurve& curve = features.curves[c];
+    for (std::size_t e = 0; e < curve.edge_count(); ++e) {
+      const auto at = [&](std::size_t k) {
+        return domain.mesh().nodes[static_cast<std::size_t>(curve.nodes[k])].position;
+      };
+      before.push_back(middle_of(at(e), at(e + 1)));
+      middles.nodes.push_back({before.back(), 0, -1, static_cast<std::int32_t>(c),
+                               curve.first_edge + static_cast<std::int32_t>(e)});
+    }
+  }
+  put_on_creases(domain, middles);
+  for (const FeatureNode& node : middles.nodes) after.push_back(node.position);
+  return largest_distance(before, after);
+}
+
+}  // namespace
+
+double largest_node_distance(const VolumeDomain& domain) {
+  constexpr double kSpare = 2, kLeast = 1e-6;  // the latter in units of the resolution
+  double resolution = 0, largest = 0;
+  for (const auto& set : domain.level_sets().sets) {
+    if (!set) continue;
+    resolution = std::max(resolution, set->resolution());
+    largest = std::max(largest, distance_to_triangles(domain, *set));
+  }
+  if (resolution > 0) largest = std::max(largest, distance_to_creases(domain));
+  return std::clamp(kSpare * largest, kLeast * resolution, resolution);
+}
+
+}  // namespace pnpbs
