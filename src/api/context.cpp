@@ -116,7 +116,11 @@ using namespace pnpbs;
 using namespace pnpbs::api;
 
 const char* pnpbs_status_string(pnpbs_status status) {
-  switch (status) {
+  // Programs in C may give any number, of which C++ makes no value of the type.
+  int number = 0;
+  static_assert(sizeof number == sizeof status);
+  std::memcpy(&number, &status, sizeof number);
+  switch (number) {
 #define PNPBS_STATUS_CASE(name, value, text) \
   case name:                                 \
     return text;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/types.hpp"
 #include "comm/communicator.hpp"
 #include "comm/records.hpp"
 

@@ -100,6 +100,7 @@ void AdjacencyList<Dim>::BlockWriter<Visibility>::operator()(std::int64_t block,
   std::int32_t length = 0;
   for (std::int64_t i = block * kLanes; i < std::min((block + 1) * kLanes, nodes.count); ++i) {
     const std::int32_t found = find_neighbours(i);
+    if (found == 0) continue;
     if (found > length) {
       length = found;
       if (end_of(length) > out.size()) out.resize(end_of(length + 2), pad);

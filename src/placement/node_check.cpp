@@ -128,7 +128,8 @@ void NodeCheck<Dim>::check_lists() const {
 template <int Dim>
 double NodeCheck<Dim>::sum_over_ranks(double mine, double unit) const {
   constexpr double kFine = 0x1p40, kMax = 1e6;
-  const double parts = std::clamp(mine / unit, -kMax, kMax) * kFine;
+  const double share = mine / unit;  // of nodes that are nowhere it is no number, and far off
+  const double parts = (std::isnan(share) ? kMax : std::clamp(share, -kMax, kMax)) * kFine;
   const std::uint64_t sum =
       comm_.allreduce_sum(static_cast<std::uint64_t>(static_cast<std::int64_t>(parts)));
   return static_cast<double>(static_cast<std::int64_t>(sum)) / kFine * unit;

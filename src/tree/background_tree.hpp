@@ -124,12 +124,12 @@ class BackgroundTree {
     return c;
   }
 
-  // Position among the cells of the largest depth.
+  // Position among the cells of the largest depth; of what is no number, the first.
   std::array<std::uint32_t, Dim> fine_index(const Point<Dim>& x) const {
     std::array<std::uint32_t, Dim> fine;
     for (int k = 0; k < Dim; ++k) {
       const double t = (x[k] - origin_[k]) * scale_;
-      fine[k] = t <= 0 ? 0u : t >= kCells - 1 ? kLastIndex : static_cast<std::uint32_t>(t);
+      fine[k] = !(t > 0) ? 0u : t >= kCells - 1 ? kLastIndex : static_cast<std::uint32_t>(t);
     }
     return fine;
   }

@@ -322,8 +322,8 @@ START_TEST(fields_that_are_refused) {
                                     "a\"b",
                                     "<a>",
                                     ".",
-                                    "gr\xc3\xb6\xc3\x9f"
-                                    "e"};
+                                    ("gr\xc3\xb6\xc3\x9f"
+                                     "e")};
   char long_name[65];
   job it = placed_square();
   int64_t n = 0;

@@ -140,7 +140,7 @@ def picture(rows, path):
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
-    figure, axes = pyplot.subplots(2, len(CASES), figsize=(15, 7.2), sharey="col")
+    figure, axes = pyplot.subplots(2, len(CASES), figsize=(15, 7.6), sharey="col")
     for across, case in enumerate(CASES):
         for down, (label, names) in enumerate((("nodes", ["nodes"]),
                                                ("CPU seconds, meshing and solving",
@@ -157,7 +157,8 @@ def picture(rows, path):
             if across == 0:
                 axis.set_ylabel("relative H1 error")
         axes[0][across].set_title(case.title)
-        axes[0][across].legend(fontsize=7, loc="lower left")
+        # Below the axes, where no line is.
+        axes[1][across].legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2)
     figure.text(0.5, 0.005, "solid, circles: P1; dashed, squares: P2", ha="center", fontsize=9)
     figure.tight_layout(rect=(0, 0.02, 1, 1))
     figure.savefig(path, dpi=110)
