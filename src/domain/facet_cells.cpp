@@ -31,27 +31,32 @@ void FacetCells<Dim>::add_root(const BackgroundTree<Dim>& tree) {
   facets_.resize(corners_.size());
   std::iota(facets_.begin(), facets_.end(), 0);
   offset_.push_back(facets_.size());
+  if (mesh_.node_distance > 0) {
+    beside_ = facets_;
+    beside_offset_ = offset_;
+  }
+}
+
+// The facets of the parent that may meet the box.
+template <int Dim>
+void FacetCells<Dim>::inherit(std::int32_t parent, const Box<Dim>& box,
+                              std::vector<std::int32_t>& facets,
+                              std::vector<std::size_t>& offset) const {
+  for (std::size_t k = offset[index(parent)]; k < offset[index(parent) + 1]; ++k)
+    if (may_meet_box(corners_[index(facets[k])], box)) facets.push_back(facets[k]);
+  offset.push_back(facets.size());
 }
 
 template <int Dim>
 void FacetCells<Dim>::add_children(const BackgroundTree<Dim>& tree, std::int32_t parent) {
   const std::int32_t first = tree.cell(parent).first_child;
   for (std::int32_t c = first; c < first + BackgroundTree<Dim>::kChildren; ++c) {
-    const Box<Dim> room = widened(tree.cell_box_with_room(c), mesh_.node_distance);
-    for (std::size_t k = offset_[index(parent)]; k < offset_[index(parent) + 1]; ++k)
-      if (may_meet_box(corners_[index(facets_[k])], room)) facets_.push_back(facets_[k]);
-    offset_.push_back(facets_.size());
+    const Box<Dim> room = tree.cell_box_with_room(c);
+    inherit(parent, room, facets_, offset_);
+    if (mesh_.node_distance > 0)
+      inherit(parent, widened(room, mesh_.node_distance), beside_, beside_offset_);
     references_.push_back(reference_in(tree.cell_box(c), parent));
   }
-}
-
-template <int Dim>
-std::vector<std::int32_t> FacetCells<Dim>::meeting(const BackgroundTree<Dim>& tree,
-                                                   std::int32_t c) const {
-  std::vector<std::int32_t> found;
-  for (const std::int32_t f : facets(c))
-    if (may_meet_box(corners_[index(f)], tree.cell_box_with_room(c))) found.push_back(f);
-  return found;
 }
 
 template <int Dim>

@@ -26,7 +26,7 @@ class FacetCells {
   explicit FacetCells(const BoundaryMesh<Dim>& mesh);
 
   // Cells are added in their order, the root first. A child inherits the facets of its parent that
-  // meet it, or have nodes in it.
+  // meet it.
   void add_root(const BackgroundTree<Dim>& tree);
   void add_children(const BackgroundTree<Dim>& tree, std::int32_t parent);
 
@@ -34,10 +34,12 @@ class FacetCells {
   std::span<const std::int32_t> facets(std::int32_t c) const {
     return {facets_.data() + offset_[index(c)], facets_.data() + offset_[index(c) + 1]};
   }
-  // Without those that only have nodes in it, which stay however often cells are split.
-  std::vector<std::int32_t> meeting(const BackgroundTree<Dim>& tree, std::int32_t c) const;
   bool crossed(std::int32_t c) const { return offset_[index(c)] < offset_[index(c) + 1]; }
   bool outside(std::int32_t c) const { return !crossed(c) && !reference(c).inside; }
+  // May nodes of facets be in it that do not meet it?
+  bool has_facets_beside(std::int32_t c) const {
+    return mesh_.node_distance > 0 && beside_offset_[index(c)] < beside_offset_[index(c) + 1];
+  }
   // Never on a facet.
   const ReferencePoint<Dim>& reference(std::int32_t c) const { return references_[index(c)]; }
 
@@ -49,6 +51,8 @@ class FacetCells {
 
  private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  void inherit(std::int32_t parent, const Box<Dim>& box, std::vector<std::int32_t>& facets,
+               std::vector<std::size_t>& offset) const;
   bool on_facet_of(std::int32_t c, const Point<Dim>& x) const;
   ReferencePoint<Dim> reference_in(const Box<Dim>& box, std::int32_t parent) const;
 
@@ -57,6 +61,9 @@ class FacetCells {
   std::vector<ReferencePoint<Dim>> references_;  // of the cells
   std::vector<std::size_t> offset_{0};
   std::vector<std::int32_t> facets_;  // of cell after cell
+  // The same with those that have nodes in a cell, where these may be off their facets.
+  std::vector<std::size_t> beside_offset_{0};
+  std::vector<std::int32_t> beside_;
 };
 
 extern template class FacetCells<2>;

@@ -31,7 +31,11 @@ class FacetIndex {
   const BackgroundTree<Dim>& tree() const { return tree_; }
   const BoundaryMesh<Dim>& boundary() const { return *boundary_; }
 
-  bool leaf_outside(std::int32_t leaf) const { return side(leaf) == Side::outside; }
+  bool leaf_outside(std::int32_t leaf) const {
+    return side(leaf) == Side::outside || side(leaf) == Side::beside;
+  }
+  // Can no nodes be in it? Those of level sets may be in leaves outside, beside a facet.
+  bool leaf_empty(std::int32_t leaf) const { return side(leaf) == Side::outside; }
   bool leaf_has_facets(std::int32_t leaf) const {
     return offset_[index(leaf)] < offset_[index(leaf) + 1];
   }
@@ -73,7 +77,7 @@ class FacetIndex {
   double clearance(const Point<Dim>& x, double reach) const;
 
  private:
-  enum class Side : char { outside, crossed, inside };
+  enum class Side : char { outside, beside, crossed, inside };
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   Side side(std::int32_t leaf) const { return side_[index(leaf)]; }
 

@@ -18,7 +18,7 @@ KnownRegion<Dim> known_after_exchange(Level<Dim>& level, int hops) {
   const Halo& halo = level.tree->halo(hops, level.settings);
   std::vector<char> known(static_cast<std::size_t>(tree.tree().leaf_count()), 0);
   for (std::int32_t leaf = 0; leaf < tree.tree().leaf_count(); ++leaf) {
-    known[static_cast<std::size_t>(leaf)] = tree.owns(leaf) || tree.map().leaf_outside(leaf);
+    known[static_cast<std::size_t>(leaf)] = tree.owns(leaf) || tree.map().leaf_empty(leaf);
     if (tree.distribution().refined(leaf))
       halo.for_ranks(leaf, [&](int r) {
         if (r == level.comm->rank()) known[static_cast<std::size_t>(leaf)] = 1;
@@ -41,8 +41,8 @@ std::int64_t lists_beyond_known(const Level<Dim>& level, const KnownRegion<Dim>&
     std::int64_t owned = 0;
     for (std::int32_t i = begin; i < end; ++i) owned += level.nodes.owned(i);
     if (owned == 0) continue;
-    const Box<Dim> reached = widened(tree.cell_box(tree.leaf_cell(leaf)),
-                                     radius * level.map().leaf_max_spacing(leaf));
+    const Box<Dim> reached =
+        widened(tree.cell_box(tree.leaf_cell(leaf)), radius * level.map().leaf_max_spacing(leaf));
     if (distribution.holder(leaf) < 0 || !known.covers(tree, reached)) found += owned;
   }
   return found;

@@ -59,7 +59,7 @@ PartitionCells<Dim> LevelTree<Dim>::cells_of_equal_work(
       [this](std::int32_t leaf) { return owns(leaf); },
       [&](std::int32_t leaf) { return work[static_cast<std::size_t>(leaf)]; },
       [this](std::int32_t leaf) {
-        return map_.leaf_outside(leaf) ? 0 : map_.leaf_max_spacing(leaf);
+        return map_.leaf_empty(leaf) ? 0 : map_.leaf_max_spacing(leaf);
       }};
   return {ground_.bounds(), pnpbs::cells_of_equal_work(comm_, tree(), leaves)};
 }

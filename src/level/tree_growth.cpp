@@ -89,7 +89,7 @@ void LevelTree<Dim>::link_leaves(const Settings& settings) {
     const double d = !distributed() || distribution_.refined(leaf)
                          ? map_.leaf_max_spacing(leaf)
                          : distribution_.cells().max_spacing(distribution_.cell_of(leaf));
-    reach.push_back(map_.leaf_outside(leaf) ? 0 : kRoomForGrowth * widest_radius(settings) * d);
+    reach.push_back(map_.leaf_empty(leaf) ? 0 : kRoomForGrowth * widest_radius(settings) * d);
   }
   links_ = std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach));
 }

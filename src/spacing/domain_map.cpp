@@ -215,11 +215,10 @@ bool DomainMap<Dim>::Growth::wants_split(const BackgroundTree<Dim>& tree, std::i
 template <int Dim>
 bool DomainMap<Dim>::Growth::holds_many_boundary_nodes(const BackgroundTree<Dim>& tree,
                                                        std::int32_t c) const {
-  if (facets_->facets(c).size() <= kMaxBoundaryNodes * (Dim - 1)) return false;
+  const auto facets = facets_->facets(c);
+  if (facets.size() <= kMaxBoundaryNodes * (Dim - 1)) return false;
   if constexpr (Dim == 2) return true;
   const Box<Dim> box = tree.cell_box(c);
-  const std::vector<std::int32_t> facets = facets_->meeting(tree, c);
-  if (facets.size() <= kMaxBoundaryNodes * (Dim - 1)) return false;
   std::int32_t only = -1;
   std::size_t having_it = 0;
   for (const std::int32_t f : facets) {

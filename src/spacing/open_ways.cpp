@@ -61,6 +61,14 @@ typename OpenWays<Dim>::Side OpenWays<Dim>::side_of(const Box<Dim>& box) const {
 
 template <int Dim>
 Point<Dim> OpenWays<Dim>::nearest_of_boundary(const Point<Dim>& x, double reach) const {
+  // Mostly it is near: of all that is within reach, which may be thousands of facets, little is
+  // looked at.
+  const BackgroundTree<Dim>& tree = facets_->tree();
+  double near = tree.cell_side(tree.leaf_cell(tree.leaf_at(x)));
+  for (; near < reach; near *= 2) {
+    const NearestPoint<Dim> nearest = facets_->nearest(x, near);
+    if (nearest.gap < near) return nearest.x;
+  }
   const NearestPoint<Dim> nearest = facets_->nearest(x, reach);
   return nearest.gap < reach ? nearest.x : x;
 }

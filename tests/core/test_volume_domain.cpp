@@ -456,7 +456,7 @@ START_TEST(no_nodes_of_level_sets_outside) {
     double f = 0;
     torus(1, &nodes[k], &f);
     ck_assert_double_le(std::fabs(f), 1e-14);
-    quick_assert(!map.leaf_outside(map.tree().leaf_at(nodes[k])));
+    quick_assert(!map.leaf_empty(map.tree().leaf_at(nodes[k])));
     off_the_facets += pnpbs::distance<3>(nodes[k], on_facets[k]) > 0.2 * kDeviation;
   }
   ck_assert_uint_ge(off_the_facets, nodes.size() / 20);
