@@ -70,10 +70,7 @@ for configuration in "${wanted[@]}"; do
       run_tests release
       ;;
     sanitize)
-      configure_and_build sanitize --preset sanitize -DCMAKE_C_COMPILER=clang \
-        -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_UNITY_BUILD=OFF -DPNPBS_BUILD_FORTRAN=OFF \
-        -DPNPBS_TEST_FOLDERS="geometry;core;api;parallel;linkage;tool" \
-        -DKokkos_ROOT="$root/.deps/kokkos-4.5.1-clang"
+      configure_and_build sanitize --preset sanitize
       run_tests sanitize -LE '^(many-runs|figures)$'
       ;;
     no-mpi)
