@@ -88,9 +88,9 @@ const std::vector<StatisticRow>& statistic_table() {
           "faces that are none of the surfaces"),
       integer(
           "unknown_uses", [](P p) { return p.unknown_uses(); },
-          "decisions of the last run that looked at stars which a rank does not know exactly; 0, "
-          "or "
-          "the nodes may depend on the number of ranks"),
+          "decisions of the last run that looked at stars which a rank does not know exactly, and "
+          "nodes whose adjacency lists could miss a node, or that lie in a leaf of the background "
+          "tree which no rank holds; 0, or the nodes may depend on the number of ranks"),
       integer(
           "nodes_held",
           [](P p) {
