@@ -16,13 +16,19 @@ FacetIndex<Dim>::FacetIndex(BackgroundTree<Dim> tree, const FacetCells<Dim>& cel
   for (std::int32_t c = 0; c < cells.count(); ++c) cell_has_facets_.push_back(cells.crossed(c));
   for (std::int32_t leaf = 0; leaf < tree_.leaf_count(); ++leaf) {
     const std::int32_t c = tree_.leaf_cell(leaf);
-    side_.push_back(!cells.outside(c)            ? cells.crossed(c) ? Side::crossed : Side::inside
-                    : cells.has_facets_beside(c) ? Side::beside
-                                                 : Side::outside);
+    side_.push_back(side_of(cells, c));
     reference_.push_back(cells.reference(c));
     for (const std::int32_t f : cells.facets(c)) leaf_facets_.push_back(f);
     offset_.push_back(static_cast<std::int32_t>(leaf_facets_.size()));
   }
+}
+
+template <int Dim>
+typename FacetIndex<Dim>::Side FacetIndex<Dim>::side_of(const FacetCells<Dim>& cells,
+                                                        std::int32_t c) {
+  if (cells.crossed(c)) return Side::crossed;
+  if (!cells.outside(c)) return Side::inside;
+  return cells.has_facets_beside(c) ? Side::beside : Side::outside;
 }
 
 template <int Dim>

@@ -78,6 +78,7 @@ class FacetIndex {
 
  private:
   enum class Side : char { outside, beside, crossed, inside };
+  static Side side_of(const FacetCells<Dim>& cells, std::int32_t c);
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   Side side(std::int32_t leaf) const { return side_[index(leaf)]; }
 
