@@ -64,13 +64,11 @@ Point<Dim> OpenWays<Dim>::nearest_of_boundary(const Point<Dim>& x, double reach)
   // Mostly it is near: of all that is within reach, which may be thousands of facets, little is
   // looked at.
   const BackgroundTree<Dim>& tree = facets_->tree();
-  double near = tree.cell_side(tree.leaf_cell(tree.leaf_at(x)));
-  for (; near < reach; near *= 2) {
-    const NearestPoint<Dim> nearest = facets_->nearest(x, near);
-    if (nearest.gap < near) return nearest.x;
+  for (double near = tree.cell_side(tree.leaf_cell(tree.leaf_at(x)));; near *= 2) {
+    const NearestPoint<Dim> nearest = facets_->nearest(x, std::min(near, reach));
+    if (nearest.facet >= 0) return nearest.x;
+    if (near >= reach) return x;
   }
-  const NearestPoint<Dim> nearest = facets_->nearest(x, reach);
-  return nearest.gap < reach ? nearest.x : x;
 }
 
 template <int Dim>
