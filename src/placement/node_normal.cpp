@@ -76,7 +76,7 @@ std::vector<Point<3>> node_normals(const Level<3>& level, std::span<const std::i
     if (level.nodes.carrier(nodes[k]) != Carrier::curve) continue;
     const FeatureNode& node =
         level.ground.features().nodes[index(level.nodes.boundary_node(nodes[k]))];
-    const auto [left, right] = normals_beside(level.ground.domain(), node);
+    const auto [left, right] = normals_beside(level.ground.domain().resolved(), node);
     if (left != Point<3>{}) normals[k] = as_seen(mean_of(shifted(left, 1, right)), normals[k]);
   }
   return normals;

@@ -10,11 +10,10 @@
 
 namespace pnpbs {
 
-// Those between corners move onto the edges of f. One for which no edge is found as near as nodes
-// may be to the facets stays.
-void put_on_creases(const VolumeDomain& domain, FeatureNodes& laid);
+// Those between corners move onto the edges of f, but one for which none is found within reach.
+void put_on_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach);
 
 // The gradients of f beside a node on its edge, of length 1; 0 for other nodes.
-std::array<Point<3>, 2> normals_beside(const VolumeDomain& domain, const FeatureNode& node);
+std::array<Point<3>, 2> normals_beside(const ResolvedVolume& volume, const FeatureNode& node);
 
 }  // namespace pnpbs

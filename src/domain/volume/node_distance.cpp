@@ -2,6 +2,7 @@
 #include "domain/volume/node_distance.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "base/space_vectors.hpp"
@@ -36,12 +37,12 @@ double distance_to_zero(const LevelSet& set, std::vector<Point<3>>& points) {
 }
 
 // In the middle of each triangle and of its sides.
-double distance_to_triangles(const VolumeDomain& domain, const LevelSet& set) {
-  const BoundaryMesh<3>& mesh = domain.mesh();
+double distance_to_triangles(const ResolvedVolume& volume, const LevelSet& set) {
+  const BoundaryMesh<3>& mesh = volume.mesh;
   std::vector<Point<3>> points;
   double largest = 0;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
-    if (domain.level_sets().at(static_cast<std::int32_t>(f)) != &set) continue;
+    if (volume.level_sets.at(static_cast<std::int32_t>(f)) != &set) continue;
     const auto [a, b, c] = corners_of(mesh, mesh.facets[f]);
     for (const Point<3>& x : {middle_of(a, b), middle_of(b, c), middle_of(c, a),
                               shifted(middle_of(a, b), 1.0 / 3, difference(c, middle_of(a, b)))})
@@ -52,37 +53,37 @@ double distance_to_triangles(const VolumeDomain& domain, const LevelSet& set) {
 }
 
 // In the middle of each feature edge.
-double distance_to_creases(const VolumeDomain& domain) {
-  const Features& features = domain.features();
+double distance_to_creases(const ResolvedVolume& volume) {
+  const Features& features = volume.features;
   FeatureNodes middles;
   std::vector<Point<3>> before, after;
   for (std::size_t c = 0; c < features.curves.size(); ++c) {
     const FeatureCurve& curve = features.curves[c];
     for (std::size_t e = 0; e < curve.edge_count(); ++e) {
       const auto at = [&](std::size_t k) {
-        return domain.mesh().nodes[static_cast<std::size_t>(curve.nodes[k])].position;
+        return volume.mesh.nodes[static_cast<std::size_t>(curve.nodes[k])].position;
       };
       before.push_back(middle_of(at(e), at(e + 1)));
       middles.nodes.push_back({before.back(), 0, -1, static_cast<std::int32_t>(c),
                                curve.first_edge + static_cast<std::int32_t>(e)});
     }
   }
-  put_on_creases(domain, middles);
+  put_on_creases(volume, middles, std::numeric_limits<double>::infinity());
   for (const FeatureNode& node : middles.nodes) after.push_back(node.position);
   return largest_distance(before, after);
 }
 
 }  // namespace
 
-double largest_node_distance(const VolumeDomain& domain) {
+double largest_node_distance(const ResolvedVolume& volume) {
   constexpr double kSpare = 2, kLeast = 1e-6;  // the latter in units of the resolution
   double resolution = 0, largest = 0;
-  for (const auto& set : domain.level_sets().sets) {
+  for (const auto& set : volume.level_sets.sets) {
     if (!set) continue;
     resolution = std::max(resolution, set->resolution());
-    largest = std::max(largest, distance_to_triangles(domain, *set));
+    largest = std::max(largest, distance_to_triangles(volume, *set));
   }
-  if (resolution > 0) largest = std::max(largest, distance_to_creases(domain));
+  if (resolution > 0) largest = std::max(largest, distance_to_creases(volume));
   return std::clamp(kSpare * largest, kLeast * resolution, resolution);
 }
 

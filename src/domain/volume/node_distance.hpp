@@ -9,6 +9,6 @@ namespace pnpbs {
 // For BoundaryMesh::node_distance, with some to spare: twice the largest distance at a few places
 // on each triangle and in the middle of each edge of the body; no less than rounding makes of
 // it, and no more than the resolution of the sets. 0 if there are none.
-double largest_node_distance(const VolumeDomain& domain);
+double largest_node_distance(const ResolvedVolume& volume);
 
 }  // namespace pnpbs

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/limits.hpp"
@@ -195,14 +194,8 @@ void VolumeDomain::check() {
   resolved->warnings.insert(resolved->warnings.begin(), given_warnings_.begin(),
                             given_warnings_.end());
   resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
-  const auto before = std::exchange(resolved_, resolved);
-  try {
-    resolved->mesh.node_distance = std::numeric_limits<double>::infinity();  // not known yet
-    resolved->mesh.node_distance = largest_node_distance(*this);
-  } catch (...) {
-    resolved_ = before;
-    throw;
-  }
+  resolved->mesh.node_distance = largest_node_distance(*resolved);
+  resolved_ = std::move(resolved);
   checked_ = true;
 }
 

@@ -119,9 +119,11 @@ class VolumeDomain {
   void check();
   bool is_checked() const { return checked_; }
 
-  // Valid after check(). First the triangles of the surfaces, in the order in which they were
-  // given, with the domain behind those that bound it, and on neither side of surfaces alone; then
-  // the segments (a, b, b) of inner curves, and (a, a, a) for each fixed node. All nodes are used.
+  // Valid after check(), as all below.
+  const ResolvedVolume& resolved() const { return *resolved_; }
+  // First the triangles of the surfaces, in the order in which they were given, with the domain
+  // behind those that bound it, and on neither side of surfaces alone; then the segments (a, b, b)
+  // of inner curves, and (a, a, a) for each fixed node. All nodes are used.
   const BoundaryMesh<3>& mesh() const { return resolved_->mesh; }
   // Answers what is inside and what is near, whatever d is.
   const SurfaceIndex& index() const { return resolved_->index; }

@@ -14,7 +14,7 @@ Ground<3>::Ground(std::shared_ptr<const VolumeDomain> domain,
       bounds_(widened(domain_->bounds(), domain_->mesh().node_distance)),
       surface_(domain_->mesh(), domain_->features()) {
   features_ = lay_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), limit);
-  put_on_creases(*domain_, features_);
+  put_on_creases(domain_->resolved(), features_, boundary().node_distance);
   const Features& features = domain_->features();
   patch_bounds_.assign(index(features.patches), 0);
   for (std::size_t f = 0; f < features.patch.size(); ++f)
