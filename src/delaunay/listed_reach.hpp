@@ -48,13 +48,8 @@ class ListedReach {
     double max = 0;
     for (std::int32_t i = buckets_.begin(bucket); i < buckets_.end(bucket); ++i)
       max = std::max(max, nodes_.d(i));
-    const double reach = lists_.radius() * max;
-    Box<Dim> around = tree_.cell_box(tree_.leaf_cell(bucket));
-    for (int k = 0; k < Dim; ++k) {
-      around.low[k] -= reach;
-      around.high[k] += reach;
-    }
-    border_ = !known_.covers(tree_, around);
+    const Box<Dim> cell = tree_.cell_box(tree_.leaf_cell(bucket));
+    border_ = !known_.covers(tree_, widened(cell, lists_.radius() * max));
   }
 
   // Up to the nearest node that the list does not hold, or as far as stars mostly need. The

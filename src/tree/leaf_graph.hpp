@@ -72,12 +72,7 @@ void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<do
       const double reach_a = reach[index(a)];
       if (reach_a == 0) return;
       const Box<Dim> own = tree.cell_box(tree.leaf_cell(a));
-      Box<Dim> around = own;
-      for (int k = 0; k < Dim; ++k) {
-        around.low[k] -= reach_a;
-        around.high[k] += reach_a;
-      }
-      tree.for_leaves_in(around, [&](std::int32_t b) {
+      tree.for_leaves_in(widened(own, reach_a), [&](std::int32_t b) {
         const double reach_b = reach[index(b)];
         if (a == b || reach_b > reach_a || (reach_b == reach_a && b < a)) return;
         if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > reach_a * reach_a) return;

@@ -81,12 +81,7 @@ class FlatPatch {
     for (const double u : {x.low[0], x.high[0]})
       for (const double v : {x.low[1], x.high[1]}) include(box, in_plane({u, v}));
     const double size = bounds_.high[0] - bounds_.low[0] + bounds_.high[1] - bounds_.low[1];
-    const double room = 2 * height_ + kRounding * size;
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.low[k] -= room;
-      box.high[k] += room;
-    }
-    return box;
+    return widened(box, 2 * height_ + kRounding * size);
   }
 
   // Facet -1: beyond the patch. Of facets that meet there, the first.
