@@ -30,6 +30,11 @@ inline Point<3> shifted(const Point<3>& a, double t, const Point<3>& b) {
   return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
 }
 
+// Rounded as the other points on the way from a to b, so not always middle_of to the last bit.
+inline Point<3> halfway(const Point<3>& a, const Point<3>& b) {
+  return shifted(a, 0.5, difference(b, a));
+}
+
 // Of length 1; that of 0 is 0.
 inline Point<3> unit_vector(const Point<3>& a) {
   const double whole = length(a);

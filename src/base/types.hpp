@@ -32,6 +32,13 @@ inline Box<Dim> box_around(const Point<Dim>& x, double reach) {
 }
 
 template <int Dim>
+inline Point<Dim> middle_of(const Point<Dim>& a, const Point<Dim>& b) {
+  Point<Dim> middle;
+  for (int k = 0; k < Dim; ++k) middle[k] = 0.5 * (a[k] + b[k]);
+  return middle;
+}
+
+template <int Dim>
 inline double squared_distance(const Point<Dim>& a, const Point<Dim>& b) {
   double sum = 0;
   for (int k = 0; k < Dim; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);

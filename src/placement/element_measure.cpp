@@ -114,7 +114,7 @@ class Measuring : public VolumeNodeCheck {
 
   // What lies between a border and an edge that follows it.
   double missed_at_feature(const Point<3>& a, const Point<3>& b) const {
-    const Point<3> middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+    const Point<3> middle = middle_of<3>(a, b);
     const double length = distance<3>(a, b);
     const NearestPoint<3> nearest =
         ground_.domain().index().nearest(middle, std::numeric_limits<double>::infinity());

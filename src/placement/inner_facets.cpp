@@ -76,8 +76,7 @@ bool InnerFacets::on_patch(std::int64_t i, std::int32_t patch) const {
 // times; else -1.
 std::int32_t InnerFacets::crossed_facet(const Point<3>& from, const Point<3>& to) {
   const FacetIndex<3>& sides = level_.ground.domain().index().sides();
-  Point<3> middle;
-  for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * (from[k] + to[k]);
+  const Point<3> middle = middle_of<3>(from, to);
   constexpr double kRounding = 1 + 1e-9;
   crossed_.clear();
   sides.for_facets_near(middle, 0.5 * kRounding * distance<3>(from, to), [&](std::int32_t f) {

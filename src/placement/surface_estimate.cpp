@@ -14,11 +14,9 @@ namespace {
 
 constexpr std::size_t kSamples = 4;  // of d in a triangle: its middle and those of its halves
 
-Point<3> mean(const Point<3>& a, const Point<3>& b) { return shifted(a, 0.5, difference(b, a)); }
-
 std::array<Point<3>, kSamples> samples_in(const FacetCorners<3>& x) {
-  const Point<3> middle = shifted(x[0], 2.0 / 3, difference(mean(x[1], x[2]), x[0]));
-  return {middle, mean(middle, x[0]), mean(middle, x[1]), mean(middle, x[2])};
+  const Point<3> middle = shifted(x[0], 2.0 / 3, difference(halfway(x[1], x[2]), x[0]));
+  return {middle, halfway(middle, x[0]), halfway(middle, x[1]), halfway(middle, x[2])};
 }
 
 double area_of(const FacetCorners<3>& x) {
@@ -26,7 +24,7 @@ double area_of(const FacetCorners<3>& x) {
 }
 
 void append_quarters(const FacetCorners<3>& x, std::vector<FacetCorners<3>>& triangles) {
-  const Point<3> ab = mean(x[0], x[1]), bc = mean(x[1], x[2]), ca = mean(x[2], x[0]);
+  const Point<3> ab = halfway(x[0], x[1]), bc = halfway(x[1], x[2]), ca = halfway(x[2], x[0]);
   triangles.insert(triangles.end(), {{x[0], ab, ca}, {ab, x[1], bc}, {ca, bc, x[2]}, {ab, bc, ca}});
 }
 

@@ -172,12 +172,9 @@ void CloudSpacing<Dim>::find_known() {
     for (const Neighbour& one : nearest_ones[i]) {
       const auto other = static_cast<std::size_t>(one.point);
       if (!(one.square > 0)) continue;
-      typename KnownValues<Dim>::Slope slope{
-          std::fabs(values_[other] - values_[i]) / std::sqrt(one.square),
-          std::min(values_[other], values_[i]),
-          {}};
-      for (int c = 0; c < Dim; ++c) slope.at[c] = (points_[i][c] + points_[other][c]) / 2;
-      known_.slopes.push_back(slope);
+      known_.slopes.push_back({std::fabs(values_[other] - values_[i]) / std::sqrt(one.square),
+                               std::min(values_[other], values_[i]),
+                               middle_of<Dim>(points_[i], points_[other])});
     }
   }
 }

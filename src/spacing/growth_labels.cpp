@@ -118,9 +118,7 @@ template <int Dim>
 bool GrowthLabels<Dim>::open_way(const OpenWays<Dim>& ways, const Point<Dim>& from,
                                  const Spot& to) const {
   if (!to.placed || !ways.open(from, to.place)) return false;
-  Point<Dim> middle;
-  for (int k = 0; k < Dim; ++k) middle[k] = 0.5 * (from[k] + to.place[k]);
-  return to.inside || ways.inside(middle);
+  return to.inside || ways.inside(middle_of<Dim>(from, to.place));
 }
 
 // To own leaves; copies get what their owners find.

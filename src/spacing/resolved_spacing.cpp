@@ -39,7 +39,7 @@ std::size_t longest_edge(const Piece& piece) {
 void append_halves(const Piece& piece, std::vector<Piece>& pieces) {
   const std::size_t k = longest_edge(piece), next = (k + 1) % 3;
   const Point<3>& from = piece.corners[k];
-  const Point<3> middle = shifted(from, 0.5, difference(piece.corners[next], from));
+  const Point<3> middle = halfway(from, piece.corners[next]);
   for (const std::size_t end : {k, next}) {
     pieces.push_back(piece);
     pieces.back().corners[end] = middle;

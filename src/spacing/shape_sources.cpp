@@ -30,7 +30,7 @@ double longest_edge(const FacetCorners<3>& part) {
 }
 
 template <int Dim>
-Point<Dim> middle_of(const FacetCorners<Dim>& corners) {
+Point<Dim> mean_of(const FacetCorners<Dim>& corners) {
   Point<Dim> middle{};
   for (const Point<Dim>& corner : corners)
     for (std::size_t k = 0; k < Dim; ++k) middle[k] += corner[k] / Dim;
@@ -46,9 +46,7 @@ void append_halves(const Part<Dim>& part, std::vector<Part<Dim>>& parts) {
   for (std::size_t k = 1; k < Dim; ++k)
     if (edge(k) > edge(longest)) longest = k;
   const std::size_t next = (longest + 1) % Dim;
-  Point<Dim> middle;
-  for (std::size_t k = 0; k < Dim; ++k)
-    middle[k] = 0.5 * (part.corners[longest][k] + part.corners[next][k]);
+  const Point<Dim> middle = middle_of<Dim>(part.corners[longest], part.corners[next]);
   for (const std::size_t end : {longest, next}) {
     parts.push_back(part);
     parts.back().corners[end] = middle;
@@ -108,7 +106,7 @@ class Widths {
   template <class Visit>
   void for_places(const Part<Dim>& part, const Visit& visit) const {
     const ShapePiece<Dim>& piece = index_.shape()[part.piece];
-    typename ShapeIndex<Dim>::Place place{middle_of<Dim>(part.corners), normals_[part.piece],
+    typename ShapeIndex<Dim>::Place place{mean_of<Dim>(part.corners), normals_[part.piece],
                                           piece.ends};
     if (piece.front_inside) visit(place);
     for (double& along : place.ahead) along = -along;

@@ -11,18 +11,11 @@ namespace pnpbs {
 
 namespace {
 
-Point<3> middle_of(const FacetCorners<3>& triangle) {
-  const auto& [a, b, c] = triangle;
-  Point<3> middle;
-  for (std::size_t k = 0; k < 3; ++k) middle[k] = (a[k] + b[k] + c[k]) / 3;
-  return middle;
-}
-
 class NearestFacet {
  public:
   NearestFacet(const VolumeDomain& domain, const FacetCorners<3>& triangle)
       : domain_(domain),
-        middle_(middle_of(triangle)),
+        middle_(centroid(triangle)),
         outward_(cross(difference(triangle[1], triangle[0]), difference(triangle[2], triangle[0]))),
         first_reach_(distance<3>(triangle[0], middle_)) {}
 

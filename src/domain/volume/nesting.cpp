@@ -171,10 +171,7 @@ Point<3> SurfaceRegions::point_of(std::int32_t component,
     for (const std::int32_t v : surface_.triangles[t].vertices)
       if (component_at[v] == component) return surface_.vertices[v];
   }
-  const FacetCorners<3> corners = surface_.corners(first);
-  Point<3> middle;
-  for (int k = 0; k < 3; ++k) middle[k] = (corners[0][k] + corners[1][k] + corners[2][k]) / 3;
-  return middle;
+  return centroid(surface_.corners(first));
 }
 
 // The innermost class that has the point inside: which a ray from it crosses an odd number of

@@ -16,14 +16,12 @@ namespace {
 
 constexpr std::size_t kPointsAtOnce = 1 << 14;  // points that f is asked for at a time
 
-Point<3> middle_of(const Point<3>& a, const Point<3>& b) {
-  return shifted(a, 0.5, difference(b, a));
-}
-
-double largest_distance(const std::vector<Point<3>>& from, const std::vector<Point<3>>& to) {
+// to(k): where from[k] is put.
+template <class To>
+double largest_distance(const std::vector<Point<3>>& from, const To& to) {
   double largest = 0;
   for (std::size_t k = 0; k < from.size(); ++k)
-    largest = std::max(largest, distance<3>(from[k], to[k]));
+    largest = std::max(largest, distance<3>(from[k], to(k)));
   return largest;
 }
 
@@ -31,7 +29,7 @@ double largest_distance(const std::vector<Point<3>>& from, const std::vector<Poi
 double distance_to_zero(const LevelSet& set, std::vector<Point<3>>& points) {
   const std::vector<Point<3>> before = points;
   set.project(points, set.resolution());
-  const double largest = largest_distance(before, points);
+  const double largest = largest_distance(before, [&](std::size_t k) { return points[k]; });
   points.clear();
   return largest;
 }
@@ -44,8 +42,8 @@ double distance_to_triangles(const ResolvedVolume& volume, const LevelSet& set) 
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     if (volume.level_sets.at(static_cast<std::int32_t>(f)) != &set) continue;
     const auto [a, b, c] = corners_of(mesh, mesh.facets[f]);
-    for (const Point<3>& x : {middle_of(a, b), middle_of(b, c), middle_of(c, a),
-                              shifted(middle_of(a, b), 1.0 / 3, difference(c, middle_of(a, b)))})
+    for (const Point<3>& x : {halfway(a, b), halfway(b, c), halfway(c, a),
+                              shifted(halfway(a, b), 1.0 / 3, difference(c, halfway(a, b)))})
       points.push_back(x);
     if (points.size() >= kPointsAtOnce) largest = std::max(largest, distance_to_zero(set, points));
   }
@@ -56,21 +54,20 @@ double distance_to_triangles(const ResolvedVolume& volume, const LevelSet& set) 
 double distance_to_creases(const ResolvedVolume& volume) {
   const Features& features = volume.features;
   FeatureNodes middles;
-  std::vector<Point<3>> before, after;
+  std::vector<Point<3>> before;
   for (std::size_t c = 0; c < features.curves.size(); ++c) {
     const FeatureCurve& curve = features.curves[c];
     for (std::size_t e = 0; e < curve.edge_count(); ++e) {
       const auto at = [&](std::size_t k) {
         return volume.mesh.nodes[static_cast<std::size_t>(curve.nodes[k])].position;
       };
-      before.push_back(middle_of(at(e), at(e + 1)));
+      before.push_back(halfway(at(e), at(e + 1)));
       middles.nodes.push_back({before.back(), 0, -1, static_cast<std::int32_t>(c),
                                curve.first_edge + static_cast<std::int32_t>(e)});
     }
   }
   put_on_creases(volume, middles, std::numeric_limits<double>::infinity());
-  for (const FeatureNode& node : middles.nodes) after.push_back(node.position);
-  return largest_distance(before, after);
+  return largest_distance(before, [&](std::size_t k) { return middles.nodes[k].position; });
 }
 
 }  // namespace

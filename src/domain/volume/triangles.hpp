@@ -4,11 +4,19 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 
 #include "domain/boundary_mesh.hpp"
 #include "predicates/space.hpp"
 
 namespace pnpbs {
+
+inline Point<3> centroid(const FacetCorners<3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  Point<3> middle;
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = (a[k] + b[k] + c[k]) / 3;
+  return middle;
+}
 
 // Have the boxes of segment pq and the triangle no point in common?
 inline bool boxes_are_apart(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& triangle) {

@@ -304,9 +304,7 @@ class Resolver {
         reject_domain(segment.name + " leaves the surfaces at " + point_text(surface_.vertices[a]) +
                       ": it must follow the edges of their triangles");
       if (segment.along < 0) {
-        Point<3> middle;
-        for (int k = 0; k < 3; ++k)
-          middle[k] = 0.5 * (surface_.vertices[a][k] + surface_.vertices[b][k]);
+        const Point<3> middle = middle_of<3>(surface_.vertices[a], surface_.vertices[b]);
         inside = inside_[regions_->around(middle)];
       }
       if (!inside) {

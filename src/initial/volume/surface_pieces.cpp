@@ -166,7 +166,7 @@ class Cutter {
   void halve(const Triangle& triangle, std::size_t k, std::vector<Triangle>& halves) const {
     const Point<3>&a = triangle.corners[k], &b = triangle.corners[(k + 1) % 3],
           &c = triangle.corners[(k + 2) % 3];
-    const Point<3> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
+    const Point<3> middle = middle_of<3>(a, b);
     keep({triangle.facet, {a, middle, c}}, halves);
     keep({triangle.facet, {middle, b, c}}, halves);
   }

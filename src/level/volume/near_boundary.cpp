@@ -43,9 +43,7 @@ bool VisibilityInSpace::looks_at(std::int64_t on_boundary, std::int64_t inner) c
 // Two nodes of different surfaces, or across an edge.
 bool VisibilityInSpace::see_through_inside(std::int64_t i, std::int64_t j) const {
   const Point<3> a = point_at<3>(at_, i), b = point_at<3>(at_, j);
-  Point<3> middle;
-  for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * (a[k] + b[k]);
-  return ground_.domain().index().inside(middle);
+  return ground_.domain().index().inside(middle_of<3>(a, b));
 }
 
 // ------------------------------------------------------------------ what is near ---------------

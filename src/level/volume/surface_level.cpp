@@ -296,8 +296,8 @@ void append_surface_midpoints(const Level<3>& level, const View<double>& next_sp
       if (nodes.carrier(j) == Carrier::surface || nodes.carrier(next) == Carrier::surface) continue;
       // An edge between two nodes on features: the way there is through the middle of the triangle.
       const Point<3> a = nodes.position(j), b = nodes.position(next);
-      const Point<3> mid{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
-      const SurfacePoint at = pull_back(level.ground.surface(), mid, nodes.boundary_node(i));
+      const SurfacePoint at =
+          pull_back(level.ground.surface(), middle_of<3>(a, b), nodes.boundary_node(i));
       refined.push_back(new_surface_node(level.ground, at, d));
     }
   }
