@@ -27,25 +27,60 @@ KnownRegion<Dim> known_after_exchange(Level<Dim>& level, int hops) {
   return KnownRegion<Dim>(tree.tree(), known);
 }
 
-// Owned nodes whose lists could miss a node: there are none, or results would depend on the ranks.
-template <int Dim>
-std::int64_t lists_beyond_known(const Level<Dim>& level, const KnownRegion<Dim>& known,
-                                double radius) {
-  if (!level.distributed()) return 0;
+// Calls visit(leaf, owned nodes there, box that their lists look into) for the leaves with any.
+template <int Dim, class Visit>
+void for_leaves_with_own(const Level<Dim>& level, double radius, const Visit& visit) {
   const BackgroundTree<Dim>& tree = level.tree->tree();
-  const Distribution<Dim>& distribution = level.tree->distribution();
   const Buckets<Dim>& buckets = level.neighbourhood.buckets();
-  std::int64_t found = 0;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const std::int32_t begin = buckets.begin(leaf), end = buckets.end(leaf);
     std::int64_t owned = 0;
     for (std::int32_t i = begin; i < end; ++i) owned += level.nodes.owned(i);
-    if (owned == 0) continue;
-    const Box<Dim> reached =
-        widened(tree.cell_box(tree.leaf_cell(leaf)), radius * level.map().leaf_max_spacing(leaf));
-    if (distribution.holder(leaf) < 0 || !known.covers(tree, reached)) found += owned;
+    if (owned > 0)
+      visit(leaf, owned,
+            widened(tree.cell_box(tree.leaf_cell(leaf)),
+                    radius * level.map().leaf_max_spacing(leaf)));
   }
+}
+
+// Where d is very steep, lists may look farther than the exchange has brought nodes.
+template <int Dim>
+std::vector<Box<Dim>> unknown_to_lists(const Level<Dim>& level, const KnownRegion<Dim>& known,
+                                       double radius) {
+  std::vector<Box<Dim>> unknown;
+  if (!level.distributed()) return unknown;
+  for_leaves_with_own(level, radius, [&](std::int32_t, std::int64_t, const Box<Dim>& reached) {
+    if (!known.covers(level.tree->tree(), reached)) unknown.push_back(reached);
+  });
+  return unknown;
+}
+
+// Owned nodes whose lists could miss a node, as their leaf is nobody's: there are none, or results
+// would depend on the ranks.
+template <int Dim>
+std::int64_t lists_beyond_known(const Level<Dim>& level, const KnownRegion<Dim>& known,
+                                double radius) {
+  if (!level.distributed()) return 0;
+  std::int64_t found = 0;
+  for_leaves_with_own(level, radius,
+                      [&](std::int32_t leaf, std::int64_t owned, const Box<Dim>& reached) {
+                        if (level.tree->distribution().holder(leaf) < 0 ||
+                            !known.covers(level.tree->tree(), reached))
+                          found += owned;
+                      });
   return found;
+}
+
+// All nodes in these boxes become known, and the lists are those of then.
+template <int Dim>
+void make_known(Level<Dim>& level, const std::vector<Box<Dim>>& boxes, double radius,
+                KnownRegion<Dim>& known) {
+  {
+    const PhaseTimer timer(level.timers, Phase::exchange);
+    level.ghosts.fetch(*level.comm, *level.tree, boxes, level.nodes, level.neighbourhood.buckets());
+  }
+  for (const Box<Dim>& box : boxes) known.add(box);
+  agreed(*level.comm, [&] { rebuild_lists(level, radius); });
 }
 
 template <int Dim>
@@ -80,17 +115,12 @@ template <int Dim>
 void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
   if (level.ground.surfaces_alone()) zone.rings += AgreedTriangles::kRings;
   KnownRegion<Dim> known = known_after_exchange(level, hops);
-  while (true) {
-    const std::vector<Box<Dim>> unknown = find_stars(level, known, zone);
-    if (level.comm->allreduce_sum(unknown.size()) == 0) break;
-    {
-      const PhaseTimer timer(level.timers, Phase::exchange);
-      level.ghosts.fetch(*level.comm, *level.tree, unknown, level.nodes,
-                         level.neighbourhood.buckets());
-    }
-    for (const Box<Dim>& box : unknown) known.add(box);
-    agreed(*level.comm, [&] { rebuild_lists(level, radius); });
-  }
+  const auto any = [&](const std::vector<Box<Dim>>& unknown) {
+    return level.comm->allreduce_sum(unknown.size()) > 0;
+  };
+  std::vector<Box<Dim>> unknown = unknown_to_lists(level, known, radius);
+  if (any(unknown)) make_known(level, unknown, radius, known);
+  while (any(unknown = find_stars(level, known, zone))) make_known(level, unknown, radius, known);
   level.stars_before.forget();
   level.unknown_uses += lists_beyond_known(level, known, radius);
 }
