@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "level/volume/surface_stars.hpp"
+
 namespace pnpbs {
 
 namespace {
@@ -37,15 +39,21 @@ VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
                                      level.nodes.boundary_node(corners[k]));
     return level.ground.surface().share_patch(places);
   };
-  return {level.nodes,
-          level.tree->tree(),
-          neighbourhood.buckets(),
-          neighbourhood.lists(),
-          known,
-          &level.ground.domain().index().sides(),
-          complete,
-          room,
-          on_one_surface};
+  return {
+      level.nodes,
+      level.tree->tree(),
+      neighbourhood.buckets(),
+      neighbourhood.lists(),
+      known,
+      &level.ground.domain().index().sides(),
+      complete,
+      room,
+      on_one_surface,
+      [&level](std::int64_t i, std::int64_t j) { return joined(level.ground, level.nodes, i, j); },
+      [&level](const Point<3>& x, double reach) {
+        return level.ground.domain().index().nearest(x, reach);
+      },
+      &level.changed_labels};
 }
 
 namespace {
@@ -225,6 +233,7 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
 
 template <int Dim>
 void rebuild_stars(Level<Dim>& level) {
+  level.changed_labels = {};
   build_stars(level, KnownRegion<Dim>());
   level.stars_before.forget();
 }

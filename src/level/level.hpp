@@ -12,6 +12,7 @@
 #include "base/timers.hpp"
 #include "comm/communicator.hpp"
 #include "delaunay/stars.hpp"
+#include "delaunay/volume/element_labels.hpp"
 #include "domain/domain.hpp"
 #include "level/ghosts.hpp"
 #include "level/ground.hpp"
@@ -56,6 +57,7 @@ struct Level {
   Neighbourhood<Dim> neighbourhood;
   Stars<Dim> stars;
   KeptStarsBefore<Dim> stars_before;
+  ChangedLabels changed_labels;  // of elements in space, once they are settled
   TimeIntegration<Dim> time_integration;
 
   std::int64_t settings_version = 0, rebalances = 0;

@@ -114,6 +114,7 @@ void make_lists_and_stars(Level<Dim>& level, int hops, double radius, StarZone z
 template <int Dim>
 void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
   if (level.ground.surfaces_alone()) zone.rings += AgreedTriangles::kRings;
+  level.changed_labels = {};
   KnownRegion<Dim> known = known_after_exchange(level, hops);
   const auto any = [&](const std::vector<Box<Dim>>& unknown) {
     return level.comm->allreduce_sum(unknown.size()) > 0;

@@ -219,6 +219,8 @@ class PlacementOf : public Placement {
   void fill(Level<Dim>& level, LaidNodes<Dim> laid);
   void repair_defects();
   Outcome finish();
+  template <class Stops>
+  Outcome smooth(const Stops& stops);
   void measure_finish();    // in space
   bool elements_conform();  // if not there is a warning; collective
 

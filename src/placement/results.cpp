@@ -9,6 +9,7 @@
 #include "base/mixed_hash.hpp"
 #include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
+#include "level/volume/settled_elements.hpp"
 #include "placement/placement_of.hpp"
 
 namespace pnpbs {
@@ -84,14 +85,14 @@ void PlacementOf<Dim>::prepare_lists() {
   pnpbs::prepare_lists(*level_);
   agreed(*comm_, [this] { prepare_order(); });
   lists_version_ = level_->version();
-  if (level_->distributed()) stars_version_ = lists_version_;
 }
 
 template <int Dim>
 void PlacementOf<Dim>::prepare_stars() {
   prepare_lists();
   if (stars_version_ == level_->version()) return;
-  rebuild_stars(*level_);
+  if (!level_->distributed()) rebuild_stars(*level_);
+  settle_elements(*level_);
   stars_version_ = level_->version();
 }
 

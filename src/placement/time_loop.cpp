@@ -16,6 +16,7 @@
 #include "level/room.hpp"
 #include "level/speeds.hpp"
 #include "level/time_step.hpp"
+#include "level/volume/boundary_refinement.hpp"
 #include "placement/placement_of.hpp"
 
 namespace pnpbs {
@@ -187,12 +188,31 @@ Outcome PlacementOf<Dim>::finish() {
   if (stops()) return Outcome::stopped;
   count_population_change(remove_crowded(*level_));
   if (stops()) return Outcome::stopped;
-  const FinishResults results = sweep_and_repair(*level_, settings.sweeps);
-  count_population_change(results.counts);
-  edge_bands_ = results.edge_bands;
+  if (smooth([&] { return stops(); }) == Outcome::stopped) return Outcome::stopped;
   refresh_spacing(*level_);
   if constexpr (Dim == 3) measure_finish();
   monitor_stops(1.0);
+  return Outcome::converged;
+}
+
+// Sweeps and repairs. In space what comes to the boundary before them makes small angles, which are
+// repaired, and they may leave it anew where nodes from inside come near a wide triangle.
+template <int Dim>
+template <class Stops>
+Outcome PlacementOf<Dim>::smooth(const Stops& stops) {
+  constexpr int kMostRepairs = 3;
+  std::int64_t sweeps = level_->settings.sweeps;
+  inserted_ += refine_boundary(*level_);
+  for (int repairs = 0; repairs < kMostRepairs; ++repairs) {
+    if (stops()) return Outcome::stopped;
+    const FinishResults results = sweep_and_repair(*level_, sweeps);
+    count_population_change(results.counts);
+    edge_bands_ = results.edge_bands;
+    const std::int64_t more = refine_boundary(*level_);
+    inserted_ += more;
+    if (more == 0) break;
+    sweeps = 0;
+  }
   return Outcome::converged;
 }
 

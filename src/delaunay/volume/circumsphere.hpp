@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sphere through the corners of a tetrahedron.
+// The sphere through the corners of a tetrahedron, and the circle through those of a triangle.
 #pragma once
 
 #include <algorithm>
@@ -42,6 +42,16 @@ inline Circumsphere circumsphere(const TetrahedronCorners& x) {
   return {{x[0][0] + to_centre[0], x[0][1] + to_centre[1], x[0][2] + to_centre[2]},
           std::sqrt(dot(to_centre, to_centre)),
           flat};
+}
+
+// The same bits for the same order of the corners.
+inline Point<3> circle_centre(const std::array<Point<3>, 3>& x) {
+  const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), normal = cross(u, v);
+  const double uu = dot(u, u), vv = dot(v, v), twice = 2 * dot(normal, normal);
+  const Point<3> along_v = cross(normal, u), along_u = cross(v, normal);
+  Point<3> centre = x[0];
+  for (std::size_t k = 0; k < 3; ++k) centre[k] += (vv * along_v[k] + uu * along_u[k]) / twice;
+  return centre;
 }
 
 }  // namespace pnpbs

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 
 #include "delaunay/volume/circumsphere.hpp"
 
@@ -19,6 +20,39 @@ bool is_flat_cap(const TetrahedronCorners& x) {
   const double longest = longest_edge(x);
   const double regular = longest * longest * longest * std::numbers::sqrt2 / 2;  // six times
   return std::fabs(dot(u, cross(v, w))) < kFlat * regular;
+}
+
+// Which two of its edges, without a common end, cross as seen along its thin side: first the one
+// that lies farther up. None: one corner lies before the face of the others.
+using EdgePair = std::array<std::array<std::size_t, 2>, 2>;
+std::optional<EdgePair> crossing_edges(const TetrahedronCorners& x, const Point<3>& up) {
+  constexpr std::array<std::array<std::size_t, 4>, 3> kPairs{
+      {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};
+  for (const auto& [a, b, c, d] : kPairs) {
+    const Point<3> ab = difference(x[b], x[a]), cd = difference(x[d], x[c]),
+                   ac = difference(x[c], x[a]), across = cross(ab, cd);
+    const double square = dot(across, across);
+    const double on_ab = dot(cross(ac, cd), across), on_cd = dot(cross(ac, ab), across);
+    if (!(on_ab > 0 && on_ab < square && on_cd > 0 && on_cd < square)) continue;
+    const bool cd_above = dot(ac, across) * dot(across, up) > 0;
+    return cd_above ? EdgePair{{{c, d}, {a, b}}} : EdgePair{{{a, b}, {c, d}}};
+  }
+  return std::nullopt;
+}
+
+// Would the surface have the same nodes and feature edges without this flat one? Where its outer
+// edge was lies the other one that crosses it.
+bool can_go(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes,
+            const TetrahedronCorners& x, const Point<3>& middle) {
+  if (!in.joined) return true;
+  constexpr double kOnSurface = 1e-6;  // far above rounding
+  const double longest = longest_edge(x);
+  const NearestPoint<3> above = in.nearest(middle, longest);
+  if (above.gap < kOnSurface * longest) return true;
+  const std::optional<EdgePair> edges = crossing_edges(x, difference(above.x, middle));
+  if (!edges) return false;
+  const auto& [outer, inner] = *edges;
+  return !in.joined(nodes[outer[0]], nodes[outer[1]]);
 }
 
 // Is a flat one on the boundary? (In a wall of one element, nodes of both its sides may lie in a
@@ -43,6 +77,12 @@ bool beside_free_node(const VolumeStarInput& in, const std::array<std::int64_t, 
   return false;
 }
 
+// In the order of their ids.
+std::array<std::int64_t, 4> ordered(std::array<std::int64_t, 4> nodes, const Nodes<3>& of) {
+  std::ranges::sort(nodes, {}, [&](std::int64_t i) { return of.id(i); });
+  return nodes;
+}
+
 std::int64_t held_among(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes) {
   return std::count_if(nodes.begin(), nodes.end(),
                        [&](std::int64_t i) { return in.nodes.carrier(i) != Carrier::free; });
@@ -56,12 +96,17 @@ bool in_domain(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nod
   const std::int64_t held_nodes = held_among(in, nodes);
   if (held_nodes < 2) return true;
   const Tetrahedron t = ordered_by_id(corners);
-  if (held_nodes == 4) {
-    const TetrahedronCorners x{t[0].x, t[1].x, t[2].x, t[3].x};
-    if (circumsphere(x).flat) return !on_boundary(in, x, centroid(t));
-    if (is_flat_cap(x) && in.on_one_surface && in.on_one_surface(nodes)) return false;
-  }
   const Point<3> middle = centroid(t);
+  if (held_nodes == 4) {
+    if (in.changed_labels != nullptr && in.changed_labels->any())
+      if (const bool* label = in.changed_labels->find({t[0].id, t[1].id, t[2].id, t[3].id}))
+        return *label;
+    const TetrahedronCorners x{t[0].x, t[1].x, t[2].x, t[3].x};
+    if (circumsphere(x).flat) return !on_boundary(in, x, middle);
+    if (is_flat_cap(x) && in.on_one_surface && in.on_one_surface(nodes) &&
+        can_go(in, ordered(nodes, in.nodes), x, middle))
+      return false;
+  }
   return beside_free_node(in, nodes, corners, middle) || in.facets->inside(middle) ||
          in.facets->on_inner_facet(middle);
 }

@@ -13,6 +13,7 @@
 
 #include "base/chunked_rows.hpp"
 #include "base/nodes.hpp"
+#include "delaunay/volume/element_labels.hpp"
 #include "delaunay/volume/surface_rings.hpp"
 #include "domain/facet_index.hpp"
 #include "neighbors/adjacency_list.hpp"
@@ -36,8 +37,13 @@ struct VolumeStarInput {
   // known.
   std::function<double(std::int64_t)> room = {};
   // Do these four nodes, none of them free, lie on one surface, side by side? A flat tetrahedron of
-  // such is none of the domain: the surface is as well without it. Not set: they do not.
+  // such is none of the domain if the surface is as well without it. Not set: they do not.
   std::function<bool(const std::array<std::int64_t, 4>&)> on_one_surface = {};
+  // Are two nodes, none of them free, next to each other on a feature edge? Not set: none are.
+  std::function<bool(std::int64_t, std::int64_t)> joined = {};
+  // The point of the surfaces nearest to x, if it is nearer than that. Where `joined` is set.
+  std::function<NearestPoint<3>(const Point<3>& x, double reach)> nearest = {};
+  const ChangedLabels* changed_labels = nullptr;
 };
 
 class VolumeStars {

@@ -78,20 +78,20 @@ bool Surface::sees(const SurfacePlace& a, const SurfacePlace& b) const {
   return seen;
 }
 
-bool Surface::sees(const SurfaceSide& side, const SurfacePlace& b) const {
+bool Surface::sees(const SurfaceSide& side, const SurfacePlace& b, double least_cosine) const {
   bool seen = false;
   for_sides(b, [&](const SurfaceSide& other) {
-    seen = seen || (side.patch == other.patch && dot(side.normal, other.normal) > 0);
+    seen = seen || (side.patch == other.patch && dot(side.normal, other.normal) > least_cosine);
   });
   return seen;
 }
 
-bool Surface::share_patch(std::span<const SurfacePlace> places) const {
+bool Surface::share_patch(std::span<const SurfacePlace> places, double least_cosine) const {
   return std::all_of(places.begin(), places.end(), [&](const SurfacePlace& from) {
     bool all_seen = false;
     for_sides(from, [&](const SurfaceSide& side) {
       all_seen = all_seen || std::all_of(places.begin(), places.end(), [&](const SurfacePlace& to) {
-                   return &to == &from || sees(side, to);
+                   return &to == &from || sees(side, to, least_cosine);
                  });
     });
     return all_seen;

@@ -64,10 +64,11 @@ class Surface {
   // two sheets of a thin body that one patch goes around look apart.
   bool sees(const SurfacePlace& a, const SurfacePlace& b) const;
   // The same of one side of a place alone.
-  bool sees(const SurfaceSide& side, const SurfacePlace& b) const;
+  bool sees(const SurfaceSide& side, const SurfacePlace& b, double least_cosine = 0) const;
   // Do nodes at these places lie on one patch, side by side, so that each sees all others there? At
   // a corner between three patches each two of them may do so, but not all on the same one.
-  bool share_patch(std::span<const SurfacePlace> places) const;
+  // With another least cosine of the angle between normals, they need not see each other.
+  bool share_patch(std::span<const SurfacePlace> places, double least_cosine = 0) const;
 
   // The distance to the nearest feature of the patch if it is less than `reach`, else `reach`.
   double feature_clearance(const SurfacePoint& at, double reach) const;

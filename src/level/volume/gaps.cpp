@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/volume/gaps.hpp"
 
-#include <utility>
-
 #include "level/exchange.hpp"
 #include "level/first_nodes.hpp"
-#include "level/kept_node.hpp"
 #include "level/lists_and_stars.hpp"
-#include "level/numbering.hpp"
 #include "level/reach.hpp"
+#include "level/volume/added_nodes.hpp"
 
 namespace pnpbs {
 
@@ -55,20 +52,7 @@ GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates) {
 }
 
 std::int64_t fill_gaps_inside(Level<3>& level) {
-  GivenNodes<3> inner = in_gaps(level, first_inner_nodes(level));
-  const auto filled = static_cast<std::int64_t>(level.comm->allreduce_sum(inner.size()));
-  if (filled == 0) return 0;
-  GivenNodes<3> laid;
-  const Nodes<3>& nodes = level.nodes;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    if (!nodes.owned(i)) continue;
-    const GivenNode<3> node = kept_node(nodes, i);
-    (node.is_inner() ? inner : laid).push_back(node);
-  }
-  find_leaves(level, inner);
-  sort_by_place(level, inner);
-  number_and_store(level, std::move(inner), LaidNodes<3>(std::move(laid)));
-  return filled;
+  return add_nodes(level, in_gaps(level, first_inner_nodes(level)));
 }
 
 }  // namespace pnpbs

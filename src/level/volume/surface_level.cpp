@@ -16,6 +16,7 @@
 #include "level/numbering.hpp"
 #include "level/reach.hpp"
 #include "level/thinning.hpp"
+#include "level/volume/added_nodes.hpp"
 #include "level/volume/gaps.hpp"
 #include "level/volume/surface_stars.hpp"
 #include "population/free_place.hpp"
@@ -91,16 +92,8 @@ std::int64_t put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces,
   level.nodes.moving = Carrier::surface;
   number_and_store(level, {}, LaidNodes<3>(std::move(laid)));
   if (begin_anew) return thinned;
-  add_surface_nodes(level, in_gaps(level, filled));
+  add_nodes(level, in_gaps(level, filled));
   return thinned;
-}
-
-std::int64_t add_surface_nodes(Level<3>& level, GivenNodes<3> more) {
-  const auto added = static_cast<std::int64_t>(level.comm->allreduce_sum(more.size()));
-  if (added == 0) return 0;
-  append(more, surface_nodes(level));
-  number_and_store(level, {}, LaidNodes<3>(std::move(more)));
-  return added;
 }
 
 GivenNode<3> new_surface_node(const Ground<3>& ground, const SurfacePoint& at, double d) {

@@ -21,8 +21,6 @@ Settings surface_settings(const Settings& inside);
 // rank's were too dense for d. Collective.
 std::int64_t put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces,
                                const GivenNodes<3>& on_features, bool begin_anew);
-// These new ones come to the level's nodes on surfaces. Returns how many, of all ranks. Collective.
-std::int64_t add_surface_nodes(Level<3>& level, GivenNodes<3> more);
 // A new one there, placed for d.
 GivenNode<3> new_surface_node(const Ground<3>& ground, const SurfacePoint& at, double d = 0);
 // They rest: from now on those inside move.

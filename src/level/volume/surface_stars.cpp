@@ -3,9 +3,11 @@
 
 namespace pnpbs {
 
-// Are two nodes next to each other on a feature curve?
 bool joined(const Ground<3>& ground, const Nodes<3>& nodes, std::int64_t i, std::int64_t j) {
-  if (nodes.carrier(i) == Carrier::surface || nodes.carrier(j) == Carrier::surface) return false;
+  const auto on_feature = [&](std::int64_t k) {
+    return nodes.carrier(k) == Carrier::curve || nodes.carrier(k) == Carrier::fixed;
+  };
+  if (!on_feature(i) || !on_feature(j)) return false;
   return ground.features().joined(nodes.boundary_node(i), nodes.boundary_node(j));
 }
 

@@ -10,7 +10,7 @@
 
 namespace pnpbs {
 
-// Are two nodes of the boundary next to each other on a feature curve?
+// Are two nodes next to each other on a feature curve?
 bool joined(const Ground<3>& ground, const Nodes<3>& nodes, std::int64_t i, std::int64_t j);
 
 // The star of a node of the boundary from the level's lists, side after side, each

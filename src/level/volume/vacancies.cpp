@@ -9,11 +9,13 @@
 
 #include "base/space_vectors.hpp"
 #include "comm/records.hpp"
+#include "delaunay/volume/circumsphere.hpp"
 #include "domain/clearance.hpp"
 #include "domain/volume/surface_walk.hpp"
 #include "level/exchange.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
+#include "level/volume/added_nodes.hpp"
 #include "level/volume/gaps.hpp"
 #include "level/volume/surface_level.hpp"
 #include "level/volume/surface_stars.hpp"
@@ -34,15 +36,6 @@ struct Vacancy {
   std::int64_t facet;
 };
 
-Point<3> circumcentre(const std::array<Point<3>, 3>& x) {
-  const Point<3> u = difference(x[1], x[0]), v = difference(x[2], x[0]), normal = cross(u, v);
-  const double uu = dot(u, u), vv = dot(v, v), twice = 2 * dot(normal, normal);
-  const Point<3> along_v = cross(normal, u), along_u = cross(v, normal);
-  Point<3> centre = x[0];
-  for (std::size_t k = 0; k < 3; ++k) centre[k] += (vv * along_v[k] + uu * along_u[k]) / twice;
-  return centre;
-}
-
 // At the middle of the circle through three nodes, of which i is on a surface: the same bits
 // wherever it is asked.
 void add_vacancy(const Level<3>& level, std::int64_t i, std::array<std::int64_t, 3> around,
@@ -56,7 +49,7 @@ void add_vacancy(const Level<3>& level, std::int64_t i, std::array<std::int64_t,
     x[k] = nodes.position(around[k]);
     ids[k] = nodes.id(around[k]);
   }
-  const Point<3> centre = circumcentre(x);
+  const Point<3> centre = circle_centre(x);
   const double d = nodes.d(i), radius = distance<3>(centre, x[0]) / d;
   if (!(radius > kVacant && radius < level.lists().radius())) return;
   const Surface& surface = level.ground.surface();
@@ -123,7 +116,7 @@ std::int64_t fill_vacancies(Level<3>& level) {
   for (const Vacancy& vacancy : widest(level, own))
     if (level.tree->owns(level.tree->tree().leaf_at(vacancy.x)))
       nodes.push_back(node_in(level, vacancy));
-  return add_surface_nodes(level, std::move(nodes));
+  return add_nodes(level, std::move(nodes));
 }
 
 }  // namespace pnpbs

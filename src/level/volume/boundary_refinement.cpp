@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/boundary_refinement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/space_vectors.hpp"
+#include "comm/records.hpp"
+#include "delaunay/volume/circumsphere.hpp"
+#include "domain/volume/surface_walk.hpp"
+#include "level/finish.hpp"
+#include "level/volume/added_nodes.hpp"
+#include "level/volume/open_faces.hpp"
+#include "level/volume/settled_elements.hpp"
+#include "level/volume/surface_level.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using FaceCorners = std::array<std::int64_t, 3>;
+
+// Around a point of a surface, through the corners of a face.
+struct SurfaceBall {
+  double radius;
+  std::array<std::int64_t, 3> ids;  // of the corners, ascending
+  Point<3> x;
+  std::int64_t facet;
+
+  // The larger one first.
+  bool operator<(const SurfaceBall& other) const {
+    return std::tie(other.radius, ids) < std::tie(radius, other.ids);
+  }
+};
+
+// What has to become less: faces with nodes from inside, and nodes without a disk.
+struct Strays {
+  std::vector<SurfaceBall> balls;
+  std::uint64_t count = 0;
+};
+
+bool see_each_other(const Level<3>& level, std::int64_t i, std::int64_t j) {
+  const Nodes<3>& nodes = level.nodes;
+  const auto place = [&](std::int64_t k) {
+    return level.ground.place(nodes.carrier(k), nodes.boundary_node(k));
+  };
+  return level.ground.surface().sees(place(i), place(j));
+}
+
+// The corner on whose sheet of the surface the ball's middle lies: the first by id that is on one;
+// if the face goes from node `from` to another sheet, on that.
+std::int64_t corner_of_sheet(const Level<3>& level, const FaceCorners& by_id, std::int64_t from) {
+  const Nodes<3>& nodes = level.nodes;
+  std::int64_t found = -1;
+  for (const std::int64_t i : by_id) {
+    if (nodes.carrier(i) != Carrier::surface) continue;
+    if (found < 0 && i != from) found = i;
+    if (from >= 0 && i != from && !see_each_other(level, i, from)) return i;
+  }
+  return found;
+}
+
+// The same bits whichever corner asks, but for `from`. None, if no corner is on a surface, nor is
+// one near.
+std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corners,
+                                        std::int64_t from = -1) {
+  const Nodes<3>& nodes = level.nodes;
+  std::ranges::sort(corners, {}, [&](std::int64_t i) { return nodes.id(i); });
+  SurfaceBall ball{};
+  std::array<Point<3>, 3> x;
+  for (std::size_t k = 0; k < 3; ++k) {
+    x[k] = nodes.position(corners[k]);
+    ball.ids[k] = nodes.id(corners[k]);
+  }
+  const Point<3> centre = circle_centre(x);
+  const double radius = distance<3>(centre, x[0]);
+  if (!(radius < std::numeric_limits<double>::infinity())) return {};  // in one line
+  const Surface& surface = level.ground.surface();
+  const std::int64_t on_sheet = corner_of_sheet(level, corners, from);
+  if (on_sheet >= 0) {
+    const SurfacePoint at = pull_back(surface, centre, nodes.boundary_node(on_sheet));
+    ball.x = at.position;
+    ball.facet = at.facet;
+  } else {
+    const NearestPoint<3> at = level.ground.domain().index().nearest(centre, 2 * radius);
+    if (from >= 0 || at.facet < 0 || surface.patch(at.facet) < 0) return {};
+    ball.x = at.x;
+    ball.facet = at.facet;
+  }
+  ball.radius = distance<3>(ball.x, x[0]);
+  return ball;
+}
+
+bool lacks_disks(const Level<3>& level, std::int64_t i, const FaceFan& fan) {
+  const std::int64_t disks = disks_of_surfaces(level, i);
+  return disks > 0 && disks_of(fan) != disks;
+}
+
+// Faces count at the node with the least id.
+void add_strays_at(const Level<3>& level, std::int64_t i, Strays& strays) {
+  const Nodes<3>& nodes = level.nodes;
+  const FaceFan fan = open_faces(level, i);
+  const auto is_free = [&](std::int64_t j) { return nodes.carrier(j) == Carrier::free; };
+  const auto is_first = [&](std::int64_t j) { return nodes.id(i) < nodes.id(j); };
+  // Those that lie along no surface tell where a node is missing.
+  std::vector<SurfaceBall> along, across;
+  for (const auto& [a, b] : fan) {
+    const std::optional<SurfaceBall> ball = surface_ball(level, {i, a, b});
+    if (lies_along_surface(level, {i, a, b})) {
+      if (ball) along.push_back(*ball);
+    } else if (const auto beyond = surface_ball(level, {i, a, b}, is_free(i) ? -1 : i)) {
+      across.push_back(*beyond);
+    }
+    if (!(is_free(i) || is_free(a) || is_free(b)) || !is_first(a) || !is_first(b)) continue;
+    ++strays.count;
+    if (ball) strays.balls.push_back(*ball);
+  }
+  if (!lacks_disks(level, i, fan)) return;
+  ++strays.count;
+  const std::vector<SurfaceBall>& around = across.empty() ? along : across;
+  if (!around.empty()) strays.balls.push_back(*std::min_element(around.begin(), around.end()));
+}
+
+bool has_strays(const Level<3>& level, std::int64_t i) {
+  if (level.nodes.owned(i) == 0 || level.stars.closed(i)) return false;
+  const FaceFan fan = open_faces(level, i);
+  const auto is_free = [&](std::int64_t j) { return level.nodes.carrier(j) == Carrier::free; };
+  return is_free(i) ||
+         std::ranges::any_of(
+             fan,
+             [&](const FaceSide& side) { return is_free(side.first) || is_free(side.second); }) ||
+         lacks_disks(level, i, fan);
+}
+
+Strays strays_of_own(const Level<3>& level) {
+  std::vector<char> any(static_cast<std::size_t>(level.nodes.count), 0);
+  for_each("pnpbs::strays_of_own", level.nodes.count,
+           [&](std::int64_t i) { any[static_cast<std::size_t>(i)] = has_strays(level, i); });
+  Strays strays;
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    if (any[static_cast<std::size_t>(i)]) add_strays_at(level, i, strays);
+  return strays;
+}
+
+// Is a node of this sheet of the surface as near to the middle?
+bool is_taken(const Level<3>& level, const SurfaceBall& ball) {
+  constexpr double kNear = 0.3;
+  const Nodes<3>& nodes = level.nodes;
+  const Ground<3>& ground = level.ground;
+  const SurfacePlace at{SurfacePlace::On::facet, static_cast<std::int32_t>(ball.facet)};
+  const Buckets<3>& buckets = level.neighbourhood.buckets();
+  bool taken = false;
+  buckets.for_neighbours(level.tree->tree().leaf_at(ball.x), [&](std::int32_t b) {
+    for (std::int64_t i = buckets.begin(b); !taken && i < buckets.end(b); ++i)
+      taken = nodes.carrier(i) != Carrier::free &&
+              distance<3>(nodes.position(i), ball.x) < kNear * ball.radius &&
+              ground.surface().sees(ground.place(nodes.carrier(i), nodes.boundary_node(i)), at);
+  });
+  return taken;
+}
+
+// Of those of all ranks that are too near to each other the largest. Few are left to tell of.
+std::vector<SurfaceBall> largest_apart(const Communicator& comm,
+                                       const std::vector<SurfaceBall>& own) {
+  constexpr double kApart = 0.7;
+  Bytes mine;
+  for (const SurfaceBall& ball : own) pack(mine, ball);
+  std::vector<SurfaceBall> all, kept;
+  for_records<SurfaceBall>({comm.allgather(mine)},
+                           [&](const SurfaceBall& ball) { all.push_back(ball); });
+  std::sort(all.begin(), all.end());
+  for (const SurfaceBall& ball : all)
+    if (std::ranges::none_of(kept, [&](const SurfaceBall& other) {
+          return distance<3>(other.x, ball.x) < kApart * other.radius;
+        }))
+      kept.push_back(ball);
+  return kept;
+}
+
+GivenNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>& balls) {
+  GivenNodes<3> nodes;
+  for (const SurfaceBall& ball : balls)
+    if (level.tree->owns(level.tree->tree().leaf_at(ball.x)) && !is_taken(level, ball))
+      nodes.push_back(
+          new_surface_node(level.ground, {static_cast<std::int32_t>(ball.facet), ball.x}));
+  return nodes;
+}
+
+}  // namespace
+
+std::int64_t refine_boundary(Level<3>& level) {
+  if (level.ground.surfaces_alone()) return 0;
+  constexpr int kMaxRounds = 12, kAnyway = 2;
+  constexpr std::uint64_t kFew = 10;  // of which chance may make as many
+  std::int64_t added = 0;
+  std::uint64_t before = 0;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    make_finish_stars(level, {});
+    settle_elements(level);
+    Strays own;
+    agreed(*level.comm, [&] { own = strays_of_own(level); });
+    const std::uint64_t strays = level.comm->allreduce_sum(own.count);
+    if (strays == 0 || (round >= kAnyway && strays >= std::max(before, kFew))) break;
+    before = strays;
+    const std::vector<SurfaceBall> balls = largest_apart(*level.comm, own.balls);
+    GivenNodes<3> nodes;
+    agreed(*level.comm, [&] {
+      nodes = new_nodes(level, balls);
+      put_on_level_sets(level.ground, nodes);
+    });
+    const std::int64_t more = add_nodes(level, std::move(nodes));
+    if (more == 0) break;
+    added += more;
+  }
+  return added;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/settled_elements.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "base/union_find.hpp"
+#include "comm/records.hpp"
+#include "delaunay/volume/circumsphere.hpp"
+#include "delaunay/volume/domain_rule.hpp"
+#include "level/finding_stars.hpp"
+#include "level/volume/open_faces.hpp"
+#include "level/volume/surface_stars.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+SurfacePlace place_of(const Level<3>& level, std::int64_t i) {
+  return level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i));
+}
+
+}  // namespace
+
+std::int64_t disks_of_surfaces(const Level<3>& level, std::int64_t i) {
+  const Nodes<3>& nodes = level.nodes;
+  if (nodes.carrier(i) == Carrier::free) return 0;
+  std::vector<SurfaceSide> sides;
+  bool all_bound = true;
+  level.ground.surface().for_sides(place_of(level, i), [&](const SurfaceSide& side) {
+    sides.push_back(side);
+    all_bound = all_bound && level.ground.patch_bounds_domain(side.patch);
+  });
+  if (!all_bound) return 0;
+  // Sides follow each other around a disk: one ends where the next one begins.
+  UnionFind<std::size_t> disks(sides.size());
+  auto count = std::ssize(sides);
+  for (std::size_t a = 0; a < sides.size(); ++a)
+    for (std::size_t b = 0; b < sides.size(); ++b) {
+      if (sides[a].end.curve < 0 || sides[a].end != sides[b].begin) continue;
+      if (disks.root(a) != disks.root(b)) --count;
+      disks.join(a, b);
+    }
+  return count;
+}
+
+bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>& corners) {
+  constexpr double kFold = -0.5;  // cosine: across rough creases, too, but not from sheet to sheet
+  std::array<SurfacePlace, 3> places;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (level.nodes.carrier(corners[k]) == Carrier::free) return false;
+    places[k] = place_of(level, corners[k]);
+  }
+  return level.ground.surface().share_patch(places, kFold);
+}
+
+namespace {
+
+bool is_torn(const Level<3>& level, std::int64_t i) {
+  const std::int64_t disks = disks_of_surfaces(level, i);
+  if (disks == 0) return false;
+  const FaceFan fan = open_faces(level, i);
+  return disks_of(fan) != disks || !std::ranges::all_of(fan, [&](const FaceSide& side) {
+           return lies_along_surface(level, {i, side.first, side.second});
+         });
+}
+
+// Owned nodes where the boundary is torn.
+std::vector<char> torn_nodes(const Level<3>& level) {
+  const Nodes<3>& nodes = level.nodes;
+  std::vector<char> torn(static_cast<std::size_t>(nodes.count), 0);
+  for_each("pnpbs::torn_nodes", nodes.count, [&](std::int64_t i) {
+    torn[static_cast<std::size_t>(i)] = nodes.owned(i) != 0 && is_torn(level, i);
+  });
+  return torn;
+}
+
+// The stars of these owned nodes, with the tetrahedra that are outside, too.
+VolumeStars whole_stars(const Level<3>& level, const std::vector<char>& wanted) {
+  const KnownRegion<3> everywhere;  // as far as they reach
+  VolumeStarInput all = star_input(level, everywhere);
+  all.facets = nullptr;
+  VolumeStars stars;
+  stars.build_none(all);
+  stars.add(all, wanted);
+  return stars;
+}
+
+// The ids of these nodes and of all that a tetrahedron joins to them.
+std::vector<std::int64_t> ids_around(const Level<3>& level, const std::vector<char>& torn) {
+  const Nodes<3>& nodes = level.nodes;
+  const VolumeStars stars = whole_stars(level, torn);
+  std::vector<std::int64_t> ids;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (!torn[static_cast<std::size_t>(i)]) continue;
+    ids.push_back(nodes.id(i));
+    stars.for_neighbours(i, [&](std::int64_t j) { ids.push_back(nodes.id(j)); });
+  }
+  return ids;
+}
+
+// Owned nodes on the boundary that have one of these ids.
+std::vector<char> owned_among(const Level<3>& level, const std::vector<std::int64_t>& sorted_ids) {
+  const Nodes<3>& nodes = level.nodes;
+  std::vector<char> among(static_cast<std::size_t>(nodes.count), 0);
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    among[static_cast<std::size_t>(i)] = nodes.owned(i) != 0 && disks_of_surfaces(level, i) > 0 &&
+                                         std::ranges::binary_search(sorted_ids, nodes.id(i));
+  return among;
+}
+
+LabelledTetrahedron labelled(const Level<3>& level, const VolumeStarInput& input,
+                             const std::array<std::int64_t, 4>& corners) {
+  const Tetrahedron t = ordered_by_id(tetrahedron_of(level.nodes, corners));
+  LabelledTetrahedron result{
+      {t[0].id, t[1].id, t[2].id, t[3].id}, in_domain(input, corners), true, 0, {}};
+  result.may_change = std::ranges::all_of(
+      corners, [&](std::int64_t i) { return level.nodes.carrier(i) != Carrier::free; });
+  const double longest = longest_edge({t[0].x, t[1].x, t[2].x, t[3].x});
+  std::array<std::int64_t, 4> by_id = corners;
+  std::ranges::sort(by_id, {}, [&](std::int64_t i) { return level.nodes.id(i); });
+  for (std::size_t k = 0; k < 4; ++k)
+    result.along[k] =
+        lies_along_surface(level, {by_id[(k + 1) % 4], by_id[(k + 2) % 4], by_id[(k + 3) % 4]});
+  if (result.may_change) result.depth = input.nearest(centroid(t), longest).gap / longest;
+  return result;
+}
+
+struct JoinedNodes {
+  std::int64_t id, other;  // -1: none
+  std::int64_t disks;      // around the first
+};
+
+// What this rank tells of them.
+struct LabelledStars {
+  std::vector<LabelledTetrahedron> tetrahedra;
+  std::vector<JoinedNodes> nodes;
+};
+
+LabelledStars labelled_stars(const Level<3>& level, const std::vector<char>& wanted) {
+  const Nodes<3>& nodes = level.nodes;
+  const VolumeStars stars = whole_stars(level, wanted);
+  const KnownRegion<3> everywhere;
+  const VolumeStarInput input = star_input(level, everywhere);
+  LabelledStars found;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (!wanted[static_cast<std::size_t>(i)]) continue;
+    const std::int64_t disks = disks_of_surfaces(level, i);
+    found.nodes.push_back({nodes.id(i), -1, disks});
+    stars.for_neighbours(i, [&](std::int64_t j) {
+      if (joined(level.ground, nodes, i, j))
+        found.nodes.push_back({nodes.id(i), nodes.id(j), disks});
+    });
+    stars.for_simplices(i, [&](const VolumeStars::Corners& others) {
+      found.tetrahedra.push_back(labelled(level, input, {i, others[0], others[1], others[2]}));
+    });
+  }
+  return found;
+}
+
+std::vector<LabelledNode> by_node(const std::vector<JoinedNodes>& joined) {
+  std::map<std::int64_t, LabelledNode> by_id;
+  for (const JoinedNodes& one : joined) {
+    LabelledNode& node =
+        by_id.try_emplace(one.id, LabelledNode{one.id, one.disks, {}}).first->second;
+    if (one.other >= 0) node.joined.push_back(one.other);
+  }
+  std::vector<LabelledNode> nodes;
+  for (const auto& [id, node] : by_id) nodes.push_back(node);
+  return nodes;
+}
+
+template <class Record>
+std::vector<Record> of_all_ranks(const Communicator& comm, const std::vector<Record>& own) {
+  Bytes mine;
+  for (const Record& record : own) pack(mine, record);
+  std::vector<Record> all;
+  for_records<Record>({comm.allgather(mine)}, [&](const Record& record) { all.push_back(record); });
+  return all;
+}
+
+// Of the nodes with a star here, those of a tetrahedron whose label was changed.
+std::vector<char> changed_nodes(const Level<3>& level,
+                                const std::vector<LabelledTetrahedron>& changed) {
+  std::vector<std::int64_t> ids;
+  for (const LabelledTetrahedron& t : changed) ids.insert(ids.end(), t.ids.begin(), t.ids.end());
+  std::ranges::sort(ids);
+  const Nodes<3>& nodes = level.nodes;
+  std::vector<char> wanted(static_cast<std::size_t>(nodes.count), 0);
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    wanted[static_cast<std::size_t>(i)] = (nodes.owned(i) != 0 || level.stars.size(i) > 0) &&
+                                          std::ranges::binary_search(ids, nodes.id(i));
+  return wanted;
+}
+
+}  // namespace
+
+std::int64_t settle_elements(Level<3>& level) {
+  if (level.ground.surfaces_alone()) return 0;
+  std::vector<std::int64_t> own_ids;
+  std::int64_t torn = 0;
+  agreed(*level.comm, [&] {
+    const std::vector<char> torn_here = torn_nodes(level);
+    torn = std::ranges::count_if(torn_here, [](char is) { return is != 0; });
+    if (torn > 0) own_ids = ids_around(level, torn_here);
+  });
+  torn = static_cast<std::int64_t>(level.comm->allreduce_sum(static_cast<std::uint64_t>(torn)));
+  if (torn == 0) return 0;
+  std::vector<std::int64_t> ids = of_all_ranks(*level.comm, own_ids);
+  std::ranges::sort(ids);
+  LabelledStars own;
+  agreed(*level.comm, [&] { own = labelled_stars(level, owned_among(level, ids)); });
+  ElementLabels labels(of_all_ranks(*level.comm, own.tetrahedra),
+                       by_node(of_all_ranks(*level.comm, own.nodes)));
+  const std::vector<LabelledTetrahedron> changed = labels.settle();
+  level.changed_labels = ChangedLabels(changed);
+  agreed(*level.comm, [&] {
+    const KnownRegion<3> everywhere;
+    level.stars.add(star_input(level, everywhere), changed_nodes(level, changed));
+  });
+  return torn;
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Elements whose boundary closes: see element_labels.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "level/level.hpp"
+
+namespace pnpbs {
+
+// Around a node of surfaces that bound the domain, how many disks they make: one, but where bodies
+// touch in a corner. 0 for other nodes.
+std::int64_t disks_of_surfaces(const Level<3>& level, std::int64_t i);
+
+// Do the corners of a face lie side by side on one surface?
+bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>& corners);
+
+// Of the stars that there are, by centroids, and the lists: around nodes where the boundary is
+// torn, labels of tetrahedra are changed, and these stars found again. Returns how many nodes were
+// torn, of all ranks. Collective.
+std::int64_t settle_elements(Level<3>& level);
+inline std::int64_t settle_elements(Level<2>&) { return 0; }
+
+}  // namespace pnpbs

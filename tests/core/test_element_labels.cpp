@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Labels of tetrahedra between surface nodes: a plate one cell thick, each cell of it and of the
+// space around it cut into six tetrahedra (Kuhn's), so that all nodes of the plate are on its
+// surface. With wrong labels its boundary is torn, and settled it is whole.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <vector>
+
+#include "delaunay/volume/element_labels.hpp"
+#include "geometry/run_suite.hpp"
+#include "level/volume/open_faces.hpp"
+#include "quick_assert.hpp"
+#include "random.hpp"
+
+using pnpbs::ElementLabels;
+using pnpbs::LabelledNode;
+using pnpbs::LabelledTetrahedron;
+
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+constexpr Cell kSize{4, 3, 1};  // cells of the plate; one more all around
+
+std::int64_t id_of(const Cell& corner) {
+  return (corner[2] * (kSize[1] + 3) + corner[1]) * (kSize[0] + 3) + corner[0];
+}
+
+bool in_plate(const Cell& cell) {
+  bool inside = true;
+  for (std::size_t k = 0; k < 3; ++k) inside = inside && cell[k] >= 1 && cell[k] <= kSize[k];
+  return inside;
+}
+
+struct Plate {
+  std::vector<LabelledTetrahedron> tetrahedra;
+  std::vector<LabelledNode> nodes;
+};
+
+// Along the cell's diagonal, one axis after the other.
+void cut(const Cell& cell, std::vector<LabelledTetrahedron>& tetrahedra) {
+  std::array<std::size_t, 3> axes{0, 1, 2};
+  do {
+    LabelledTetrahedron t{{}, in_plate(cell), true, 0.1, {}};
+    Cell corner = cell;
+    t.ids[0] = id_of(corner);
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++corner[axes[k]];
+      t.ids[k + 1] = id_of(corner);
+    }
+    std::ranges::sort(t.ids);
+    t.along.fill(true);
+    tetrahedra.push_back(t);
+  } while (std::ranges::next_permutation(axes).found);
+}
+
+Plate plate() {
+  Plate made;
+  Cell cell;
+  for (cell[2] = 0; cell[2] <= kSize[2] + 1; ++cell[2])
+    for (cell[1] = 0; cell[1] <= kSize[1] + 1; ++cell[1])
+      for (cell[0] = 0; cell[0] <= kSize[0] + 1; ++cell[0]) cut(cell, made.tetrahedra);
+  for (cell[2] = 1; cell[2] <= kSize[2] + 1; ++cell[2])
+    for (cell[1] = 1; cell[1] <= kSize[1] + 1; ++cell[1])
+      for (cell[0] = 1; cell[0] <= kSize[0] + 1; ++cell[0])
+        made.nodes.push_back({id_of(cell), 1, {}});
+  return made;
+}
+
+int defects(const ElementLabels& labels, const std::vector<LabelledNode>& nodes) {
+  int sum = 0;
+  for (const LabelledNode& node : nodes) sum += labels.defects_at(node.id);
+  return sum;
+}
+
+}  // namespace
+
+START_TEST(what_is_whole_stays) {
+  const Plate whole = plate();
+  ElementLabels labels(whole.tetrahedra, whole.nodes);
+  ck_assert_int_eq(defects(labels, whole.nodes), 0);
+  ck_assert(labels.settle().empty());
+}
+END_TEST
+
+// Some wrong ones leave a dent, which is as good; what they tear is mended.
+START_TEST(one_wrong_label_is_mended) {
+  const Plate whole = plate();
+  int torn = 0;
+  for (std::size_t t = 0; t < whole.tetrahedra.size(); ++t) {
+    std::vector<LabelledTetrahedron> wrong = whole.tetrahedra;
+    wrong[t].is_element = !wrong[t].is_element;
+    const bool known = std::ranges::all_of(wrong[t].ids, [&](std::int64_t id) {
+      return std::ranges::find(whole.nodes, id, &LabelledNode::id) != whole.nodes.end();
+    });
+    ElementLabels labels(wrong, whole.nodes);
+    if (!known || defects(labels, whole.nodes) == 0) continue;
+    ++torn;
+    labels.settle();
+    ck_assert_int_eq(defects(labels, whole.nodes), 0);
+  }
+  ck_assert(torn >= 10);
+}
+END_TEST
+
+START_TEST(settled_labels_are_those_of_any_order) {
+  const Plate whole = plate();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    Plate wrong = whole;
+    for (LabelledTetrahedron& t : wrong.tetrahedra)
+      if (t.is_element && random.between(0, 1) < 0.15) t.is_element = false;
+    ElementLabels labels(wrong.tetrahedra, wrong.nodes);
+    const int before = defects(labels, wrong.nodes);
+    const std::vector<LabelledTetrahedron> changed = labels.settle();
+    ck_assert(before > 0 && defects(labels, wrong.nodes) < before / 4);
+    Plate shuffled = wrong;
+    random.shuffle(shuffled.tetrahedra);
+    random.shuffle(shuffled.nodes);
+    shuffled.tetrahedra.push_back(shuffled.tetrahedra.front());  // told by two nodes
+    ck_assert(ElementLabels(shuffled.tetrahedra, shuffled.nodes).settle() == changed);
+  }
+}
+END_TEST
+
+// An edge of the plate with a feature on it, cut off by a dent that tears nothing.
+START_TEST(feature_edges_stay_on_the_boundary) {
+  Plate dented = plate();
+  const std::int64_t a = id_of({2, 1, 2}), b = id_of({3, 1, 2});
+  for (LabelledNode& node : dented.nodes) {
+    if (node.id == a) node.joined.push_back(b);
+    if (node.id == b) node.joined.push_back(a);
+  }
+  ck_assert_int_eq(defects(ElementLabels(dented.tetrahedra, dented.nodes), dented.nodes), 0);
+  int cut_off = 0;
+  for (LabelledTetrahedron& t : dented.tetrahedra)
+    if (t.is_element && std::ranges::binary_search(t.ids, a) &&
+        std::ranges::binary_search(t.ids, b)) {
+      t.is_element = false;
+      ++cut_off;
+    }
+  ck_assert(cut_off > 0);
+  ElementLabels labels(dented.tetrahedra, dented.nodes);
+  ck_assert(labels.defects_at(a) > 0);
+  labels.settle();
+  ck_assert_int_eq(defects(labels, dented.nodes), 0);
+}
+END_TEST
+
+START_TEST(disks_around_a_node) {
+  using pnpbs::disks_of;
+  using pnpbs::FaceFan;
+  const auto disks = [](FaceFan fan) {
+    std::ranges::sort(fan);
+    return disks_of(fan);
+  };
+  ck_assert_int_eq(disks({}), 0);
+  ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 1}}), 1);
+  ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 1}, {6, 4}, {4, 5}, {5, 6}}), 2);
+  ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 4}}), 0);                          // open
+  ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 1}, {1, 4}, {4, 5}, {5, 1}}), 0);  // two at an edge
+  ck_assert_int_eq(disks({{1, 2}, {2, 3}, {3, 1}, {4, 3}}), 0);
+}
+END_TEST
+
+// Deep ones, and those between nodes of which not all is known.
+START_TEST(what_is_sure_stays) {
+  Plate deep = plate();
+  const auto middle = std::ranges::find_if(
+      deep.tetrahedra, [](const LabelledTetrahedron& t) { return t.is_element; });
+  middle->is_element = false;
+  for (LabelledTetrahedron& t : deep.tetrahedra) t.depth = 0.3;
+  ck_assert(ElementLabels(deep.tetrahedra, deep.nodes).settle().empty());
+  for (LabelledTetrahedron& t : deep.tetrahedra) t.depth = 0.1;
+  deep.nodes.clear();
+  ck_assert(ElementLabels(deep.tetrahedra, deep.nodes).settle().empty());
+}
+END_TEST
+
+int main() {
+  return run_suite("element_labels", {what_is_whole_stays, one_wrong_label_is_mended,
+                                      settled_labels_are_those_of_any_order, disks_around_a_node,
+                                      feature_edges_stay_on_the_boundary, what_is_sure_stays});
+}
