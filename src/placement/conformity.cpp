@@ -33,6 +33,11 @@ FoundNodes<3> unmatched_edges(const PlacementOf<3>& placement) {
 ElementMeasure measure_in(const PlacementOf<2>&) { return {}; }
 ElementMeasure measure_in(const PlacementOf<3>& placement) { return measure_if_far_off(placement); }
 
+BoundaryTopology topology_of(const PlacementOf<2>&) { return {}; }
+BoundaryTopology topology_of(const PlacementOf<3>& placement) {
+  return placement.surfaces_alone() ? BoundaryTopology{} : boundary_topology(placement);
+}
+
 const char* elements_of(const PlacementOf<2>&) { return "triangle"; }
 const char* elements_of(const PlacementOf<3>& placement) {
   return placement.surfaces_alone() ? "triangle" : "tetrahedron";
@@ -58,6 +63,7 @@ Conformity<Dim> conformity_of(const PlacementOf<Dim>& placement) {
   agreed(comm, [&] {
     result.unmatched = unmatched_edges(placement);
     result.measure = measure_in(placement);
+    result.boundary = topology_of(placement);
   });
   return result;
 }
@@ -83,6 +89,19 @@ std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& p
            " edges, one of them at " + rounded_point_text<Dim>(conformity.unmatched.at) +
            ", where the surface is rougher than the spacing resolves: use a smaller spacing "
            "there, or a larger feature_angle";
+  if (conformity.boundary.torn.count > 0)
+    return "the boundary of the tetrahedra is torn at " +
+           std::to_string(conformity.boundary.torn.count) + " nodes, one of them at " +
+           rounded_point_text<3>(conformity.boundary.torn.at) +
+           ": the spacing does not resolve the shape: make it smaller there, or try the option "
+           "resolve";
+  if (conformity.boundary.euler != conformity.boundary.euler_of_domain)
+    return "the boundary of the tetrahedra has the Euler characteristic " +
+           std::to_string(conformity.boundary.euler) + ", the surfaces of the domain " +
+           std::to_string(conformity.boundary.euler_of_domain) +
+           ": where the spacing does not resolve the shape, a wall has a hole, a gap is bridged, "
+           "or "
+           "a neck is cut: make it smaller there, or try the option resolve";
   if (conformity.measure.far_off())
     return (element == "triangle" ? "the triangles have the area "
                                   : "the tetrahedra have the volume ") +

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "level/found_nodes.hpp"
+#include "placement/boundary_topology.hpp"
 #include "placement/element_measure.hpp"
 #include "placement/placement_of.hpp"
 
@@ -17,12 +18,13 @@ struct Conformity {
   FoundNodes<Dim> isolated;   // nodes in no element
   FoundNodes<Dim> unmatched;  // edges of surfaces alone with more or fewer triangles than sheets
                               // meet there; found at the end that has the lesser id
-
-  ElementMeasure measure;  // in space, if what the elements fill may be far off
+  ElementMeasure measure;     // in space, if what the elements fill may be far off
+  BoundaryTopology boundary;  // of bodies
 
   bool any_elements() const { return isolated.count < nodes; }
   bool holds() const {
-    return any_elements() && isolated.count == 0 && unmatched.count == 0 && !measure.far_off();
+    return any_elements() && isolated.count == 0 && unmatched.count == 0 && !measure.far_off() &&
+           boundary.agrees();
   }
 };
 

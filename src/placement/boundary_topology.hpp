@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Is the boundary of the tetrahedra a surface like that of the domain?
+#pragma once
+
+#include <cstdint>
+
+#include "level/found_nodes.hpp"
+#include "placement/placement_of.hpp"
+
+namespace pnpbs {
+
+struct BoundaryTopology {
+  // Nodes where it is torn: around those on surfaces that bound the domain, the faces are not one
+  // disk; or they are from inside and have faces.
+  FoundNodes<3> torn;
+  // Euler's characteristic, vertices less edges plus triangles: of the boundary and of the domain's
+  // surfaces. Where nothing is torn they differ by 2 for each handle or hole, and each piece.
+  std::int64_t euler = 0, euler_of_domain = 0;
+
+  bool agrees() const { return torn.count == 0 && euler == euler_of_domain; }
+};
+
+// Of a body, after prepare_stars. Collective.
+BoundaryTopology boundary_topology(const PlacementOf<3>& placement);
+
+}  // namespace pnpbs

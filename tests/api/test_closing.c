@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Bodies that are rough beside d: the boundary of the tetrahedra is one closed surface all the
+ * same, like the body's, and where it is not, the run and the check say so.
+ */
+#include "volume_support.h"
+
+/* ---------------------------------------------------------------- bodies ---------------- */
+
+/* A globe with bumps and dents, the deeper and narrower the larger these two are. */
+static void add_rough_globe(pnpbs_domain domain, double depth, double waves) {
+  static double xyz[3 * GLOBE_TRIANGLES][3];
+  static int64_t corners[GLOBE_TRIANGLES][3];
+  static const double centre[] = {0, 0, 0};
+  int octant, i, j, up, k;
+  int64_t n = 0, c;
+  for (octant = 0; octant < 8; ++octant)
+    for (i = 0; i < GLOBE_ROWS; ++i)
+      for (j = 0; i + j < GLOBE_ROWS; ++j)
+        for (up = 0; up < (i + j + 1 < GLOBE_ROWS ? 2 : 1); ++up, ++n) {
+          volume_globe_corner(centre, 1, octant, i + up, j + up, xyz[3 * n]);
+          volume_globe_corner(centre, 1, octant, i + 1, j, xyz[3 * n + 1]);
+          volume_globe_corner(centre, 1, octant, i, j + 1, xyz[3 * n + 2]);
+        }
+  for (c = 0; c < 3 * n; ++c) {
+    double* x = xyz[c];
+    const double r = 1 + depth * sin(waves * x[0]) * sin(waves * x[1] + 1) * sin(waves * x[2] + 2);
+    for (k = 0; k < 3; ++k) x[k] *= r;
+    corners[c / 3][c % 3] = c;
+  }
+  MUST(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 3 * n, xyz[0], n, corners[0], NULL, 40));
+}
+
+static job rough_job(double depth, double waves, double d) {
+  job it = {NULL, NULL, NULL};
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  add_rough_globe(it.domain, depth, waves);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
+  return it;
+}
+
+/* ---------------------------------------------------------------- what closes ----------- */
+
+static int by_ends(const void* a, const void* b) {
+  const int64_t *p = a, *q = b;
+  return p[0] != q[0] ? (p[0] < q[0] ? -1 : 1) : (p[1] > q[1]) - (p[1] < q[1]);
+}
+
+/* Edges of the boundary's triangles, by their ends; each must have two triangles. Returns how many
+ * have not. */
+static int64_t open_edges(const volume* v, int64_t* edges) {
+  int64_t(*ends)[2] = malloc((size_t)(3 * v->triangles) * sizeof *ends);
+  int64_t t, e = 0, wrong = 0;
+  int k;
+  for (t = 0; t < v->triangles; ++t)
+    for (k = 0; k < 3; ++k, ++e) {
+      const int64_t a = v->sides[3 * t + k], b = v->sides[3 * t + (k + 1) % 3];
+      ends[e][0] = a < b ? a : b;
+      ends[e][1] = a < b ? b : a;
+    }
+  qsort(ends, (size_t)e, sizeof *ends, by_ends);
+  *edges = 0;
+  for (t = 0; t < e;) {
+    int64_t next = t;
+    while (next < e && by_ends(ends[t], ends[next]) == 0) ++next;
+    wrong += next - t != 2;
+    ++*edges;
+    t = next;
+  }
+  free(ends);
+  return wrong;
+}
+
+/* Nodes of the boundary: all that lie on the surface, and no other. Of each, its triangles are one
+ * disk: as many as there are edges at it, and joined to each other. */
+static void check_closed(const volume* v) {
+  char* on_boundary = calloc((size_t)v->n, 1);
+  int64_t i, t, edges, nodes = 0;
+  for (t = 0; t < 3 * v->triangles; ++t) on_boundary[v->sides[t]] = 1;
+  for (i = 0; i < v->n; ++i) {
+    ck_assert_int_eq(on_boundary[i], v->tags[i] != 0);
+    nodes += on_boundary[i];
+  }
+  ck_assert_int_eq(open_edges(v, &edges), 0);
+  ck_assert_int_eq(nodes - edges + v->triangles, 2); /* Euler's characteristic of a sphere */
+  free(on_boundary);
+}
+
+START_TEST(rough_bodies_close) {
+  static const double cases[][3] = {{0.6, 5, 0.2}, {0.6, 6, 0.3}, {0.8, 8, 0.2}};
+  job it = rough_job(cases[_i][0], cases[_i][1], cases[_i][2]);
+  volume v;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_OK);
+  ck_assert_int_eq(warnings_with(it.placement, "torn"), 0);
+  v = volume_of(it.placement);
+  check_closed(&v);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(torn_bodies_are_told) {
+  job it = rough_job(0.4, 8, 0.3);
+  int torn, other;
+  ck_assert_int_eq(pnpbs_placement_run(it.placement), PNPBS_NOT_CONFORMING);
+  torn = warnings_with(it.placement, "the boundary of the tetrahedra is torn at ");
+  other = warnings_with(it.placement, "has the Euler characteristic ");
+  ck_assert_int_eq(torn + other, 1);
+  ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_NOT_CONFORMING);
+  ck_assert_ptr_nonnull(strstr(MESSAGE(), torn ? "is torn at " : "Euler characteristic"));
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("closing");
+  TCase* tests = tcase_create("closing");
+  tcase_set_timeout(tests, 0);
+  tcase_add_loop_test(tests, rough_bodies_close, 0, WHEN_SANITIZED(1, 3));
+  tcase_add_test(tests, torn_bodies_are_told);
+  suite_add_tcase(suite, tests);
+  return run_suite(suite);
+}
