@@ -9,29 +9,11 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <set>
-#include <utility>
 #include <vector>
 
+#include "delaunay/volume/node_link.hpp"
+
 namespace pnpbs {
-
-struct LabelledTetrahedron {
-  std::array<std::int64_t, 4> ids;  // of its nodes, ascending
-  bool is_element;
-  bool may_change;
-  double depth;               // of its centroid below or above the surface, over its longest edge
-  std::array<bool, 4> along;  // does its face opposite to each lie along one surface?
-
-  auto operator<=>(const LabelledTetrahedron&) const = default;
-};
-
-// A node around which all tetrahedra are given that are not too wide for elements; how many disks
-// the boundary should be there, and the nodes that it is joined with along feature edges.
-struct LabelledNode {
-  std::int64_t id;
-  std::int64_t disks;
-  std::vector<std::int64_t> joined;
-};
 
 // Tetrahedra with a label that is not that of their centroid.
 class ChangedLabels {
@@ -53,33 +35,44 @@ class ChangedLabels {
 
 class ElementLabels {
  public:
-  ElementLabels(std::vector<LabelledTetrahedron> tetrahedra,
-                const std::vector<LabelledNode>& nodes);
+  ElementLabels(std::vector<LabelledTetrahedron> tetrahedra, std::vector<LabelledNode> nodes);
 
   // Returns those whose label is now another.
   std::vector<LabelledTetrahedron> settle();
   // How far the faces of the boundary around this node are from one disk along a surface; 0: they
   // are one.
-  int defects_at(std::int64_t id) const { return defects(node_of(id)); }
+  int defects_at(std::int64_t id) const { return nodes_[node_at_.at(id)].link.defects(); }
 
  private:
   struct Node {
-    LabelledNode is;
+    NodeLink link;
     std::vector<std::size_t> tetrahedra;
+    // Numbers of changes: the last around it, and the last known when none helped.
+    std::uint64_t changed = 1, given_up = 0;
+  };
+  // Where a tetrahedron is found: at which node, as which of those around it.
+  struct Corner {
+    std::size_t node, place;
+  };
+  // What it brings to change one label: at each corner, so many defects fewer.
+  struct Change {
+    std::size_t t;
+    std::array<int, 4> gains;
   };
 
-  const Node& node_of(std::int64_t id) const { return nodes_[node_at_.at(id)]; }
-  int defects(const Node& node) const;
-  int defects_around(const LabelledTetrahedron& tetrahedron) const;
-  int gain(const std::vector<std::size_t>& changes);
-  void change(std::size_t t);
-  bool improve(const Node& node);
+  Change change_of(std::size_t t);
+  int gain(const Change& one, const Change& other, int worth);
   bool may_change(std::size_t t) const;
+  bool may_help(const std::vector<std::size_t>& free, std::uint64_t since) const;
+  std::vector<std::size_t> best_changes(const Node& node, const std::vector<std::size_t>& free);
+  bool improve(Node& node);
 
-  std::vector<LabelledTetrahedron> tetrahedra_;
+  std::vector<LabelledTetrahedron> tetrahedra_;  // as given
   std::vector<char> changed_;
-  std::vector<Node> nodes_;
+  std::vector<std::vector<Corner>> corners_;  // of each tetrahedron, at nodes that are given
+  std::vector<Node> nodes_;                   // by id
   std::map<std::int64_t, std::size_t> node_at_;
+  std::uint64_t changes_ = 1;
 };
 
 }  // namespace pnpbs

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "delaunay/volume/node_link.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace pnpbs {
+
+namespace {
+
+// A face of a tetrahedron at one of its nodes, by its other two, ascending.
+struct LinkEdge {
+  std::array<std::int64_t, 2> ids;
+  bool along;
+
+  auto operator<=>(const LinkEdge&) const = default;
+};
+
+// Those of a tetrahedron around one of its nodes.
+std::array<LinkEdge, 3> link_edges(const LabelledTetrahedron& tetrahedron, std::int64_t around) {
+  const std::array<std::int64_t, 4>& ids = tetrahedron.ids;
+  std::array<LinkEdge, 3> edges;
+  std::size_t count = 0;
+  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+    if (ids[left_out] == around) continue;
+    LinkEdge edge{{}, tetrahedron.along[left_out]};
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (k != left_out && ids[k] != around) edge.ids[n++] = ids[k];
+    edges[count++] = edge;
+  }
+  return edges;
+}
+
+template <class Value>
+void sort_once(std::vector<Value>& values) {
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+template <class Value>
+std::int64_t place_of(const std::vector<Value>& sorted, const Value& value) {
+  const auto found = std::ranges::lower_bound(sorted, value);
+  return found != sorted.end() && *found == value ? found - sorted.begin() : -1;
+}
+
+}  // namespace
+
+NodeLink::NodeLink(const LabelledNode& node, const std::vector<LabelledTetrahedron>& tetrahedra,
+                   const std::vector<std::size_t>& around)
+    : disks_(node.disks) {
+  std::vector<LinkEdge> all;
+  std::vector<std::int64_t> ids;
+  for (const std::size_t t : around)
+    for (const LinkEdge& edge : link_edges(tetrahedra[t], node.id)) {
+      all.push_back(edge);
+      ids.insert(ids.end(), edge.ids.begin(), edge.ids.end());
+    }
+  sort_once(all);
+  sort_once(ids);
+  const auto end = [&](std::int64_t id) { return static_cast<std::int32_t>(place_of(ids, id)); };
+  for (const LinkEdge& edge : all)
+    edges_.push_back({{end(edge.ids[0]), end(edge.ids[1])}, edge.along, 0});
+  for (const std::int64_t id : node.joined) joined_.push_back(end(id));
+  for (const std::size_t t : around) {
+    is_element_.push_back(tetrahedra[t].is_element);
+    std::array<std::size_t, 3>& mine = edges_of_.emplace_back();
+    const std::array<LinkEdge, 3> given = link_edges(tetrahedra[t], node.id);
+    for (std::size_t k = 0; k < 3; ++k) {
+      mine[k] = static_cast<std::size_t>(place_of(all, given[k]));
+      edges_[mine[k]].used += tetrahedra[t].is_element;
+    }
+  }
+  open_at_.resize(ids.size());
+  parent_.resize(ids.size());
+  defects_ = counted_defects();
+}
+
+void NodeLink::flip(std::size_t place) {
+  is_element_[place] = is_element_[place] == 0;
+  for (const std::size_t edge : edges_of_[place])
+    edges_[edge].used += is_element_[place] != 0 ? 1 : -1;
+}
+
+void NodeLink::change(std::size_t place) {
+  flip(place);
+  defects_ = counted_defects();
+}
+
+int NodeLink::gain(std::initializer_list<std::size_t> places) {
+  for (const std::size_t place : places) flip(place);
+  const int fewer = defects_ - counted_defects();
+  for (const std::size_t place : places) flip(place);
+  return fewer;
+}
+
+std::int32_t NodeLink::root(std::int32_t end) {
+  const auto parent = [&](std::int32_t of) -> std::int32_t& {
+    return parent_[static_cast<std::size_t>(of)];
+  };
+  while (parent(end) != end) end = parent(end) = parent(parent(end));
+  return end;
+}
+
+// Of the open edges, pieces too many or too few, nodes where they branch, feature edges that are
+// not among them, and those that lie along no surface; a node in no element, or with elements all
+// around, has none.
+int NodeLink::counted_defects() {
+  constexpr int kNoFace = 4 * kTorn;
+  std::ranges::fill(open_at_, 0);
+  for (std::size_t n = 0; n < parent_.size(); ++n) parent_[n] = static_cast<std::int32_t>(n);
+  int open = 0, strays = 0, pieces = 0;
+  for (const Edge& edge : edges_) {
+    if (edge.used != 1) continue;
+    ++open;
+    strays += !edge.along;
+    for (const std::int32_t end : edge.ends)
+      pieces += open_at_[static_cast<std::size_t>(end)]++ == 0;
+    const std::int32_t a = root(edge.ends[0]), b = root(edge.ends[1]);
+    if (a == b) continue;
+    --pieces;
+    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  if (open == 0) return kNoFace;
+  int torn = std::abs(pieces - static_cast<int>(disks_));
+  for (const std::int32_t ends : open_at_)
+    if (ends > 0) torn += ends / 2 - 1;
+  for (const std::int32_t other : joined_)
+    torn += other < 0 || open_at_[static_cast<std::size_t>(other)] == 0;
+  return kTorn * torn + strays;
+}
+
+}  // namespace pnpbs

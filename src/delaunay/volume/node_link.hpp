@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The link of a node: of each tetrahedron around it the triangle opposite to it. An edge that one
+// triangle of an element has alone is a face of the boundary, as the node sees it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+namespace pnpbs {
+
+struct LabelledTetrahedron {
+  std::array<std::int64_t, 4> ids;  // of its nodes, ascending
+  bool is_element;
+  bool may_change;
+  double depth;               // of its centroid below or above the surface, over its longest edge
+  std::array<bool, 4> along;  // does its face opposite to each lie along one surface?
+
+  auto operator<=>(const LabelledTetrahedron&) const = default;
+};
+
+// A node around which all tetrahedra are given that are not too wide for elements; how many disks
+// the boundary should be there, and the nodes that it is joined with along feature edges.
+struct LabelledNode {
+  std::int64_t id;
+  std::int64_t disks;
+  std::vector<std::int64_t> joined;
+};
+
+class NodeLink {
+ public:
+  // Around the node are these of the tetrahedra.
+  NodeLink(const LabelledNode& node, const std::vector<LabelledTetrahedron>& tetrahedra,
+           const std::vector<std::size_t>& around);
+
+  // Changes the label of the `place`-th tetrahedron around the node.
+  void change(std::size_t place);
+  // By how many there would be fewer defects if the labels of these changed.
+  int gain(std::initializer_list<std::size_t> places);
+
+  // How far the faces of the boundary around the node are from its disks along surfaces; 0: they
+  // are these.
+  int defects() const { return defects_; }
+  // More than a face that strays.
+  bool is_torn() const { return defects_ >= kTorn; }
+
+ private:
+  static constexpr int kTorn = 3;  // where a face that strays counts 1
+
+  struct Edge {
+    std::array<std::int32_t, 2> ends;
+    bool along;         // does the face lie along one surface?
+    std::int32_t used;  // by so many elements
+  };
+
+  void flip(std::size_t place);
+  int counted_defects();
+  std::int32_t root(std::int32_t end);
+
+  std::int64_t disks_;
+  std::vector<Edge> edges_;
+  std::vector<char> is_element_;                      // of each tetrahedron around the node
+  std::vector<std::array<std::size_t, 3>> edges_of_;  // likewise
+  std::vector<std::int32_t> joined_;            // by feature edges; -1: in no tetrahedron here
+  std::vector<std::int32_t> open_at_, parent_;  // of each node of the link
+  int defects_;
+};
+
+}  // namespace pnpbs
