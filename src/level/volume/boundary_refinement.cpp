@@ -147,18 +147,18 @@ Strays strays_of_own(const Level<3>& level) {
   return strays;
 }
 
-// Is a node of this sheet of the surface as near to the middle?
-bool is_taken(const Level<3>& level, const SurfaceBall& ball) {
+// Is a node of its sheet of the surface as near to the middle of the ball?
+bool is_taken(const Level<3>& level, const GivenNode<3>& middle, double radius) {
   constexpr double kNear = 0.3;
   const Nodes<3>& nodes = level.nodes;
   const Ground<3>& ground = level.ground;
-  const SurfacePlace at{SurfacePlace::On::facet, static_cast<std::int32_t>(ball.facet)};
+  const SurfacePlace at = ground.place(middle.carrier, middle.boundary_node);
   const Buckets<3>& buckets = level.neighbourhood.buckets();
   bool taken = false;
-  buckets.for_neighbours(level.tree->tree().leaf_at(ball.x), [&](std::int32_t b) {
+  buckets.for_neighbours(level.tree->tree().leaf_at(middle.position), [&](std::int32_t b) {
     for (std::int64_t i = buckets.begin(b); !taken && i < buckets.end(b); ++i)
       taken = nodes.carrier(i) != Carrier::free &&
-              distance<3>(nodes.position(i), ball.x) < kNear * ball.radius &&
+              distance<3>(nodes.position(i), middle.position) < kNear * radius &&
               ground.surface().sees(ground.place(nodes.carrier(i), nodes.boundary_node(i)), at);
   });
   return taken;
@@ -182,13 +182,19 @@ std::vector<SurfaceBall> largest_apart(const Communicator& comm,
   return kept;
 }
 
+// Those of this rank, which may own the place on a level set and not that on its triangle.
 GivenNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>& balls) {
   GivenNodes<3> nodes;
   for (const SurfaceBall& ball : balls)
-    if (level.tree->owns(level.tree->tree().leaf_at(ball.x)) && !is_taken(level, ball))
-      nodes.push_back(
-          new_surface_node(level.ground, {static_cast<std::int32_t>(ball.facet), ball.x}));
-  return nodes;
+    nodes.push_back(
+        new_surface_node(level.ground, {static_cast<std::int32_t>(ball.facet), ball.x}));
+  put_on_level_sets(level.ground, nodes);
+  GivenNodes<3> own;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (level.tree->owns(level.tree->tree().leaf_at(nodes[k].position)) &&
+        !is_taken(level, nodes[k], balls[k].radius))
+      own.push_back(nodes[k]);
+  return own;
 }
 
 }  // namespace
@@ -209,10 +215,7 @@ std::int64_t refine_boundary(Level<3>& level) {
     before = strays;
     const std::vector<SurfaceBall> balls = largest_apart(*level.comm, own.balls);
     GivenNodes<3> nodes;
-    agreed(*level.comm, [&] {
-      nodes = new_nodes(level, balls);
-      put_on_level_sets(level.ground, nodes);
-    });
+    agreed(*level.comm, [&] { nodes = new_nodes(level, balls); });
     const std::int64_t more = add_nodes(level, std::move(nodes));
     if (more == 0) break;
     added += more;
