@@ -89,19 +89,6 @@ std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& p
            " edges, one of them at " + rounded_point_text<Dim>(conformity.unmatched.at) +
            ", where the surface is rougher than the spacing resolves: use a smaller spacing "
            "there, or a larger feature_angle";
-  if (conformity.boundary.torn.count > 0)
-    return "the boundary of the tetrahedra is torn at " +
-           std::to_string(conformity.boundary.torn.count) + " nodes, one of them at " +
-           rounded_point_text<3>(conformity.boundary.torn.at) +
-           ": the spacing does not resolve the shape: make it smaller there, or try the option "
-           "resolve";
-  if (conformity.boundary.euler != conformity.boundary.euler_of_domain)
-    return "the boundary of the tetrahedra has the Euler characteristic " +
-           std::to_string(conformity.boundary.euler) + ", the surfaces of the domain " +
-           std::to_string(conformity.boundary.euler_of_domain) +
-           ": where the spacing does not resolve the shape, a wall has a hole, a gap is bridged, "
-           "or "
-           "a neck is cut: make it smaller there, or try the option resolve";
   if (conformity.measure.far_off())
     return (element == "triangle" ? "the triangles have the area "
                                   : "the tetrahedra have the volume ") +
@@ -109,6 +96,18 @@ std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& p
            rounded_text(conformity.measure.domain) + ", and no more than " +
            rounded_text(conformity.measure.between) +
            " can lie between them: the spacing does not resolve the shape: make it smaller";
+  if (conformity.boundary.torn.count > 0)
+    return "the boundary of the tetrahedra is torn at " +
+           std::to_string(conformity.boundary.torn.count) + " nodes, one of them at " +
+           rounded_point_text<3>(conformity.boundary.torn.at) +
+           ": sheets of the surface are nearer to each other there, or rougher, than the spacing "
+           "resolves: make it smaller there, or try the option resolve";
+  if (conformity.boundary.euler != conformity.boundary.euler_of_domain)
+    return "the boundary of the tetrahedra has the Euler characteristic " +
+           std::to_string(conformity.boundary.euler) + ", the surfaces of the domain " +
+           std::to_string(conformity.boundary.euler_of_domain) +
+           ": the spacing is too coarse somewhere, so that a wall has a hole, a gap is bridged or "
+           "a neck is cut: make it smaller there, or try the option resolve";
   return "";
 }
 

@@ -22,10 +22,10 @@ struct Conformity {
   BoundaryTopology boundary;  // of bodies
 
   bool any_elements() const { return isolated.count < nodes; }
-  bool holds() const {
-    return any_elements() && isolated.count == 0 && unmatched.count == 0 && !measure.far_off() &&
-           boundary.agrees();
+  bool fills() const {
+    return any_elements() && isolated.count == 0 && unmatched.count == 0 && !measure.far_off();
   }
+  bool holds() const { return fills() && boundary.agrees(); }
 };
 
 // After prepare_stars. Collective.

@@ -26,13 +26,13 @@ class ResultCheck : public NodeCheck<2> {
     sectors_.build(boundary_);
   }
 
-  void check(bool conforms) const {
+  void check(bool fills) const {
     check_ids();
     check_places();
     check_sides();
     check_boundary_nodes();
     check_lists();
-    if (!conforms) return;
+    if (!fills) return;
     check_stars();
     check_area();
   }
@@ -221,7 +221,7 @@ void ResultCheck::check_area() const {
 std::string check_results(PlacementOf<2>& placement) {
   placement.prepare_stars();
   const Conformity<2> conformity = conformity_of(placement);
-  ResultCheck(placement).check(conformity.holds());
+  ResultCheck(placement).check(conformity.fills());
   return text_of(conformity, placement);
 }
 

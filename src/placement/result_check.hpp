@@ -37,6 +37,6 @@ std::string check_results(PlacementOf<3>& placement);
 // - if they conform, their areas add up to that of the surfaces, but for what lies between these
 //   and them.
 // After prepare_stars. Collective.
-void check_surfaces(const PlacementOf<3>& placement, bool conforms);
+void check_surfaces(const PlacementOf<3>& placement, bool fills);
 
 }  // namespace pnpbs

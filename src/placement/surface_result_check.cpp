@@ -24,9 +24,9 @@ class SurfaceResultCheck : public VolumeNodeCheck {
  public:
   explicit SurfaceResultCheck(const PlacementOf<3>& placement) : VolumeNodeCheck(placement) {}
 
-  void check(bool conforms) const {
+  void check(bool fills) const {
     check_nodes_and_lists();
-    if (!conforms) return;
+    if (!fills) return;
     check_stars();
     check_area();
   }
@@ -97,8 +97,8 @@ void SurfaceResultCheck::check_area() const {
 
 }  // namespace
 
-void check_surfaces(const PlacementOf<3>& placement, bool conforms) {
-  SurfaceResultCheck(placement).check(conforms);
+void check_surfaces(const PlacementOf<3>& placement, bool fills) {
+  SurfaceResultCheck(placement).check(fills);
 }
 
 }  // namespace pnpbs

@@ -38,11 +38,11 @@ class VolumeResultCheck : public VolumeNodeCheck {
  public:
   explicit VolumeResultCheck(const PlacementOf<3>& placement) : VolumeNodeCheck(placement) {}
 
-  void check(bool conforms) const {
+  void check(bool fills) const {
     check_nodes_and_lists();
     check_stars();
     check_boundary();
-    check_volume(conforms);
+    check_volume(fills);
   }
 
  private:
@@ -59,7 +59,7 @@ class VolumeResultCheck : public VolumeNodeCheck {
 
   void check_boundary() const;
 
-  void check_volume(bool conforms) const;
+  void check_volume(bool fills) const;
 };
 
 Three VolumeResultCheck::sorted_ids(const Corners& corners) const {
@@ -180,13 +180,13 @@ void VolumeResultCheck::check_boundary() const {
 // ------------------------------------------------------------------ volume ---------------------
 
 // What is far off is no defect of ours: the run has said so.
-void VolumeResultCheck::check_volume(bool conforms) const {
+void VolumeResultCheck::check_volume(bool fills) const {
   const ElementMeasure measure = measure_of_elements(p_);
   if (!(measure.domain > measure.rounding)) return;  // too thin to be measured
   if (std::fabs(measure.elements - measure.enclosed) > measure.rounding)
     fail_check("the tetrahedra have the volume " + number_text(measure.elements) +
                ", their boundary encloses " + number_text(measure.enclosed));
-  if (conforms && !measure.agrees())
+  if (fills && !measure.agrees())
     fail_check("the tetrahedra have the volume " + number_text(measure.elements) + ", the domain " +
                number_text(measure.domain) +
                ", and the faces of their boundary cut off no more than " +
@@ -199,9 +199,9 @@ std::string check_results(PlacementOf<3>& placement) {
   placement.prepare_stars();
   const Conformity<3> conformity = conformity_of(placement);
   if (placement.surfaces_alone())
-    check_surfaces(placement, conformity.holds());
+    check_surfaces(placement, conformity.fills());
   else
-    VolumeResultCheck(placement).check(conformity.holds());
+    VolumeResultCheck(placement).check(conformity.fills());
   return text_of(conformity, placement);
 }
 
