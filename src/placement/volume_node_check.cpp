@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
+#include "domain/volume/triangles.hpp"
 
 namespace pnpbs {
 
@@ -32,13 +34,26 @@ void VolumeNodeCheck::check_sides() const {
   });
 }
 
+// To the plane of the facet next to it, if its foot lies in that: along a needle the foot itself is
+// uncertain by many roundings.
+double VolumeNodeCheck::gap_to_facet(const Point<3>& x) const {
+  const SurfaceIndex& index = ground_.domain().index();
+  const NearestPoint<3> nearest = index.nearest(x, std::numeric_limits<double>::infinity());
+  const FacetCorners<3> corners = ground_.surface().corners(nearest.facet);
+  const auto [v, w] = nearest_triangle_point(corners, x).along;
+  const Point<3> normal =
+      cross(difference(corners[1], corners[0]), difference(corners[2], corners[0]));
+  if (!(v > 0 && w > 0 && v + w < 1)) return nearest.gap;
+  return std::fabs(dot(normal, difference(x, nearest.x))) / std::sqrt(dot(normal, normal));
+}
+
 // As near to it as rounding lets it lie; to the triangles of a level set, as it may be moved.
 void VolumeNodeCheck::check_on_surface(std::int64_t i) const {
   const Box<3>& bounds = ground_.bounds();
   double largest = 0;
   for (std::size_t k = 0; k < 3; ++k)
     largest = std::max({largest, std::fabs(bounds.low[k]), std::fabs(bounds.high[k])});
-  const double gap = gap_to_surface(position(i));
+  const double gap = gap_to_facet(position(i));
   const LevelSet* set = ground_.domain().level_sets().at(nodes_.boundary_node(i));
   if (gap > (set ? set->resolution() : 0) + 0x1p-44 * largest)
     fail_check("node " + name(i) + " is on a surface, but " + rounded_text(gap) +

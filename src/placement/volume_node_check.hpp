@@ -46,6 +46,7 @@ class VolumeNodeCheck : public NodeCheck<3> {
   void check_feature_nodes() const;
   const Point<3>& laid(std::size_t n) const { return ground_.features().nodes[n].position; }
   void check_on_surface(std::int64_t i) const;
+  double gap_to_facet(const Point<3>& x) const;
 };
 
 }  // namespace pnpbs

@@ -43,6 +43,12 @@ Verdict verdict_of(const Results& reference) {
   return verdict;
 }
 
+std::string message_in(const Results& results) {
+  for (const auto& [name, value] : results)
+    if (name == kMessage) return value;
+  return "";
+}
+
 }  // namespace
 
 std::vector<Configuration> random_groups(Random& random, int ranks) {
@@ -97,6 +103,7 @@ Comparison compare(const Case& job, const std::vector<Configuration>& groups,
     }
     if (made.verdict == Verdict::skipped && !results.empty())
       made.difference = results.back().first + ": " + results.back().second;
+    if (made.verdict == Verdict::failed_check) made.difference = message_in(results);
   }
   int told[3] = {static_cast<int>(made.verdict), static_cast<int>(made.group), made.first_rank};
   MPI_Bcast(told, 3, MPI_INT, 0, MPI_COMM_WORLD);

@@ -25,7 +25,8 @@ struct Comparison {
   Verdict verdict = Verdict::same;
   std::size_t group = 0;  // the first that differs
   int first_rank = 0;     // of it in the world
-  // On rank 0 of the world alone: what differs or why it is refused, and how many nodes there are.
+  // On rank 0 of the world alone: what differs, why it is refused, or what the check says; and how
+  // many nodes there are.
   std::string difference, nodes;
 };
 

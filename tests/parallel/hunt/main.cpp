@@ -37,7 +37,8 @@ class Hunt {
 
   /** The exit status. */
   int end() const {
-    const bool well = arguments_.expects_differences ? differ_ > 0 : differ_ == 0;
+    const bool well =
+        arguments_.expects_differences ? differ_ > 0 : differ_ == 0 && failed_checks_ == 0;
     if (rank_ == 0)
       std::printf(
           "%llu cases: %llu refused on all ranks, %llu fail the check of results, %llu "
@@ -90,6 +91,8 @@ class Hunt {
       std::fflush(stdout);
     }
     if (made.verdict == Verdict::differs) report(spec, job, groups[made.group], made, extra);
+    if (made.verdict == Verdict::failed_check)
+      tell("FAILS ITS CHECK", {spec, {}, made.difference}, job.name, nullptr, extra);
   }
 
   void report(const CaseSpec& spec, const Case& job, const Configuration& configuration,

@@ -10,10 +10,6 @@ namespace hunt {
 
 namespace {
 
-// Of an error: the same on all ranks of a run, where it may name one of them and what that one met
-// first. So it is not compared between runs.
-constexpr const char* kMessage = "message";
-
 bool same_on_all(std::uint64_t value, MPI_Comm ranks) {
   std::uint64_t range[2] = {value, ~value}, least[2];
   MPI_Allreduce(range, least, 2, MPI_UINT64_T, MPI_MIN, ranks);
@@ -83,9 +79,10 @@ bool add_results(pnpbs_placement placement, pnpbs_context context, MPI_Comm rank
   // Its message names the first place that a rank finds, so that the status alone counts.
   const pnpbs_status check = pnpbs_placement_check(placement);
   results.emplace_back(prefix + "check", std::to_string(check));
-  if (same_on_all(hash_of(packed(results)), ranks)) return true;
-  results.emplace_back(prefix + "results on all ranks", "not the same");
-  return false;
+  const bool same = same_on_all(hash_of(packed(results)), ranks);
+  if (!same) results.emplace_back(prefix + "results on all ranks", "not the same");
+  if (check < 0) results.emplace_back(kMessage, pnpbs_last_error(context));
+  return same;
 }
 
 std::string packed(const Results& results) {

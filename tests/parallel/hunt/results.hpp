@@ -14,6 +14,10 @@ namespace hunt {
 
 using Results = std::vector<std::pair<std::string, std::string>>;
 
+/** The name of an error's text. It is the same on all ranks of a run, and may name one of them and
+ *  what that one met first; so it is not compared between runs. */
+constexpr const char* kMessage = "message";
+
 /** Adds what the placement tells now, each name with the prefix. Collective. False if ranks of the
  *  communicator disagree, or a call fails. */
 bool add_results(pnpbs_placement placement, pnpbs_context context, MPI_Comm ranks,
