@@ -184,6 +184,30 @@ double unknown_reach(const Level<3>& level, const KnownRegion<3>& known, double 
   return known.covers(tree, box_around<3>(x, sum)) ? 0 : sum;
 }
 
+// Those of these nodes that are not there yet.
+void find_stars_of(Level<3>& level, const KnownRegion<3>& known,
+                   const std::vector<std::int64_t>& front, UnknownBoxes<3>& unknown) {
+  std::vector<char> wanted(static_cast<std::size_t>(level.nodes.count), 0);
+  bool any = false;
+  for (const std::int64_t i : front) {
+    if (level.stars.found(i)) continue;
+    wanted[static_cast<std::size_t>(i)] = 1;
+    any = true;
+  }
+  if (any) add_stars(level, known, wanted);
+  for (const std::int64_t i : front) unknown.ask_around(i);
+}
+
+// Those of ghosts, ring by ring around owned nodes whose stars are there.
+void find_ghost_stars(Level<3>& level, const KnownRegion<3>& known, std::vector<std::int64_t> front,
+                      int rings, UnknownBoxes<3>& unknown) {
+  std::vector<char> reached = owned_nodes(level.nodes);
+  for (int ring = 1; ring <= rings; ++ring) {
+    front = neighbours_of(level.stars, front, reached);
+    find_stars_of(level, known, front, unknown);
+  }
+}
+
 // The same in a volume, where a star costs much: first only those of owned nodes beside ghosts,
 // then ring by ring those of ghosts. They alone ask for more ghosts, but for rare ones inside.
 std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
@@ -192,28 +216,18 @@ std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& kno
   const Nodes<3>& nodes = level.nodes;
   level.stars.build_none(star_input(level, known));
   UnknownBoxes<3> unknown(level);
-  std::vector<char> reached = owned_nodes(nodes);
-  const auto find = [&](const std::vector<std::int64_t>& front) {
-    std::vector<char> wanted(static_cast<std::size_t>(nodes.count), 0);
-    for (const std::int64_t i : front) wanted[static_cast<std::size_t>(i)] = 1;
-    add_stars(level, known, wanted);
-    for (const std::int64_t i : front) unknown.ask_around(i);
-  };
-  std::vector<std::int64_t> front = at_border;
-  find(front);
-  for (int ring = 1; ring <= zone.rings; ++ring) {
-    front = neighbours_of(level.stars, front, reached);
-    find(front);
-  }
+  find_stars_of(level, known, at_border, unknown);
+  find_ghost_stars(level, known, at_border, zone.rings, unknown);
   if (zone.reach > 0)
     for (std::int64_t i = 0; i < nodes.count; ++i)
       if (nodes.owned(i)) unknown.ask_around(i, unknown_reach(level, known, zone.reach, i));
   return unknown.boxes();
 }
 
-// After these, those of all other owned nodes.
+// After these, those of all other owned nodes; and of ghosts around them, as where d is coarse
+// against the shape a star may reach a ghost that the list does not.
 std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& known,
-                                     const std::vector<std::int64_t>& at_border) {
+                                     const std::vector<std::int64_t>& at_border, int rings) {
   const Nodes<3>& nodes = level.nodes;
   std::vector<char> wanted = owned_nodes(nodes);
   for (const std::int64_t i : at_border) wanted[static_cast<std::size_t>(i)] = 0;
@@ -226,6 +240,7 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
   UnknownBoxes<3> unknown(level);
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (wanted[static_cast<std::size_t>(i)]) unknown.ask_around(i);
+  find_ghost_stars(level, known, nodes_at_border(nodes, level.stars), rings, unknown);
   return unknown.boxes();
 }
 
@@ -250,7 +265,7 @@ std::vector<Box<Dim>> find_stars(Level<Dim>& level, const KnownRegion<Dim>& know
         unknown = find_border_stars(level, known, at_border, zone);
       });
       if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
-      agreed(*level.comm, [&] { unknown = find_inner_stars(level, known, at_border); });
+      agreed(*level.comm, [&] { unknown = find_inner_stars(level, known, at_border, zone.rings); });
       return unknown;
     }
   agreed(*level.comm, [&] { unknown = find_all_stars(level, known, zone.rings); });
