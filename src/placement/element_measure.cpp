@@ -112,14 +112,16 @@ class Measuring : public VolumeNodeCheck {
     return 0.5 * area * std::min(kSafe * rise * rise, 1.0);
   }
 
-  // What lies between a border and an edge that follows it.
+  // What lies between a border and an edge that follows it, on its either side: beyond the border
+  // the nearest point is on that.
   double missed_at_feature(const Point<3>& a, const Point<3>& b) const {
     const Point<3> middle = middle_of<3>(a, b);
     const double length = distance<3>(a, b);
     const NearestPoint<3> nearest =
         ground_.domain().index().nearest(middle, std::numeric_limits<double>::infinity());
     if (ground_.surface().patch(nearest.facet) < 0) return 0;
-    return 2 * length * ground_.surface().feature_clearance({nearest.facet, nearest.x}, length);
+    const double beside = ground_.surface().feature_clearance({nearest.facet, nearest.x}, length);
+    return 2 * length * (beside + nearest.gap);
   }
 
   bool alone_;
