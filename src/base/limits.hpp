@@ -56,4 +56,12 @@ double size_of(const Box<Dim>& box) {
   return size;
 }
 
+template <int Dim>
+double farthest_coordinate(const Box<Dim>& box) {
+  double farthest = 0;
+  for (int k = 0; k < Dim; ++k)
+    farthest = std::max({farthest, std::fabs(box.low[k]), std::fabs(box.high[k])});
+  return farthest;
+}
+
 }  // namespace pnpbs

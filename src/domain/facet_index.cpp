@@ -4,14 +4,33 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/limits.hpp"
 #include "domain/plane/edges.hpp"
 #include "domain/volume/triangles.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
+namespace {
+
+constexpr double kRoom = 1e-12;  // of coordinates, for rounding
+
+template <std::size_t Dim, std::size_t N>
+Box<Dim> box_of(const std::array<std::array<double, Dim>, N>& corners) {
+  Box<Dim> box{corners[0], corners[0]};
+  for (std::size_t n = 1; n < N; ++n) include<Dim>(box, corners[n]);
+  return box;
+}
+
+}  // namespace
+
 template <int Dim>
 FacetIndex<Dim>::FacetIndex(BackgroundTree<Dim> tree, const FacetCells<Dim>& cells)
-    : tree_(std::move(tree)), boundary_(&cells.mesh()), corners_(cells.corners()), offset_{0} {
+    : tree_(std::move(tree)),
+      room_(kRoom * farthest_coordinate<Dim>(tree_.cell_box(0))),
+      boundary_(&cells.mesh()),
+      corners_(cells.corners()),
+      offset_{0} {
   blocks_.build(corners_);
   for (std::int32_t c = 0; c < cells.count(); ++c) cell_has_facets_.push_back(cells.crossed(c));
   for (std::int32_t leaf = 0; leaf < tree_.leaf_count(); ++leaf) {
@@ -62,13 +81,25 @@ bool FacetIndex<Dim>::facet_between(std::int32_t leaf, const Point<Dim>& a,
                      [&](std::int32_t f) { return crosses(a, b, corners(f)); });
 }
 
+// Most cells and facets are told by their boxes to be farther than what has been found; a cell may
+// hold thousands of facets that meet in a node.
 template <int Dim>
 NearestPoint<Dim> FacetIndex<Dim>::nearest(const Point<Dim>& x, double reach) const {
   NearestPoint<Dim> best{reach};
-  for_facets_near(x, reach, [&](std::int32_t f) {
-    const Point<Dim> q = nearest_on(corners(f), x);
-    const double gap = distance<Dim>(q, x);
-    if (gap < best.gap || (gap == best.gap && f < best.facet)) best = {gap, f, q};
+  const auto may_be_as_near = [&](const Box<Dim>& box) {
+    const double gap = best.gap + room_;
+    return squared_gap_to(box, x) <= gap * gap;
+  };
+  const auto enter = [&](std::int32_t cell) {
+    return cell_has_facets_[index(cell)] != 0 && may_be_as_near(tree_.cell_box(cell));
+  };
+  tree_.for_leaves_in(box_around<Dim>(x, reach), enter, [&](std::int32_t leaf) {
+    for (const std::int32_t f : facets_of_leaf(leaf)) {
+      if (!may_be_as_near(box_of(corners(f)))) continue;
+      const Point<Dim> q = nearest_on(corners(f), x);
+      const double gap = distance<Dim>(q, x);
+      if (gap < best.gap || (gap == best.gap && f < best.facet)) best = {gap, f, q};
+    }
   });
   return best;
 }

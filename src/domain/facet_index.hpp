@@ -83,6 +83,7 @@ class FacetIndex {
   Side side(std::int32_t leaf) const { return side_[index(leaf)]; }
 
   BackgroundTree<Dim> tree_;
+  double room_ = 0;  // for rounding of coordinates
   const BoundaryMesh<Dim>* boundary_ = nullptr;
   std::vector<FacetCorners<Dim>> corners_;  // asked far more often than anything else of facets
   FacetBlocks<Dim> blocks_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
@@ -49,13 +50,9 @@ double VolumeNodeCheck::gap_to_facet(const Point<3>& x) const {
 
 // As near to it as rounding lets it lie; to the triangles of a level set, as it may be moved.
 void VolumeNodeCheck::check_on_surface(std::int64_t i) const {
-  const Box<3>& bounds = ground_.bounds();
-  double largest = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    largest = std::max({largest, std::fabs(bounds.low[k]), std::fabs(bounds.high[k])});
   const double gap = gap_to_facet(position(i));
   const LevelSet* set = ground_.domain().level_sets().at(nodes_.boundary_node(i));
-  if (gap > (set ? set->resolution() : 0) + 0x1p-44 * largest)
+  if (gap > (set ? set->resolution() : 0) + 0x1p-44 * farthest_coordinate<3>(ground_.bounds()))
     fail_check("node " + name(i) + " is on a surface, but " + rounded_text(gap) +
                " away from the next one");
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/limits.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
 
@@ -37,13 +38,6 @@ FacetIndex<3> index_sides(const BoundaryMesh<3>& mesh, const Box<3>& bounds) {
   return FacetIndex<3>(std::move(tree), facets);
 }
 
-double farthest_coordinate(const Box<3>& box) {
-  double farthest = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    farthest = std::max({farthest, std::fabs(box.low[k]), std::fabs(box.high[k])});
-  return farthest;
-}
-
 // Is the triangle's plane surely farther from x than that? No is said, too, where rounding matters.
 bool plane_is_beyond(const FacetCorners<3>& triangle, const Point<3>& x, double reach) {
   constexpr double kTiny = 1e-10;  // a square no smaller is right to 1e-9
@@ -70,7 +64,7 @@ SurfaceIndex::SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds)
 NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
   constexpr double kRounding = 1 + 1e-12;  // lest one equally near is missed
   constexpr double kSurely = 1 + 1e-8;
-  const double room = 1e-12 * farthest_coordinate(sides_.tree().cell_box(0));  // for rounding
+  const double room = 1e-12 * farthest_coordinate<3>(sides_.tree().cell_box(0));  // for rounding
   NearestPoint<3> best{reach};
   boxes_.for_near(
       x, [&] { return kRounding * best.gap * best.gap; },
