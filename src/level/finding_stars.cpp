@@ -34,9 +34,7 @@ VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
   };
   const auto on_one_surface = [&level](const std::array<std::int64_t, 4>& corners) {
     std::array<SurfacePlace, 4> places;
-    for (std::size_t k = 0; k < 4; ++k)
-      places[k] = level.ground.place(level.nodes.carrier(corners[k]),
-                                     level.nodes.boundary_node(corners[k]));
+    for (std::size_t k = 0; k < 4; ++k) places[k] = level.ground.place(level.nodes, corners[k]);
     return level.ground.surface().share_patch(places);
   };
   return {
@@ -65,9 +63,7 @@ SurfaceStarInput surface_star_input(const Level<3>& level, const KnownRegion<3>&
           known,
           level.ground.surface(),
           level.ground.features(),
-          [&level](std::int64_t i) {
-            return level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i));
-          }};
+          [&level](std::int64_t i) { return level.ground.place(level.nodes, i); }};
 }
 
 template <int Dim>

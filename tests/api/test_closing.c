@@ -73,8 +73,8 @@ static int64_t open_edges(const volume* v, int64_t* edges) {
   return wrong;
 }
 
-/* Nodes of the boundary: all that lie on the surface, and no other. Of each, its triangles are one
- * disk: as many as there are edges at it, and joined to each other. */
+/* Nodes of the boundary: all that lie on the surface, and no other. Its triangles are like a
+ * sphere: two at each edge, and the characteristic, which is less where two sheets share a node. */
 static void check_closed(const volume* v) {
   char* on_boundary = calloc((size_t)v->n, 1);
   int64_t i, t, edges, nodes = 0;

@@ -4,8 +4,6 @@
 // surface. With wrong labels its boundary is torn, and settled it is whole.
 #include <algorithm>
 #include <array>
-#include <map>
-#include <numeric>
 #include <vector>
 
 #include "delaunay/volume/element_labels.hpp"

@@ -51,7 +51,7 @@ bool can_go(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes,
   if (above.gap < kOnSurface * longest) return true;
   const std::optional<EdgePair> edges = crossing_edges(x, difference(above.x, middle));
   if (!edges) return false;
-  const auto& [outer, inner] = *edges;
+  const auto& outer = edges->front();
   return !in.joined(nodes[outer[0]], nodes[outer[1]]);
 }
 

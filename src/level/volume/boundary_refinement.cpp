@@ -45,11 +45,8 @@ struct Strays {
 };
 
 bool see_each_other(const Level<3>& level, std::int64_t i, std::int64_t j) {
-  const Nodes<3>& nodes = level.nodes;
-  const auto place = [&](std::int64_t k) {
-    return level.ground.place(nodes.carrier(k), nodes.boundary_node(k));
-  };
-  return level.ground.surface().sees(place(i), place(j));
+  const Ground<3>& ground = level.ground;
+  return ground.surface().sees(ground.place(level.nodes, i), ground.place(level.nodes, j));
 }
 
 // The corner on whose sheet of the surface the ball's middle lies: the first by id that is on one;
@@ -159,7 +156,7 @@ bool is_taken(const Level<3>& level, const GivenNode<3>& middle, double radius) 
     for (std::int64_t i = buckets.begin(b); !taken && i < buckets.end(b); ++i)
       taken = nodes.carrier(i) != Carrier::free &&
               distance<3>(nodes.position(i), middle.position) < kNear * radius &&
-              ground.surface().sees(ground.place(nodes.carrier(i), nodes.boundary_node(i)), at);
+              ground.surface().sees(ground.place(nodes, i), at);
   });
   return taken;
 }

@@ -21,7 +21,7 @@ bool covers(const Level<3>& level, std::int64_t i, const GivenNode<3>& candidate
   if (distance<3>(nodes.position(i), candidate.position) >= gap * nodes.d(i)) return false;
   if (candidate.is_inner() || nodes.carrier(i) == Carrier::free) return candidate.is_inner();
   const Ground<3>& ground = level.ground;
-  return ground.surface().sees(ground.place(nodes.carrier(i), nodes.boundary_node(i)),
+  return ground.surface().sees(ground.place(nodes, i),
                                ground.place(candidate.carrier, candidate.boundary_node));
 }
 

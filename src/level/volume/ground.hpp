@@ -51,6 +51,9 @@ class Ground<3> {
 
   // Where a node on the boundary lies; `on`: its boundary_node, now or at the last event.
   SurfacePlace place(Carrier carrier, std::int32_t on) const;
+  SurfacePlace place(const Nodes<3>& nodes, std::int64_t i) const {
+    return place(nodes.carrier(i), nodes.boundary_node(i));
+  }
   // Is the domain on one side of that facet alone?
   bool bounds_domain(std::int32_t facet) const { return boundary().facets[index(facet)].bounds(); }
   bool patch_bounds_domain(std::int32_t patch) const { return patch_bounds_[index(patch)] != 0; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <vector>
 
 #include "base/union_find.hpp"
@@ -15,20 +16,12 @@
 
 namespace pnpbs {
 
-namespace {
-
-SurfacePlace place_of(const Level<3>& level, std::int64_t i) {
-  return level.ground.place(level.nodes.carrier(i), level.nodes.boundary_node(i));
-}
-
-}  // namespace
-
 std::int64_t disks_of_surfaces(const Level<3>& level, std::int64_t i) {
   const Nodes<3>& nodes = level.nodes;
   if (nodes.carrier(i) == Carrier::free) return 0;
   std::vector<SurfaceSide> sides;
   bool all_bound = true;
-  level.ground.surface().for_sides(place_of(level, i), [&](const SurfaceSide& side) {
+  level.ground.surface().for_sides(level.ground.place(nodes, i), [&](const SurfaceSide& side) {
     sides.push_back(side);
     all_bound = all_bound && level.ground.patch_bounds_domain(side.patch);
   });
@@ -50,7 +43,7 @@ bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>
   std::array<SurfacePlace, 3> places;
   for (std::size_t k = 0; k < 3; ++k) {
     if (level.nodes.carrier(corners[k]) == Carrier::free) return false;
-    places[k] = place_of(level, corners[k]);
+    places[k] = level.ground.place(level.nodes, corners[k]);
   }
   return level.ground.surface().share_patch(places, kFold);
 }

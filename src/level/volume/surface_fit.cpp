@@ -54,10 +54,9 @@ class Fitting {
   }
 
   bool sees(std::int64_t i, std::int64_t j) const {
-    const auto place = [&](std::int64_t node) {
-      return level_.ground.place(nodes_.carrier(node), nodes_.boundary_node(node));
-    };
-    return nodes_.carrier(j) != Carrier::free && level_.ground.surface().sees(place(i), place(j));
+    const Ground<3>& ground = level_.ground;
+    return nodes_.carrier(j) != Carrier::free &&
+           ground.surface().sees(ground.place(nodes_, i), ground.place(nodes_, j));
   }
   bool on_one_surface(std::int64_t i, const FaceSide& side) const {
     return sees(i, side.first) && sees(i, side.second) && sees(side.first, side.second);

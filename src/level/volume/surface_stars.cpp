@@ -34,8 +34,7 @@ StarSide seen_on(const Level<3>& level, std::int64_t i, const SurfaceSide& side,
   StarSide seen{
       side.normal, neighbour_along(level, i, side.begin), neighbour_along(level, i, side.end), {}};
   const auto sees = [&](std::int64_t j) {
-    return all_listed || level.ground.surface().sees(
-                             side, level.ground.place(nodes.carrier(j), nodes.boundary_node(j)));
+    return all_listed || level.ground.surface().sees(side, level.ground.place(nodes, j));
   };
   level.lists().for_neighbours(i, [&](std::int64_t j) {
     if (nodes.carrier(j) != Carrier::free && sees(j))
@@ -51,12 +50,11 @@ std::vector<SurfaceStarEntry> surface_star(const Level<3>& level, std::int64_t i
   const Ground<3>& ground = level.ground;
   std::vector<StarSide> sides;
   bool known = true;
-  ground.surface().for_sides(
-      ground.place(nodes.carrier(i), nodes.boundary_node(i)), [&](const SurfaceSide& side) {
-        if (bounding && !ground.patch_bounds_domain(side.patch)) return;
-        sides.push_back(seen_on(level, i, side, !bounding));
-        known = known && sides.back().first != kNotListed && sides.back().last != kNotListed;
-      });
+  ground.surface().for_sides(ground.place(nodes, i), [&](const SurfaceSide& side) {
+    if (bounding && !ground.patch_bounds_domain(side.patch)) return;
+    sides.push_back(seen_on(level, i, side, !bounding));
+    known = known && sides.back().first != kNotListed && sides.back().last != kNotListed;
+  });
   std::vector<SurfaceStarEntry> star;
   const Joined on_curve = [&](std::int32_t a, std::int32_t b) {
     return joined(ground, nodes, a, b);
