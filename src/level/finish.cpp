@@ -27,11 +27,14 @@ bool prepared_for_finish(const Level<Dim>& level) {
 
 }  // namespace
 
-// From fresh lists.
+// From fresh lists. In space stars cost much: where nothing has moved since, they are there.
 template <int Dim>
 void make_finish_stars(Level<Dim>& level, StarZone zone) {
   if (!prepared_for_finish(level)) prepare_finish(level);
+  const bool of_owned = Dim == 3 && zone.rings == 0 && zone.reach == 0;
+  if (of_owned && level.finish_stars == level.version() && !level.changed_labels.any()) return;
   make_stars(level, kRepairHops<Dim>, level.settings.list_radius, zone);
+  level.finish_stars = of_owned ? level.version() : -1;
 }
 
 template void prepare_finish(Level<2>&);

@@ -58,6 +58,8 @@ struct Level {
   Stars<Dim> stars;
   KeptStarsBefore<Dim> stars_before;
   ChangedLabels changed_labels;  // of elements in space, once they are settled
+  std::int64_t finish_stars =
+      -1;  // version in which the stars are those that finishing begins with
   TimeIntegration<Dim> time_integration;
 
   std::int64_t settings_version = 0, rebalances = 0;
