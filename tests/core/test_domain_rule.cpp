@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which flat tetrahedra below a surface are left out: those without which it has the same nodes and
+// feature edges. Below the top of a cube, four of whose nodes are put where the test wants them.
+#include <memory>
+#include <utility>
+
+#include "delaunay/volume/domain_rule.hpp"
+#include "placement/placement_of.hpp"
+#include "quick_assert.hpp"
+#include "run_kernel_suite.hpp"
+
+using Point3 = pnpbs::Point<3>;
+using pnpbs::Carrier;
+using Placement3 = pnpbs::PlacementOf<3>;
+
+namespace {
+
+using Four = std::array<std::int64_t, 4>;
+using Edge = std::pair<std::int64_t, std::int64_t>;
+
+std::unique_ptr<Placement3> cube() {
+  auto domain = std::make_shared<pnpbs::VolumeDomain>();
+  domain->add_box({0, 0, 0}, {1, 1, 1}, 1);
+  auto placement = std::make_unique<Placement3>(pnpbs::serial_communicator(), std::move(domain),
+                                                pnpbs::Options());
+  placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<3>>(0.25));
+  placement->run();
+  return placement;
+}
+
+// The first four nodes on surfaces, put there.
+Four put(Placement3& placement, const std::array<Point3, 4>& x) {
+  pnpbs::Nodes<3>& nodes = const_cast<pnpbs::Level<3>&>(placement.level()).nodes;
+  Four four{};
+  std::size_t found = 0;
+  for (std::int64_t i = 0; found < 4; ++i) {
+    if (nodes.carrier(i) != Carrier::surface) continue;
+    nodes.set_position(i, x[found]);
+    four[found++] = i;
+  }
+  return four;
+}
+
+// Is it an element if a feature edge goes from corner `first` to corner `second`? (-1: none does.)
+bool is_element(const std::array<Point3, 4>& x, int first = -1, int second = -1) {
+  const std::unique_ptr<Placement3> placement = cube();
+  const Four nodes = put(*placement, x);
+  const pnpbs::Level<3>& level = placement->level();
+  const pnpbs::KnownRegion<3> everywhere;
+  pnpbs::VolumeStarInput input{
+      level.nodes,   level.tree->tree(), level.neighbourhood.buckets(),
+      level.lists(), everywhere,         &level.ground.domain().index().sides()};
+  input.on_one_surface = [](const Four&) { return true; };
+  input.joined = [&](std::int64_t i, std::int64_t j) {
+    if (first < 0) return false;
+    const Edge edge{nodes[static_cast<std::size_t>(first)],
+                    nodes[static_cast<std::size_t>(second)]};
+    return edge == Edge{i, j} || edge == Edge{j, i};
+  };
+  input.nearest = [&](const Point3& at, double reach) {
+    return level.ground.domain().index().nearest(at, reach);
+  };
+  return pnpbs::in_domain(input, nodes);
+}
+
+// Two edges that cross, the second one nearer to the top.
+constexpr std::array<Point3, 4> kCap{
+    {{0.3, 0.5, 0.97}, {0.7, 0.5, 0.97}, {0.5, 0.3, 0.99}, {0.5, 0.7, 0.99}}};
+
+}  // namespace
+
+START_TEST(a_cap_goes) { ck_assert(!is_element(kCap)); }
+END_TEST
+
+START_TEST(one_below_a_feature_edge_stays) {
+  ck_assert(is_element(kCap, 2, 3));
+  ck_assert(!is_element(kCap, 0, 1));  // which becomes the outer edge
+}
+END_TEST
+
+// Its node would be inside the surface without it.
+START_TEST(one_node_below_a_face_stays) {
+  ck_assert(
+      is_element({{{0.3, 0.3, 0.99}, {0.7, 0.3, 0.99}, {0.5, 0.7, 0.99}, {0.5, 0.43, 0.97}}}));
+}
+END_TEST
+
+START_TEST(what_is_not_flat_stays) {
+  ck_assert(is_element({{{0.3, 0.5, 0.7}, {0.7, 0.5, 0.7}, {0.5, 0.3, 0.99}, {0.5, 0.7, 0.99}}}));
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite("domain_rule", {a_cap_goes, one_below_a_feature_edge_stays,
+                                          one_node_below_a_face_stays, what_is_not_flat_stays});
+}
