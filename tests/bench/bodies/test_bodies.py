@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the study of bodies calls whole and torn: cubes cut into tetrahedra by hand, spoilt each in one
+way; and what it says of a program that is silent about it."""
+import itertools
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+from judge import boundary_triangles, judged  # noqa: E402
+from study import cut_to_triangles  # noqa: E402
+
+CELLS = 3
+
+
+def cube(at=(0, 0, 0)):
+    """Corners and tetrahedra of cells, each cut into six (Kuhn's)."""
+    side = CELLS + 1
+    x = np.array(list(itertools.product(range(side), repeat=3)), float) + at
+    tetrahedra = []
+    for cell in itertools.product(range(CELLS), repeat=3):
+        for axes in itertools.permutations(range(3)):
+            corner = np.array(cell)
+            way = [corner.copy()]
+            for axis in axes:
+                corner[axis] += 1
+                way.append(corner.copy())
+            tetrahedra.append([int(np.dot(c, (side * side, side, 1))) for c in way])
+    tetrahedra = np.array(tetrahedra)
+    corners = x[tetrahedra]
+    turned = np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0
+    tetrahedra[turned] = tetrahedra[turned][:, [1, 0, 2, 3]]
+    return x, tetrahedra
+
+
+def surface_of(x, tetrahedra):
+    return x, boundary_triangles(tetrahedra)[0]
+
+
+class Judge(unittest.TestCase):
+    def setUp(self):
+        self.x, self.tetrahedra = cube()
+        self.body = surface_of(self.x, self.tetrahedra)
+
+    def judged(self, x, tetrahedra):
+        return judged(self.body, x, tetrahedra)
+
+    def test_whole(self):
+        found = self.judged(self.x, self.tetrahedra)
+        self.assertTrue(found["whole"], found)
+        self.assertEqual((found["euler"], found["pieces"]), (2, 1))
+        self.assertAlmostEqual(found["least_angle"], 45)
+        self.assertLess(max(found["to_body"], found["from_body"]), 0.2)
+
+    def test_hollow(self):
+        middle = np.abs(self.x[self.tetrahedra].mean(1) - CELLS / 2).max(1).argmin()
+        found = self.judged(self.x, np.delete(self.tetrahedra, middle, 0))
+        self.assertEqual((found["pieces"], found["euler"], found["whole"]), (2, 4, False))
+
+    def test_off_the_surface(self):
+        inside = np.all((self.x[self.tetrahedra].mean(1) > 1), axis=1)
+        found = self.judged(self.x, self.tetrahedra[~inside])
+        self.assertGreater(found["to_body"], 0.5)
+
+    def test_torn(self):
+        for shift, edges, nodes in (((CELLS,) * 3, 0, 1), ((CELLS, CELLS, 0), CELLS, 0)):
+            x, tetrahedra = cube(shift)
+            both = np.concatenate([self.x, x])
+            both, places = np.unique(both, axis=0, return_inverse=True)
+            places = places.reshape(-1)
+            found = self.judged(both, places[np.concatenate([self.tetrahedra,
+                                                             tetrahedra + len(self.x)])])
+            self.assertEqual(found["torn_edges"], edges)
+            self.assertGreaterEqual(found["torn_nodes"], nodes)
+            self.assertFalse(found["whole"])
+
+    def test_isolated(self):
+        found = self.judged(np.concatenate([self.x, [[1.5, 1.5, 1.5]]]), self.tetrahedra)
+        self.assertEqual((found["isolated"], found["whole"]), (1, False))
+
+    def test_turned_over(self):
+        self.tetrahedra[7] = self.tetrahedra[7][[1, 0, 2, 3]]
+        found = self.judged(self.x, self.tetrahedra)
+        self.assertEqual((found["turned_over"], found["whole"]), (1, False))
+
+
+class Polygons(unittest.TestCase):
+    def test_not_convex(self):
+        comb = np.array([[0, 0], [5, 0], [5, 3], [4, 3], [4, 1], [3, 1], [3, 3], [0, 3]], float)
+        zero = np.zeros(len(comb))
+        for x in (np.column_stack([comb, zero]), np.column_stack([comb[:, 1], zero, comb[:, 0]])):
+            triangles = np.array(cut_to_triangles(x, list(range(len(x)))))
+            sides = x[triangles[:, 1:]] - x[triangles[:, :1]]
+            areas = np.cross(sides[:, 0], sides[:, 1]) / 2
+            self.assertEqual(len(triangles), len(x) - 2)
+            self.assertAlmostEqual(np.linalg.norm(areas.sum(0)), 13)
+            self.assertAlmostEqual(np.linalg.norm(areas, axis=1).sum(), 13)
+
+
+class Study(unittest.TestCase):
+    """A program is played that writes the same tetrahedra whatever it is asked for."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        x, triangles = surface_of(*cube())
+        rows = [f"{a} {b} {c}" for a, b, c in x] + [f"3 {a} {b} {c}" for a, b, c in triangles]
+        (self.folder / "cube.off").write_text("\n".join(["OFF", f"{len(x)} {len(triangles)} 0", *rows]))
+
+    def study(self, tetrahedra, status):
+        x, _ = cube()
+        for suffix, rows, head in ((".node", x, f"{len(x)} 3 0 0"), (".ele", tetrahedra + 1,
+                                                                   f"{len(tetrahedra)} 4 0")):
+            lines = [" ".join(str(word) for word in (k + 1, *row)) for k, row in enumerate(rows)]
+            (self.folder / ("made" + suffix)).write_text("\n".join([head, *lines, ""]))
+        program = self.folder / "program"
+        program.write_text(f"""#!/bin/sh
+for word; do
+  case $word in
+    *.node | *.ele) cp "{self.folder}/made.${{word##*.}}" "$word" ;;
+  esac
+done
+exit {status}
+""")
+        program.chmod(0o755)
+        return subprocess.run([sys.executable, "-B", HERE / "study.py", "--program", program,
+                               self.folder / "cube.off"], capture_output=True, text=True)
+
+    def test_whole(self):
+        done = self.study(cube()[1], 0)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("1 bodies: 1 whole, 0 torn", done.stdout)
+
+    def test_silent(self):
+        torn = cube()[1][6:]  # a corner's cell is gone
+        self.assertIn("0 whole, 1 torn, 1 of these without", self.study(torn, 0).stdout)
+        self.assertEqual(self.study(torn, 0).returncode, 1)
+        self.assertEqual(self.study(torn, 6).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
