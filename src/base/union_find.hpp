@@ -12,9 +12,9 @@ namespace pnpbs {
 template <class Index>
 class UnionFind {
  public:
-  explicit UnionFind(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
+  explicit UnionFind(std::size_t count) : parent_(count) { part_all(); }
+  // Each is a set of its own again.
+  void part_all() { std::iota(parent_.begin(), parent_.end(), Index{0}); }
   Index root(Index x) {
     while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
     return x;

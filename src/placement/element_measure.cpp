@@ -112,8 +112,8 @@ class Measuring : public VolumeNodeCheck {
     return 0.5 * area * std::min(kSafe * rise * rise, 1.0);
   }
 
-  // What lies between a border and an edge that follows it, on its either side: beyond the border
-  // the nearest point is on that.
+  // What lies between a border and an edge that follows it: on the surface as far as the border is,
+  // or beyond the border, as far as the surface is.
   double missed_at_feature(const Point<3>& a, const Point<3>& b) const {
     const Point<3> middle = middle_of<3>(a, b);
     const double length = distance<3>(a, b);

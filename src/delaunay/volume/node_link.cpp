@@ -58,10 +58,10 @@ NodeLink::NodeLink(const LabelledNode& node, const std::vector<LabelledTetrahedr
     }
   sort_once(all);
   sort_once(ids);
-  const auto end = [&](std::int64_t id) { return static_cast<std::int32_t>(place_of(ids, id)); };
+  const auto end = [&](std::int64_t id) { return static_cast<std::size_t>(place_of(ids, id)); };
   for (const LinkEdge& edge : all)
     edges_.push_back({{end(edge.ids[0]), end(edge.ids[1])}, edge.along, 0});
-  for (const std::int64_t id : node.joined) joined_.push_back(end(id));
+  for (const std::int64_t id : node.joined) joined_.push_back(place_of(ids, id));
   for (const std::size_t t : around) {
     is_element_.push_back(tetrahedra[t].is_element);
     std::array<std::size_t, 3>& mine = edges_of_.emplace_back();
@@ -72,7 +72,7 @@ NodeLink::NodeLink(const LabelledNode& node, const std::vector<LabelledTetrahedr
     }
   }
   open_at_.resize(ids.size());
-  parent_.resize(ids.size());
+  pieces_ = UnionFind<std::size_t>(ids.size());
   defects_ = counted_defects();
 }
 
@@ -94,38 +94,28 @@ int NodeLink::gain(std::initializer_list<std::size_t> places) {
   return fewer;
 }
 
-std::int32_t NodeLink::root(std::int32_t end) {
-  const auto parent = [&](std::int32_t of) -> std::int32_t& {
-    return parent_[static_cast<std::size_t>(of)];
-  };
-  while (parent(end) != end) end = parent(end) = parent(parent(end));
-  return end;
-}
-
 // Of the open edges, pieces too many or too few, nodes where they branch, feature edges that are
 // not among them, and those that lie along no surface; a node in no element, or with elements all
 // around, has none.
 int NodeLink::counted_defects() {
   constexpr int kNoFace = 4 * kTorn;
   std::ranges::fill(open_at_, 0);
-  for (std::size_t n = 0; n < parent_.size(); ++n) parent_[n] = static_cast<std::int32_t>(n);
+  pieces_.part_all();
   int open = 0, strays = 0, pieces = 0;
   for (const Edge& edge : edges_) {
     if (edge.used != 1) continue;
     ++open;
     strays += !edge.along;
-    for (const std::int32_t end : edge.ends)
-      pieces += open_at_[static_cast<std::size_t>(end)]++ == 0;
-    const std::int32_t a = root(edge.ends[0]), b = root(edge.ends[1]);
-    if (a == b) continue;
-    --pieces;
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    const auto [a, b] = edge.ends;
+    for (const std::size_t end : edge.ends) pieces += open_at_[end]++ == 0;
+    pieces -= pieces_.root(a) != pieces_.root(b);
+    pieces_.join(a, b);
   }
   if (open == 0) return kNoFace;
   int torn = std::abs(pieces - static_cast<int>(disks_));
   for (const std::int32_t ends : open_at_)
     if (ends > 0) torn += ends / 2 - 1;
-  for (const std::int32_t other : joined_)
+  for (const std::int64_t other : joined_)
     torn += other < 0 || open_at_[static_cast<std::size_t>(other)] == 0;
   return kTorn * torn + strays;
 }

@@ -8,6 +8,8 @@
 #include <initializer_list>
 #include <vector>
 
+#include "base/union_find.hpp"
+
 namespace pnpbs {
 
 struct LabelledTetrahedron {
@@ -49,21 +51,21 @@ class NodeLink {
   static constexpr int kTorn = 3;  // where a face that strays counts 1
 
   struct Edge {
-    std::array<std::int32_t, 2> ends;
+    std::array<std::size_t, 2> ends;
     bool along;         // does the face lie along one surface?
     std::int32_t used;  // by so many elements
   };
 
   void flip(std::size_t place);
   int counted_defects();
-  std::int32_t root(std::int32_t end);
 
   std::int64_t disks_;
   std::vector<Edge> edges_;
   std::vector<char> is_element_;                      // of each tetrahedron around the node
   std::vector<std::array<std::size_t, 3>> edges_of_;  // likewise
-  std::vector<std::int32_t> joined_;            // by feature edges; -1: in no tetrahedron here
-  std::vector<std::int32_t> open_at_, parent_;  // of each node of the link
+  std::vector<std::int64_t> joined_;   // by feature edges; -1: in no tetrahedron here
+  std::vector<std::int32_t> open_at_;  // of each node of the link
+  UnionFind<std::size_t> pieces_{0};   // likewise, joined by open edges
   int defects_;
 };
 
