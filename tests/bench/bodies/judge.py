@@ -2,12 +2,17 @@
 """Is the boundary of tetrahedra the surface of a body? By corners and places alone, with no code of the
 library's: whole means a closed surface with two triangles at each edge and one fan of them around each
 node, as many pieces and handles as the body has, and no node in no tetrahedron."""
+import sys
+from pathlib import Path
+
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # outwards, if the volume is positive
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "peers"))
+from evaluate_volume import FACES, boundary_faces, shape  # noqa: E402
+
 SMALL_ANGLE = 20  # degrees
 
 
@@ -22,11 +27,10 @@ def joined(x, triangles):
     return x, np.column_stack([a, b, c])[(a != b) & (b != c) & (a != c)]
 
 
-def boundary_triangles(tetrahedra):
-    """Faces of one tetrahedron alone, and how many faces have more than two."""
-    faces = tetrahedra[:, FACES].reshape(-1, 3)
-    _, first, count = np.unique(np.sort(faces, 1), axis=0, return_index=True, return_counts=True)
-    return faces[first[count == 1]], int((count > 2).sum())
+def crowded_faces(tetrahedra):
+    """How many faces have more than two tetrahedra."""
+    faces = np.sort(tetrahedra[:, FACES].reshape(-1, 3), 1)
+    return int((np.unique(faces, axis=0, return_counts=True)[1] > 2).sum())
 
 
 def pieces(pairs, count):
@@ -60,17 +64,6 @@ def topology(triangles):
             "torn_edges": int((count != 2).sum()), "torn_nodes": int((fans_at(triangles)[nodes] > 1).sum())}
 
 
-def least_angles(x, tetrahedra):
-    """Of each tetrahedron the least angle between two faces, in degrees."""
-    normals = []
-    for face in FACES:
-        a, b, c = corner_points(x, tetrahedra[:, face])
-        normal = np.cross(b - a, c - a)
-        normals.append(normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None])
-    cosines = [-(normals[i] * normals[j]).sum(1) for i in range(4) for j in range(i)]
-    return np.degrees(np.arccos(np.clip(np.max(cosines, 0), -1, 1)))
-
-
 def spread(x, triangles, apart):
     """The corners, and points so far apart on the triangles, about."""
     a, b, c = corner_points(x, triangles)
@@ -85,8 +78,8 @@ def spread(x, triangles, apart):
 def judged(body, x, tetrahedra):
     """`body`: points and triangles of its surface. Distances are in median edges of the boundary."""
     body_x, body_triangles = joined(*body)
-    boundary, crowded_faces = boundary_triangles(tetrahedra)
-    figures = {"nodes": len(x), "tetrahedra": len(tetrahedra), "crowded_faces": crowded_faces,
+    boundary = boundary_faces(tetrahedra)
+    figures = {"nodes": len(x), "tetrahedra": len(tetrahedra), "crowded_faces": crowded_faces(tetrahedra),
                "isolated": len(x) - len(np.unique(tetrahedra)), **topology(boundary)}
     wanted = topology(body_triangles)
     a, b, _ = corner_points(x, boundary)
@@ -94,7 +87,7 @@ def judged(body, x, tetrahedra):
     own, body_points = spread(x, boundary, edge / 10), spread(body_x, body_triangles, edge / 10)
     figures["from_body"] = float(cKDTree(own).query(body_points)[0].max() / edge)
     figures["to_body"] = float(cKDTree(body_points).query(own)[0].max() / edge)
-    angles = least_angles(x, tetrahedra)
+    _, angles = shape(x, tetrahedra)
     figures["least_angle"], figures["small_angles"] = float(angles.min()), int((angles < SMALL_ANGLE).sum())
     corners = x[tetrahedra]
     sides = corners[:, 1:] - corners[:, :1]

@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
-from judge import boundary_triangles, judged  # noqa: E402
+from judge import boundary_faces, judged  # noqa: E402
 from study import cut_to_triangles  # noqa: E402
 
 CELLS = 3
@@ -40,7 +40,7 @@ def cube(at=(0, 0, 0)):
 
 
 def surface_of(x, tetrahedra):
-    return x, boundary_triangles(tetrahedra)[0]
+    return x, boundary_faces(tetrahedra)
 
 
 class Judge(unittest.TestCase):
