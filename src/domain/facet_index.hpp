@@ -29,6 +29,8 @@ class FacetIndex {
   FacetIndex(BackgroundTree<Dim> tree, const FacetCells<Dim>& cells);
 
   const BackgroundTree<Dim>& tree() const { return tree_; }
+  // How far rounding may put a place off, generously.
+  double room() const { return room_; }
   const BoundaryMesh<Dim>& boundary() const { return *boundary_; }
 
   bool leaf_outside(std::int32_t leaf) const {
@@ -83,7 +85,7 @@ class FacetIndex {
   Side side(std::int32_t leaf) const { return side_[index(leaf)]; }
 
   BackgroundTree<Dim> tree_;
-  double room_ = 0;  // for rounding of coordinates
+  double room_ = 0;
   const BoundaryMesh<Dim>* boundary_ = nullptr;
   std::vector<FacetCorners<Dim>> corners_;  // asked far more often than anything else of facets
   FacetBlocks<Dim> blocks_;

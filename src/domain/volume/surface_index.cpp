@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/limits.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/volume/triangles.hpp"
 
@@ -64,12 +63,11 @@ SurfaceIndex::SurfaceIndex(const BoundaryMesh<3>& mesh, const Box<3>& bounds)
 NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
   constexpr double kRounding = 1 + 1e-12;  // lest one equally near is missed
   constexpr double kSurely = 1 + 1e-8;
-  const double room = 1e-12 * farthest_coordinate<3>(sides_.tree().cell_box(0));  // for rounding
   NearestPoint<3> best{reach};
   boxes_.for_near(
       x, [&] { return kRounding * best.gap * best.gap; },
       [&](std::int32_t f) {
-        if (plane_is_beyond(sides_.corners(f), x, kSurely * best.gap + room)) return;
+        if (plane_is_beyond(sides_.corners(f), x, kSurely * best.gap + sides_.room())) return;
         const Point<3> q = nearest_on(sides_.corners(f), x);
         const double gap = distance<3>(q, x);
         if (gap < best.gap || (gap == best.gap && f < best.facet)) best = {gap, f, q};
