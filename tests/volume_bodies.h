@@ -39,6 +39,13 @@ static inline pnpbs_status volume_unit_box(pnpbs_domain domain, const char* data
   return pnpbs_domain_add_box(domain, low, high, 1);
 }
 
+/* The unit box around a thin slot of nothing. */
+static inline pnpbs_status volume_slotted(pnpbs_domain domain, const char* data) {
+  const double low[] = {0.48, 0.3, 0.3}, high[] = {0.52, 0.7, 0.7};
+  const pnpbs_status status = volume_unit_box(domain, data);
+  return status < 0 ? status : pnpbs_domain_add_box(domain, low, high, 2);
+}
+
 static inline pnpbs_status volume_unit_ball(pnpbs_domain domain, const char* data) {
   const double centre[] = {0, 0, 0};
   (void)data;

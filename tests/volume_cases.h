@@ -33,6 +33,7 @@ static const struct volume_case volume_cases[] = {
     {"kleopatra-graded", volume_kleopatra, VOLUME_GRADED(2, 0.08, 100, 0, 0)},
     {"eros", volume_eros, VOLUME_CONSTANT(0.05)},
     {"eros-graded", volume_eros, VOLUME_GRADED(0.018, 0.08, 0, 0.1, 0)},
+    {"slotted", volume_slotted, VOLUME_CONSTANT(0.12)}, /* coarser than the slot is wide */
     {"surface-halves", surface_halves, VOLUME_CONSTANT(0.05)},
     {"surface-terrain", surface_terrain, VOLUME_GRADED(0.02, 0.03, 0.5, 0, 0)},
     {"surface-l-block", surface_l_block, VOLUME_CONSTANT(0.05)},

@@ -702,7 +702,10 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  their boundary is torn or has another Euler characteristic than the domain's, the volume is off
  *  the domain's by more than 0.001 of it and more than boundary faces can cut off, or triangles of
  *  surfaces alone do not join: then there is a warning that says so;
- *  PNPBS_STOPPED. The nodes are valid in all these cases. In space there is a warning, too, where
+ *  PNPBS_STOPPED. The nodes are valid in all these cases. In space, before it would return
+ *  PNPBS_NOT_CONFORMING, d is made smaller around the places where elements are lacking, and the
+ *  run goes on from its nodes, up to `conforming_rounds` times; a warning says what that cost
+ *  (statistic `unresolved_places`), until another spacing is set. There is a warning, too, where
  *  the tetrahedra's boundary does not follow the surfaces (statistic `missing_faces`): see the
  *  option `resolve`. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);

@@ -12,10 +12,11 @@
 
 namespace pnpbs::io {
 
-inline constexpr std::int64_t kCheckpointFormat = 1;
+inline constexpr std::int64_t kCheckpointFormat = 2;
 inline constexpr const char* kVtk = "/VTKHDF";
 inline constexpr const char* kOwn = "/PNPBS";
 inline constexpr const char* kSpacing = "/PNPBS/spacing";
+inline constexpr const char* kHeld = "/PNPBS/held";  // is there where d is held down
 
 // An array of the file, and where its rows are in an array of records: `given` numbers of a record
 // lie at an offset in it, and are followed by zeros in the file.

@@ -25,12 +25,13 @@ inline std::string quoted_checkpoint(const std::string& path) {
 }
 
 // Makes rank 0's numbers everyone's. Collective.
-inline void share(const Communicator& comm, std::vector<std::int64_t>& numbers) {
+template <class Number>
+void share(const Communicator& comm, std::vector<Number>& numbers) {
   Bytes bytes;
-  for (const std::int64_t number : numbers) pack(bytes, number);
+  for (const Number number : numbers) pack(bytes, number);
   comm.broadcast(bytes, 0);
   numbers.clear();
-  for_records<std::int64_t>({bytes}, [&](std::int64_t number) { numbers.push_back(number); });
+  for_records<Number>({bytes}, [&](Number number) { numbers.push_back(number); });
 }
 
 // Rows of a file in pieces: visit(first row, rows) of `rows`, of that many bytes each.

@@ -86,6 +86,7 @@ class CheckpointReader {
     share_state();
     share(comm_, places_);
     share(comm_, patch_sizes_);
+    share(comm_, state_.held);
     explained([&] { placement_.require_same_as(state_); });
     std::vector<SavedNode<Dim>> nodes;
     Patch<Dim> patch;
@@ -96,7 +97,8 @@ class CheckpointReader {
     });
     std::uint64_t checksum = 0;
     for (const SavedNode<Dim>& node : nodes) checksum += checksum_of(node);
-    const bool same = comm_.allreduce_sum(checksum) == state_.checksum;
+    const bool same =
+        comm_.allreduce_sum(checksum) + pnpbs::checksum_of(state_.held) == state_.checksum;
     const bool same_patch =
         !state_.spacing_saved || comm_.allreduce_sum(checksum_of(patch)) == patch_checksum_;
     if (!same || !same_patch) refuse("its numbers do not have their checksum");
@@ -143,7 +145,17 @@ class CheckpointReader {
     if (state_.nodes <= 0) refuse("it has no nodes");
     for (const Column& column : node_columns<Dim>(state_.nodes))
       places_.push_back(file.place_of(column.array));
+    read_held(file);
     if (state_.spacing_saved) read_patch_layout(file);
+  }
+
+  void read_held(const hdf5::OldFile& file) {
+    if (!file.has(kHeld)) return;
+    const std::int64_t n = file.rows_of(kHeld);
+    const std::int64_t place = file.place_of({kHeld, hdf5::Type::real, n});
+    state_.held.resize(static_cast<std::size_t>(n));
+    InputFile(path_, quoted_checkpoint(path_))
+        .read_at(place, reinterpret_cast<char*>(state_.held.data()), 8 * n);
   }
 
   void read_patch_layout(const hdf5::OldFile& file) {

@@ -134,6 +134,7 @@ class CheckpointWriter {
     file.set(kOwn, "written_by", std::string("PNPBS ") + PNPBS_PROJECT_VERSION);
     for_fields(saved_.state,
                [&](const char* field, const auto& value) { set(file, field, value); });
+    if (!saved_.state.held.empty()) file.add_reals(kHeld, saved_.state.held);
     if (!saved_.state.spacing_saved) return;
     file.add_group(kSpacing);
     set(file, "spacing_checksum", patch_checksum_);

@@ -161,16 +161,29 @@ std::int64_t NewFile::add(const Array& array) {
   return static_cast<std::int64_t>(place);
 }
 
-void NewFile::add(const std::string& path, const std::vector<std::int64_t>& values) {
+namespace {
+
+template <class Number>
+void add_numbers(hid_t file, const std::string& name, const std::string& path, Type given,
+                 const std::vector<Number>& values) {
   const Use use;
-  const std::string failure = cannot_write(name_);
+  const std::string failure = cannot_write(name);
   const hsize_t size = values.size();
-  const hid_t type = type_of(use, Type::int64);
+  const hid_t type = type_of(use, given);
   const Owned space(use->H5Screate_simple(1, &size, nullptr), use->H5Sclose, failure);
   const Creation how(use, use->dataset_creation, failure);
-  const Owned made(use->H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT),
+  const Owned made(use->H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT),
                    use->H5Dclose, failure);
   require(use->H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), failure);
+}
+
+}  // namespace
+
+void NewFile::add(const std::string& path, const std::vector<std::int64_t>& values) {
+  add_numbers(file_, name_, path, Type::int64, values);
+}
+void NewFile::add_reals(const std::string& path, const std::vector<double>& values) {
+  add_numbers(file_, name_, path, Type::real, values);
 }
 
 // ------------------------------------------------------------------ reading --------------------
@@ -331,6 +344,7 @@ void NewFile::set(const std::string&, const std::string&, const std::vector<std:
 }
 std::int64_t NewFile::add(const Array&) { fail(); }
 void NewFile::add(const std::string&, const std::vector<std::int64_t>&) { fail(); }
+void NewFile::add_reals(const std::string&, const std::vector<double>&) { fail(); }
 void NewFile::close() { fail(); }
 OldFile::OldFile(const std::string&, const std::string&) { fail(); }
 OldFile::~OldFile() = default;

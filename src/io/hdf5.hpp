@@ -53,6 +53,7 @@ class NewFile {
   // Room for an array; returns where in the file it begins, of one without rows 0.
   std::int64_t add(const Array& array);
   void add(const std::string& path, const std::vector<std::int64_t>& values);
+  void add_reals(const std::string& path, const std::vector<double>& values);
   void close();
 
  private:

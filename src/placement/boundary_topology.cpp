@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "level/volume/open_faces.hpp"
 #include "level/volume/settled_elements.hpp"
@@ -39,9 +38,16 @@ std::int64_t euler_of_surfaces(const BoundaryMesh<3>& mesh, const Features& feat
   return euler_of({distinct(vertices), distinct(edges), triangles});
 }
 
+bool leaves_surfaces(const Level<3>& level, std::int64_t i, const FaceFan& fan) {
+  return std::ranges::any_of(fan, [&](const FaceSide& side) {
+    return !lies_along_surface(level, {i, side.first, side.second});
+  });
+}
+
 }  // namespace
 
-BoundaryTopology boundary_topology(const PlacementOf<3>& placement) {
+BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<Point<3>>& torn,
+                                   std::vector<Point<3>>& bridged) {
   const Level<3>& level = placement.level();
   const Nodes<3>& nodes = level.nodes;
   BoundaryTopology result;
@@ -51,8 +57,13 @@ BoundaryTopology boundary_topology(const PlacementOf<3>& placement) {
     const FaceFan fan = open_faces(level, i);
     const bool is_free = nodes.carrier(i) == Carrier::free;
     const std::int64_t disks = disks_of_surfaces(level, i);
-    const bool torn = is_free ? !fan.empty() : disks > 0 && disks_of(fan) != disks;
-    result.torn.add(torn, nodes.id(i), nodes.position(i));
+    const bool torn_here = is_free ? !fan.empty() : disks > 0 && disks_of(fan) != disks;
+    result.torn.add(torn_here, nodes.id(i), nodes.position(i));
+    if (torn_here) {
+      torn.push_back(nodes.position(i));
+      level.stars.for_neighbours(i, [&](std::int64_t j) { torn.push_back(nodes.position(j)); });
+    }
+    if (leaves_surfaces(level, i, fan)) bridged.push_back(nodes.position(i));
     vertices += !fan.empty();
     corners += std::ssize(fan);
   }

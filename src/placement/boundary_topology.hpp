@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "level/found_nodes.hpp"
 #include "placement/placement_of.hpp"
@@ -20,7 +21,9 @@ struct BoundaryTopology {
   bool agrees() const { return torn.count == 0 && euler == euler_of_domain; }
 };
 
-// Of a body, after prepare_stars. Collective.
-BoundaryTopology boundary_topology(const PlacementOf<3>& placement);
+// Of a body, after prepare_stars. This rank's nodes where it is torn are added to `torn`, and those
+// with faces that do not lie along the surfaces to `bridged`. Collective.
+BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<Point<3>>& torn,
+                                   std::vector<Point<3>>& bridged);
 
 }  // namespace pnpbs

@@ -22,20 +22,24 @@ bool in_no_element(const Level<3>& level, std::int64_t i) {
   return none;
 }
 
-FoundNodes<2> unmatched_edges(const PlacementOf<2>&) { return {}; }
-FoundNodes<3> unmatched_edges(const PlacementOf<3>& placement) {
+FoundNodes<2> unmatched_edges(const PlacementOf<2>&, std::vector<Point<2>>&) { return {}; }
+FoundNodes<3> unmatched_edges(const PlacementOf<3>& placement, std::vector<Point<3>>& places) {
   FoundNodes<3> found;
   if (!placement.surfaces_alone()) return found;
-  for_unmatched_edges(placement, [&](const SurfaceEdge& edge) { found.add(1, edge.low, edge.at); });
+  for_unmatched_edges(placement, [&](const SurfaceEdge& edge) {
+    found.add(1, edge.low, edge.at);
+    places.push_back(edge.at);
+  });
   return over_ranks(placement.communicator(), found);
 }
 
 ElementMeasure measure_in(const PlacementOf<2>&) { return {}; }
 ElementMeasure measure_in(const PlacementOf<3>& placement) { return measure_if_far_off(placement); }
 
-BoundaryTopology topology_of(const PlacementOf<2>&) { return {}; }
-BoundaryTopology topology_of(const PlacementOf<3>& placement) {
-  return placement.surfaces_alone() ? BoundaryTopology{} : boundary_topology(placement);
+BoundaryTopology topology_of(const PlacementOf<2>&, Conformity<2>&) { return {}; }
+BoundaryTopology topology_of(const PlacementOf<3>& placement, Conformity<3>& result) {
+  return placement.surfaces_alone() ? BoundaryTopology{}
+                                    : boundary_topology(placement, result.torn, result.bridged);
 }
 
 const char* elements_of(const PlacementOf<2>&) { return "triangle"; }
@@ -55,15 +59,17 @@ Conformity<Dim> conformity_of(const PlacementOf<Dim>& placement) {
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!nodes.owned(i)) continue;
     ++result.nodes;
-    if (in_no_element(level, i)) isolated.add(1, nodes.id(i), nodes.position(i));
+    if (!in_no_element(level, i)) continue;
+    isolated.add(1, nodes.id(i), nodes.position(i));
+    result.torn.push_back(nodes.position(i));
   }
   result.nodes =
       static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(result.nodes)));
   result.isolated = over_ranks(comm, isolated);
   agreed(comm, [&] {
-    result.unmatched = unmatched_edges(placement);
+    result.unmatched = unmatched_edges(placement, result.torn);
     result.measure = measure_in(placement);
-    result.boundary = topology_of(placement);
+    result.boundary = topology_of(placement, result);
   });
   return result;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "level/found_nodes.hpp"
 #include "placement/boundary_topology.hpp"
@@ -20,6 +21,10 @@ struct Conformity {
                               // meet there; found at the end that has the lesser id
   ElementMeasure measure;     // in space, if what the elements fill may be far off
   BoundaryTopology boundary;  // of bodies
+  // This rank's places where elements are lacking: nodes in none, edges that do not join, and where
+  // the boundary is torn. And those where it goes from one sheet of the surfaces to another, which
+  // may be right where they are rough.
+  std::vector<Point<Dim>> torn, bridged;
 
   bool any_elements() const { return isolated.count < nodes; }
   bool fills() const {

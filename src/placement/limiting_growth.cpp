@@ -9,8 +9,9 @@
 #include "base/point_text.hpp"
 #include "placement/placement_of.hpp"
 #include "spacing/growth_limit.hpp"
+#include "spacing/held_spacing.hpp"
 #include "spacing/multiplied_spacing.hpp"
-#include "spacing/resolved_spacing.hpp"
+#include "spacing/resolving_sources.hpp"
 
 namespace pnpbs {
 
@@ -68,8 +69,8 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::bounded(
     if constexpr (Dim == 3) {
       const double growth = settings.growth_limit > 0 ? settings.growth_limit : kMaxFollowed;
       if (settings.resolve)
-        spacing = std::make_shared<ResolvedSpacing>(std::move(spacing), *domain_, growth,
-                                                    settings.node_limit());
+        spacing = std::make_shared<HeldSpacing<3>>(
+            spacing, resolving_sources(*spacing, *domain_, settings.node_limit()), growth);
     }
   });
   return spacing;

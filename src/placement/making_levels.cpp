@@ -81,12 +81,12 @@ std::unique_ptr<Level<Dim>> PlacementOf<Dim>::empty_level(
 // A level without nodes for the present spacing, whose growth is limited where the user wants it so
 // or, by how steep it is, where nodes could not follow it.
 template <int Dim>
-std::unique_ptr<Level<Dim>> PlacementOf<Dim>::level_to_place(
-    const Settings& settings, std::shared_ptr<const Spacing<Dim>>& spacing,
-    SteepestGrowth<Dim>& steepest) {
+std::unique_ptr<Level<Dim>> PlacementOf<Dim>::level_to_place(const Settings& settings,
+                                                             PlacedSpacing<Dim>& placed) {
+  auto& [spacing, steepest] = placed;
   spacing = spacing_to_place(settings);
   if (settings.user_limits_growth()) spacing = growth_limited(std::move(spacing), settings);
-  std::unique_ptr<Level<Dim>> next = empty_level(spacing, settings);
+  std::unique_ptr<Level<Dim>> next = empty_level(held(spacing, settings), settings);
   if (!settings.user_limits_growth()) {
     const PhaseTimer timer(timers_, Phase::spacing);
     steepest = steepest_growth<Dim>(
@@ -96,25 +96,31 @@ std::unique_ptr<Level<Dim>> PlacementOf<Dim>::level_to_place(
   if (too_steep(steepest) && settings.growth_limit > 0) {
     next.reset();
     spacing = growth_limited(std::move(spacing), settings);
-    next = empty_level(spacing, settings);
+    next = empty_level(held(spacing, settings), settings);
   }
   settings.node_limit().require_memory_for(expected_nodes(*next));
   return next;
 }
 
-// Lays the boundary at the present spacing and puts in the inner nodes: those of the level before,
-// refined where it was coarser, those given, those that coarser levels lead to, or a fill.
 template <int Dim>
 Outcome PlacementOf<Dim>::make_level() {
   const Settings settings = settings_for_new_level();
-  std::shared_ptr<const Spacing<Dim>> spacing;
-  SteepestGrowth<Dim> steepest;  // none where the user limits it
-  std::unique_ptr<Level<Dim>> next = level_to_place(settings, spacing, steepest);
+  PlacedSpacing<Dim> placed;
+  std::unique_ptr<Level<Dim>> next = level_to_place(settings, placed);
+  return begin_on(std::move(next), std::move(placed), settings);
+}
+
+// Puts nodes on a level that has none: those of the level before, refined where it was coarser,
+// those given, those that coarser levels lead to, or a fill. It is the level there is from then on.
+template <int Dim>
+Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpacing<Dim> placed,
+                                   const Settings& settings) {
+  const std::shared_ptr<const Spacing<Dim>> spacing = held(placed.d, settings);
   const bool taken_over = level_ || start_from_given_;
   TakenNodes taken;
   std::int64_t inserted = 0;
   Outcome outcome = Outcome::converged;
-  coarser_levels_ = 0;
+  if (held_.rounds == 0) coarser_levels_ = 0;
   filled_level_ = 0;
   if (surfaces_alone()) {
     if constexpr (Dim == 3) taken = begin_on_surfaces(*next, spacing, settings, outcome);
@@ -146,7 +152,8 @@ Outcome PlacementOf<Dim>::make_level() {
   dropped_ = taken.left_out;
   inserted_ += inserted;
   deleted_ += taken.thinned;
-  gather_warnings(steepest);
+  gather_warnings(placed.steepest);
+  placed_ = std::move(placed);
   spacing_replaced_ = false;
   begin_schedule(filled_level_ > 0);
   schedule_.taken_over = taken_over || outcome == Outcome::stopped;

@@ -10,8 +10,9 @@ namespace pnpbs {
 template <>
 void PlacementOf<3>::measure_finish() {
   prepare_stars();
+  const View<char> held = held_nodes();  // there d is not the user's
   agreed(*comm_,
-         [this] { edge_bands_ = measure_edge_bands<3>(*comm_, level_->nodes, level_->stars); });
+         [&] { edge_bands_ = measure_edge_bands<3>(*comm_, level_->nodes, level_->stars, held); });
   unknown_uses_ = static_cast<std::int64_t>(
       comm_->allreduce_sum(static_cast<std::uint64_t>(level_->unknown_uses)));
   if (unknown_uses_ > 0)
@@ -32,6 +33,14 @@ bool PlacementOf<3>::elements_conform() {
   const Conformity<3> conformity = conformity_of(*this);
   const std::string text = text_of(conformity, *this);
   if (!text.empty()) warnings_.push_back(text);
+  unresolved_.clear();
+  if (!conformity.any_elements()) return false;  // d means another body
+  using Places = std::vector<Point<3>>;
+  for (const Places* places : std::initializer_list<const Places*>{
+           &conformity.torn, &conformity.bridged, &surface_fit_.places}) {
+    unresolved_ = *places;
+    if (comm_->allreduce_sum(places->size()) > 0) break;
+  }
   return conformity.holds();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <limits>
 #include <new>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
@@ -23,6 +25,7 @@ template <int Dim>
 void PlacementOf<Dim>::set_spacing(std::shared_ptr<const Spacing<Dim>> spacing) {
   spacing_ = std::move(spacing);
   spacing_replaced_ = true;
+  held_ = {};
 }
 
 template <int Dim>
@@ -40,12 +43,14 @@ Outcome PlacementOf<Dim>::initialise() {
   std::unique_ptr<Level<Dim>> before = std::move(level_);
   const Schedule schedule = schedule_;
   const int coarser_levels = coarser_levels_;
+  const Held<Dim> held = std::exchange(held_, {});
   try {
     return knowing_finer_places([this] { return make_level(); });
   } catch (...) {
     level_ = std::move(before);
     schedule_ = schedule;
     coarser_levels_ = coarser_levels;
+    held_ = held;
     forget_results();
     throw;
   }
@@ -98,8 +103,9 @@ void PlacementOf<3>::remember(const FinerPlaces& found) {
     const auto inside = [&](const Point<3>& x) {
       return domain_->filled() && domain_->index().inside(x);
     };
-    set_spacing(std::make_shared<SpacingWithPlaces<3>>(spacing_,
-                                                       finer_region(found.places(), raw, inside)));
+    spacing_ =
+        std::make_shared<SpacingWithPlaces<3>>(spacing_, finer_region(found.places(), raw, inside));
+    spacing_replaced_ = true;
   });
 }
 
@@ -121,16 +127,35 @@ Outcome PlacementOf<Dim>::run() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   return taking_steps([this] {
-    warnings_.resize(warnings_of_level_);
-    const Outcome outcome =
-        advance(level_->settings.steps, {schedule_.refined ? kCoarseShare : 0, kStepsShare});
-    schedule_.ended = true;
+    Outcome outcome = steps_and_finish();
+    while (outcome == Outcome::not_conforming && hold_spacing()) outcome = steps_and_finish();
     if (outcome == Outcome::stopped) return outcome;
-    if (finish() == Outcome::stopped) return Outcome::stopped;
-    warn_of_surface_fit();
-    const bool conforms = elements_conform(), missed = spacing_missed();
-    return !conforms ? Outcome::not_conforming : missed ? Outcome::spacing_missed : outcome;
+    warn_of_held_spacing();
+    monitor_stops(1.0);
+    return outcome;
   });
+}
+
+// Of a run's work, the part that its steps are: what has been done is not told again.
+template <int Dim>
+ProgressPart PlacementOf<Dim>::part_of_steps() const {
+  const double done = 1 - (1 - kStepsShare) * std::ldexp(1.0, static_cast<int>(1 - held_.rounds));
+  const double next = 1 - (1 - kStepsShare) * std::ldexp(1.0, static_cast<int>(-held_.rounds));
+  if (held_.rounds > 0) return {done, next};
+  return {schedule_.refined ? kCoarseShare : 0, kStepsShare};
+}
+
+// Ends with whether the elements are such as can be used.
+template <int Dim>
+Outcome PlacementOf<Dim>::steps_and_finish() {
+  warnings_.resize(warnings_of_level_);
+  const Outcome outcome = advance(level_->settings.steps, part_of_steps());
+  schedule_.ended = true;
+  if (outcome == Outcome::stopped) return outcome;
+  if (finish() == Outcome::stopped) return Outcome::stopped;
+  warn_of_surface_fit();
+  const bool conforms = elements_conform(), missed = spacing_missed();
+  return !conforms ? Outcome::not_conforming : missed ? Outcome::spacing_missed : outcome;
 }
 
 template <int Dim>

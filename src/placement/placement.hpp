@@ -147,6 +147,7 @@ class Placement {
   std::int64_t dropped() const { return dropped_; }
   std::int64_t unknown_uses() const { return unknown_uses_; }
   std::int64_t missing_faces() const { return surface_fit_.missing_faces; }
+  virtual std::int64_t unresolved_places() const = 0;
   StopReason stop_reason() const { return stop_reason_; }
   // Has a run come to its end, and no step been done since?
   bool finished() const {

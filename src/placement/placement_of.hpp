@@ -40,6 +40,22 @@ struct Saved {
   }
 };
 
+// Where the spacing is held down, since there the elements of an earlier round did not fill the
+// domain.
+template <int Dim>
+struct Held {
+  std::vector<GrowthSource<Dim>> places;
+  std::int64_t rounds = 0, nodes_before = 0;  // after the round before the first of these
+};
+
+// The spacing as it counts, but for where it is held down, and how steep it is where the user sets
+// no limit.
+template <int Dim>
+struct PlacedSpacing {
+  std::shared_ptr<const Spacing<Dim>> d;
+  SteepestGrowth<Dim> steepest;
+};
+
 template <int Dim>
 class PlacementOf : public Placement {
  public:
@@ -129,6 +145,7 @@ class PlacementOf : public Placement {
   std::int64_t rebalances() const override {
     return rebalances_before_ + (level_ ? level_->rebalances : 0);
   }
+  std::int64_t unresolved_places() const override { return std::ssize(held_.places); }
   Speeds speeds() const override { return level_ ? speeds_of(*level_) : Speeds{}; }
   LevelFigures level_figures() const override;
   std::int64_t boundary_nodes() const override;
@@ -152,9 +169,9 @@ class PlacementOf : public Placement {
   std::int64_t node_version() const override { return level_ ? level_->version() : -1; }
   Outcome prepare_level();
   Outcome make_level();
-  std::unique_ptr<Level<Dim>> level_to_place(const Settings& settings,
-                                             std::shared_ptr<const Spacing<Dim>>& spacing,
-                                             SteepestGrowth<Dim>& steepest);
+  std::unique_ptr<Level<Dim>> level_to_place(const Settings& settings, PlacedSpacing<Dim>& placed);
+  Outcome begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpacing<Dim> placed,
+                   const Settings& settings);
   void require_savable() const;
   void adopt_state(const SavedState& saved);
   Settings present_settings() const;
@@ -165,6 +182,12 @@ class PlacementOf : public Placement {
   std::shared_ptr<const Spacing<Dim>> growth_limited(std::shared_ptr<const Spacing<Dim>> spacing,
                                                      const Settings& settings,
                                                      const std::function<void()>& beat) const;
+  std::shared_ptr<const Spacing<Dim>> held(std::shared_ptr<const Spacing<Dim>> spacing,
+                                           const Settings& settings) const;
+  View<char> held_nodes() const;
+  void hold_unresolved_places();
+  bool hold_spacing();
+  void warn_of_held_spacing();
   void warn_of_coarse_spacing();  // in space
   void warn_of_partial_extent();
   static bool too_steep(const SteepestGrowth<Dim>& steepest);
@@ -219,6 +242,8 @@ class PlacementOf : public Placement {
   void fill(Level<Dim>& level, LaidNodes<Dim> laid);
   void repair_defects();
   Outcome finish();
+  Outcome steps_and_finish();
+  ProgressPart part_of_steps() const;
   template <class Stops>
   Outcome smooth(const Stops& stops);
   void measure_finish();    // in space
@@ -231,7 +256,10 @@ class PlacementOf : public Placement {
   int filled_level_ = 0;   // coarser levels whose inside was filled, the first of them by a lattice
   bool start_from_given_ = false;
   bool spacing_replaced_ = false;  // since the level was made
-  Options level_options_;          // with which it was
+  PlacedSpacing<Dim> placed_;      // with which it was
+  Held<Dim> held_;
+  std::vector<Point<Dim>> unresolved_;  // by the last finish, this rank's places
+  Options level_options_;               // with which it was
 };
 
 template <int Dim>

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/mixed_hash.hpp"
 #include "partition/packed_node.hpp"
@@ -20,11 +21,13 @@ struct SavedState {
                population_settled = 0, quiet_events = 0, at_event = 0;
   std::int64_t coarser_levels = 0, steps_done = 0, inserted = 0, deleted = 0, dropped = 0,
                rebuilds = 0, rebalances = 0, stop_reason = 0, missing_faces = 0, spacing_saved = 0;
+  std::int64_t held_rounds = 0, nodes_before_held = 0;
   double max_speed = 0, mean_speed = 0, meeting_radius = 0;
   std::uint64_t domain_fingerprint = 0;
-  std::uint64_t checksum = 0;  // of the nodes, whatever their order
+  std::uint64_t checksum = 0;  // of the nodes, whatever their order, and of `held`
   std::string options;         // those that decide, "name = value" in lines
   std::string warnings;        // of the last run, in lines
+  std::vector<double> held;    // no field: places where d is held down, each followed by d there
 };
 
 // Calls visit(name, field) for each field: a number is an int64, a double or a fingerprint.
@@ -52,6 +55,8 @@ void for_fields(State& state, const Visit& visit) {
   visit("stop_reason", state.stop_reason);
   visit("missing_faces", state.missing_faces);
   visit("spacing_saved", state.spacing_saved);
+  visit("held_rounds", state.held_rounds);
+  visit("nodes_before_held", state.nodes_before_held);
   visit("max_speed", state.max_speed);
   visit("mean_speed", state.mean_speed);
   visit("meeting_radius", state.meeting_radius);
@@ -59,6 +64,12 @@ void for_fields(State& state, const Visit& visit) {
   visit("checksum", state.checksum);
   visit("options", state.options);
   visit("warnings", state.warnings);
+}
+
+inline std::uint64_t checksum_of(const std::vector<double>& numbers) {
+  std::uint64_t h = mixed(numbers.size());
+  for (const double number : numbers) h = mixed_with(h, number);
+  return h;
 }
 
 template <int Dim>

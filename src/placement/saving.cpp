@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
@@ -34,9 +35,10 @@ void require_possible(const SavedState& s) {
                      is_flag(s.spacing_saved);
   const bool counts = s.nodes > 0 && count(s.next_id) && count(s.step) && count(s.steps_done) &&
                       count(s.inserted) && count(s.deleted) && count(s.dropped) &&
-                      count(s.rebuilds) && count(s.rebalances) && count(s.missing_faces) &&
-                      count(s.quiet_events) && s.quiet_events < 1 << 30 &&
-                      count(s.coarser_levels) && s.coarser_levels < 1 << 10;
+                      count(s.held_rounds) && count(s.nodes_before_held) && count(s.rebuilds) &&
+                      count(s.rebalances) && count(s.missing_faces) && count(s.quiet_events) &&
+                      s.quiet_events < 1 << 30 && count(s.coarser_levels) &&
+                      s.coarser_levels < 1 << 10;
   const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
                       (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
                      s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
@@ -162,6 +164,24 @@ void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<D
   });
 }
 
+template <int Dim>
+Held<Dim> held_in(const SavedState& state) {
+  constexpr std::size_t kRow = Dim + 1;
+  if (state.held.size() % kRow != 0)
+    damaged("a place where d is held down is cut off: it is damaged");
+  Held<Dim> held{{}, state.held_rounds, state.nodes_before_held};
+  for (std::size_t k = 0; k < state.held.size(); k += kRow) {
+    GrowthSource<Dim> place;
+    std::copy_n(state.held.begin() + static_cast<std::ptrdiff_t>(k), Dim, place.x.begin());
+    place.d = state.held[k + Dim];
+    if (!is_usable(place.x) || !(place.d > 0) || !is_usable(place.d))
+      damaged("d is held down to " + number_text(place.d) + " at " + point_text(place.x) +
+              ": it is damaged");
+    held.places.push_back(place);
+  }
+  return held;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -224,8 +244,14 @@ Saved<Dim> PlacementOf<Dim>::saved() {
   s.max_speed = last_speeds_.max;
   s.mean_speed = last_speeds_.mean;
   s.meeting_radius = meeting_radius(level_->settings);
+  s.held_rounds = held_.rounds;
+  s.nodes_before_held = held_.nodes_before;
+  for (const GrowthSource<Dim>& place : held_.places) {
+    s.held.insert(s.held.end(), place.x.begin(), place.x.end());
+    s.held.push_back(place.d);
+  }
   s.domain_fingerprint = fingerprint_of(level_->ground.domain());
-  s.checksum = comm_->allreduce_sum(checksum);
+  s.checksum = comm_->allreduce_sum(checksum) + checksum_of(s.held);
   return saved;
 }
 
@@ -250,13 +276,13 @@ void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Di
   const PhaseTimer timer(timers_, Phase::total);
   require_same_as(state);
   const std::shared_ptr<const Spacing<Dim>> before = spacing_;
+  const Held<Dim> held_before = std::exchange(held_, held_in<Dim>(state));
   try {
     if (state.spacing_saved)
       spacing_ = std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch));
     const Settings settings = settings_for_new_level();
-    std::shared_ptr<const Spacing<Dim>> spacing;
-    SteepestGrowth<Dim> steepest;
-    std::unique_ptr<Level<Dim>> next = level_to_place(settings, spacing, steepest);
+    PlacedSpacing<Dim> placed;
+    std::unique_ptr<Level<Dim>> next = level_to_place(settings, placed);
     put_saved_nodes(*next, state, nodes);
     require_same_spacing(*next, nodes);
     require_same_boundary(*next, nodes);
@@ -264,9 +290,11 @@ void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Di
     if (state.meeting_radius != meeting_radius(settings)) next->nodes.set_reference_positions();
     exchange(*next, kStarHops<Dim>);
     adopt_level(std::move(next));
-    gather_warnings(steepest);
+    gather_warnings(placed.steepest);
+    placed_ = std::move(placed);
   } catch (...) {
     spacing_ = before;
+    held_ = held_before;
     throw;
   }
   level_options_ = options_;

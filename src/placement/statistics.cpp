@@ -87,6 +87,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "triangles of the surfaces that the boundary of the last run's tetrahedra lacks, and its "
           "faces that are none of the surfaces"),
       integer(
+          "unresolved_places", [](P p) { return p.unresolved_places(); },
+          "places at which the spacing did not resolve the shape and is held down (option "
+          "conforming_rounds)"),
+      integer(
           "unknown_uses", [](P p) { return p.unknown_uses(); },
           "decisions of the last run that looked at stars which a rank does not know exactly, and "
           "nodes whose adjacency lists could miss a node, or that lie in a leaf of the background "

@@ -175,7 +175,7 @@ template <int Dim>
 Outcome PlacementOf<Dim>::finish() {
   const Settings& settings = level_->settings;
   const auto stops = [this] {
-    if (!monitor_stops_by_clock(kStepsShare)) return false;
+    if (!monitor_stops_by_clock(part_of_steps().end)) return false;
     refresh_spacing(*level_);
     stop_reason_ = StopReason::monitor;
     return true;
@@ -191,7 +191,6 @@ Outcome PlacementOf<Dim>::finish() {
   if (smooth([&] { return stops(); }) == Outcome::stopped) return Outcome::stopped;
   refresh_spacing(*level_);
   if constexpr (Dim == 3) measure_finish();
-  monitor_stops(1.0);
   return Outcome::converged;
 }
 

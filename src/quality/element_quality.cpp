@@ -90,10 +90,11 @@ SpacingBands bands_of_nodes(const Communicator& comm, const Nodes<Dim>& nodes) {
 
 template <int Dim>
 EdgeSums local_edge_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
-                         const SpacingBands& bands) {
+                         const SpacingBands& bands, const View<char>& left_out) {
+  const bool all = left_out.extent(0) == 0;
   return sums_over(
       "pnpbs::edge_sums", nodes.count, EdgeSums(), [&](std::int64_t i, EdgeSums& sums) {
-        if (!nodes.owned(i)) return;
+        if (!nodes.owned(i) || (!all && left_out(i))) return;
         for_edges(nodes, stars, i, [&](std::int64_t j) {
           const double d = 0.5 * (nodes.d(i) + nodes.d(j));
           const double ratio = distance<Dim>(nodes.position(i), nodes.position(j)) / d;
@@ -107,8 +108,8 @@ EdgeSums local_edge_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
 // Over all ranks.
 template <int Dim>
 EdgeSums edge_sums(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars,
-                   const SpacingBands& bands) {
-  EdgeSums sums = local_edge_sums<Dim>(nodes, stars, bands);
+                   const SpacingBands& bands, const View<char>& left_out = {}) {
+  EdgeSums sums = local_edge_sums<Dim>(nodes, stars, bands, left_out);
   std::vector<std::int64_t> values;
   for (const RatioSums& part : sums.of)
     values.insert(values.end(), {part.edges, part.excess, part.squares});
@@ -286,9 +287,9 @@ double irregular_share(const Communicator& comm, const Nodes<Dim>& nodes, const 
 
 template <int Dim>
 std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<Dim>& nodes,
-                                         const Stars<Dim>& stars) {
+                                         const Stars<Dim>& stars, const View<char>& left_out) {
   const SpacingBands bands = bands_of_nodes<Dim>(comm, nodes);
-  return bands_with_edges(bands, edge_sums<Dim>(comm, nodes, stars, bands));
+  return bands_with_edges(bands, edge_sums<Dim>(comm, nodes, stars, bands, left_out));
 }
 
 namespace {
@@ -335,9 +336,9 @@ const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands) {
 }
 
 template std::vector<EdgeBand> measure_edge_bands<2>(const Communicator&, const Nodes<2>&,
-                                                     const Stars<2>&);
+                                                     const Stars<2>&, const View<char>&);
 template std::vector<EdgeBand> measure_edge_bands<3>(const Communicator&, const Nodes<3>&,
-                                                     const Stars<3>&);
+                                                     const Stars<3>&, const View<char>&);
 template ElementQuality measure_elements<2>(const Communicator&, const Nodes<2>&, const Stars<2>&);
 template ElementQuality measure_elements<3>(const Communicator&, const Nodes<3>&, const Stars<3>&);
 

@@ -45,10 +45,11 @@ template <int Dim>
 ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& nodes,
                                 const Stars<Dim>& stars);
 
-// The bands alone, without those that have no edge. Collective.
+// The bands alone, without those that have no edge. An edge belongs to its node with the least id,
+// and counts unless this one is to be left out, if that is told. Collective.
 template <int Dim>
 std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<Dim>& nodes,
-                                         const Stars<Dim>& stars);
+                                         const Stars<Dim>& stars, const View<char>& left_out = {});
 
 // The band in which edges are most off d, by more than 10 % in the mean, of those with enough edges
 // for a mean; nullptr if there is none.

@@ -144,6 +144,53 @@ START_TEST(free_options_may_differ) {
 }
 END_TEST
 
+/* ---------------------------------------------------------------- where d is held down -- */
+
+static job slotted(void) {
+  job it = body_job(volume_slotted);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.12)); /* the slot is 0.04 wide */
+  return it;
+}
+
+static int32_t keep_held_round(double fraction, int64_t step, int64_t nodes, double speed,
+                               void* data) {
+  pnpbs_placement* placement = data;
+  int64_t places;
+  (void)fraction, (void)step, (void)nodes, (void)speed;
+  MUST(pnpbs_placement_get_int64(*placement, "unresolved_places", &places));
+  if (places == 0 || access(path, F_OK) == 0) return 0;
+  return pnpbs_placement_write_checkpoint(*placement, path) == PNPBS_ERROR_STATE ? 0 : 1;
+}
+
+/* A run that is stopped in a round in which d is held down goes on with the same bits elsewhere. */
+START_TEST(held_spacing_is_saved) {
+  job whole, stopped, other;
+  if (!with_hdf5()) return;
+  whole = slotted();
+  MUST_COMPUTE(pnpbs_placement_run(whole.placement));
+  stopped = slotted();
+  MUST(pnpbs_placement_set_monitor(stopped.placement, keep_held_round, &stopped.placement));
+  MUST_BE(PNPBS_STOPPED, pnpbs_placement_run(stopped.placement));
+  other = slotted();
+  MUST(pnpbs_placement_read_checkpoint(other.placement, path));
+  ck_assert_int_gt(integer_of(other.placement, "unresolved_places"), 0);
+  MUST_COMPUTE(pnpbs_placement_run(other.placement));
+  ck_assert_str_eq(hash_of(other.placement).text, hash_of(whole.placement).text);
+  ck_assert_int_eq(integer_of(other.placement, "unresolved_places"),
+                   integer_of(whole.placement, "unresolved_places"));
+  job_end(&whole);
+  job_end(&stopped);
+
+  /* At its end, too; and what is held is part of the spacing. */
+  MUST(pnpbs_placement_write_checkpoint(other.placement, path));
+  whole = slotted();
+  MUST(pnpbs_placement_read_checkpoint(whole.placement, path));
+  ck_assert_str_eq(hash_of(other.placement).text, hash_of(whole.placement).text);
+  job_end(&other);
+  job_end(&whole);
+}
+END_TEST
+
 START_TEST(permissions_stay) {
   struct stat status;
   job it;
@@ -167,6 +214,7 @@ int main(void) {
   tcase_add_test(tests, what_cannot_be_written);
   tcase_add_test(tests, another_run_is_told);
   tcase_add_test(tests, free_options_may_differ);
+  tcase_add_test(tests, held_spacing_is_saved);
   tcase_add_test(tests, permissions_stay);
   suite_add_tcase(suite, tests);
   return run_suite(suite);

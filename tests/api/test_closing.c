@@ -105,6 +105,7 @@ END_TEST
 START_TEST(torn_bodies_are_told) {
   job it = rough_job(0.4, 8, 0.3);
   int torn, other;
+  MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
   ck_assert_int_eq(pnpbs_placement_run(it.placement), PNPBS_NOT_CONFORMING);
   torn = warnings_with(it.placement, "the boundary of the tetrahedra is torn at ");
   other = warnings_with(it.placement, "has the Euler characteristic ");
@@ -115,12 +116,26 @@ START_TEST(torn_bodies_are_told) {
 }
 END_TEST
 
+START_TEST(torn_bodies_are_mended) {
+  job it = rough_job(0.4, 8, 0.3);
+  volume v;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_OK);
+  ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
+  v = volume_of(it.placement);
+  check_closed(&v);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
 int main(void) {
   Suite* suite = suite_create("closing");
   TCase* tests = tcase_create("closing");
   tcase_set_timeout(tests, 0);
   tcase_add_loop_test(tests, rough_bodies_close, 0, WHEN_SANITIZED(1, 3));
   tcase_add_test(tests, torn_bodies_are_told);
+  tcase_add_test(tests, torn_bodies_are_mended);
   suite_add_tcase(suite, tests);
   return run_suite(suite);
 }

@@ -4,13 +4,6 @@
  */
 #include "volume_support.h"
 
-/* The unit box around a thin slot of nothing. */
-static pnpbs_status slotted(pnpbs_domain domain, const char* data) {
-  const double low[] = {0.48, 0.3, 0.3}, high[] = {0.52, 0.7, 0.7};
-  const pnpbs_status status = volume_unit_box(domain, data);
-  return status < 0 ? status : pnpbs_domain_add_box(domain, low, high, 2);
-}
-
 static pnpbs_status wedge(pnpbs_domain domain, const char* data) {
   const double angle = acos(-1.0) / 9, c = cos(angle), s = sin(angle);
   const double xyz[6][3] = {{0, 0, 0}, {1, 0, 0}, {c, s, 0}, {0, 0, 1}, {1, 0, 1}, {c, s, 1}};
@@ -19,9 +12,11 @@ static pnpbs_status wedge(pnpbs_domain domain, const char* data) {
   return volume_add_quads(domain, PNPBS_BOUNDARY, 6, xyz[0], 5, sides);
 }
 
+/* With d as it is given, or as the option says. */
 static job run_in(volume_body body, double d, const char* resolve) {
   job it = body_job(body);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
+  MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
   MUST(pnpbs_placement_set(it.placement, "resolve", resolve));
   ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
   return it;
@@ -39,12 +34,12 @@ START_TEST(nothing_is_missing) {
 END_TEST
 
 START_TEST(a_thin_slot) {
-  job it = run_in(slotted, 0.12, "0");
+  job it = run_in(volume_slotted, 0.12, "0");
   ck_assert_int_gt(integer_of(it.placement, "missing_faces"), 0);
   ck_assert_int_eq(warnings_with(it.placement, "does not resolve the shape"), 1);
   MUST_BE(PNPBS_NOT_CONFORMING, pnpbs_placement_check(it.placement));
   job_end(&it);
-  it = run_in(slotted, 0.12, "1");
+  it = run_in(volume_slotted, 0.12, "1");
   ck_assert_int_eq(integer_of(it.placement, "missing_faces"), 0);
   ck_assert_int_eq(warnings_with(it.placement, "does not resolve the shape"), 0);
   check_body(&it, 1e-12);
@@ -64,7 +59,7 @@ END_TEST
 
 /* Set after a run, it makes the level anew. */
 START_TEST(set_later) {
-  job it = run_in(slotted, 0.12, "0");
+  job it = run_in(volume_slotted, 0.12, "0");
   const int64_t before = integer_of(it.placement, "nodes");
   MUST(pnpbs_placement_set(it.placement, "resolve", "1"));
   ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
@@ -72,6 +67,29 @@ START_TEST(set_later) {
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_set(it.placement, "resolve", "2"), "resolve",
             "0 .. 1");
   job_end(&it);
+}
+END_TEST
+
+/* Unless the user wants d as it is, it is held down where the boundary is torn, and only there. */
+START_TEST(held_down_where_torn) {
+  job as_given = run_in(volume_slotted, 0.12, "0"), it = body_job(volume_slotted);
+  MUST_BE(PNPBS_NOT_CONFORMING, pnpbs_placement_check(as_given.placement));
+  ck_assert_int_eq(integer_of(as_given.placement, "unresolved_places"), 0);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.12));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  MUST_BE(PNPBS_OK, pnpbs_placement_check(it.placement));
+  ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "the spacing did not resolve the shape at"), 1);
+  ck_assert_int_lt(integer_of(it.placement, "nodes"), 3 * integer_of(as_given.placement, "nodes"));
+  check_body(&it, 1e-12);
+
+  /* A new spacing is taken as it is, where it resolves the shape. */
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.03));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(integer_of(it.placement, "unresolved_places"), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "did not resolve"), 0);
+  job_end(&it);
+  job_end(&as_given);
 }
 END_TEST
 
@@ -97,6 +115,7 @@ int main(void) {
   tcase_add_test(tests, a_thin_slot);
   tcase_add_test(tests, a_sharp_wedge);
   tcase_add_test(tests, set_later);
+  tcase_add_test(tests, held_down_where_torn);
   tcase_add_test(tests, coarser_than_the_body);
   suite_add_tcase(suite, tests);
   return run_suite(suite);

@@ -41,7 +41,7 @@ void expect_refusal(const std::string& words) {
 }
 
 // Of four nodes, but without any array.
-void add_state(io::hdf5::NewFile& file, std::int64_t nodes = 4, std::int64_t format = 1) {
+void add_state(io::hdf5::NewFile& file, std::int64_t nodes = 4, std::int64_t format = io::kCheckpointFormat) {
   SavedState state;
   state.dimension = 2;
   state.nodes = nodes;
@@ -65,8 +65,8 @@ START_TEST(other_hdf5_files) {
 END_TEST
 
 START_TEST(other_formats) {
-  make_file([](io::hdf5::NewFile& file) { add_state(file, 4, 2); });
-  expect_refusal("format 2, and this PNPBS reads format 1: a newer one reads it");
+  make_file([](io::hdf5::NewFile& file) { add_state(file, 4, 3); });
+  expect_refusal("format 3, and this PNPBS reads format 2: a newer one reads it");
   make_file([](io::hdf5::NewFile& file) { file.add_group(io::kOwn); });
   expect_refusal("\"format\"");
   make_file([](io::hdf5::NewFile& file) {

@@ -26,8 +26,8 @@ compare() { # ranks, threads, options
   fi
 }
 
-for subject in box-graded globe ring-graded two-halves kleopatra-graded adapt given-nodes by-steps \
-  surface-halves surface-terrain; do
+for subject in box-graded globe ring-graded two-halves kleopatra-graded slotted adapt given-nodes \
+  by-steps surface-halves surface-terrain; do
   expected=$(place 1 1 "$subject")
   require_output
   echo "$expected"

@@ -96,15 +96,18 @@ class Fitting {
 SurfaceFit measure_surface_fit(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
   FoundNodes<3> missing;
+  std::vector<Point<3>> places;
   agreed(*level.comm, [&] {
     const Fitting fitting(level);
     for (std::int64_t i = 0; i < nodes.count; ++i) {
       if (!nodes.owned(i) || nodes.carrier(i) == Carrier::free) continue;
-      missing.add(fitting.missing_at(i), nodes.id(i), nodes.position(i));
+      const std::int64_t here = fitting.missing_at(i);
+      missing.add(here, nodes.id(i), nodes.position(i));
+      if (here > 0) places.push_back(nodes.position(i));
     }
   });
   missing = over_ranks(*level.comm, missing);
-  return {missing.count, missing.at};
+  return {missing.count, missing.at, std::move(places)};
 }
 
 }  // namespace pnpbs

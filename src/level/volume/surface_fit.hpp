@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "base/types.hpp"
 
@@ -16,7 +17,8 @@ struct SurfaceFit {
   // Triangles of the surfaces that are no faces of the tetrahedra's boundary, and faces of that
   // which are none of the surfaces.
   std::int64_t missing_faces = 0;
-  Point<3> missing_at{};  // a node of one of them
+  Point<3> missing_at{};         // a node of one of them
+  std::vector<Point<3>> places;  // this rank's nodes of them
 };
 
 // Of the surfaces that bound the domain, over all ranks, by the stars and lists there are. Of two

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spacing/resolved_spacing.hpp"
+#include "spacing/resolving_sources.hpp"
 
 #include <algorithm>
 #include <array>
-#include <utility>
 #include <vector>
 
-#include "base/execution.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/spacing_evaluator.hpp"
 
 namespace pnpbs {
 
@@ -92,10 +89,11 @@ class ShapeToResolve {
   const SurfaceIndex& index_;
 };
 
+}  // namespace
+
 // Pieces are halved until they are not much larger than what d is held to there.
-std::vector<GrowthSource<3>> sources_on_surfaces(const VolumeDomain& domain,
-                                                 const SpacingEvaluator<3>& raw,
-                                                 const NodeLimit& limit) {
+std::vector<GrowthSource<3>> resolving_sources(const Spacing<3>& raw, const VolumeDomain& domain,
+                                               const NodeLimit& limit) {
   constexpr double kPieces = 1.5;  // length of their edges
   const ShapeToResolve shape(domain);
   std::vector<GrowthSource<3>> sources;
@@ -104,7 +102,7 @@ std::vector<GrowthSource<3>> sources_on_surfaces(const VolumeDomain& domain,
     std::vector<double> d(pieces.size());
     std::vector<Point<3>> middles;
     for (const Piece& piece : pieces) middles.push_back(piece.middle());
-    raw(std::ssize(middles), middles.data(), d.data());
+    evaluate_spacing<3>(raw, domain.volume(), std::ssize(middles), middles.data(), d.data());
     std::vector<Piece> next;
     for (std::size_t p = 0; p < pieces.size(); ++p) {
       const double held = shape.held(pieces[p].facet, middles[p], d[p]);
@@ -123,24 +121,6 @@ std::vector<GrowthSource<3>> sources_on_surfaces(const VolumeDomain& domain,
     pieces = std::move(next);
   }
   return sources;
-}
-
-}  // namespace
-
-ResolvedSpacing::ResolvedSpacing(std::shared_ptr<const Spacing<3>> raw, const VolumeDomain& domain,
-                                 double growth, const NodeLimit& limit)
-    : raw_(std::move(raw)),
-      sources_(sources_on_surfaces(
-                   domain,
-                   [&](std::int64_t n, const Point<3>* x, double* d) {
-                     evaluate_spacing<3>(*raw_, domain.volume(), n, x, d);
-                   },
-                   limit),
-               growth) {}
-
-void ResolvedSpacing::evaluate(std::int64_t n, const Point<3>* x, double* d) const {
-  raw_->evaluate(n, x, d);
-  for_each("pnpbs::ResolvedSpacing", n, [&](std::int64_t i) { d[i] = sources_.limit(x[i], d[i]); });
 }
 
 }  // namespace pnpbs

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the elements of a finished run do not fill the domain, or their boundary is torn, d does
+// not resolve the shape: it is held down around these places, and the run goes on from its nodes.
+#include <algorithm>
+
+#include "base/point_text.hpp"
+#include "comm/records.hpp"
+#include "level/expected_nodes.hpp"
+#include "level/node_spacing.hpp"
+#include "placement/placement_of.hpp"
+#include "spacing/held_spacing.hpp"
+#include "spacing/spacing_with_places.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+constexpr double kHeld = 0.5;        // of d at such a place, in one round
+constexpr double kMaxNodes = 4;      // times those of the first round, or ...
+constexpr double kFewNodes = 20000;  // ... so many more: beyond that, d is a mistake
+constexpr double kGrowth = 0.3;      // where the user sets no limit
+
+// Those of all ranks, each once, in one order on all of them. Collective.
+template <int Dim>
+std::vector<Point<Dim>> over_ranks(const Communicator& comm, const std::vector<Point<Dim>>& own) {
+  Bytes mine;
+  for (const Point<Dim>& x : own) pack(mine, x);
+  std::vector<Point<Dim>> all;
+  for_records<Point<Dim>>({comm.allgather(mine)}, [&](const Point<Dim>& x) { all.push_back(x); });
+  std::ranges::sort(all);
+  const auto twice = std::ranges::unique(all);
+  all.erase(twice.begin(), twice.end());
+  return all;
+}
+
+}  // namespace
+
+// The spacing held down at the places there are so far.
+template <int Dim>
+std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::held(
+    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) const {
+  if (held_.places.empty()) return spacing;
+  const double growth = settings.growth_limit > 0 ? settings.growth_limit : kGrowth;
+  agreed(*comm_, [&] {
+    KnownValues<Dim> known;
+    known.in_domain = held_.places;
+    spacing = std::make_shared<SpacingWithPlaces<Dim>>(
+        std::make_shared<HeldSpacing<Dim>>(std::move(spacing), held_.places, growth),
+        std::move(known));
+  });
+  return spacing;
+}
+
+// Of this rank's nodes, those where d is held down; none if there are no such places. Collective.
+template <int Dim>
+View<char> PlacementOf<Dim>::held_nodes() const {
+  if (held_.places.empty()) return {};
+  const View<double> d = spacing_at_owned_nodes(*level_, level_->ground.spacing());
+  const View<double> unheld = spacing_at_owned_nodes(*level_, *placed_.d);
+  View<char> held;
+  agreed(*comm_, [&] {
+    held = make_view<char>("pnpbs::held_nodes", level_->nodes.count);
+    for_each("pnpbs::held_nodes", level_->nodes.count,
+             [&](std::int64_t i) { held(i) = level_->nodes.owned(i) && d(i) < unheld(i); });
+  });
+  return held;
+}
+
+// Holds d down around the places where the last round does not conform. Collective.
+template <int Dim>
+void PlacementOf<Dim>::hold_unresolved_places() {
+  const std::vector<Point<Dim>> places = over_ranks<Dim>(*comm_, unresolved_);
+  std::vector<double> d(places.size());
+  agreed(*comm_, [&] {
+    evaluate_spacing<Dim>(level_->ground.spacing(), measure_of(*domain_), std::ssize(places),
+                          places.data(), d.data());
+  });
+  for (std::size_t k = 0; k < places.size(); ++k) held_.places.push_back({places[k], kHeld * d[k]});
+}
+
+// False if there is nothing to hold, or it was tried often enough, or would take far more nodes
+// than were asked for. Else there is a level for the spacing as it is held now, with the nodes
+// there were. Collective.
+template <int Dim>
+bool PlacementOf<Dim>::hold_spacing() {
+  const Settings settings = level_->settings;
+  if (held_.rounds >= settings.conforming_rounds) return false;
+  const Held<Dim> before = held_;
+  if (held_.rounds == 0) held_.nodes_before = global_count();
+  try {
+    hold_unresolved_places();
+    ++held_.rounds;
+    if (held_.places.size() == before.places.size()) return false;
+    PlacedSpacing<Dim> placed = placed_;
+    std::unique_ptr<Level<Dim>> next = empty_level(held(placed.d, settings), settings);
+    const double expected = expected_nodes(*next);
+    const auto nodes = static_cast<double>(held_.nodes_before);
+    if (expected > std::max(kMaxNodes * nodes, nodes + kFewNodes)) {
+      held_ = before;
+      return false;
+    }
+    settings.node_limit().require_memory_for(expected);
+    begin_on(std::move(next), std::move(placed), settings);
+  } catch (const Error& error) {
+    held_ = before;
+    if (error.kind() != ErrorKind::spacing && error.kind() != ErrorKind::memory) throw;
+    return false;
+  } catch (...) {
+    held_ = before;
+    throw;
+  }
+  return true;
+}
+
+template <int Dim>
+void PlacementOf<Dim>::warn_of_held_spacing() {
+  if (held_.places.empty()) return;
+  const GrowthSource<Dim>& finest = *std::ranges::min_element(
+      held_.places, [](const auto& p, const auto& q) { return p.d < q.d; });
+  warnings_.push_back("the spacing did not resolve the shape at " +
+                      std::to_string(held_.places.size()) + " places, and is held down there, to " +
+                      rounded_text(finest.d) + " at " + rounded_point_text<Dim>(finest.x) + ": " +
+                      std::to_string(global_count()) + " nodes instead of " +
+                      std::to_string(held_.nodes_before) +
+                      " (option conforming_rounds, 0 to have d as it is given)");
+}
+
+// Of the members defined here.
+template class PlacementOf<2>;
+template class PlacementOf<3>;
+
+}  // namespace pnpbs
