@@ -5,9 +5,11 @@
 
 namespace pnpbs {
 
+namespace {
+
 // The spacing is evaluated equally often on all ranks: it may live distributed over them.
 template <int Dim>
-View<double> spacing_at_owned_nodes(const Level<Dim>& level, const Spacing<Dim>& spacing) {
+View<double> spacing_at(const Level<Dim>& level, const Spacing<Dim>& spacing, bool ghosts) {
   const Nodes<Dim>& nodes = level.nodes;
   constexpr std::int64_t kBatch = 1 << 14;  // bounds the memory for the points handed out
   const std::int64_t last =
@@ -15,32 +17,44 @@ View<double> spacing_at_owned_nodes(const Level<Dim>& level, const Spacing<Dim>&
   View<double> all;
   agreed(*level.comm, [&] {
     all = make_view<double>("pnpbs::spacings", nodes.count);
-    std::vector<std::int32_t> owned;
+    std::vector<std::int32_t> wanted;
     std::vector<Point<Dim>> x;
     std::vector<double> d;
     const auto max = static_cast<std::size_t>(std::min(kBatch, nodes.count));
-    owned.reserve(max);
+    wanted.reserve(max);
     x.reserve(max);
     d.reserve(max);
     for (std::int64_t first = 0; first < last; first += kBatch) {
-      owned.clear();
+      wanted.clear();
       for (std::int64_t i = first; i < std::min(first + kBatch, nodes.count); ++i)
-        if (nodes.owned(i)) owned.push_back(static_cast<std::int32_t>(i));
-      x.resize(owned.size());
-      d.resize(owned.size());
-      const auto n = static_cast<std::int64_t>(owned.size());
+        if (ghosts || nodes.owned(i)) wanted.push_back(static_cast<std::int32_t>(i));
+      x.resize(wanted.size());
+      d.resize(wanted.size());
+      const auto n = static_cast<std::int64_t>(wanted.size());
       for_each("pnpbs::points_for_spacing", n, [&](std::int64_t k) {
         const auto at = static_cast<std::size_t>(k);
-        x[at] = nodes.position(owned[at]);
+        x[at] = nodes.position(wanted[at]);
       });
       evaluate_spacing<Dim>(spacing, level.ground.measure(), n, x.data(), d.data());
       for_each("pnpbs::take_spacing", n, [&](std::int64_t k) {
         const auto at = static_cast<std::size_t>(k);
-        all(owned[at]) = d[at];
+        all(wanted[at]) = d[at];
       });
     }
   });
   return all;
+}
+
+}  // namespace
+
+template <int Dim>
+View<double> spacing_at_nodes(const Level<Dim>& level, const Spacing<Dim>& spacing) {
+  return spacing_at(level, spacing, true);
+}
+
+template <int Dim>
+View<double> spacing_at_owned_nodes(const Level<Dim>& level, const Spacing<Dim>& spacing) {
+  return spacing_at(level, spacing, false);
 }
 
 // If the callback fails, all stays as it is.
@@ -57,6 +71,8 @@ void refresh_spacing(Level<Dim>& level) {
   level.ghosts.choose_anew();
 }
 
+template View<double> spacing_at_nodes(const Level<2>&, const Spacing<2>&);
+template View<double> spacing_at_nodes(const Level<3>&, const Spacing<3>&);
 template View<double> spacing_at_owned_nodes(const Level<2>&, const Spacing<2>&);
 template View<double> spacing_at_owned_nodes(const Level<3>&, const Spacing<3>&);
 template void refresh_spacing(Level<2>&);

@@ -6,7 +6,10 @@
 
 namespace pnpbs {
 
-// Of any spacing, at the places of the nodes; what is at those of ghosts means nothing. Collective.
+// Of any spacing, at the places of the nodes and their ghosts. Collective.
+template <int Dim>
+View<double> spacing_at_nodes(const Level<Dim>& level, const Spacing<Dim>& spacing);
+// The same, but what is at the places of ghosts means nothing.
 template <int Dim>
 View<double> spacing_at_owned_nodes(const Level<Dim>& level, const Spacing<Dim>& spacing);
 

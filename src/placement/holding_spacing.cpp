@@ -51,17 +51,18 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::held(
   return spacing;
 }
 
-// Of this rank's nodes, those where d is held down; none if there are no such places. Collective.
+// Of this rank's nodes and ghosts, those where d is held down; an empty view if there are no such
+// places. Collective.
 template <int Dim>
 View<char> PlacementOf<Dim>::held_nodes() const {
   if (held_.places.empty()) return {};
-  const View<double> d = spacing_at_owned_nodes(*level_, level_->ground.spacing());
-  const View<double> unheld = spacing_at_owned_nodes(*level_, *placed_.d);
+  const View<double> d = spacing_at_nodes(*level_, level_->ground.spacing());
+  const View<double> unheld = spacing_at_nodes(*level_, *placed_.d);
   View<char> held;
   agreed(*comm_, [&] {
     held = make_view<char>("pnpbs::held_nodes", level_->nodes.count);
     for_each("pnpbs::held_nodes", level_->nodes.count,
-             [&](std::int64_t i) { held(i) = level_->nodes.owned(i) && d(i) < unheld(i); });
+             [&](std::int64_t i) { held(i) = d(i) < unheld(i); });
   });
   return held;
 }

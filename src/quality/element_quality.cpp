@@ -94,8 +94,9 @@ EdgeSums local_edge_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
   const bool all = left_out.extent(0) == 0;
   return sums_over(
       "pnpbs::edge_sums", nodes.count, EdgeSums(), [&](std::int64_t i, EdgeSums& sums) {
-        if (!nodes.owned(i) || (!all && left_out(i))) return;
+        if (!nodes.owned(i)) return;
         for_edges(nodes, stars, i, [&](std::int64_t j) {
+          if (!all && (left_out(i) || left_out(j))) return;
           const double d = 0.5 * (nodes.d(i) + nodes.d(j));
           const double ratio = distance<Dim>(nodes.position(i), nodes.position(j)) / d;
           const bool moves = nodes.moves(i) || nodes.moves(j);

@@ -45,8 +45,8 @@ template <int Dim>
 ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& nodes,
                                 const Stars<Dim>& stars);
 
-// The bands alone, without those that have no edge. An edge belongs to its node with the least id,
-// and counts unless this one is to be left out, if that is told. Collective.
+// The bands alone, without those that have no edge. Edges of nodes that are left out, if it is told
+// which are, do not count. Collective.
 template <int Dim>
 std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<Dim>& nodes,
                                          const Stars<Dim>& stars, const View<char>& left_out = {});

@@ -215,7 +215,7 @@ int main(void) {
   Suite* suite = suite_create("bands");
   TCase* tests = tcase_create("bands");
   tcase_add_test(tests, the_mean_edge_is_d_in_every_band);
-  tcase_add_loop_test(tests, a_jump_is_limited, 0, 2);
+  tcase_add_loop_test(tests, a_jump_is_limited, 0, WHEN_SANITIZED(1, 2));
   tcase_add_test(tests, a_jump_as_the_user_wants_it);
   tcase_add_test(tests, slow_growth_is_not_limited);
   tcase_add_test(tests, the_population_forgets);

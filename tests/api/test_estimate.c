@@ -108,7 +108,7 @@ int main(void) {
   Suite* suite = suite_create("estimate");
   TCase* tests = tcase_create("estimate");
   tcase_add_test(tests, near_what_comes);
-  tcase_add_loop_test(tests, near_what_comes_in_space, 0, 5);
+  tcase_add_loop_test(tests, near_what_comes_in_space, 0, WHEN_SANITIZED(2, 5));
   tcase_add_test(tests, of_a_hundred_billion_nodes);
   tcase_add_test(tests, what_is_missing);
   tcase_add_test(tests, too_little_memory);

@@ -41,7 +41,8 @@ void expect_refusal(const std::string& words) {
 }
 
 // Of four nodes, but without any array.
-void add_state(io::hdf5::NewFile& file, std::int64_t nodes = 4, std::int64_t format = io::kCheckpointFormat) {
+void add_state(io::hdf5::NewFile& file, std::int64_t nodes = 4,
+               std::int64_t format = io::kCheckpointFormat) {
   SavedState state;
   state.dimension = 2;
   state.nodes = nodes;
