@@ -18,11 +18,11 @@ namespace {
 constexpr double kHeld = 0.5;        // of d at such a place, in one round
 constexpr double kMaxNodes = 4;      // times those of the first round, or ...
 constexpr double kFewNodes = 20000;  // ... so many more: beyond that, d is a mistake
-constexpr double kGrowth = 0.3;      // where the user sets no limit
+constexpr double kGrowth = 0.3;      // that nodes follow, unless the user limits it to less
 
 // Those of all ranks, each once, in one order on all of them. Collective.
 template <int Dim>
-std::vector<Point<Dim>> over_ranks(const Communicator& comm, const std::vector<Point<Dim>>& own) {
+std::vector<Point<Dim>> gathered(const Communicator& comm, const std::vector<Point<Dim>>& own) {
   Bytes mine;
   for (const Point<Dim>& x : own) pack(mine, x);
   std::vector<Point<Dim>> all;
@@ -33,6 +33,14 @@ std::vector<Point<Dim>> over_ranks(const Communicator& comm, const std::vector<P
   return all;
 }
 
+// Triangles that stand for a level set follow it to a d that is no smaller than its resolution.
+double resolution_of(const PlaneDomain&) { return 0; }
+double resolution_of(const VolumeDomain& domain) {
+  double coarsest = 0;
+  for (const auto& set : domain.level_sets().sets) coarsest = std::max(coarsest, set->resolution());
+  return coarsest;
+}
+
 }  // namespace
 
 // The spacing held down at the places there are so far.
@@ -40,7 +48,8 @@ template <int Dim>
 std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::held(
     std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) const {
   if (held_.places.empty()) return spacing;
-  const double growth = settings.growth_limit > 0 ? settings.growth_limit : kGrowth;
+  const double growth =
+      settings.growth_limit > 0 ? std::min(settings.growth_limit, kGrowth) : kGrowth;
   agreed(*comm_, [&] {
     KnownValues<Dim> known;
     known.in_domain = held_.places;
@@ -70,13 +79,16 @@ View<char> PlacementOf<Dim>::held_nodes() const {
 // Holds d down around the places where the last round does not conform. Collective.
 template <int Dim>
 void PlacementOf<Dim>::hold_unresolved_places() {
-  const std::vector<Point<Dim>> places = over_ranks<Dim>(*comm_, unresolved_);
+  const std::vector<Point<Dim>> places = gathered<Dim>(*comm_, unresolved_);
   std::vector<double> d(places.size());
   agreed(*comm_, [&] {
     evaluate_spacing<Dim>(level_->ground.spacing(), measure_of(*domain_), std::ssize(places),
                           places.data(), d.data());
   });
-  for (std::size_t k = 0; k < places.size(); ++k) held_.places.push_back({places[k], kHeld * d[k]});
+  const double finest = resolution_of(level_->ground.domain());
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (const double to = std::max(kHeld * d[k], finest); to < d[k])
+      held_.places.push_back({places[k], to});
 }
 
 // False if there is nothing to hold, or it was tried often enough, or would take far more nodes
@@ -86,6 +98,9 @@ template <int Dim>
 bool PlacementOf<Dim>::hold_spacing() {
   const Settings settings = level_->settings;
   if (held_.rounds >= settings.conforming_rounds) return false;
+  // Where places are that many, the shape is lost altogether; nor should one rank have them all.
+  if (comm_->allreduce_sum(unresolved_.size()) > static_cast<std::uint64_t>(global_count()))
+    return false;
   const Held<Dim> before = held_;
   if (held_.rounds == 0) held_.nodes_before = global_count();
   try {

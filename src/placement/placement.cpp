@@ -127,8 +127,12 @@ Outcome PlacementOf<Dim>::run() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
   return taking_steps([this] {
+    rounds_of_run_ = 0;
     Outcome outcome = steps_and_finish();
-    while (outcome == Outcome::not_conforming && hold_spacing()) outcome = steps_and_finish();
+    while (outcome == Outcome::not_conforming && hold_spacing()) {
+      ++rounds_of_run_;
+      outcome = steps_and_finish();
+    }
     if (outcome == Outcome::stopped) return outcome;
     warn_of_held_spacing();
     monitor_stops(1.0);
@@ -139,9 +143,8 @@ Outcome PlacementOf<Dim>::run() {
 // Of a run's work, the part that its steps are: what has been done is not told again.
 template <int Dim>
 ProgressPart PlacementOf<Dim>::part_of_steps() const {
-  const double done = 1 - (1 - kStepsShare) * std::ldexp(1.0, static_cast<int>(1 - held_.rounds));
-  const double next = 1 - (1 - kStepsShare) * std::ldexp(1.0, static_cast<int>(-held_.rounds));
-  if (held_.rounds > 0) return {done, next};
+  const auto done_after = [](int rounds) { return 1 - std::ldexp(1 - kStepsShare, -rounds); };
+  if (rounds_of_run_ > 0) return {done_after(rounds_of_run_ - 1), done_after(rounds_of_run_)};
   return {schedule_.refined ? kCoarseShare : 0, kStepsShare};
 }
 

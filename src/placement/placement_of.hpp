@@ -258,6 +258,7 @@ class PlacementOf : public Placement {
   bool spacing_replaced_ = false;  // since the level was made
   PlacedSpacing<Dim> placed_;      // with which it was
   Held<Dim> held_;
+  int rounds_of_run_ = 0;               // since the call began
   std::vector<Point<Dim>> unresolved_;  // by the last finish, this rank's places
   Options level_options_;               // with which it was
 };

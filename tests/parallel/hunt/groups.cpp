@@ -91,8 +91,11 @@ Comparison compare(const Case& job, const std::vector<Configuration>& groups,
   if (group > 0 && first[static_cast<std::size_t>(group)] == rank) send_text(packed(results));
   if (rank == 0) {
     made.verdict = verdict_of(results);
-    for (const auto& [name, value] : results)
+    for (const auto& [name, value] : results) {
       if (name == "nodes") made.nodes = value;
+      if (name == "run") made.not_conforming = value == std::to_string(PNPBS_NOT_CONFORMING);
+      if (name == "unresolved_places") made.held_down = value != "0";
+    }
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const std::string text = difference(results, unpacked(received_text(first[g + 1])));
       if (text.empty() || made.verdict == Verdict::differs) continue;

@@ -25,9 +25,10 @@ struct Comparison {
   Verdict verdict = Verdict::same;
   std::size_t group = 0;  // the first that differs
   int first_rank = 0;     // of it in the world
-  // On rank 0 of the world alone: what differs, why it is refused, or what the check says; and how
-  // many nodes there are.
+  // On rank 0 of the world alone: what differs, why it is refused, or what the check says; how many
+  // nodes there are, and whether the run held d down or ended with PNPBS_NOT_CONFORMING.
   std::string difference, nodes;
+  bool held_down = false, not_conforming = false;
 };
 
 /** Runs the case on all groups. Collective over the world; the same on all ranks but for the

@@ -42,8 +42,8 @@ class Hunt {
     if (rank_ == 0)
       std::printf(
           "%llu cases: %llu refused on all ranks, %llu fail the check of results, %llu "
-          "differ\n",
-          counted_, skipped_, failed_checks_, differ_);
+          "differ; %llu hold d down, %llu do not conform\n",
+          counted_, skipped_, failed_checks_, differ_, held_down_, not_conforming_);
     return well ? 0 : 1;
   }
 
@@ -82,10 +82,13 @@ class Hunt {
     ++counted_;
     skipped_ += made.verdict == Verdict::skipped;
     failed_checks_ += made.verdict == Verdict::failed_check;
+    held_down_ += made.held_down;
+    not_conforming_ += made.not_conforming;
     if (rank_ == 0 && arguments_.tells_all) {
       const char* words[] = {"same", "differs", "refused", "check fails"};
-      std::printf("%s %s: %s, %s nodes, %.1f s %s\n", name.c_str(), job.name.c_str(),
-                  words[static_cast<int>(made.verdict)], made.nodes.c_str(),
+      std::printf("%s %s: %s%s%s, %s nodes, %.1f s %s\n", name.c_str(), job.name.c_str(),
+                  words[static_cast<int>(made.verdict)], made.held_down ? ", d held down" : "",
+                  made.not_conforming ? ", not conforming" : "", made.nodes.c_str(),
                   static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
                   made.verdict == Verdict::skipped ? made.difference.c_str() : "");
       std::fflush(stdout);
@@ -150,6 +153,7 @@ class Hunt {
   int rank_ = 0, size_ = 1;
   Threads threads_;
   unsigned long long counted_ = 0, skipped_ = 0, failed_checks_ = 0, differ_ = 0;
+  unsigned long long held_down_ = 0, not_conforming_ = 0;  // first runs, on rank 0
 };
 
 // The date may change between the ranks.

@@ -28,8 +28,8 @@ void add_warnings(pnpbs_placement placement, const std::string& prefix, Results&
 
 pnpbs_status add_statistics(pnpbs_placement placement, const std::string& prefix,
                             Results& results) {
-  for (const char* key :
-       {"nodes", "boundary_nodes", "steps", "levels", "inserted", "deleted", "missing_faces"}) {
+  for (const char* key : {"nodes", "boundary_nodes", "steps", "levels", "inserted", "deleted",
+                          "missing_faces", "unresolved_places"}) {
     std::int64_t value = 0;
     const pnpbs_status status = pnpbs_placement_get_int64(placement, key, &value);
     if (status < 0) return status;
