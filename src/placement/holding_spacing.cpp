@@ -106,7 +106,10 @@ bool PlacementOf<Dim>::hold_spacing() {
   try {
     hold_unresolved_places();
     ++held_.rounds;
-    if (held_.places.size() == before.places.size()) return false;
+    if (held_.places.size() == before.places.size()) {
+      held_ = before;
+      return false;
+    }
     PlacedSpacing<Dim> placed = placed_;
     std::unique_ptr<Level<Dim>> next = empty_level(held(placed.d, settings), settings);
     const double expected = expected_nodes(*next);

@@ -259,6 +259,7 @@ START_TEST(bodies_that_the_spacing_does_not_resolve) {
   if (!cases[_i].filled) MUST(pnpbs_domain_set_filled(it.domain, 0));
   job_place(&it);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, cases[_i].d));
+  MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
   status = pnpbs_placement_run(it.placement);
   if (conforms) {
     ck_assert_int_ge(status, 0);
@@ -657,6 +658,7 @@ START_TEST(growth_is_limited) {
   check_body(&limited, 1e-12);
   MUST(pnpbs_placement_set_spacing_callback(steep.placement, volume_spacing_at, &jump));
   MUST(pnpbs_placement_set(steep.placement, "growth_limit", "0"));
+  MUST(pnpbs_placement_set(steep.placement, "conforming_rounds", "0"));
   ck_assert_int_ge(pnpbs_placement_run(steep.placement), 0);
   ck_assert_int_gt(integer_of(limited.placement, "nodes"), integer_of(steep.placement, "nodes"));
   job_end(&limited);
