@@ -28,8 +28,7 @@ std::vector<Point<Dim>> gathered(const Communicator& comm, const std::vector<Poi
   std::vector<Point<Dim>> all;
   for_records<Point<Dim>>({comm.allgather(mine)}, [&](const Point<Dim>& x) { all.push_back(x); });
   std::ranges::sort(all);
-  const auto twice = std::ranges::unique(all);
-  all.erase(twice.begin(), twice.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
