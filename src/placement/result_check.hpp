@@ -26,7 +26,7 @@ std::string check_results(PlacementOf<2>& placement);
 //   features, and all of those are there,
 // - lists as there,
 // - tetrahedra are of positive volume, each in the stars of its four corners, and on either side of
-//   a face there is one at most,
+//   a face there is one at most, of a face of inner nodes one on both sides,
 // - the faces with a tetrahedron on one side only are closed surfaces, which enclose the volume of
 //   the tetrahedra, and that of the domain but for what they may cut off.
 // Collective.

@@ -117,8 +117,7 @@ void VolumeResultCheck::check_corner(std::int64_t corner, const Corners& others,
                name(others[0]) + ", " + name(others[1]) + " and " + name(others[2]));
 }
 
-// On either side of a face there is one tetrahedron at most. Inside there are two, or the boundary
-// is torn there (boundary_topology.hpp).
+// On either side of a face there is one tetrahedron at most; inside there are two.
 void VolumeResultCheck::check_faces(std::int64_t i) const {
   using Side = std::pair<std::int32_t, std::int32_t>;  // of the face with node i, as it turns
   std::vector<Side> sides;
@@ -132,6 +131,12 @@ void VolumeResultCheck::check_faces(std::int64_t i) const {
   };
   const auto twice = std::ranges::adjacent_find(sides);
   if (twice != sides.end()) fail_check(text(*twice) + " has two tetrahedra on one side");
+  if (nodes_.carrier(i) != Carrier::free) return;
+  for (const Side& side : sides)
+    if (nodes_.carrier(side.first) == Carrier::free &&
+        nodes_.carrier(side.second) == Carrier::free &&
+        !std::ranges::binary_search(sides, Side{side.second, side.first}))
+      fail_check(text(side) + " lies inside, but has a tetrahedron on one side only");
 }
 
 // ------------------------------------------------------------------ the boundary ---------------
