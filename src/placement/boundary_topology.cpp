@@ -38,16 +38,22 @@ std::int64_t euler_of_surfaces(const BoundaryMesh<3>& mesh, const Features& feat
   return euler_of({distinct(vertices), distinct(edges), triangles});
 }
 
-bool leaves_surfaces(const Level<3>& level, std::int64_t i, const FaceFan& fan) {
-  return std::ranges::any_of(fan, [&](const FaceSide& side) {
-    return !lies_along_surface(level, {i, side.first, side.second});
-  });
-}
-
 }  // namespace
 
-BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<Point<3>>& torn,
-                                   std::vector<Point<3>>& bridged) {
+std::vector<Point<3>> bridging_nodes(const Level<3>& level) {
+  std::vector<Point<3>> bridging;
+  for (std::int64_t i = 0; i < level.nodes.count; ++i) {
+    if (!level.nodes.owned(i)) continue;
+    const auto bridges = [&](const FaceSide& side) {
+      return !lies_along_surface(level, {i, side.first, side.second});
+    };
+    if (std::ranges::any_of(open_faces(level, i), bridges))
+      bridging.push_back(level.nodes.position(i));
+  }
+  return bridging;
+}
+
+BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<Point<3>>& torn) {
   const Level<3>& level = placement.level();
   const Nodes<3>& nodes = level.nodes;
   BoundaryTopology result;
@@ -63,7 +69,6 @@ BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<
       torn.push_back(nodes.position(i));
       level.stars.for_neighbours(i, [&](std::int64_t j) { torn.push_back(nodes.position(j)); });
     }
-    if (leaves_surfaces(level, i, fan)) bridged.push_back(nodes.position(i));
     vertices += !fan.empty();
     corners += std::ssize(fan);
   }

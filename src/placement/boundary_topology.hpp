@@ -21,9 +21,12 @@ struct BoundaryTopology {
   bool agrees() const { return torn.count == 0 && euler == euler_of_domain; }
 };
 
-// Of a body, after prepare_stars. This rank's nodes where it is torn are added to `torn`, and those
-// with faces that do not lie along the surfaces to `bridged`. Collective.
-BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<Point<3>>& torn,
-                                   std::vector<Point<3>>& bridged);
+// Of a body, after prepare_stars. This rank's nodes where it is torn are added to `torn`, with
+// their neighbours. Collective.
+BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<Point<3>>& torn);
+
+// This rank's nodes with open faces that do not lie along the surfaces but go from one sheet of
+// them to another, which may be right where they are rough. Of a body, after prepare_stars. Local.
+std::vector<Point<3>> bridging_nodes(const Level<3>& level);
 
 }  // namespace pnpbs

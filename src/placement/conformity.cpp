@@ -39,7 +39,7 @@ ElementMeasure measure_in(const PlacementOf<3>& placement) { return measure_if_f
 BoundaryTopology topology_of(const PlacementOf<2>&, Conformity<2>&) { return {}; }
 BoundaryTopology topology_of(const PlacementOf<3>& placement, Conformity<3>& result) {
   return placement.surfaces_alone() ? BoundaryTopology{}
-                                    : boundary_topology(placement, result.torn, result.bridged);
+                                    : boundary_topology(placement, result.torn);
 }
 
 const char* elements_of(const PlacementOf<2>&) { return "triangle"; }

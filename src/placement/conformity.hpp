@@ -22,9 +22,8 @@ struct Conformity {
   ElementMeasure measure;     // in space, if what the elements fill may be far off
   BoundaryTopology boundary;  // of bodies
   // This rank's places where elements are lacking: nodes in none, edges that do not join, and where
-  // the boundary is torn. And those where it goes from one sheet of the surfaces to another, which
-  // may be right where they are rough.
-  std::vector<Point<Dim>> torn, bridged;
+  // the boundary is torn.
+  std::vector<Point<Dim>> torn;
 
   bool any_elements() const { return isolated.count < nodes; }
   bool fills() const {

@@ -6,6 +6,7 @@
 #include "base/point_text.hpp"
 #include "comm/records.hpp"
 #include "level/expected_nodes.hpp"
+#include "level/finer_places.hpp"
 #include "level/node_spacing.hpp"
 #include "placement/placement_of.hpp"
 #include "spacing/held_spacing.hpp"
@@ -18,7 +19,6 @@ namespace {
 constexpr double kHeld = 0.5;        // of d at such a place, in one round
 constexpr double kMaxNodes = 4;      // times those of the first round, or ...
 constexpr double kFewNodes = 20000;  // ... so many more: beyond that, d is a mistake
-constexpr double kGrowth = 0.3;      // that nodes follow, unless the user limits it to less
 
 // Those of all ranks, each once, in one order on all of them. Collective.
 template <int Dim>
@@ -42,30 +42,30 @@ double resolution_of(const VolumeDomain& domain) {
 
 }  // namespace
 
-// The spacing held down at the places there are so far.
+// The spacing that counts, from the one that would and the places where it is held down.
+// Collective.
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::held(
-    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) const {
-  if (held_.places.empty()) return spacing;
-  const double growth =
-      settings.growth_limit > 0 ? std::min(settings.growth_limit, kGrowth) : kGrowth;
+void PlacementOf<Dim>::hold_down(PlacedSpacing<Dim>& placed, const Settings& settings) const {
+  placed.d = placed.unheld;
+  const std::vector<GrowthSource<Dim>>& places = placed.held.places;
+  if (places.empty()) return;
+  const double growth = settings.growth_limit > 0 ? std::min(settings.growth_limit, kGrowthFollowed)
+                                                  : kGrowthFollowed;
   agreed(*comm_, [&] {
     KnownValues<Dim> known;
-    known.in_domain = held_.places;
-    spacing = std::make_shared<SpacingWithPlaces<Dim>>(
-        std::make_shared<HeldSpacing<Dim>>(std::move(spacing), held_.places, growth),
-        std::move(known));
+    known.in_domain = places;
+    placed.d = std::make_shared<SpacingWithPlaces<Dim>>(
+        std::make_shared<HeldSpacing<Dim>>(placed.unheld, places, growth), std::move(known));
   });
-  return spacing;
 }
 
 // Of this rank's nodes and ghosts, those where d is held down; an empty view if there are no such
 // places. Collective.
 template <int Dim>
 View<char> PlacementOf<Dim>::held_nodes() const {
-  if (held_.places.empty()) return {};
+  if (placed_.held.places.empty()) return {};
   const View<double> d = spacing_at_nodes(*level_, level_->ground.spacing());
-  const View<double> unheld = spacing_at_nodes(*level_, *placed_.d);
+  const View<double> unheld = spacing_at_nodes(*level_, *placed_.unheld);
   View<char> held;
   agreed(*comm_, [&] {
     held = make_view<char>("pnpbs::held_nodes", level_->nodes.count);
@@ -75,9 +75,15 @@ View<char> PlacementOf<Dim>::held_nodes() const {
   return held;
 }
 
-// Holds d down around the places where the last round does not conform. Collective.
+// The places where the last round does not conform; false if there are none where d could be less,
+// or that was tried often enough. Collective.
 template <int Dim>
-void PlacementOf<Dim>::hold_unresolved_places() {
+bool PlacementOf<Dim>::add_unresolved_places(Held<Dim>& held) const {
+  if (held.rounds >= level_->settings.conforming_rounds) return false;
+  // Where places are that many, the shape is lost altogether; nor should one rank have them all.
+  if (comm_->allreduce_sum(unresolved_.size()) > static_cast<std::uint64_t>(global_count()))
+    return false;
+  if (held.rounds++ == 0) held.nodes_before = global_count();
   const std::vector<Point<Dim>> places = gathered<Dim>(*comm_, unresolved_);
   std::vector<double> d(places.size());
   agreed(*comm_, [&] {
@@ -85,61 +91,60 @@ void PlacementOf<Dim>::hold_unresolved_places() {
                           places.data(), d.data());
   });
   const double finest = resolution_of(level_->ground.domain());
+  const std::size_t before = held.places.size();
   for (std::size_t k = 0; k < places.size(); ++k)
     if (const double to = std::max(kHeld * d[k], finest); to < d[k])
-      held_.places.push_back({places[k], to});
+      held.places.push_back({places[k], to});
+  return held.places.size() > before;
 }
 
-// False if there is nothing to hold, or it was tried often enough, or would take far more nodes
-// than were asked for. Else there is a level for the spacing as it is held now, with the nodes
-// there were. Collective.
+// Begins a round with d held down where the last one does not conform: converged, or stopped. Not
+// conforming, as it is, if there is nothing to hold, it was tried often enough, or would take far
+// more nodes than were asked for; then all stays as it is. Collective.
 template <int Dim>
-bool PlacementOf<Dim>::hold_spacing() {
-  const Settings settings = level_->settings;
-  if (held_.rounds >= settings.conforming_rounds) return false;
-  // Where places are that many, the shape is lost altogether; nor should one rank have them all.
-  if (comm_->allreduce_sum(unresolved_.size()) > static_cast<std::uint64_t>(global_count()))
-    return false;
-  const Held<Dim> before = held_;
-  if (held_.rounds == 0) held_.nodes_before = global_count();
+Outcome PlacementOf<Dim>::hold_spacing() {
+  PlacedSpacing<Dim> placed = placed_;
+  if (!add_unresolved_places(placed.held)) return Outcome::not_conforming;
+  // Of the call that the round belongs to.
+  const std::int64_t dropped = dropped_;
+  const int coarser_levels = coarser_levels_;
+  Outcome outcome = Outcome::not_conforming;
   try {
-    hold_unresolved_places();
-    ++held_.rounds;
-    if (held_.places.size() == before.places.size()) {
-      held_ = before;
-      return false;
-    }
-    PlacedSpacing<Dim> placed = placed_;
-    std::unique_ptr<Level<Dim>> next = empty_level(held(placed.d, settings), settings);
-    const double expected = expected_nodes(*next);
-    const auto nodes = static_cast<double>(held_.nodes_before);
-    if (expected > std::max(kMaxNodes * nodes, nodes + kFewNodes)) {
-      held_ = before;
-      return false;
-    }
-    settings.node_limit().require_memory_for(expected);
-    begin_on(std::move(next), std::move(placed), settings);
+    outcome = begin_held_round(std::move(placed));
+  } catch (const FinerPlaces&) {
+    throw;  // it is tried again with these
   } catch (const Error& error) {
-    held_ = before;
     if (error.kind() != ErrorKind::spacing && error.kind() != ErrorKind::memory) throw;
-    return false;
-  } catch (...) {
-    held_ = before;
-    throw;
   }
-  return true;
+  dropped_ = dropped;
+  coarser_levels_ = coarser_levels;
+  return outcome;
+}
+
+// On a level for the spacing as it is held now, with the nodes there were. Collective.
+template <int Dim>
+Outcome PlacementOf<Dim>::begin_held_round(PlacedSpacing<Dim> placed) {
+  const Settings settings = level_->settings;
+  hold_down(placed, settings);
+  std::unique_ptr<Level<Dim>> next = empty_level(placed.d, settings);
+  const double expected = expected_nodes(*next);
+  const auto nodes = static_cast<double>(placed.held.nodes_before);
+  if (expected > std::max(kMaxNodes * nodes, nodes + kFewNodes)) return Outcome::not_conforming;
+  settings.node_limit().require_memory_for(expected);
+  return begin_on(std::move(next), std::move(placed), settings);
 }
 
 template <int Dim>
 void PlacementOf<Dim>::warn_of_held_spacing() {
-  if (held_.places.empty()) return;
+  const Held<Dim>& held = placed_.held;
+  if (held.places.empty()) return;
   const GrowthSource<Dim>& finest = *std::ranges::min_element(
-      held_.places, [](const auto& p, const auto& q) { return p.d < q.d; });
+      held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
   warnings_.push_back("the spacing did not resolve the shape at " +
-                      std::to_string(held_.places.size()) + " places, and is held down there, to " +
+                      std::to_string(held.places.size()) + " places, and is held down there, to " +
                       rounded_text(finest.d) + " at " + rounded_point_text<Dim>(finest.x) + ": " +
                       std::to_string(global_count()) + " nodes instead of " +
-                      std::to_string(held_.nodes_before) +
+                      std::to_string(held.nodes_before) +
                       " (option conforming_rounds, 0 to have d as it is given)");
 }
 

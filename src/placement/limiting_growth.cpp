@@ -19,10 +19,9 @@ namespace {
 
 // Of the domain, that d may be large.
 constexpr double kMaxSizes = 1024;
-// Growth of d that nodes follow. On a spacing graded from a line (docs/method.md) the worst
-// triangle has a quality of 0.82 up to 0.3, 0.69 at 0.5 and 0.14 at 1. A little more is let pass,
-// so that d which grows by 0.3 stays as it is given, whatever samples make of it.
-constexpr double kMaxFollowed = 0.3, kTooSteep = 1.05 * kMaxFollowed;
+// A little more is let pass than nodes follow, so that d which grows by that stays as it is given,
+// whatever samples make of it.
+constexpr double kTooSteep = 1.05 * kGrowthFollowed;
 
 }  // namespace
 
@@ -67,7 +66,7 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::bounded(
     spacing = std::make_shared<BoundedSpacing<Dim>>(std::move(spacing),
                                                     kMaxSizes * size_of(domain_->bounds()));
     if constexpr (Dim == 3) {
-      const double growth = settings.growth_limit > 0 ? settings.growth_limit : kMaxFollowed;
+      const double growth = settings.growth_limit > 0 ? settings.growth_limit : kGrowthFollowed;
       if (settings.resolve)
         spacing = std::make_shared<HeldSpacing<3>>(
             spacing, resolving_sources(*spacing, *domain_, settings.node_limit()), growth);
@@ -132,7 +131,7 @@ std::string PlacementOf<Dim>::warning_of_growth(const SteepestGrowth<Dim>& steep
                             " per unit of length near " + rounded_point_text<Dim>(steepest.at) +
                             ", faster than nodes can follow: ";
   if (growth_limit == 0)
-    return found + "limit its growth (option growth_limit, " + number_text(kMaxFollowed) +
+    return found + "limit its growth (option growth_limit, " + number_text(kGrowthFollowed) +
            " or less)";
   return found + "its growth is limited to " + number_text(growth_limit) +
          "; set the option growth_limit to choose another limit, or 0 to have it as given";

@@ -83,20 +83,24 @@ std::unique_ptr<Level<Dim>> PlacementOf<Dim>::empty_level(
 template <int Dim>
 std::unique_ptr<Level<Dim>> PlacementOf<Dim>::level_to_place(const Settings& settings,
                                                              PlacedSpacing<Dim>& placed) {
-  auto& [spacing, steepest] = placed;
-  spacing = spacing_to_place(settings);
-  if (settings.user_limits_growth()) spacing = growth_limited(std::move(spacing), settings);
-  std::unique_ptr<Level<Dim>> next = empty_level(held(spacing, settings), settings);
+  placed.unheld = spacing_to_place(settings);
+  const auto limit_growth = [&] {
+    placed.unheld = growth_limited(std::move(placed.unheld), settings);
+  };
+  if (settings.user_limits_growth()) limit_growth();
+  hold_down(placed, settings);
+  std::unique_ptr<Level<Dim>> next = empty_level(placed.d, settings);
   if (!settings.user_limits_growth()) {
     const PhaseTimer timer(timers_, Phase::spacing);
-    steepest = steepest_growth<Dim>(
+    placed.steepest = steepest_growth<Dim>(
         *comm_, next->map(), [&](std::int32_t leaf) { return next->tree->owns(leaf); },
-        next->ground.evaluator(), spacing->known_values());
+        next->ground.evaluator(), placed.unheld->known_values());
   }
-  if (too_steep(steepest) && settings.growth_limit > 0) {
+  if (too_steep(placed.steepest) && settings.growth_limit > 0) {
     next.reset();
-    spacing = growth_limited(std::move(spacing), settings);
-    next = empty_level(held(spacing, settings), settings);
+    limit_growth();
+    hold_down(placed, settings);
+    next = empty_level(placed.d, settings);
   }
   settings.node_limit().require_memory_for(expected_nodes(*next));
   return next;
@@ -106,6 +110,7 @@ template <int Dim>
 Outcome PlacementOf<Dim>::make_level() {
   const Settings settings = settings_for_new_level();
   PlacedSpacing<Dim> placed;
+  if (level_) placed.held = placed_.held;
   std::unique_ptr<Level<Dim>> next = level_to_place(settings, placed);
   return begin_on(std::move(next), std::move(placed), settings);
 }
@@ -115,12 +120,12 @@ Outcome PlacementOf<Dim>::make_level() {
 template <int Dim>
 Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpacing<Dim> placed,
                                    const Settings& settings) {
-  const std::shared_ptr<const Spacing<Dim>> spacing = held(placed.d, settings);
+  const std::shared_ptr<const Spacing<Dim>> spacing = placed.d;
   const bool taken_over = level_ || start_from_given_;
   TakenNodes taken;
   std::int64_t inserted = 0;
   Outcome outcome = Outcome::converged;
-  if (held_.rounds == 0) coarser_levels_ = 0;
+  coarser_levels_ = 0;
   filled_level_ = 0;
   if (surfaces_alone()) {
     if constexpr (Dim == 3) taken = begin_on_surfaces(*next, spacing, settings, outcome);

@@ -34,14 +34,13 @@ bool PlacementOf<3>::elements_conform() {
   const std::string text = text_of(conformity, *this);
   if (!text.empty()) warnings_.push_back(text);
   unresolved_.clear();
+  if (conformity.holds()) return true;
   if (!conformity.any_elements()) return false;  // d means another body
-  using Places = std::vector<Point<3>>;
-  for (const Places* places : std::initializer_list<const Places*>{
-           &conformity.torn, &conformity.bridged, &surface_fit_.places}) {
-    unresolved_ = *places;
-    if (comm_->allreduce_sum(places->size()) > 0) break;
-  }
-  return conformity.holds();
+  const auto none = [this] { return comm_->allreduce_sum(unresolved_.size()) == 0; };
+  unresolved_ = conformity.torn;
+  if (none()) agreed(*comm_, [this] { unresolved_ = bridging_nodes(*level_); });
+  if (none()) unresolved_ = surface_fit_.places;
+  return false;
 }
 
 }  // namespace pnpbs

@@ -25,7 +25,7 @@ template <int Dim>
 void PlacementOf<Dim>::set_spacing(std::shared_ptr<const Spacing<Dim>> spacing) {
   spacing_ = std::move(spacing);
   spacing_replaced_ = true;
-  held_ = {};
+  placed_.held = {};
 }
 
 template <int Dim>
@@ -43,14 +43,12 @@ Outcome PlacementOf<Dim>::initialise() {
   std::unique_ptr<Level<Dim>> before = std::move(level_);
   const Schedule schedule = schedule_;
   const int coarser_levels = coarser_levels_;
-  const Held<Dim> held = std::exchange(held_, {});
   try {
     return knowing_finer_places([this] { return make_level(); });
   } catch (...) {
     level_ = std::move(before);
     schedule_ = schedule;
     coarser_levels_ = coarser_levels;
-    held_ = held;
     forget_results();
     throw;
   }
@@ -126,12 +124,17 @@ template <int Dim>
 Outcome PlacementOf<Dim>::run() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  return taking_steps([this] {
-    rounds_of_run_ = 0;
+  struct Rounds {
+    int& count;
+    ~Rounds() { count = 0; }
+  } rounds{rounds_of_run_};
+  return taking_steps([&] {
     Outcome outcome = steps_and_finish();
-    while (outcome == Outcome::not_conforming && hold_spacing()) {
-      ++rounds_of_run_;
-      outcome = steps_and_finish();
+    for (bool held = true; outcome == Outcome::not_conforming && held;) {
+      ++rounds.count;
+      const Outcome begun = hold_spacing();
+      held = begun == Outcome::converged;
+      outcome = held ? steps_and_finish() : begun;
     }
     if (outcome == Outcome::stopped) return outcome;
     warn_of_held_spacing();
@@ -140,11 +143,17 @@ Outcome PlacementOf<Dim>::run() {
   });
 }
 
+// Of a run's work, what is done when a round with d held down begins. Each does half of the rest.
+template <int Dim>
+double PlacementOf<Dim>::done_by_rounds() const {
+  return rounds_of_run_ == 0 ? 0 : 1 - std::ldexp(1 - kStepsShare, 1 - rounds_of_run_);
+}
+
 // Of a run's work, the part that its steps are: what has been done is not told again.
 template <int Dim>
 ProgressPart PlacementOf<Dim>::part_of_steps() const {
-  const auto done_after = [](int rounds) { return 1 - std::ldexp(1 - kStepsShare, -rounds); };
-  if (rounds_of_run_ > 0) return {done_after(rounds_of_run_ - 1), done_after(rounds_of_run_)};
+  const double done = done_by_rounds();
+  if (rounds_of_run_ > 0) return {done, (done + 1) / 2};
   return {schedule_.refined ? kCoarseShare : 0, kStepsShare};
 }
 

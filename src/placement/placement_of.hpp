@@ -48,11 +48,12 @@ struct Held {
   std::int64_t rounds = 0, nodes_before = 0;  // after the round before the first of these
 };
 
-// The spacing as it counts, but for where it is held down, and how steep it is where the user sets
-// no limit.
+// The spacing as it counts: what it would be without the places where it is held down, these, and
+// how steep it is where the user sets no limit.
 template <int Dim>
 struct PlacedSpacing {
-  std::shared_ptr<const Spacing<Dim>> d;
+  std::shared_ptr<const Spacing<Dim>> d, unheld;
+  Held<Dim> held;
   SteepestGrowth<Dim> steepest;
 };
 
@@ -145,7 +146,7 @@ class PlacementOf : public Placement {
   std::int64_t rebalances() const override {
     return rebalances_before_ + (level_ ? level_->rebalances : 0);
   }
-  std::int64_t unresolved_places() const override { return std::ssize(held_.places); }
+  std::int64_t unresolved_places() const override { return std::ssize(placed_.held.places); }
   Speeds speeds() const override { return level_ ? speeds_of(*level_) : Speeds{}; }
   LevelFigures level_figures() const override;
   std::int64_t boundary_nodes() const override;
@@ -182,11 +183,11 @@ class PlacementOf : public Placement {
   std::shared_ptr<const Spacing<Dim>> growth_limited(std::shared_ptr<const Spacing<Dim>> spacing,
                                                      const Settings& settings,
                                                      const std::function<void()>& beat) const;
-  std::shared_ptr<const Spacing<Dim>> held(std::shared_ptr<const Spacing<Dim>> spacing,
-                                           const Settings& settings) const;
+  void hold_down(PlacedSpacing<Dim>& placed, const Settings& settings) const;
   View<char> held_nodes() const;
-  void hold_unresolved_places();
-  bool hold_spacing();
+  bool add_unresolved_places(Held<Dim>& held) const;
+  Outcome hold_spacing();
+  Outcome begin_held_round(PlacedSpacing<Dim> placed);
   void warn_of_held_spacing();
   void warn_of_coarse_spacing();  // in space
   void warn_of_partial_extent();
@@ -243,6 +244,7 @@ class PlacementOf : public Placement {
   void repair_defects();
   Outcome finish();
   Outcome steps_and_finish();
+  double done_by_rounds() const;
   ProgressPart part_of_steps() const;
   template <class Stops>
   Outcome smooth(const Stops& stops);
@@ -255,10 +257,9 @@ class PlacementOf : public Placement {
   GivenNodes<Dim> given_;  // nodes to start from instead of a fill
   int filled_level_ = 0;   // coarser levels whose inside was filled, the first of them by a lattice
   bool start_from_given_ = false;
-  bool spacing_replaced_ = false;  // since the level was made
-  PlacedSpacing<Dim> placed_;      // with which it was
-  Held<Dim> held_;
-  int rounds_of_run_ = 0;               // since the call began
+  bool spacing_replaced_ = false;       // since the level was made
+  PlacedSpacing<Dim> placed_;           // with which it was
+  int rounds_of_run_ = 0;               // in which d is held down, in the call in progress
   std::vector<Point<Dim>> unresolved_;  // by the last finish, this rank's places
   Options level_options_;               // with which it was
 };

@@ -244,9 +244,9 @@ Saved<Dim> PlacementOf<Dim>::saved() {
   s.max_speed = last_speeds_.max;
   s.mean_speed = last_speeds_.mean;
   s.meeting_radius = meeting_radius(level_->settings);
-  s.held_rounds = held_.rounds;
-  s.nodes_before_held = held_.nodes_before;
-  for (const GrowthSource<Dim>& place : held_.places) {
+  s.held_rounds = placed_.held.rounds;
+  s.nodes_before_held = placed_.held.nodes_before;
+  for (const GrowthSource<Dim>& place : placed_.held.places) {
     s.held.insert(s.held.end(), place.x.begin(), place.x.end());
     s.held.push_back(place.d);
   }
@@ -276,12 +276,12 @@ void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Di
   const PhaseTimer timer(timers_, Phase::total);
   require_same_as(state);
   const std::shared_ptr<const Spacing<Dim>> before = spacing_;
-  const Held<Dim> held_before = std::exchange(held_, held_in<Dim>(state));
   try {
     if (state.spacing_saved)
       spacing_ = std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch));
     const Settings settings = settings_for_new_level();
     PlacedSpacing<Dim> placed;
+    placed.held = held_in<Dim>(state);
     std::unique_ptr<Level<Dim>> next = level_to_place(settings, placed);
     put_saved_nodes(*next, state, nodes);
     require_same_spacing(*next, nodes);
@@ -294,7 +294,6 @@ void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Di
     placed_ = std::move(placed);
   } catch (...) {
     spacing_ = before;
-    held_ = held_before;
     throw;
   }
   level_options_ = options_;

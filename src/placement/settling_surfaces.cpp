@@ -65,8 +65,9 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
     schedule_.coarser = true;
     schedule_.multiplied = multiplied;
     const Settings& settings = level_->settings;
+    const double done = done_by_rounds();
     if (outcome != Outcome::stopped &&
-        advance(anew ? settings.steps : settings.refined_steps, {0, 0}) == Outcome::stopped)
+        advance(anew ? settings.steps : settings.refined_steps, {done, done}) == Outcome::stopped)
       outcome = Outcome::stopped;
     if (outcome != Outcome::stopped) {
       count_population_change(remove_crowded(*level_));  // nodes that coincide have no star

@@ -88,16 +88,20 @@ static void check_closed(const volume* v) {
   free(on_boundary);
 }
 
+static void run_and_check_closed(const job* it) {
+  volume v;
+  MUST_COMPUTE(pnpbs_placement_run(it->placement));
+  ck_assert_int_eq(pnpbs_placement_check(it->placement), PNPBS_OK);
+  ck_assert_int_eq(warnings_with(it->placement, "torn"), 0);
+  v = volume_of(it->placement);
+  check_closed(&v);
+  volume_free(&v);
+}
+
 START_TEST(rough_bodies_close) {
   static const double cases[][3] = {{0.6, 5, 0.2}, {0.6, 6, 0.3}, {0.8, 8, 0.2}};
   job it = rough_job(cases[_i][0], cases[_i][1], cases[_i][2]);
-  volume v;
-  MUST_COMPUTE(pnpbs_placement_run(it.placement));
-  ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_OK);
-  ck_assert_int_eq(warnings_with(it.placement, "torn"), 0);
-  v = volume_of(it.placement);
-  check_closed(&v);
-  volume_free(&v);
+  run_and_check_closed(&it);
   job_end(&it);
 }
 END_TEST
@@ -118,13 +122,63 @@ END_TEST
 
 START_TEST(torn_bodies_are_mended) {
   job it = rough_job(0.4, 8, 0.3);
-  volume v;
-  MUST_COMPUTE(pnpbs_placement_run(it.placement));
-  ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_OK);
+  run_and_check_closed(&it);
   ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
-  v = volume_of(it.placement);
-  check_closed(&v);
-  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- rounds ---------------- */
+
+typedef struct {
+  double fraction, stop_from; /* after the first steps from there on, and at no other call */
+  int64_t step;
+  int falls, stopped;
+} progress;
+
+static int32_t follow(double fraction, int64_t step, int64_t nodes, double speed, void* data) {
+  progress* seen = data;
+  const int stepped = step > seen->step;
+  (void)nodes, (void)speed;
+  seen->falls += fraction < seen->fraction;
+  seen->fraction = fraction;
+  seen->step = step;
+  if (seen->stopped || !stepped || fraction < seen->stop_from) return 0;
+  seen->stopped = 1;
+  return 1;
+}
+
+/* A run that holds d down where the body is torn does not fall back in what it tells of its
+ * progress, and is stopped where the monitor asks for it, in whichever part: the next run goes on
+ * from there. */
+START_TEST(rounds_are_monitored) {
+  static const double stops[] = {2, 0.9, 0.9001, 0.91};
+  progress seen = {0, stops[_i], 0, 0, 0};
+  job it = rough_job(0.4, 8, 0.3);
+  MUST(pnpbs_placement_set_monitor(it.placement, follow, &seen));
+  if (seen.stop_from > 1) {
+    run_and_check_closed(&it);
+    ck_assert_double_eq(seen.fraction, 1);
+  } else {
+    ck_assert_int_eq(pnpbs_placement_run(it.placement), PNPBS_STOPPED);
+    ck_assert(seen.stopped);
+    MUST(pnpbs_placement_set_monitor(it.placement, NULL, NULL));
+    run_and_check_closed(&it);
+  }
+  ck_assert_int_eq(seen.falls, 0);
+  ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
+  job_end(&it);
+}
+END_TEST
+
+/* What a run tells of the nodes it began with holds for all of its rounds. */
+START_TEST(rounds_keep_what_was_left_out) {
+  static const double xyz[] = {0, 0, 0, 9, 9, 9};
+  job it = rough_job(0.4, 8, 0.36);
+  MUST(pnpbs_placement_set_nodes(it.placement, 2, xyz, NULL));
+  run_and_check_closed(&it);
+  ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
+  ck_assert_int_eq(integer_of(it.placement, "dropped"), 1);
   job_end(&it);
 }
 END_TEST
@@ -136,6 +190,8 @@ int main(void) {
   tcase_add_loop_test(tests, rough_bodies_close, 0, WHEN_SANITIZED(1, 3));
   tcase_add_test(tests, torn_bodies_are_told);
   tcase_add_test(tests, torn_bodies_are_mended);
+  tcase_add_loop_test(tests, rounds_are_monitored, 0, WHEN_SANITIZED(2, 4));
+  tcase_add_test(tests, rounds_keep_what_was_left_out);
   suite_add_tcase(suite, tests);
   return run_suite(suite);
 }
