@@ -705,9 +705,9 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  PNPBS_STOPPED. The nodes are valid in all these cases. In space, before it would return
  *  PNPBS_NOT_CONFORMING, d is made smaller around the places where elements are lacking, and the
  *  run goes on from its nodes, up to `conforming_rounds` times; a warning says what that cost
- *  (statistic `unresolved_places`), until another spacing is set. There is a warning, too, where
- *  the tetrahedra's boundary does not follow the surfaces (statistic `missing_faces`): see the
- *  option `resolve`. */
+ *  (statistic `unresolved_places`). It stays smaller there until another spacing is set. There is a
+ *  warning, too, where the tetrahedra's boundary does not follow the surfaces (statistic
+ *  `missing_faces`): see the option `resolve`. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
 /** The dimension of the placement's domain. Local.

@@ -145,35 +145,34 @@ class CheckpointReader {
     if (state_.nodes <= 0) refuse("it has no nodes");
     for (const Column& column : node_columns<Dim>(state_.nodes))
       places_.push_back(file.place_of(column.array));
-    read_held(file);
+    if (file.has(kHeld)) state_.held = read_numbers<double>(file, kHeld, hdf5::Type::real);
     if (state_.spacing_saved) read_patch_layout(file);
   }
 
-  void read_held(const hdf5::OldFile& file) {
-    if (!file.has(kHeld)) return;
-    const std::int64_t n = file.rows_of(kHeld);
-    const std::int64_t place = file.place_of({kHeld, hdf5::Type::real, n});
-    state_.held.resize(static_cast<std::size_t>(n));
+  // A column of numbers of eight bytes, all of it.
+  template <class Number>
+  std::vector<Number> read_numbers(const hdf5::OldFile& file, const std::string& name,
+                                   hdf5::Type type) const {
+    const std::int64_t n = file.rows_of(name);
+    const std::int64_t place = file.place_of({name, type, n});
+    std::vector<Number> numbers(static_cast<std::size_t>(n));
     InputFile(path_, quoted_checkpoint(path_))
-        .read_at(place, reinterpret_cast<char*>(state_.held.data()), 8 * n);
+        .read_at(place, reinterpret_cast<char*>(numbers.data()), 8 * n);
+    return numbers;
   }
 
   void read_patch_layout(const hdf5::OldFile& file) {
     if (!file.has(kSpacing)) refuse("it has no spacing");
     get(file, "spacing_checksum", patch_checksum_);
-    const std::string parts = std::string(kSpacing) + "/parts";
-    const std::int64_t n = file.rows_of(parts);
-    const std::int64_t place = file.place_of({parts, hdf5::Type::int64, n});
-    patch_sizes_.resize(static_cast<std::size_t>(n));
-    InputFile(path_, quoted_checkpoint(path_))
-        .read_at(place, reinterpret_cast<char*>(patch_sizes_.data()), 8 * n);
+    patch_sizes_ =
+        read_numbers<std::int64_t>(file, std::string(kSpacing) + "/parts", hdf5::Type::int64);
     PatchSizes all;
     const auto add = [&](std::int64_t& sum, std::int64_t size) {
       constexpr std::int64_t kMax = std::int64_t{1} << 31;
       if (size < 0 || size > kMax) refuse("a part of its spacing has an impossible size");
       sum += size;
     };
-    if (n % 3 != 0) refuse("a part of its spacing has no size");
+    if (patch_sizes_.size() % 3 != 0) refuse("a part of its spacing has no size");
     for (std::size_t k = 0; k < patch_sizes_.size(); k += 3) {
       add(all.nodes, patch_sizes_[k]);
       add(all.simplices, patch_sizes_[k + 1]);

@@ -88,8 +88,9 @@ const std::vector<StatisticRow>& statistic_table() {
           "faces that are none of the surfaces"),
       integer(
           "unresolved_places", [](P p) { return p.unresolved_places(); },
-          "places at which the spacing did not resolve the shape and is held down (option "
-          "conforming_rounds)"),
+          "places, nodes that lacked elements and their neighbours, around which d is held down "
+          "since "
+          "it did not resolve the shape (option conforming_rounds)"),
       integer(
           "unknown_uses", [](P p) { return p.unknown_uses(); },
           "decisions of the last run that looked at stars which a rank does not know exactly, and "

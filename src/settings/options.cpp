@@ -135,9 +135,8 @@ const std::vector<OptionRow>& option_table() {
        "thickness, 3/4 of a gap's width, and at sharp edges; from there it grows by growth_limit"},
       {"conforming_rounds", T::integer, "4", nullptr, nullptr, 0, 20, nullptr,
        "in space alone: where elements are lacking at the end of a run or their boundary is torn, "
-       "d "
-       "is halved, and the run goes on from its nodes, at most so often; 0: d stays as it is "
-       "given"},
+       "d is halved there, and the run goes on from its nodes, at most so often; 0: d stays as it "
+       "is given"},
       {"wanted_nodes", T::real, "0", nullptr, nullptr, 0, 2e9, nullptr,
        "d is multiplied by the factor with which a run is expected to come to so many nodes; 0: d "
        "is taken as it is"},
