@@ -183,6 +183,68 @@ START_TEST(rounds_keep_what_was_left_out) {
 }
 END_TEST
 
+/* By how much d grows between any two nodes, per unit of length. */
+static double steepest(const volume* v) {
+  double growth = 0;
+  int64_t i, j;
+  for (i = 0; i < v->n; ++i)
+    for (j = 0; j < i; ++j)
+      growth = fmax(growth, fabs(v->d[i] - v->d[j]) / distance(v->xyz + 3 * i, v->xyz + 3 * j));
+  return growth;
+}
+
+/* From where it is held down d grows as nodes can follow, even if nothing else limits it. */
+START_TEST(held_spacing_grows_gently) {
+  job it = rough_job(0.4, 8, 0.3);
+  volume v;
+  MUST(pnpbs_placement_set(it.placement, "growth_limit", "0"));
+  run_and_check_closed(&it);
+  ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
+  v = volume_of(it.placement);
+  ck_assert_double_gt(steepest(&v), 0.1);
+  ck_assert_double_le(steepest(&v), 0.3 + 1e-9);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
+static int32_t rough_level_set(int64_t n, int32_t dim, const double* x, double* value,
+                               void* user) {
+  int64_t i;
+  (void)dim, (void)user;
+  for (i = 0; i < n; ++i, x += 3)
+    value[i] = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) - 1 -
+               0.4 * sin(8 * x[0]) * sin(8 * x[1] + 1) * sin(8 * x[2] + 2);
+  return 0;
+}
+
+static double finest(const volume* v) {
+  double least = v->d[0];
+  int64_t i;
+  for (i = 0; i < v->n; ++i) least = fmin(least, v->d[i]);
+  return least;
+}
+
+/* The triangles of a level set say nothing of what is smaller than its resolution. */
+START_TEST(held_spacing_ends_at_the_resolution) {
+  static const double low[] = {-2, -2, -2}, high[] = {2, 2, 2};
+  job it = {NULL, NULL, NULL};
+  volume v;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_level_set(it.domain, rough_level_set, NULL, low, high, 0.2, 1));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.3));
+  ck_assert_int_eq(pnpbs_placement_run(it.placement), PNPBS_NOT_CONFORMING);
+  ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
+  v = volume_of(it.placement);
+  ck_assert_double_eq_tol(finest(&v), 0.2, 1e-3);
+  ck_assert_double_ge(finest(&v), 0.2);
+  volume_free(&v);
+  job_end(&it);
+}
+END_TEST
+
 int main(void) {
   Suite* suite = suite_create("closing");
   TCase* tests = tcase_create("closing");
@@ -192,6 +254,8 @@ int main(void) {
   tcase_add_test(tests, torn_bodies_are_mended);
   tcase_add_loop_test(tests, rounds_are_monitored, 0, WHEN_SANITIZED(2, 4));
   tcase_add_test(tests, rounds_keep_what_was_left_out);
+  tcase_add_test(tests, held_spacing_grows_gently);
+  tcase_add_test(tests, held_spacing_ends_at_the_resolution);
   suite_add_tcase(suite, tests);
   return run_suite(suite);
 }
