@@ -208,8 +208,7 @@ START_TEST(held_spacing_grows_gently) {
 }
 END_TEST
 
-static int32_t rough_level_set(int64_t n, int32_t dim, const double* x, double* value,
-                               void* user) {
+static int32_t rough_level_set(int64_t n, int32_t dim, const double* x, double* value, void* user) {
   int64_t i;
   (void)dim, (void)user;
   for (i = 0; i < n; ++i, x += 3)
