@@ -94,6 +94,7 @@ module pnpbs
     procedure :: add_curve => domain_add_curve
     procedure :: add_pslg => domain_add_pslg
     procedure :: set_filled => domain_set_filled
+    procedure :: set_repair => domain_set_repair
     procedure :: add_hole => domain_add_hole
     procedure :: add_fixed_nodes => domain_add_fixed_nodes
     procedure :: read_poly => domain_read_poly
@@ -893,6 +894,22 @@ contains
     call conclude('domain%set_filled', &
                   c_domain_set_filled(self%c, merge(1_c_int32_t, 0_c_int32_t, filled)), stat, &
                   errmsg)
+  end subroutine
+
+  !> Takes the surfaces of a domain in space that are given as triangles and bound it for what
+  !> encloses one body badly: open, crossing, folded, turned this way and that. The body is where
+  !> they wind around a point more than half a time, whichever way: holes are closed, overlapping
+  !> bodies are joined, what encloses nothing is dropped. Its surface is found as that of a level
+  !> set, with its sharp edges; all of it has the tag of the first triangle. A warning tells how far
+  !> it is from the triangles given. Local.
+  !>   resolution  what is thinner can be lost; > 0, no more than the spacing at the surface, or 0:
+  !>               1/64 of the longest side of the box around the triangles
+  subroutine domain_set_repair(self, resolution, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: resolution
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%set_repair', c_domain_set_repair(self%c, resolution), stat, errmsg)
   end subroutine
 
   !> Removes from the domain the region around a point, as far as the next curves or surfaces of

@@ -455,6 +455,14 @@ module pnpbs_c
       integer(c_int) :: c_domain_add_pslg
     end function
 
+    function c_domain_set_repair(domain, resolution) bind(C, name="pnpbs_domain_set_repair")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), value :: resolution
+      integer(c_int) :: c_domain_set_repair
+    end function
+
     function c_domain_set_filled(domain, filled) bind(C, name="pnpbs_domain_set_filled")
       import
       implicit none

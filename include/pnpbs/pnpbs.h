@@ -235,6 +235,21 @@ PNPBS_API pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim)
  *  @param[in] filled  nonzero: what they enclose; 0: the surfaces alone */
 PNPBS_API pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled);
 
+/** Takes the surfaces of a domain in space that are given as triangles and bound it, boxes, balls
+ *  and cylinders among them, for what encloses one body badly: open, crossing, folded, turned this
+ *  way and that, as scans are and parts put together. The body is where they wind around a point
+ *  more than half a time (generalised winding number, Jacobson, Kavan and Sorkine-Hornung 2013),
+ *  whichever way: holes are closed, what lies inside or encloses nothing is dropped, overlapping
+ *  bodies are joined; a cavity must turn against what surrounds it. Its surface is found as that of
+ *  a level set (pnpbs_domain_add_level_set), with its sharp edges, on the triangles given where
+ *  there are any; all of it has the tag of the first triangle. What is thinner than the resolution
+ *  can be lost. A warning tells how far the surface is from the triangles given. Other surfaces and
+ *  nodes stay as they are. Local. Errors: PNPBS_ERROR_ARGUMENT; pnpbs_domain_check and whatever
+ *  checks the domain return PNPBS_ERROR_DOMAIN if the triangles enclose nothing.
+ *  @param[in] resolution  > 0, no more than the spacing at the surface; 0: 1/64 of the longest side
+ *                         of the box around the triangles */
+PNPBS_API pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resolution);
+
 /** Adds straight segments through n vertices. Local.
  *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER; in space PNPBS_INNER
  *  @param[in] closed        nonzero: a segment leads from the last vertex to the first; the

@@ -203,6 +203,10 @@ pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertices, const 
   });
 }
 
+pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resolution) {
+  return change_volume(domain, [&](VolumeDomain& volume) { volume.set_repair(resolution); });
+}
+
 pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled) {
   return change_volume(domain, [&](VolumeDomain& volume) { volume.set_filled(filled != 0); });
 }

@@ -12,4 +12,10 @@ namespace pnpbs {
   throw Error(ErrorKind::domain, message);
 }
 
+// Triangles that enclose a body badly, which may be repaired.
+class BrokenSurface : public Error {
+ public:
+  explicit BrokenSurface(const std::string& message) : Error(ErrorKind::domain, message) {}
+};
+
 }  // namespace pnpbs

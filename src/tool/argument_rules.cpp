@@ -61,6 +61,7 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
     refuse("--feature-angle is for bodies and .msh files" + plane);
   if (dimension == 2 && !arguments.inner.empty())
     refuse("--inner is for surfaces in space" + plane);
+  if (dimension == 2 && arguments.repair) refuse("--repair is for surfaces in space" + plane);
   if (dimension == 2 && arguments.surfaces_only)
     refuse("--surfaces-only is for surfaces in space" + plane);
   if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);

@@ -183,6 +183,26 @@ void add_groups(CLI::App& app, Arguments& arguments, std::vector<std::string>& n
   app.get_option("--name")->type_name("TAG=NAME")->group("What to fill");
 }
 
+void add_repair(CLI::App& app, Arguments& arguments) {
+  app.add_option_function<std::vector<std::string>>(
+         "--repair",
+         [&arguments](const std::vector<std::string>& text) {
+           double resolution = 0;
+           if (!text.empty() && !text[0].empty()) {
+             const auto numbers = numbers_between_commas(text[0]);
+             if (!numbers || numbers->size() != 1 || !((*numbers)[0] > 0))
+               refuse("--repair: expected a positive resolution, found '" + text[0] + "'");
+             resolution = (*numbers)[0];
+           }
+           arguments.repair = resolution;
+         },
+         "in space: what the triangles enclose, though they are open, cross\nor turn this way and "
+         "that, to this resolution; default: 1/64 of\nthe longest side")
+      ->expected(0, 1)
+      ->type_name("[RESOLUTION]")
+      ->group("What to fill");
+}
+
 void add_surfaces_only(CLI::App& app, Arguments& arguments) {
   app.add_flag("--surfaces-only", arguments.surfaces_only,
                "in space: nodes and triangles on the surfaces alone, which may\nbe open, and "
@@ -344,6 +364,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   add_spacing_bounds(app, arguments);
   add_curves(app, arguments);
   add_geo(app, arguments);
+  add_repair(app, arguments);
   add_surfaces_only(app, arguments);
   add_groups(app, arguments, names);
   add_output(app, arguments);

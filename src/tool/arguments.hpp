@@ -34,8 +34,9 @@ struct Arguments {
   std::vector<std::string> inner;                            // groups of triangles, by name or tag
   std::vector<std::pair<std::int32_t, std::string>> names;   // of tags
   std::optional<picture::ElementColour> colour;              // of elements in pictures
-  std::string cut;             // where pictures cut a body open; empty: through its middle
-  bool surfaces_only = false;  // nothing inside them
+  std::string cut;               // where pictures cut a body open; empty: through its middle
+  std::optional<double> repair;  // its resolution, 0 for the default
+  bool surfaces_only = false;    // nothing inside them
   bool bubbles = false;
   bool check = false;  // the results
   bool nodes_only = false;

@@ -69,6 +69,7 @@ DomainSource::DomainSource(const Arguments& arguments)
       feature_angle_(arguments.feature_angle.value_or(default_feature_angle)),
       corner_angle_(arguments.corner_angle.value_or(0)),
       filled_(!arguments.surfaces_only),
+      repair_(arguments.repair),
       inner_(arguments.inner),
       names_(arguments.names) {
   if (geo_) return;
@@ -114,6 +115,7 @@ void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
   }
   if (dimension_ == 2) return read_plane(domain, context);
   check(pnpbs_domain_set_filled(domain, filled_ ? 1 : 0), context);
+  if (repair_) check(pnpbs_domain_set_repair(domain, *repair_), context);
   if (is_msh()) return read_msh(domain, context);
   if (level_set_) return level_set_->add_to(domain, context);
   if (primitive_) return add(*primitive_, domain, context);

@@ -78,6 +78,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   report["domain"] = arguments.domain;
   if (geo) describe(*geo, arguments, report);
   if (arguments.feature_angle) report["feature_angle"] = *arguments.feature_angle;
+  if (arguments.repair) report["repair"] = *arguments.repair;
   if (arguments.surfaces_only) report["surfaces_only"] = true;
   if (!arguments.inner.empty()) report["inner"] = arguments.inner;
   if (!groups.empty()) report["groups"] = groups_of(groups);

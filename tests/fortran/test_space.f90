@@ -72,6 +72,12 @@ contains
     call expect(abs(volume(domain) - (1 + 0.25d0**2) * (1.5d0 + sqrt(0.75d0))) < 1d-12, &
                 'the area of surfaces alone')
     call domain%set_filled(.true.)
+    call domain%set_repair(0.02d0)
+    call expect(abs(volume(domain) - 1d0 / 6) < 1d-3, 'a tetrahedron that is repaired')
+    call domain%destroy
+    call domain%create(context, 3)
+    call domain%add_surface(PNPBS_BOUNDARY, vertices, faces, [1, 2, 3, 4], 30d0)
+    call domain%add_surface(PNPBS_INNER, 0.25d0 * vertices + 0.1d0, faces)
     call domain%add_hole([0.15d0, 0.15d0, 0.15d0])
     call expect(abs(volume(domain) - (1 - 0.25d0**3) / 6) < 1d-15, 'a hole in the inner surface')
     call domain%destroy

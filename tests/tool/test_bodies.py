@@ -134,6 +134,21 @@ class Files(CommandTest):
                           self.refuse("--domain", "open.off", "--spacing", "0.1",
                                       "--surfaces-only", "-o", "a.png", option, word))
 
+    def test_repair(self):
+        self.save_cube_without_lid("open.off")
+        self.assertIn("--repair", self.refuse("--domain", "open.off", "--spacing", "0.1",
+                                              "-o", "a.vtu"))
+        out, err = self.place_body("open.off", "0.1", "-o", "a.vtu", "--check", "--report",
+                                   "a.json", "--repair", "0.05")
+        volume = float(re.search(r"volume ([0-9.]+)", out)[1])
+        self.assertGreater(volume, 0.8)  # the lid hangs through
+        self.assertLess(volume, 1)
+        self.assertIn("repaired, with a resolution of 0.05", err)
+        self.assertEqual(json.loads((self.folder / "a.json").read_text())["repair"], 0.05)
+        self.place_body("open.off", "0.1", "--repair", "--dry-run")
+        self.assertIn("found '0'", self.refuse("--domain", "open.off", "--spacing", "0.1",
+                                               "--repair=0", "--dry-run"))
+
     def test_picture_of_surfaces(self):
         # Its triangles, all of them, and no cut.
         self.save_cube_without_lid("open.off")
@@ -241,6 +256,9 @@ class Refusals(CommandTest):
         self.assertIn("--surfaces-only is for surfaces in space",
                       self.refuse("--domain", self.square, "--spacing", "0.1", "-o", "a.csv",
                                   "--surfaces-only"))
+        self.assertIn("--repair is for surfaces in space",
+                      self.refuse("--domain", self.square, "--spacing", "0.1", "-o", "a.csv",
+                                  "--repair"))
         self.assertIn("--bubbles", self.refuse_domain(BOX, "--bubbles"))
         message = self.refuse("--domain", self.square, "--spacing", "0.1 + z", "-o", "a.csv")
         self.assertIn("position 7: unknown name 'z': this domain is in the plane", message)

@@ -224,6 +224,17 @@ class Domain(Handle):
         the surfaces alone: nodes on them and triangles between these, and nothing inside."""
         return self._call("set_filled", bool(filled))
 
+    def set_repair(self, resolution: float = 0.0) -> Domain:
+        """Takes the surfaces of a domain in space that are given as triangles and bound it for what
+        encloses one body badly: open, crossing, folded, turned this way and that. The body is where
+        they wind around a point more than half a time, whichever way: holes are closed, overlapping
+        bodies are joined, what encloses nothing is dropped. Its surface is found as that of a level
+        set, with its sharp edges; all of it has the tag of the first triangle. A warning tells how
+        far it is from the triangles given. What is thinner than the resolution can be lost: it
+        should be no more than the spacing at the surface; 0 is 1/64 of the longest side of the box
+        around the triangles."""
+        return self._call("set_repair", float(resolution))
+
     # ------------------------------------------------------------ files and tags ---------------
 
     def read_msh(self, path: Path, feature_angle: float = 0.0) -> Domain:

@@ -25,11 +25,10 @@ void warn_of_short_creases(ResolvedVolume& resolved) {
 
 // Between triangles of one level set normals do not count: these turn where they do not resolve a
 // bend. Its edges are known by its gradient.
-void find_features_of(const std::vector<SurfaceSource>& surfaces,
-                      const std::vector<double>& feature_angles, ResolvedVolume& resolved) {
+void find_features_of(const std::vector<SurfaceSource>& surfaces, ResolvedVolume& resolved) {
   std::vector<double> angles;
-  for (std::size_t s = 0; s < surfaces.size(); ++s)
-    if (!surfaces[s].level_set) angles.push_back(feature_angles[s]);
+  for (const SurfaceSource& surface : surfaces)
+    if (!surface.level_set) angles.push_back(surface.feature_angle);
   if (angles.empty()) angles.push_back(kFeatureAngle);
   const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
   if (*smallest < *largest)

@@ -8,8 +8,7 @@
 
 namespace pnpbs {
 
-// One angle, in degrees, for each surface given: the smallest holds for all of them.
-void find_features_of(const std::vector<SurfaceSource>& surfaces,
-                      const std::vector<double>& feature_angles, ResolvedVolume& resolved);
+// The smallest feature angle of the surfaces holds for all of them.
+void find_features_of(const std::vector<SurfaceSource>& surfaces, ResolvedVolume& resolved);
 
 }  // namespace pnpbs

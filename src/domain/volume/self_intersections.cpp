@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/point_text.hpp"
+#include "domain/domain_error.hpp"
 #include "domain/volume/triangle_contacts.hpp"
 
 namespace pnpbs {
@@ -56,7 +56,7 @@ void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree) {
   std::string message;
   for (const Pair& pair : first) message += (message.empty() ? "" : "; ") + text_of(surface, pair);
   if (pairs > 1) message += "; there are " + std::to_string(pairs) + " such pairs";
-  throw Error(ErrorKind::domain, message);
+  throw BrokenSurface(message);
 }
 
 }  // namespace pnpbs

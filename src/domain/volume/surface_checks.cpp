@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
 #include "base/union_find.hpp"
 #include "domain/domain_error.hpp"
 
@@ -45,18 +44,19 @@ FaultyEdges find_faulty(const SurfaceEdges& edges, const Faulty& faulty) {
 void require_closed_boundary(const Triangulation& surface, const SurfaceEdges& edges) {
   const FaultyEdges open = find_faulty(edges, [](std::size_t sides) { return sides == 1; });
   if (open.count > 0)
-    reject_domain("the boundary is not closed: no other triangle joins " +
-                  surface.triangle_name(edges.boundary_sides(open.first)[0].triangle) +
-                  " at its edge " + edge_name(surface, edges.ends(open.first)) +
-                  others_text(open.count, "edges"));
+    throw BrokenSurface("the boundary is not closed: no other triangle joins " +
+                        surface.triangle_name(edges.boundary_sides(open.first)[0].triangle) +
+                        " at its edge " + edge_name(surface, edges.ends(open.first)) +
+                        others_text(open.count, "edges"));
   const FaultyEdges many = find_faulty(edges, [](std::size_t sides) { return sides > 2; });
   if (many.count == 0) return;
   const auto sides = edges.boundary_sides(many.first);
-  reject_domain(std::to_string(sides.size()) + " boundary triangles meet in the edge " +
-                edge_name(surface, edges.ends(many.first)) + ", such as " +
-                surface.triangle_name(sides[0].triangle) + " and " +
-                surface.triangle_name(sides.back().triangle) + others_text(many.count, "edges") +
-                ": two bodies that touch there must be joined or moved apart");
+  throw BrokenSurface(std::to_string(sides.size()) + " boundary triangles meet in the edge " +
+                      edge_name(surface, edges.ends(many.first)) + ", such as " +
+                      surface.triangle_name(sides[0].triangle) + " and " +
+                      surface.triangle_name(sides.back().triangle) +
+                      others_text(many.count, "edges") +
+                      ": two bodies that touch there must be joined or moved apart");
 }
 
 void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges& edges,

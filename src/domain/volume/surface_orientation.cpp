@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "domain/volume/surface_orientation.hpp"
 
-#include "base/error.hpp"
+#include "domain/domain_error.hpp"
 
 namespace pnpbs {
 
@@ -32,16 +32,15 @@ Neighbours find_neighbours(const Triangulation& surface, const SurfaceEdges& edg
 
 [[noreturn]] void reject_one_sided(const Triangulation& surface, std::int32_t t, std::int32_t k,
                                    std::int32_t other) {
-  throw Error(ErrorKind::domain,
-              "the surface has but one side, as a Moebius strip has: going round on it, " +
-                  surface.triangle_name(t) + " and " + surface.triangle_name(other) +
-                  " are found turned against each other at " +
-                  surface.vertex_name(surface.triangles[t].vertices[k]));
+  throw BrokenSurface("the surface has but one side, as a Moebius strip has: going round on it, " +
+                      surface.triangle_name(t) + " and " + surface.triangle_name(other) +
+                      " are found turned against each other at " +
+                      surface.vertex_name(surface.triangles[t].vertices[k]));
 }
 
 // The triangles connected with the first one, and whether each must be turned to agree with it.
 std::vector<std::int32_t> connected_with(std::int32_t first, const Triangulation& surface,
-                                         const Neighbours& neighbours,
+                                         const Neighbours& neighbours, OneSided one_sided,
                                          std::vector<signed char>& turned) {
   std::vector<std::int32_t> reached{first};
   turned[first] = 0;
@@ -55,7 +54,7 @@ std::vector<std::int32_t> connected_with(std::int32_t first, const Triangulation
       if (there < 0) {
         there = wanted;
         reached.push_back(neighbour.triangle);
-      } else if (there != wanted) {
+      } else if (there != wanted && one_sided == OneSided::rejected) {
         reject_one_sided(surface, t, k, neighbour.triangle);
       }
     }
@@ -65,14 +64,15 @@ std::vector<std::int32_t> connected_with(std::int32_t first, const Triangulation
 
 }  // namespace
 
-void orient_surfaces(Triangulation& surface, SurfaceEdges& edges,
+void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_sided,
                      std::vector<std::string>& warnings) {
   const Neighbours neighbours = find_neighbours(surface, edges);
   const auto count = static_cast<std::int32_t>(surface.triangles.size());
   std::vector<signed char> turned(count, -1);  // not known yet
   for (std::int32_t first = 0; first < count; ++first) {
     if (turned[first] >= 0) continue;
-    const std::vector<std::int32_t> connected = connected_with(first, surface, neighbours, turned);
+    const std::vector<std::int32_t> connected =
+        connected_with(first, surface, neighbours, one_sided, turned);
     std::size_t turns = 0;
     for (const std::int32_t t : connected) turns += turned[t] == 1 ? 1 : 0;
     if (2 * turns <= connected.size()) continue;

@@ -9,10 +9,12 @@
 
 namespace pnpbs {
 
+enum class OneSided { rejected, ignored };
+
 // Turns triangles so that they agree with their neighbours, the fewer ones of each connected
-// surface, and warns if there are any. `edges` are changed accordingly. Throws
-// Error(ErrorKind::domain) where a surface has but one side.
-void orient_surfaces(Triangulation& surface, SurfaceEdges& edges,
+// surface, and warns if there are any. `edges` are changed accordingly. Where a surface has but one
+// side, it throws Error(ErrorKind::domain), or some neighbours do not agree.
+void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_sided,
                      std::vector<std::string>& warnings);
 
 }  // namespace pnpbs

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/space_vectors.hpp"
 #include "domain/boundary_mesh.hpp"
 #include "predicates/space.hpp"
 
@@ -16,6 +17,12 @@ inline Point<3> centroid(const FacetCorners<3>& triangle) {
   Point<3> middle;
   for (std::size_t k = 0; k < 3; ++k) middle[k] = (a[k] + b[k] + c[k]) / 3;
   return middle;
+}
+
+// Normal to it, as long as its area.
+inline Point<3> area_normal(const FacetCorners<3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  return shifted({}, 0.5, cross(difference(b, a), difference(c, a)));
 }
 
 // Have the boxes of segment pq and the triangle no point in common?

@@ -17,6 +17,8 @@ namespace pnpbs {
 
 class LevelSet;
 
+inline constexpr double kFeatureAngle = 40;  // degrees
+
 // A feature edge that is known as such, whatever its triangles' normals are.
 struct SurfaceCrease {
   std::array<std::int32_t, 2> vertices;
@@ -32,6 +34,7 @@ struct SurfaceSource {
   std::vector<std::int32_t> tags;             // of the triangles
   std::shared_ptr<const LevelSet> level_set;  // whose surface it is; null of others
   bool approximates = false;                  // a curved surface that was given without triangles
+  double feature_angle = kFeatureAngle;       // degrees
   std::vector<SurfaceCrease> creases;         // of a level set
   std::vector<std::string> warnings;
 };

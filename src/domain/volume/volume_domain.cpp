@@ -5,14 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "base/limits.hpp"
+#include "domain/domain_error.hpp"
 #include "domain/given_values.hpp"
 #include "domain/volume/level_set_creases.hpp"
 #include "domain/volume/level_set_surface.hpp"
 #include "domain/volume/node_distance.hpp"
 #include "domain/volume/primitives.hpp"
+#include "domain/volume/repaired_body.hpp"
 #include "domain/volume/volume_resolver.hpp"
 
 namespace pnpbs {
@@ -68,14 +71,12 @@ const LevelSetCrease* LevelSetTriangles::crease(std::int32_t node, std::int32_t 
 }
 
 // Names it by its kind and how many of these there are, and counts it.
-void VolumeDomain::add_source(SurfaceSource source, const char* kind, std::int64_t& given,
-                              double feature_angle) {
+void VolumeDomain::add_source(SurfaceSource source, const char* kind, std::int64_t& given) {
   source.name = std::string(kind) + " " + std::to_string(given);
   for (const Point<3>& x : source.vertices)
     if (!is_usable(x))
       reject("the " + std::string(kind) + " reaches " + point_text(x) + ", beyond 1e60");
   surfaces_.push_back(std::move(source));
-  feature_angles_.push_back(feature_angle);
   ++given;
   checked_ = false;
 }
@@ -91,7 +92,8 @@ void VolumeDomain::add_surface(SurfaceRole role, std::int64_t vertices, const do
   source.vertices = read_points<3>("coordinates", vertices, xyz);
   source.triangles = read_triangles(triangles, corners, vertices);
   source.tags = read_tags("tags", triangles, tags);
-  add_source(std::move(source), "surface", surfaces_given_, feature_angle);
+  source.feature_angle = feature_angle;
+  add_source(std::move(source), "surface", surfaces_given_);
 }
 
 void VolumeDomain::add_surface(SurfaceRole role, const SurfaceTriangles& surface,
@@ -115,7 +117,7 @@ void VolumeDomain::add_box(const Point<3>& low, const Point<3>& high,
                            const std::array<std::int32_t, 6>& tags) {
   require_box({low, high});
   read_tags("tags", 6, tags.data());
-  add_source(box_surface(low, high, tags), "box", boxes_given_, kFeatureAngle);
+  add_source(box_surface(low, high, tags), "box", boxes_given_);
 }
 
 void VolumeDomain::add_box(const Point<3>& low, const Point<3>& high, std::int32_t tag) {
@@ -127,7 +129,7 @@ void VolumeDomain::add_ball(const Point<3>& centre, double radius, std::int32_t 
   require_point<3>("centre", centre);
   require_radius(radius);
   require_tag("tag", tag);
-  add_source(ball_surface(centre, radius, tag), "ball", balls_given_, kFeatureAngle);
+  add_source(ball_surface(centre, radius, tag), "ball", balls_given_);
 }
 
 void VolumeDomain::add_cylinder(const Point<3>& begin, const Point<3>& end, double radius,
@@ -137,8 +139,7 @@ void VolumeDomain::add_cylinder(const Point<3>& begin, const Point<3>& end, doub
   if (begin == end) reject("begin and end are both " + point_text(begin));
   require_radius(radius);
   require_tag("tag", tag);
-  add_source(cylinder_surface(begin, end, radius, tag), "cylinder", cylinders_given_,
-             kFeatureAngle);
+  add_source(cylinder_surface(begin, end, radius, tag), "cylinder", cylinders_given_);
 }
 
 void VolumeDomain::add_level_set(LevelSetFunction f, const Box<3>& box, double resolution,
@@ -152,7 +153,58 @@ void VolumeDomain::add_level_set(LevelSetFunction f, const Box<3>& box, double r
   add_creases(*set, source);
   source.level_set = set;
   source.approximates = true;
-  add_source(std::move(source), "level set", level_sets_given_, kFeatureAngle);
+  add_source(std::move(source), "level set", level_sets_given_);
+}
+
+void VolumeDomain::set_repair(double resolution) {
+  if (!(resolution >= 0 && std::isfinite(resolution)))
+    reject("resolution is " + number_text(resolution) + ", expected a positive number, or 0");
+  repair_ = resolution;
+  checked_ = false;
+}
+
+namespace {
+
+// Its triangles with one of these tags, or with any other one.
+SurfaceSource part_of(SurfaceSource surface, const std::function<bool(std::int32_t)>& has) {
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> tags;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (!has(surface.tags[t])) continue;
+    triangles.push_back(surface.triangles[t]);
+    tags.push_back(surface.tags[t]);
+  }
+  surface.triangles = std::move(triangles);
+  surface.tags = std::move(tags);
+  return surface;
+}
+
+}  // namespace
+
+// The others, and one in the place of those that are to be repaired.
+std::vector<SurfaceSource> VolumeDomain::repaired_surfaces(
+    std::vector<std::string>& warnings) const {
+  std::vector<SurfaceSource> broken, surfaces;
+  for (const SurfaceSource& surface : surfaces_) {
+    if (surface.level_set) {
+      surfaces.push_back(surface);
+      continue;
+    }
+    const auto is_inner = [&](std::int32_t tag) {
+      const auto role = roles_.find(tag);
+      return (role == roles_.end() ? surface.role : role->second) == SurfaceRole::inner;
+    };
+    SurfaceSource inner = part_of(surface, is_inner);
+    inner.role = SurfaceRole::inner;
+    if (!inner.triangles.empty()) surfaces.push_back(std::move(inner));
+    broken.push_back(part_of(surface, [&](std::int32_t tag) { return !is_inner(tag); }));
+    if (broken.back().triangles.empty()) broken.pop_back();
+  }
+  if (broken.empty()) return surfaces;
+  RepairedBody body = repaired_body(broken, *repair_);
+  warnings.push_back(text_of(body));
+  surfaces.push_back(std::move(body.surface));
+  return surfaces;
 }
 
 void VolumeDomain::add_polyline(bool closed, std::int64_t n, const double* xyz,
@@ -189,10 +241,20 @@ void VolumeDomain::add_hole(const Point<3>& point) {
 
 void VolumeDomain::check() {
   if (checked_) return;
-  auto resolved = std::make_shared<ResolvedVolume>(resolve_volume(
-      {surfaces_, feature_angles_, roles_, polylines_, holes_, given_nodes_, filled_}));
-  resolved->warnings.insert(resolved->warnings.begin(), given_warnings_.begin(),
-                            given_warnings_.end());
+  static const std::map<std::int32_t, SurfaceRole> no_roles;  // they have them
+  std::vector<std::string> warnings = given_warnings_;
+  const std::vector<SurfaceSource> surfaces = repair_ ? repaired_surfaces(warnings) : surfaces_;
+  std::shared_ptr<ResolvedVolume> resolved;
+  try {
+    resolved = std::make_shared<ResolvedVolume>(resolve_volume(
+        {surfaces, repair_ ? no_roles : roles_, polylines_, holes_, given_nodes_, filled_}));
+  } catch (const BrokenSurface& error) {
+    if (repair_ || !filled_) throw;
+    reject_domain(std::string(error.what()) +
+                  "; pnpbs_domain_set_repair (in the command --repair) takes what such triangles "
+                  "enclose");
+  }
+  resolved->warnings.insert(resolved->warnings.begin(), warnings.begin(), warnings.end());
   resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
   resolved->mesh.node_distance = largest_node_distance(*resolved);
   resolved_ = std::move(resolved);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -76,8 +77,6 @@ struct ResolvedVolume {
   VolumeSummary summary;
 };
 
-inline constexpr double kFeatureAngle = 40;  // degrees
-
 class VolumeDomain {
  public:
   // They throw Error(ErrorKind::argument) naming the argument and its value, and leave the domain
@@ -98,6 +97,9 @@ class VolumeDomain {
   void add_cylinder(const Point<3>& begin, const Point<3>& end, double radius, std::int32_t tag);
   // The body where f < 0. It is asked now, and again where nodes are to lie on its surface.
   void add_level_set(LevelSetFunction f, const Box<3>& box, double resolution, std::int32_t tag);
+  // The surfaces given by triangles that bound the domain are taken for what encloses one body
+  // badly; resolution: 0 for the default (repaired_body.hpp).
+  void set_repair(double resolution);
   // A curve inside, with a tag for each segment.
   void add_polyline(bool closed, std::int64_t n, const double* xyz, const std::int32_t* tags);
   void add_fixed_nodes(std::int64_t n, const double* xyz, const std::int32_t* tags);
@@ -146,11 +148,10 @@ class VolumeDomain {
   double measure() const { return filled_ ? volume() : area(); }
 
  private:
-  void add_source(SurfaceSource source, const char* kind, std::int64_t& given,
-                  double feature_angle);
+  std::vector<SurfaceSource> repaired_surfaces(std::vector<std::string>& warnings) const;
+  void add_source(SurfaceSource source, const char* kind, std::int64_t& given);
 
   std::vector<SurfaceSource> surfaces_;
-  std::vector<double> feature_angles_;  // of the surfaces
   std::vector<InnerPolyline> polylines_;
   std::vector<VolumeHole> holes_;
   std::vector<FixedNode3> given_nodes_;
@@ -160,6 +161,7 @@ class VolumeDomain {
   std::int64_t surfaces_given_ = 0, boxes_given_ = 0, balls_given_ = 0, cylinders_given_ = 0,
                level_sets_given_ = 0;
   bool filled_ = true;
+  std::optional<double> repair_;  // its resolution
   bool checked_ = false;
   // Shared by copies, and by all that points into it.
   std::shared_ptr<const ResolvedVolume> resolved_ = std::make_shared<ResolvedVolume>();

@@ -53,7 +53,7 @@ class Resolver {
     SurfaceEdges edges(surface_);
     require_closed_boundary(surface_, edges);
     warn_of_touching_vertices(surface_, edges, result_.warnings);
-    orient_surfaces(surface_, edges, result_.warnings);
+    orient_surfaces(surface_, edges, OneSided::rejected, result_.warnings);
     tree_ = tree_of(surface_);
     reject_crossings(surface_, tree_);
     segments_ = make_segments(polylines_, curve_vertices_, surface_.vertices);
@@ -63,7 +63,7 @@ class Resolver {
     turn_outwards();
     filled_ ? remove_holes() : reject_holes();
     make_mesh();
-    find_features_of(surfaces_, given.feature_angles, result_);
+    find_features_of(surfaces_, result_);
     return std::move(result_);
   }
 

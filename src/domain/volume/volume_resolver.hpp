@@ -12,7 +12,6 @@ namespace pnpbs {
 // What the user gave, by reference.
 struct GivenVolume {
   const std::vector<SurfaceSource>& surfaces;
-  const std::vector<double>& feature_angles;
   const std::map<std::int32_t, SurfaceRole>& roles;  // see VolumeDomain::set_role
   const std::vector<InnerPolyline>& polylines;
   const std::vector<VolumeHole>& holes;

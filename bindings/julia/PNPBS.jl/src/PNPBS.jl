@@ -29,7 +29,8 @@ export Context, Domain, Placement, CompressedRows, PNPBSError
 export set!, set_spacing!, set_spacing_from_shape!, set_monitor!, set_nodes!
 export set_spacing_mesh!, set_spacing_points!, set_spacing_file!
 export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_fixed_nodes!
-export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_level_set!, set_filled!
+export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_level_set!
+export set_filled!, set_repair!
 export set_corner_angle!, simplify!, simplify_by_file!
 export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names
 export read_poly!, parse_poly!, check_domain, bounds, measure, distances, shape_spacing, outline

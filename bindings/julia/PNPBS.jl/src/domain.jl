@@ -328,6 +328,22 @@ function set_filled!(domain::Domain, filled::Bool)
 end
 
 """
+    set_repair!(domain, resolution = 0)
+
+Takes the surfaces of a domain in space that are given as triangles and bound it for what encloses
+one body badly: open, crossing, folded, turned this way and that. The body is where they wind around
+a point more than half a time, whichever way: holes are closed, overlapping bodies are joined, what
+encloses nothing is dropped. Its surface is found as that of a level set, with its sharp edges; all
+of it has the tag of the first triangle. A warning tells how far it is from the triangles given. What
+is thinner than the resolution can be lost: it should be no more than the spacing at the surface; 0
+is 1/64 of the longest side of the box around the triangles.
+"""
+function set_repair!(domain::Domain, resolution::Real = 0)
+    check(domain.context, LibPNPBS.pnpbs_domain_set_repair(live(domain), resolution))
+    return domain
+end
+
+"""
     set_corner_angle!(domain, corner_angle)
 
 Where the graphs of a domain in the plane have corners ([`add_pslg!`](@ref), [`read_poly!`](@ref),

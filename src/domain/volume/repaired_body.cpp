@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/volume/repaired_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
+#include "domain/domain_error.hpp"
+#include "domain/volume/level_set_creases.hpp"
+#include "domain/volume/level_set_surface.hpp"
+#include "domain/volume/surface_edges.hpp"
+#include "domain/volume/surface_orientation.hpp"
+#include "domain/volume/surface_sides.hpp"
+#include "domain/volume/triangles.hpp"
+#include "domain/volume/welding.hpp"
+#include "domain/volume/winding_number.hpp"
+#include "tree/box_tree.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// In units of the resolution: nearer than that to triangles, their sides tell what is inside.
+constexpr double kNear = 2;
+
+using TriangleList = std::vector<FacetCorners<3>>;
+
+double area_of(const FacetCorners<3>& triangle) { return length(area_normal(triangle)); }
+
+Box<3> box_around(const TriangleList& triangles) {
+  Box<3> box = empty_box<3>();
+  for (const FacetCorners<3>& triangle : triangles)
+    for (const Point<3>& corner : triangle) include(box, corner);
+  return box;
+}
+
+TriangleList corners_of(const Triangulation& surface) {
+  TriangleList triangles;
+  for (std::int32_t t = 0; t < std::ssize(surface.triangles); ++t)
+    triangles.push_back(surface.corners(t));
+  return triangles;
+}
+
+// Triangles by which is near.
+class NearestTriangles {
+ public:
+  explicit NearestTriangles(const TriangleList& triangles) : triangles_(triangles) {
+    std::vector<Box<3>> boxes;
+    for (const FacetCorners<3>& triangle : triangles) boxes.push_back(box_around({triangle}));
+    tree_ = BoxTree<3>(std::move(boxes));
+  }
+
+  struct Nearest {
+    std::int32_t triangle = -1;
+    TrianglePoint point;
+    double square = HUGE_VAL;  // of the distance
+  };
+  Nearest nearest(const Point<3>& x) const {
+    Nearest found;
+    tree_.for_near(
+        x, [&] { return found.square; },
+        [&](std::int32_t t) {
+          const TrianglePoint there =
+              nearest_triangle_point(triangles_[static_cast<std::size_t>(t)], x);
+          const double square = squared_distance<3>(there.x, x);
+          if (square < found.square) found = {t, there, square};
+        });
+    return found;
+  }
+  double distance_from(const Point<3>& x) const { return std::sqrt(nearest(x).square); }
+
+ private:
+  const TriangleList& triangles_;
+  BoxTree<3> tree_;
+};
+
+// Negative where the triangles wind around a point more than half a time, whichever way. It is the
+// distance from them, signed, as long as they are closed; where there is a hole it fades out
+// towards the place where they wind half a time around, so that it has no jump there.
+class RepairFunction {
+ public:
+  // Nearer than `near` the sides of triangles count where they are known.
+  RepairFunction(const Triangulation& surface, const SurfaceEdges& edges, double near)
+      : triangles_(corners_of(surface)),
+        nearest_(triangles_),
+        winding_(triangles_),
+        sides_(surface, edges, winding_),
+        near_(near * near) {}
+  RepairFunction(const RepairFunction&) = delete;
+  RepairFunction& operator=(const RepairFunction&) = delete;
+
+  double operator()(const Point<3>& x) const {
+    const NearestTriangles::Nearest there = nearest_.nearest(x);
+    const double away = std::sqrt(there.square);
+    if (away == 0) return 0;
+    if (there.square < near_)
+      if (const int side = sides_.side(there.triangle, there.point, x); side != 0)
+        return side * away;
+    return std::clamp(1 - 2 * std::fabs(winding_(x)), -1.0, 1.0) * away;
+  }
+  const TriangleList& triangles() const { return triangles_; }
+  const NearestTriangles& nearest() const { return nearest_; }
+
+ private:
+  TriangleList triangles_;
+  NearestTriangles nearest_;
+  WindingNumber winding_;
+  SurfaceSides sides_;
+  double near_;  // squared
+};
+
+double longest_side(const Box<3>& box) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, box.high[k] - box.low[k]);
+  return longest;
+}
+
+// Over common vertices; what is nothing is left out.
+Triangulation welded(const std::vector<SurfaceSource>& given) {
+  Triangulation surface = join_surfaces(given);
+  Box<3> box = empty_box<3>();
+  for (const Point<3>& x : surface.vertices) include(box, x);
+  const std::vector<std::int32_t> joined =
+      weld_points(surface.vertices, kSameVertex * size_of(box));
+  for (SurfaceTriangle& triangle : surface.triangles)
+    for (std::int32_t& v : triangle.vertices) v = joined[static_cast<std::size_t>(v)];
+  std::erase_if(surface.triangles, [](const SurfaceTriangle& triangle) {
+    const auto& [a, b, c] = triangle.vertices;
+    return a == b || b == c || c == a;
+  });
+  return surface;
+}
+
+SurfaceSource surface_of(const LevelSet& set, std::int32_t tag) {
+  try {
+    return level_set_surface(set, tag);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::domain) throw;
+    reject_domain("repair: the triangles enclose nothing that the resolution of " +
+                  rounded_text(set.resolution()) +
+                  " finds: nowhere do they wind around a point more than half a time");
+  }
+}
+
+// The surface is well inside of it: beyond the triangles' convex hull they wind less than half a
+// time around.
+Box<3> roomy(Box<3> box, double resolution) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] -= 2 * resolution;
+    box.high[k] += 2 * resolution;
+  }
+  return box;
+}
+
+TriangleList triangles_of(const SurfaceSource& surface) {
+  TriangleList triangles;
+  for (const auto& t : surface.triangles) {
+    FacetCorners<3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = surface.vertices[static_cast<std::size_t>(t[k])];
+    triangles.push_back(corners);
+  }
+  return triangles;
+}
+
+RepairDistances distances_between(const RepairFunction& given, const SurfaceSource& surface,
+                                  double resolution) {
+  RepairDistances found;
+  const TriangleList made = triangles_of(surface);
+  double area = 0, sum = 0;
+  for (const FacetCorners<3>& triangle : made) {
+    const double away = given.nearest().distance_from(centroid(triangle));
+    found.to_given = std::max(found.to_given, away);
+    sum += area_of(triangle) * away;
+    area += area_of(triangle);
+  }
+  for (const Point<3>& x : surface.vertices)
+    found.to_given = std::max(found.to_given, given.nearest().distance_from(x));
+  found.mean_to_given = area > 0 ? sum / area : 0;
+  const NearestTriangles nearest(made);
+  double all = 0, lost = 0;
+  for (const FacetCorners<3>& triangle : given.triangles()) {
+    const double away = nearest.distance_from(centroid(triangle));
+    found.to_new = std::max(found.to_new, away);
+    all += area_of(triangle);
+    if (away > resolution) lost += area_of(triangle);
+  }
+  found.lost = all > 0 ? lost / all : 0;
+  return found;
+}
+
+}  // namespace
+
+RepairedBody repaired_body(const std::vector<SurfaceSource>& given, double resolution) {
+  RepairedBody body;
+  std::vector<std::string> warnings;
+  Triangulation surface = welded(given);
+  const Box<3> box = box_around(corners_of(surface));
+  if (resolution == 0) resolution = kRepairResolution * longest_side(box);
+  if (!(resolution > 0 && resolution <= longest_side(box)))
+    reject_domain("repair: the resolution is " + number_text(resolution) +
+                  ", expected no more than the longest side of the box around the triangles, " +
+                  rounded_text(longest_side(box)));
+  SurfaceEdges edges(surface);
+  orient_surfaces(surface, edges, OneSided::ignored, warnings);
+  const auto f = std::make_shared<const RepairFunction>(surface, edges, kNear * resolution);
+  const auto set = std::make_shared<LevelSet>(
+      "the repaired surface",
+      [f](std::int64_t n, const Point<3>* x, double* values) {
+        for (std::int64_t i = 0; i < n; ++i) values[i] = (*f)(x[i]);
+      },
+      roomy(box, resolution), resolution);
+  body.surface = surface_of(*set, given[0].tags[0]);
+  add_creases(*set, body.surface);
+  body.surface.level_set = set;
+  body.surface.approximates = true;
+  body.surface.name = set->name();
+  body.distances = distances_between(*f, body.surface, resolution);
+  body.surface.warnings.insert(body.surface.warnings.begin(), warnings.begin(), warnings.end());
+  return body;
+}
+
+std::string text_of(const RepairedBody& body) {
+  const RepairDistances& d = body.distances;
+  std::string text = "repaired, with a resolution of " +
+                     rounded_text(body.surface.level_set->resolution()) + ": " +
+                     std::to_string(body.surface.triangles.size()) + " new triangles, within " +
+                     rounded_text(d.to_given) + " (" + rounded_text(d.mean_to_given) +
+                     " in the mean) of those given";
+  if (d.lost > 0)
+    text += "; " + rounded_text(100 * d.lost) +
+            " percent of these, by area, are farther than the resolution from the new ones, by up "
+            "to " +
+            rounded_text(d.to_new) + ": they lie inside, enclose nothing or are too near to others";
+  return text;
+}
+
+}  // namespace pnpbs
