@@ -11,6 +11,9 @@ option(PNPBS_BUILD_TESTS "Build the tests" OFF)
 option(PNPBS_INSTALL_STATIC "Install libpnpbs.a as well; its users link Kokkos and C++ themselves"
        OFF)
 option(PNPBS_FETCH_KOKKOS "Download and build the official Kokkos release if none is found" OFF)
+option(PNPBS_COUNT_UNKNOWN_USES
+       "Count what a rank decides by data that it does not know exactly (slow; statistic unknown_uses)"
+       OFF)
 option(PNPBS_WARNINGS_AS_ERRORS "Stop at the first compiler warning" OFF)
 set(PNPBS_ARCH
     ""

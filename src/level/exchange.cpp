@@ -9,6 +9,7 @@ namespace pnpbs {
 template <int Dim>
 void exchange(Level<Dim>& level, int hops) {
   if (!level.distributed()) return;
+  count_inexact_nodes(level);
   // Deeper than was asked for so far.
   if (hops + 2 > level.tree->hops())
     level.adopt_partition(level.tree->distribution().without_leaves());
@@ -33,6 +34,7 @@ void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure) {
 template <int Dim>
 void update_ghosts(Level<Dim>& level) {
   if (!level.distributed()) return;
+  count_inexact_nodes(level);
   const PhaseTimer timer(level.timers, Phase::exchange);
   level.ghosts.update(*level.comm, level.nodes);
 }

@@ -65,6 +65,8 @@ class Ghosts {
     return hops_ >= hops && exact_at_ == nodes.positions();
   }
 
+  int hops() const { return hops_; }
+  std::int64_t steps_since_choice() const { return steps_since_choice_; }
   std::int64_t neighbour_ranks() const { return halo_.neighbour_count(); }
   // That this rank sends at an update.
   std::int64_t update_bytes() const {

@@ -16,6 +16,7 @@
 #include "domain/domain.hpp"
 #include "level/ghosts.hpp"
 #include "level/ground.hpp"
+#include "level/inexact_nodes.hpp"
 #include "level/level_tree.hpp"
 #include "level/neighbourhood.hpp"
 #include "level/time_integration.hpp"
@@ -64,6 +65,7 @@ struct Level {
 
   std::int64_t settings_version = 0, rebalances = 0;
   std::int64_t unknown_uses = 0;  // of data that this rank does not know exactly
+  InexactNodes inexact;           // since the last exchange, in builds that look
 };
 
 // Of all ranks. Collective in space.

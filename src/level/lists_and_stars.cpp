@@ -4,28 +4,12 @@
 #include "delaunay/volume/agreed_triangles.hpp"
 #include "level/exchange.hpp"
 #include "level/finding_stars.hpp"
+#include "level/known_after_exchange.hpp"
 #include "level/reach.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-// Where all nodes are known after an exchange that deep.
-template <int Dim>
-KnownRegion<Dim> known_after_exchange(Level<Dim>& level, int hops) {
-  if (!level.distributed()) return {};
-  const LevelTree<Dim>& tree = *level.tree;
-  const Halo& halo = level.tree->halo(hops, level.settings);
-  std::vector<char> known(static_cast<std::size_t>(tree.tree().leaf_count()), 0);
-  for (std::int32_t leaf = 0; leaf < tree.tree().leaf_count(); ++leaf) {
-    known[static_cast<std::size_t>(leaf)] = tree.owns(leaf) || tree.map().leaf_empty(leaf);
-    if (tree.distribution().refined(leaf))
-      halo.for_ranks(leaf, [&](int r) {
-        if (r == level.comm->rank()) known[static_cast<std::size_t>(leaf)] = 1;
-      });
-  }
-  return KnownRegion<Dim>(tree.tree(), known);
-}
 
 // Calls visit(leaf, owned nodes there, box that their lists look into) for the leaves with any.
 template <int Dim, class Visit>

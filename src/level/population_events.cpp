@@ -116,6 +116,7 @@ PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
   View<double> ratios;
   agreed(*level.comm, [&] {
     rebuild_lists_for_steps(level);
+    count_uses_by_event(level, kPopulationHops);
     const PhaseTimer timer(level.timers, Phase::population);
     ratios = overlap_ratios<Dim>(nodes, level.lists());
   });
@@ -137,6 +138,7 @@ PopulationCounts repair_defects(Level<2>& level) {
   level.nodes.set_reference_positions();
   exchange(level, kPopulationHops);
   make_lists_and_stars(level, kPopulationHops, level.settings.list_radius, {kDefectRings});
+  count_uses_by_event(level, kPopulationHops);
   PopulationChange<2> change;
   agreed(*level.comm, [&] {
     const PhaseTimer timer(level.timers, Phase::population);

@@ -46,10 +46,7 @@ int step_hops(const Settings& settings) {
   return hops_for(settings, settings.exchange_interval * settings.evaluations_per_step());
 }
 
-int runge_kutta_hops(const Settings& settings) {
-  constexpr int kStages = 4;
-  return hops_for(settings, kStages);
-}
+int runge_kutta_hops(const Settings& settings) { return hops_for(settings, kRungeKuttaStages); }
 
 int deepest_hops(const Settings& settings) {
   const int repair_hops = settings.dimension == 3 ? kRepairHops<3> : kRepairHops<2>;

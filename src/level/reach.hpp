@@ -21,6 +21,9 @@ inline constexpr int kStarHops = Dim == 2 ? 3 : 5;
 template <int Dim>
 inline constexpr int kRepairHops = Dim == 2 ? 4 : 7;
 
+// Evaluations of the force in a step of the classical fourth order.
+inline constexpr int kRungeKuttaStages = 4;
+
 // The larger one of the lists' radius and of that of the adjacency lists.
 double widest_radius(const Settings& settings);
 // Nodes this near to an edge may come within its clearance until the next event.

@@ -112,6 +112,9 @@ std::vector<std::int32_t> crowded_nodes(const Level<Dim>& level) {
 
 }  // namespace
 
+// A node waits if one that it coincides with does so with another.
+constexpr int kCoincidingHops = 2;
+
 // After the last population event nodes may still be pressed into a corner until they coincide.
 // Here nothing is born, so there is no contest: of many in one place all go at once but the first.
 // One that only coincides with nodes that may go themselves waits for the next round.
@@ -120,6 +123,7 @@ PopulationCounts remove_crowded(Level<Dim>& level) {
   PopulationCounts counts;
   while (true) {
     prepare_finish(level);
+    count_uses_by_event(level, kCoincidingHops);
     std::vector<std::int32_t> crowded;
     agreed(*level.comm, [&] { crowded = crowded_nodes(level); });
     const auto own = std::count_if(crowded.begin(), crowded.end(),

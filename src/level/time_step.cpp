@@ -22,6 +22,7 @@ void step(Level<Dim>& level, std::exception_ptr& failure) {
   attempt(failure, [&] {
     if (level.neighbourhood.needs_rebuild(level.nodes, level.settings))
       rebuild_lists_for_steps(level);
+    track_inexact_nodes(level, level.settings.evaluations_per_step());
     const PhaseTimer timer(level.timers, Phase::motion);
     level.time_integration.step(level.nodes, level.neighbourhood, level.map(), level.ground,
                                 level.settings);
@@ -34,6 +35,7 @@ void finish_by_runge_kutta(Level<Dim>& level) {
   exchange(level, runge_kutta_hops(level.settings));
   agreed(*level.comm, [&] {
     rebuild_lists_for_steps(level);
+    track_inexact_nodes(level, kRungeKuttaStages);
     const PhaseTimer timer(level.timers, Phase::motion);
     level.time_integration.runge_kutta_step(level.nodes, level.neighbourhood, level.map(),
                                             level.ground, level.settings);

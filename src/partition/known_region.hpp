@@ -19,6 +19,10 @@ class KnownRegion {
   KnownRegion(const BackgroundTree<Dim>& tree, const std::vector<char>& known_leaves);
 
   bool is_everywhere() const { return unknown_in_.empty(); }
+  // Is there anything in this cell of the tree, boxes apart, that is not known?
+  bool unknown_in(std::int32_t cell) const {
+    return !is_everywhere() && unknown_in_[static_cast<std::size_t>(cell)] != 0;
+  }
   void add(const Box<Dim>& box) { boxes_.push_back(box); }
 
   // Is all of the box known?

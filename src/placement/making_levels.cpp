@@ -191,6 +191,7 @@ void PlacementOf<Dim>::adopt_level(std::unique_ptr<Level<Dim>> next) {
   if (level_) {
     rebuilds_before_ += level_->neighbourhood.rebuilds();
     rebalances_before_ += level_->rebalances;
+    unknown_uses_before_ += level_->unknown_uses;
   }
   level_ = std::move(next);
   edge_bands_.clear();

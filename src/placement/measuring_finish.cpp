@@ -7,19 +7,26 @@
 namespace pnpbs {
 
 // Collective.
+template <int Dim>
+void PlacementOf<Dim>::gather_unknown_uses() {
+  unknown_uses_ = static_cast<std::int64_t>(comm_->allreduce_sum(
+      static_cast<std::uint64_t>(unknown_uses_before_ + level_->unknown_uses)));
+  if (unknown_uses_ > 0)
+    warnings_.push_back(
+        "the nodes may depend on the number of ranks: " + std::to_string(unknown_uses_) +
+        " decisions looked beyond what a rank knows (statistic unknown_uses); on "
+        "one rank they do not");
+}
+template void PlacementOf<2>::gather_unknown_uses();
+template void PlacementOf<3>::gather_unknown_uses();
+
+// Collective.
 template <>
 void PlacementOf<3>::measure_finish() {
   prepare_stars();
   const View<char> held = held_nodes();  // there d is not the user's
   agreed(*comm_,
          [&] { edge_bands_ = measure_edge_bands<3>(*comm_, level_->nodes, level_->stars, held); });
-  unknown_uses_ = static_cast<std::int64_t>(
-      comm_->allreduce_sum(static_cast<std::uint64_t>(level_->unknown_uses)));
-  if (unknown_uses_ > 0)
-    warnings_.push_back(
-        "the nodes may depend on the number of ranks: " + std::to_string(unknown_uses_) +
-        " decisions looked beyond what a rank knows (statistic unknown_uses); on "
-        "one rank they do not");
   surface_fit_ = measure_surface_fit(*level_);
 }
 

@@ -200,6 +200,7 @@ class Placement {
   Speeds last_speeds_;
   std::int64_t steps_done_ = 0, inserted_ = 0, deleted_ = 0, dropped_ = 0, rebuilds_before_ = 0,
                rebalances_before_ = 0, unknown_uses_ = 0;
+  std::int64_t unknown_uses_before_ = 0;  // of this rank, on levels that are no more
   StopReason stop_reason_ = StopReason::none;
   std::vector<std::string> warnings_;
   std::size_t warnings_of_level_ = 0;  // the first of them; the others are of the last run

@@ -248,6 +248,7 @@ class PlacementOf : public Placement {
   ProgressPart part_of_steps() const;
   template <class Stops>
   Outcome smooth(const Stops& stops);
+  void gather_unknown_uses();
   void measure_finish();    // in space
   bool elements_conform();  // if not there is a warning; collective
 

@@ -191,6 +191,7 @@ Outcome PlacementOf<Dim>::finish() {
   if (smooth([&] { return stops(); }) == Outcome::stopped) return Outcome::stopped;
   refresh_spacing(*level_);
   if constexpr (Dim == 3) measure_finish();
+  gather_unknown_uses();
   return Outcome::converged;
 }
 

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * In builds that count it (PNPBS_COUNT_UNKNOWN_USES): a rank decides by nothing that it does not
+ * know exactly, over steps, events and sweeps; and where ghosts reach less far than they must, that
+ * is counted and reported. */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rank_program.h"
+
+static int32_t spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  const double finest = dim == 2 ? 0.008 : 0.05;
+  int64_t i;
+  (void)user;
+  for (i = 0; i < n; ++i) d[i] = finest * (1 + 2 * x[dim * i]);
+  return 0;
+}
+
+static int warns_of_ranks(pnpbs_placement placement) {
+  const char* text = "";
+  int32_t count = 0, k;
+  int found = 0;
+  pnpbs_placement_warning_count(placement, &count);
+  for (k = 0; k < count; ++k) {
+    pnpbs_placement_get_warning(placement, k, &text);
+    found |= strstr(text, "the nodes may depend on the number of ranks") != NULL;
+  }
+  return found;
+}
+
+/* Options: pairs of key and value, up to NULL. */
+static int64_t uses_in(int32_t dim, const char* const* options) {
+  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, low[] = {0, 0, 0}, high[] = {1, 1, 1};
+  pnpbs_domain domain;
+  pnpbs_placement placement;
+  int64_t uses = -1;
+  expect(pnpbs_domain_create(context, dim, &domain) == PNPBS_OK, "domain");
+  if (dim == 2)
+    pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0);
+  else
+    pnpbs_domain_add_box(domain, low, high, 1);
+  expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
+  for (; *options; options += 2)
+    expect(pnpbs_placement_set(placement, options[0], options[1]) == PNPBS_OK, options[0]);
+  pnpbs_placement_set_spacing_callback(placement, spacing, NULL);
+  expect(pnpbs_placement_run(placement) >= 0, "run");
+  expect(pnpbs_placement_get_int64(placement, "unknown_uses", &uses) == PNPBS_OK, "statistic");
+  expect(warns_of_ranks(placement) == (uses > 0), "there is a warning where uses are counted");
+  pnpbs_placement_destroy(&placement);
+  pnpbs_domain_destroy(&domain);
+  return uses;
+}
+
+int main(int argc, char** argv) {
+  static const char* const enough[][5] = {{NULL},
+                                          {"exchange_interval", "1", NULL},
+                                          {"exchange_interval", "8", NULL},
+                                          {"method", "paper", NULL}};
+  static const char* const thin[] = {"exchange_interval", "8", "halo_deficit", "6", NULL};
+  int32_t dim;
+  size_t k;
+  begin_ranks(&argc, &argv);
+  for (dim = 2; dim <= 3; ++dim) {
+    for (k = 0; k < sizeof enough / sizeof enough[0]; ++k)
+      expect(uses_in(dim, enough[k]) == 0, "what decides is known");
+    if (size > 1) expect(uses_in(dim, thin) > 0, "thin layers of ghosts are found out");
+  }
+  return end_ranks();
+}
