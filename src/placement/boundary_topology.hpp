@@ -14,6 +14,7 @@ struct BoundaryTopology {
   // Nodes where it is torn: around those on surfaces that bound the domain, the faces are not one
   // disk; or they are from inside and have faces.
   FoundNodes<3> torn;
+  bool torn_on_surfaces = false;  // is one of them on a surface?
   // Euler's characteristic, vertices less edges plus triangles: of the boundary and of the domain's
   // surfaces. Where nothing is torn they differ by 2 for each handle or hole, and each piece.
   std::int64_t euler = 0, euler_of_domain = 0;

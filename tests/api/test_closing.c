@@ -41,6 +41,9 @@ static job rough_job(double depth, double waves, double d) {
   return it;
 }
 
+/* d does not resolve it: whatever is done with the elements, its boundary is torn. */
+static job unresolved_job(void) { return rough_job(0.5, 6.5, 0.32); }
+
 /* ---------------------------------------------------------------- what closes ----------- */
 
 static int by_ends(const void* a, const void* b) {
@@ -107,7 +110,7 @@ START_TEST(rough_bodies_close) {
 END_TEST
 
 START_TEST(torn_bodies_are_told) {
-  job it = rough_job(0.4, 8, 0.3);
+  job it = unresolved_job();
   int torn, other;
   MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
   ck_assert_int_eq(pnpbs_placement_run(it.placement), PNPBS_NOT_CONFORMING);
@@ -121,9 +124,61 @@ START_TEST(torn_bodies_are_told) {
 END_TEST
 
 START_TEST(torn_bodies_are_mended) {
-  job it = rough_job(0.4, 8, 0.3);
+  job it = unresolved_job();
   run_and_check_closed(&it);
   ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
+  job_end(&it);
+}
+END_TEST
+
+/* A cube with a slit from above, so wide and deep, with its tip above x. */
+static void add_slit_cube(pnpbs_domain domain, double width, double depth, double x) {
+  enum { kSides = 7 };
+  const double outline[kSides][2] = {{x, 1 - depth}, {x - width / 2, 1}, {0, 1}, {0, 0}, {1, 0},
+                                     {1, 1},         {x + width / 2, 1}};
+  double xyz[2 * kSides][3];
+  int64_t corners[4 * kSides][3], n = 0;
+  int k;
+  for (k = 0; k < 2 * kSides; ++k) {
+    xyz[k][0] = outline[k % kSides][0];
+    xyz[k][1] = outline[k % kSides][1];
+    xyz[k][2] = k / kSides;
+  }
+  for (k = 0; k < kSides; ++k) { /* the tip sees all of the outline */
+    const int64_t next = (k + 1) % kSides,
+                  side[2][3] = {{k, next, next + kSides}, {k, next + kSides, k + kSides}},
+                  ends[2][3] = {{0, next, k}, {kSides, k + kSides, next + kSides}};
+    memcpy(corners[n], side, sizeof side);
+    n += 2;
+    if (k == 0 || next == 0) continue;
+    memcpy(corners[n], ends, sizeof ends);
+    n += 2;
+  }
+  MUST(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 2 * kSides, xyz[0], n, corners[0], NULL,
+                                40));
+}
+
+/* Where the walls of a slit are nearer to each other than d, other elements are chosen until the
+ * boundary closes, and no node has to come. */
+START_TEST(a_slit_closes) {
+  const double half_angle = 8.4428 / 2 * 3.14159265358979 / 180, depth = 0.5497;
+  job it = {NULL, NULL, NULL};
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  add_slit_cube(it.domain, 2 * depth * tan(half_angle), depth, 0.5203);
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.0823));
+  MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
+  run_and_check_closed(&it);
+  job_end(&it);
+}
+END_TEST
+
+/* The same where the surface is rough. */
+START_TEST(a_rough_body_closes_at_once) {
+  job it = rough_job(0.4, 8, 0.3);
+  MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
+  run_and_check_closed(&it);
   job_end(&it);
 }
 END_TEST
@@ -154,7 +209,7 @@ static int32_t follow(double fraction, int64_t step, int64_t nodes, double speed
 START_TEST(rounds_are_monitored) {
   static const double stops[] = {2, 0.9, 0.9001, 0.91};
   progress seen = {0, stops[_i], 0, 0, 0};
-  job it = rough_job(0.4, 8, 0.3);
+  job it = unresolved_job();
   MUST(pnpbs_placement_set_monitor(it.placement, follow, &seen));
   if (seen.stop_from > 1) {
     run_and_check_closed(&it);
@@ -174,7 +229,7 @@ END_TEST
 /* What a run tells of the nodes it began with holds for all of its rounds. */
 START_TEST(rounds_keep_what_was_left_out) {
   static const double xyz[] = {0, 0, 0, 9, 9, 9};
-  job it = rough_job(0.4, 8, 0.36);
+  job it = rough_job(0.3, 11, 0.44);
   MUST(pnpbs_placement_set_nodes(it.placement, 2, xyz, NULL));
   run_and_check_closed(&it);
   ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
@@ -195,7 +250,7 @@ static double steepest(const volume* v) {
 
 /* From where it is held down d grows as nodes can follow, even if nothing else limits it. */
 START_TEST(held_spacing_grows_gently) {
-  job it = rough_job(0.4, 8, 0.3);
+  job it = unresolved_job();
   volume v;
   MUST(pnpbs_placement_set(it.placement, "growth_limit", "0"));
   run_and_check_closed(&it);
@@ -213,7 +268,7 @@ static int32_t rough_level_set(int64_t n, int32_t dim, const double* x, double* 
   (void)dim, (void)user;
   for (i = 0; i < n; ++i, x += 3)
     value[i] = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) - 1 -
-               0.4 * sin(8 * x[0]) * sin(8 * x[1] + 1) * sin(8 * x[2] + 2);
+               0.4 * sin(11 * x[0]) * sin(11 * x[1] + 1) * sin(11 * x[2] + 2);
   return 0;
 }
 
@@ -231,14 +286,14 @@ START_TEST(held_spacing_ends_at_the_resolution) {
   volume v;
   MUST(pnpbs_context_create_serial(&it.context));
   MUST(pnpbs_domain_create(it.context, 3, &it.domain));
-  MUST(pnpbs_domain_add_level_set(it.domain, rough_level_set, NULL, low, high, 0.2, 1));
+  MUST(pnpbs_domain_add_level_set(it.domain, rough_level_set, NULL, low, high, 0.26, 1));
   job_place(&it);
-  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.3));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.36));
   ck_assert_int_eq(pnpbs_placement_run(it.placement), PNPBS_NOT_CONFORMING);
   ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
   v = volume_of(it.placement);
-  ck_assert_double_eq_tol(finest(&v), 0.2, 1e-3);
-  ck_assert_double_ge(finest(&v), 0.2);
+  ck_assert_double_eq_tol(finest(&v), 0.26, 1e-3);
+  ck_assert_double_ge(finest(&v), 0.26);
   volume_free(&v);
   job_end(&it);
 }
@@ -249,6 +304,8 @@ int main(void) {
   TCase* tests = tcase_create("closing");
   tcase_set_timeout(tests, 0);
   tcase_add_loop_test(tests, rough_bodies_close, 0, WHEN_SANITIZED(1, 3));
+  tcase_add_test(tests, a_slit_closes);
+  tcase_add_test(tests, a_rough_body_closes_at_once);
   tcase_add_test(tests, torn_bodies_are_told);
   tcase_add_test(tests, torn_bodies_are_mended);
   tcase_add_loop_test(tests, rounds_are_monitored, 0, WHEN_SANITIZED(2, 4));

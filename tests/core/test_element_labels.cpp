@@ -4,6 +4,8 @@
 // surface. With wrong labels its boundary is torn, and settled it is whole.
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 #include <vector>
 
 #include "delaunay/volume/element_labels.hpp"
@@ -73,13 +75,27 @@ int defects(const ElementLabels& labels, const std::vector<LabelledNode>& nodes)
   return sum;
 }
 
+// Between nodes of the plate?
+bool is_known(const Plate& plate, const LabelledTetrahedron& t) {
+  return std::ranges::all_of(t.ids, [&](std::int64_t id) {
+    return std::ranges::find(plate.nodes, id, &LabelledNode::id) != plate.nodes.end();
+  });
+}
+
+std::vector<LabelledTetrahedron> settled(const Plate& plate) {
+  ElementLabels labels(plate.tetrahedra, plate.nodes);
+  labels.settle();
+  return labels.changed();
+}
+
 }  // namespace
 
 START_TEST(what_is_whole_stays) {
   const Plate whole = plate();
   ElementLabels labels(whole.tetrahedra, whole.nodes);
   ck_assert_int_eq(defects(labels, whole.nodes), 0);
-  ck_assert(labels.settle().empty());
+  labels.settle();
+  ck_assert(labels.changed().empty());
 }
 END_TEST
 
@@ -90,11 +106,8 @@ START_TEST(one_wrong_label_is_mended) {
   for (std::size_t t = 0; t < whole.tetrahedra.size(); ++t) {
     std::vector<LabelledTetrahedron> wrong = whole.tetrahedra;
     wrong[t].is_element = !wrong[t].is_element;
-    const bool known = std::ranges::all_of(wrong[t].ids, [&](std::int64_t id) {
-      return std::ranges::find(whole.nodes, id, &LabelledNode::id) != whole.nodes.end();
-    });
     ElementLabels labels(wrong, whole.nodes);
-    if (!known || defects(labels, whole.nodes) == 0) continue;
+    if (!is_known(whole, wrong[t]) || defects(labels, whole.nodes) == 0) continue;
     ++torn;
     labels.settle();
     ck_assert_int_eq(defects(labels, whole.nodes), 0);
@@ -112,13 +125,16 @@ START_TEST(settled_labels_are_those_of_any_order) {
       if (t.is_element && random.between(0, 1) < 0.15) t.is_element = false;
     ElementLabels labels(wrong.tetrahedra, wrong.nodes);
     const int before = defects(labels, wrong.nodes);
-    const std::vector<LabelledTetrahedron> changed = labels.settle();
+    labels.settle();
+    const std::vector<LabelledTetrahedron> changed = labels.changed();
     ck_assert(before > 0 && defects(labels, wrong.nodes) < before / 4);
     Plate shuffled = wrong;
     random.shuffle(shuffled.tetrahedra);
     random.shuffle(shuffled.nodes);
     shuffled.tetrahedra.push_back(shuffled.tetrahedra.front());  // told by two nodes
-    ck_assert(ElementLabels(shuffled.tetrahedra, shuffled.nodes).settle() == changed);
+    ElementLabels again(shuffled.tetrahedra, shuffled.nodes);
+    again.settle();
+    ck_assert(again.changed() == changed);
   }
 }
 END_TEST
@@ -147,6 +163,57 @@ START_TEST(feature_edges_stay_on_the_boundary) {
 }
 END_TEST
 
+// Vertices less edges plus triangles of the boundary of the elements, counted from their faces.
+std::int64_t euler_of(std::vector<LabelledTetrahedron> tetrahedra,
+                      const std::vector<LabelledTetrahedron>& changed) {
+  for (LabelledTetrahedron& t : tetrahedra)
+    for (const LabelledTetrahedron& other : changed)
+      if (t.ids == other.ids) t.is_element = other.is_element;
+  std::map<std::array<std::int64_t, 3>, int> faces;
+  for (const LabelledTetrahedron& t : tetrahedra)
+    for (std::size_t k = 0; t.is_element && k < 4; ++k) {
+      std::array<std::int64_t, 3> face;
+      std::ranges::copy_if(t.ids, face.begin(), [&](std::int64_t id) { return id != t.ids[k]; });
+      ++faces[face];
+    }
+  std::set<std::int64_t> vertices;
+  std::set<std::array<std::int64_t, 2>> edges;
+  std::int64_t triangles = 0;
+  for (const auto& [face, count] : faces) {
+    if (count != 1) continue;
+    ++triangles;
+    vertices.insert(face.begin(), face.end());
+    edges.insert({{face[0], face[1]}, {face[1], face[2]}, {face[0], face[2]}});
+  }
+  return std::ssize(vertices) - std::ssize(edges) + triangles;
+}
+
+// So many labels are wrong that changing one or two at once ends with nodes without their disks, or
+// with handles; the search finds a sphere.
+START_TEST(the_search_finds_a_sphere) {
+  const Plate whole = plate();
+  ck_assert_int_eq(euler_of(whole.tetrahedra, {}), 2);
+  int searched = 0, handles = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    Plate wrong = whole;
+    for (LabelledTetrahedron& t : wrong.tetrahedra)
+      if (is_known(whole, t) && random.between(0, 1) < 0.4) t.is_element = !t.is_element;
+    const std::int64_t before = euler_of(wrong.tetrahedra, {});
+    ElementLabels labels(wrong.tetrahedra, wrong.nodes);
+    labels.settle();
+    ck_assert_int_eq(labels.euler_change(), euler_of(wrong.tetrahedra, labels.changed()) - before);
+    searched += defects(labels, wrong.nodes) > 0;
+    handles += defects(labels, wrong.nodes) == 0 && before + labels.euler_change() != 2;
+    labels.search(2 - before);
+    ck_assert_int_eq(defects(labels, wrong.nodes), 0);
+    ck_assert_int_eq(euler_of(wrong.tetrahedra, labels.changed()), 2);
+    ck_assert_int_eq(labels.euler_change(), 2 - before);
+  }
+  ck_assert(searched + handles >= 20);
+}
+END_TEST
+
 START_TEST(disks_around_a_node) {
   using pnpbs::disks_of;
   using pnpbs::FaceFan;
@@ -170,15 +237,16 @@ START_TEST(what_is_sure_stays) {
       deep.tetrahedra, [](const LabelledTetrahedron& t) { return t.is_element; });
   middle->is_element = false;
   for (LabelledTetrahedron& t : deep.tetrahedra) t.depth = 0.3;
-  ck_assert(ElementLabels(deep.tetrahedra, deep.nodes).settle().empty());
+  ck_assert(settled(deep).empty());
   for (LabelledTetrahedron& t : deep.tetrahedra) t.depth = 0.1;
   deep.nodes.clear();
-  ck_assert(ElementLabels(deep.tetrahedra, deep.nodes).settle().empty());
+  ck_assert(settled(deep).empty());
 }
 END_TEST
 
 int main() {
   return run_suite("element_labels", {what_is_whole_stays, one_wrong_label_is_mended,
                                       settled_labels_are_those_of_any_order, disks_around_a_node,
-                                      feature_edges_stay_on_the_boundary, what_is_sure_stays});
+                                      feature_edges_stay_on_the_boundary, what_is_sure_stays,
+                                      the_search_finds_a_sphere});
 }

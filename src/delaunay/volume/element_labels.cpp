@@ -32,12 +32,17 @@ ElementLabels::ElementLabels(std::vector<LabelledTetrahedron> tetrahedra,
       }
   for (std::size_t n = 0; n < nodes.size(); ++n)
     nodes_.push_back({NodeLink(nodes[n], tetrahedra_, around[n]), around[n]});
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const NodeLink& link = nodes_[n].link;
+    defects_ += link.defects();
+    if (link.lacks_disks()) without_disks_.insert(n);
+    if (link.defects() > 0) with_defects_.insert(n);
+  }
 }
 
 // What is surely inside or outside stays; so does what has a node around which not all is known.
-bool ElementLabels::may_change(std::size_t t) const {
-  constexpr double kMaxDepth = 0.2;
-  return tetrahedra_[t].may_change && tetrahedra_[t].depth < kMaxDepth && corners_[t].size() == 4;
+bool ElementLabels::may_change(std::size_t t, double max_depth) const {
+  return tetrahedra_[t].may_change && tetrahedra_[t].depth < max_depth && corners_[t].size() == 4;
 }
 
 // Has a label changed around one of their nodes?
@@ -102,30 +107,57 @@ std::vector<std::size_t> ElementLabels::best_changes(const Node& node,
 }
 
 bool ElementLabels::improve(Node& node) {
+  constexpr double kMaxDepth = 0.2;
   std::vector<std::size_t> free;
   for (const std::size_t t : node.tetrahedra)
-    if (may_change(t)) free.push_back(t);
+    if (may_change(t, kMaxDepth)) free.push_back(t);
   if (!may_help(free, node.given_up)) return false;
   const std::vector<std::size_t> changes = best_changes(node, free);
   if (changes.empty()) node.given_up = changes_;
   if (!changes.empty()) ++changes_;
-  for (const std::size_t t : changes) {
-    changed_[t] = changed_[t] == 0;
-    for (const Corner& corner : corners_[t]) {
-      nodes_[corner.node].link.change(corner.place);
-      nodes_[corner.node].changed = changes_;
-    }
-  }
+  for (const std::size_t t : changes) change(t);
   return !changes.empty();
 }
 
-std::vector<LabelledTetrahedron> ElementLabels::settle() {
+// Of its nodes, edges and faces.
+int ElementLabels::euler_times_six(std::size_t t) const {
+  int sum = 0;
+  for (const Corner& corner : corners_[t])
+    sum += nodes_[corner.node].link.euler_times_six(corner.place);
+  return sum;
+}
+
+void ElementLabels::change(std::size_t t) {
+  const auto put = [](std::set<std::size_t>& nodes, std::size_t n, bool in) {
+    if (in)
+      nodes.insert(n);
+    else
+      nodes.erase(n);
+  };
+  const int before = euler_times_six(t);
+  changed_[t] = changed_[t] == 0;
+  for (const Corner& corner : corners_[t]) {
+    Node& node = nodes_[corner.node];
+    defects_ -= node.link.defects();
+    node.link.change(corner.place);
+    node.changed = changes_;
+    defects_ += node.link.defects();
+    put(without_disks_, corner.node, node.link.lacks_disks());
+    put(with_defects_, corner.node, node.link.defects() > 0);
+  }
+  euler_change_ += (euler_times_six(t) - before) / 6;
+}
+
+void ElementLabels::settle() {
   bool any = true;
   while (any) {
     any = false;
     for (Node& node : nodes_)
       while (node.link.defects() > 0 && improve(node)) any = true;
   }
+}
+
+std::vector<LabelledTetrahedron> ElementLabels::changed() const {
   std::vector<LabelledTetrahedron> result;
   for (std::size_t t = 0; t < tetrahedra_.size(); ++t) {
     if (changed_[t] == 0) continue;

@@ -3,12 +3,16 @@
 // the boundary torn: where a surface is rough beside d, thin tetrahedra along it are inside or
 // outside by chance, and where they meet in an edge or a node alone, or leave a node in none, no
 // surface closes. There labels are changed, one after the other, until around every node the faces
-// of the boundary are one disk. A function of the tetrahedra given, in whatever order they come.
+// of the boundary are one disk: first as long as one change or two at once help (settle), then,
+// where that has not been enough, by a search. A function of the tetrahedra given, in whatever
+// order they come.
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "delaunay/volume/node_link.hpp"
@@ -37,8 +41,16 @@ class ElementLabels {
  public:
   ElementLabels(std::vector<LabelledTetrahedron> tetrahedra, std::vector<LabelledNode> nodes);
 
-  // Returns those whose label is now another.
-  std::vector<LabelledTetrahedron> settle();
+  // Changes labels as long as one, or two around a node, help.
+  void settle();
+  // And then goes on by chance (label_search.cpp) until all nodes have their disks and Euler's
+  // characteristic of the boundary is larger by so much than it was with the labels given, or that
+  // has been tried often enough. Nothing, if that is so already.
+  void search(std::int64_t euler_change);
+  // Those whose label is now another.
+  std::vector<LabelledTetrahedron> changed() const;
+  // By how much Euler's characteristic of the boundary is larger for that.
+  std::int64_t euler_change() const { return euler_change_; }
   // How far the faces of the boundary around this node are from one disk along a surface; 0: they
   // are one.
   int defects_at(std::int64_t id) const { return nodes_[node_at_.at(id)].link.defects(); }
@@ -62,10 +74,30 @@ class ElementLabels {
 
   Change change_of(std::size_t t);
   int gain(const Change& one, const Change& other, int worth);
-  bool may_change(std::size_t t) const;
+  bool may_change(std::size_t t, double max_depth) const;
   bool may_help(const std::vector<std::size_t>& free, std::uint64_t since) const;
   std::vector<std::size_t> best_changes(const Node& node, const std::vector<std::size_t>& free);
   bool improve(Node& node);
+  void change(std::size_t t);
+  int euler_times_six(std::size_t t) const;
+
+  // --- the search ---
+  // Less is better.
+  struct Faults {
+    std::size_t without_disks;
+    std::int64_t euler, defects;
+
+    auto operator<=>(const Faults&) const = default;
+    bool whole() const { return without_disks == 0 && euler == 0; }
+  };
+  Faults faults(std::int64_t euler_change) const;
+  int gain_of_disks(std::size_t t);
+  std::size_t tetrahedron_to_change(std::size_t n, std::uint64_t random);
+  void change_in_search(std::size_t t);
+  void change_at_one_of(const std::set<std::size_t>& nodes);
+  void walk(std::size_t without_disks);
+  void descend();
+  void take_back();
 
   std::vector<LabelledTetrahedron> tetrahedra_;  // as given
   std::vector<char> changed_;
@@ -73,6 +105,11 @@ class ElementLabels {
   std::vector<Node> nodes_;                   // by id
   std::map<std::int64_t, std::size_t> node_at_;
   std::uint64_t changes_ = 1;
+  std::set<std::size_t> without_disks_, with_defects_;  // nodes
+  std::int64_t defects_ = 0, euler_change_ = 0;
+  std::vector<std::uint64_t> rests_until_;  // of each tetrahedron: the step of the search
+  std::vector<std::size_t> round_;          // changed in this round of it
+  std::uint64_t step_ = 0;
 };
 
 }  // namespace pnpbs

@@ -89,16 +89,42 @@ void NodeLink::change(std::size_t place) {
 
 int NodeLink::gain(std::initializer_list<std::size_t> places) {
   for (const std::size_t place : places) flip(place);
-  const int fewer = defects_ - counted_defects();
+  const int fewer = defects() - weighed(counted_defects());
   for (const std::size_t place : places) flip(place);
   return fewer;
+}
+
+int NodeLink::gain_of_disks(std::size_t place) {
+  flip(place);
+  const int fewer = defects_of_disks() - disks_first(counted_defects());
+  flip(place);
+  return fewer;
+}
+
+int NodeLink::euler_times_six(std::size_t place) const {
+  const auto is_open = [](const Edge& edge) { return edge.used == 1; };
+  if (std::ranges::none_of(edges_, is_open)) return 0;
+  int faces = 0, edges = 0;
+  std::array<std::size_t, 6> ends;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Edge& edge = edges_[edges_of_[place][k]];
+    faces += is_open(edge);
+    ends[2 * k] = edge.ends[0];
+    ends[2 * k + 1] = edge.ends[1];
+  }
+  std::ranges::sort(ends);
+  for (std::size_t k = 0; k < ends.size(); k += 2)  // each is that of two
+    edges += std::ranges::any_of(edges_, [&](const Edge& edge) {
+      return is_open(edge) && (edge.ends[0] == ends[k] || edge.ends[1] == ends[k]);
+    });
+  return 6 - 3 * edges + 2 * faces;
 }
 
 // Of the open edges, pieces too many or too few, nodes where they branch, feature edges that are
 // not among them, and those that lie along no surface; a node in no element, or with elements all
 // around, has none.
-int NodeLink::counted_defects() {
-  constexpr int kNoFace = 4 * kTorn;
+NodeLink::Defects NodeLink::counted_defects() {
+  constexpr Defects kNoFace{4, 0, 0};
   std::ranges::fill(open_at_, 0);
   pieces_.part_all();
   int open = 0, strays = 0, pieces = 0;
@@ -112,12 +138,12 @@ int NodeLink::counted_defects() {
     pieces_.join(a, b);
   }
   if (open == 0) return kNoFace;
-  int torn = std::abs(pieces - static_cast<int>(disks_));
+  Defects found{std::abs(pieces - static_cast<int>(disks_)), 0, strays};
   for (const std::int32_t ends : open_at_)
-    if (ends > 0) torn += ends / 2 - 1;
+    if (ends > 0) found.disks += ends / 2 - 1;
   for (const std::int64_t other : joined_)
-    torn += other < 0 || open_at_[static_cast<std::size_t>(other)] == 0;
-  return kTorn * torn + strays;
+    found.edges += other < 0 || open_at_[static_cast<std::size_t>(other)] == 0;
+  return found;
 }
 
 }  // namespace pnpbs

@@ -43,12 +43,33 @@ class NodeLink {
 
   // How far the faces of the boundary around the node are from its disks along surfaces; 0: they
   // are these.
-  int defects() const { return defects_; }
+  int defects() const { return weighed(defects_); }
   // More than a face that strays.
-  bool is_torn() const { return defects_ >= kTorn; }
+  bool is_torn() const { return defects() >= kTorn; }
+  // Are the faces not so many disks as they should be?
+  bool lacks_disks() const { return defects_.disks > 0; }
+  // As defects() and gain(), for who cares for the disks first.
+  int defects_of_disks() const { return disks_first(defects_); }
+  int gain_of_disks(std::size_t place);
+  // What the node, and its edges and faces that are of this tetrahedron, add to six times Euler's
+  // characteristic of the boundary: an edge adds the rest at its other end, a face at its others.
+  int euler_times_six(std::size_t place) const;
 
  private:
   static constexpr int kTorn = 3;  // where a face that strays counts 1
+
+  struct Defects {
+    int disks;   // pieces of open edges too many or too few, and where these branch
+    int edges;   // feature edges that are not among them
+    int strays;  // those that lie along no surface
+  };
+  static int weighed(const Defects& defects) {
+    return kTorn * (defects.disks + defects.edges) + defects.strays;
+  }
+  static int disks_first(const Defects& defects) {
+    constexpr int kFirst = 10;
+    return kFirst * defects.disks + kTorn * defects.edges + defects.strays;
+  }
 
   struct Edge {
     std::array<std::size_t, 2> ends;
@@ -57,7 +78,7 @@ class NodeLink {
   };
 
   void flip(std::size_t place);
-  int counted_defects();
+  Defects counted_defects();
 
   std::int64_t disks_;
   std::vector<Edge> edges_;
@@ -66,7 +87,7 @@ class NodeLink {
   std::vector<std::int64_t> joined_;   // by feature edges; -1: in no tetrahedron here
   std::vector<std::int32_t> open_at_;  // of each node of the link
   UnionFind<std::size_t> pieces_{0};   // likewise, joined by open edges
-  int defects_;
+  Defects defects_;
 };
 
 }  // namespace pnpbs

@@ -11,6 +11,7 @@
 #include "delaunay/volume/circumsphere.hpp"
 #include "delaunay/volume/domain_rule.hpp"
 #include "level/finding_stars.hpp"
+#include "level/volume/boundary_euler.hpp"
 #include "level/volume/open_faces.hpp"
 #include "level/volume/surface_stars.hpp"
 
@@ -206,7 +207,9 @@ std::int64_t settle_elements(Level<3>& level) {
   agreed(*level.comm, [&] { own = labelled_stars(level, owned_among(level, ids)); });
   ElementLabels labels(of_all_ranks(*level.comm, own.tetrahedra),
                        by_node(of_all_ranks(*level.comm, own.nodes)));
-  const std::vector<LabelledTetrahedron> changed = labels.settle();
+  labels.settle();
+  labels.search(euler_of_surfaces(level) - euler_of_boundary(level));
+  const std::vector<LabelledTetrahedron> changed = labels.changed();
   level.changed_labels = ChangedLabels(changed);
   agreed(*level.comm, [&] {
     const KnownRegion<3> everywhere;

@@ -17,8 +17,9 @@ std::int64_t disks_of_surfaces(const Level<3>& level, std::int64_t i);
 bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>& corners);
 
 // Of the stars that there are, by centroids, and the lists: around nodes where the boundary is
-// torn, labels of tetrahedra are changed, and these stars found again. Returns how many nodes were
-// torn, of all ranks. Collective.
+// torn, labels of tetrahedra are changed until it is a surface of the same topology as the
+// domain's, as far as such labels are found; and these stars are found again. Returns how many
+// nodes were torn, of all ranks. Collective.
 std::int64_t settle_elements(Level<3>& level);
 inline std::int64_t settle_elements(Level<2>&) { return 0; }
 
