@@ -36,13 +36,14 @@ struct TurningEdge {
 
 class VolumeResultCheck : public VolumeNodeCheck {
  public:
-  explicit VolumeResultCheck(const PlacementOf<3>& placement) : VolumeNodeCheck(placement) {}
+  VolumeResultCheck(const PlacementOf<3>& placement, const Conformity<3>& conformity)
+      : VolumeNodeCheck(placement), conformity_(conformity) {}
 
-  void check(bool fills) const {
+  void check() const {
     check_nodes_and_lists();
     check_stars();
     check_boundary();
-    check_volume(fills);
+    check_volume(conformity_.fills());
   }
 
  private:
@@ -60,6 +61,8 @@ class VolumeResultCheck : public VolumeNodeCheck {
   void check_boundary() const;
 
   void check_volume(bool fills) const;
+
+  const Conformity<3>& conformity_;
 };
 
 Three VolumeResultCheck::sorted_ids(const Corners& corners) const {
@@ -117,7 +120,8 @@ void VolumeResultCheck::check_corner(std::int64_t corner, const Corners& others,
                name(others[0]) + ", " + name(others[1]) + " and " + name(others[2]));
 }
 
-// On either side of a face there is one tetrahedron at most; inside there are two.
+// On either side of a face there is one tetrahedron at most; inside there are two. (Where nodes of
+// the surfaces are lacking, as these are torn, inner ones may be the outermost.)
 void VolumeResultCheck::check_faces(std::int64_t i) const {
   using Side = std::pair<std::int32_t, std::int32_t>;  // of the face with node i, as it turns
   std::vector<Side> sides;
@@ -131,7 +135,7 @@ void VolumeResultCheck::check_faces(std::int64_t i) const {
   };
   const auto twice = std::ranges::adjacent_find(sides);
   if (twice != sides.end()) fail_check(text(*twice) + " has two tetrahedra on one side");
-  if (nodes_.carrier(i) != Carrier::free) return;
+  if (nodes_.carrier(i) != Carrier::free || conformity_.boundary.torn_on_surfaces) return;
   for (const Side& side : sides)
     if (nodes_.carrier(side.first) == Carrier::free &&
         nodes_.carrier(side.second) == Carrier::free &&
@@ -201,7 +205,7 @@ std::string check_results(PlacementOf<3>& placement) {
   if (placement.surfaces_alone())
     check_surfaces(placement, conformity.fills());
   else
-    VolumeResultCheck(placement).check(conformity.fills());
+    VolumeResultCheck(placement, conformity).check();
   return text_of(conformity, placement);
 }
 
