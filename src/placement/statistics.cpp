@@ -93,8 +93,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "it did not resolve the shape (option conforming_rounds)"),
       integer(
           "unknown_uses", [](P p) { return p.unknown_uses(); },
-          "decisions, as of the end of the last run, that looked at stars which a rank does not know "
-          "exactly, and nodes whose adjacency lists could miss a node, or that lie in a leaf of the "
+          "decisions, as of the end of the last run, that looked at stars which a rank does not "
+          "know "
+          "exactly, and nodes whose adjacency lists could miss a node, or that lie in a leaf of "
+          "the "
           "background tree which no rank holds; in a library built with PNPBS_COUNT_UNKNOWN_USES "
           "also nodes moved or judged by others that are not exact; 0, or the nodes may depend on "
           "the number of ranks"),
