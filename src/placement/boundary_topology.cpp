@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "level/volume/boundary_euler.hpp"
+#include "level/volume/boundary_pieces.hpp"
 #include "level/volume/open_faces.hpp"
 #include "level/volume/settled_elements.hpp"
 
@@ -44,6 +45,8 @@ BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<
   result.torn_on_surfaces = placement.communicator().allreduce_sum(on_surfaces) > 0;
   result.euler = euler_of_boundary(level);
   result.euler_of_domain = euler_of_surfaces(level);
+  result.pieces = pieces_of_boundary(level);
+  result.pieces_of_domain = pieces_of_surfaces(level);
   return result;
 }
 

@@ -18,8 +18,11 @@ struct BoundaryTopology {
   // Euler's characteristic, vertices less edges plus triangles: of the boundary and of the domain's
   // surfaces. Where nothing is torn they differ by 2 for each handle or hole, and each piece.
   std::int64_t euler = 0, euler_of_domain = 0;
+  std::int64_t pieces = 0, pieces_of_domain = 0;
 
-  bool agrees() const { return torn.count == 0 && euler == euler_of_domain; }
+  bool agrees() const {
+    return torn.count == 0 && euler == euler_of_domain && pieces == pieces_of_domain;
+  }
 };
 
 // Of a body, after prepare_stars. This rank's nodes where it is torn are added to `torn`, with

@@ -114,6 +114,12 @@ std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& p
            std::to_string(conformity.boundary.euler_of_domain) +
            ": the spacing is too coarse somewhere, so that a wall has a hole, a gap is bridged or "
            "a neck is cut: make it smaller there, or try the option resolve";
+  if (conformity.boundary.pieces != conformity.boundary.pieces_of_domain)
+    return "the boundary of the tetrahedra is of " + std::to_string(conformity.boundary.pieces) +
+           " pieces, that of the domain of " +
+           std::to_string(conformity.boundary.pieces_of_domain) +
+           ": the spacing is too coarse somewhere: make it smaller there, or try the option "
+           "resolve";
   return "";
 }
 

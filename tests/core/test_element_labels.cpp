@@ -163,29 +163,52 @@ START_TEST(feature_edges_stay_on_the_boundary) {
 }
 END_TEST
 
-// Vertices less edges plus triangles of the boundary of the elements, counted from their faces.
-std::int64_t euler_of(std::vector<LabelledTetrahedron> tetrahedra,
-                      const std::vector<LabelledTetrahedron>& changed) {
+using Face = std::array<std::int64_t, 3>;
+
+// Of the elements, those that one of them has alone.
+std::vector<Face> open_faces_of(std::vector<LabelledTetrahedron> tetrahedra,
+                                const std::vector<LabelledTetrahedron>& changed) {
   for (LabelledTetrahedron& t : tetrahedra)
     for (const LabelledTetrahedron& other : changed)
       if (t.ids == other.ids) t.is_element = other.is_element;
-  std::map<std::array<std::int64_t, 3>, int> faces;
+  std::map<Face, int> faces;
   for (const LabelledTetrahedron& t : tetrahedra)
     for (std::size_t k = 0; t.is_element && k < 4; ++k) {
-      std::array<std::int64_t, 3> face;
+      Face face;
       std::ranges::copy_if(t.ids, face.begin(), [&](std::int64_t id) { return id != t.ids[k]; });
       ++faces[face];
     }
+  std::vector<Face> open;
+  for (const auto& [face, count] : faces)
+    if (count == 1) open.push_back(face);
+  return open;
+}
+
+// Vertices less edges plus triangles of their boundary.
+std::int64_t euler_of(const std::vector<LabelledTetrahedron>& tetrahedra,
+                      const std::vector<LabelledTetrahedron>& changed) {
   std::set<std::int64_t> vertices;
   std::set<std::array<std::int64_t, 2>> edges;
-  std::int64_t triangles = 0;
-  for (const auto& [face, count] : faces) {
-    if (count != 1) continue;
-    ++triangles;
+  const std::vector<Face> faces = open_faces_of(tetrahedra, changed);
+  for (const Face& face : faces) {
     vertices.insert(face.begin(), face.end());
     edges.insert({{face[0], face[1]}, {face[1], face[2]}, {face[0], face[2]}});
   }
-  return std::ssize(vertices) - std::ssize(edges) + triangles;
+  return std::ssize(vertices) - std::ssize(edges) + std::ssize(faces);
+}
+
+std::int64_t pieces_of(const std::vector<LabelledTetrahedron>& tetrahedra,
+                       const std::vector<LabelledTetrahedron>& changed) {
+  constexpr std::size_t kIds = 1000;
+  pnpbs::UnionFind<std::size_t> joined(kIds);
+  std::set<std::size_t> nodes, pieces;
+  for (const Face& face : open_faces_of(tetrahedra, changed))
+    for (const std::int64_t id : face) {
+      joined.join(static_cast<std::size_t>(face[0]), static_cast<std::size_t>(id));
+      nodes.insert(static_cast<std::size_t>(id));
+    }
+  for (const std::size_t node : nodes) pieces.insert(joined.root(node));
+  return std::ssize(pieces);
 }
 
 // So many labels are wrong that changing one or two at once ends with nodes without their disks, or
@@ -205,9 +228,10 @@ START_TEST(the_search_finds_a_sphere) {
     ck_assert_int_eq(labels.euler_change(), euler_of(wrong.tetrahedra, labels.changed()) - before);
     searched += defects(labels, wrong.nodes) > 0;
     handles += defects(labels, wrong.nodes) == 0 && before + labels.euler_change() != 2;
-    labels.search(2 - before);
+    labels.search(2 - before, 1 - pieces_of(wrong.tetrahedra, {}));
     ck_assert_int_eq(defects(labels, wrong.nodes), 0);
     ck_assert_int_eq(euler_of(wrong.tetrahedra, labels.changed()), 2);
+    ck_assert_int_eq(pieces_of(wrong.tetrahedra, labels.changed()), 1);
     ck_assert_int_eq(labels.euler_change(), 2 - before);
   }
   ck_assert(searched + handles >= 20);

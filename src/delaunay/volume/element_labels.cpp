@@ -31,13 +31,18 @@ ElementLabels::ElementLabels(std::vector<LabelledTetrahedron> tetrahedra,
         around[found->second].push_back(t);
       }
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    nodes_.push_back({NodeLink(nodes[n], tetrahedra_, around[n]), around[n]});
+    nodes_.push_back({NodeLink(nodes[n], tetrahedra_, around[n]), around[n], {}});
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const NodeLink& link = nodes_[n].link;
+    for (const std::int64_t id : link.ids()) {
+      const auto found = node_at_.find(id);
+      nodes_[n].others.push_back(found == node_at_.end() ? nodes.size() : found->second);
+    }
     defects_ += link.defects();
     if (link.lacks_disks()) without_disks_.insert(n);
     if (link.defects() > 0) with_defects_.insert(n);
   }
+  first_pieces_ = pieces_inside();
 }
 
 // What is surely inside or outside stays; so does what has a node around which not all is known.

@@ -44,9 +44,10 @@ class ElementLabels {
   // Changes labels as long as one, or two around a node, help.
   void settle();
   // And then goes on by chance (label_search.cpp) until all nodes have their disks and Euler's
-  // characteristic of the boundary is larger by so much than it was with the labels given, or that
-  // has been tried often enough. Nothing, if that is so already.
-  void search(std::int64_t euler_change);
+  // characteristic of the boundary, and the number of its pieces, are larger by so much than they
+  // were with the labels given, or that has been tried often enough. Nothing, if that is so
+  // already.
+  void search(std::int64_t euler_change, std::int64_t pieces_change);
   // Those whose label is now another.
   std::vector<LabelledTetrahedron> changed() const;
   // By how much Euler's characteristic of the boundary is larger for that.
@@ -59,6 +60,7 @@ class ElementLabels {
   struct Node {
     NodeLink link;
     std::vector<std::size_t> tetrahedra;
+    std::vector<std::size_t> others;  // of its link; not given: the number of nodes
     // Numbers of changes: the last around it, and the last known when none helped.
     std::uint64_t changed = 1, given_up = 0;
   };
@@ -85,12 +87,14 @@ class ElementLabels {
   // Less is better.
   struct Faults {
     std::size_t without_disks;
-    std::int64_t euler, defects;
+    std::int64_t topology;  // how far the characteristic is off; each piece counts 2
+    std::int64_t defects;
 
     auto operator<=>(const Faults&) const = default;
-    bool whole() const { return without_disks == 0 && euler == 0; }
+    bool whole() const { return without_disks == 0 && topology == 0; }
   };
-  Faults faults(std::int64_t euler_change) const;
+  std::int64_t pieces_inside() const;
+  Faults faults(std::int64_t euler_change, std::int64_t pieces_change) const;
   int gain_of_disks(std::size_t t);
   std::size_t tetrahedron_to_change(std::size_t n, std::uint64_t random);
   void change_in_search(std::size_t t);
@@ -107,6 +111,7 @@ class ElementLabels {
   std::uint64_t changes_ = 1;
   std::set<std::size_t> without_disks_, with_defects_;  // nodes
   std::int64_t defects_ = 0, euler_change_ = 0;
+  std::int64_t first_pieces_ = 0;           // inside, with the labels given
   std::vector<std::uint64_t> rests_until_;  // of each tetrahedron: the step of the search
   std::vector<std::size_t> round_;          // changed in this round of it
   std::uint64_t step_ = 0;

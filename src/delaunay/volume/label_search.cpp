@@ -24,8 +24,32 @@ constexpr double kMaxDepth = 0.35;     // of centroids, over the longest edge
 
 }  // namespace
 
-ElementLabels::Faults ElementLabels::faults(std::int64_t euler_change) const {
-  return {without_disks_.size(), std::abs(euler_change - euler_change_), defects_};
+// Of the boundary, between nodes that are given alone: a piece that comes, a bubble inside or
+// outside, would make up for a handle in the characteristic.
+std::int64_t ElementLabels::pieces_inside() const {
+  UnionFind<std::size_t> joined(nodes_.size() + 1);  // the last one stands for all not given
+  std::vector<std::size_t> on_boundary;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    bool any = false;
+    nodes_[n].link.for_faces([&](std::size_t a, std::size_t b) {
+      any = true;
+      joined.join(n, nodes_[n].others[a]);
+      joined.join(n, nodes_[n].others[b]);
+    });
+    if (any) on_boundary.push_back(n);
+  }
+  std::set<std::size_t> pieces;
+  for (const std::size_t n : on_boundary) pieces.insert(joined.root(n));
+  pieces.erase(joined.root(nodes_.size()));
+  return std::ssize(pieces);
+}
+
+ElementLabels::Faults ElementLabels::faults(std::int64_t euler_change,
+                                            std::int64_t pieces_change) const {
+  const std::int64_t pieces =
+      without_disks_.empty() ? pieces_inside() - first_pieces_ - pieces_change : 0;
+  const std::int64_t handles = euler_change_ - euler_change - 2 * pieces;
+  return {without_disks_.size(), std::abs(handles) + 2 * std::abs(pieces), defects_};
 }
 
 int ElementLabels::gain_of_disks(std::size_t t) {
@@ -90,9 +114,9 @@ void ElementLabels::take_back() {
   for (; !round_.empty(); round_.pop_back()) change(round_.back());
 }
 
-void ElementLabels::search(std::int64_t euler_change) {
+void ElementLabels::search(std::int64_t euler_change, std::int64_t pieces_change) {
   rests_until_.assign(tetrahedra_.size(), 0);
-  Faults least = faults(euler_change);
+  Faults least = faults(euler_change, pieces_change);
   int in_vain = 0;
   for (int round = 0; round < kMaxRounds && in_vain < kMaxInVain; ++round) {
     if (least.whole() || nodes_.empty()) break;
@@ -100,7 +124,7 @@ void ElementLabels::search(std::int64_t euler_change) {
     change_at_one_of(round % 2 == 0 && !without_disks_.empty() ? without_disks_ : with_defects_);
     walk(least.without_disks);
     if (without_disks_.size() <= least.without_disks) descend();
-    const Faults now = faults(euler_change);
+    const Faults now = faults(euler_change, pieces_change);
     in_vain = now < least ? 0 : in_vain + 1;
     if (now <= least)
       least = now;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace pnpbs {
 
@@ -74,6 +75,7 @@ NodeLink::NodeLink(const LabelledNode& node, const std::vector<LabelledTetrahedr
   open_at_.resize(ids.size());
   pieces_ = UnionFind<std::size_t>(ids.size());
   defects_ = counted_defects();
+  ids_ = std::move(ids);
 }
 
 void NodeLink::flip(std::size_t place) {

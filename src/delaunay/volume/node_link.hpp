@@ -54,6 +54,14 @@ class NodeLink {
   // What the node, and its edges and faces that are of this tetrahedron, add to six times Euler's
   // characteristic of the boundary: an edge adds the rest at its other end, a face at its others.
   int euler_times_six(std::size_t place) const;
+  // The ids of the nodes that a tetrahedron joins to this one, ascending; and calls visit(k, l) for
+  // the faces of the boundary, with the places of their other corners among these.
+  const std::vector<std::int64_t>& ids() const { return ids_; }
+  template <class Visit>
+  void for_faces(const Visit& visit) const {
+    for (const Edge& edge : edges_)
+      if (edge.used == 1) visit(edge.ends[0], edge.ends[1]);
+  }
 
  private:
   static constexpr int kTorn = 3;  // where a face that strays counts 1
@@ -81,6 +89,7 @@ class NodeLink {
   Defects counted_defects();
 
   std::int64_t disks_;
+  std::vector<std::int64_t> ids_;
   std::vector<Edge> edges_;
   std::vector<char> is_element_;                      // of each tetrahedron around the node
   std::vector<std::array<std::size_t, 3>> edges_of_;  // likewise

@@ -12,6 +12,7 @@
 #include "delaunay/volume/domain_rule.hpp"
 #include "level/finding_stars.hpp"
 #include "level/volume/boundary_euler.hpp"
+#include "level/volume/boundary_pieces.hpp"
 #include "level/volume/open_faces.hpp"
 #include "level/volume/surface_stars.hpp"
 
@@ -205,13 +206,15 @@ std::int64_t settle_elements(Level<3>& level) {
   std::ranges::sort(ids);
   LabelledStars own;
   agreed(*level.comm, [&] { own = labelled_stars(level, owned_among(level, ids)); });
-  ElementLabels labels(of_all_ranks(*level.comm, own.tetrahedra),
-                       by_node(of_all_ranks(*level.comm, own.nodes)));
-  labels.settle();
-  labels.search(euler_of_surfaces(level) - euler_of_boundary(level));
-  const std::vector<LabelledTetrahedron> changed = labels.changed();
-  level.changed_labels = ChangedLabels(changed);
+  const std::vector<LabelledTetrahedron> tetrahedra = of_all_ranks(*level.comm, own.tetrahedra);
+  const std::vector<JoinedNodes> nodes = of_all_ranks(*level.comm, own.nodes);
+  const std::int64_t euler = euler_of_boundary(level), pieces = pieces_of_boundary(level);
   agreed(*level.comm, [&] {
+    ElementLabels labels(tetrahedra, by_node(nodes));
+    labels.settle();
+    labels.search(euler_of_surfaces(level) - euler, pieces_of_surfaces(level) - pieces);
+    const std::vector<LabelledTetrahedron> changed = labels.changed();
+    level.changed_labels = ChangedLabels(changed);
     const KnownRegion<3> everywhere;
     level.stars.add(star_input(level, everywhere), changed_nodes(level, changed));
   });

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/boundary_pieces.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "base/union_find.hpp"
+#include "comm/records.hpp"
+#include "level/volume/open_faces.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+// Of a piece as two ranks see it: each knows it by the least id of its nodes there.
+struct SamePiece {
+  std::int64_t here, there;
+
+  auto operator<=>(const SamePiece&) const = default;
+};
+
+struct NamedNode {
+  std::int64_t id, piece;
+};
+
+// The piece of each node of this rank by its least id; -1: it has no face that an owned one has.
+std::vector<std::int64_t> pieces_here(const Level<3>& level) {
+  const Nodes<3>& nodes = level.nodes;
+  const auto count = static_cast<std::size_t>(nodes.count);
+  UnionFind<std::size_t> joined(count);
+  std::vector<char> any(count, 0);
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (!nodes.owned(i)) continue;
+    for (const auto& [a, b] : open_faces(level, i))
+      for (const std::int64_t j : {i, std::int64_t{a}, std::int64_t{b}}) {
+        any[static_cast<std::size_t>(j)] = 1;
+        joined.join(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+      }
+  }
+  std::map<std::size_t, std::int64_t> least;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (any[i] == 0) continue;
+    const std::int64_t id = nodes.id(static_cast<std::int64_t>(i));
+    const auto found = least.try_emplace(joined.root(i), id).first;
+    found->second = std::min(found->second, id);
+  }
+  std::vector<std::int64_t> pieces(count, -1);
+  for (std::size_t i = 0; i < count; ++i)
+    if (any[i] != 0) pieces[i] = least[joined.root(i)];
+  return pieces;
+}
+
+// What the owners call the pieces of ghosts, beside what they are called here.
+std::set<SamePiece> same_pieces(const Level<3>& level, const std::vector<std::int64_t>& pieces) {
+  const Nodes<3>& nodes = level.nodes;
+  std::vector<std::int32_t> own;
+  std::map<std::int64_t, std::int64_t> of_ghosts;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    const std::int64_t piece = pieces[static_cast<std::size_t>(i)];
+    if (piece < 0) continue;
+    if (nodes.owned(i))
+      own.push_back(static_cast<std::int32_t>(i));
+    else
+      of_ghosts[nodes.id(i)] = piece;
+  }
+  std::set<SamePiece> same;
+  if (!level.distributed()) return same;
+  for (const NamedNode& node :
+       level.ghosts.tell<NamedNode>(*level.comm, nodes, own, [&](std::int32_t i) {
+         return std::vector<NamedNode>{{nodes.id(i), pieces[static_cast<std::size_t>(i)]}};
+       }))
+    if (const auto found = of_ghosts.find(node.id); found != of_ghosts.end())
+      same.insert({found->second, node.piece});
+  return same;
+}
+
+}  // namespace
+
+std::int64_t pieces_of_boundary(const Level<3>& level) {
+  std::vector<std::int64_t> pieces;
+  agreed(*level.comm, [&] { pieces = pieces_here(level); });
+  std::set<SamePiece> own = same_pieces(level, pieces);
+  for (const std::int64_t piece : std::set<std::int64_t>(pieces.begin(), pieces.end()))
+    if (piece >= 0) own.insert({piece, piece});
+  Bytes mine;
+  for (const SamePiece& pair : own) pack(mine, pair);
+  std::map<std::int64_t, std::size_t> places;
+  std::vector<SamePiece> all;
+  for_records<SamePiece>({level.comm->allgather(mine)}, [&](const SamePiece& pair) {
+    all.push_back(pair);
+    places.try_emplace(pair.here, places.size());
+    places.try_emplace(pair.there, places.size());
+  });
+  UnionFind<std::size_t> joined(places.size());
+  auto count = std::ssize(places);
+  for (const SamePiece& pair : all) {
+    const std::size_t a = places[pair.here], b = places[pair.there];
+    if (joined.root(a) != joined.root(b)) --count;
+    joined.join(a, b);
+  }
+  return count;
+}
+
+std::int64_t pieces_of_surfaces(const Level<3>& level) {
+  const BoundaryMesh<3>& mesh = level.ground.boundary();
+  const Features& features = level.ground.domain().features();
+  UnionFind<std::size_t> joined(mesh.nodes.size());
+  std::set<std::size_t> corners, pieces;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    if (features.patch[f] < 0 || !mesh.facets[f].bounds()) continue;
+    const auto first = static_cast<std::size_t>(mesh.facets[f].nodes[0]);
+    for (const std::int32_t v : mesh.facets[f].nodes)
+      joined.join(first, static_cast<std::size_t>(v));
+    corners.insert(first);
+  }
+  for (const std::size_t v : corners) pieces.insert(joined.root(v));
+  return std::ssize(pieces);
+}
+
+}  // namespace pnpbs
