@@ -92,7 +92,7 @@ void PlacementOf<Dim>::prepare_stars() {
   prepare_lists();
   if (stars_version_ == level_->version()) return;
   if (!level_->distributed()) rebuild_stars(*level_);
-  settle_elements(*level_);
+  settle_elements(*level_, kThoroughRounds);
   stars_version_ = level_->version();
 }
 

@@ -228,7 +228,7 @@ START_TEST(the_search_finds_a_sphere) {
     ck_assert_int_eq(labels.euler_change(), euler_of(wrong.tetrahedra, labels.changed()) - before);
     searched += defects(labels, wrong.nodes) > 0;
     handles += defects(labels, wrong.nodes) == 0 && before + labels.euler_change() != 2;
-    labels.search(2 - before, 1 - pieces_of(wrong.tetrahedra, {}));
+    labels.search(2 - before, 1 - pieces_of(wrong.tetrahedra, {}), 20000);
     ck_assert_int_eq(defects(labels, wrong.nodes), 0);
     ck_assert_int_eq(euler_of(wrong.tetrahedra, labels.changed()), 2);
     ck_assert_int_eq(pieces_of(wrong.tetrahedra, labels.changed()), 1);

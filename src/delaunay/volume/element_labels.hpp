@@ -45,9 +45,10 @@ class ElementLabels {
   void settle();
   // And then goes on by chance (label_search.cpp) until all nodes have their disks and Euler's
   // characteristic of the boundary, and the number of its pieces, are larger by so much than they
-  // were with the labels given, or that has been tried often enough. Nothing, if that is so
+  // were with the labels given, or that
+  // has been tried for so many rounds. Nothing, if that is so
   // already.
-  void search(std::int64_t euler_change, std::int64_t pieces_change);
+  void search(std::int64_t euler_change, std::int64_t pieces_change, int rounds);
   // Those whose label is now another.
   std::vector<LabelledTetrahedron> changed() const;
   // By how much Euler's characteristic of the boundary is larger for that.

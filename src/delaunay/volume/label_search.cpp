@@ -16,7 +16,7 @@ namespace pnpbs {
 
 namespace {
 
-constexpr int kMaxRounds = 20000, kMaxInVain = 5000;
+constexpr int kInVain = 4;             // of so many parts of the rounds one, and the search ends
 constexpr int kWalk = 100;             // steps of one
 constexpr std::uint64_t kRest = 8;     // steps in which a tetrahedron is not changed back
 constexpr std::uint64_t kOneInSo = 5;  // changes is any one
@@ -114,11 +114,11 @@ void ElementLabels::take_back() {
   for (; !round_.empty(); round_.pop_back()) change(round_.back());
 }
 
-void ElementLabels::search(std::int64_t euler_change, std::int64_t pieces_change) {
+void ElementLabels::search(std::int64_t euler_change, std::int64_t pieces_change, int rounds) {
   rests_until_.assign(tetrahedra_.size(), 0);
   Faults least = faults(euler_change, pieces_change);
   int in_vain = 0;
-  for (int round = 0; round < kMaxRounds && in_vain < kMaxInVain; ++round) {
+  for (int round = 0; round < rounds && in_vain < rounds / kInVain; ++round) {
     if (least.whole() || nodes_.empty()) break;
     round_.clear();
     change_at_one_of(round % 2 == 0 && !without_disks_.empty() ? without_disks_ : with_defects_);

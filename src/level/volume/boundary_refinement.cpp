@@ -204,7 +204,7 @@ std::int64_t refine_boundary(Level<3>& level) {
   std::uint64_t before = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
     make_finish_stars(level, {});
-    settle_elements(level);
+    settle_elements(level, kQuickRounds);
     Strays own;
     agreed(*level.comm, [&] { own = strays_of_own(level); });
     const std::uint64_t strays = level.comm->allreduce_sum(own.count);

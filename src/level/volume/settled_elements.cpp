@@ -191,7 +191,7 @@ std::vector<char> changed_nodes(const Level<3>& level,
 
 }  // namespace
 
-std::int64_t settle_elements(Level<3>& level) {
+std::int64_t settle_elements(Level<3>& level, int rounds) {
   if (level.ground.surfaces_alone()) return 0;
   std::vector<std::int64_t> own_ids;
   std::int64_t torn = 0;
@@ -212,7 +212,7 @@ std::int64_t settle_elements(Level<3>& level) {
   agreed(*level.comm, [&] {
     ElementLabels labels(tetrahedra, by_node(nodes));
     labels.settle();
-    labels.search(euler_of_surfaces(level) - euler, pieces_of_surfaces(level) - pieces);
+    labels.search(euler_of_surfaces(level) - euler, pieces_of_surfaces(level) - pieces, rounds);
     const std::vector<LabelledTetrahedron> changed = labels.changed();
     level.changed_labels = ChangedLabels(changed);
     const KnownRegion<3> everywhere;

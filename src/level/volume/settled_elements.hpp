@@ -20,7 +20,10 @@ bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>
 // torn, labels of tetrahedra are changed until it is a surface of the same topology as the
 // domain's, as far as such labels are found; and these stars are found again. Returns how many
 // nodes were torn, of all ranks. Collective.
-std::int64_t settle_elements(Level<3>& level);
-inline std::int64_t settle_elements(Level<2>&) { return 0; }
+std::int64_t settle_elements(Level<3>& level, int rounds);
+inline std::int64_t settle_elements(Level<2>&, int) { return 0; }
+
+// Of the search for labels: while nodes may still come, and for the elements handed out.
+inline constexpr int kQuickRounds = 1000, kThoroughRounds = 20000;
 
 }  // namespace pnpbs
