@@ -146,12 +146,6 @@ END_TEST
 
 /* ---------------------------------------------------------------- where d is held down -- */
 
-static job slotted(void) {
-  job it = body_job(volume_slotted);
-  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.12)); /* the slot is 0.04 wide */
-  return it;
-}
-
 static int32_t keep_held_round(double fraction, int64_t step, int64_t nodes, double speed,
                                void* data) {
   pnpbs_placement* placement = data;
@@ -166,12 +160,12 @@ static int32_t keep_held_round(double fraction, int64_t step, int64_t nodes, dou
 START_TEST(held_spacing_is_saved) {
   job whole, stopped, other;
   if (!with_hdf5()) return;
-  whole = slotted();
+  whole = unresolved_job();
   MUST_COMPUTE(pnpbs_placement_run(whole.placement));
-  stopped = slotted();
+  stopped = unresolved_job();
   MUST(pnpbs_placement_set_monitor(stopped.placement, keep_held_round, &stopped.placement));
   MUST_BE(PNPBS_STOPPED, pnpbs_placement_run(stopped.placement));
-  other = slotted();
+  other = unresolved_job();
   MUST(pnpbs_placement_read_checkpoint(other.placement, path));
   ck_assert_int_gt(integer_of(other.placement, "unresolved_places"), 0);
   MUST_COMPUTE(pnpbs_placement_run(other.placement));
@@ -183,7 +177,7 @@ START_TEST(held_spacing_is_saved) {
 
   /* At its end, too; and what is held is part of the spacing. */
   MUST(pnpbs_placement_write_checkpoint(other.placement, path));
-  whole = slotted();
+  whole = unresolved_job();
   MUST(pnpbs_placement_read_checkpoint(whole.placement, path));
   ck_assert_str_eq(hash_of(other.placement).text, hash_of(whole.placement).text);
   job_end(&other);

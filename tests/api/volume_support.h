@@ -13,6 +13,12 @@
 job body_job(volume_body body); /* a placement in the body */
 job box_job(double d);          /* in the unit box */
 
+/* In a globe with bumps and dents, the deeper and narrower the larger these two are. */
+job rough_job(double depth, double waves, double d);
+
+/* d does not resolve it: whatever is done with the elements, its boundary is torn. */
+job unresolved_job(void);
+
 int warnings_with(pnpbs_placement placement, const char* words);
 
 typedef struct {
