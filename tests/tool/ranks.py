@@ -2,7 +2,10 @@
 """How the tests run the command under mpirun."""
 
 import os
+import pathlib
+import signal
 import subprocess
+import time
 
 from command import BAD_INPUT, COMMAND, DONE, CommandTest, receive_signals
 
@@ -22,6 +25,17 @@ class RanksTest(CommandTest):
             stderr=subprocess.PIPE,
         )
 
+    def ranks_of(self, process, count):
+        """The processes of the ranks, once they answer to signals as the command does."""
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        end = time.monotonic() + 100
+        while time.monotonic() < end and process.poll() is None:
+            found = [int(child) for child in children.read_text().split()]
+            if len(found) >= count and all(map(catches_signals, found)):
+                return found
+            time.sleep(0.01)
+        self.fail("mpirun starts no ranks")
+
     def run_ranks(self, ranks, *arguments, code=DONE, stdin=None, **more):
         process = self.start_ranks(
             ranks, *arguments, stdin=subprocess.DEVNULL if stdin is None else subprocess.PIPE, **more
@@ -39,6 +53,33 @@ class RanksTest(CommandTest):
         told = errors(err)
         self.assertEqual(len(told), 1, err)
         return told[0]
+
+
+def state_of(process):
+    """What the system says of it, or nothing if it is gone."""
+    try:
+        return pathlib.Path(f"/proc/{process}/status").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return ""
+
+
+def is_running(process):
+    """What has ended may still be listed until somebody takes notice."""
+    state = state_of(process)
+    return bool(state) and "\nState:\tZ" not in state
+
+
+def catches_signals(process):
+    """Whether a handler is there for both signals that interrupt the command."""
+    caught = state_of(process).partition("\nSigCgt:\t")[2].partition("\n")[0] or "0"
+    return all(int(caught, 16) >> (number - 1) & 1 for number in (signal.SIGINT, signal.SIGTERM))
+
+
+def end_soon(processes, patience=100):
+    end = time.monotonic() + patience
+    while any(map(is_running, processes)) and time.monotonic() < end:
+        time.sleep(0.05)
+    return not any(map(is_running, processes))
 
 
 def errors(err):

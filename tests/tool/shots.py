@@ -3,7 +3,6 @@
 afterwards, or none, and nothing else is left."""
 
 import os
-import pathlib
 import time
 
 from command import DONE, INTERRUPTED, NOT_CONVERGED
@@ -50,15 +49,6 @@ class ShotTest(RanksTest):
         if code == INTERRUPTED:
             self.assertFalse(new, hint)
         return new
-
-    def ranks_of(self, process, count):
-        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
-        for _ in range(5000):
-            found = [int(child) for child in children.read_text().split()]
-            if len(found) >= count:
-                return found
-            time.sleep(0.02)
-        self.fail("mpirun starts no ranks")
 
     def wait_aside(self, process, patience=300):
         """Until a file is written aside in earnest: with something in it."""

@@ -2,13 +2,12 @@
 """Under mpirun, what fails or is interrupted on one rank ends all of them and leaves no file."""
 
 import os
-import pathlib
 import signal
 import time
 import unittest
 
 from command import COMMAND, DONE, FAILED, INTERRUPTED, LAKE
-from ranks import RanksTest, errors
+from ranks import RanksTest, end_soon, errors
 
 
 class Failing(RanksTest):
@@ -37,34 +36,9 @@ class Failing(RanksTest):
         self.assertEqual((self.folder / "a.csv").read_text(), "old")
 
 
-def is_running(process):
-    """What has ended may still be listed until somebody takes notice."""
-    try:
-        status = pathlib.Path(f"/proc/{process}/stat").read_text()
-    except (FileNotFoundError, ProcessLookupError):
-        return False
-    return status.rpartition(")")[2].split()[0] != "Z"
-
-
-def end_soon(processes, patience=100):
-    end = time.monotonic() + patience
-    while any(map(is_running, processes)) and time.monotonic() < end:
-        time.sleep(0.05)
-    return not any(map(is_running, processes))
-
-
 class Interrupting(RanksTest):
     ASK = ("--domain", LAKE, "--spacing", "0.4 + 0*x", "--set", "steps=100000",
            "--set", "tolerance_mean=1e-9", "-o", "a.vtu", "-o", "a.pvtu", "-o", "a.png")
-
-    def ranks_of(self, process, count):
-        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
-        for _ in range(2000):
-            found = [int(child) for child in children.read_text().split()]
-            if len(found) >= count:
-                return found
-            time.sleep(0.05)
-        self.fail("mpirun starts no ranks")
 
     def test_one_rank(self):
         process = self.start_ranks(3, *self.ASK)
