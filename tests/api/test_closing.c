@@ -7,6 +7,33 @@
 
 /* ---------------------------------------------------------------- bodies ---------------- */
 
+/* A cube with a slit from above, so wide and deep, with its tip above x. */
+static void add_slit_cube(pnpbs_domain domain, double width, double depth, double x) {
+  enum { kSides = 7 };
+  const double outline[kSides][2] = {{x, 1 - depth}, {x - width / 2, 1}, {0, 1}, {0, 0}, {1, 0},
+                                     {1, 1},         {x + width / 2, 1}};
+  double xyz[2 * kSides][3];
+  int64_t corners[4 * kSides][3], n = 0;
+  int k;
+  for (k = 0; k < 2 * kSides; ++k) {
+    xyz[k][0] = outline[k % kSides][0];
+    xyz[k][1] = outline[k % kSides][1];
+    xyz[k][2] = k / kSides;
+  }
+  for (k = 0; k < kSides; ++k) { /* the tip sees all of the outline */
+    const int64_t next = (k + 1) % kSides,
+                  side[2][3] = {{k, next, next + kSides}, {k, next + kSides, k + kSides}},
+                  ends[2][3] = {{0, next, k}, {kSides, k + kSides, next + kSides}};
+    memcpy(corners[n], side, sizeof side);
+    n += 2;
+    if (k == 0 || next == 0) continue;
+    memcpy(corners[n], ends, sizeof ends);
+    n += 2;
+  }
+  MUST(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 2 * kSides, xyz[0], n, corners[0], NULL,
+                                40));
+}
+
 /* ---------------------------------------------------------------- what closes ----------- */
 
 static int by_ends(const void* a, const void* b) {
@@ -93,33 +120,6 @@ START_TEST(torn_bodies_are_mended) {
   job_end(&it);
 }
 END_TEST
-
-/* A cube with a slit from above, so wide and deep, with its tip above x. */
-static void add_slit_cube(pnpbs_domain domain, double width, double depth, double x) {
-  enum { kSides = 7 };
-  const double outline[kSides][2] = {{x, 1 - depth}, {x - width / 2, 1}, {0, 1}, {0, 0}, {1, 0},
-                                     {1, 1},         {x + width / 2, 1}};
-  double xyz[2 * kSides][3];
-  int64_t corners[4 * kSides][3], n = 0;
-  int k;
-  for (k = 0; k < 2 * kSides; ++k) {
-    xyz[k][0] = outline[k % kSides][0];
-    xyz[k][1] = outline[k % kSides][1];
-    xyz[k][2] = k / kSides;
-  }
-  for (k = 0; k < kSides; ++k) { /* the tip sees all of the outline */
-    const int64_t next = (k + 1) % kSides,
-                  side[2][3] = {{k, next, next + kSides}, {k, next + kSides, k + kSides}},
-                  ends[2][3] = {{0, next, k}, {kSides, k + kSides, next + kSides}};
-    memcpy(corners[n], side, sizeof side);
-    n += 2;
-    if (k == 0 || next == 0) continue;
-    memcpy(corners[n], ends, sizeof ends);
-    n += 2;
-  }
-  MUST(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 2 * kSides, xyz[0], n, corners[0], NULL,
-                                40));
-}
 
 /* Where the walls of a slit are nearer to each other than d, other elements are chosen until the
  * boundary closes, and no node has to come. */

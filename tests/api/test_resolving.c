@@ -37,6 +37,7 @@ START_TEST(a_thin_slot) {
   job it = run_in(volume_slotted, 0.12, "0");
   ck_assert_int_gt(integer_of(it.placement, "missing_faces"), 0);
   ck_assert_int_eq(warnings_with(it.placement, "does not resolve the shape"), 1);
+  MUST_BE(PNPBS_OK, pnpbs_placement_check(it.placement)); /* yet the boundary closes */
   job_end(&it);
   it = run_in(volume_slotted, 0.12, "1");
   ck_assert_int_eq(integer_of(it.placement, "missing_faces"), 0);
@@ -81,6 +82,7 @@ START_TEST(held_down_where_torn) {
   ck_assert_int_gt(integer_of(it.placement, "unresolved_places"), 0);
   ck_assert_int_eq(warnings_with(it.placement, "the spacing did not resolve the shape at"), 1);
   ck_assert_int_lt(integer_of(it.placement, "nodes"), 3 * integer_of(as_given.placement, "nodes"));
+  check_body(&it, 0.05); /* which is coarse beside its bumps */
 
   /* A new spacing begins without these places. */
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.2));

@@ -40,14 +40,8 @@ static struct nodes get_nodes(pnpbs_placement placement) {
 static void free_nodes(struct nodes* v) { free(v->ids), free(v->x); }
 
 static pnpbs_placement placed(int32_t dim) {
-  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, low[] = {0, 0, 0}, high[] = {1, 1, 1};
-  pnpbs_domain domain;
+  pnpbs_domain domain = unit_domain(dim);
   pnpbs_placement placement;
-  expect(pnpbs_domain_create(context, dim, &domain) == PNPBS_OK, "domain");
-  if (dim == 2)
-    pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0);
-  else
-    pnpbs_domain_add_box(domain, low, high, 1);
   expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
   pnpbs_placement_set_int64(placement, "steps", 20);
   pnpbs_placement_set_spacing_constant(placement, dim == 2 ? 0.05 : 0.2);

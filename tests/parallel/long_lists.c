@@ -10,27 +10,14 @@
 
 static void* array(int64_t n, size_t of) { return calloc((size_t)n + 1, of); }
 
-static int32_t spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
-  const double finest = dim == 2 ? 0.03 : 0.11;
-  int64_t i;
-  (void)user;
-  for (i = 0; i < n; ++i) d[i] = finest * (1 + 2 * x[dim * i]);
-  return 0;
-}
-
 static pnpbs_placement placed(int32_t dim, const char* radius) {
-  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, low[] = {0, 0, 0}, high[] = {1, 1, 1};
-  pnpbs_domain domain;
+  double finest = dim == 2 ? 0.03 : 0.11;
+  pnpbs_domain domain = unit_domain(dim);
   pnpbs_placement placement;
-  expect(pnpbs_domain_create(context, dim, &domain) == PNPBS_OK, "domain");
-  if (dim == 2)
-    pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0);
-  else
-    pnpbs_domain_add_box(domain, low, high, 1);
   expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
   expect(pnpbs_placement_set(placement, "adjacency_radius", radius) == PNPBS_OK, "radius");
   pnpbs_placement_set_int64(placement, "steps", 20);
-  pnpbs_placement_set_spacing_callback(placement, spacing, NULL);
+  pnpbs_placement_set_spacing_callback(placement, growing_spacing, &finest);
   expect(pnpbs_placement_run(placement) >= 0, "run");
   pnpbs_domain_destroy(&domain);
   return placement;

@@ -25,6 +25,26 @@ static inline void begin_ranks(int* argc, char*** argv) {
   expect(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context) == PNPBS_OK, "context");
 }
 
+/* The unit square or cube. */
+static inline pnpbs_domain unit_domain(int32_t dim) {
+  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, low[] = {0, 0, 0}, high[] = {1, 1, 1};
+  pnpbs_domain domain;
+  expect(pnpbs_domain_create(context, dim, &domain) == PNPBS_OK, "domain");
+  if (dim == 2)
+    pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0);
+  else
+    pnpbs_domain_add_box(domain, low, high, 1);
+  return domain;
+}
+
+/* Three times as large at x = 1 as at x = 0, where it is what `finest` points to. */
+static inline int32_t growing_spacing(int64_t n, int32_t dim, const double* x, double* d,
+                                      void* finest) {
+  int64_t i;
+  for (i = 0; i < n; ++i) d[i] = *(const double*)finest * (1 + 2 * x[dim * i]);
+  return 0;
+}
+
 /* The exit status of the program. */
 static inline int end_ranks(void) {
   int all;

@@ -9,14 +9,6 @@
 
 #include "rank_program.h"
 
-static int32_t spacing(int64_t n, int32_t dim, const double* x, double* d, void* user) {
-  const double finest = dim == 2 ? 0.008 : 0.05;
-  int64_t i;
-  (void)user;
-  for (i = 0; i < n; ++i) d[i] = finest * (1 + 2 * x[dim * i]);
-  return 0;
-}
-
 static int warns_of_ranks(pnpbs_placement placement) {
   const char* text = "";
   int32_t count = 0, k;
@@ -31,19 +23,14 @@ static int warns_of_ranks(pnpbs_placement placement) {
 
 /* Options: pairs of key and value, up to NULL. */
 static int64_t uses_in(int32_t dim, const char* const* options) {
-  const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, low[] = {0, 0, 0}, high[] = {1, 1, 1};
-  pnpbs_domain domain;
+  double finest = dim == 2 ? 0.008 : 0.05;
+  pnpbs_domain domain = unit_domain(dim);
   pnpbs_placement placement;
   int64_t uses = -1;
-  expect(pnpbs_domain_create(context, dim, &domain) == PNPBS_OK, "domain");
-  if (dim == 2)
-    pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0);
-  else
-    pnpbs_domain_add_box(domain, low, high, 1);
   expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
   for (; *options; options += 2)
     expect(pnpbs_placement_set(placement, options[0], options[1]) == PNPBS_OK, options[0]);
-  pnpbs_placement_set_spacing_callback(placement, spacing, NULL);
+  pnpbs_placement_set_spacing_callback(placement, growing_spacing, &finest);
   expect(pnpbs_placement_run(placement) >= 0, "run");
   expect(pnpbs_placement_get_int64(placement, "unknown_uses", &uses) == PNPBS_OK, "statistic");
   expect(warns_of_ranks(placement) == (uses > 0), "there is a warning where uses are counted");
