@@ -31,7 +31,11 @@ struct HeldFacet {
 class Writer {
  public:
   Writer(const NodeSource& nodes, SharedFile& file)
-      : nodes_(nodes), all_(nodes.contents()), file_(file), groups_(msh_groups(nodes)) {}
+      : nodes_(nodes),
+        all_(nodes.contents()),
+        file_(file),
+        groups_(msh_groups(nodes)),
+        node_data_(nodes) {}
 
   void write() {
     file_.append_text("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
@@ -40,7 +44,7 @@ class Writer {
     write_entities();
     write_nodes();
     write_elements();
-    append_node_data(nodes_, file_);
+    node_data_.append(blocks_of_nodes(), file_);
   }
 
  private:
@@ -161,11 +165,27 @@ class Writer {
     return node;
   }
 
+  std::int32_t block_of(std::int32_t tag) const {
+    return is_held(tag) ? tag : NodeDataByBlock::kInside;
+  }
+
+  std::vector<std::int32_t> blocks_of_nodes() const {
+    std::vector<std::int32_t> blocks;
+    for (std::size_t g = 0; g < groups_.tagged.size(); ++g)
+      if (node_counts_[g] > 0) blocks.push_back(block_of(groups_.tagged[g].rows.tag));
+    if (inside_nodes_ > 0) blocks.push_back(NodeDataByBlock::kInside);
+    return blocks;
+  }
+
   void hold_nodes() {
     nodes_.for_nodes([&](const NodeRows& rows) {
       std::vector<HeldNode> held;
-      for (std::size_t i = 0; i < rows.tags.size(); ++i)
+      std::vector<std::int32_t> blocks;
+      for (std::size_t i = 0; i < rows.tags.size(); ++i) {
         if (is_held(rows.tags[i])) held.push_back(row(rows, i));
+        blocks.push_back(block_of(rows.tags[i]));
+      }
+      node_data_.add_window(blocks);
       held_nodes_.add_window(std::move(held), file_.ranks());
     });
     held_nodes_.sort();
@@ -266,6 +286,7 @@ class Writer {
   std::int64_t inside_nodes_ = 0;          // of none of them
   RowsByTag<HeldNode> held_nodes_;
   RowsByTag<HeldFacet> held_facets_;
+  NodeDataByBlock node_data_;
 };
 
 }  // namespace

@@ -235,9 +235,9 @@ class OutputFields(VolumeTest):
         self.assertEqual(point_array(grid, "vtkGhostType").max() if "_" in name else 0,
                          1 if "_" in name else 0)
 
-    # Rows have the numbers of nodes, which follow the ids as the points of the .vtu file do. meshio
-    # does not look at them.
-    def check_msh(self, name, points):
+    # Rows have the numbers of nodes, which follow the ids as the points of the .vtu file do, and are
+    # in the order of the nodes in the file.
+    def check_msh(self, name, points, order):
         lines = (self.folder / name).read_text().splitlines()
         for field, values in self.expected(points).items():
             at = lines.index(f'"{field}"')
@@ -251,9 +251,18 @@ class OutputFields(VolumeTest):
             self.assertEqual(lines[end], "$EndNodeData")
             rows = numpy.array([line.split() for line in lines[at + 7 : end]], float)
             self.assertEqual(rows.shape[1], 1 + written)
-            numpy.testing.assert_array_equal(rows[:, 0], numpy.arange(len(points)) + 1)
-            numpy.testing.assert_array_equal(rows[:, 1 : 1 + count].squeeze(), values)
+            numpy.testing.assert_array_equal(rows[:, 0], order + 1)
+            numpy.testing.assert_array_equal(rows[:, 1 : 1 + count].squeeze(), values[order])
             self.assertFalse(rows[:, 1 + count :].any())
+
+    # meshio takes the rows for those of the nodes in the order of the file.
+    def check_meshio(self, name):
+        mesh = meshio.read(self.folder / name, "gmsh")
+        for field, values in self.expected(mesh.points).items():
+            found = mesh.point_data[field]
+            found = found if values.ndim == 1 else found[:, : values.shape[1]]
+            numpy.testing.assert_array_equal(found, values, field)
+        return mesh.points
 
     def test_all_formats(self):
         names = ["a.vtu", "a.pvtu", "a.msh", "a.msh2", "a.csv"]
@@ -265,8 +274,10 @@ class OutputFields(VolumeTest):
             if name in (*names, *by_hdf5):
                 self.check_vtk(name, reader)
         points = vtk_to_numpy(self.grid().GetPoints().GetData())
-        self.check_msh("a.msh", points)
-        self.check_msh("a.msh2", points)
+        by_number = {tuple(x): number for number, x in enumerate(points)}
+        for name in ("a.msh", "a.msh2"):
+            order = numpy.array([by_number[tuple(x)] for x in self.check_meshio(name)])
+            self.check_msh(name, points, order)
         facets = self.grid("a_facets.vtu").GetPointData()
         self.assertFalse(any(facets.HasArray(name) for name in self.COMPONENTS))
         if not MPIEXEC:
