@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <string_view>
 
 #include "io/temporaries.hpp"
 #include "pnpbs/pnpbs.h"
@@ -26,9 +27,15 @@ void remove_unfinished_files() {
   pnpbs_discard_unfinished_files();  // the library's
 }
 
+// By what a handler of signals may call.
+void say_interrupted() {
+  constexpr std::string_view text = "pnpbs: interrupted, nothing was written\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
 // asked is set before committing is read, and begin_commit does it the other way round: a signal
 // either keeps the files from their names or leaves them alone.
-extern "C" void on_signal(int /*number*/) {
+extern "C" void on_signal(int number) {
   constexpr unsigned kPatience = 5;  // seconds
   const bool first = !asked.exchange(true);
   if (committing) return;
@@ -38,6 +45,7 @@ extern "C" void on_signal(int /*number*/) {
     return;
   }
   remove_unfinished_files();
+  if (number == SIGALRM) say_interrupted();
   ::_exit(static_cast<int>(ExitCode::interrupted));
 }
 

@@ -37,7 +37,7 @@ class Failing(RanksTest):
 
 
 class Interrupting(RanksTest):
-    ASK = ("--domain", LAKE, "--spacing", "0.4 + 0*x", "--set", "steps=100000",
+    ASK = ("--domain", LAKE, "--spacing", "1 + 0*x", "--set", "steps=100000",
            "--set", "tolerance_mean=1e-9", "-o", "a.vtu", "-o", "a.pvtu", "-o", "a.png")
 
     def test_one_rank(self):
