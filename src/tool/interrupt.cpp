@@ -27,9 +27,10 @@ void remove_unfinished_files() {
   pnpbs_discard_unfinished_files();  // the library's
 }
 
-// By what a handler of signals may call.
+// By what a handler of signals may call. Checkpoints may have been written.
 void say_interrupted() {
-  constexpr std::string_view text = "pnpbs: interrupted, nothing was written\n";
+  const std::string_view text =
+      waited_for ? "pnpbs: interrupted\n" : "pnpbs: interrupted, nothing was written\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
@@ -45,7 +46,7 @@ extern "C" void on_signal(int number) {
     return;
   }
   remove_unfinished_files();
-  if (number == SIGALRM) say_interrupted();
+  if (number == SIGALRM || !killed_soon) say_interrupted();  // the launcher sends to all ranks
   ::_exit(static_cast<int>(ExitCode::interrupted));
 }
 
