@@ -182,8 +182,8 @@ class Writer {
       std::vector<HeldNode> held;
       std::vector<std::int32_t> blocks;
       for (std::size_t i = 0; i < rows.tags.size(); ++i) {
-        if (is_held(rows.tags[i])) held.push_back(row(rows, i));
         blocks.push_back(block_of(rows.tags[i]));
+        if (blocks.back() != NodeDataByBlock::kInside) held.push_back(row(rows, i));
       }
       node_data_.add_window(blocks);
       held_nodes_.add_window(std::move(held), file_.ranks());

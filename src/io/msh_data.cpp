@@ -17,8 +17,6 @@ std::int64_t components_of_gmsh(std::int64_t components) {
   return components == 1 ? 1 : components <= 3 ? 3 : 9;
 }
 
-constexpr const char* kEnd = "$EndNodeData\n";
-
 std::size_t components_of(const Contents& all, std::size_t field) {
   return static_cast<std::size_t>((*all.fields)[field].components);
 }
@@ -55,22 +53,40 @@ void for_rows(const FieldRows& rows, std::size_t components, const Visit& visit)
           std::span(rows.values).subspan(i * components, components));
 }
 
+// The rows of nodes for which wanted(place) is true: place counts the nodes in this rank's parts of
+// all windows. Collective.
+template <class Wanted>
+void append_rows(const NodeSource& nodes, std::size_t field, const Wanted& wanted,
+                 SharedFile& file) {
+  const std::size_t components = components_of(nodes.contents(), field);
+  std::size_t before = 0;  // nodes of windows that have been
+  nodes.for_field(field, [&](const FieldRows& rows) {
+    file.append([&](Sink& sink) {
+      for_rows(rows, components, [&](std::size_t i, std::int64_t number, const auto& values) {
+        if (wanted(before + i)) write_row(number, values, sink);
+      });
+    });
+    before += rows.values.size() / components;
+  });
+}
+
+// Around the rows of each field, which append_rows_of(field) writes. Collective.
+template <class AppendRows>
+void append_fields(const Contents& all, SharedFile& file, const AppendRows& append_rows_of) {
+  for (std::size_t k = 0; k < all.field_count(); ++k) {
+    file.append_text(heading((*all.fields)[k], all.nodes));
+    append_rows_of(k);
+    file.append_text("$EndNodeData\n");
+  }
+}
+
 }  // namespace
 
 void append_node_data(const NodeSource& nodes, SharedFile& file) {
-  const Contents& all = nodes.contents();
-  for (std::size_t k = 0; k < all.field_count(); ++k) {
-    file.append_text(heading((*all.fields)[k], all.nodes));
-    nodes.for_field(k, [&](const FieldRows& rows) {
-      file.append([&](Sink& sink) {
-        for_rows(rows, components_of(all, k),
-                 [&](std::size_t, std::int64_t number, std::span<const double> values) {
-                   write_row(number, values, sink);
-                 });
-      });
-    });
-    file.append_text(kEnd);
-  }
+  append_fields(nodes.contents(), file, [&](std::size_t field) {
+    append_rows(
+        nodes, field, [](std::size_t) { return true; }, file);
+  });
 }
 
 void NodeDataByBlock::add_window(const std::vector<std::int32_t>& blocks) {
@@ -79,12 +95,8 @@ void NodeDataByBlock::add_window(const std::vector<std::int32_t>& blocks) {
 }
 
 void NodeDataByBlock::append(const std::vector<std::int32_t>& order, SharedFile& file) const {
-  const Contents& all = nodes_.contents();
-  for (std::size_t k = 0; k < all.field_count(); ++k) {
-    file.append_text(heading((*all.fields)[k], all.nodes));
-    append_field(k, order, file);
-    file.append_text(kEnd);
-  }
+  append_fields(nodes_.contents(), file,
+                [&](std::size_t field) { append_field(field, order, file); });
 }
 
 void NodeDataByBlock::append_field(std::size_t field, const std::vector<std::int32_t>& order,
@@ -105,25 +117,13 @@ void NodeDataByBlock::append_field(std::size_t field, const std::vector<std::int
   held.sort();
   for (const std::int32_t block : order) {
     if (block == kInside)
-      append_inside(field, file);
+      append_rows(
+          nodes_, field, [&](std::size_t place) { return blocks_[place] == kInside; }, file);
     else
       held.append(block, file, [&](const HeldValues& row, Sink& sink) {
         write_row(row.number, std::span(row.values).first(components), sink);
       });
   }
-}
-
-void NodeDataByBlock::append_inside(std::size_t field, SharedFile& file) const {
-  const std::size_t components = components_of(nodes_.contents(), field);
-  std::size_t before = 0;
-  nodes_.for_field(field, [&](const FieldRows& rows) {
-    file.append([&](Sink& sink) {
-      for_rows(rows, components, [&](std::size_t i, std::int64_t number, const auto& values) {
-        if (blocks_[before + i] == kInside) write_row(number, values, sink);
-      });
-    });
-    before += rows.values.size() / components;
-  });
 }
 
 }  // namespace pnpbs::io

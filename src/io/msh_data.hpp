@@ -29,7 +29,6 @@ class NodeDataByBlock {
  private:
   void append_field(std::size_t field, const std::vector<std::int32_t>& order,
                     SharedFile& file) const;
-  void append_inside(std::size_t field, SharedFile& file) const;
 
   const NodeSource& nodes_;
   std::vector<std::int32_t> blocks_;  // of the nodes in this rank's parts of all windows
