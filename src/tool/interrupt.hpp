@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ctrl-C and its kin. While the command reads, a signal ends it at once; while it computes or
 // writes, the first signal asks it to stop, and a second one, or five seconds, end it at once: this
-// process, that is, which says so, of several ranks only after the five seconds. An MPI launcher
-// then ends the other ranks, which takes mpirun a second or two. Temporary files are removed either
-// way. What the ranks of a run make of it is told in ranks.hpp and main.cpp.
+// process, that is. An MPI launcher then ends the other ranks, which takes mpirun a second or two.
+// Temporary files are removed either way. A process that ends at once says that it was interrupted;
+// under a launcher, which signals all ranks, only one that ends after the five seconds does. What
+// the ranks of a run make of it is told in ranks.hpp and main.cpp.
 #pragma once
 
 namespace pnpbs::tool {
