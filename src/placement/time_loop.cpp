@@ -202,15 +202,19 @@ template <class Stops>
 Outcome PlacementOf<Dim>::smooth(const Stops& stops) {
   constexpr int kMostRepairs = 3;
   std::int64_t sweeps = level_->settings.sweeps;
-  inserted_ += refine_boundary(*level_);
+  const auto refine = [this] {
+    const PopulationCounts counts = refine_boundary(*level_);
+    inserted_ += counts.inserted;
+    deleted_ += counts.deleted;
+    return counts.inserted + counts.deleted > 0;
+  };
+  refine();
   for (int repairs = 0; repairs < kMostRepairs; ++repairs) {
     if (stops()) return Outcome::stopped;
     const FinishResults results = sweep_and_repair(*level_, sweeps);
     count_population_change(results.counts);
     edge_bands_ = results.edge_bands;
-    const std::int64_t more = refine_boundary(*level_);
-    inserted_ += more;
-    if (more == 0) break;
+    if (!refine()) break;
     sweeps = 0;
   }
   return Outcome::converged;

@@ -157,4 +157,4 @@ job rough_job(double depth, double waves, double d) {
   return it;
 }
 
-job unresolved_job(void) { return rough_job(0.5, 6.5, 0.32); }
+job unresolved_job(void) { return rough_job(0.7, 6.5, 0.4); }

@@ -25,6 +25,11 @@ struct NamedNode {
   std::int64_t id, piece;
 };
 
+// Of one rank.
+struct NodesOfPiece {
+  std::int64_t piece, nodes;
+};
+
 // The piece of each node of this rank by its least id; -1: it has no face that an owned one has.
 std::vector<std::int64_t> pieces_here(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
@@ -76,31 +81,58 @@ std::set<SamePiece> same_pieces(const Level<3>& level, const std::vector<std::in
   return same;
 }
 
-}  // namespace
-
-std::int64_t pieces_of_boundary(const Level<3>& level) {
-  std::vector<std::int64_t> pieces;
-  agreed(*level.comm, [&] { pieces = pieces_here(level); });
-  std::set<SamePiece> own = same_pieces(level, pieces);
-  for (const std::int64_t piece : std::set<std::int64_t>(pieces.begin(), pieces.end()))
-    if (piece >= 0) own.insert({piece, piece});
+// All that any rank sees, joined: the least id of the whole piece for what each calls it.
+std::map<std::int64_t, std::int64_t> least_of_all(const Communicator& comm,
+                                                  const std::set<SamePiece>& own) {
   Bytes mine;
   for (const SamePiece& pair : own) pack(mine, pair);
   std::map<std::int64_t, std::size_t> places;
   std::vector<SamePiece> all;
-  for_records<SamePiece>({level.comm->allgather(mine)}, [&](const SamePiece& pair) {
+  for_records<SamePiece>({comm.allgather(mine)}, [&](const SamePiece& pair) {
     all.push_back(pair);
-    places.try_emplace(pair.here, places.size());
-    places.try_emplace(pair.there, places.size());
+    places.try_emplace(pair.here);
+    places.try_emplace(pair.there);
   });
-  UnionFind<std::size_t> joined(places.size());
-  auto count = std::ssize(places);
-  for (const SamePiece& pair : all) {
-    const std::size_t a = places[pair.here], b = places[pair.there];
-    if (joined.root(a) != joined.root(b)) --count;
-    joined.join(a, b);
+  std::vector<std::int64_t> names;
+  for (auto& [name, place] : places) {
+    place = names.size();
+    names.push_back(name);
   }
-  return count;
+  UnionFind<std::size_t> joined(places.size());
+  for (const SamePiece& pair : all) joined.join(places[pair.here], places[pair.there]);
+  std::map<std::size_t, std::int64_t> least;
+  for (std::size_t k = 0; k < names.size(); ++k) least.try_emplace(joined.root(k), names[k]);
+  std::map<std::int64_t, std::int64_t> result;
+  for (std::size_t k = 0; k < names.size(); ++k) result[names[k]] = least[joined.root(k)];
+  return result;
+}
+
+}  // namespace
+
+BoundaryPieces boundary_pieces(const Level<3>& level) {
+  BoundaryPieces result;
+  agreed(*level.comm, [&] { result.of = pieces_here(level); });
+  std::set<SamePiece> own = same_pieces(level, result.of);
+  for (const std::int64_t piece : std::set<std::int64_t>(result.of.begin(), result.of.end()))
+    if (piece >= 0) own.insert({piece, piece});
+  const std::map<std::int64_t, std::int64_t> least = least_of_all(*level.comm, own);
+  std::map<std::int64_t, std::int64_t> mine;
+  for (std::size_t i = 0; i < result.of.size(); ++i) {
+    std::int64_t& piece = result.of[i];
+    if (piece < 0) continue;
+    piece = least.at(piece);
+    mine[piece] += level.nodes.owned(static_cast<std::int64_t>(i)) != 0;
+  }
+  Bytes counts;
+  for (const auto& [piece, nodes] : mine) pack(counts, NodesOfPiece{piece, nodes});
+  for_records<NodesOfPiece>({level.comm->allgather(counts)}, [&](const NodesOfPiece& some) {
+    result.nodes[some.piece] += some.nodes;
+  });
+  return result;
+}
+
+std::int64_t pieces_of_boundary(const Level<3>& level) {
+  return std::ssize(boundary_pieces(level).nodes);
 }
 
 std::int64_t pieces_of_surfaces(const Level<3>& level) {

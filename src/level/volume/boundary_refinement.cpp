@@ -15,6 +15,7 @@
 #include "domain/volume/surface_walk.hpp"
 #include "level/finish.hpp"
 #include "level/volume/added_nodes.hpp"
+#include "level/volume/nodes_in_the_way.hpp"
 #include "level/volume/open_faces.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "level/volume/surface_level.hpp"
@@ -196,8 +197,10 @@ GivenNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>& b
 
 }  // namespace
 
-std::int64_t refine_boundary(Level<3>& level) {
-  if (level.ground.surfaces_alone()) return 0;
+namespace {
+
+// Nodes come, in rounds, as long as that makes the strays fewer. Returns how many, of all ranks.
+std::int64_t add_boundary_nodes(Level<3>& level) {
   constexpr int kMaxRounds = 12, kAnyway = 2;
   constexpr std::uint64_t kFew = 10;  // of which chance may make as many
   std::int64_t added = 0;
@@ -218,6 +221,22 @@ std::int64_t refine_boundary(Level<3>& level) {
     added += more;
   }
   return added;
+}
+
+}  // namespace
+
+PopulationCounts refine_boundary(Level<3>& level) {
+  PopulationCounts counts;
+  if (level.ground.surfaces_alone()) return counts;
+  constexpr int kMaxRounds = 8;
+  std::int64_t nodes_off = std::numeric_limits<std::int64_t>::max();
+  for (int round = 0; round <= kMaxRounds; ++round) {
+    counts.inserted += add_boundary_nodes(level);
+    const std::int64_t removed = round < kMaxRounds ? remove_nodes_in_the_way(level, nodes_off) : 0;
+    counts.deleted += removed;
+    if (removed == 0) break;
+  }
+  return counts;
 }
 
 }  // namespace pnpbs

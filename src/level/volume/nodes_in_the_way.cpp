@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "level/volume/nodes_in_the_way.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "comm/records.hpp"
+#include "level/finish.hpp"
+#include "level/population_events.hpp"
+#include "level/volume/boundary_pieces.hpp"
+#include "level/volume/open_faces.hpp"
+#include "level/volume/settled_elements.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+bool is_free(const Level<3>& level, std::int64_t i) {
+  return level.nodes.carrier(i) == Carrier::free;
+}
+
+bool is_torn_around(const Level<3>& level, std::int64_t i) {
+  if (level.nodes.owned(i) == 0) return false;
+  const FaceFan fan = open_faces(level, i);
+  if (is_free(level, i)) return !fan.empty();
+  const std::int64_t disks = disks_of_surfaces(level, i);
+  return disks > 0 && disks_of(fan) != disks;
+}
+
+// Pieces of the boundary beyond those of the surfaces, the ones with the fewest nodes: as where the
+// mouth of a crack is closed, and its bottom is a bubble.
+std::set<std::int64_t> extra_pieces(const Level<3>& level, const BoundaryPieces& pieces) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> by_size;
+  for (const auto& [piece, nodes] : pieces.nodes) by_size.emplace_back(nodes, piece);
+  std::ranges::sort(by_size);
+  const std::int64_t extra = std::ssize(by_size) - pieces_of_surfaces(level);
+  std::set<std::int64_t> found;
+  for (std::int64_t k = 0; k < extra; ++k)
+    found.insert(by_size[static_cast<std::size_t>(k)].second);
+  return found;
+}
+
+// Owned nodes with the boundary around them not as it should be.
+std::vector<char> nodes_off(const Level<3>& level) {
+  const BoundaryPieces pieces = boundary_pieces(level);
+  const std::set<std::int64_t> extra = extra_pieces(level, pieces);
+  std::vector<char> off(static_cast<std::size_t>(level.nodes.count), 0);
+  agreed(*level.comm, [&] {
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      const auto node = static_cast<std::int64_t>(i);
+      off[i] = is_torn_around(level, node) ||
+               (level.nodes.owned(node) != 0 && extra.contains(pieces.of[i]));
+    }
+  });
+  return off;
+}
+
+// The ids of those in the way of this torn node, which may be another rank's.
+void add_ids_in_the_way(const Level<3>& level, std::int64_t i, std::vector<std::int64_t>& ids) {
+  const Nodes<3>& nodes = level.nodes;
+  if (is_free(level, i)) {
+    ids.push_back(nodes.id(i));
+    return;
+  }
+  bool any = false;
+  level.stars.for_neighbours(i, [&](std::int64_t j) {
+    if (!is_free(level, j)) return;
+    ids.push_back(nodes.id(j));
+    any = true;
+  });
+  if (!any && nodes.carrier(i) == Carrier::surface && open_faces(level, i).empty())
+    ids.push_back(nodes.id(i));
+}
+
+// Of all ranks, each once, ascending.
+std::vector<std::int64_t> ids_in_the_way(const Level<3>& level, const std::vector<char>& off) {
+  Bytes mine;
+  agreed(*level.comm, [&] {
+    std::vector<std::int64_t> ids;
+    for (std::int64_t i = 0; i < level.nodes.count; ++i)
+      if (off[static_cast<std::size_t>(i)] != 0) add_ids_in_the_way(level, i, ids);
+    for (const std::int64_t id : ids) pack(mine, id);
+  });
+  std::vector<std::int64_t> all;
+  for_records<std::int64_t>({level.comm->allgather(mine)},
+                            [&](std::int64_t id) { all.push_back(id); });
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace
+
+std::int64_t remove_nodes_in_the_way(Level<3>& level, std::int64_t& nodes_off_before) {
+  const std::vector<char> off = nodes_off(level);
+  const auto count = static_cast<std::int64_t>(level.comm->allreduce_sum(
+      static_cast<std::uint64_t>(std::ranges::count_if(off, [](char is) { return is != 0; }))));
+  if (count >= nodes_off_before) return 0;
+  nodes_off_before = count;
+  const std::vector<std::int64_t> ids = ids_in_the_way(level, off);
+  if (ids.empty()) return 0;
+  std::vector<std::int32_t> leaving;  // ghosts among them
+  for (std::int32_t i = 0; i < level.nodes.count; ++i)
+    if (std::ranges::binary_search(ids, level.nodes.id(i))) leaving.push_back(i);
+  delete_nodes(level, leaving);
+  prepare_finish(level);
+  return std::ssize(ids);
+}
+
+}  // namespace pnpbs
