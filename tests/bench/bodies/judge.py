@@ -11,9 +11,12 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "peers"))
+from evaluate import lower_quantile  # noqa: E402
 from evaluate_volume import FACES, boundary_faces, shape  # noqa: E402
+from sharp_edges import near_sharp_edges  # noqa: E402
 
 SMALL_ANGLE = 20  # degrees
+PLACES = 5        # that are told, where the boundary is torn
 
 
 def corner_points(x, triangles):
@@ -55,9 +58,20 @@ def fans_at(triangles):
     return np.bincount(node, minlength=triangles.max() + 1)
 
 
+def edges_of(triangles):
+    """Each once, and of how many triangles it is."""
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    return np.unique(np.sort(sides, 1), axis=0, return_counts=True)
+
+
+def torn_at(triangles):
+    """Nodes whose triangles are not one fan, and those of edges with other than two triangles."""
+    edges, count = edges_of(triangles)
+    return np.union1d(np.flatnonzero(fans_at(triangles) > 1), edges[count != 2])
+
+
 def topology(triangles):
-    edges, count = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]],
-                                                     triangles[:, [2, 0]]]), 1), axis=0, return_counts=True)
+    edges, count = edges_of(triangles)
     nodes = np.unique(triangles)
     piece = pieces(edges, triangles.max() + 1)[nodes]
     return {"pieces": len(np.unique(piece)), "euler": len(nodes) - len(edges) + len(triangles),
@@ -75,26 +89,46 @@ def spread(x, triangles, apart):
     return np.concatenate([(1 - u) * a[k] + u * (1 - v) * b[k] + u * v * c[k], x[np.unique(triangles)]])
 
 
-def judged(body, x, tetrahedra):
-    """`body`: points and triangles of its surface. Distances are in median edges of the boundary."""
-    body_x, body_triangles = joined(*body)
-    boundary = boundary_faces(tetrahedra)
-    figures = {"nodes": len(x), "tetrahedra": len(tetrahedra), "crowded_faces": crowded_faces(tetrahedra),
-               "isolated": len(x) - len(np.unique(tetrahedra)), **topology(boundary)}
-    wanted = topology(body_triangles)
-    a, b, _ = corner_points(x, boundary)
-    edge = np.median(np.linalg.norm(b - a, axis=1))
-    own, body_points = spread(x, boundary, edge / 10), spread(body_x, body_triangles, edge / 10)
-    figures["from_body"] = float(cKDTree(own).query(body_points)[0].max() / edge)
-    figures["to_body"] = float(cKDTree(body_points).query(own)[0].max() / edge)
-    _, angles = shape(x, tetrahedra)
-    figures["least_angle"], figures["small_angles"] = float(angles.min()), int((angles < SMALL_ANGLE).sum())
+def least(values):
+    return float(values.min()) if len(values) else None
+
+
+def distances(body, x, boundary, unit):
+    """The farthest that a point of the one surface is from the other, in units."""
+    own, others = spread(x, boundary, unit / 10), spread(*body, unit / 10)
+    return {"from_body": float(cKDTree(own).query(others)[0].max() / unit),
+            "to_body": float(cKDTree(others).query(own)[0].max() / unit)}
+
+
+def shapes(body, x, tetrahedra, reach):
+    """Least angles are told apart where the body itself is sharp."""
+    quality, angles = shape(x, tetrahedra)
+    sharp = near_sharp_edges(body, x, tetrahedra, reach)
     corners = x[tetrahedra]
-    sides = corners[:, 1:] - corners[:, :1]
-    figures["turned_over"] = int((np.linalg.det(sides) <= 0).sum())
-    figures["pieces_of_body"], figures["euler_of_body"] = wanted["pieces"], wanted["euler"]
-    figures["whole"] = (
-        figures["pieces"] == wanted["pieces"] and figures["euler"] == wanted["euler"]
-        and not any(figures[name] for name in
-                    ("crowded_faces", "isolated", "torn_edges", "torn_nodes", "turned_over")))
-    return figures
+    return {"quality_mean": float(quality.mean()), "quality_one_percent": lower_quantile(quality, 0.01),
+            "least_angle": float(angles.min()), "small_angles": int((angles < SMALL_ANGLE).sum()),
+            "at_sharp_edges": int(sharp.sum()), "least_angle_at_sharp_edges": least(angles[sharp]),
+            "least_angle_elsewhere": least(angles[~sharp]),
+            "turned_over": int((np.linalg.det(corners[:, 1:] - corners[:, :1]) <= 0).sum())}
+
+
+def is_whole(figures):
+    return (figures["pieces"] == figures["pieces_of_body"] and figures["euler"] == figures["euler_of_body"]
+            and not any(figures[name] for name in
+                        ("crowded_faces", "isolated", "torn_edges", "torn_nodes", "turned_over")))
+
+
+def judged(body, x, tetrahedra, unit=None):
+    """`body`: points and triangles of its surface. Distances are in `unit`, else in median edges of the
+    boundary."""
+    body = joined(*body)
+    boundary = boundary_faces(tetrahedra)
+    a, b, _ = corner_points(x, boundary)
+    unit = unit or float(np.median(np.linalg.norm(b - a, axis=1)))
+    wanted = topology(body[1])
+    figures = {"nodes": len(x), "tetrahedra": len(tetrahedra), "crowded_faces": crowded_faces(tetrahedra),
+               "isolated": len(x) - len(np.unique(tetrahedra)), **topology(boundary),
+               "pieces_of_body": wanted["pieces"], "euler_of_body": wanted["euler"],
+               **distances(body, x, boundary, unit), **shapes(body, x, tetrahedra, unit),
+               "unit": unit, "torn_at": x[torn_at(boundary)[:PLACES]].tolist()}
+    return {**figures, "whole": is_whole(figures)}

@@ -14,6 +14,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 from judge import boundary_faces, judged  # noqa: E402
+from sharp_edges import opening_angles  # noqa: E402
 from study import cut_to_triangles  # noqa: E402
 
 CELLS = 3
@@ -88,6 +89,38 @@ class Judge(unittest.TestCase):
         self.tetrahedra[7] = self.tetrahedra[7][[1, 0, 2, 3]]
         found = self.judged(self.x, self.tetrahedra)
         self.assertEqual((found["turned_over"], found["whole"]), (1, False))
+
+
+class SharpEdges(unittest.TestCase):
+    def setUp(self):
+        self.x, self.tetrahedra = cube()
+        self.surface = boundary_faces(self.tetrahedra)
+
+    def angles(self, triangles):
+        _, found = opening_angles(self.x, triangles)
+        return set(found.round(6)) - {180}
+
+    def test_cube(self):
+        self.assertEqual(self.angles(self.surface), {90})
+        self.assertEqual(self.angles(self.surface[:, ::-1]), {90})
+
+    def test_turned_in(self):
+        corner = np.all(self.x[self.tetrahedra].mean(1) > CELLS - 1, axis=1)
+        self.assertEqual(self.angles(boundary_faces(self.tetrahedra[~corner])), {90, 270})
+
+    def test_told_apart(self):
+        """Cubes sheared to a wedge of 20 degrees: two of its edges are as sharp, and 160 degrees the others."""
+        tangent = np.tan(np.radians(20))
+        self.x[:, 0] += self.x[:, 1] / tangent
+        self.assertEqual(self.angles(self.surface), {20, 90, 160})
+        found = judged((self.x, self.surface), self.x, self.tetrahedra, 0.5)
+        self.assertLess(found["at_sharp_edges"], len(self.tetrahedra))
+        self.assertGreater(found["at_sharp_edges"], 0)
+        least = {found["least_angle_at_sharp_edges"], found["least_angle_elsewhere"]}
+        self.assertEqual(min(least), found["least_angle"])
+        whole = judged(surface_of(*cube()), *cube())
+        self.assertEqual((whole["at_sharp_edges"], whole["least_angle_at_sharp_edges"]), (0, None))
+        self.assertEqual(whole["least_angle_elsewhere"], whole["least_angle"])
 
 
 class Polygons(unittest.TestCase):
