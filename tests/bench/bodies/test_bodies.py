@@ -13,9 +13,10 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
+from body_files import cut_to_triangles, read_body  # noqa: E402
 from judge import boundary_faces, judged  # noqa: E402
+from random_bodies import is_surface, random_body  # noqa: E402
 from sharp_edges import opening_angles  # noqa: E402
-from study import cut_to_triangles  # noqa: E402
 
 CELLS = 3
 
@@ -123,6 +124,28 @@ class SharpEdges(unittest.TestCase):
         self.assertEqual(whole["least_angle_elsewhere"], whole["least_angle"])
 
 
+class RandomBodies(unittest.TestCase):
+    def test_pure(self):
+        one, other = random_body(5, 2), random_body(5, 3)
+        again = random_body(5, 2)
+        self.assertTrue(all(np.array_equal(a, b) for a, b in zip(one, again)))
+        self.assertFalse(np.array_equal(one[0], other[0]))
+        self.assertFalse(np.array_equal(one[0], random_body(6, 2)[0]))
+
+    def test_closed(self):
+        for number in range(20):
+            x, triangles = random_body(6, number)
+            self.assertTrue(is_surface(triangles))
+            self.assertEqual(len(np.unique(x, axis=0)), len(x))
+
+    def test_touching_along_an_edge(self):
+        both = np.concatenate([cube()[0], cube((CELLS, CELLS, 0))[0]])
+        x, places = np.unique(both, axis=0, return_inverse=True)
+        tetrahedra = places.reshape(-1)[np.concatenate([cube()[1], cube()[1] + len(both) // 2])]
+        self.assertFalse(is_surface(boundary_faces(tetrahedra)))
+        self.assertTrue(is_surface(boundary_faces(cube()[1])))
+
+
 class Polygons(unittest.TestCase):
     def test_not_convex(self):
         comb = np.array([[0, 0], [5, 0], [5, 3], [4, 3], [4, 1], [3, 1], [3, 3], [0, 3]], float)
@@ -147,7 +170,7 @@ class Study(unittest.TestCase):
         rows = [f"{a} {b} {c}" for a, b, c in x] + [f"3 {a} {b} {c}" for a, b, c in triangles]
         (self.folder / "cube.off").write_text("\n".join(["OFF", f"{len(x)} {len(triangles)} 0", *rows]))
 
-    def study(self, tetrahedra, status):
+    def study(self, tetrahedra, status, *bodies):
         x, _ = cube()
         for suffix, rows, head in ((".node", x, f"{len(x)} 3 0 0"), (".ele", tetrahedra + 1,
                                                                    f"{len(tetrahedra)} 4 0")):
@@ -160,11 +183,11 @@ for word; do
     *.node | *.ele) cp "{self.folder}/made.${{word##*.}}" "$word" ;;
   esac
 done
-exit {status}
+{"exit " if status >= 0 else "kill "}{status}{"" if status >= 0 else " $$"}
 """)
         program.chmod(0o755)
-        return subprocess.run([sys.executable, "-B", HERE / "study.py", "--program", program,
-                               self.folder / "cube.off"], capture_output=True, text=True)
+        return subprocess.run([sys.executable, "-B", HERE / "study.py", "--program", program, *
+                               (bodies or [self.folder / "cube.off"])], capture_output=True, text=True)
 
     def test_whole(self):
         done = self.study(cube()[1], 0)
@@ -176,6 +199,19 @@ exit {status}
         self.assertIn("0 whole, 1 torn, 1 of these without", self.study(torn, 0).stdout)
         self.assertEqual(self.study(torn, 0).returncode, 1)
         self.assertEqual(self.study(torn, 6).returncode, 0)
+
+    def test_random(self):
+        """No random body is three cubes wide: each is torn, and kept for another look."""
+        found = self.study(cube()[1], 6, "--random", "4:7", "--count", "2", "--keep", self.folder / "kept")
+        self.assertEqual(found.returncode, 0, found.stderr)
+        self.assertRegex(found.stdout, "(?m)^4:7 [^\n]*\n4:8 ")
+        x, _ = read_body(self.folder / "kept" / "random_4_8_25.off")
+        self.assertTrue(np.array_equal(x, random_body(4, 8)[0]))
+
+    def test_crash(self):
+        found = self.study(cube()[1], -11)
+        self.assertEqual(found.returncode, 1)
+        self.assertIn("0 whole, 0 torn, 0 of these without exit code 6; 0 refused, 1 failed", found.stdout)
 
 
 if __name__ == "__main__":

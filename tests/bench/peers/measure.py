@@ -46,6 +46,7 @@ class Measured:
     seconds: float      # wall time, start and files included
     cpu_seconds: float  # that the system gave it, whatever else ran
     peak_bytes: int
+    status: int
     stdout: str
 
 
@@ -61,7 +62,7 @@ def measure(command, folder, time_limit=3600, accepted=(0,)):
     if not report.exists():
         raise Failed(f"{command[0]} could not be measured: {last_line(err)}")
     found = json.loads(report.read_text())
-    status = found.pop("status")
+    status = found["status"]
     if status not in accepted:
         if found["seconds"] >= time_limit:
             raise Failed(f"not done after {time_limit:g} s")
