@@ -9,8 +9,8 @@ that it writes without the library (judge.py).
   tests/bench/bodies/study.py --random SEED:NUMBER          # one of these again, with the same --parts
 
 Prints a line for each, with CPU seconds, and how many are whole, torn, and torn without a status that says so. Exit
-status 1 if there is one of these, or if the command crashed or ran out of time. The bodies of CGAL's
-demos are in Debian's package libcgal-demo (data/meshes/*.off).
+status 1 if there is one of these, if the command crashed or ran out of time, or if it refused a random
+body. The bodies of CGAL's demos are in Debian's package libcgal-demo (data/meshes/*.off).
 """
 import argparse
 import json
@@ -100,14 +100,24 @@ def line_of(name, found):
             f"{found['cpu_seconds']:.1f} s")
 
 
-def summary(found):
-    """In words, and whether any is torn in silence or failed."""
+def summary(found, most_torn, may_refuse):
+    """In words, and whether all is as it must be: torn bodies are few enough, none is torn in silence,
+    and none failed or, unless it may be, was refused."""
     bodies = [figures for figures in found.values() if "whole" in figures]
     torn = [figures for figures in bodies if not figures["whole"]]
     silent = sum(figures["exit_code"] != NOT_CONFORMING for figures in torn)
     refused, failed = (sum(outcome in figures for figures in found.values()) for outcome in ("refused", "failed"))
-    return (f"{len(found)} bodies: {len(bodies) - len(torn)} whole, {len(torn)} torn, {silent} of these "
-            f"without exit code {NOT_CONFORMING}; {refused} refused, {failed} failed", silent + failed > 0)
+    words = (f"{len(found)} bodies: {len(bodies) - len(torn)} whole, {len(torn)} torn, {silent} of these "
+             f"without exit code {NOT_CONFORMING}; {refused} refused, {failed} failed")
+    return words, len(torn) <= most_torn and silent + failed == 0 and (may_refuse or refused == 0)
+
+
+def commands_again(found, arguments):
+    """One for each random body that is not whole."""
+    settings = "".join(f" --set {setting}" for setting in arguments.set)
+    return [f"again: {HERE.relative_to(ROOT) / 'study.py'} --random {name} --parts {arguments.parts} --nodes "
+            f"{arguments.nodes} --spacing {arguments.spacing}{settings}"
+            for name, figures in found.items() if not figures.get("whole")]
 
 
 def random_bodies(text):
@@ -149,6 +159,8 @@ def main():
     parser.add_argument("--nodes", default="6000")
     parser.add_argument("--spacing", default="1")
     parser.add_argument("--set", action="append", default=[], metavar="OPTION=VALUE")
+    parser.add_argument("--most-torn", type=int, default=sys.maxsize, metavar="N",
+                        help="exit status 1 if more are torn, whatever the exit codes of the command")
     parser.add_argument("--figures", type=Path, help="write all figures there, as JSON")
     parser.add_argument("--keep", type=Path, metavar="FOLDER", help="put bodies there that are not whole")
     parser.add_argument("--time-limit", type=float, default=3600, help="seconds for each body (3600)")
@@ -159,9 +171,9 @@ def main():
     found = study(bodies_of(arguments), arguments)
     if arguments.figures:
         arguments.figures.write_text(json.dumps(found, indent=1) + "\n")
-    words, bad = summary(found)
-    print(words)
-    return 1 if bad else 0
+    words, good = summary(found, arguments.most_torn, arguments.random is None)
+    print("\n".join([words, *(commands_again(found, arguments) if arguments.random else [])]))
+    return 0 if good else 1
 
 
 if __name__ == "__main__":

@@ -170,6 +170,13 @@ class Study(unittest.TestCase):
         rows = [f"{a} {b} {c}" for a, b, c in x] + [f"3 {a} {b} {c}" for a, b, c in triangles]
         (self.folder / "cube.off").write_text("\n".join(["OFF", f"{len(x)} {len(triangles)} 0", *rows]))
 
+    def refused(self, *bodies):
+        """By a program that writes nothing."""
+        program = self.folder / "refuses"
+        program.write_text("#!/bin/sh\nexit 2\n")
+        program.chmod(0o755)
+        return self.run_study(program, *bodies)
+
     def study(self, tetrahedra, status, *bodies):
         x, _ = cube()
         for suffix, rows, head in ((".node", x, f"{len(x)} 3 0 0"), (".ele", tetrahedra + 1,
@@ -186,8 +193,12 @@ done
 {"exit " if status >= 0 else "kill "}{status}{"" if status >= 0 else " $$"}
 """)
         program.chmod(0o755)
-        return subprocess.run([sys.executable, "-B", HERE / "study.py", "--program", program, *
-                               (bodies or [self.folder / "cube.off"])], capture_output=True, text=True)
+        return self.run_study(program, *(bodies or [self.folder / "cube.off"]))
+
+    @staticmethod
+    def run_study(program, *arguments):
+        return subprocess.run([sys.executable, "-B", HERE / "study.py", "--program", program, *arguments],
+                              capture_output=True, text=True)
 
     def test_whole(self):
         done = self.study(cube()[1], 0)
@@ -205,8 +216,20 @@ done
         found = self.study(cube()[1], 6, "--random", "4:7", "--count", "2", "--keep", self.folder / "kept")
         self.assertEqual(found.returncode, 0, found.stderr)
         self.assertRegex(found.stdout, "(?m)^4:7 [^\n]*\n4:8 ")
+        self.assertRegex(found.stdout, "\nagain: .*/study.py --random 4:8 --parts 25 --nodes 6000 ")
         x, _ = read_body(self.folder / "kept" / "random_4_8_25.off")
         self.assertTrue(np.array_equal(x, random_body(4, 8)[0]))
+
+    def test_too_many_torn(self):
+        for most, status in ((0, 1), (1, 0)):
+            found = self.study(cube()[1][6:], 6, self.folder / "cube.off", "--most-torn", str(most))
+            self.assertEqual(found.returncode, status)
+
+    def test_refused(self):
+        """A file may be no body; a random one is always one."""
+        self.assertIn("1 refused", self.refused(self.folder / "cube.off").stdout)
+        self.assertEqual(self.refused(self.folder / "cube.off").returncode, 0)
+        self.assertEqual(self.refused("--random", "4").returncode, 1)
 
     def test_crash(self):
         found = self.study(cube()[1], -11)
