@@ -18,6 +18,8 @@ from manifold3d import CrossSection, Manifold, OpType
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from sharp_edges import is_surface
+
 MOST_PARTS = 25
 LEAST_VOLUME = 1e-3
 LEAST_PIECE = 0.1
@@ -182,13 +184,6 @@ RECIPES = [heap, heap, drilled, slotted, hollow, fins, scattered]
 
 
 # ---------------------------------------------------------------- bodies --------------------
-def is_surface(triangles):
-    """Two triangles at each edge, in opposite directions."""
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    both = np.concatenate([edges, edges[:, ::-1]])
-    return len(np.unique(edges, axis=0)) == len(edges) and len(np.unique(both, axis=0)) == len(edges)
-
-
 def surface(made):
     """Points and triangles; points in one place are one."""
     mesh = made.to_mesh64()

@@ -20,6 +20,13 @@ def outward(x, triangles):
     return triangles if (a * np.cross(b, c)).sum() >= 0 else triangles[:, ::-1]
 
 
+def is_surface(triangles):
+    """Two triangles at each edge, in opposite directions."""
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    both = np.concatenate([edges, edges[:, ::-1]])
+    return len(np.unique(edges, axis=0)) == len(edges) and len(np.unique(both, axis=0)) == len(edges)
+
+
 def opening_angles(x, triangles):
     """Edges of two triangles, and the angle between these inside the body, from 0 to 360 degrees."""
     triangles = outward(x, triangles)

@@ -15,8 +15,8 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 from body_files import cut_to_triangles, read_body  # noqa: E402
 from judge import boundary_faces, judged  # noqa: E402
-from random_bodies import is_surface, random_body  # noqa: E402
-from sharp_edges import opening_angles  # noqa: E402
+from random_bodies import random_body  # noqa: E402
+from sharp_edges import is_surface, opening_angles  # noqa: E402
 
 CELLS = 3
 

@@ -5,6 +5,8 @@ import math
 from pathlib import Path
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 DATA = Path(__file__).resolve().parents[3] / "examples" / "data"
 
@@ -45,6 +47,28 @@ class Body:
         inside = np.empty(len(points), bool)
         inside[order] = above
         return inside
+
+    def cavities(self):
+        """A point in each: just beyond the largest triangle of a surface that encloses the outside."""
+        triangles = self.triangles()
+        a, b, c = self.vertices[triangles].transpose(1, 0, 2)
+        links = coo_matrix((np.ones(len(triangles)), triangles.T[:2]), shape=(len(self.vertices),) * 2)
+        piece = connected_components(links, directed=False)[1][triangles[:, 0]]
+        normals = np.cross(b - a, c - a)
+        area = np.linalg.norm(normals, axis=1)
+        points = []
+        for k in np.flatnonzero(np.bincount(piece, (a * np.cross(b, c)).sum(1)) < 0):
+            largest = np.where(piece == k, area, 0).argmax()
+            step = 1e-3 * normals[largest] / math.sqrt(area[largest])
+            points.append(((a + b + c)[largest] / 3 + step).tolist())
+        return points
+
+    def write_off(self, path):
+        triangles = self.triangles().tolist()
+        lines = ["OFF", f"{len(self.vertices)} {len(triangles)} 0"]
+        lines += [" ".join(map(repr, vertex)) for vertex in self.vertices.tolist()]
+        lines += [f"3 {a} {b} {c}" for a, b, c in triangles]
+        Path(path).write_text("\n".join(lines) + "\n")
 
     def write_stl(self, path):
         corners = self.vertices[self.triangles()]

@@ -18,6 +18,7 @@ def place(job):
     body = tet.MeshInfo()
     body.set_points(job.vertices.tolist())
     body.set_facets(job.polygons)
+    body.set_holes(job.holes)
     if job.slope == 0:
         largest = float(largest_volume(job, job.vertices[:1])[0])
         return tet.build(body, tet.Options("pq"), max_volume=largest)

@@ -37,6 +37,8 @@ class Pnpbs(tool.Tool):
 
 
 class PnpbsInSpace(Pnpbs):
+    accepted = (0, 3, 4)
+
     def run(self, case, folder, time_limit):
         body = {"box": "box(0,0,0, 1,1,1)", "ball": "ball(0,0,0, 1)"}.get(case.body.kind)
         if not body:
@@ -47,7 +49,7 @@ class PnpbsInSpace(Pnpbs):
                    "--threads", 1, "--quiet"]
         for option in self.options:
             command += ["--set", option]
-        used = measure(command, folder, time_limit, accepted=(0, 3, 4))
+        used = measure(command, folder, time_limit, accepted=self.accepted)
         report = json.loads((folder / "report.json").read_text())
         with open(folder / "nodes.ele") as file:
             count = int(file.readline().split()[0])

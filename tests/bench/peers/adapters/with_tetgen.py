@@ -23,7 +23,8 @@ class TetGen(tool.Tool):
         return f"meshpy {tool.version_of_package('meshpy')}"
 
     def run(self, case, folder, time_limit):
-        write_job(case, folder / "job.npz", bound=VOLUME_BOUND)
+        write_job(case, folder / "job.npz", bound=VOLUME_BOUND,
+                  holes=case.body.cavities())
         used = measure(tool.python("place_by_tetgen.py", "job.npz", "mesh.npz"), folder, time_limit)
         return tool.VolumeOutcome(*tool.read_npz(folder / "mesh.npz"), used,
                                   tool.told_seconds(used.stdout))
