@@ -4,8 +4,8 @@
 
   tests/bench/bodies/compare.py [--nodes 3000] [--random SEED --count 50] [--output docs] FILE...
 
-Writes comparison_bodies.md and comparison_bodies.json; these again from the figures with --from FILE.json.
-Files that are no closed surface are left out.
+Writes comparison_bodies.md and comparison_bodies.json. With --from FILE.json... these are made of the figures of
+earlier runs, put together. Files that are no closed surface are left out.
 """
 import argparse
 import dataclasses
@@ -160,6 +160,14 @@ def write(folder, results):
     (folder / "comparison_bodies.md").write_text(compare_page.page(results))
 
 
+def merged(parts):
+    """The first, with the runs of the others added."""
+    if any(part["tools"] != parts[0]["tools"] or part["asked"] != parts[0]["asked"] for part in parts):
+        sys.exit("compare.py: these are of other tools or another number of nodes")
+    together = {name: [entry for part in parts for entry in part[name]] for name in ("runs", "no_bodies")}
+    return {**parts[0], **together, "command": "\n".join(part["command"] for part in parts)}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("files", nargs="*", type=Path)
@@ -170,10 +178,11 @@ def main():
     parser.add_argument("--pnpbs", type=lambda path: str(Path(path).resolve()), help="the command")
     parser.add_argument("--time-limit", type=float, default=600, help="seconds for each body and tool")
     parser.add_argument("--output", type=Path, default=HERE.parents[2] / "build" / "comparison")
-    parser.add_argument("--from", dest="source", type=Path, metavar="FILE.json", help="run nothing")
+    parser.add_argument("--from", dest="sources", type=Path, nargs="+", metavar="FILE.json",
+                        help="run nothing")
     arguments = parser.parse_args()
-    results = json.loads(arguments.source.read_text()) if arguments.source else run_all(arguments)
-    write(arguments.output, results)
+    earlier = [json.loads(source.read_text()) for source in arguments.sources or []]
+    write(arguments.output, merged(earlier) if earlier else run_all(arguments))
 
 
 if __name__ == "__main__":

@@ -77,6 +77,12 @@ def bodies_lost(results):
                    if not all(map(intact, runs.values()))]
 
 
+def refused(results):
+    """What our command says of no body at all: triangles that cross, above all."""
+    return sorted(run["body"] for run in results["runs"] if run["tool"].startswith("PNPBS")
+                  and run.get("failed", "").startswith("status 2:"))
+
+
 def page(results):
     m, count = results["machine"], len({run["body"] for run in results["runs"]})
     lines = ["# Comparison with other tools on bodies", "",
@@ -92,6 +98,9 @@ def page(results):
     lines += [HOW, *table_head(TITLES)]
     lines += [table_row(row(tool["name"], [run for run in results["runs"] if run["tool"] == tool["name"]]))
               for tool in results["tools"]]
+    if refused(results):
+        lines += ["", f"PNPBS refuses {len(refused(results))} files, with a message that names the place, as their triangles "
+                  f"cross or touch each other: {', '.join(refused(results))}. They are among its \"nothing\"."]
     names, lost = bodies_lost(results)
     lines += ["", "## Bodies that some tool lost", "", *table_head(["body", *names]), *map(table_row, lost), ""]
     return "\n".join(lines)

@@ -12,10 +12,11 @@ from scipy.spatial import cKDTree
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "peers"))
 from evaluate import lower_quantile  # noqa: E402
-from evaluate_volume import FACES, boundary_faces, shape  # noqa: E402
+from evaluate_volume import EDGES, FACES, boundary_faces, shape  # noqa: E402
 from sharp_edges import near_sharp_edges  # noqa: E402
 
 SMALL_ANGLE = 20  # degrees
+FLAT = 1e-9       # volume over the cube of the longest edge; 0.118 if regular
 PLACES = 5        # that are told, where the boundary is torn
 
 
@@ -89,6 +90,14 @@ def spread(x, triangles, apart):
     return np.concatenate([(1 - u) * a[k] + u * (1 - v) * b[k] + u * v * c[k], x[np.unique(triangles)]])
 
 
+def flat(x, tetrahedra):
+    """How many have no volume but for rounding."""
+    corners = x[tetrahedra]
+    longest = np.max([np.linalg.norm(corners[:, i] - corners[:, j], axis=1) for i, j in EDGES], 0)
+    volume = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6
+    return int((volume < FLAT * longest ** 3).sum())
+
+
 def least(values):
     return float(values.min()) if len(values) else None
 
@@ -109,6 +118,7 @@ def shapes(body, x, tetrahedra, reach):
             "least_angle": float(angles.min()), "small_angles": int((angles < SMALL_ANGLE).sum()),
             "at_sharp_edges": int(sharp.sum()), "least_angle_at_sharp_edges": least(angles[sharp]),
             "least_angle_elsewhere": least(angles[~sharp]),
+            "flat": flat(x, tetrahedra),
             "turned_over": int((np.linalg.det(corners[:, 1:] - corners[:, :1]) <= 0).sum())}
 
 

@@ -96,7 +96,7 @@ def line_of(name, found):
             f"{found['pieces']}/{found['pieces_of_body']}  Euler {found['euler']}/{found['euler_of_body']}"
             f"  off {found['from_body']:.2f} {found['to_body']:.2f}  angle "
             f"{angle(found['least_angle_elsewhere'])}, at sharp edges "
-            f"{angle(found['least_angle_at_sharp_edges'])}, small {found['small_angles']}  "
+            f"{angle(found['least_angle_at_sharp_edges'])}, small {found['small_angles']}, flat {found['flat']}  "
             f"{found['cpu_seconds']:.1f} s")
 
 
@@ -108,7 +108,8 @@ def summary(found, most_torn, may_refuse):
     silent = sum(figures["exit_code"] != NOT_CONFORMING for figures in torn)
     refused, failed = (sum(outcome in figures for figures in found.values()) for outcome in ("refused", "failed"))
     words = (f"{len(found)} bodies: {len(bodies) - len(torn)} whole, {len(torn)} torn, {silent} of these "
-             f"without exit code {NOT_CONFORMING}; {refused} refused, {failed} failed")
+             f"without exit code {NOT_CONFORMING}; {refused} refused, {failed} failed; "
+             f"{sum(figures['flat'] > 0 for figures in bodies)} have tetrahedra of no volume")
     return words, len(torn) <= most_torn and silent + failed == 0 and (may_refuse or refused == 0)
 
 

@@ -86,6 +86,12 @@ class Judge(unittest.TestCase):
         found = self.judged(np.concatenate([self.x, [[1.5, 1.5, 1.5]]]), self.tetrahedra)
         self.assertEqual((found["isolated"], found["whole"]), (1, False))
 
+    def test_flat(self):
+        self.assertEqual(self.judged(self.x, self.tetrahedra)["flat"], 0)
+        square = [0, 1, (CELLS + 1) + 1, CELLS + 1]  # a side of a cell
+        found = self.judged(self.x, np.concatenate([self.tetrahedra, [square]]))
+        self.assertEqual(found["flat"], 1)
+
     def test_turned_over(self):
         self.tetrahedra[7] = self.tetrahedra[7][[1, 0, 2, 3]]
         found = self.judged(self.x, self.tetrahedra)

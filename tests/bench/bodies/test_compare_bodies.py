@@ -11,7 +11,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent / "peers")]
 import compare_page  # noqa: E402
 from bodies import Body, box, l_block  # noqa: E402
-from compare import made, put_together, spacing_for  # noqa: E402
+from compare import made, merged, put_together, spacing_for  # noqa: E402
 from adapters.tool import VolumeOutcome  # noqa: E402
 from measure import Measured  # noqa: E402
 from solids import joined, solids, surfaces  # noqa: E402
@@ -83,6 +83,14 @@ def run(body, whole, angle, **more):
             "euler": 2, "euler_of_body": 2, **more}
 
 
+class Merged(unittest.TestCase):
+    def test_merged(self):
+        one, other = ({"tools": ["A"], "asked": 9, "runs": [k], "no_bodies": [], "command": k} for k in "ab")
+        self.assertEqual(merged([one, other]), {**one, "runs": ["a", "b"], "command": "a\nb"})
+        with self.assertRaises(SystemExit):
+            merged([one, {**other, "asked": 8}])
+
+
 class Page(unittest.TestCase):
     RUNS = [run("one", True, 30.0), run("two", False, 10.0, torn_nodes=3, euler=0), run("three", True, 22.0),
             {"body": "four", "tool": "A", "failed": "it crashed"}]
@@ -93,6 +101,12 @@ class Page(unittest.TestCase):
         self.assertEqual(row[7:9], ["22.00 / 10.00", "-"])
         self.assertEqual(row[11], "0.22 / 0.30")
         self.assertEqual(compare_page.row("A", [run("two", False, 10.0, exit_code=6)])[4], 0)
+
+    def test_refused(self):
+        runs = [{"body": body, "tool": tool, "failed": failed} for body, tool, failed in (
+            ("a", "PNPBS, default", "status 2: pnpbs: triangles cross"), ("b", "PNPBS, default", "not done"),
+            ("c", "TetGen", "status 2: no"))] + [{**run("d", True, 1.0), "tool": "PNPBS, default"}]
+        self.assertEqual(compare_page.refused({"runs": runs}), ["a"])
 
     def test_lost(self):
         _, rows = compare_page.bodies_lost({"tools": [{"name": "A"}], "runs": self.RUNS})
