@@ -136,7 +136,7 @@ def run(tool, case, time_limit):
 
 def run_all(arguments):
     there, left_out = those_there(tools(arguments.pnpbs))
-    results = {"machine": machine.describe(), "asked": arguments.nodes, "no_bodies": [],
+    results = {"machine": machine.describe(), "note": arguments.note, "asked": arguments.nodes, "no_bodies": [],
                "command": shlex.join(["tests/bench/bodies/compare.py", *sys.argv[1:]]),
                "tools": [{"name": tool.name, "version": version, "setting": tool.setting}
                          for tool, version in there], "left_out": left_out, "runs": []}
@@ -180,9 +180,11 @@ def main():
     parser.add_argument("--output", type=Path, default=HERE.parents[2] / "build" / "comparison")
     parser.add_argument("--from", dest="sources", type=Path, nargs="+", metavar="FILE.json",
                         help="run nothing")
+    parser.add_argument("--note", default="", help="a line for the page, such as what else the machine did")
     arguments = parser.parse_args()
     earlier = [json.loads(source.read_text()) for source in arguments.sources or []]
-    write(arguments.output, merged(earlier) if earlier else run_all(arguments))
+    results = merged(earlier) if earlier else run_all(arguments)
+    write(arguments.output, {**results, "note": arguments.note or results["note"]})
 
 
 if __name__ == "__main__":

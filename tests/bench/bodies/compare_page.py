@@ -88,13 +88,12 @@ def page(results):
     lines = ["# Comparison with other tools on bodies", "",
              f"{count} bodies, d for {grouped(results['asked'])} nodes in each. {m['date']}, one thread of an "
              f"{m['processor']}, {m['cores']} cores, {m['memory_gib']} GiB; {m['system']}; load before the first run "
-             f"{m['load']}. Made by", "", "```sh", results["command"], "```", "",
+             f"{m['load']}. {results['note']} Made by", "", "```sh", results["command"], "```", "",
              *table_head(["tool", "version", "told"]),
              *(table_row([tool["name"], tool["version"], tool["setting"]]) for tool in results["tools"]), ""]
     lines += [f"Left out: {tool['name']}, {tool['why']}" for tool in results["left_out"]]
     if results["no_bodies"]:
-        lines += [f"{len(results['no_bodies'])} files are no closed surface and left out: "
-                  f"{', '.join(results['no_bodies'])}.", ""]
+        lines += [f"Left out as no closed surface: {', '.join(results['no_bodies'])}.", ""]
     lines += [HOW, *table_head(TITLES)]
     lines += [table_row(row(tool["name"], [run for run in results["runs"] if run["tool"] == tool["name"]]))
               for tool in results["tools"]]

@@ -108,6 +108,17 @@ class Page(unittest.TestCase):
             ("c", "TetGen", "status 2: no"))] + [{**run("d", True, 1.0), "tool": "PNPBS, default"}]
         self.assertEqual(compare_page.refused({"runs": runs}), ["a"])
 
+    def test_page(self):
+        """What it was run on, the row of the tool, the bodies lost, and files that are no bodies."""
+        machine = dict.fromkeys(("date", "processor", "cores", "memory_gib", "system", "load"), "m")
+        text = compare_page.page({"machine": machine, "note": "It rained.", "asked": 9, "command": "run me",
+                                  "tools": [{"name": "A", "version": "1", "setting": "s"}], "left_out": [
+                                      {"name": "B", "why": "not found"}], "no_bodies": ["rag.off"],
+                                  "runs": self.RUNS})
+        for words in ("It rained.", "run me", "| A | 2 | 1 | 1 | 1 |", "Left out: B, not found", "rag.off",
+                      "| four | nothing: it crashed |", "4 bodies, d for 9 nodes"):
+            self.assertIn(words, text)
+
     def test_lost(self):
         _, rows = compare_page.bodies_lost({"tools": [{"name": "A"}], "runs": self.RUNS})
         self.assertEqual(rows, [["two", "torn: 3 torn nodes, Euler 0 for 2"], ["four", "nothing: it crashed"]])
