@@ -5,17 +5,16 @@
 #include <cmath>
 #include <utility>
 
-#include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/domain_error.hpp"
 #include "domain/volume/level_set_creases.hpp"
 #include "domain/volume/level_set_surface.hpp"
+#include "domain/volume/soup.hpp"
 #include "domain/volume/surface_edges.hpp"
 #include "domain/volume/surface_orientation.hpp"
 #include "domain/volume/surface_sides.hpp"
 #include "domain/volume/triangles.hpp"
-#include "domain/volume/welding.hpp"
 #include "domain/volume/winding_number.hpp"
 #include "tree/box_tree.hpp"
 
@@ -25,15 +24,27 @@ namespace {
 
 // In units of the resolution: nearer than that to triangles, their sides tell what is inside.
 constexpr double kNear = 2;
+// Vertices that are so near are one: scanners and converters leave seams of rounding, across which
+// triangles would not know their neighbours.
+constexpr double kWelded = 1e-3;
 
 using TriangleList = std::vector<FacetCorners<3>>;
 
 double area_of(const FacetCorners<3>& triangle) { return length(area_normal(triangle)); }
 
-Box<3> box_around(const TriangleList& triangles) {
+Box<3> box_of(const FacetCorners<3>& triangle) {
   Box<3> box = empty_box<3>();
-  for (const FacetCorners<3>& triangle : triangles)
-    for (const Point<3>& corner : triangle) include(box, corner);
+  for (const Point<3>& corner : triangle) include(box, corner);
+  return box;
+}
+
+// Around what their triangles use.
+Box<3> box_around(const std::vector<SurfaceSource>& surfaces) {
+  Box<3> box = empty_box<3>();
+  for (const SurfaceSource& surface : surfaces)
+    for (const auto& triangle : surface.triangles)
+      for (const std::int32_t v : triangle)
+        include(box, surface.vertices[static_cast<std::size_t>(v)]);
   return box;
 }
 
@@ -49,7 +60,7 @@ class NearestTriangles {
  public:
   explicit NearestTriangles(const TriangleList& triangles) : triangles_(triangles) {
     std::vector<Box<3>> boxes;
-    for (const FacetCorners<3>& triangle : triangles) boxes.push_back(box_around({triangle}));
+    for (const FacetCorners<3>& triangle : triangles) boxes.push_back(box_of(triangle));
     tree_ = BoxTree<3>(std::move(boxes));
   }
 
@@ -118,22 +129,6 @@ double longest_side(const Box<3>& box) {
   return longest;
 }
 
-// Over common vertices; what is nothing is left out.
-Triangulation welded(const std::vector<SurfaceSource>& given) {
-  Triangulation surface = join_surfaces(given);
-  Box<3> box = empty_box<3>();
-  for (const Point<3>& x : surface.vertices) include(box, x);
-  const std::vector<std::int32_t> joined =
-      weld_points(surface.vertices, kSameVertex * size_of(box));
-  for (SurfaceTriangle& triangle : surface.triangles)
-    for (std::int32_t& v : triangle.vertices) v = joined[static_cast<std::size_t>(v)];
-  std::erase_if(surface.triangles, [](const SurfaceTriangle& triangle) {
-    const auto& [a, b, c] = triangle.vertices;
-    return a == b || b == c || c == a;
-  });
-  return surface;
-}
-
 SurfaceSource surface_of(const LevelSet& set, std::int32_t tag) {
   try {
     return level_set_surface(set, tag);
@@ -197,13 +192,13 @@ RepairDistances distances_between(const RepairFunction& given, const SurfaceSour
 RepairedBody repaired_body(const std::vector<SurfaceSource>& given, double resolution) {
   RepairedBody body;
   std::vector<std::string> warnings;
-  Triangulation surface = welded(given);
-  const Box<3> box = box_around(corners_of(surface));
+  const Box<3> box = box_around(given);
   if (resolution == 0) resolution = kRepairResolution * longest_side(box);
   if (!(resolution > 0 && resolution <= longest_side(box)))
     reject_domain("repair: the resolution is " + number_text(resolution) +
                   ", expected no more than the longest side of the box around the triangles, " +
                   rounded_text(longest_side(box)));
+  Triangulation surface = joined_soup(given, kWelded * resolution);
   SurfaceEdges edges(surface);
   orient_surfaces(surface, edges, OneSided::ignored, warnings);
   const auto f = std::make_shared<const RepairFunction>(surface, edges, kNear * resolution);
