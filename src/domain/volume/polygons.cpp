@@ -13,9 +13,16 @@ namespace pnpbs {
 namespace {
 
 bool repeats_a_vertex(std::span<const std::int32_t> corners) {
-  if (corners.size() == 3)
-    return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
   return std::set<std::int32_t>(corners.begin(), corners.end()).size() < corners.size();
+}
+
+// Each corner that is the one before it left out: an edge between the two is none.
+std::vector<std::int32_t> without_edges_of_no_length(std::span<const std::int32_t> corners) {
+  std::vector<std::int32_t> left;
+  for (const std::int32_t corner : corners)
+    if (left.empty() || left.back() != corner) left.push_back(corner);
+  while (left.size() > 1 && left.back() == left.front()) left.pop_back();
+  return left;
 }
 
 // Twice the area, along the normal.
@@ -56,28 +63,33 @@ std::vector<Point<2>> projected(const std::vector<Point<3>>& x,
 
 }  // namespace
 
-std::string add_polygon(SurfaceTriangles& surface, std::span<const std::int32_t> corners,
+std::string add_polygon(SurfaceTriangles& surface, std::span<const std::int32_t> given,
                         std::int32_t tag) {
-  const auto problem = [&corners](const std::string& what) {
-    return "a polygon of " + std::to_string(corners.size()) + " corners " + what;
+  const auto problem = [&given](const std::string& what) {
+    return "a polygon of " + std::to_string(given.size()) + " corners " + what;
   };
-  if (corners.size() < 3) return problem("is none, expected 3 or more");
-  if (repeats_a_vertex(corners)) return problem("has a vertex twice");
-  if (corners.size() == 3) {
-    surface.triangles.push_back({corners[0], corners[1], corners[2]});
+  if (given.size() < 3) return problem("is none, expected 3 or more");
+  const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    surface.triangles.push_back({a, b, c});
     surface.tags.push_back(tag);
+  };
+  if (given.size() == 3) {
+    add(given[0], given[1], given[2]);
     return "";
   }
+  const std::vector<std::int32_t> corners = without_edges_of_no_length(given);
+  if (corners.size() <= 3) {  // with fewer, one that is nothing, as an STL may have
+    add(corners[0], corners[corners.size() / 2], corners.back());
+    return "";
+  }
+  if (repeats_a_vertex(corners)) return problem("has a vertex twice");
   const Point<3> normal = area_vector(surface.vertices, corners);
   if (normal == Point<3>{}) return problem("has no area");
   const auto triangles = polygon_triangles(projected(surface.vertices, corners, normal));
   if (triangles.empty()) return problem("crosses or touches itself, or is too intricate");
-  for (const auto& [a, b, c] : triangles) {
-    surface.triangles.push_back({corners[static_cast<std::size_t>(a)],
-                                 corners[static_cast<std::size_t>(b)],
-                                 corners[static_cast<std::size_t>(c)]});
-    surface.tags.push_back(tag);
-  }
+  for (const auto& [a, b, c] : triangles)
+    add(corners[static_cast<std::size_t>(a)], corners[static_cast<std::size_t>(b)],
+        corners[static_cast<std::size_t>(c)]);
   return "";
 }
 

@@ -17,7 +17,7 @@ namespace pnpbs {
 
 struct SurfaceTriangles {
   std::vector<Point<3>> vertices;
-  // Vertices, from 0. In those from an STL two may be the same, or all.
+  // Vertices, from 0. Two may be the same, or all.
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> tags;  // of triangles; 1 where the file has none
   // Where the file names what it tags: solids of an STL, groups, objects and materials of an OBJ.
