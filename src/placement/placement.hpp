@@ -14,6 +14,7 @@
 #include "comm/exchange_pattern.hpp"
 #include "comm/ghost_sum.hpp"
 #include "comm/ghost_update.hpp"
+#include "domain/volume/repair_distances.hpp"
 #include "level/finish.hpp"
 #include "level/population_events.hpp"
 #include "level/speeds.hpp"
@@ -148,6 +149,8 @@ class Placement {
   std::int64_t unknown_uses() const { return unknown_uses_; }
   std::int64_t missing_faces() const { return surface_fit_.missing_faces; }
   virtual std::int64_t unresolved_places() const = 0;
+  // Of a body in space; of others all are 0.
+  virtual RepairDistances repair_distances() const = 0;
   StopReason stop_reason() const { return stop_reason_; }
   // Has a run come to its end, and no step been done since?
   bool finished() const {

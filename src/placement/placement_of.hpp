@@ -147,6 +147,10 @@ class PlacementOf : public Placement {
     return rebalances_before_ + (level_ ? level_->rebalances : 0);
   }
   std::int64_t unresolved_places() const override { return std::ssize(placed_.held.places); }
+  RepairDistances repair_distances() const override {
+    if constexpr (Dim == 3) return domain_->repair_distances();
+    return {};
+  }
   Speeds speeds() const override { return level_ ? speeds_of(*level_) : Speeds{}; }
   LevelFigures level_figures() const override;
   std::int64_t boundary_nodes() const override;

@@ -91,6 +91,29 @@ const std::vector<StatisticRow>& statistic_table() {
           "places, nodes that lacked elements and their neighbours, around which d is held down "
           "since "
           "it did not resolve the shape (option conforming_rounds)"),
+      real(
+          "repaired.resolution", [](P p) { return p.repair_distances().resolution; },
+          "of the surface of a repaired body (pnpbs_domain_set_repair); 0 without a repair, as are "
+          "the other distances of one, which are taken at points no farther apart than that"),
+      real(
+          "repaired.distance", [](P p) { return p.repair_distances().to_given; },
+          "largest distance of the repaired surface from the triangles given, but where it closes "
+          "holes"),
+      real(
+          "repaired.hole_distance", [](P p) { return p.repair_distances().over_holes; },
+          "largest distance of the repaired surface from the triangles given where it closes "
+          "holes: where the way to the nearest point of these runs along it rather than off it"),
+      real(
+          "repaired.mean_distance", [](P p) { return p.repair_distances().mean_to_given; },
+          "mean distance of the repaired surface from the triangles given, holes included"),
+      real(
+          "repaired.given_distance", [](P p) { return p.repair_distances().to_new; },
+          "largest distance of the triangles given from the repaired surface: large where some lie "
+          "inside, enclose nothing or are nearer to others than the resolution"),
+      real(
+          "repaired.lost_area", [](P p) { return p.repair_distances().lost; },
+          "share of the area of the triangles given that is farther than the resolution from the "
+          "repaired surface"),
       integer(
           "unknown_uses", [](P p) { return p.unknown_uses(); },
           "decisions, as of the end of the last run, that looked at stars which a rank does not "

@@ -373,6 +373,36 @@ START_TEST(walls_as_thick_as_d) {
 }
 END_TEST
 
+static pnpbs_status crossing_boxes(pnpbs_domain domain, const char* folder) {
+  const double low[] = {0, 0, 0}, high[] = {1, 1, 1}, other_low[] = {0.5, 0.5, 0.5},
+               other_high[] = {1.5, 1.5, 1.5};
+  pnpbs_status status = pnpbs_domain_add_box(domain, low, high, 1);
+  (void)folder;
+  if (status == PNPBS_OK) status = pnpbs_domain_add_box(domain, other_low, other_high, 1);
+  if (status == PNPBS_OK) status = pnpbs_domain_set_repair(domain, 0.05);
+  return status;
+}
+
+START_TEST(distances_of_repairs_are_statistics) {
+  job whole = body_job(volume_unit_box), it = body_job(crossing_boxes);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.3));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_double_eq(real_of(it.placement, "repaired.resolution"), 0.05);
+  ck_assert_double_lt(real_of(it.placement, "repaired.distance"), 1e-3);
+  ck_assert_double_eq(real_of(it.placement, "repaired.hole_distance"), 0);
+  ck_assert_double_lt(real_of(it.placement, "repaired.mean_distance"), 1e-5);
+  /* The corner of each that lies in the other, and the squares at it less a rim of 0.05. */
+  ck_assert_double_eq_tol(real_of(it.placement, "repaired.given_distance"), 0.5, 0.01);
+  ck_assert_double_eq_tol(real_of(it.placement, "repaired.lost_area"), 6 * 0.45 * 0.45 / 12, 0.01);
+  MUST(pnpbs_placement_set_spacing_constant(whole.placement, 0.5));
+  MUST_COMPUTE(pnpbs_placement_run(whole.placement));
+  ck_assert_double_eq(real_of(whole.placement, "repaired.resolution"), 0);
+  ck_assert_double_eq(real_of(whole.placement, "repaired.given_distance"), 0);
+  job_end(&it);
+  job_end(&whole);
+}
+END_TEST
+
 /* A plate with an upright wall, thinner than half of d: bubbles on one side of it, and on the
  * plate, rest with a node missing here and there. */
 static pnpbs_status tee(pnpbs_domain domain, const char* folder) {
@@ -684,6 +714,7 @@ int main(void) {
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, flat_sides_follow_the_surface);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, fine_at_a_line_in_a_low_box);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, walls_as_thick_as_d);
+  if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, distances_of_repairs_are_statistics);
   tcase_add_loop_test(tests, no_vacancies_beside_a_wall, 0, WHEN_SANITIZED(1, 2));
   tcase_add_loop_test(tests, stopped_by_the_monitor, 0, WHEN_SANITIZED(3, 5));
   tcase_add_test(tests, by_steps);

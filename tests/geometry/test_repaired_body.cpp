@@ -17,6 +17,7 @@
 
 using pnpbs::ErrorKind;
 using pnpbs::FacetCorners;
+using pnpbs::RepairedBody;
 using pnpbs::VolumeDomain;
 using soups::P;
 using soups::Soup;
@@ -238,9 +239,8 @@ START_TEST(edges_stay_sharp) {
 }
 END_TEST
 
-START_TEST(distances_are_told) {
+RepairedBody body_of(const Soup& soup, double resolution) {
   pnpbs::SurfaceSource source;
-  const Soup soup = both(cube(4), scaled(cube(4), 0.5).shifted(0.25, 0.25, 0.25));
   for (std::size_t v = 0; v < soup.xyz.size(); v += 3)
     source.vertices.push_back({soup.xyz[v], soup.xyz[v + 1], soup.xyz[v + 2]});
   for (std::size_t t = 0; t < soup.corners.size(); t += 3)
@@ -248,14 +248,42 @@ START_TEST(distances_are_told) {
                                 static_cast<std::int32_t>(soup.corners[t + 1]),
                                 static_cast<std::int32_t>(soup.corners[t + 2])});
   source.tags = soup.tags;
-  const pnpbs::RepairedBody body = pnpbs::repaired_body({source}, 0.05);
+  return pnpbs::repaired_body({source}, resolution);
+}
+
+START_TEST(distances_are_told) {
+  const RepairedBody body =
+      body_of(both(cube(4), scaled(cube(4), 0.5).shifted(0.25, 0.25, 0.25)), 0.05);
+  ck_assert_double_eq(body.distances.resolution, 0.05);
   ck_assert_double_lt(body.distances.to_given, 1e-3);
+  ck_assert_double_eq(body.distances.over_holes, 0);
   ck_assert_double_le(body.distances.mean_to_given, body.distances.to_given);
   ck_assert_double_eq_tol(body.distances.lost, 0.25 / 1.25, 1e-9);  // the inner one
   ck_assert_double_eq_tol(body.distances.to_new, 0.25, 1e-3);
   const std::string text = text_of(body);
   ck_assert(text.find("with a resolution of 0.05") != std::string::npos);
+  ck_assert(text.find("close holes") == std::string::npos);
   ck_assert(text.find("20 percent") != std::string::npos);
+}
+END_TEST
+
+// Where a hole is closed the triangles given are far, and nothing is wrong with that.
+START_TEST(distances_over_holes_are_told_apart) {
+  const RepairedBody lidless = body_of(without(cube(4), 0, 32), 0.05);
+  ck_assert_double_lt(lidless.distances.to_given, 1e-3);
+  ck_assert_double_eq_tol(lidless.distances.over_holes, 0.5, 0.05);  // to the middle of the lid
+  ck_assert_double_eq_tol(lidless.distances.mean_to_given, 1. / 6 / 6, 0.005);
+  ck_assert_double_lt(lidless.distances.to_new, 0.05);
+  ck_assert_double_eq(lidless.distances.lost, 0);
+  ck_assert(text_of(lidless).find("where they close holes, within 0.") != std::string::npos);
+}
+END_TEST
+
+// By points all over large triangles, not by their middles alone.
+START_TEST(distances_are_those_of_large_triangles) {
+  const Soup sheet = without(cube(1), 2, 10).shifted(0.5, 0.3, 0.7);  // sticks out
+  const RepairedBody body = body_of(both(cube(1), sheet), 0.05);
+  ck_assert_double_eq_tol(body.distances.to_new, std::hypot(0.3, 0.7), 1e-3);
 }
 END_TEST
 
@@ -308,6 +336,8 @@ int main() {
   tcase_add_loop_test(tests, signs_are_those_of_the_windings, 0, WHEN_SANITIZED(2, bodies));
   tcase_add_test(tests, edges_stay_sharp);
   tcase_add_test(tests, distances_are_told);
+  tcase_add_test(tests, distances_over_holes_are_told_apart);
+  tcase_add_test(tests, distances_are_those_of_large_triangles);
   tcase_add_test(tests, what_cannot_be_is_refused);
   tcase_add_test(tests, other_surfaces_stay);
   suite_add_tcase(suite, tests);

@@ -143,7 +143,18 @@ class Files(CommandTest):
         volume = float(re.search(r"volume ([0-9.]+)", out)[1])
         self.assertAlmostEqual(volume, 1, delta=0.01)  # seen from a lid, half of all is open
         self.assertIn("repaired, with a resolution of 0.05", err)
-        self.assertEqual(json.loads((self.folder / "a.json").read_text())["repair"], 0.05)
+        report = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual(report["repair"], 0.05)
+        found = report["repaired"]
+        self.assertEqual(found["resolution"], 0.05)
+        self.assertLess(found["distance"], 1e-3)
+        self.assertAlmostEqual(found["hole_distance"], 0.5, delta=0.05)  # of the lid's middle
+        self.assertAlmostEqual(found["mean_distance"], 1 / 36, delta=0.01)
+        self.assertLess(found["given_distance"], 0.01)
+        self.assertEqual(found["lost_area"], 0)
+        self.place_body(BOX, "0.4", "-o", "b.vtu", "--report", "b.json")
+        self.assertEqual(set(json.loads((self.folder / "b.json").read_text())["repaired"].values()),
+                         {0})
         self.place_body("open.off", "0.1", "--repair", "--dry-run")
         self.assertIn("found '0'", self.refuse("--domain", "open.off", "--spacing", "0.1",
                                                "--repair=0", "--dry-run"))

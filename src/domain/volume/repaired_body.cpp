@@ -10,13 +10,14 @@
 #include "domain/domain_error.hpp"
 #include "domain/volume/level_set_creases.hpp"
 #include "domain/volume/level_set_surface.hpp"
+#include "domain/volume/measured_repair.hpp"
+#include "domain/volume/nearest_triangles.hpp"
 #include "domain/volume/soup.hpp"
 #include "domain/volume/surface_edges.hpp"
 #include "domain/volume/surface_orientation.hpp"
 #include "domain/volume/surface_sides.hpp"
 #include "domain/volume/triangles.hpp"
 #include "domain/volume/winding_number.hpp"
-#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
@@ -28,16 +29,6 @@ constexpr double kNear = 2;
 // triangles would not know their neighbours.
 constexpr double kWelded = 1e-3;
 
-using TriangleList = std::vector<FacetCorners<3>>;
-
-double area_of(const FacetCorners<3>& triangle) { return length(area_normal(triangle)); }
-
-Box<3> box_of(const FacetCorners<3>& triangle) {
-  Box<3> box = empty_box<3>();
-  for (const Point<3>& corner : triangle) include(box, corner);
-  return box;
-}
-
 // Around what their triangles use.
 Box<3> box_around(const std::vector<SurfaceSource>& surfaces) {
   Box<3> box = empty_box<3>();
@@ -48,45 +39,12 @@ Box<3> box_around(const std::vector<SurfaceSource>& surfaces) {
   return box;
 }
 
-TriangleList corners_of(const Triangulation& surface) {
-  TriangleList triangles;
+std::vector<FacetCorners<3>> corners_of(const Triangulation& surface) {
+  std::vector<FacetCorners<3>> triangles;
   for (std::int32_t t = 0; t < std::ssize(surface.triangles); ++t)
     triangles.push_back(surface.corners(t));
   return triangles;
 }
-
-// Triangles by which is near.
-class NearestTriangles {
- public:
-  explicit NearestTriangles(const TriangleList& triangles) : triangles_(triangles) {
-    std::vector<Box<3>> boxes;
-    for (const FacetCorners<3>& triangle : triangles) boxes.push_back(box_of(triangle));
-    tree_ = BoxTree<3>(std::move(boxes));
-  }
-
-  struct Nearest {
-    std::int32_t triangle = -1;
-    TrianglePoint point;
-    double square = HUGE_VAL;  // of the distance
-  };
-  Nearest nearest(const Point<3>& x) const {
-    Nearest found;
-    tree_.for_near(
-        x, [&] { return found.square; },
-        [&](std::int32_t t) {
-          const TrianglePoint there =
-              nearest_triangle_point(triangles_[static_cast<std::size_t>(t)], x);
-          const double square = squared_distance<3>(there.x, x);
-          if (square < found.square) found = {t, there, square};
-        });
-    return found;
-  }
-  double distance_from(const Point<3>& x) const { return std::sqrt(nearest(x).square); }
-
- private:
-  const TriangleList& triangles_;
-  BoxTree<3> tree_;
-};
 
 // Negative where the triangles wind around a point more than half a time, whichever way. It is the
 // distance from them, signed, as long as they are closed; where there is a hole it fades out
@@ -95,9 +53,8 @@ class RepairFunction {
  public:
   // Nearer than `near` the sides of triangles count where they are known.
   RepairFunction(const Triangulation& surface, const SurfaceEdges& edges, double near)
-      : triangles_(corners_of(surface)),
-        nearest_(triangles_),
-        winding_(triangles_),
+      : nearest_(corners_of(surface)),
+        winding_(nearest_.triangles()),
         sides_(surface, edges, winding_),
         near_(near * near) {}
   RepairFunction(const RepairFunction&) = delete;
@@ -112,11 +69,9 @@ class RepairFunction {
         return side * away;
     return std::clamp(1 - 2 * std::fabs(winding_(x)), -1.0, 1.0) * away;
   }
-  const TriangleList& triangles() const { return triangles_; }
   const NearestTriangles& nearest() const { return nearest_; }
 
  private:
-  TriangleList triangles_;
   NearestTriangles nearest_;
   WindingNumber winding_;
   SurfaceSides sides_;
@@ -150,43 +105,6 @@ Box<3> roomy(Box<3> box, double resolution) {
   return box;
 }
 
-TriangleList triangles_of(const SurfaceSource& surface) {
-  TriangleList triangles;
-  for (const auto& t : surface.triangles) {
-    FacetCorners<3> corners;
-    for (std::size_t k = 0; k < 3; ++k)
-      corners[k] = surface.vertices[static_cast<std::size_t>(t[k])];
-    triangles.push_back(corners);
-  }
-  return triangles;
-}
-
-RepairDistances distances_between(const RepairFunction& given, const SurfaceSource& surface,
-                                  double resolution) {
-  RepairDistances found;
-  const TriangleList made = triangles_of(surface);
-  double area = 0, sum = 0;
-  for (const FacetCorners<3>& triangle : made) {
-    const double away = given.nearest().distance_from(centroid(triangle));
-    found.to_given = std::max(found.to_given, away);
-    sum += area_of(triangle) * away;
-    area += area_of(triangle);
-  }
-  for (const Point<3>& x : surface.vertices)
-    found.to_given = std::max(found.to_given, given.nearest().distance_from(x));
-  found.mean_to_given = area > 0 ? sum / area : 0;
-  const NearestTriangles nearest(made);
-  double all = 0, lost = 0;
-  for (const FacetCorners<3>& triangle : given.triangles()) {
-    const double away = nearest.distance_from(centroid(triangle));
-    found.to_new = std::max(found.to_new, away);
-    all += area_of(triangle);
-    if (away > resolution) lost += area_of(triangle);
-  }
-  found.lost = all > 0 ? lost / all : 0;
-  return found;
-}
-
 }  // namespace
 
 RepairedBody repaired_body(const std::vector<SurfaceSource>& given, double resolution) {
@@ -213,22 +131,23 @@ RepairedBody repaired_body(const std::vector<SurfaceSource>& given, double resol
   body.surface.level_set = set;
   body.surface.approximates = true;
   body.surface.name = set->name();
-  body.distances = distances_between(*f, body.surface, resolution);
+  body.distances = distances_of_repair(f->nearest(), body.surface, resolution);
   body.surface.warnings.insert(body.surface.warnings.begin(), warnings.begin(), warnings.end());
   return body;
 }
 
 std::string text_of(const RepairedBody& body) {
   const RepairDistances& d = body.distances;
-  std::string text = "repaired, with a resolution of " +
-                     rounded_text(body.surface.level_set->resolution()) + ": " +
+  std::string text = "repaired, with a resolution of " + rounded_text(d.resolution) + ": " +
                      std::to_string(body.surface.triangles.size()) + " new triangles, within " +
-                     rounded_text(d.to_given) + " (" + rounded_text(d.mean_to_given) +
-                     " in the mean) of those given";
+                     rounded_text(d.to_given) + " of those given";
+  if (d.over_holes > 0)
+    text += ", or, where they close holes, within " + rounded_text(d.over_holes);
+  text += " (" + rounded_text(d.mean_to_given) + " in the mean)";
   if (d.lost > 0)
     text += "; " + rounded_text(100 * d.lost) +
-            " percent of these, by area, are farther than the resolution from the new ones, by up "
-            "to " +
+            " percent of those given, by area, are farther than the resolution from the new ones, "
+            "by up to " +
             rounded_text(d.to_new) + ": they lie inside, enclose nothing or are too near to others";
   return text;
 }

@@ -7,17 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "domain/volume/repair_distances.hpp"
 #include "domain/volume/triangulation.hpp"
 
 namespace pnpbs {
-
-// How far the surface of the body and the triangles given are from each other.
-struct RepairDistances {
-  double to_given = 0;       // the largest, of vertices and middles of the new triangles
-  double mean_to_given = 0;  // by area
-  double to_new = 0;         // the largest, of the middles of those given
-  double lost = 0;           // share of the area given that is farther than the resolution
-};
 
 struct RepairedBody {
   SurfaceSource surface;  // of the level set

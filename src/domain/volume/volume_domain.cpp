@@ -182,8 +182,8 @@ SurfaceSource part_of(SurfaceSource surface, const std::function<bool(std::int32
 }  // namespace
 
 // The others, and one in the place of those that are to be repaired.
-std::vector<SurfaceSource> VolumeDomain::repaired_surfaces(
-    std::vector<std::string>& warnings) const {
+std::vector<SurfaceSource> VolumeDomain::repaired_surfaces(std::vector<std::string>& warnings,
+                                                           RepairDistances& distances) const {
   std::vector<SurfaceSource> broken, surfaces;
   for (const SurfaceSource& surface : surfaces_) {
     if (surface.level_set) {
@@ -203,6 +203,7 @@ std::vector<SurfaceSource> VolumeDomain::repaired_surfaces(
   if (broken.empty()) return surfaces;
   RepairedBody body = repaired_body(broken, *repair_);
   warnings.push_back(text_of(body));
+  distances = body.distances;
   surfaces.push_back(std::move(body.surface));
   return surfaces;
 }
@@ -243,7 +244,9 @@ void VolumeDomain::check() {
   if (checked_) return;
   static const std::map<std::int32_t, SurfaceRole> no_roles;  // they have them
   std::vector<std::string> warnings = given_warnings_;
-  const std::vector<SurfaceSource> surfaces = repair_ ? repaired_surfaces(warnings) : surfaces_;
+  RepairDistances distances;
+  const std::vector<SurfaceSource> surfaces =
+      repair_ ? repaired_surfaces(warnings, distances) : surfaces_;
   std::shared_ptr<ResolvedVolume> resolved;
   try {
     resolved = std::make_shared<ResolvedVolume>(resolve_volume(
@@ -255,6 +258,7 @@ void VolumeDomain::check() {
                   "enclose");
   }
   resolved->warnings.insert(resolved->warnings.begin(), warnings.begin(), warnings.end());
+  resolved->repair = distances;
   resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
   resolved->mesh.node_distance = largest_node_distance(*resolved);
   resolved_ = std::move(resolved);

@@ -15,6 +15,7 @@
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
 #include "domain/volume/level_set.hpp"
+#include "domain/volume/repair_distances.hpp"
 #include "domain/volume/surface_index.hpp"
 #include "domain/volume/surface_triangles.hpp"
 #include "domain/volume/triangulation.hpp"
@@ -74,6 +75,7 @@ struct ResolvedVolume {
   std::vector<char> approximate;  // of each triangle: see SurfaceSource
   std::vector<FixedNode3> fixed_nodes;
   std::vector<std::string> warnings;
+  RepairDistances repair;
   VolumeSummary summary;
 };
 
@@ -141,6 +143,7 @@ class VolumeDomain {
   }
   const std::vector<FixedNode3>& fixed_nodes() const { return resolved_->fixed_nodes; }
   const std::vector<std::string>& warnings() const { return resolved_->warnings; }
+  const RepairDistances& repair_distances() const { return resolved_->repair; }
   const VolumeSummary& summary() const { return resolved_->summary; }
   const Box<3>& bounds() const { return resolved_->summary.bounds; }
   double volume() const { return resolved_->summary.volume; }
@@ -148,7 +151,8 @@ class VolumeDomain {
   double measure() const { return filled_ ? volume() : area(); }
 
  private:
-  std::vector<SurfaceSource> repaired_surfaces(std::vector<std::string>& warnings) const;
+  std::vector<SurfaceSource> repaired_surfaces(std::vector<std::string>& warnings,
+                                               RepairDistances& distances) const;
   void add_source(SurfaceSource source, const char* kind, std::int64_t& given);
 
   std::vector<SurfaceSource> surfaces_;

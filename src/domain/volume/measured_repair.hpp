@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures the distances between a repaired body and the triangles it was made from.
+#pragma once
+
+#include "domain/volume/nearest_triangles.hpp"
+#include "domain/volume/repair_distances.hpp"
+#include "domain/volume/triangulation.hpp"
+
+namespace pnpbs {
+
+RepairDistances distances_of_repair(const NearestTriangles& given, const SurfaceSource& made,
+                                    double resolution);
+
+}  // namespace pnpbs
