@@ -308,6 +308,38 @@ START_TEST(what_cannot_be_is_refused) {
 }
 END_TEST
 
+// A wavy sheet from (2, 0) to (3, 1), which encloses nothing, though beside its waves it winds a
+// bit more than half a time around.
+Soup sheet() {
+  constexpr int kCount = 24;
+  Soup soup;
+  const auto vertex = [&](int i, int j) {
+    const double x = static_cast<double>(i) / kCount, y = static_cast<double>(j) / kCount;
+    return soup.vertex(2 + x, y, 0.5 + 0.015 * std::sin(15 * x) * std::cos(11 * y));
+  };
+  for (int i = 0; i < kCount; ++i)
+    for (int j = 0; j < kCount; ++j) {
+      soup.triangle(vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1));
+      soup.triangle(vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1));
+    }
+  return soup;
+}
+
+START_TEST(crumbs_of_sheets_are_none) {
+  expect_error(ErrorKind::domain, {"repair: the triangles enclose nothing", "--surfaces-only"},
+               [&] { repaired(sheet(), 0.03); });
+  const VolumeDomain domain = repaired(both(cube(4), sheet()), 0.03);
+  ck_assert_double_eq_tol(domain.volume(), 1, 0.01);
+  ck_assert_double_lt(domain.bounds().high[0], 1.1);
+  const auto& warnings = domain.warnings();
+  ck_assert_int_eq(std::count_if(warnings.begin(), warnings.end(),
+                                 [](const std::string& text) {
+                                   return text.find("of the body, thinner") != std::string::npos;
+                                 }),
+                   1);
+}
+END_TEST
+
 // What is not to be repaired stays as it is.
 START_TEST(other_surfaces_stay) {
   VolumeDomain domain;
@@ -339,6 +371,7 @@ int main() {
   tcase_add_test(tests, distances_over_holes_are_told_apart);
   tcase_add_test(tests, distances_are_those_of_large_triangles);
   tcase_add_test(tests, what_cannot_be_is_refused);
+  tcase_add_test(tests, crumbs_of_sheets_are_none);
   tcase_add_test(tests, other_surfaces_stay);
   suite_add_tcase(suite, tests);
   return run_suite(suite);

@@ -16,6 +16,7 @@
 #include "domain/volume/surface_edges.hpp"
 #include "domain/volume/surface_orientation.hpp"
 #include "domain/volume/surface_sides.hpp"
+#include "domain/volume/thin_pieces.hpp"
 #include "domain/volume/triangles.hpp"
 #include "domain/volume/winding_number.hpp"
 
@@ -28,6 +29,8 @@ constexpr double kNear = 2;
 // Vertices that are so near are one: scanners and converters leave seams of rounding, across which
 // triangles would not know their neighbours.
 constexpr double kWelded = 1e-3;
+// Pieces thinner than that are none: no lattice of this resolution finds them as they are.
+constexpr double kThin = 0.5;
 
 // Around what their triangles use.
 Box<3> box_around(const std::vector<SurfaceSource>& surfaces) {
@@ -84,15 +87,26 @@ double longest_side(const Box<3>& box) {
   return longest;
 }
 
+[[noreturn]] void reject_nothing(const std::string& why) {
+  reject_domain("repair: the triangles enclose nothing that " + why +
+                "; pnpbs_domain_set_filled (in the command --surfaces-only) takes an open surface "
+                "as it is");
+}
+
 SurfaceSource surface_of(const LevelSet& set, std::int32_t tag) {
+  const std::string resolution = "the resolution of " + rounded_text(set.resolution());
+  SurfaceSource surface;
   try {
-    return level_set_surface(set, tag);
+    surface = level_set_surface(set, tag);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::domain) throw;
-    reject_domain("repair: the triangles enclose nothing that the resolution of " +
-                  rounded_text(set.resolution()) +
-                  " finds: nowhere do they wind around a point more than half a time");
+    reject_nothing(resolution +
+                   " finds: nowhere do they wind around a point more than half a time");
   }
+  remove_thin_pieces(surface, kThin * set.resolution());
+  if (surface.triangles.empty())
+    reject_nothing("is as thick as half of " + resolution + ", so try a smaller one");
+  return surface;
 }
 
 // The surface is well inside of it: beyond the triangles' convex hull they wind less than half a
