@@ -243,9 +243,10 @@ PNPBS_API pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t fill
  *  bodies are joined; a cavity must turn against what surrounds it. Its surface is found as that of
  *  a level set (pnpbs_domain_add_level_set), with its sharp edges, on the triangles given where
  *  there are any; all of it has the tag of the first triangle. What is thinner than the resolution
- *  can be lost. A warning tells how far the surface is from the triangles given. Other surfaces and
- *  nodes stay as they are. Local. Errors: PNPBS_ERROR_ARGUMENT; pnpbs_domain_check and whatever
- *  checks the domain return PNPBS_ERROR_DOMAIN if the triangles enclose nothing.
+ *  can be lost. A warning and the statistics `repaired.*` tell how far the surface is from the
+ *  triangles given. Other surfaces and nodes stay as they are. Local. Errors: PNPBS_ERROR_ARGUMENT;
+ *  pnpbs_domain_check and whatever checks the domain return PNPBS_ERROR_DOMAIN if the triangles
+ *  enclose nothing.
  *  @param[in] resolution  > 0, no more than the spacing at the surface; 0: 1/64 of the longest side
  *                         of the box around the triangles */
 PNPBS_API pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resolution);
