@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/limits.hpp"
 #include "domain/volume/triangles.hpp"
 #include "tree/box_tree.hpp"
 

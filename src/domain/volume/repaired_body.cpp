@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/domain_error.hpp"
