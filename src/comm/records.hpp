@@ -52,6 +52,16 @@ class Outbox {
   std::size_t last_ = 0;
 };
 
+// Those of all ranks, rank by rank, on each of them. Collective.
+template <class Record>
+std::vector<Record> of_all_ranks(const Communicator& comm, const std::vector<Record>& own) {
+  Bytes mine;
+  for (const Record& record : own) pack(mine, record);
+  std::vector<Record> all;
+  for_records<Record>({comm.allgather(mine)}, [&](const Record& record) { all.push_back(record); });
+  return all;
+}
+
 // Brings each record to rank owner(record), from wherever it is, and returns what has come here.
 // Collective.
 template <class Record, class Owner>

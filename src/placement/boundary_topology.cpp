@@ -32,8 +32,7 @@ BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<
     if (!nodes.owned(i)) continue;
     const FaceFan fan = open_faces(level, i);
     const bool is_free = nodes.carrier(i) == Carrier::free;
-    const std::int64_t disks = disks_of_surfaces(level, i);
-    const bool torn_here = is_free ? !fan.empty() : disks > 0 && disks_of(fan) != disks;
+    const bool torn_here = is_free ? !fan.empty() : lacks_disks(level, i, fan);
     result.torn.add(torn_here, nodes.id(i), nodes.position(i));
     if (torn_here) {
       on_surfaces += !is_free;

@@ -23,10 +23,7 @@ constexpr double kFewNodes = 20000;  // ... so many more: beyond that, d is a mi
 // Those of all ranks, each once, in one order on all of them. Collective.
 template <int Dim>
 std::vector<Point<Dim>> gathered(const Communicator& comm, const std::vector<Point<Dim>>& own) {
-  Bytes mine;
-  for (const Point<Dim>& x : own) pack(mine, x);
-  std::vector<Point<Dim>> all;
-  for_records<Point<Dim>>({comm.allgather(mine)}, [&](const Point<Dim>& x) { all.push_back(x); });
+  std::vector<Point<Dim>> all = of_all_ranks(comm, own);
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -84,15 +84,13 @@ std::set<SamePiece> same_pieces(const Level<3>& level, const std::vector<std::in
 // All that any rank sees, joined: the least id of the whole piece for what each calls it.
 std::map<std::int64_t, std::int64_t> least_of_all(const Communicator& comm,
                                                   const std::set<SamePiece>& own) {
-  Bytes mine;
-  for (const SamePiece& pair : own) pack(mine, pair);
   std::map<std::int64_t, std::size_t> places;
-  std::vector<SamePiece> all;
-  for_records<SamePiece>({comm.allgather(mine)}, [&](const SamePiece& pair) {
-    all.push_back(pair);
+  const std::vector<SamePiece> all =
+      of_all_ranks(comm, std::vector<SamePiece>(own.begin(), own.end()));
+  for (const SamePiece& pair : all) {
     places.try_emplace(pair.here);
     places.try_emplace(pair.there);
-  });
+  }
   std::vector<std::int64_t> names;
   for (auto& [name, place] : places) {
     place = names.size();
@@ -123,11 +121,10 @@ BoundaryPieces boundary_pieces(const Level<3>& level) {
     piece = least.at(piece);
     mine[piece] += level.nodes.owned(static_cast<std::int64_t>(i)) != 0;
   }
-  Bytes counts;
-  for (const auto& [piece, nodes] : mine) pack(counts, NodesOfPiece{piece, nodes});
-  for_records<NodesOfPiece>({level.comm->allgather(counts)}, [&](const NodesOfPiece& some) {
+  std::vector<NodesOfPiece> counts;
+  for (const auto& [piece, nodes] : mine) counts.push_back({piece, nodes});
+  for (const NodesOfPiece& some : of_all_ranks(*level.comm, counts))
     result.nodes[some.piece] += some.nodes;
-  });
   return result;
 }
 

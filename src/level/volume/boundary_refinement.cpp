@@ -94,11 +94,6 @@ std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corne
   return ball;
 }
 
-bool lacks_disks(const Level<3>& level, std::int64_t i, const FaceFan& fan) {
-  const std::int64_t disks = disks_of_surfaces(level, i);
-  return disks > 0 && disks_of(fan) != disks;
-}
-
 // Faces count at the node with the least id.
 void add_strays_at(const Level<3>& level, std::int64_t i, Strays& strays) {
   const Nodes<3>& nodes = level.nodes;
@@ -166,11 +161,7 @@ bool is_taken(const Level<3>& level, const GivenNode<3>& middle, double radius) 
 std::vector<SurfaceBall> largest_apart(const Communicator& comm,
                                        const std::vector<SurfaceBall>& own) {
   constexpr double kApart = 0.7;
-  Bytes mine;
-  for (const SurfaceBall& ball : own) pack(mine, ball);
-  std::vector<SurfaceBall> all, kept;
-  for_records<SurfaceBall>({comm.allgather(mine)},
-                           [&](const SurfaceBall& ball) { all.push_back(ball); });
+  std::vector<SurfaceBall> all = of_all_ranks(comm, own), kept;
   std::sort(all.begin(), all.end());
   for (const SurfaceBall& ball : all)
     if (std::ranges::none_of(kept, [&](const SurfaceBall& other) {
@@ -194,10 +185,6 @@ GivenNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>& b
       own.push_back(nodes[k]);
   return own;
 }
-
-}  // namespace
-
-namespace {
 
 // Nodes come, in rounds, as long as that makes the strays fewer. Returns how many, of all ranks.
 std::int64_t add_boundary_nodes(Level<3>& level) {

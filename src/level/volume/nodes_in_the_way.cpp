@@ -24,9 +24,7 @@ bool is_free(const Level<3>& level, std::int64_t i) {
 bool is_torn_around(const Level<3>& level, std::int64_t i) {
   if (level.nodes.owned(i) == 0) return false;
   const FaceFan fan = open_faces(level, i);
-  if (is_free(level, i)) return !fan.empty();
-  const std::int64_t disks = disks_of_surfaces(level, i);
-  return disks > 0 && disks_of(fan) != disks;
+  return is_free(level, i) ? !fan.empty() : lacks_disks(level, i, fan);
 }
 
 // Pieces of the boundary beyond those of the surfaces, the ones with the fewest nodes: as where the
@@ -76,16 +74,12 @@ void add_ids_in_the_way(const Level<3>& level, std::int64_t i, std::vector<std::
 
 // Of all ranks, each once, ascending.
 std::vector<std::int64_t> ids_in_the_way(const Level<3>& level, const std::vector<char>& off) {
-  Bytes mine;
+  std::vector<std::int64_t> own;
   agreed(*level.comm, [&] {
-    std::vector<std::int64_t> ids;
     for (std::int64_t i = 0; i < level.nodes.count; ++i)
-      if (off[static_cast<std::size_t>(i)] != 0) add_ids_in_the_way(level, i, ids);
-    for (const std::int64_t id : ids) pack(mine, id);
+      if (off[static_cast<std::size_t>(i)] != 0) add_ids_in_the_way(level, i, own);
   });
-  std::vector<std::int64_t> all;
-  for_records<std::int64_t>({level.comm->allgather(mine)},
-                            [&](std::int64_t id) { all.push_back(id); });
+  std::vector<std::int64_t> all = of_all_ranks(*level.comm, own);
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -40,6 +40,11 @@ std::int64_t disks_of_surfaces(const Level<3>& level, std::int64_t i) {
   return count;
 }
 
+bool lacks_disks(const Level<3>& level, std::int64_t i, const FaceFan& fan) {
+  const std::int64_t disks = disks_of_surfaces(level, i);
+  return disks > 0 && disks_of(fan) != disks;
+}
+
 bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>& corners) {
   constexpr double kFold = -0.5;  // cosine: across rough creases, too, but not from sheet to sheet
   std::array<SurfacePlace, 3> places;
@@ -164,15 +169,6 @@ std::vector<LabelledNode> by_node(const std::vector<JoinedNodes>& joined) {
   std::vector<LabelledNode> nodes;
   for (const auto& [id, node] : by_id) nodes.push_back(node);
   return nodes;
-}
-
-template <class Record>
-std::vector<Record> of_all_ranks(const Communicator& comm, const std::vector<Record>& own) {
-  Bytes mine;
-  for (const Record& record : own) pack(mine, record);
-  std::vector<Record> all;
-  for_records<Record>({comm.allgather(mine)}, [&](const Record& record) { all.push_back(record); });
-  return all;
 }
 
 // Of the nodes with a star here, those of a tetrahedron whose label was changed.

@@ -6,12 +6,15 @@
 #include <cstdint>
 
 #include "level/level.hpp"
+#include "level/volume/open_faces.hpp"
 
 namespace pnpbs {
 
 // Around a node of surfaces that bound the domain, how many disks they make: one, but where bodies
 // touch in a corner. 0 for other nodes.
 std::int64_t disks_of_surfaces(const Level<3>& level, std::int64_t i);
+// Are the open faces around such a node not that many disks?
+bool lacks_disks(const Level<3>& level, std::int64_t i, const FaceFan& fan);
 
 // Do the corners of a face lie side by side on one surface?
 bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>& corners);

@@ -84,11 +84,7 @@ GivenNode<3> node_in(const Level<3>& level, const Vacancy& vacancy) {
 
 // Of those too near to each other the widest; few are left to tell all ranks of.
 std::vector<Vacancy> widest(const Level<3>& level, const std::vector<Vacancy>& own) {
-  Bytes mine;
-  for (const Vacancy& vacancy : own) pack(mine, vacancy);
-  std::vector<Vacancy> all, kept;
-  for_records<Vacancy>({level.comm->allgather(mine)},
-                       [&](const Vacancy& vacancy) { all.push_back(vacancy); });
+  std::vector<Vacancy> all = of_all_ranks(*level.comm, own), kept;
   std::ranges::sort(all, [](const Vacancy& a, const Vacancy& b) {
     return std::tie(b.radius, a.ids) < std::tie(a.radius, b.ids);
   });
