@@ -714,10 +714,10 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  Returns PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether
  *  the bubbles rest or not, if in one of the bands of pnpbs_placement_get_edge_bands with 50 edges
  *  or more the mean is off 1 by more than 0.1: then there is a warning that names the band;
- *  PNPBS_NOT_CONFORMING, whatever else is true, if there are no tetrahedra, nodes are in none,
- *  their boundary is torn or has another Euler characteristic than the domain's, the volume is off
- *  the domain's by more than 0.001 of it and more than boundary faces can cut off, or triangles of
- *  surfaces alone do not join: then there is a warning that says so;
+ *  PNPBS_NOT_CONFORMING, whatever else is true, if there are no tetrahedra, nodes are in none, some
+ *  have no volume, their boundary is torn or has another Euler characteristic than the domain's,
+ *  the volume is off the domain's by more than 0.001 of it and more than boundary faces can cut
+ *  off, or triangles of surfaces alone do not join: then there is a warning that says so;
  *  PNPBS_STOPPED. The nodes are valid in all these cases. In space, before it would return
  *  PNPBS_NOT_CONFORMING, d is made smaller around the places where elements are lacking, and the
  *  run goes on from its nodes, up to `conforming_rounds` times; a warning says what that cost

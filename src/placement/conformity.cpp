@@ -3,6 +3,7 @@
 
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "placement/flat_elements.hpp"
 #include "placement/surface_edges.hpp"
 #include "spacing/spacing_range.hpp"
 
@@ -42,6 +43,11 @@ BoundaryTopology topology_of(const PlacementOf<3>& placement, Conformity<3>& res
                                     : boundary_topology(placement, result.torn);
 }
 
+FoundNodes<2> flat_in(const PlacementOf<2>&, std::vector<Point<2>>&) { return {}; }
+FoundNodes<3> flat_in(const PlacementOf<3>& placement, std::vector<Point<3>>& places) {
+  return placement.surfaces_alone() ? FoundNodes<3>{} : flat_elements(placement.level(), places);
+}
+
 const char* elements_of(const PlacementOf<2>&) { return "triangle"; }
 const char* elements_of(const PlacementOf<3>& placement) {
   return placement.surfaces_alone() ? "triangle" : "tetrahedron";
@@ -70,6 +76,7 @@ Conformity<Dim> conformity_of(const PlacementOf<Dim>& placement) {
     result.unmatched = unmatched_edges(placement, result.torn);
     result.measure = measure_in(placement);
     result.boundary = topology_of(placement, result);
+    result.flat = flat_in(placement, result.torn);
   });
   return result;
 }
@@ -95,6 +102,11 @@ std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& p
            " edges, one of them at " + rounded_point_text<Dim>(conformity.unmatched.at) +
            ", where the surface is rougher than the spacing resolves: use a smaller spacing "
            "there, or a larger feature_angle";
+  if (conformity.flat.count > 0)
+    return "of no volume: " + std::to_string(conformity.flat.count) +
+           " tetrahedra, one of them at " + rounded_point_text<Dim>(conformity.flat.at) +
+           ", where a wall or a bar is thinner than the spacing, and its nodes lie in one plane: "
+           "make it smaller there";
   if (conformity.measure.far_off())
     return (element == "triangle" ? "the triangles have the area "
                                   : "the tetrahedra have the volume ") +

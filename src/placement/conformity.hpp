@@ -21,13 +21,15 @@ struct Conformity {
                               // meet there; found at the end that has the lesser id
   ElementMeasure measure;     // in space, if what the elements fill may be far off
   BoundaryTopology boundary;  // of bodies
-  // This rank's places where elements are lacking: nodes in none, edges that do not join, and where
-  // the boundary is torn.
+  FoundNodes<Dim> flat;       // of bodies: elements without a volume
+  // This rank's places where elements are lacking: nodes in none, edges that do not join, where the
+  // boundary is torn, and corners of elements without a volume.
   std::vector<Point<Dim>> torn;
 
   bool any_elements() const { return isolated.count < nodes; }
   bool fills() const {
-    return any_elements() && isolated.count == 0 && unmatched.count == 0 && !measure.far_off();
+    return any_elements() && isolated.count == 0 && unmatched.count == 0 && flat.count == 0 &&
+           !measure.far_off();
   }
   bool holds() const { return fills() && boundary.agrees(); }
 };

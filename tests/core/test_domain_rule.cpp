@@ -41,15 +41,20 @@ Four put(Placement3& placement, const std::array<Point3, 4>& x) {
   return four;
 }
 
+// What is asked of tetrahedra of these nodes.
+pnpbs::VolumeStarInput input_of(const Placement3& placement) {
+  static const pnpbs::KnownRegion<3> everywhere;
+  const pnpbs::Level<3>& level = placement.level();
+  return {level.nodes,   level.tree->tree(), level.neighbourhood.buckets(),
+          level.lists(), everywhere,         &level.ground.domain().index().sides()};
+}
+
 // Is it an element if a feature edge goes from corner `first` to corner `second`? (-1: none does.)
 bool is_element(const std::array<Point3, 4>& x, int first = -1, int second = -1) {
   const std::unique_ptr<Placement3> placement = cube();
   const Four nodes = put(*placement, x);
   const pnpbs::Level<3>& level = placement->level();
-  const pnpbs::KnownRegion<3> everywhere;
-  pnpbs::VolumeStarInput input{
-      level.nodes,   level.tree->tree(), level.neighbourhood.buckets(),
-      level.lists(), everywhere,         &level.ground.domain().index().sides()};
+  pnpbs::VolumeStarInput input = input_of(*placement);
   input.on_one_surface = [](const Four&) { return true; };
   input.joined = [&](std::int64_t i, std::int64_t j) {
     if (first < 0) return false;
@@ -61,6 +66,13 @@ bool is_element(const std::array<Point3, 4>& x, int first = -1, int second = -1)
     return level.ground.domain().index().nearest(at, reach);
   };
   return pnpbs::in_domain(input, nodes);
+}
+
+bool lies_in_boundary(const std::array<Point3, 4>& x) {
+  const std::unique_ptr<Placement3> placement = cube();
+  const Four nodes = put(*placement, x);
+  return pnpbs::lies_in_boundary(input_of(*placement), pnpbs::ordered_by_id(pnpbs::tetrahedron_of(
+                                                           placement->level().nodes, nodes)));
 }
 
 // Two edges that cross, the second one nearer to the top.
@@ -90,7 +102,17 @@ START_TEST(what_is_not_flat_stays) {
 }
 END_TEST
 
+// Nothing can make it an element, nor need it be one.
+START_TEST(a_flat_one_in_a_side_is_told) {
+  ck_assert(lies_in_boundary({{{0.3, 0.3, 1}, {0.7, 0.3, 1}, {0.7, 0.7, 1}, {0.3, 0.7, 1}}}));
+  ck_assert(!lies_in_boundary(
+      {{{0.3, 0.3, 0.3}, {0.7, 0.3, 0.3}, {0.7, 0.7, 0.7}, {0.3, 0.7, 0.7}}}));  // across
+  ck_assert(!lies_in_boundary(kCap));
+}
+END_TEST
+
 int main() {
-  return run_kernel_suite("domain_rule", {a_cap_goes, one_below_a_feature_edge_stays,
-                                          one_node_below_a_face_stays, what_is_not_flat_stays});
+  return run_kernel_suite("domain_rule",
+                          {a_cap_goes, one_below_a_feature_edge_stays, one_node_below_a_face_stays,
+                           what_is_not_flat_stays, a_flat_one_in_a_side_is_told});
 }

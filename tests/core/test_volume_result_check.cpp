@@ -9,6 +9,7 @@
 
 #include "base/point_text.hpp"
 #include "complaints.hpp"
+#include "placement/conformity.hpp"
 #include "run_kernel_suite.hpp"
 
 using Point3 = pnpbs::Point<3>;
@@ -178,6 +179,25 @@ START_TEST(finds_gaps_inside) {
 }
 END_TEST
 
+/* A node in the plane of three others that it makes a tetrahedron with. */
+START_TEST(tells_of_tetrahedra_without_a_volume) {
+  const std::unique_ptr<Placement3> p = small_placement();
+  ck_assert_int_eq(pnpbs::conformity_of(*p).flat.count, 0);
+  const std::int64_t i = inner_node(*p);
+  std::array<std::int32_t, 3> others{};
+  p->level().stars.for_simplices(i, [&](const std::array<std::int32_t, 3>& at) { others = at; });
+  Point3 middle{};
+  for (const std::int32_t j : others)
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += nodes_of(*p).position(j)[k] / 3;
+  nodes_of(*p).set_position(i, middle);
+  const pnpbs::Conformity<3> found = pnpbs::conformity_of(*p);
+  ck_assert_int_eq(found.flat.count, 1);
+  ck_assert_int_eq(std::ssize(found.torn), 4);
+  ck_assert(!found.holds());
+  ck_assert(pnpbs::text_of(found, *p).starts_with("of no volume: 1 tetrahedra, one of them at "));
+}
+END_TEST
+
 START_TEST(finds_tetrahedra_outside) {
   expect_complaint([](Placement3& p) -> std::vector<std::string> {
     rebuild_stars(p, nullptr, {});
@@ -192,5 +212,5 @@ int main() {
       {finds_an_id_that_comes_twice, finds_two_nodes_in_one_place, finds_nodes_that_are_not_inside,
        finds_boundary_nodes_moved_or_missing, finds_a_list_that_lacks_a_neighbour,
        finds_a_tetrahedron_turned_over, finds_stars_that_do_not_agree, finds_gaps_inside,
-       finds_tetrahedra_outside});
+       finds_tetrahedra_outside, tells_of_tetrahedra_without_a_volume});
 }

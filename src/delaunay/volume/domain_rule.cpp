@@ -90,6 +90,11 @@ std::int64_t held_among(const VolumeStarInput& in, const std::array<std::int64_t
 
 }  // namespace
 
+bool lies_in_boundary(const VolumeStarInput& in, const Tetrahedron& ordered) {
+  const TetrahedronCorners x{ordered[0].x, ordered[1].x, ordered[2].x, ordered[3].x};
+  return circumsphere(x).flat && on_boundary(in, x, centroid(ordered));
+}
+
 bool in_domain(const VolumeStarInput& in, const std::array<std::int64_t, 4>& nodes,
                const Tetrahedron& corners) {
   if (in.facets == nullptr) return true;

@@ -18,4 +18,7 @@ bool in_domain(const VolumeStarInput& input, const std::array<std::int64_t, 4>& 
 // Of nodes where they are.
 bool in_domain(const VolumeStarInput& input, const std::array<std::int64_t, 4>& nodes);
 
+// Is it flat, and lies in the boundary? By its corners in the order of their ids.
+bool lies_in_boundary(const VolumeStarInput& input, const Tetrahedron& ordered);
+
 }  // namespace pnpbs

@@ -115,8 +115,8 @@ LabelledTetrahedron labelled(const Level<3>& level, const VolumeStarInput& input
   const Tetrahedron t = ordered_by_id(tetrahedron_of(level.nodes, corners));
   LabelledTetrahedron result{
       {t[0].id, t[1].id, t[2].id, t[3].id}, in_domain(input, corners), true, 0, {}};
-  result.may_change = std::ranges::all_of(
-      corners, [&](std::int64_t i) { return level.nodes.carrier(i) != Carrier::free; });
+  const auto is_held = [&](std::int64_t i) { return level.nodes.carrier(i) != Carrier::free; };
+  result.may_change = std::ranges::all_of(corners, is_held) && !lies_in_boundary(input, t);
   const double longest = longest_edge({t[0].x, t[1].x, t[2].x, t[3].x});
   std::array<std::int64_t, 4> by_id = corners;
   std::ranges::sort(by_id, {}, [&](std::int64_t i) { return level.nodes.id(i); });

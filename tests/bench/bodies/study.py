@@ -101,15 +101,17 @@ def line_of(name, found):
 
 
 def summary(found, most_torn, may_refuse):
-    """In words, and whether all is as it must be: torn bodies are few enough, none is torn in silence,
-    and none failed or, unless it may be, was refused."""
+    """In words, and whether all is as it must be: torn bodies are few enough, none is torn or has
+    tetrahedra of no volume in silence, and none failed or, unless it may be, was refused."""
     bodies = [figures for figures in found.values() if "whole" in figures]
     torn = [figures for figures in bodies if not figures["whole"]]
-    silent = sum(figures["exit_code"] != NOT_CONFORMING for figures in torn)
+    flat = [figures for figures in bodies if figures["flat"] > 0]
+    silent = sum(figures["exit_code"] != NOT_CONFORMING for figures in bodies
+                 if not figures["whole"] or figures["flat"] > 0)
     refused, failed = (sum(outcome in figures for figures in found.values()) for outcome in ("refused", "failed"))
-    words = (f"{len(found)} bodies: {len(bodies) - len(torn)} whole, {len(torn)} torn, {silent} of these "
-             f"without exit code {NOT_CONFORMING}; {refused} refused, {failed} failed; "
-             f"{sum(figures['flat'] > 0 for figures in bodies)} have tetrahedra of no volume")
+    words = (f"{len(found)} bodies: {len(bodies) - len(torn)} whole, {len(torn)} torn, {len(flat)} with "
+             f"tetrahedra of no volume, {silent} of both without exit code {NOT_CONFORMING}; {refused} "
+             f"refused, {failed} failed")
     return words, len(torn) <= most_torn and silent + failed == 0 and (may_refuse or refused == 0)
 
 

@@ -213,7 +213,7 @@ done
 
     def test_silent(self):
         torn = cube()[1][6:]  # a corner's cell is gone
-        self.assertIn("0 whole, 1 torn, 1 of these without", self.study(torn, 0).stdout)
+        self.assertIn("0 whole, 1 torn, 0 with tetrahedra of no volume, 1 of both without", self.study(torn, 0).stdout)
         self.assertEqual(self.study(torn, 0).returncode, 1)
         self.assertEqual(self.study(torn, 6).returncode, 0)
 
@@ -240,7 +240,8 @@ done
     def test_crash(self):
         found = self.study(cube()[1], -11)
         self.assertEqual(found.returncode, 1)
-        self.assertIn("0 whole, 0 torn, 0 of these without exit code 6; 0 refused, 1 failed", found.stdout)
+        self.assertIn("0 whole, 0 torn, 0 with tetrahedra of no volume, 0 of both without exit code 6; 0 refused, "
+                      "1 failed", found.stdout)
 
 
 if __name__ == "__main__":
