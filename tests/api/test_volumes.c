@@ -486,7 +486,7 @@ START_TEST(stopped_by_the_monitor) {
   MUST(pnpbs_placement_set_monitor(it.placement, watching, &w));
   MUST_BE(PNPBS_STOPPED, pnpbs_placement_run(it.placement));
   ck_assert_int_eq(w.calls, stops[_i] + 1);
-  if (integer_of(it.placement, "nodes") > 0) check_body(&it, 1e-12);
+  if (integer_of(it.placement, "nodes") > 0) check_stopped_body(&it, 1e-12);
   w.stop_at = 1000000;
   w.last = 0;
   /* Of the few edges where d is largest the mean may be off. */

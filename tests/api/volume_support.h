@@ -45,4 +45,7 @@ double nearest_pair(const volume* v);
 /* The library's own check, and the volume by plain sums. */
 void check_body(const job* it, double tolerance);
 
+/* The same while bubbles still move: until they have, tetrahedra may have no volume. */
+void check_stopped_body(const job* it, double tolerance);
+
 #endif
