@@ -69,7 +69,8 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::bounded(
       const double growth = settings.growth_limit > 0 ? settings.growth_limit : kGrowthFollowed;
       if (settings.resolve)
         spacing = std::make_shared<HeldSpacing<3>>(
-            spacing, resolving_sources(*spacing, *domain_, settings.node_limit()), growth);
+            spacing, resolving_sources(*spacing, *domain_, settings.node_limit(), kResolved),
+            growth);
     }
   });
   return spacing;

@@ -45,8 +45,8 @@ void append_halves(const Piece& piece, std::vector<Piece>& pieces) {
 
 class ShapeToResolve {
  public:
-  explicit ShapeToResolve(const VolumeDomain& domain)
-      : mesh_(domain.mesh()), index_(domain.index()) {}
+  ShapeToResolve(const VolumeDomain& domain, const Resolution& resolution)
+      : mesh_(domain.mesh()), index_(domain.index()), resolution_(resolution) {}
 
   std::vector<Piece> facets() const {
     std::vector<Piece> pieces;
@@ -56,14 +56,13 @@ class ShapeToResolve {
     return pieces;
   }
 
-  // What d must not exceed at a point of a facet, or d itself: a wall has room for a layer of nodes
-  // in its middle, and across a gap each surface keeps its nodes out of the spheres around the
-  // triangles of the other (equilateral ones reach 0.58 d, and d between two points is larger).
+  // What d must not exceed at a point of a facet, or d itself.
   double held(std::int32_t facet, const Point<3>& x, double d) const {
-    constexpr double kInWall = 2, kInGap = 4.0 / 3;  // layers of d
     const bool bounds = mesh_.facets[static_cast<std::size_t>(facet)].bounds();
-    return std::min(held_on_side(facet, x, -1, kInWall, d),
-                    held_on_side(facet, x, 1, bounds ? kInGap : kInWall, d));
+    const double in_gap = bounds ? resolution_.in_gap : resolution_.in_wall;
+    return std::max(std::min(held_on_side(facet, x, -1, resolution_.in_wall, d),
+                             held_on_side(facet, x, 1, in_gap, d)),
+                    resolution_.least * d);
   }
 
  private:
@@ -87,15 +86,17 @@ class ShapeToResolve {
 
   const BoundaryMesh<3>& mesh_;
   const SurfaceIndex& index_;
+  Resolution resolution_;
 };
 
 }  // namespace
 
 // Pieces are halved until they are not much larger than what d is held to there.
 std::vector<GrowthSource<3>> resolving_sources(const Spacing<3>& raw, const VolumeDomain& domain,
-                                               const NodeLimit& limit) {
+                                               const NodeLimit& limit,
+                                               const Resolution& resolution) {
   constexpr double kPieces = 1.5;  // length of their edges
-  const ShapeToResolve shape(domain);
+  const ShapeToResolve shape(domain, resolution);
   std::vector<GrowthSource<3>> sources;
   std::vector<Piece> pieces = shape.facets();
   while (!pieces.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where d is held down so that it resolves the shape of a body: to half the thickness of a wall, to
-// three quarters of a gap's width, and where the sides of an edge are too near to each other.
+// Where d is held down so that it resolves the shape of a body: in thin walls, in narrow gaps, and
+// where the sides of an edge are too near to each other.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,21 @@
 
 namespace pnpbs {
 
+// What there is to be room for: layers of d in the thickness of a wall and in the width of a gap;
+// and the part of d below which it is not held, however thin they are.
+struct Resolution {
+  double in_wall, in_gap, least;
+};
+// A wall has room for a layer of nodes in its middle, and across a gap each surface keeps its nodes
+// out of the spheres around the triangles of the other (equilateral ones reach 0.58 d, and d
+// between two points is larger).
+inline constexpr Resolution kResolved{2, 4.0 / 3, 0};
+
 // The domain, checked, is looked at here alone. d is asked on the surfaces, at the same points on
 // all ranks. Throws Error(ErrorKind::spacing) if they needed more nodes than the limit allows.
 // Collective.
 std::vector<GrowthSource<3>> resolving_sources(const Spacing<3>& raw, const VolumeDomain& domain,
-                                               const NodeLimit& limit);
+                                               const NodeLimit& limit,
+                                               const Resolution& resolution);
 
 }  // namespace pnpbs

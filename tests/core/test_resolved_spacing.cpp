@@ -31,7 +31,9 @@ double resolved_at(const pnpbs::HeldSpacing<3>& spacing, const P& x) {
 
 pnpbs::HeldSpacing<3> resolved(const pnpbs::VolumeDomain& domain) {
   const auto raw = std::make_shared<pnpbs::ConstantSpacing<3>>(kSpacing);
-  return {raw, pnpbs::resolving_sources(*raw, domain, pnpbs::NodeLimit(1'000'000)), kGrowth};
+  return {raw,
+          pnpbs::resolving_sources(*raw, domain, pnpbs::NodeLimit(1'000'000), pnpbs::kResolved),
+          kGrowth};
 }
 
 // Where the limit is `at_surface` all over a surface, `gap` away from it: sources are up to 1.5
