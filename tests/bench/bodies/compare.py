@@ -5,7 +5,8 @@
   tests/bench/bodies/compare.py [--nodes 3000] [--random SEED --count 50] [--output docs] FILE...
 
 Writes comparison_bodies.md and comparison_bodies.json. With --from FILE.json... these are made of the figures of
-earlier runs, put together. Files that are no closed surface are left out.
+earlier runs, put together; of two of the same body and tool, as after a run with --tools PNPBS, the last one counts.
+Files that are no closed surface are left out.
 """
 import argparse
 import dataclasses
@@ -65,6 +66,11 @@ def tools(pnpbs):
         if isinstance(tool, with_pnpbs.PnpbsInSpace):
             tool.accepted = (*tool.accepted, NOT_CONFORMING)
     return found
+
+
+def chosen(found, words):
+    """Those with one of these words in their names; all if there are none."""
+    return [tool for tool in found if not words or any(word.lower() in tool.name.lower() for word in words)]
 
 
 def those_there(wanted):
@@ -135,7 +141,7 @@ def run(tool, case, time_limit):
 
 
 def run_all(arguments):
-    there, left_out = those_there(tools(arguments.pnpbs))
+    there, left_out = those_there(chosen(tools(arguments.pnpbs), arguments.tools))
     results = {"machine": machine.describe(), "note": arguments.note, "asked": arguments.nodes, "no_bodies": [],
                "command": shlex.join(["tests/bench/bodies/compare.py", *sys.argv[1:]]),
                "tools": [{"name": tool.name, "version": version, "setting": tool.setting}
@@ -161,11 +167,15 @@ def write(folder, results):
 
 
 def merged(parts):
-    """The first, with the runs of the others added."""
-    if any(part["tools"] != parts[0]["tools"] or part["asked"] != parts[0]["asked"] for part in parts):
-        sys.exit("compare.py: these are of other tools or another number of nodes")
-    together = {name: [entry for part in parts for entry in part[name]] for name in ("runs", "no_bodies")}
-    return {**parts[0], **together, "command": "\n".join(part["command"] for part in parts)}
+    """The first, with the runs of the others added, or in place of those of the same body and tool."""
+    tools = {tool["name"]: tool for part in parts for tool in part["tools"]}
+    if any(part["asked"] != parts[0]["asked"] or tool != tools[tool["name"]]
+           for part in parts for tool in part["tools"]):
+        sys.exit("compare.py: these are of other versions of a tool or another number of nodes")
+    runs = {(run["body"], run["tool"]): run for part in parts for run in part["runs"]}
+    no_bodies = dict.fromkeys(name for part in parts for name in part["no_bodies"])
+    return {**parts[0], "tools": list(tools.values()), "runs": list(runs.values()),
+            "no_bodies": list(no_bodies), "command": "\n".join(part["command"] for part in parts)}
 
 
 def main():
@@ -176,6 +186,8 @@ def main():
     parser.add_argument("--parts", type=int, default=25, help="of a random body, at most about")
     parser.add_argument("--nodes", type=int, default=3000)
     parser.add_argument("--pnpbs", type=lambda path: str(Path(path).resolve()), help="the command")
+    parser.add_argument("--tools", type=lambda text: text.split(","), default=[],
+                        help="words of names, as PNPBS,TetGen")
     parser.add_argument("--time-limit", type=float, default=600, help="seconds for each body and tool")
     parser.add_argument("--output", type=Path, default=HERE.parents[2] / "build" / "comparison")
     parser.add_argument("--from", dest="sources", type=Path, nargs="+", metavar="FILE.json",

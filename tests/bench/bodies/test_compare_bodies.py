@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The comparison on bodies: what other tools are told of a body, and what the page says of theirs."""
+import argparse
 import sys
 import unittest
 from pathlib import Path
@@ -11,7 +12,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent / "peers")]
 import compare_page  # noqa: E402
 from bodies import Body, box, l_block  # noqa: E402
-from compare import made, merged, put_together, spacing_for  # noqa: E402
+from compare import chosen, made, merged, put_together, spacing_for  # noqa: E402
 from adapters.tool import VolumeOutcome  # noqa: E402
 from measure import Measured  # noqa: E402
 from solids import joined, solids, surfaces  # noqa: E402
@@ -83,12 +84,31 @@ def run(body, whole, angle, **more):
             "euler": 2, "euler_of_body": 2, **more}
 
 
+def part(tool, version, *runs, asked=9):
+    return {"tools": [{"name": tool, "version": version}], "asked": asked, "no_bodies": ["z"], "command": tool,
+            "runs": [{"body": body, "tool": tool, "nodes": nodes} for body, nodes in runs]}
+
+
 class Merged(unittest.TestCase):
-    def test_merged(self):
-        one, other = ({"tools": ["A"], "asked": 9, "runs": [k], "no_bodies": [], "command": k} for k in "ab")
-        self.assertEqual(merged([one, other]), {**one, "runs": ["a", "b"], "command": "a\nb"})
-        with self.assertRaises(SystemExit):
-            merged([one, {**other, "asked": 8}])
+    def test_added(self):
+        both = merged([part("A", 1, ("one", 10)), part("B", 2, ("one", 20))])
+        self.assertEqual([tool["name"] for tool in both["tools"]], ["A", "B"])
+        self.assertEqual([run["nodes"] for run in both["runs"]], [10, 20])
+        self.assertEqual((both["no_bodies"], both["command"]), (["z"], "A\nB"))
+
+    def test_the_last_counts(self):
+        both = merged([part("A", 1, ("one", 10), ("two", 11)), part("A", 1, ("one", 30))])
+        self.assertEqual([(run["body"], run["nodes"]) for run in both["runs"]], [("one", 30), ("two", 11)])
+
+    def test_of_another_kind(self):
+        for other in (part("A", 2), part("B", 1, asked=8)):
+            with self.assertRaises(SystemExit):
+                merged([part("A", 1), other])
+
+    def test_chosen(self):
+        some = [argparse.Namespace(name=name) for name in ("PNPBS, default", "gmsh, HXT", "TetGen")]
+        self.assertEqual(chosen(some, []), some)
+        self.assertEqual(chosen(some, ["pnpbs", "tet"]), [some[0], some[2]])
 
 
 class Page(unittest.TestCase):
