@@ -75,6 +75,7 @@ NodeLink::NodeLink(const LabelledNode& node, const std::vector<LabelledTetrahedr
   open_at_.resize(ids.size());
   pieces_ = UnionFind<std::size_t>(ids.size());
   defects_ = counted_defects();
+  gains_of_disks_.assign(around.size(), kNotAsked);
   ids_ = std::move(ids);
 }
 
@@ -87,6 +88,7 @@ void NodeLink::flip(std::size_t place) {
 void NodeLink::change(std::size_t place) {
   flip(place);
   defects_ = counted_defects();
+  std::ranges::fill(gains_of_disks_, kNotAsked);
 }
 
 int NodeLink::gain(std::initializer_list<std::size_t> places) {
@@ -97,10 +99,12 @@ int NodeLink::gain(std::initializer_list<std::size_t> places) {
 }
 
 int NodeLink::gain_of_disks(std::size_t place) {
+  int& gain = gains_of_disks_[place];
+  if (gain != kNotAsked) return gain;
   flip(place);
-  const int fewer = defects_of_disks() - disks_first(counted_defects());
+  gain = defects_of_disks() - disks_first(counted_defects());
   flip(place);
-  return fewer;
+  return gain;
 }
 
 int NodeLink::euler_times_six(std::size_t place) const {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <vector>
 
 #include "base/union_find.hpp"
@@ -48,7 +49,8 @@ class NodeLink {
   bool is_torn() const { return defects() >= kTorn; }
   // Are the faces not so many disks as they should be?
   bool lacks_disks() const { return defects_.disks > 0; }
-  // As defects() and gain(), for who cares for the disks first.
+  // As defects() and gain(), for who cares for the disks first. What was found is kept until a
+  // label changes: a search asks the same of a node again and again.
   int defects_of_disks() const { return disks_first(defects_); }
   int gain_of_disks(std::size_t place);
   // What the node, and its edges and faces that are of this tetrahedron, add to six times Euler's
@@ -85,6 +87,8 @@ class NodeLink {
     std::int32_t used;  // by so many elements
   };
 
+  static constexpr int kNotAsked = std::numeric_limits<int>::min();
+
   void flip(std::size_t place);
   Defects counted_defects();
 
@@ -97,6 +101,7 @@ class NodeLink {
   std::vector<std::int32_t> open_at_;  // of each node of the link
   UnionFind<std::size_t> pieces_{0};   // likewise, joined by open edges
   Defects defects_;
+  std::vector<int> gains_of_disks_;  // of each tetrahedron around the node
 };
 
 }  // namespace pnpbs
