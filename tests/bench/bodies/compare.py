@@ -11,7 +11,6 @@ Files that are no closed surface are left out.
 import argparse
 import dataclasses
 import json
-import shlex
 import sys
 import tempfile
 from pathlib import Path
@@ -26,6 +25,7 @@ import machine  # noqa: E402
 from adapters import with_cgal_volume, with_gmsh_volume, with_pnpbs, with_tetgen  # noqa: E402
 from adapters.tool import DoesNotStart, NotSupported, VolumeOutcome  # noqa: E402
 from body_files import read_body  # noqa: E402
+from command_line import shown_command  # noqa: E402
 from judge import joined, judged  # noqa: E402
 from measure import Failed  # noqa: E402
 from progress import Progress  # noqa: E402
@@ -143,7 +143,8 @@ def run(tool, case, time_limit):
 def run_all(arguments):
     there, left_out = those_there(chosen(tools(arguments.pnpbs), arguments.tools))
     results = {"machine": machine.describe(), "note": arguments.note, "asked": arguments.nodes, "no_bodies": [],
-               "command": shlex.join(["tests/bench/bodies/compare.py", *sys.argv[1:]]),
+               "command": shown_command("tests/bench/bodies/compare.py", {"--pnpbs": "PROGRAM", "--output": "FOLDER"},
+                                        arguments.files),
                "tools": [{"name": tool.name, "version": version, "setting": tool.setting}
                          for tool, version in there], "left_out": left_out, "runs": []}
     random = arguments.count if arguments.random is not None else 0

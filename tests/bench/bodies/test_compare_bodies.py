@@ -5,6 +5,7 @@ import argparse
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -12,6 +13,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent / "peers")]
 import compare_page  # noqa: E402
 from bodies import Body, box, l_block  # noqa: E402
+from command_line import shown_command  # noqa: E402
 from compare import chosen, made, merged, put_together, spacing_for  # noqa: E402
 from adapters.tool import VolumeOutcome  # noqa: E402
 from measure import Measured  # noqa: E402
@@ -142,6 +144,11 @@ class Page(unittest.TestCase):
     def test_lost(self):
         _, rows = compare_page.bodies_lost({"tools": [{"name": "A"}], "runs": self.RUNS})
         self.assertEqual(rows, [["two", "torn: 3 torn nodes, Euler 0 for 2"], ["four", "nothing: it crashed"]])
+
+    def test_the_command_shown_has_no_folders_of_this_machine(self):
+        with mock.patch("sys.argv", ["compare.py", "--output=/a", "--pnpbs", "/b/pnpbs", "--nodes", "9", "/c/d.off"]):
+            self.assertEqual(shown_command("compare.py", {"--pnpbs": "PROGRAM", "--output": "FOLDER"}, ["/c/d.off"]),
+                             "compare.py --output FOLDER --pnpbs PROGRAM --nodes 9 FILE...")
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ docs/benchmarks.md tells what to install."""
 import argparse
 import json
 import os
-import shlex
 import statistics
 import sys
 import tempfile
@@ -33,11 +32,12 @@ from adapters import (with_cgal, with_gmsh, with_gmsh_shape, with_gmsh_volume,  
                       with_jigsaw, with_jigsaw_shape, with_jigsaw_volume, with_netgen, with_pnpbs,
                       with_pnpbs_shape, with_tetgen, with_triangle)
 from adapters.tool import DoesNotStart, NotSupported, command  # noqa: E402
+from command_line import shown_command  # noqa: E402
 from measure import Failed  # noqa: E402
 from progress import Progress  # noqa: E402
 
 ROOT = HERE.parents[2]
-
+HIDDEN = {"--pnpbs": "PROGRAM", "--path": "FOLDER", "--output": "FOLDER"}
 
 
 class Plane:
@@ -205,7 +205,8 @@ def run_all(args):
         "LAMMPS", command("lmp"), "the command lmp (Debian's package lammps)",
         force_evaluation.lammps_version, left_out)
     kind = KINDS[args.kind]
-    results = {"kind": args.kind, "machine": machine.describe(), "command": shown_command(), "repeat": args.repeat,
+    results = {"kind": args.kind, "machine": machine.describe(), "repeat": args.repeat,
+               "command": shown_command("tests/bench/peers/compare.py", HIDDEN),
                "tools": [{"name": t.name, "version": version, "setting": t.setting}
                          for t, version in there],
                "left_out": left_out + kind.not_compared, "placements": [], "forces": []}
@@ -247,22 +248,6 @@ def compare_forces(args, with_lammps, nodes):
                                                  Path(folder), args.time_limit))
     return [{**rows[0], "nanoseconds": statistics.median(r["nanoseconds"] for r in rows)}
             for rows in zip(*runs)]
-
-
-def shown_command():
-    """As it was given; folders of this machine say nothing to others."""
-    shown, hidden = ["tests/bench/peers/compare.py"], {"--pnpbs": "PROGRAM", "--path": "FOLDER",
-                                                       "--output": "FOLDER"}
-    rest = iter(sys.argv[1:])
-    for word in rest:
-        option, equals, _ = word.partition("=")
-        if option in hidden:
-            shown += [option, hidden[option]]
-            if not equals:
-                next(rest, None)
-        else:
-            shown.append(shlex.quote(word))
-    return " ".join(shown)
 
 
 def write_json(args, results):
