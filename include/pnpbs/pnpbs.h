@@ -698,15 +698,16 @@ PNPBS_API pnpbs_status pnpbs_placement_initialise(pnpbs_placement placement);
 PNPBS_API pnpbs_status pnpbs_placement_step(pnpbs_placement placement, int64_t n);
 
 /** One population adjustment, now: deletes where the overlap ratio is too large, inserts where
- *  it is too small (equation (3) of the paper). Collective. Outputs may be NULL. */
+ *  it is too small (equation (3) of the paper). Initialises first if need be; if the monitor stops
+ *  that, PNPBS_STOPPED is returned, and nothing is adjusted. Collective. Outputs may be NULL. */
 PNPBS_API pnpbs_status pnpbs_placement_adjust_population(pnpbs_placement placement,
                                                          int64_t *inserted, int64_t *deleted);
 
 /** Deals the work out to the ranks anew, by METIS and the work counted in the lists, so that each
  *  owns an equal share and little changes its rank. The nodes stay as they are; who owns them, and
  *  who has which ghosts, changes. A run does so by itself where the statistic `imbalance` (largest
- *  over mean work) passes the option `rebalance_above`. Initialises first if need be. Collective.
- */
+ *  over mean work) passes the option `rebalance_above`. Initialises first if need be; if the
+ *  monitor stops that, PNPBS_STOPPED is returned, and the ranks keep what they have. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
 
 /** The whole job: initialise if need be, steps until the stop test is met or `steps` are done,

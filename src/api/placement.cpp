@@ -180,18 +180,16 @@ pnpbs_status pnpbs_placement_step(pnpbs_placement placement, int64_t n) {
 pnpbs_status pnpbs_placement_adjust_population(pnpbs_placement placement, int64_t* inserted,
                                                int64_t* deleted) {
   return collective(placement, [&](Placement& p) {
-    const PopulationCounts change = p.adjust_population();
+    PopulationCounts change;
+    const Outcome outcome = p.adjust_population(change);
     if (inserted) *inserted = change.inserted;
     if (deleted) *deleted = change.deleted;
-    return PNPBS_OK;
+    return status_of(outcome);
   });
 }
 
 pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement) {
-  return collective(placement, [](Placement& p) {
-    p.rebalance();
-    return PNPBS_OK;
-  });
+  return collective(placement, [](Placement& p) { return status_of(p.rebalance()); });
 }
 
 pnpbs_status pnpbs_placement_run(pnpbs_placement placement) {

@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/level.hpp"
 
+#include <atomic>
 #include <utility>
 
 #include "level/reach.hpp"
 
 namespace pnpbs {
 
+namespace {
+
+std::int64_t next_number() {
+  static std::atomic<std::int64_t> next = 0;
+  return next++;
+}
+
+}  // namespace
+
 template <int Dim>
 Level<Dim>::Level(std::shared_ptr<const Communicator> communicator,
                   std::shared_ptr<const Domain<Dim>> domain,
                   std::shared_ptr<const Spacing<Dim>> spacing, const Settings& with, Timers& into)
-    : comm(std::move(communicator)),
+    : number(next_number()),
+      comm(std::move(communicator)),
       settings(with),
       timers(into),
       ground(std::move(domain), std::move(spacing), settings.node_limit()) {

@@ -17,6 +17,7 @@
 #include "level/ghosts.hpp"
 #include "level/ground.hpp"
 #include "level/inexact_nodes.hpp"
+#include "level/level_stamp.hpp"
 #include "level/level_tree.hpp"
 #include "level/neighbourhood.hpp"
 #include "level/time_integration.hpp"
@@ -44,8 +45,10 @@ struct Level {
   std::int64_t version() const {
     return nodes.version() + neighbourhood.rebuilds() + settings_version;
   }
+  LevelStamp stamp() const { return {number, version()}; }
   std::int64_t owned_count() const;
 
+  const std::int64_t number;  // of the levels that this process has made
   std::shared_ptr<const Communicator> comm;
   Settings settings;
   Timers& timers;

@@ -102,18 +102,20 @@ GivenNodes<Dim> PlacementOf<Dim>::nodes_from_coarser_levels(
     const Settings& settings, Outcome& outcome) {
   GivenNodes<Dim> nodes;
   try {
-    for (int l = coarser_levels_; l > 0; --l) {
-      std::unique_ptr<Level<Dim>> level = empty_level(
-          spacing_of_level(spacing, l), settings_of_level(settings, l == coarser_levels_), &finest);
+    for (int l = state_.coarser_levels; l > 0; --l) {
+      std::unique_ptr<Level<Dim>> level =
+          empty_level(spacing_of_level(spacing, l),
+                      settings_of_level(settings, l == state_.coarser_levels), &finest);
       put_first_nodes(level, nodes, l, outcome);
       adopt_level(std::move(level));
       begin_schedule(false);
-      schedule_.coarser = schedule_.multiplied = true;
-      const ProgressPart part{kCoarseShare * (coarser_levels_ - l) / coarser_levels_,
-                              kCoarseShare * (coarser_levels_ - l + 1) / coarser_levels_};
-      if (outcome != Outcome::stopped && l <= filled_level_)
+      state_.schedule.coarser = state_.schedule.multiplied = true;
+      const ProgressPart part{
+          kCoarseShare * (state_.coarser_levels - l) / state_.coarser_levels,
+          kCoarseShare * (state_.coarser_levels - l + 1) / state_.coarser_levels};
+      if (outcome != Outcome::stopped && l <= state_.filled_level)
         outcome = advance(level_->settings.steps, part);
-      if (outcome != Outcome::stopped && l <= filled_level_) repair_defects();
+      if (outcome != Outcome::stopped && l <= state_.filled_level) repair_defects();
       nodes = new_nodes<Dim>(refined(*level_, *spacing_of_level(spacing, l - 1)));
     }
     if (outcome != Outcome::stopped) outcome = Outcome::converged;
@@ -140,8 +142,8 @@ TakenNodes PlacementOf<Dim>::put_first_nodes(std::unique_ptr<Level<Dim>>& level,
     from_coarser = new_nodes<Dim>(std::move(from_coarser));
     level->next_id = 0;
   }
-  if (which > filled_level_) return {};  // surfaces alone
-  if (which == filled_level_) {
+  if (which > state_.filled_level) return {};  // surfaces alone
+  if (which == state_.filled_level) {
     fill(*level, laid_nodes(level->ground, from_coarser));
     return {};
   }

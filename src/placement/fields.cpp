@@ -79,7 +79,7 @@ void Placement::end_ghost_update(std::int64_t n, std::int64_t components, double
   if (!ghost_update_.under_way())
     throw Error(ErrorKind::state, "no update of ghosts is under way: begin one first");
   ghost_update_.wait();
-  if (exchange_version_ != node_version() || !ghost_update_.follows(exchange_pattern_)) {
+  if (exchange_stamp_ != stamp() || !ghost_update_.follows(exchange_pattern_)) {
     ghost_update_.drop();
     throw Error(ErrorKind::state,
                 "nodes have moved or changed their ranks since the update of ghosts began: its "

@@ -133,9 +133,7 @@ bool PlacementOf<Dim>::add_unresolved_places(Held<Dim>& held) const {
 template <int Dim>
 Outcome PlacementOf<Dim>::hold_spacing() {
   PlacedSpacing<Dim> placed = placed_;
-  // Of the call that the round belongs to.
-  const std::int64_t dropped = dropped_;
-  const int coarser_levels = coarser_levels_;
+  const RunState before = state_;
   Outcome outcome = Outcome::not_conforming;
   try {
     if (add_unresolved_places(placed.held)) outcome = begin_held_round(std::move(placed));
@@ -143,9 +141,11 @@ Outcome PlacementOf<Dim>::hold_spacing() {
     throw;  // it is tried again with these
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::spacing && error.kind() != ErrorKind::memory) throw;
+    put_back(before);
   }
-  dropped_ = dropped;
-  coarser_levels_ = coarser_levels;
+  // Of the call that the round belongs to.
+  state_.dropped = before.dropped;
+  state_.coarser_levels = before.coarser_levels;
   return outcome;
 }
 
@@ -168,12 +168,12 @@ void PlacementOf<Dim>::warn_of_held_spacing() {
   if (held.places.empty()) return;
   const GrowthSource<Dim>& finest = *std::ranges::min_element(
       held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
-  warnings_.push_back("the spacing did not resolve the shape at " +
-                      std::to_string(held.places.size()) + " places, and is held down there, to " +
-                      rounded_text(finest.d) + " at " + rounded_point_text<Dim>(finest.x) + ": " +
-                      std::to_string(global_count()) + " nodes instead of " +
-                      std::to_string(held.nodes_before) +
-                      " (option conforming_rounds, 0 to have d as it is given)");
+  state_.warnings.push_back(
+      "the spacing did not resolve the shape at " + std::to_string(held.places.size()) +
+      " places, and is held down there, to " + rounded_text(finest.d) + " at " +
+      rounded_point_text<Dim>(finest.x) + ": " + std::to_string(global_count()) +
+      " nodes instead of " + std::to_string(held.nodes_before) +
+      " (option conforming_rounds, 0 to have d as it is given)");
 }
 
 // Of the members defined here.

@@ -125,8 +125,8 @@ Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpaci
   TakenNodes taken;
   std::int64_t inserted = 0;
   Outcome outcome = Outcome::converged;
-  coarser_levels_ = 0;
-  filled_level_ = 0;
+  state_.coarser_levels = 0;
+  state_.filled_level = 0;
   if (surfaces_alone()) {
     if constexpr (Dim == 3) taken = begin_on_surfaces(*next, spacing, settings, outcome);
     inserted = taken.numbered;
@@ -144,39 +144,40 @@ Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpaci
     if constexpr (Dim == 3) settle_surfaces(next, given, outcome);
     taken = take(*next, std::move(given), next->next_id);
   } else {
-    filled_level_ = coarser_levels_ = coarser_levels_that_pay(*next, spacing);
+    state_.filled_level = state_.coarser_levels = coarser_levels_that_pay(*next, spacing);
     if constexpr (Dim == 3)
-      coarser_levels_ = std::max(coarser_levels_, surface_levels_that_pay(*next));
+      state_.coarser_levels = std::max(state_.coarser_levels, surface_levels_that_pay(*next));
     GivenNodes<Dim> nodes;
-    if (coarser_levels_ > 0) nodes = nodes_from_coarser_levels(*next, spacing, settings, outcome);
+    if (state_.coarser_levels > 0)
+      nodes = nodes_from_coarser_levels(*next, spacing, settings, outcome);
     put_first_nodes(next, nodes, 0, outcome);
   }
   // Nothing has failed: from here on the new level counts.
   adopt_level(std::move(next));
   level_options_ = options_;
-  dropped_ = taken.left_out;
-  inserted_ += inserted;
-  deleted_ += taken.thinned;
+  state_.dropped = taken.left_out;
+  state_.inserted += inserted;
+  state_.deleted += taken.thinned;
   gather_warnings(placed.steepest);
   placed_ = std::move(placed);
   spacing_replaced_ = false;
-  begin_schedule(filled_level_ > 0);
-  schedule_.taken_over = taken_over || outcome == Outcome::stopped;
+  begin_schedule(state_.filled_level > 0);
+  state_.schedule.taken_over = taken_over || outcome == Outcome::stopped;
   return outcome;
 }
 
 template <int Dim>
 void PlacementOf<Dim>::gather_warnings(const SteepestGrowth<Dim>& steepest) {
-  warnings_ = domain_->warnings();
-  warnings_.insert(warnings_.end(), level_->ground.warnings().begin(),
-                   level_->ground.warnings().end());
+  state_.warnings = domain_->warnings();
+  state_.warnings.insert(state_.warnings.end(), level_->ground.warnings().begin(),
+                         level_->ground.warnings().end());
   if (too_steep(steepest))
-    warnings_.push_back(warning_of_growth(steepest, level_->settings.growth_limit));
+    state_.warnings.push_back(warning_of_growth(steepest, level_->settings.growth_limit));
   if (surfaces_alone() && options_.is_set("growth_limit") && options_.real("growth_limit") > 0)
-    warnings_.push_back("the option growth_limit has no effect on surfaces alone");
+    state_.warnings.push_back("the option growth_limit has no effect on surfaces alone");
   warn_of_partial_extent();
   if constexpr (Dim == 3) warn_of_coarse_spacing();
-  warnings_of_level_ = warnings_.size();
+  state_.warnings_of_level = state_.warnings.size();
 }
 
 template <int Dim>
@@ -189,14 +190,13 @@ void PlacementOf<Dim>::fill(Level<Dim>& level, LaidNodes<Dim> laid) {
 template <int Dim>
 void PlacementOf<Dim>::adopt_level(std::unique_ptr<Level<Dim>> next) {
   if (level_) {
-    rebuilds_before_ += level_->neighbourhood.rebuilds();
-    rebalances_before_ += level_->rebalances;
-    unknown_uses_before_ += level_->unknown_uses;
+    state_.rebuilds_before += level_->neighbourhood.rebuilds();
+    state_.rebalances_before += level_->rebalances;
+    state_.unknown_uses_before += level_->unknown_uses;
   }
   level_ = std::move(next);
-  edge_bands_.clear();
-  surface_fit_ = {};
-  forget_results();
+  state_.edge_bands.clear();
+  state_.surface_fit = {};
 }
 
 // Of the members defined here.

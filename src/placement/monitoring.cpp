@@ -32,7 +32,7 @@ bool Placement::monitor_stops_between_steps(bool is_event, double fraction) {
     Placement& placement;
     ~Turn() { placement.between_steps_ = placement.at_event_ = false; }
   } turn{*this};
-  between_steps_ = !schedule_.coarser;
+  between_steps_ = !state_.schedule.coarser;
   at_event_ = is_event;
   return monitor_stops(fraction);
 }
@@ -60,7 +60,7 @@ void Placement::while_monitored(const std::string& what,
         throw Error(ErrorKind::stopped, "stopped by the monitor while " + what);
     });
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::stopped) stop_reason_ = StopReason::monitor;
+    if (error.kind() == ErrorKind::stopped) state_.stop_reason = StopReason::monitor;
     throw;
   }
 }

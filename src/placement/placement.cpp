@@ -41,15 +41,12 @@ Outcome PlacementOf<Dim>::initialise() {
   const PhaseTimer timer(timers_, Phase::total);
   require_same_options();
   std::unique_ptr<Level<Dim>> before = std::move(level_);
-  const Schedule schedule = schedule_;
-  const int coarser_levels = coarser_levels_;
+  const RunState state = state_;
   try {
     return knowing_finer_places([this] { return make_level(); });
   } catch (...) {
     level_ = std::move(before);
-    schedule_ = schedule;
-    coarser_levels_ = coarser_levels;
-    forget_results();
+    put_back(state);
     throw;
   }
 }
@@ -86,7 +83,7 @@ Outcome PlacementOf<Dim>::knowing_finer_places(const Work& work) {
     } catch (const FinerPlaces& found) {
       if (tries == kMaxTries) throw;
       if constexpr (Dim == 3) remember(found);
-      if (!schedule_.taken_over) level_.reset();
+      if (!state_.schedule.taken_over) level_.reset();
     }
   }
 }
@@ -114,7 +111,7 @@ Outcome PlacementOf<Dim>::taking_steps(const Steps& steps) {
   return knowing_finer_places([&] {
     if (prepare_level() == Outcome::stopped) return Outcome::stopped;
     return while_moving([&] {
-      if (schedule_.ended) begin_schedule_again();
+      if (state_.schedule.ended) begin_schedule_again();
       return steps();
     });
   });
@@ -154,15 +151,15 @@ template <int Dim>
 ProgressPart PlacementOf<Dim>::part_of_steps() const {
   const double done = done_by_rounds();
   if (rounds_of_run_ > 0) return {done, (done + 1) / 2};
-  return {schedule_.refined ? kCoarseShare : 0, kStepsShare};
+  return {state_.schedule.refined ? kCoarseShare : 0, kStepsShare};
 }
 
 // Ends with whether the elements are such as can be used.
 template <int Dim>
 Outcome PlacementOf<Dim>::steps_and_finish() {
-  warnings_.resize(warnings_of_level_);
+  state_.warnings.resize(state_.warnings_of_level);
   const Outcome outcome = advance(level_->settings.steps, part_of_steps());
-  schedule_.ended = true;
+  state_.schedule.ended = true;
   if (outcome == Outcome::stopped) return outcome;
   if (finish() == Outcome::stopped) return Outcome::stopped;
   warn_of_surface_fit();
@@ -177,30 +174,40 @@ Outcome PlacementOf<Dim>::step(std::int64_t n) {
     throw Error(ErrorKind::argument, "argument n differs between ranks");
   const PhaseTimer timer(timers_, Phase::total);
   return taking_steps([&] {
-    const std::int64_t until = schedule_.step > kNoLimit - n ? kNoLimit : schedule_.step + n;
+    const std::int64_t until =
+        state_.schedule.step > kNoLimit - n ? kNoLimit : state_.schedule.step + n;
     return advance(until, {0, 1});
   });
 }
 
 template <int Dim>
-void PlacementOf<Dim>::rebalance() {
+Outcome PlacementOf<Dim>::rebalance() {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  prepare_level();
-  while_moving([this] {
+  if (prepare_level() == Outcome::stopped) return Outcome::stopped;
+  return while_moving([this] {
     rebalance_now();
-    return true;
+    return Outcome::converged;
   });
 }
 
 template <int Dim>
-PopulationCounts PlacementOf<Dim>::adjust_population() {
+Outcome PlacementOf<Dim>::adjust_population(PopulationCounts& change) {
   require_kokkos();
   const PhaseTimer timer(timers_, Phase::total);
-  const PopulationCounts before{inserted_, deleted_};
-  prepare_level();
-  while_moving([this] { return count_population_change(pnpbs::adjust_population(*level_)); });
-  return {inserted_ - before.inserted, deleted_ - before.deleted};
+  const PopulationCounts before{state_.inserted, state_.deleted};
+  const Outcome outcome = prepare_level();
+  if (outcome != Outcome::stopped)
+    while_moving([this] { return count_population_change(pnpbs::adjust_population(*level_)); });
+  change = {state_.inserted - before.inserted, state_.deleted - before.deleted};
+  return outcome;
+}
+
+// What was tried has failed: nothing is told of it but that a monitor has stopped it.
+void Placement::put_back(const RunState& before) {
+  const StopReason reason = state_.stop_reason;
+  state_ = before;
+  if (reason == StopReason::monitor) state_.stop_reason = reason;
 }
 
 PopulationCounts Placement::count_population_change(PopulationCounts change) {
@@ -208,8 +215,8 @@ PopulationCounts Placement::count_population_change(PopulationCounts change) {
       static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(change.inserted)));
   change.deleted =
       static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(change.deleted)));
-  inserted_ += change.inserted;
-  deleted_ += change.deleted;
+  state_.inserted += change.inserted;
+  state_.deleted += change.deleted;
   return change;
 }
 

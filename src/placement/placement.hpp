@@ -16,28 +16,16 @@
 #include "comm/ghost_update.hpp"
 #include "domain/volume/repair_distances.hpp"
 #include "level/finish.hpp"
+#include "level/level_stamp.hpp"
 #include "level/population_events.hpp"
 #include "level/speeds.hpp"
 #include "level/volume/surface_fit.hpp"
 #include "placement/node_estimate.hpp"
 #include "placement/option_changes.hpp"
+#include "placement/run_state.hpp"
 #include "settings/options.hpp"
 
 namespace pnpbs {
-
-// Where the simulation of a level is. Events happen at step numbers of it.
-struct Schedule {
-  std::int64_t step = 0;
-  bool refined = false;     // it began with the nodes of a coarser level
-  bool coarser = false;     // it is one, or that of the surfaces
-  bool multiplied = false;  // its spacing is a multiple of the one that counts
-  bool taken_over = false;  // it began with nodes given, or placed for another spacing
-  bool ended = false;
-  bool at_event = false;  // restored as it was in the middle of one: is all at rest?
-  bool population_settled = false;
-  int quiet_events = 0;          // that changed too little to pay, in a row
-  double imbalance_reached = 1;  // by the last rebalancing
-};
 
 // The part of a call's work that is in progress, for the monitor: from a fraction to another.
 struct ProgressPart {
@@ -46,10 +34,7 @@ struct ProgressPart {
 
 // spacing_missed: somewhere the nodes do not follow d, whether the bubbles rest or not.
 // not_conforming: the elements do not fill the domain, whatever else is true.
-enum class Outcome { converged, not_converged, stopped, spacing_missed, not_conforming };
-
-// Why a run ended, for the report.
-enum class StopReason { none, rest, step_limit, monitor };
+enum class [[nodiscard]] Outcome{converged, not_converged, stopped, spacing_missed, not_conforming};
 
 // Of the level there is, on this rank.
 struct LevelFigures {
@@ -89,15 +74,16 @@ class Placement {
   void set_monitor(Monitor monitor) { monitor_ = std::move(monitor); }
   // Asks this rank's monitor. The nodes told are those of all ranks.
   bool asks_to_stop(double fraction, std::int64_t nodes) const {
-    return monitor_ && monitor_(fraction, steps_done_, nodes, last_speeds_.max);
+    return monitor_ && monitor_(fraction, state_.steps_done, nodes, state_.last_speeds.max);
   }
 
   // converged, or stopped by the monitor
   virtual Outcome initialise() = 0;
   virtual Outcome step(std::int64_t n) = 0;
   virtual Outcome run() = 0;
-  virtual PopulationCounts adjust_population() = 0;
-  virtual void rebalance() = 0;
+  // The counts are of what was done before a stop, too.
+  virtual Outcome adjust_population(PopulationCounts& change) = 0;
+  virtual Outcome rebalance() = 0;
   // Is this a monitor's turn between two steps of a level that stays? Then the nodes can be saved.
   bool between_steps() const { return between_steps_; }
   // Of a run from nothing; the nodes there are stay. Collective.
@@ -133,28 +119,28 @@ class Placement {
   void sum(std::int64_t n, std::int64_t components, const double* values, double* sums);
   void dot(std::int64_t n, std::int64_t components, const double* x, const double* y,
            double* products);
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<std::string>& warnings() const { return state_.warnings; }
 
   // --- statistics ---
   const Timers& timers() const { return timers_; }
   const Communicator& communicator() const { return *comm_; }
   const std::shared_ptr<const Communicator>& ranks() const { return comm_; }
-  std::int64_t steps_done() const { return steps_done_; }  // on all levels
-  int coarser_levels() const { return coarser_levels_; }
+  std::int64_t steps_done() const { return state_.steps_done; }  // on all levels
+  int coarser_levels() const { return state_.coarser_levels; }
   virtual std::int64_t rebuilds() const = 0;
   virtual std::int64_t rebalances() const = 0;
-  std::int64_t inserted() const { return inserted_; }
-  std::int64_t deleted() const { return deleted_; }
-  std::int64_t dropped() const { return dropped_; }
-  std::int64_t unknown_uses() const { return unknown_uses_; }
-  std::int64_t missing_faces() const { return surface_fit_.missing_faces; }
+  std::int64_t inserted() const { return state_.inserted; }
+  std::int64_t deleted() const { return state_.deleted; }
+  std::int64_t dropped() const { return state_.dropped; }
+  std::int64_t unknown_uses() const { return state_.unknown_uses; }
+  std::int64_t missing_faces() const { return state_.surface_fit.missing_faces; }
   virtual std::int64_t unresolved_places() const = 0;
   // Of a body in space; of others all are 0.
   virtual RepairDistances repair_distances() const = 0;
-  StopReason stop_reason() const { return stop_reason_; }
+  StopReason stop_reason() const { return state_.stop_reason; }
   // Has a run come to its end, and no step been done since?
   bool finished() const {
-    return has_nodes() && schedule_.ended && stop_reason_ != StopReason::monitor;
+    return has_nodes() && state_.schedule.ended && state_.stop_reason != StopReason::monitor;
   }
   virtual Speeds speeds() const = 0;
   virtual LevelFigures level_figures() const = 0;
@@ -166,8 +152,8 @@ class Placement {
   virtual std::uint64_t hash() const = 0;
 
  protected:
-  // Of the nodes there are; -1 if there are none.
-  virtual std::int64_t node_version() const = 0;
+  // Of the level there is.
+  virtual LevelStamp stamp() const = 0;
   void require_places(std::int64_t n) const;  // of all nodes and ghosts
   void require_owned(std::int64_t n) const;   // of all nodes at least
   void gather_terms(std::int64_t components, const double* x, const double* y);
@@ -187,9 +173,7 @@ class Placement {
   void warn_of_surface_fit();
   double bytes_allowed() const;
   PopulationCounts count_population_change(PopulationCounts change);
-  void forget_results() {
-    order_version_ = lists_version_ = stars_version_ = quality_version_ = exchange_version_ = -1;
-  }
+  void put_back(const RunState& before);
 
   std::shared_ptr<const Communicator> comm_;
   Options options_;
@@ -198,28 +182,17 @@ class Placement {
   Clock::time_point last_asked_ = Clock::now();  // of the monitor
 
   bool between_steps_ = false, at_event_ = false;  // while a monitor is asked
-  int coarser_levels_ = 0;                         // that the nodes came from
-  Schedule schedule_;                              // of the level there is
-  Speeds last_speeds_;
-  std::int64_t steps_done_ = 0, inserted_ = 0, deleted_ = 0, dropped_ = 0, rebuilds_before_ = 0,
-               rebalances_before_ = 0, unknown_uses_ = 0;
-  std::int64_t unknown_uses_before_ = 0;  // of this rank, on levels that are no more
-  StopReason stop_reason_ = StopReason::none;
-  std::vector<std::string> warnings_;
-  std::size_t warnings_of_level_ = 0;  // the first of them; the others are of the last run
+  RunState state_;
   Timers timers_;
 
-  // Versions of the level for which these were prepared last.
-  std::int64_t order_version_ = -1, lists_version_ = -1, stars_version_ = -1, quality_version_ = -1,
-               exchange_version_ = -1;
+  // For which these were prepared last.
+  LevelStamp order_stamp_, lists_stamp_, stars_stamp_, quality_stamp_, exchange_stamp_;
   std::vector<std::int32_t> by_id_, place_;
   std::int64_t owned_in_order_ = 0;  // of by_id_, the first ones
   std::shared_ptr<const ExchangePattern> exchange_pattern_;
   GhostUpdate ghost_update_;
   GhostSum ghost_sum_;
   std::vector<std::int64_t> sum_entries_;  // of the sums in progress, on their way over the ranks
-  std::vector<EdgeBand> edge_bands_;       // of the level's finish
-  SurfaceFit surface_fit_;                 // likewise
   ElementQuality quality_;
 };
 

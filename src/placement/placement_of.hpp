@@ -73,8 +73,8 @@ class PlacementOf : public Placement {
   Outcome initialise() override;
   Outcome step(std::int64_t n) override;
   Outcome run() override;
-  PopulationCounts adjust_population() override;
-  void rebalance() override;
+  Outcome adjust_population(PopulationCounts& change) override;
+  Outcome rebalance() override;
   Estimate estimate() override;
 
   bool has_nodes() const override { return level_ != nullptr; }
@@ -141,10 +141,10 @@ class PlacementOf : public Placement {
   std::shared_ptr<const Spacing<Dim>> spacing_from(std::vector<double> values);
 
   std::int64_t rebuilds() const override {
-    return rebuilds_before_ + (level_ ? level_->neighbourhood.rebuilds() : 0);
+    return state_.rebuilds_before + (level_ ? level_->neighbourhood.rebuilds() : 0);
   }
   std::int64_t rebalances() const override {
-    return rebalances_before_ + (level_ ? level_->rebalances : 0);
+    return state_.rebalances_before + (level_ ? level_->rebalances : 0);
   }
   std::int64_t unresolved_places() const override { return std::ssize(placed_.held.places); }
   RepairDistances repair_distances() const override {
@@ -171,7 +171,7 @@ class PlacementOf : public Placement {
   void restore(const SavedState& saved, std::vector<SavedNode<Dim>> nodes, Patch<Dim> patch);
 
  private:
-  std::int64_t node_version() const override { return level_ ? level_->version() : -1; }
+  LevelStamp stamp() const override { return level_ ? level_->stamp() : LevelStamp(); }
   Outcome prepare_level();
   Outcome make_level();
   std::unique_ptr<Level<Dim>> level_to_place(const Settings& settings, PlacedSpacing<Dim>& placed);
@@ -260,7 +260,6 @@ class PlacementOf : public Placement {
   std::shared_ptr<const Spacing<Dim>> spacing_;
   std::unique_ptr<Level<Dim>> level_;
   GivenNodes<Dim> given_;  // nodes to start from instead of a fill
-  int filled_level_ = 0;   // coarser levels whose inside was filled, the first of them by a lattice
   bool start_from_given_ = false;
   bool spacing_replaced_ = false;       // since the level was made
   PlacedSpacing<Dim> placed_;           // with which it was

@@ -36,23 +36,23 @@ std::string warning_of(const EdgeBand& band) {
 
 // By the edges at the end of a run; if so there is a warning.
 bool Placement::spacing_missed() {
-  const EdgeBand* worst = worst_missed_band(edge_bands_);
-  if (worst) warnings_.push_back(warning_of(*worst));
+  const EdgeBand* worst = worst_missed_band(state_.edge_bands);
+  if (worst) state_.warnings.push_back(warning_of(*worst));
   return worst != nullptr;
 }
 
 // Where the last run's tetrahedra do not follow the surfaces.
 void Placement::warn_of_surface_fit() {
-  const SurfaceFit& fit = surface_fit_;
+  const SurfaceFit& fit = state_.surface_fit;
   const std::string what_helps =
       std::string("make it smaller there") +
       (options_.integer("resolve") == 0 ? ", or try the option resolve" : "");
   if (fit.missing_faces > 0)
-    warnings_.push_back("the boundary of the tetrahedra does not follow the surface at " +
-                        std::to_string(fit.missing_faces) +
-                        " triangles (statistic missing_faces), one of them at " +
-                        rounded_point_text<3>(fit.missing_at) +
-                        "; the spacing does not resolve the shape: " + what_helps);
+    state_.warnings.push_back("the boundary of the tetrahedra does not follow the surface at " +
+                              std::to_string(fit.missing_faces) +
+                              " triangles (statistic missing_faces), one of them at " +
+                              rounded_point_text<3>(fit.missing_at) +
+                              "; the spacing does not resolve the shape: " + what_helps);
 }
 
 // Nodes in corners and on curves, and nothing between them, are no picture of any spacing.
@@ -64,11 +64,11 @@ void PlacementOf<3>::warn_of_coarse_spacing() {
   for (std::size_t k = 0; k < 3; ++k) side = std::max(side, bounds.high[k] - bounds.low[k]);
   const double d = spacing_variation(*level_).min;
   if (d > kCoarse * side)
-    warnings_.push_back("the spacing is " + three_digits(d) +
-                        " or more, the longest side of the domain " + three_digits(side) +
-                        ": corners, edges and curved surfaces alone decide where nodes are; "
-                        "nodes follow a spacing of " +
-                        three_digits(kRight * side) + " or less");
+    state_.warnings.push_back("the spacing is " + three_digits(d) +
+                              " or more, the longest side of the domain " + three_digits(side) +
+                              ": corners, edges and curved surfaces alone decide where nodes are; "
+                              "nodes follow a spacing of " +
+                              three_digits(kRight * side) + " or less");
 }
 
 // Nodes that are farther than d from where the spacing is given: those between a curved boundary
@@ -101,20 +101,20 @@ void PlacementOf<Dim>::warn_of_partial_extent() {
   if (beyond.count == 0) return;
   const Box<Dim>& bounds = domain_->bounds();
   const std::string name = extent->name;
-  warnings_.push_back("the " + name + " of the spacing covers only a part of the domain: of " +
-                      std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
-                      " are farther than d from it, one of them at " +
-                      rounded_point_text<Dim>(beyond.at) + "; there " + extent->beyond + ". The " +
-                      name + " reaches " + extent_text<Dim>(extent->box, bounds) + ", the domain " +
-                      extent_text<Dim>(bounds, bounds));
+  state_.warnings.push_back(
+      "the " + name + " of the spacing covers only a part of the domain: of " +
+      std::to_string(all) + " nodes, " + std::to_string(beyond.count) +
+      " are farther than d from it, one of them at " + rounded_point_text<Dim>(beyond.at) +
+      "; there " + extent->beyond + ". The " + name + " reaches " +
+      extent_text<Dim>(extent->box, bounds) + ", the domain " + extent_text<Dim>(bounds, bounds));
 }
 
 template <int Dim>
 const ElementQuality& PlacementOf<Dim>::element_quality() {
   prepare_stars();
-  if (quality_version_ != level_->version()) {
+  if (quality_stamp_ != level_->stamp()) {
     quality_ = measure_elements<Dim>(*comm_, level_->nodes, level_->stars);
-    quality_version_ = level_->version();
+    quality_stamp_ = level_->stamp();
   }
   return quality_;
 }

@@ -56,14 +56,14 @@ std::int64_t Placement::global_count() const {
 template <int Dim>
 std::int64_t PlacementOf<Dim>::count() const {
   if (!level_) return 0;
-  return order_version_ == level_->version() ? owned_in_order_ : level_->owned_count();
+  return order_stamp_ == level_->stamp() ? owned_in_order_ : level_->owned_count();
 }
 
 template <int Dim>
 void PlacementOf<Dim>::prepare_order() {
   require_kokkos();
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
-  if (order_version_ == level_->version()) return;
+  if (order_stamp_ == level_->stamp()) return;
   // Owned nodes first, then ghosts, each by id.
   const Nodes<Dim>& nodes = level_->nodes;
   by_id_.clear();
@@ -74,32 +74,32 @@ void PlacementOf<Dim>::prepare_order() {
   place_.resize(by_id_.size());
   for (std::size_t p = 0; p < by_id_.size(); ++p)
     place_[static_cast<std::size_t>(by_id_[p])] = static_cast<std::int32_t>(p);
-  order_version_ = level_->version();
+  order_stamp_ = level_->stamp();
 }
 
 template <int Dim>
 void PlacementOf<Dim>::prepare_lists() {
   require_kokkos();
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
-  if (lists_version_ == level_->version()) return;
+  if (lists_stamp_ == level_->stamp()) return;
   pnpbs::prepare_lists(*level_);
   agreed(*comm_, [this] { prepare_order(); });
-  lists_version_ = level_->version();
+  lists_stamp_ = level_->stamp();
 }
 
 template <int Dim>
 void PlacementOf<Dim>::prepare_stars() {
   prepare_lists();
-  if (stars_version_ == level_->version()) return;
+  if (stars_stamp_ == level_->stamp()) return;
   if (!level_->distributed()) rebuild_stars(*level_);
   settle_elements(*level_, kThoroughRounds);
-  stars_version_ = level_->version();
+  stars_stamp_ = level_->stamp();
 }
 
 template <int Dim>
 std::shared_ptr<const ExchangePattern> PlacementOf<Dim>::exchange_pattern() {
   prepare_lists();
-  if (exchange_version_ == level_->version()) return exchange_pattern_;
+  if (exchange_stamp_ == level_->stamp()) return exchange_pattern_;
   const Nodes<Dim>& nodes = level_->nodes;
   const std::int64_t owned = count();
   std::vector<std::int64_t> ids;
@@ -110,7 +110,7 @@ std::shared_ptr<const ExchangePattern> PlacementOf<Dim>::exchange_pattern() {
   }
   exchange_pattern_ =
       std::make_shared<const ExchangePattern>(make_exchange_pattern(*comm_, owned, ids, owners));
-  exchange_version_ = level_->version();
+  exchange_stamp_ = level_->stamp();
   return exchange_pattern_;
 }
 

@@ -213,8 +213,8 @@ Saved<Dim> PlacementOf<Dim>::saved() {
     for (std::int32_t i = 0; i < level_->nodes.count; ++i)
       if (level_->nodes.owned(i)) saved.owned.push_back(i);
     for (std::int64_t k = 0; k < saved.count(); ++k) checksum += checksum_of(saved.node(k));
-    for (std::size_t w = warnings_of_level_; w < warnings_.size(); ++w)
-      s.warnings += warnings_[w] + "\n";
+    for (std::size_t w = state_.warnings_of_level; w < state_.warnings.size(); ++w)
+      s.warnings += state_.warnings[w] + "\n";
     s.options = lines_of_deciding(options_.in(Dim));
     if (const auto* nodal = dynamic_cast<const NodalSpacing<Dim>*>(spacing_.get()))
       saved.patch = &nodal->patch();
@@ -223,26 +223,26 @@ Saved<Dim> PlacementOf<Dim>::saved() {
   s.nodes = global_count();
   s.next_id = level_->next_id;
   s.moving = static_cast<int>(level_->nodes.moving);
-  s.step = schedule_.step;
-  s.refined = schedule_.refined;
-  s.coarser = schedule_.coarser;
-  s.taken_over = schedule_.taken_over;
-  s.ended = schedule_.ended;
-  s.population_settled = schedule_.population_settled;
-  s.quiet_events = schedule_.quiet_events;
-  s.at_event = at_event_ || schedule_.at_event;
-  s.coarser_levels = coarser_levels_;
-  s.steps_done = steps_done_;
-  s.inserted = inserted_;
-  s.deleted = deleted_;
-  s.dropped = dropped_;
+  s.step = state_.schedule.step;
+  s.refined = state_.schedule.refined;
+  s.coarser = state_.schedule.coarser;
+  s.taken_over = state_.schedule.taken_over;
+  s.ended = state_.schedule.ended;
+  s.population_settled = state_.schedule.population_settled;
+  s.quiet_events = state_.schedule.quiet_events;
+  s.at_event = at_event_ || state_.schedule.at_event;
+  s.coarser_levels = state_.coarser_levels;
+  s.steps_done = state_.steps_done;
+  s.inserted = state_.inserted;
+  s.deleted = state_.deleted;
+  s.dropped = state_.dropped;
   s.rebuilds = rebuilds();
   s.rebalances = rebalances();
-  s.stop_reason = static_cast<int>(stop_reason_);
-  s.missing_faces = surface_fit_.missing_faces;
+  s.stop_reason = static_cast<int>(state_.stop_reason);
+  s.missing_faces = state_.surface_fit.missing_faces;
   s.spacing_saved = saved.patch != nullptr;
-  s.max_speed = last_speeds_.max;
-  s.mean_speed = last_speeds_.mean;
+  s.max_speed = state_.last_speeds.max;
+  s.mean_speed = state_.last_speeds.mean;
   s.meeting_radius = meeting_radius(level_->settings);
   s.held_rounds = placed_.held.rounds;
   s.nodes_before_held = placed_.held.nodes_before;
@@ -317,43 +317,44 @@ void Placement::adopt_changes(const std::vector<OptionChange>& changes) {
   std::string told = "options changed since the checkpoint: " + text_of(changes);
   if (finished() && others) {
     begin_schedule_again();
-  } else if (finished() && more_steps && stop_reason_ == StopReason::rest) {
-    told += "; the bubbles rest after " + std::to_string(schedule_.step) +
+  } else if (finished() && more_steps && state_.stop_reason == StopReason::rest) {
+    told += "; the bubbles rest after " + std::to_string(state_.schedule.step) +
             " steps, and more of them change nothing: lower tolerance_mean for a run that goes on";
   } else if (finished() && more_steps &&
-             schedule_.step < options_.in(dimension()).integer("steps")) {
-    schedule_.ended = false;
-    schedule_.population_settled = false;
-    schedule_.quiet_events = 0;
+             state_.schedule.step < options_.in(dimension()).integer("steps")) {
+    state_.schedule.ended = false;
+    state_.schedule.population_settled = false;
+    state_.schedule.quiet_events = 0;
   } else if (finished()) {
     told += "; the run is at its end, and they change nothing of it";
   }
-  warnings_.insert(warnings_.begin() + static_cast<std::ptrdiff_t>(warnings_of_level_), told);
-  ++warnings_of_level_;
+  state_.warnings.insert(
+      state_.warnings.begin() + static_cast<std::ptrdiff_t>(state_.warnings_of_level), told);
+  ++state_.warnings_of_level;
 }
 
 template <int Dim>
 void PlacementOf<Dim>::adopt_state(const SavedState& s) {
-  schedule_ = Schedule();
-  schedule_.step = s.step;
-  schedule_.refined = s.refined;
-  schedule_.taken_over = s.taken_over;
-  schedule_.ended = s.ended;
-  schedule_.population_settled = s.population_settled;
-  schedule_.quiet_events = static_cast<int>(s.quiet_events);
-  schedule_.at_event = s.at_event;
-  coarser_levels_ = static_cast<int>(s.coarser_levels);
-  last_speeds_ = {s.max_speed, s.mean_speed};
-  steps_done_ = s.steps_done;
-  inserted_ = s.inserted;
-  deleted_ = s.deleted;
-  dropped_ = s.dropped;
-  rebuilds_before_ = s.rebuilds;
-  rebalances_before_ = s.rebalances;
-  stop_reason_ = static_cast<StopReason>(s.stop_reason);
-  surface_fit_.missing_faces = s.missing_faces;
+  state_.schedule = Schedule();
+  state_.schedule.step = s.step;
+  state_.schedule.refined = s.refined;
+  state_.schedule.taken_over = s.taken_over;
+  state_.schedule.ended = s.ended;
+  state_.schedule.population_settled = s.population_settled;
+  state_.schedule.quiet_events = static_cast<int>(s.quiet_events);
+  state_.schedule.at_event = s.at_event;
+  state_.coarser_levels = static_cast<int>(s.coarser_levels);
+  state_.last_speeds = {s.max_speed, s.mean_speed};
+  state_.steps_done = s.steps_done;
+  state_.inserted = s.inserted;
+  state_.deleted = s.deleted;
+  state_.dropped = s.dropped;
+  state_.rebuilds_before = s.rebuilds;
+  state_.rebalances_before = s.rebalances;
+  state_.stop_reason = static_cast<StopReason>(s.stop_reason);
+  state_.surface_fit.missing_faces = s.missing_faces;
   std::istringstream lines(s.warnings);
-  for (std::string line; std::getline(lines, line);) warnings_.push_back(line);
+  for (std::string line; std::getline(lines, line);) state_.warnings.push_back(line);
 }
 
 template Saved<2> PlacementOf<2>::saved();

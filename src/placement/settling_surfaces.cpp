@@ -51,19 +51,19 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
   NodesByCarrier nodes(given);
   const bool anew = comm_->allreduce_sum(nodes.on_surfaces.size()) == 0;
   const Settings inside = level->settings;
-  const Schedule schedule = schedule_;
+  const Schedule schedule = state_.schedule;
   std::swap(level_, level);  // the time loop is that of the level there is
   const auto restore = [&] {
-    schedule_ = schedule;
+    state_.schedule = schedule;
     std::swap(level_, level);
   };
   try {
     level_->change_settings(surface_settings(inside));
-    deleted_ += sum_over_ranks(
+    state_.deleted += sum_over_ranks(
         *comm_, put_surface_nodes(*level_, std::move(nodes.on_surfaces), nodes.on_features, anew));
     begin_schedule(!anew);
-    schedule_.coarser = true;
-    schedule_.multiplied = multiplied;
+    state_.schedule.coarser = true;
+    state_.schedule.multiplied = multiplied;
     const Settings& settings = level_->settings;
     const double done = done_by_rounds();
     if (outcome != Outcome::stopped &&
@@ -71,7 +71,7 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
       outcome = Outcome::stopped;
     if (outcome != Outcome::stopped) {
       count_population_change(remove_crowded(*level_));  // nodes that coincide have no star
-      inserted_ += fill_vacancies(*level_);
+      state_.inserted += fill_vacancies(*level_);
       sweep_on_surfaces(*level_, settings.sweeps);
     }
     fix_surface_nodes(*level_);
@@ -168,8 +168,9 @@ TakenNodes PlacementOf<3>::begin_on_surfaces(Level<3>& finest,
     agreed(*comm_, [&] { taken.left_out = bring_to_surfaces(finest, nodes); });
     taken.left_out = sum_over_ranks(*comm_, taken.left_out);
   } else {
-    filled_level_ = coarser_levels_ = surface_levels_that_pay(finest);
-    if (coarser_levels_ > 0) nodes = nodes_from_coarser_levels(finest, spacing, settings, outcome);
+    state_.filled_level = state_.coarser_levels = surface_levels_that_pay(finest);
+    if (state_.coarser_levels > 0)
+      nodes = nodes_from_coarser_levels(finest, spacing, settings, outcome);
   }
   taken.thinned = sum_over_ranks(*comm_, put_on_surfaces(finest, std::move(nodes)));
   return taken;

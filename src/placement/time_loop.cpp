@@ -22,15 +22,15 @@
 namespace pnpbs {
 
 void Placement::begin_schedule(bool refined) {
-  schedule_ = Schedule();
-  schedule_.refined = refined;
+  state_.schedule = Schedule();
+  state_.schedule.refined = refined;
 }
 
 // For nodes that are there already, where the last one has ended.
 void Placement::begin_schedule_again() {
-  const bool lattice = !schedule_.refined && !schedule_.taken_over;
+  const bool lattice = !state_.schedule.refined && !state_.schedule.taken_over;
   begin_schedule(false);
-  schedule_.taken_over = !lattice;
+  state_.schedule.taken_over = !lattice;
 }
 
 // Steps on to step number `until` of the schedule, or until the bubbles rest. Events happen at
@@ -38,38 +38,38 @@ void Placement::begin_schedule_again() {
 template <int Dim>
 Outcome PlacementOf<Dim>::advance(std::int64_t until, ProgressPart part) {
   const Settings& settings = level_->settings;
-  const double first = static_cast<double>(schedule_.step);
+  const double first = static_cast<double>(state_.schedule.step);
   Outcome outcome = Outcome::not_converged;
-  stop_reason_ = StopReason::step_limit;
+  state_.stop_reason = StopReason::step_limit;
   std::exception_ptr failure;  // of this rank: told to the others at the next event
   bool started = true;
-  if (std::exchange(schedule_.at_event, false) && bubbles_rest()) {
-    stop_reason_ = StopReason::rest;
+  if (std::exchange(state_.schedule.at_event, false) && bubbles_rest()) {
+    state_.stop_reason = StopReason::rest;
     return Outcome::converged;
   }
-  while (schedule_.step < until) {
-    if (started || schedule_.step % settings.event_interval % settings.exchange_interval == 0)
+  while (state_.schedule.step < until) {
+    if (started || state_.schedule.step % settings.event_interval % settings.exchange_interval == 0)
       exchange_for_steps(*level_, failure);
     started = false;
     pnpbs::step(*level_, failure);
-    ++schedule_.step;
-    ++steps_done_;
-    const bool is_event = schedule_.step % settings.event_interval == 0;
-    if (is_event || schedule_.step == until || !level_->distributed())
+    ++state_.schedule.step;
+    ++state_.steps_done;
+    const bool is_event = state_.schedule.step % settings.event_interval == 0;
+    if (is_event || state_.schedule.step == until || !level_->distributed())
       agree_on_failure(*comm_, failure);
-    const double done = (static_cast<double>(schedule_.step) - first) /
+    const double done = (static_cast<double>(state_.schedule.step) - first) /
                         std::max(1.0, static_cast<double>(until) - first);
     const double fraction = part.begin + done * (part.end - part.begin);
     if (is_event) event();
     if (stops_after_step(is_event, fraction)) {
       if (!is_event) refresh_spacing(*level_);  // as d is at the nodes now
       outcome = Outcome::stopped;
-      stop_reason_ = StopReason::monitor;
+      state_.stop_reason = StopReason::monitor;
       break;
     }
     if (is_event && bubbles_rest()) {
       outcome = Outcome::converged;
-      stop_reason_ = StopReason::rest;
+      state_.stop_reason = StopReason::rest;
       break;
     }
   }
@@ -80,15 +80,15 @@ Outcome PlacementOf<Dim>::advance(std::int64_t until, ProgressPart part) {
 template <int Dim>
 void PlacementOf<Dim>::event() {
   const Settings& settings = level_->settings;
-  last_speeds_ = speeds_of(*level_);
+  state_.last_speeds = speeds_of(*level_);
   refresh_spacing(*level_);
   if constexpr (Dim == 3)
-    if (!schedule_.multiplied) require_sampled_spacing(*level_);
+    if (!state_.schedule.multiplied) require_sampled_spacing(*level_);
   const double population_until =
       std::floor(settings.population_share * static_cast<double>(settings.steps));
-  if (static_cast<double>(schedule_.step) > population_until && !far_too_few())
-    schedule_.population_settled = true;
-  if (!schedule_.population_settled)
+  if (static_cast<double>(state_.schedule.step) > population_until && !far_too_few())
+    state_.schedule.population_settled = true;
+  if (!state_.schedule.population_settled)
     control_population();  // renews the ghosts, too; else the next step does
   keep_balance();
 }
@@ -100,7 +100,7 @@ void PlacementOf<Dim>::keep_balance() {
   constexpr double kNoBetter = 1.02;
   const double imbalance = imbalance_of(*level_);
   if (imbalance <=
-      std::max(level_->settings.rebalance_above, kNoBetter * schedule_.imbalance_reached))
+      std::max(level_->settings.rebalance_above, kNoBetter * state_.schedule.imbalance_reached))
     return;
   rebalance_now();
 }
@@ -108,7 +108,7 @@ void PlacementOf<Dim>::keep_balance() {
 template <int Dim>
 void PlacementOf<Dim>::rebalance_now() {
   pnpbs::rebalance(*level_);
-  schedule_.imbalance_reached = imbalance_of(*level_);
+  state_.schedule.imbalance_reached = imbalance_of(*level_);
 }
 
 // Nodes given from outside may be so few that they take longer to multiply.
@@ -129,11 +129,11 @@ double PlacementOf<Dim>::tolerance_of_mean(int round) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   constexpr double kOff = 0.01, kFarOff = 0.02;
   // What is off on a coarser level is off on all finer ones; on the finest each change costs steps.
-  const double tolerance = (schedule_.coarser ? 1 : 3) * kMeanTolerance;
+  const double tolerance = (state_.schedule.coarser ? 1 : 3) * kMeanTolerance;
   if (level_->settings.dimension == 2) return round == 0 ? tolerance : kNever;
-  if (schedule_.taken_over) return round < 2 ? kOff : kFarOff;
+  if (state_.schedule.taken_over) return round < 2 ? kOff : kFarOff;
   if (round >= 2) return kNever;
-  return schedule_.coarser || schedule_.refined ? tolerance : kFarOff;
+  return state_.schedule.coarser || state_.schedule.refined ? tolerance : kFarOff;
 }
 
 // Adjusts the population while it pays. A new spacing may ask for many times the nodes there are,
@@ -155,19 +155,19 @@ void PlacementOf<Dim>::control_population() {
   const Settings& settings = level_->settings;
   // Nodes that have just come may make room for more: so twice in a row. After a coarser level
   // there is little left to do.
-  const bool quiet =
-      changed <= (schedule_.refined ? kRefinedPays : 1) * settings.population_tolerance * nodes;
-  schedule_.quiet_events = quiet ? schedule_.quiet_events + 1 : 0;
-  schedule_.population_settled =
-      schedule_.quiet_events >= (schedule_.refined ? 1 : 2) && !far_too_few();
+  const bool quiet = changed <= (state_.schedule.refined ? kRefinedPays : 1) *
+                                    settings.population_tolerance * nodes;
+  state_.schedule.quiet_events = quiet ? state_.schedule.quiet_events + 1 : 0;
+  state_.schedule.population_settled =
+      state_.schedule.quiet_events >= (state_.schedule.refined ? 1 : 2) && !far_too_few();
 }
 
 // While the population still changes, rest means nothing.
 template <int Dim>
 bool PlacementOf<Dim>::bubbles_rest() const {
   const Settings& settings = level_->settings;
-  return schedule_.population_settled && last_speeds_.mean < settings.tolerance_mean &&
-         last_speeds_.max < settings.tolerance_max;
+  return state_.schedule.population_settled && state_.last_speeds.mean < settings.tolerance_mean &&
+         state_.last_speeds.max < settings.tolerance_max;
 }
 
 // Each part of it leaves valid nodes.
@@ -177,12 +177,12 @@ Outcome PlacementOf<Dim>::finish() {
   const auto stops = [this] {
     if (!monitor_stops_by_clock(part_of_steps().end)) return false;
     refresh_spacing(*level_);
-    stop_reason_ = StopReason::monitor;
+    state_.stop_reason = StopReason::monitor;
     return true;
   };
   if (settings.runge_kutta_finish) {
     finish_by_runge_kutta(*level_);
-    ++steps_done_;
+    ++state_.steps_done;
   }
   repair_defects();
   if (stops()) return Outcome::stopped;
@@ -204,8 +204,8 @@ Outcome PlacementOf<Dim>::smooth(const Stops& stops) {
   std::int64_t sweeps = level_->settings.sweeps;
   const auto refine = [this] {
     const PopulationCounts counts = refine_boundary(*level_);
-    inserted_ += counts.inserted;
-    deleted_ += counts.deleted;
+    state_.inserted += counts.inserted;
+    state_.deleted += counts.deleted;
     return counts.inserted + counts.deleted > 0;
   };
   refine();
@@ -213,7 +213,7 @@ Outcome PlacementOf<Dim>::smooth(const Stops& stops) {
     if (stops()) return Outcome::stopped;
     const FinishResults results = sweep_and_repair(*level_, sweeps);
     count_population_change(results.counts);
-    edge_bands_ = results.edge_bands;
+    state_.edge_bands = results.edge_bands;
     if (!refine()) break;
     sweeps = 0;
   }

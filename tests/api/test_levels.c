@@ -187,6 +187,69 @@ static int32_t failing_spacing(int64_t n, int32_t dim, const double* xyz, double
   return cone_spacing(n, dim, xyz, d, &graded);
 }
 
+static const char* const kCounted[] = {"steps",    "levels",     "inserted", "deleted",
+                                       "rebuilds", "rebalances", "dropped",  "unknown_uses"};
+enum { COUNTED = sizeof kCounted / sizeof *kCounted };
+
+typedef struct {
+  int64_t counts[COUNTED];
+  char stop_reason[32];
+} figures;
+
+static figures figures_of(pnpbs_placement placement) {
+  figures f;
+  const char* text = NULL;
+  int k;
+  memset(&f, 0, sizeof f);
+  for (k = 0; k < COUNTED; ++k) f.counts[k] = integer_of(placement, kCounted[k]);
+  MUST(pnpbs_placement_get_string(placement, "stop_reason", &text));
+  strncpy(f.stop_reason, text, sizeof f.stop_reason - 1);
+  return f;
+}
+
+/* Of what has failed, the figures tell nothing. */
+START_TEST(a_failure_tells_nothing) {
+  failing f = {0, -1};
+  job it = square_job(1);
+  figures before, after;
+  int calls, k, c;
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, failing_spacing, &f));
+  MUST(pnpbs_placement_initialise(it.placement));
+  calls = f.calls;
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  before = figures_of(it.placement);
+  for (k = 1; k < 4; ++k) {
+    f.calls = 0;
+    f.fail_at = calls * k / 4;
+    MUST_BE(PNPBS_ERROR_CALLBACK, pnpbs_placement_initialise(it.placement));
+    after = figures_of(it.placement);
+    for (c = 0; c < COUNTED; ++c)
+      ck_assert_msg(after.counts[c] == before.counts[c], "%s was %d, is %d", kCounted[c],
+                    (int)before.counts[c], (int)after.counts[c]);
+    ck_assert_str_eq(after.stop_reason, before.stop_reason);
+  }
+  job_end(&it);
+}
+END_TEST
+
+/* What initialises first says so if the monitor stops that, and goes no further. */
+START_TEST(adjustments_can_be_stopped) {
+  static cone graded = {0.0048, 0.016, 0.5, 0.5};
+  watcher seen = {0, 1, 0, 0};
+  job it = graded_square(&graded);
+  seen.stop_at = 0;
+  MUST(pnpbs_placement_set_monitor(it.placement, watch, &seen));
+  MUST_BE(PNPBS_STOPPED, _i ? pnpbs_placement_adjust_population(it.placement, NULL, NULL)
+                            : pnpbs_placement_rebalance(it.placement));
+  ck_assert_int_eq(seen.calls, 1);
+  check_placement(it.placement, 1);
+  MUST(pnpbs_placement_set_monitor(it.placement, NULL, NULL));
+  MUST(pnpbs_placement_run(it.placement));
+  check_placement(it.placement, 1);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(a_failure_leaves_nothing) {
   failing f = {0, -1};
   job it = square_job(1);
@@ -221,6 +284,8 @@ int main(void) {
   tcase_add_test(tests, defects_become_fewer);
   tcase_add_loop_test(tests, they_can_be_stopped, 0, 2);
   tcase_add_test(tests, a_failure_leaves_nothing);
+  tcase_add_test(tests, a_failure_tells_nothing);
+  tcase_add_loop_test(tests, adjustments_can_be_stopped, 0, 2);
   suite_add_tcase(suite, tests);
   return run_suite(suite);
 }

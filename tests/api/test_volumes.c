@@ -496,6 +496,56 @@ START_TEST(stopped_by_the_monitor) {
 }
 END_TEST
 
+typedef struct {
+  int64_t nodes[64];
+  int calls;
+} told_nodes;
+
+static int32_t telling_nodes(double fraction, int64_t step, int64_t nodes, double max_speed,
+                             void* user) {
+  told_nodes* told = user;
+  (void)fraction, (void)step, (void)max_speed;
+  ck_assert_int_lt(told->calls, 64);
+  told->nodes[told->calls++] = nodes;
+  return 0;
+}
+
+/* Of a level that follows a coarse one, which has changed so many times more, and whose nodes were
+ * asked for or not. */
+static told_nodes told_of_the_next_level(int changes, int ask) {
+  struct volume_spacing spacing = VOLUME_GRADED(0.1, 0.1, 0, 0, 0);
+  job it = body_job(volume_unit_box);
+  told_nodes told = {{0}, 0};
+  int64_t nodes;
+  MUST(pnpbs_placement_set(it.placement, "event_interval", "1"));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.25));
+  MUST(pnpbs_placement_initialise(it.placement));
+  while (changes-- > 0) MUST_COMPUTE(pnpbs_placement_step(it.placement, 0));
+  if (ask) {
+    MUST(pnpbs_placement_count(it.placement, &nodes));
+    MUST(pnpbs_placement_get_nodes(it.placement, nodes, NULL, NULL, NULL, NULL));
+  }
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, volume_spacing_at, &spacing));
+  MUST(pnpbs_placement_set_monitor(it.placement, telling_nodes, &told));
+  MUST(pnpbs_placement_initialise(it.placement));
+  job_end(&it);
+  return told;
+}
+
+/* What was found of the nodes of one level is not taken for that of another, which has changed as
+ * many times, while its surfaces settle. */
+START_TEST(levels_are_told_apart) {
+  int changes, k;
+  for (changes = 0; changes < 12; ++changes) {
+    const told_nodes expected = told_of_the_next_level(changes, 0),
+                     told = told_of_the_next_level(changes, 1);
+    ck_assert_int_gt(expected.calls, 3);
+    ck_assert_int_eq(told.calls, expected.calls);
+    for (k = 0; k < told.calls; ++k) ck_assert_int_eq(told.nodes[k], expected.nodes[k]);
+  }
+}
+END_TEST
+
 START_TEST(by_steps) {
   job it = box_job(0.15);
   int64_t inserted = -1, deleted = -1, before;
@@ -718,6 +768,7 @@ int main(void) {
   tcase_add_loop_test(tests, no_vacancies_beside_a_wall, 0, WHEN_SANITIZED(1, 2));
   tcase_add_loop_test(tests, stopped_by_the_monitor, 0, WHEN_SANITIZED(3, 5));
   tcase_add_test(tests, by_steps);
+  tcase_add_test(tests, levels_are_told_apart);
   tcase_add_test(tests, fills_count_as_inserted);
   tcase_add_test(tests, given_nodes);
   tcase_add_test(tests, values_at_nodes);

@@ -24,7 +24,7 @@ std::unique_ptr<Placement3> cube() {
   auto placement = std::make_unique<Placement3>(pnpbs::serial_communicator(), std::move(domain),
                                                 pnpbs::Options());
   placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<3>>(0.25));
-  placement->run();
+  ck_assert(placement->run() != pnpbs::Outcome::stopped);
   return placement;
 }
 

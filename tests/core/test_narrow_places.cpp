@@ -28,7 +28,7 @@ std::unique_ptr<Placement3> plate(double thickness) {
   auto placement =
       std::make_unique<Placement3>(pnpbs::serial_communicator(), std::move(domain), options);
   placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<3>>(kSpacing));
-  placement->initialise();
+  ck_assert(placement->initialise() != pnpbs::Outcome::stopped);
   return placement;
 }
 

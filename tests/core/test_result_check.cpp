@@ -23,7 +23,7 @@ std::unique_ptr<Placement> small_placement() {
   auto placement =
       std::make_unique<Placement>(pnpbs::serial_communicator(), domain, pnpbs::Options());
   placement->set_spacing(spacing_of(constant(0.1)));
-  placement->run();
+  ck_assert(placement->run() != pnpbs::Outcome::stopped);
   placement->prepare_stars();
   return placement;
 }

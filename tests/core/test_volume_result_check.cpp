@@ -26,7 +26,7 @@ std::unique_ptr<Placement3> small_placement() {
   auto placement = std::make_unique<Placement3>(pnpbs::serial_communicator(), std::move(domain),
                                                 pnpbs::Options());
   placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<3>>(0.125));
-  placement->run();
+  ck_assert(placement->run() != pnpbs::Outcome::stopped);
   placement->prepare_stars();
   return placement;
 }

@@ -26,7 +26,7 @@ std::unique_ptr<Placement> cube_with_cavity() {
   auto placement = std::make_unique<Placement>(pnpbs::serial_communicator(), std::move(domain),
                                                pnpbs::Options());
   placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<3>>(0.125));
-  placement->run();
+  ck_assert(placement->run() != pnpbs::Outcome::stopped);
   placement->prepare_stars();
   return placement;
 }

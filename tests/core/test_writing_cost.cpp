@@ -41,7 +41,7 @@ std::unique_ptr<pnpbs::PlacementOf<Dim>> placed(std::shared_ptr<SomeDomain> doma
   auto placement = std::make_unique<pnpbs::PlacementOf<Dim>>(pnpbs::serial_communicator(),
                                                              std::move(domain), options);
   placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<Dim>>(d));
-  placement->run();
+  ck_assert(placement->run() != pnpbs::Outcome::stopped);
   placement->prepare_stars();
   return placement;
 }
