@@ -724,7 +724,9 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  run goes on from its nodes, up to `conforming_rounds` times; a warning says what that cost
  *  (statistic `unresolved_places`). It stays smaller there until another spacing is set. There is a
  *  warning, too, where the tetrahedra's boundary does not follow the surfaces (statistic
- *  `missing_faces`): see the option `resolve`. */
+ *  `missing_faces`): see the option `resolve`; and where corners and sharp edges are left out
+ *  (statistic `left_out`), as no tetrahedra hold on to them: what lies between them is smaller than
+ *  half of d, or the body ends there in a tip or an edge too sharp for any d. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
 /** The dimension of the placement's domain. Local.

@@ -67,6 +67,8 @@ struct Level {
   TimeIntegration<Dim> time_integration;
 
   std::int64_t settings_version = 0, rebalances = 0;
+  std::int64_t left_out = 0;      // of the nodes on features, over all ranks (loose_pieces.hpp)
+  std::int64_t held_rounds = 0;   // in which d was held down before this level
   std::int64_t unknown_uses = 0;  // of data that this rank does not know exactly
   InexactNodes inexact;           // since the last exchange, in builds that look
 };

@@ -122,6 +122,7 @@ Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpaci
                                    const Settings& settings) {
   const std::shared_ptr<const Spacing<Dim>> spacing = placed.d;
   const bool taken_over = level_ || start_from_given_;
+  next->held_rounds = placed.held.rounds;
   TakenNodes taken;
   std::int64_t inserted = 0;
   Outcome outcome = Outcome::converged;

@@ -163,6 +163,7 @@ Outcome PlacementOf<Dim>::steps_and_finish() {
   if (outcome == Outcome::stopped) return outcome;
   if (finish() == Outcome::stopped) return Outcome::stopped;
   warn_of_surface_fit();
+  if constexpr (Dim == 3) warn_of_features_left_out();
   const bool conforms = elements_conform(), missed = spacing_missed();
   return !conforms ? Outcome::not_conforming : missed ? Outcome::spacing_missed : outcome;
 }

@@ -134,6 +134,7 @@ class Placement {
   std::int64_t dropped() const { return state_.dropped; }
   std::int64_t unknown_uses() const { return state_.unknown_uses; }
   std::int64_t missing_faces() const { return state_.surface_fit.missing_faces; }
+  virtual std::int64_t left_out() const = 0;
   virtual std::int64_t unresolved_places() const = 0;
   // Of a body in space; of others all are 0.
   virtual RepairDistances repair_distances() const = 0;

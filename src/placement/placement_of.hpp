@@ -146,6 +146,7 @@ class PlacementOf : public Placement {
   std::int64_t rebalances() const override {
     return state_.rebalances_before + (level_ ? level_->rebalances : 0);
   }
+  std::int64_t left_out() const override { return level_ ? level_->left_out : 0; }
   std::int64_t unresolved_places() const override { return std::ssize(placed_.held.places); }
   RepairDistances repair_distances() const override {
     if constexpr (Dim == 3) return domain_->repair_distances();
@@ -193,7 +194,8 @@ class PlacementOf : public Placement {
   Outcome hold_spacing();
   Outcome begin_held_round(PlacedSpacing<Dim> placed);
   void warn_of_held_spacing();
-  void warn_of_coarse_spacing();  // in space
+  void warn_of_features_left_out();  // in space
+  void warn_of_coarse_spacing();     // in space
   void warn_of_partial_extent();
   static bool too_steep(const SteepestGrowth<Dim>& steepest);
   static std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);

@@ -6,6 +6,7 @@
 #include "base/point_text.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/found_nodes.hpp"
+#include "level/volume/loose_pieces.hpp"
 #include "placement/placement_of.hpp"
 #include "spacing/beside_domain.hpp"
 
@@ -53,6 +54,18 @@ void Placement::warn_of_surface_fit() {
                               " triangles (statistic missing_faces), one of them at " +
                               rounded_point_text<3>(fit.missing_at) +
                               "; the spacing does not resolve the shape: " + what_helps);
+}
+
+// Corners and feature edges that the elements do not have.
+template <>
+void PlacementOf<3>::warn_of_features_left_out() {
+  const FoundNodes<3> features = features_left_out(*level_);
+  if (features.count > 0)
+    state_.warnings.push_back(
+        "left out: " + std::to_string(features.count) +
+        " nodes of corners and sharp edges, one of them at " + rounded_point_text<3>(features.at) +
+        ": the body is thinner than the spacing there, and no tetrahedra held on to "
+        "them; make the spacing smaller there to keep them");
 }
 
 // Nodes in corners and on curves, and nothing between them, are no picture of any spacing.

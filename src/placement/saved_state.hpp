@@ -20,7 +20,8 @@ struct SavedState {
   std::int64_t step = 0, refined = 0, coarser = 0, taken_over = 0, ended = 0,
                population_settled = 0, quiet_events = 0, at_event = 0;
   std::int64_t coarser_levels = 0, steps_done = 0, inserted = 0, deleted = 0, dropped = 0,
-               rebuilds = 0, rebalances = 0, stop_reason = 0, missing_faces = 0, spacing_saved = 0;
+               rebuilds = 0, rebalances = 0, stop_reason = 0, missing_faces = 0, spacing_saved = 0,
+               left_out = 0;
   std::int64_t held_rounds = 0, nodes_before_held = 0;
   double max_speed = 0, mean_speed = 0, meeting_radius = 0;
   std::uint64_t domain_fingerprint = 0;
@@ -55,6 +56,7 @@ void for_fields(State& state, const Visit& visit) {
   visit("stop_reason", state.stop_reason);
   visit("missing_faces", state.missing_faces);
   visit("spacing_saved", state.spacing_saved);
+  visit("left_out", state.left_out);
   visit("held_rounds", state.held_rounds);
   visit("nodes_before_held", state.nodes_before_held);
   visit("max_speed", state.max_speed);

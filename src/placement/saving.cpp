@@ -36,9 +36,9 @@ void require_possible(const SavedState& s) {
   const bool counts = s.nodes > 0 && count(s.next_id) && count(s.step) && count(s.steps_done) &&
                       count(s.inserted) && count(s.deleted) && count(s.dropped) &&
                       count(s.held_rounds) && count(s.nodes_before_held) && count(s.rebuilds) &&
-                      count(s.rebalances) && count(s.missing_faces) && count(s.quiet_events) &&
-                      s.quiet_events < 1 << 30 && count(s.coarser_levels) &&
-                      s.coarser_levels < 1 << 10;
+                      count(s.rebalances) && count(s.missing_faces) && count(s.left_out) &&
+                      count(s.quiet_events) && s.quiet_events < 1 << 30 &&
+                      count(s.coarser_levels) && s.coarser_levels < 1 << 10;
   const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
                       (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
                      s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
@@ -240,6 +240,7 @@ Saved<Dim> PlacementOf<Dim>::saved() {
   s.rebalances = rebalances();
   s.stop_reason = static_cast<int>(state_.stop_reason);
   s.missing_faces = state_.surface_fit.missing_faces;
+  s.left_out = level_->left_out;
   s.spacing_saved = saved.patch != nullptr;
   s.max_speed = state_.last_speeds.max;
   s.mean_speed = state_.last_speeds.mean;
@@ -353,6 +354,8 @@ void PlacementOf<Dim>::adopt_state(const SavedState& s) {
   state_.rebalances_before = s.rebalances;
   state_.stop_reason = static_cast<StopReason>(s.stop_reason);
   state_.surface_fit.missing_faces = s.missing_faces;
+  level_->left_out = s.left_out;
+  level_->held_rounds = s.held_rounds;
   std::istringstream lines(s.warnings);
   for (std::string line; std::getline(lines, line);) state_.warnings.push_back(line);
 }

@@ -87,6 +87,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "triangles of the surfaces that the boundary of the last run's tetrahedra lacks, and its "
           "faces that are none of the surfaces"),
       integer(
+          "left_out", [](P p) { return p.left_out(); },
+          "nodes of corners and sharp edges that the last run left out, as no tetrahedra held on "
+          "to them"),
+      integer(
           "unresolved_places", [](P p) { return p.unresolved_places(); },
           "places, nodes that lacked elements and their neighbours, around which d is held down "
           "since "

@@ -133,7 +133,7 @@ const std::vector<OptionRow>& option_table() {
       {"resolve", T::integer, "0", nullptr, nullptr, 0, 1, nullptr,
        "1, in space alone: d is held down where it does not resolve the shape, to half of a wall's "
        "thickness, 3/4 of a gap's width, and at sharp edges; from there it grows by growth_limit"},
-      {"conforming_rounds", T::integer, "4", nullptr, nullptr, 0, 20, nullptr,
+      {"conforming_rounds", T::integer, "8", nullptr, nullptr, 0, 20, nullptr,
        "in space alone: where elements are lacking at the end of a run or their boundary is torn, "
        "d is halved there, and the run goes on from its nodes, at most so often; 0: d stays as it "
        "is given"},

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "comm/records.hpp"
 #include "level/finish.hpp"
 #include "level/population_events.hpp"
 #include "level/volume/boundary_pieces.hpp"
+#include "level/volume/loose_pieces.hpp"
 #include "level/volume/open_faces.hpp"
 #include "level/volume/settled_elements.hpp"
 
@@ -27,23 +27,10 @@ bool is_torn_around(const Level<3>& level, std::int64_t i) {
   return is_free(level, i) ? !fan.empty() : lacks_disks(level, i, fan);
 }
 
-// Pieces of the boundary beyond those of the surfaces, the ones with the fewest nodes: as where the
-// mouth of a crack is closed, and its bottom is a bubble.
-std::set<std::int64_t> extra_pieces(const Level<3>& level, const BoundaryPieces& pieces) {
-  std::vector<std::pair<std::int64_t, std::int64_t>> by_size;
-  for (const auto& [piece, nodes] : pieces.nodes) by_size.emplace_back(nodes, piece);
-  std::ranges::sort(by_size);
-  const std::int64_t extra = std::ssize(by_size) - pieces_of_surfaces(level);
-  std::set<std::int64_t> found;
-  for (std::int64_t k = 0; k < extra; ++k)
-    found.insert(by_size[static_cast<std::size_t>(k)].second);
-  return found;
-}
-
 // Owned nodes with the boundary around them not as it should be.
 std::vector<char> nodes_off(const Level<3>& level) {
   const BoundaryPieces pieces = boundary_pieces(level);
-  const std::set<std::int64_t> extra = extra_pieces(level, pieces);
+  const std::set<std::int64_t> extra = pieces_too_many(level, pieces);
   std::vector<char> off(static_cast<std::size_t>(level.nodes.count), 0);
   agreed(*level.comm, [&] {
     for (std::size_t i = 0; i < off.size(); ++i) {
@@ -91,9 +78,12 @@ std::int64_t remove_nodes_in_the_way(Level<3>& level, std::int64_t& nodes_off_be
   const std::vector<char> off = nodes_off(level);
   const auto count = static_cast<std::int64_t>(level.comm->allreduce_sum(
       static_cast<std::uint64_t>(std::ranges::count_if(off, [](char is) { return is != 0; }))));
-  if (count >= nodes_off_before) return 0;
-  nodes_off_before = count;
-  const std::vector<std::int64_t> ids = ids_in_the_way(level, off);
+  if (count == 0) return 0;
+  std::vector<std::int64_t> ids;
+  if (count < nodes_off_before) ids = ids_in_the_way(level, off);
+  if (ids.empty()) ids = ids_of_loose_pieces(level);
+  if (ids.empty()) ids = ids_of_lone_nodes(level);
+  nodes_off_before = std::min(nodes_off_before, count);
   if (ids.empty()) return 0;
   std::vector<std::int32_t> leaving;  // ghosts among them
   for (std::int32_t i = 0; i < level.nodes.count; ++i)

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What no elements hold on to leaves, on any ranks: pieces smaller than half of d with their corners,
+of which four lie within 0.06 d of each other in body 2:115, and tips that are sharper than
+tetrahedra can be, as in body 2:315."""
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import pnpbs
+
+from random_bodies import random_body, write_off
+
+COMMAND = os.environ["PNPBS_COMMAND"]
+CORNER = (-0.0996651, 0.243866)  # x and y of one of the four
+
+
+@dataclass
+class Body:
+    number: int         # of seed 2, asked for 1500 nodes
+    rounds: int         # in which d is held down, before nodes are left out
+    said: str
+
+    @property
+    def mesh(self):
+        return random_body(2, self.number)
+
+    @property
+    def options(self):
+        return {"wanted_nodes": 1500, "conforming_rounds": self.rounds}
+
+
+PIECES = Body(115, 0, "left out: 4 nodes of corners and sharp edges, one of them at (-0.0")
+TIPS = Body(315, 2, "left out: 2 nodes of corners and sharp edges, one of them at (0.3")
+
+
+def placement_in(context, body, given=False):
+    """With a fixed node of the user's at the corner, if it is given."""
+    x, triangles = body.mesh
+    domain = pnpbs.Domain(context, dim=3)
+    domain.add_surface(x, triangles)
+    if given:
+        domain.add_fixed_nodes([min(x, key=lambda p: math.dist(p[:2], CORNER))])
+    return pnpbs.Placement(domain, **body.options).set_spacing(1.0)
+
+
+def placed(body, file, ranks):
+    """What the command says, and what it writes."""
+    mpirun = os.environ.get("PNPBS_MPIEXEC")
+    launch = [mpirun, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
+              "-np", str(ranks)] if ranks > 1 else []
+    result = file.with_suffix(f".{ranks}.vtu")
+    done = subprocess.run(
+        [*launch, COMMAND, "--domain", str(file), "--spacing", "1", "--nodes", "1500", "--set",
+         f"conforming_rounds={body.rounds}", "--check", "--output", str(result)],
+        env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True, text=True, check=False)
+    return done, result.read_bytes()
+
+
+class LeftOut(unittest.TestCase):
+    def check_any_ranks(self, body):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "body.off"
+            write_off(file, *body.mesh)
+            done, alone = placed(body, file, 1)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(body.said, done.stderr)
+            if "PNPBS_MPIEXEC" in os.environ:
+                done, together = placed(body, file, 3)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(together, alone)
+
+    def test_pieces_leave_on_any_ranks(self):
+        self.check_any_ranks(PIECES)
+
+    def test_tips_leave_on_any_ranks(self):
+        self.check_any_ranks(TIPS)
+
+    def test_tips_leave_when_d_was_held_down_in_vain(self):
+        with pnpbs.Context() as context:
+            placement = placement_in(context, replace(TIPS, rounds=TIPS.rounds - 1))
+            self.assertEqual(placement.run(), pnpbs.Status.NOT_CONFORMING)
+            self.assertEqual(placement.statistic("left_out"), 0)
+
+    def test_a_checkpoint_knows_of_them(self):
+        with pnpbs.Context() as context, tempfile.TemporaryDirectory() as folder:
+            written, read = (placement_in(context, PIECES) for _ in range(2))
+            file = Path(folder) / "run.vtkhdf"
+            written.run()
+            written.write_checkpoint(file)
+            read.read_checkpoint(file)
+            self.assertEqual(read.statistic("left_out"), 4)
+            read.check()
+
+    def test_fixed_nodes_of_the_user_stay(self):
+        with pnpbs.Context() as context:
+            for given, expected in (False, pnpbs.Status.OK), (True, pnpbs.Status.NOT_CONFORMING):
+                placement = placement_in(context, PIECES, given)
+                self.assertEqual(placement.run(), expected)
+                self.assertEqual(placement.statistic("left_out"), 0 if given else 4)
+
+
+if __name__ == "__main__":
+    unittest.main()
