@@ -189,21 +189,21 @@ def run_all(args, table):
 TITLES = ["nodes/s", "of the default's speed", "steps", "mean quality", "99 % above",
           "least: mean / worst", "smallest angle: mean / worst", "edge/d"]
 
-HOW = """What the columns say:
+HOW = """The columns:
 
-- One option at a time is moved away from its default under the preset; that is the line in bold, the
-  same in every table. Each setting is run at {scales} scales of d, from {least} to {largest} times that
-  of the benchmark: figures are means over them, "worst" is the least of them.
-- nodes/s: nodes over the user time of a run, median over the scales; reading and judging do not
-  count. Steps are those of all levels. Everything is compared with the default, so that one is timed
+- One option at a time is moved away from its default under the preset. The default is the line in bold,
+  the same in every table. Each setting is run at {scales} scales of d, from {least} to {largest} times that
+  of the benchmark. Figures are means over them; "worst" is the lowest of them.
+- nodes/s: nodes over the user time of a run, median over the scales, without reading and evaluation.
+  Steps are those of all levels. Everything is compared with the default, so the default is timed
   {repeat} times at each scale.
-- Quality is 2 r_in / R of the triangles, 1 for an equilateral one; angles in degrees; edge/d is mean
-  and deviation of the edges over the spacing at their ends. Judged by CGAL, as in the README.
+- Quality is 2 r_in / R of the triangles, 1 for an equilateral one. Angles are in degrees. edge/d is the
+  mean and deviation of the edges over the spacing at their ends. Evaluated by CGAL, as in the README.
 """
 
 CHANCE = """- Chance: from one scale to the next the default's mean quality varies by {mean:.5f} (standard
   deviation), its 99 % by {one_percent:.4f}, its least by {least:.3f}, its smallest angle by {angle:.1f}
-  degrees; means over all scales {share:.2f} times as much. Smaller differences in a table say nothing.
+  degrees; means over all scales {share:.2f} times as much. Smaller differences in a table are not significant.
 """
 
 
