@@ -72,8 +72,9 @@ expected_files() {
       echo "$libdir/cmake/pnpbs/pnpbsGeoFortranTargets-$configuration.cmake"
     fi
   fi
-  echo "$datadir/doc/pnpbs/LICENSE"
-  echo "$datadir/doc/pnpbs/README.md"
+  for file in LICENSE README.md CONTRIBUTING.md; do
+    echo "$datadir/doc/pnpbs/$file"
+  done
   same_files docs "$datadir/doc/pnpbs/docs" | grep -v '/pnpbs\.1$'
   same_files abi "$datadir/doc/pnpbs/abi"
   same_files packaging "$datadir/doc/pnpbs/packaging"
