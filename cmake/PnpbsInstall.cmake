@@ -158,7 +158,7 @@ if(PNPBS_HAVE_MPI)
 endif()
 
 # ------------------------------------------------------------------ texts, examples -------------
-install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION "${doc_dir}")
+install(FILES LICENSE README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION "${doc_dir}")
 # In folders as here, for the links between them.
 install(DIRECTORY docs DESTINATION "${doc_dir}" PATTERN "pnpbs.1" EXCLUDE)
 install(DIRECTORY abi packaging DESTINATION "${doc_dir}" PATTERN "__pycache__" EXCLUDE)

@@ -72,7 +72,7 @@ expected_files() {
       echo "$libdir/cmake/pnpbs/pnpbsGeoFortranTargets-$configuration.cmake"
     fi
   fi
-  for file in LICENSE README.md CHANGELOG.md CONTRIBUTING.md; do
+  for file in LICENSE README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md; do
     echo "$datadir/doc/pnpbs/$file"
   done
   same_files docs "$datadir/doc/pnpbs/docs" | grep -v '/pnpbs\.1$'

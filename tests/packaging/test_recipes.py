@@ -40,6 +40,7 @@ class Versions(unittest.TestCase):
                 ("include/pnpbs/pnpbs.h", f'#define PNPBS_VERSION_STRING "{VERSION}"'),
                 ("bindings/julia/PNPBS.jl/Project.toml", f'version = "{VERSION}"'),
                 ("bindings/python/pyproject.toml", f'version = "{VERSION}"'),
+                ("CITATION.cff", f"version: {VERSION}"),
                 ("packaging/yggdrasil/build_tarballs.jl", f'version = v"{VERSION}"')):
             self.assertIn(line, (SOURCE / file).read_text().splitlines(), file)
         self.assertRegex((SOURCE / "docs/pnpbs.1").read_text(), rf'(?m)^\.TH .*"PNPBS {VERSION}"')
