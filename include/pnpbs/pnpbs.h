@@ -4,11 +4,11 @@
  *
  * Glossary
  *   node        a point to compute on; the centre of a bubble
- *   spacing     d(x) > 0, the wanted distance between neighbouring nodes about x, in the
+ *   spacing     d(x) > 0, the requested distance between neighbouring nodes near x, in the
  *               unit of the coordinates; a bubble's diameter
  *   boundary    the curves that bound a domain in the plane, or the surfaces that bound one in
- *               space. Curves are cut into boundary edges between consecutive boundary nodes,
- *               surfaces into boundary triangles; every one of these is an edge or a face of the
+ *               space. Curves are divided into boundary edges between consecutive boundary nodes,
+ *               surfaces into boundary triangles; each of these is an edge or a face of the
  *               Delaunay triangulation that the stars describe
  *   tag         an integer that marks what a node, boundary edge or boundary triangle lies on;
  *               0 for inner nodes
@@ -17,27 +17,27 @@
  *               order around it
  *
  * Conventions of every function
- *   status      a pnpbs_status is returned: 0 done; > 0 an outcome whose results are valid;
- *               < 0 an error: nothing changed, the message is in pnpbs_last_error.
+ *   status      a pnpbs_status is returned: 0 success; > 0 an outcome with valid results;
+ *               < 0 an error: nothing changed, and pnpbs_last_error returns the message.
  *   collective  "Collective" functions must be called by all ranks of the context, in the same
  *               order, and return the same status on all of them. "Local" ones need not.
- *   arrays      are the caller's, are read or filled during the call, and are never kept.
+ *   arrays      belong to the caller, are read or filled during the call, and are never kept.
  *               Coordinates are interleaved, [n][dim] with dim = 2 in the plane, 3 in space.
  *               Counts, ids, indices and offsets are 64-bit; indices and offsets are 0-based.
- *   dimension   functions for domains or placements "in the plane" or "in space" refuse others with
+ *   dimension   functions for domains or placements "in the plane" or "in space" reject others with
  *               PNPBS_ERROR_ARGUMENT; all other functions are for both.
- *   range       coordinates reach up to 1e60; a domain is at least 1e-60 large, and at least 1e-10
- *               of its distance from the origin, so that the digits of its coordinates tell
- *               places apart. Others are PNPBS_ERROR_DOMAIN. A spacing may be larger than the
- *               domain: then only corners are nodes, and there is a warning.
- *   strings     we return belong to the library and stay valid until the next call on the
- *               same context (tables: for ever); strings we take are copied.
- *   callbacks   come on the calling thread, never two at once. From inside one, only queries
- *               of the library work; anything else returns PNPBS_ERROR_STATE.
+ *   range       coordinates reach up to 1e60. The size of a domain is at least 1e-60, and at least
+ *               1e-10 of its distance from the origin, so that coordinates resolve distinct points;
+ *               other domains are PNPBS_ERROR_DOMAIN. A spacing may be larger than the domain:
+ *               then only corners are nodes, with a warning.
+ *   strings     returned strings belong to the library and stay valid until the next call on the
+ *               same context (tables: for the life of the process); string arguments are copied.
+ *   callbacks   run on the calling thread, one at a time. Inside a callback only queries of the
+ *               library work; anything else returns PNPBS_ERROR_STATE.
  *   threads     one host thread at a time per context; contexts are independent.
- *   side effects  nothing is printed, no signal handler is installed, the process never ends.
- *   arithmetic  calls round to nearest, trap nothing and flush nothing to zero, whatever the
- *               calling thread does; callbacks and what comes after a call go by its settings.
+ *   side effects  nothing is printed, no signal handler is installed, the process is never ended.
+ *   arithmetic  calls round to nearest, without traps or flushing to zero, whatever the settings
+ *               of the calling thread; these apply in callbacks and again after the call.
  *
  * Source of the method: Y. Nie, W. Zhang, N. Qi, Y. Li, "Parallel node placement method by
  * bubble simulation", Comput. Phys. Commun. 185 (2014) 798-808 ("the paper").
@@ -64,7 +64,7 @@ extern "C" {
 
 /* ---------------------------------------------------------------- status and errors ----- */
 
-/** The one list of outcomes and errors: X(name, value, text). */
+/** The list of outcomes and errors: X(name, value, text). */
 #define PNPBS_STATUS_LIST(X) PNPBS_STATUS_LIST_OK(X) PNPBS_STATUS_LIST_BUT_OK(X)
 
 /* In two parts, for the enum below: in C89 and C++98 no comma may end one. */
@@ -98,65 +98,65 @@ typedef enum pnpbs_status {
 #undef PNPBS_STATUS_ENUM
 } pnpbs_status;
 #undef PNPBS_STATUS_ENUM_OK
-/** Opaque handles. The value is a registry key, never an address: a stale or foreign one is
- *  answered with PNPBS_ERROR_HANDLE. NULL is never a live handle. Children keep their parents
- *  alive, so handles may be destroyed in any order. */
+/** Opaque handles. The value is a registry key, never an address: a stale or foreign handle returns
+ *  PNPBS_ERROR_HANDLE. NULL is never a live handle. Children keep their parents alive, so handles
+ *  may be destroyed in any order. */
 typedef struct pnpbs_context_handle *pnpbs_context;
 typedef struct pnpbs_domain_handle *pnpbs_domain;
 typedef struct pnpbs_placement_handle *pnpbs_placement;
 typedef struct pnpbs_transfer_handle *pnpbs_transfer;
 
-/** What a status means, in a few words. Local. Never NULL. */
+/** Returns the meaning of a status in a few words. Local. Never NULL. */
 PNPBS_API const char *pnpbs_status_string(pnpbs_status status);
 
-/** The message of the last error on `context` (or on its children); with NULL, of the calling
+/** Returns the message of the last error on `context` or its children; with NULL, of the calling
  *  thread, for failed creates and dead handles. Local. "" if there was none. */
 PNPBS_API const char *pnpbs_last_error(pnpbs_context context);
 
-/** The version of the library at run time. Any pointer may be NULL. Local. */
+/** Returns the version of the library at run time. Any pointer may be NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_version(int32_t *major, int32_t *minor, int32_t *patch);
 
-/** What the library was built with, one "name: value" per line: version, compiler, Kokkos and
- *  its back ends, linkage, MPI, HDF5. Local; valid for ever. */
+/** Returns the build configuration, one "name: value" per line: version, compiler, Kokkos and its
+ *  back ends, linkage, MPI, HDF5. Local; valid for the life of the process. */
 PNPBS_API const char *pnpbs_build_info(void);
 
-/** The MPI library we were built with, e.g. "Open MPI 4.1.4"; "" in a build without MPI.
- *  Local; calls no MPI function; valid for ever. */
+/** Returns the MPI library that PNPBS was built with, e.g. "Open MPI 4.1.4"; "" in a build without
+ *  MPI. Local; calls no MPI function; valid for the life of the process. */
 PNPBS_API const char *pnpbs_mpi_library(void);
 
 /* ---------------------------------------------------------------- context --------------- */
 
-/** A context for one process; calls no MPI function, ever. Local.
+/** Creates a context for one process. It never calls an MPI function. Local.
  *  @param[out] context  the new handle; NULL on failure */
 PNPBS_API pnpbs_status pnpbs_context_create_serial(pnpbs_context *context);
 
-/** A context on a duplicate of the MPI communicator with the Fortran handle `comm`
+/** Creates a context on a duplicate of the MPI communicator with the Fortran handle `comm`
  *  (MPI_Comm_c2f). Collective. Errors: PNPBS_ERROR_UNSUPPORTED in a build without MPI,
- *  PNPBS_ERROR_MPI if MPI is not initialised, already
- *  finalised, or `comm` is MPI_COMM_NULL. */
+ *  PNPBS_ERROR_MPI if MPI is not initialised, already finalised, or `comm` is MPI_COMM_NULL. */
 PNPBS_API pnpbs_status pnpbs_context_create_f(int32_t comm, pnpbs_context *context);
 
-/** The same, for a caller that says whose handle it is: the communicator of one MPI library means
- *  nothing to another. pnpbs_context_create_mpi comes this way. Collective. Errors besides those of
- *  pnpbs_context_create_f: PNPBS_ERROR_MPI if the caller's library is not the one that PNPBS calls.
- *  @param[in] library  what MPI_Get_library_version tells the caller; blanks at its end are
+/** Creates a context as pnpbs_context_create_f does, and checks the MPI library of the caller: a
+ *  communicator of one MPI library is meaningless to another. Called by pnpbs_context_create_mpi.
+ *  Collective. Errors besides those of pnpbs_context_create_f: PNPBS_ERROR_MPI if the caller's
+ *  library is not the one that PNPBS calls.
+ *  @param[in] library  what MPI_Get_library_version returns in the caller; trailing blanks are
  *                      ignored */
 PNPBS_API pnpbs_status pnpbs_context_create_checked_f(int32_t comm, const char *library,
                                                       pnpbs_context *context);
 
-/** Ends the context and sets *context to NULL; takes NULL. Its domains and placements live on
- *  until they are destroyed. Collective. */
+/** Destroys the context and sets *context to NULL; accepts NULL. Its domains and placements remain
+ *  valid until they are destroyed. Collective. */
 PNPBS_API pnpbs_status pnpbs_context_destroy(pnpbs_context *context);
 
-/** Ends Kokkos if PNPBS started it. Optional: otherwise Kokkos stays up until the process ends.
- *  Kokkos cannot start twice, so computing calls fail afterwards. Local. */
+/** Finalises Kokkos if PNPBS initialised it. Optional: otherwise Kokkos runs until the process
+ *  ends. Kokkos cannot be initialised twice, so computing calls fail afterwards. Local. */
 PNPBS_API pnpbs_status pnpbs_finalize(void);
 
-/** Sets an option that placements created later on this context start with (see the options
- *  table, pnpbs_option_info). `threads` can only be set here, and only before the first
- *  placement of the process is created. Local. Errors: PNPBS_ERROR_KEY (the message has the
- *  nearest known name), PNPBS_ERROR_ARGUMENT (the message has the range).
- *  @param[in] value  as text; numbers parse the same in every locale */
+/** Sets an option that placements created later on this context start with (see the options table,
+ *  pnpbs_option_info). `threads` can only be set here, and only before the first placement of the
+ *  process is created. Local. Errors: PNPBS_ERROR_KEY (the message names the nearest known option),
+ *  PNPBS_ERROR_ARGUMENT (the message gives the range).
+ *  @param[in] value  as text; numbers are parsed the same in every locale */
 PNPBS_API pnpbs_status pnpbs_context_set(pnpbs_context context, const char *key, const char *value);
 PNPBS_API pnpbs_status pnpbs_context_set_int64(pnpbs_context context, const char *key,
                                                int64_t value);
@@ -165,11 +165,12 @@ PNPBS_API pnpbs_status pnpbs_context_set_double(pnpbs_context context, const cha
 
 /* ---------------------------------------------------------------- tables ---------------- */
 
-/** Number of options. Local. */
+/** Returns the number of options. Local. */
 PNPBS_API pnpbs_status pnpbs_option_count(int32_t *count);
 
-/** One row of the options table. Local; any output may be NULL; strings valid for ever.
- *  @param[in]  index          0 .. count-1
+/** Returns one row of the options table. Local; any output may be NULL; strings are valid for the
+ *  life of the process.
+ *  @param[in] index           0 .. count-1
  *  @param[out] type           "integer", "real", "choice"
  *  @param[out] default_value  as text
  *  @param[out] range          e.g. "1 .. 1000000" or "paper | default"
@@ -178,161 +179,161 @@ PNPBS_API pnpbs_status pnpbs_option_info(int32_t index, const char **name, const
                                          const char **default_value, const char **range,
                                          const char **help);
 
-/** Number of statistics. Local. */
+/** Returns the number of statistics. Local. */
 PNPBS_API pnpbs_status pnpbs_statistic_count(int32_t *count);
 
-/** One row of the statistics table (the report's keys). Local; outputs may be NULL.
+/** Returns one row of the statistics table (the keys of the report). Local; outputs may be NULL.
  *  @param[out] type  "integer", "real" or "string": which get function to use
  *  @param[out] help  one line, with the unit */
 PNPBS_API pnpbs_status pnpbs_statistic_info(int32_t index, const char **name, const char **type,
                                             const char **help);
 
-/** Number of file formats. Local. */
+/** Returns the number of file formats. Local. */
 PNPBS_API pnpbs_status pnpbs_format_count(int32_t *count);
 
-/** One row of the table of file formats (see pnpbs_placement_write). Local; any output may be
- *  NULL; strings valid for ever.
- *  @param[in]  index     0 .. count-1
+/** Returns one row of the table of file formats (see pnpbs_placement_write). Local; any output may
+ *  be NULL; strings are valid for the life of the process.
+ *  @param[in] index      0 .. count-1
  *  @param[out] name      also the extension, without its dot
  *  @param[out] help      one line
- *  @param[out] binary    1 if it is no text
+ *  @param[out] binary    1 if the format is not text
  *  @param[out] elements  1 if one file holds nodes and, on request, elements */
 PNPBS_API pnpbs_status pnpbs_format_info(int32_t index, const char **name, const char **help,
                                          int32_t *binary, int32_t *elements);
 
 /* ---------------------------------------------------------------- domain ---------------- */
 
-/** Role of a curve, or of a surface in space. BOUNDARY ones separate inside from outside: the
- *  inside is what lies behind an odd number of them (holes and islands nest to any depth). INNER
- *  ones lie in the domain, and the nodes follow them. Curves in space are always INNER. */
+/** Role of a curve, or of a surface in space. PNPBS_BOUNDARY separates inside from outside: a point
+ *  is inside if it lies behind an odd number of them (holes and islands nest to any depth).
+ *  PNPBS_INNER lies in the domain, and nodes follow it. Curves in space are always PNPBS_INNER. */
 #define PNPBS_BOUNDARY 0
 #define PNPBS_INNER 1
 
-/** A curve in the plane by its parameter: fills coordinates[n][dim], dim = 2, for t[n]. Must be a
- *  pure function, continuous and with no self-intersection. Return 0, or nonzero to fail the call
- *  with PNPBS_ERROR_CALLBACK. */
+/** Parametric curve in the plane: fills coordinates[n][dim], dim = 2, for t[n]. Must be a pure
+ *  function, continuous and without self-intersection. Return 0, or nonzero to fail the call with
+ *  PNPBS_ERROR_CALLBACK. */
 typedef int32_t (*pnpbs_curve_fn)(int64_t n, int32_t dim, const double *t, double *coordinates,
                                   void *user);
 
-/** An empty domain. Local.
+/** Creates an empty domain. Local.
  *  @param[in] dim  2: in the plane, 3: in space */
 PNPBS_API pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim,
                                            pnpbs_domain *domain);
 
-/** Destroys the handle and sets it to NULL; takes NULL. Local. */
+/** Destroys the handle and sets it to NULL; accepts NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_domain_destroy(pnpbs_domain *domain);
 
-/** The dimension that the domain was created with. Local.
+/** Returns the dimension that the domain was created with. Local.
  *  @param[out] dim  2: in the plane, 3: in space */
 PNPBS_API pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim);
 
-/** Whether a domain in space is what its surfaces enclose, as it is at first, or the surfaces
- * alone: nodes on them and triangles between these, and nothing inside. Then surfaces of both roles
- * count alike and may be closed or open; nodes lie on their borders, and the triangles' normals
- * point to where those of most triangles of a surface did that was given. Polylines must follow
- * edges of the triangles, fixed nodes must be vertices of them, holes there are none. Options mean
- * what they do in the plane. Local.
- *  @param[in] filled  nonzero: what they enclose; 0: the surfaces alone */
+/** Sets whether a domain in space is the volume enclosed by its surfaces (the default) or the
+ *  surfaces alone: nodes on them, triangles between these nodes, and no interior. On surfaces
+ *  alone, both roles are equivalent and surfaces may be closed or open. Nodes lie on their borders,
+ *  and the normals of the triangles point to the same side as those of most triangles given for the
+ *  surface. Polylines must follow edges of the triangles, fixed nodes must be vertices of them, and
+ *  there are no holes. Options have the same meaning as in the plane. Local.
+ *  @param[in] filled  nonzero: the enclosed volume; 0: the surfaces alone */
 PNPBS_API pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled);
 
-/** Takes the surfaces of a domain in space that are given as triangles and bound it, boxes, balls
- *  and cylinders among them, for what encloses one body badly: open, crossing, folded, turned this
- *  way and that, as scans are and parts put together. The body is where they wind around a point
- *  more than half a time (generalised winding number, Jacobson, Kavan and Sorkine-Hornung 2013),
- *  whichever way: holes are closed, what lies inside or encloses nothing is dropped, overlapping
- *  bodies are joined; a cavity must turn against what surrounds it. Its surface is found as that of
- *  a level set (pnpbs_domain_add_level_set), with its sharp edges, on the triangles given where
- *  there are any; all of it has the tag of the first triangle. What is thinner than the resolution
- *  can be lost. A warning and the statistics `repaired.*` tell how far the surface is from the
- *  triangles given. Other surfaces and nodes stay as they are. Local. Errors: PNPBS_ERROR_ARGUMENT;
- *  pnpbs_domain_check and whatever checks the domain return PNPBS_ERROR_DOMAIN if the triangles
- *  enclose nothing.
+/** Repairs the triangulated boundary surfaces of a domain in space, including boxes, balls and
+ *  cylinders, where they enclose one body badly: open, crossing, folded or inconsistently oriented,
+ *  as in scans and assembled parts. The body is where they wind around a point more than half a
+ *  time (generalised winding number, Jacobson, Kavan and Sorkine-Hornung 2013), in either
+ *  orientation. Holes are closed, surfaces inside the body or enclosing nothing are dropped, and
+ *  overlapping bodies are joined; a cavity must be oriented against what surrounds it. The surface
+ *  of the body is extracted as that of a level set (pnpbs_domain_add_level_set), with its sharp
+ *  edges, and lies on the given triangles where there are any; all of it has the tag of the first
+ *  triangle. Features thinner than the resolution can be lost. A warning and the statistics
+ *  `repaired.*` report the distance of the surface from the given triangles. Other surfaces and
+ *  nodes are unchanged. Local. Errors: PNPBS_ERROR_ARGUMENT; pnpbs_domain_check and all functions
+ *  that check the domain return PNPBS_ERROR_DOMAIN if the triangles enclose nothing.
  *  @param[in] resolution  > 0, no more than the spacing at the surface; 0: 1/64 of the longest side
- *                         of the box around the triangles */
+ *                         of the bounding box of the triangles */
 PNPBS_API pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resolution);
 
 /** Adds straight segments through n vertices. Local.
  *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER; in space PNPBS_INNER
- *  @param[in] closed        nonzero: a segment leads from the last vertex to the first; the
- *                           first vertex is not repeated
+ *  @param[in] closed        nonzero: a segment joins the last vertex to the first; the first vertex
+ *                           is not repeated
  *  @param[in] coordinates   [n][dim]
  *  @param[in] tags          [number of segments], nonzero, or NULL for 1
  *  @param[in] corner_angle  degrees, 0 .. 180. 0: every vertex becomes a node. Otherwise only
- *                           vertices where the direction turns by more than this do, as do the
- *                           ends of open polylines and vertices where curves meet; between them
- *                           the polyline stands for a smooth curve. In space it does not count, but
- *                           the feature_angle of the surfaces does in its place */
+ *                           vertices where the direction turns by more than this, ends of open
+ *                           polylines and vertices where curves meet become nodes; between them the
+ *                           polyline represents a smooth curve. In space it is ignored, and the
+ *                           feature_angle of the surfaces is used instead */
 PNPBS_API pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed,
                                                  int64_t n, const double *coordinates,
                                                  const int32_t *tags, double corner_angle);
 
-/** Adds a triangulated surface to a domain in space. Closed ones with the role PNPBS_BOUNDARY bound
- *  it: the inside is what lies behind an odd number of them. PNPBS_INNER: nodes follow the surface,
- *  closed or open, inside the domain. Vertices that coincide are one; what the triangles enclose
- *  decides their orientation. Local.
+/** Adds a triangulated surface to a domain in space. Closed surfaces with the role PNPBS_BOUNDARY
+ *  bound the domain: its inside lies behind an odd number of them. PNPBS_INNER: nodes follow the
+ *  surface, closed or open, inside the domain. Coincident vertices are merged; the orientation is
+ *  determined by what the triangles enclose. Local.
  *  @param[in] role           PNPBS_BOUNDARY or PNPBS_INNER
  *  @param[in] coordinates    [vertices][3]
  *  @param[in] corners        [triangles][3], 0-based vertex indices
  *  @param[in] tags           [triangles], nonzero, or NULL for 1
- *  @param[in] feature_angle  degrees, 0 .. 180: where the normals of two triangles differ by more,
- *                            or their tags do, nodes lie on the edge between them. Between such
- *                            edges the triangles are the shape alone, whatever their size. 40 suits
- *                            most */
+ *  @param[in] feature_angle  degrees, 0 .. 180: nodes lie on the edge between two triangles if
+ *                            their normals differ by more than this, or if their tags differ.
+ *                            Between such edges the triangles only define the shape, whatever their
+ *                            size. 40 suits most */
 PNPBS_API pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t role, int64_t vertices,
                                                 const double *coordinates, int64_t triangles,
                                                 const int64_t *corners, const int32_t *tags,
                                                 double feature_angle);
 
-/** The same from a file: .stl (text or binary), .off, .obj, .ply, or .poly and .smesh as TetGen has
- *  them. Solids, groups, materials and facet markers become tags, with their names
- *  (pnpbs_domain_get_tag_name), hole points holes of the domain in space.
- *  Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected. */
+/** Reads a surface from a file and adds it as pnpbs_domain_add_surface does: .stl (text or binary),
+ *  .off, .obj, .ply, or TetGen's .poly and .smesh. Solids, groups, materials and facet markers
+ *  become tags with their names (pnpbs_domain_get_tag_name); hole points become holes of the domain
+ *  in space. Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role,
                                                  const char *path, double feature_angle);
 
-/** The role of all triangles in a domain in space that have this tag, whatever role they are added
- *  with, before or after: so single groups of a file can be inner surfaces. Local. Checking the
- *  domain fails if no triangle has the tag.
+/** Sets the role of all triangles with a tag in a domain in space. It overrides the role they are
+ *  added with, before or after, so that single groups of a file can be inner surfaces. Local.
+ *  Checking the domain fails if no triangle has the tag.
  *  @param[in] tag   nonzero
  *  @param[in] role  PNPBS_BOUNDARY or PNPBS_INNER */
 PNPBS_API pnpbs_status pnpbs_domain_set_role(pnpbs_domain domain, int32_t tag, int32_t role);
 
-/** Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds what bounds it to the
- *  domain. In space these are its triangles and quadrangles: where elements of volumes, or the
- *  geometry that the file tells of, are on both sides, they are inner surfaces, else boundary;
- * where the file tells of neither, closed surfaces are boundary (within each other, too: cavities),
- * and sheets and what divides a body are inner. Lines and points in physical groups are inner
- * curves and fixed nodes. In the plane they are its lines, and the edges that bound triangles and
- *  quadrangles; points as in space. Without elements that fill the domain, closed lines are
- *  boundary and open ones inner. The tag of a physical group becomes the tag, its name stays with
- * it (pnpbs_domain_get_tag_name); where the file has no physical groups, the entities' numbers are
- * the tags. Elements of higher order are taken for straight ones, with a warning. Local. Errors:
- *  PNPBS_ERROR_FILE with file, line or byte, and what was expected.
- *  @param[in] feature_angle  degrees, 0 .. 180: as pnpbs_domain_add_surface has it, in the plane as
- *                            the corner_angle of pnpbs_domain_add_polyline, but 0 only makes every
- *                            vertex a node there */
+/** Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds its boundary to the
+ *  domain. In space the boundary is its triangles and quadrangles: they are inner surfaces where
+ *  the file has volume elements, or volumes in its geometry, on both sides, and boundary otherwise.
+ *  If the file has neither, closed surfaces are boundary (also within each other: cavities), and
+ *  sheets and surfaces that divide a body are inner. Lines and points in physical groups are inner
+ *  curves and fixed nodes. In the plane the boundary is its lines, and the edges that bound
+ *  triangles and quadrangles; points are treated as in space. Without elements that fill the
+ *  domain, closed lines are boundary and open ones inner. The tag of a physical group becomes the
+ *  tag, and its name is kept (pnpbs_domain_get_tag_name); in a file without physical groups, the
+ *  entity numbers are the tags. Higher-order elements are treated as straight, with a warning.
+ *  Local. Errors: PNPBS_ERROR_FILE with file, line or byte, and what was expected.
+ *  @param[in] feature_angle  degrees, 0 .. 180: in space as in pnpbs_domain_add_surface, in the
+ *                            plane as the corner_angle of pnpbs_domain_add_polyline; 0 makes every
+ *                            vertex a node only in the plane */
 PNPBS_API pnpbs_status pnpbs_domain_read_msh(pnpbs_domain domain, const char *path,
                                              double feature_angle);
 
-/** The dimension of the domain that a file describes: by the ending of its name, of .poly by the
- *  second number in it, of .msh by whether it lies in a plane of constant z. Local. Errors:
- *  PNPBS_ERROR_FILE if a .msh cannot be read; other files are not checked.
+/** Returns the dimension of the domain that a file describes, from its extension; for .poly from
+ *  the second number in the file, for .msh from whether the mesh lies in a plane of constant z.
+ *  Local. Errors: PNPBS_ERROR_FILE if a .msh cannot be read; other files are not checked.
  *  @param[out] dim  2: in the plane, 3: in space */
 PNPBS_API pnpbs_status pnpbs_file_dimension(const char *path, int32_t *dim);
 
-/** Names a tag, copied: files that have physical groups (.msh) are written with it. Replaces the
- *  name that it has. Local.
- *  @param[in] dim   of what has the tag: 0 points, 1 curves, 2 surfaces, 3 bodies; the inside of
- *                   the domain has the domain's dimension
- *  @param[in] tag   nonzero */
+/** Sets the name of a tag, which files with physical groups (.msh) contain. The name is copied and
+ *  replaces an existing one. Local.
+ *  @param[in] dim  of the entity with the tag: 0 points, 1 curves, 2 surfaces, 3 bodies; the inside
+ *                  of the domain has the domain's dimension
+ *  @param[in] tag  nonzero */
 PNPBS_API pnpbs_status pnpbs_domain_set_tag_name(pnpbs_domain domain, int32_t dim, int32_t tag,
                                                  const char *name);
 
-/** Number of tags that have names, given or from files. Local. */
+/** Returns the number of tags that have names, set or from files. Local. */
 PNPBS_API pnpbs_status pnpbs_domain_tag_name_count(pnpbs_domain domain, int32_t *count);
 
-/** One of the names, by dimension, then by tag. Local; any output may be NULL; the string is valid
- *  until the names change.
+/** Returns one of the names, sorted by dimension, then by tag. Local; any output may be NULL; the
+ *  string is valid until the names change.
  *  @param[in] index  0 .. count-1 */
 PNPBS_API pnpbs_status pnpbs_domain_get_tag_name(pnpbs_domain domain, int32_t index, int32_t *dim,
                                                  int32_t *tag, const char **name);
@@ -348,34 +349,34 @@ PNPBS_API pnpbs_status pnpbs_domain_add_box(pnpbs_domain domain, const double *l
 PNPBS_API pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double *centre,
                                              double radius, int32_t tag);
 
-/** Adds a round cylinder to a domain in space, as triangles within 1e-4 of the radius. Local.
- *  @param[in] begin,end  [3], the middles of its two circles
+/** Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius. Local.
+ *  @param[in] begin,end  [3], the centres of its two circles
  *  @param[in] radius     > 0 */
 PNPBS_API pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double *begin,
                                                  const double *end, double radius, int32_t tag);
 
-/** A level set: fills values[n] with f at coordinates[n][dim], dim = 3; the body is where f < 0.
- *  Must be a pure function of the point, the same on all ranks, continuous and finite in its whole
- *  box; it need not be a distance. Return 0, or nonzero to fail the call with
+/** Level set callback: fills values[n] with f at coordinates[n][dim], dim = 3; the body is where f
+ *  < 0. Must be a pure function of the point, the same on all ranks, continuous and finite in the
+ *  whole box; it need not be a distance. Return 0, or nonzero to fail the call with
  *  PNPBS_ERROR_CALLBACK. */
 typedef int32_t (*pnpbs_level_set_fn)(int64_t n, int32_t dim, const double *coordinates,
                                       double *values, void *user);
 
 /** Adds the body where f < 0 to a domain in space; it must lie in the box. Its surface is found on
- *  an octree that is refined near f = 0 down to cells of side `resolution`: what is thinner can be
- *  lost, and so can a body that is small beside the box and towards which f does not fall. Nodes on
- *  the surface lie where f = 0, however coarse the triangles are that lead them there. Where the
- *  gradient of f jumps by more than 40 degrees, as that of max(g, h) does, the surface has an edge,
- *  with nodes on it, and where such edges meet a corner; where triangles would cross, as they may
- *  at edges of less than 60 degrees, these stay rounded by the resolution, with a warning. The
+ *  an octree refined near f = 0 down to cells of side `resolution`. Thinner features can be lost,
+ *  and so can a body that is small relative to the box and towards which f does not decrease. Nodes
+ *  on the surface lie where f = 0, however coarse the triangles of the octree are. Where the
+ *  gradient of f jumps by more than 40 degrees, as that of max(g, h) does, the surface has an edge
+ *  with nodes on it, and a corner where such edges meet. Where triangles would cross, as they may
+ *  at edges of less than 60 degrees, the edges stay rounded by the resolution, with a warning. The
  *  callback is called during this function, whenever a placement is initialised or runs, and for
  *  its normals, so it and `user` must outlive the placements made on the domain. Local. Errors:
- * PNPBS_ERROR_DOMAIN with the place where f is not finite, or negative on the border of the box, or
- * if it is negative nowhere.
+ *  PNPBS_ERROR_DOMAIN with the point where f is not finite, or negative on the border of the box,
+ *  or if it is negative nowhere.
  *  @param[in] level_set   not NULL
- *  @param[in] low,high    [3], the box, in which alone f is asked
+ *  @param[in] low,high    [3], the box; f is evaluated only inside it
  *  @param[in] resolution  > 0, at most the box's shortest side; no more than the spacing at the
- *                         surface, and than half of the least radius to which it is bent
+ *                         surface, and half of the minimum radius of curvature
  *  @param[in] tag         nonzero */
 PNPBS_API pnpbs_status pnpbs_domain_add_level_set(pnpbs_domain domain, pnpbs_level_set_fn level_set,
                                                   void *user, const double *low, const double *high,
@@ -383,27 +384,27 @@ PNPBS_API pnpbs_status pnpbs_domain_add_level_set(pnpbs_domain domain, pnpbs_lev
 
 /** Adds a circular arc to a domain in the plane; its ends join curves that end at the same point
  *  (within 1e-9 of the domain's size). Local.
- *  @param[in] centre          [2]
- *  @param[in] radius          > 0
- *  @param[in] begin,end       angles in radians; |end - begin| = 2 pi makes a full circle */
+ *  @param[in] centre     [2]
+ *  @param[in] radius     > 0
+ *  @param[in] begin,end  angles in radians; |end - begin| = 2 pi makes a full circle */
 PNPBS_API pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const double *centre,
                                             double radius, double begin, double end, int32_t tag);
 
 /** Adds a general curve, given by a callback on begin <= t <= end, to a domain in the plane. The
  *  callback is called during this function and whenever a placement is initialised, so it and
  *  `user` must outlive the placements made on the domain. A curve whose ends coincide is closed.
- *  Smooth inside: corners are where curves meet. Local. */
+ *  The curve is smooth between its ends: corners exist only where curves meet. Local. */
 PNPBS_API pnpbs_status pnpbs_domain_add_curve(pnpbs_domain domain, int32_t role,
                                               pnpbs_curve_fn curve, void *user, double begin,
                                               double end, int32_t tag);
 
-/** Adds a planar straight-line graph as Triangle means it to a domain in the plane: what the
- *  segments enclose is the domain, except the regions that contain a hole point; a loop without a
+/** Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The domain
+ *  is what the segments enclose, except the regions that contain a hole point; a loop without a
  *  hole point and any open chain are inner curves. Every vertex becomes a node. Shared vertices and
- *  T-junctions (within 1e-12 of the domain's size) are legal. Once a graph was added, this rule
+ *  T-junctions (within 1e-12 of the domain's size) are allowed. Once a graph is added, this rule
  *  holds for all curves of the domain. Local.
  *  @param[in] coordinates   [vertices][2]
- *  @param[in] vertex_tags   [vertices] or NULL; 0 = take the segment's
+ *  @param[in] vertex_tags   [vertices] or NULL; 0: the segment's tag
  *  @param[in] segment_ends  [segments][2], 0-based vertex indices
  *  @param[in] segment_tags  [segments] or NULL for 1
  *  @param[in] hole_points   [holes][2]; may be NULL if holes is 0 */
@@ -413,65 +414,67 @@ PNPBS_API pnpbs_status pnpbs_domain_add_pslg(pnpbs_domain domain, int64_t vertic
                                              const int32_t *segment_tags, int64_t holes,
                                              const double *hole_points);
 
-/** Removes from the domain the region around a point, as far as the next curves or surfaces of
- *  either role. Local.
+/** Removes the region around a point from the domain, up to the next curves or surfaces of either
+ *  role. Local.
  *  @param[in] point  [dim] */
 PNPBS_API pnpbs_status pnpbs_domain_add_hole(pnpbs_domain domain, const double *point);
 
-/** Adds nodes that must appear exactly. Local.
+/** Adds fixed nodes, which keep their exact coordinates. Local.
  *  @param[in] coordinates  [n][dim], inside the domain or on a vertex of its curves or surfaces
- *  @param[in] tags  [n], nonzero, or NULL for 1 */
+ *  @param[in] tags         [n], nonzero, or NULL for 1 */
 PNPBS_API pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n,
                                                     const double *coordinates, const int32_t *tags);
 
-/** Reads a file of Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
+/** Reads a file in Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
  *  markers kept as tags) and adds it to a domain in the plane as pnpbs_domain_add_pslg does. Local.
  *  Errors: PNPBS_ERROR_FILE with file, line and what was expected. */
 PNPBS_API pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
 
-/** The same from memory. Local. @param[in] name  what to call the text in messages */
+/** Does the same as pnpbs_domain_read_poly with a text in memory. Local.
+ *  @param[in] name  the name of the text in messages */
 PNPBS_API pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text,
                                                int64_t length, const char *name);
 
 /** Spacing callback: fills d[n] for coordinates[n][dim]. n may be 0. Must be a pure function of the
- *  point; may be asked anywhere in the domain's bounding box that lies inside the domain or on
- *  its boundary. Return 0, or nonzero to fail the call with PNPBS_ERROR_CALLBACK. */
+ *  point; it may be evaluated anywhere in the domain's bounding box that lies inside the domain or
+ *  on its boundary. Return 0, or nonzero to fail the call with PNPBS_ERROR_CALLBACK. */
 typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *coordinates, double *d,
                                     void *user);
 
-/** Where the graphs of a domain in the plane have corners (pnpbs_domain_add_pslg, _read_poly,
- *  _parse_poly), those given before and those given after: at vertices where the direction turns by
- *  more than this, where segments of different tags or other than two of them end, and at vertices
- *  with a tag of their own. Nodes lie on corners; between them a graph stands for a smooth curve,
- * and nodes lie on it as d says, however fine its segments are. Local.
- *  @param[in] corner_angle  degrees, 0 .. 180. 0, as it is at first: every vertex becomes a node */
+/** Sets the corner angle of the graphs of a domain in the plane (pnpbs_domain_add_pslg, _read_poly,
+ *  _parse_poly), both those already added and later ones. Corners are vertices where the direction
+ *  turns by more than this, where segments of different tags or other than two of them end, and
+ *  vertices with a tag of their own. Nodes lie on corners; between them a graph represents a smooth
+ *  curve, with nodes spaced by d, however short its segments are. Local.
+ *  @param[in] corner_angle  degrees, 0 .. 180. 0, the default: every vertex becomes a node */
 PNPBS_API pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle);
 
-/** Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs and
- *  polylines given so far, vertices beside segments shorter than d, as long as the curve then
- * passes them within tolerance * d; and closed curves, islands and lakes, whose extent (the longer
- * side of their bounding box) is less than smallest * d. No other vertex, fixed node or hole point
- * comes to another side of a curve. Vertices stay where curves meet or end, where tags change or a
- * vertex has its own, and at fixed nodes. A curve with one of these, or around one that stays, is
- * not left out, nor is the largest; hole points within curves that are left out go with them. If it
- * fails, the domain stays as it was. Local; on several ranks all must do the same.
- *  @param[in] spacing    d, called during this function alone; it may ask for the shape of the
- *                        domain as it was, if that has been asked for before
+/** Removes features finer than d, such as those of coastlines, from a domain in the plane. From the
+ *  graphs and polylines added so far, it removes vertices next to segments shorter than d, as long
+ *  as the curve then passes them within tolerance * d, and closed curves, islands and lakes, whose
+ *  extent (the longer side of their bounding box) is less than smallest * d. No other vertex, fixed
+ *  node or hole point changes to another side of a curve. Vertices are kept where curves meet or
+ *  end, where tags change or a vertex has its own, and at fixed nodes. A curve with one of these,
+ *  or around one that is kept, is not removed, nor is the largest; hole points within removed
+ *  curves are removed with them. If the call fails, the domain is unchanged. Local; must be called
+ *  identically on all ranks.
+ *  @param[in] spacing    d, called only during this function; it may query the shape of the domain
+ *                        as it was before, if that has been queried before
  *  @param[in] tolerance  >= 0; 0.25 suits most
- *  @param[in] smallest   >= 0; 0 leaves no curve out
- *  @param[out] vertices  how many were left out, those of the curves included; may be NULL
- *  @param[out] curves    how many were left out; may be NULL */
+ *  @param[in] smallest   >= 0; 0 removes no curve
+ *  @param[out] vertices  number removed, including those of the curves; may be NULL
+ *  @param[out] curves    number removed; may be NULL */
 PNPBS_API pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing,
                                              void *user, double tolerance, double smallest,
                                              int64_t *vertices, int64_t *curves);
 
-/** The same by a spacing from a file with values at points, as pnpbs_placement_set_spacing_file
- *  takes it; the growth of d is not limited here. Local; on several ranks all must do the same.
- *  Checks the domain first. Errors: PNPBS_ERROR_FILE for what cannot be read, PNPBS_ERROR_SPACING
- *  for a value that is zero, negative or not finite and for points that do not meet the domain's
- *  box, PNPBS_ERROR_DOMAIN as pnpbs_domain_check.
+/** Does the same as pnpbs_domain_simplify with a spacing from a file with values at points, as in
+ *  pnpbs_placement_set_spacing_file; the growth of d is not limited here. Local; must be called
+ *  identically on all ranks. Checks the domain first. Errors: PNPBS_ERROR_FILE if the file cannot
+ *  be read, PNPBS_ERROR_SPACING for a value that is zero, negative or not finite and for points
+ *  that do not meet the domain's bounding box, PNPBS_ERROR_DOMAIN as in pnpbs_domain_check.
  *  @param[in] path   the file
- *  @param[in] field  the values that are meant; NULL: the only ones, or those called "spacing" */
+ *  @param[in] field  the name of the values; NULL: the only ones, or those called "spacing" */
 PNPBS_API pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char *path,
                                                      const char *field, double tolerance,
                                                      double smallest, int64_t *vertices,
@@ -479,41 +482,43 @@ PNPBS_API pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const 
 
 /** Checks the whole geometry: duplicate vertices, self-intersections, boundary curves or surfaces
  *  that do not close, hole points outside or on one, fixed nodes outside or too close. Placements
- *  check too; asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the
- *  vertex, segment or triangle. */
+ *  check it, too; checking early adds no cost. Local. Errors: PNPBS_ERROR_DOMAIN naming the vertex,
+ *  segment or triangle. */
 PNPBS_API pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
 
-/** Bounding box of the curves or surfaces. Local. @param[out] low,high  [dim] */
+/** Returns the bounding box of the curves or surfaces. Local.
+ *  @param[out] low,high  [dim] */
 PNPBS_API pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high);
 
-/** Area of the inside, in space its volume, of surfaces alone their area. Local; checks the domain
- *  first. */
+/** Returns the area of the inside, in space its volume, of surfaces alone their area. Local; checks
+ *  the domain first. */
 PNPBS_API pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);
 
-/** Distances to the shape of the domain: exact to segments and triangles, to arcs and curves by
- *  callback within 1e-7 of the domain's size. Local; checks the domain first. The first question
- *  after a change of the domain builds a tree of its pieces, for which curves by callback are
- *  asked: ask one before asking from inside a callback (as a spacing callback may).
+/** Evaluates distances to the shape of the domain. They are exact for segments and triangles, and
+ *  within 1e-7 of the domain's size for arcs and curves by callback. Local; checks the domain
+ *  first. The first query after a change of the domain builds a search tree and calls the callbacks
+ *  of curves: make one query before querying from inside a callback (as a spacing callback may).
  *  Errors: PNPBS_ERROR_ARGUMENT if nothing has the tag.
- *  @param[in]  tag          of curves, surfaces or nodes; 0: to what bounds the domain
- *  @param[in]  coordinates  [n][dim]
- *  @param[out] distances    [n] */
+ *  @param[in] tag          of curves, surfaces or nodes; 0: the boundary of the domain
+ *  @param[in] coordinates  [n][dim]
+ *  @param[out] distances   [n] */
 PNPBS_API pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
                                              const double *coordinates, double *distances);
 
-/** The spacing that pnpbs_placement_set_spacing_from_shape would set, without its bounds: for a
- *  spacing callback that has its own use for it. Local; checks the domain first. What the shape
- *  asks for is found at the first question and kept: ask one before asking from inside a callback.
- *  @param[in]  nodes_per_turn,nodes_across,nodes_per_edge,growth  as there
- *  @param[in]  coordinates  [n][dim]
- *  @param[out] d            [n] at most the size of the domain */
+/** Evaluates the spacing that pnpbs_placement_set_spacing_from_shape would set, without its bounds,
+ *  for use in a spacing callback. Local; checks the domain first. The first query computes what the
+ *  shape requires and keeps it: make one query before querying from inside a callback.
+ *  @param[in] nodes_per_turn,nodes_across,nodes_per_edge,growth  as there
+ *  @param[in] coordinates                                        [n][dim]
+ *  @param[out] d                                                 [n] at most the size of the
+ *                                                                domain */
 PNPBS_API pnpbs_status pnpbs_domain_shape_spacing(pnpbs_domain domain, double nodes_per_turn,
                                                   double nodes_across, double nodes_per_edge,
                                                   double growth, int64_t n,
                                                   const double *coordinates, double *d);
 
-/** Straight segments that show a domain in the plane (curves finely sampled), for pictures. Local.
- *  Ask with capacity 0 for the count.
+/** Returns straight segments that approximate a domain in the plane (curves finely sampled), for
+ *  pictures. Local. Call with capacity 0 to get the count.
  *  @param[out] count     number of segments
  *  @param[out] segments  [count][2][2], or NULL
  *  @param[out] tags      [count], or NULL */
@@ -522,25 +527,25 @@ PNPBS_API pnpbs_status pnpbs_domain_get_segments(pnpbs_domain domain, int64_t ca
 
 /* ---------------------------------------------------------------- placement ------------- */
 
-/** Progress, told at fixed step numbers and, some times a second, while the first nodes are laid or
- *  the growth of the spacing is limited, between steps that take long (on one rank), and between
- *  the parts of the finish. While nodes are laid or growth is limited, ranks are asked each by its
- *  own clock: do nothing collective when fraction is 0. Return 0 to go on, nonzero to stop: the
- *  call in progress then ends with PNPBS_STOPPED and its nodes are valid; stopped before the first
- *  nodes are laid, it has none.
+/** Progress callback. It is called at fixed step numbers and, a few times a second, while the first
+ *  nodes are laid or the growth of the spacing is limited, between steps that take long (on one
+ *  rank), and between the parts of the finish. While nodes are laid or growth is limited, each rank
+ *  calls it by its own clock: do nothing collective when fraction is 0. Return 0 to continue,
+ *  nonzero to stop: the call in progress then returns PNPBS_STOPPED with valid nodes; stopped
+ *  before the first nodes are laid, it has none.
  *  @param fraction   of the work of the call in progress, 0 .. 1
  *  @param step       steps done so far
- *  @param nodes      nodes there are now, 0 while the first ones are laid
+ *  @param nodes      current number of nodes, 0 while the first ones are laid
  *  @param max_speed  largest scaled speed (spacings per unit time) */
 typedef int32_t (*pnpbs_monitor_fn)(double fraction, int64_t step, int64_t nodes, double max_speed,
                                     void *user);
 
-/** A placement of nodes in `domain`, with the options of its context. The domain is taken as it
- *  is at initialise. Collective. */
+/** Creates a placement of nodes in `domain`, with the options of its context. The domain is read
+ *  when the placement is initialised. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
                                               pnpbs_placement *placement);
 
-/** Destroys the handle and sets it to NULL; takes NULL. Local. */
+/** Destroys the handle and sets it to NULL; accepts NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_placement_destroy(pnpbs_placement *placement);
 
 /** Sets an option of this placement; otherwise as pnpbs_context_set. Local. */
@@ -551,61 +556,62 @@ PNPBS_API pnpbs_status pnpbs_placement_set_int64(pnpbs_placement placement, cons
 PNPBS_API pnpbs_status pnpbs_placement_set_double(pnpbs_placement placement, const char *key,
                                                   double value);
 
-/** The spacing everywhere the same. On a live placement the spacing is replaced: the nodes there
- *  are stay, and the next run starts from them. Collective.
- *  Errors: PNPBS_ERROR_SPACING for zero, negative, not finite. */
+/** Sets a constant spacing. On a live placement it replaces the spacing: the current nodes are
+ *  kept, and the next run starts from them. Collective. Errors: PNPBS_ERROR_SPACING for zero,
+ *  negative, not finite. */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_constant(pnpbs_placement placement, double d);
 
-/** The spacing from a callback, which must stay valid as long as the placement uses it.
- *  Collective. Bad values are found when it is asked, in initialise or run: the error names the
- *  point and the number of nodes it would have meant. */
+/** Sets the spacing to a callback, which must stay valid as long as the placement uses it.
+ *  Collective. Invalid values are detected when it is called, in initialise or run: the error names
+ *  the point and the number of nodes it would have implied. */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_callback(pnpbs_placement placement,
                                                             pnpbs_spacing_fn spacing, void *user);
 
-/** The spacing from values on a rectangular grid, copied; linear in each direction between them,
- *  constant beyond the grid's edge: where nodes lie farther than d and half a step from it there
- *  is a warning (pnpbs_placement_get_warning). In a direction with one grid point the value holds
- *  everywhere. Collective. Checks the domain first. Errors: PNPBS_ERROR_SPACING for a value that
- *  is zero, negative or not finite, and for a grid that does not meet the domain's box;
- *  PNPBS_ERROR_DOMAIN as pnpbs_domain_check.
+/** Sets the spacing to values on a rectangular grid, which are copied. It is linear in each
+ *  direction between grid points and constant beyond the grid's edge; nodes farther than d and half
+ *  a step from the grid cause a warning (pnpbs_placement_get_warning). In a direction with one grid
+ *  point the value holds everywhere. Collective. Checks the domain first. Errors:
+ *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and for a grid that does
+ *  not meet the domain's bounding box; PNPBS_ERROR_DOMAIN as in pnpbs_domain_check.
  *  @param[in] size    [dim] number of grid points in each direction, >= 1
  *  @param[in] origin  [dim] the first grid point
- *  @param[in] step    [dim] > 0, distance of grid points
+ *  @param[in] step    [dim] > 0, distance between grid points
  *  @param[in] values  [size[1]][size[0]], in space [size[2]][size[1]][size[0]] (x fastest) */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement,
                                                         const int64_t *size, const double *origin,
                                                         const double *step, const double *values);
 
-/** The spacing from values at the nodes of a background mesh, copied: linear on each triangle, in
- *  space on each tetrahedron, and beyond the mesh what it is at the mesh's nearest point: where
- *  nodes lie farther than d from it there is a warning (pnpbs_placement_get_warning). Elements
- *  may overlap (the one with the least node numbers counts) and need not share whole sides. Its
- *  growth is limited as that of any spacing (option growth_limit).
- *  Collective; every rank gives the same arrays, and holds them. Checks the domain first. Errors:
- *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and for a mesh whose box
- *  does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node number out of range, an element
- *  that is flat, ranks that differ; PNPBS_ERROR_DOMAIN as pnpbs_domain_check.
+/** Sets the spacing to values at the nodes of a background mesh, which are copied. It is linear on
+ *  each triangle, in space on each tetrahedron, and beyond the mesh equal to the value at the
+ *  nearest point of the mesh; nodes farther than d from the mesh cause a warning
+ *  (pnpbs_placement_get_warning). Elements may overlap (the one with the lowest node numbers is
+ *  used) and need not share whole sides. Growth is limited as for any spacing (option
+ *  growth_limit). Collective; every rank passes and stores the same arrays. Checks the domain
+ *  first. Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and for a
+ *  mesh whose bounding box does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node number out
+ *  of range, a flat element, or arrays that differ between ranks; PNPBS_ERROR_DOMAIN as in
+ *  pnpbs_domain_check.
  *  @param[in] n            number of nodes of the mesh, below 2^31
  *  @param[in] coordinates  [n][dim]
  *  @param[in] d            [n]
  *  @param[in] elements     number of triangles or tetrahedra, >= 1
- *  @param[in] corners      [elements][dim + 1] 0-based node numbers, whichever way round */
+ *  @param[in] corners      [elements][dim + 1] 0-based node numbers, in either orientation */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_mesh(pnpbs_placement placement, int64_t n,
                                                         const double *coordinates, const double *d,
                                                         int64_t elements, const int64_t *corners);
 
-/** The spacing from values at scattered points, copied: at each of them its own value, elsewhere a
- *  plane fitted to the 8 (in space 16) nearest ones by weighted least squares, never below the
- * least nor above the largest of their values. A linear function is met amid its points; far from
- * all of them d is near the values of the nearest, with a warning where nodes lie far beyond the
- * points' box. The weights are (1/r - 1/R)^2, r the distance of
- * a point and R that of the nearest one that does not count, so d is continuous (R. Franke, G.
- * Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704). The order of the points changes
- *  nothing.
- *  Collective; every rank gives the same arrays, and holds them. Checks the domain first. Errors:
- *  PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for points in one place
- *  with different values, and for points whose box does not meet the domain's;
- *  PNPBS_ERROR_ARGUMENT for ranks that differ; PNPBS_ERROR_DOMAIN as pnpbs_domain_check.
+/** Sets the spacing to values at scattered points, which are copied. It equals the given value at
+ *  each point and elsewhere a plane fitted to the 8 (in space 16) nearest points by weighted least
+ *  squares, bounded by the smallest and largest of their values. Linear functions are reproduced
+ *  between the points; far from all of them d is close to the values of the nearest, and nodes far
+ *  beyond the points' bounding box cause a warning. The weights are (1/r - 1/R)^2, with r the
+ *  distance of a point and R that of the nearest unused one, so d is continuous (R. Franke, G.
+ *  Nielson, Int. J. Numer. Methods Eng. 15 (1980) 1691-1704). The order of the points has no
+ *  effect. Collective; every rank passes and stores the same arrays. Checks the domain first.
+ *  Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for coincident
+ *  points with different values, and for points whose bounding box does not meet the domain's;
+ *  PNPBS_ERROR_ARGUMENT for arrays that differ between ranks; PNPBS_ERROR_DOMAIN as in
+ *  pnpbs_domain_check.
  *  @param[in] n            number of points, 1 .. 2^31 - 1
  *  @param[in] coordinates  [n][dim]
  *  @param[in] d            [n] */
@@ -613,45 +619,50 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_points(pnpbs_placement placem
                                                           const double *coordinates,
                                                           const double *d);
 
-/** The spacing from a file with values at points, by the ending of its name:
+/** Sets the spacing to values at points from a file. The extension selects the format:
  *    .vtu   VTK's unstructured grid, as VTK, ParaView, meshio and pnpbs_placement_write write it:
- *           text, base64 or raw, packed by zlib or not
+ *           text, base64 or raw, with or without zlib compression
  *    .msh   Gmsh's, versions 4.1 and 2.2, text or binary, with $NodeData
- *    .csv   a header with columns x, y, (z) and others, and a point in each line
- *  Triangles and quadrangles, in space tetrahedra are a mesh as pnpbs_placement_set_spacing_mesh
- *  takes it; without any the points are as for pnpbs_placement_set_spacing_points. In the plane z
- * is left out. Collective; every rank reads the file. Errors: PNPBS_ERROR_FILE for a file that
- * cannot be read, is none of these or has other elements, and for a field that is not there, with
- * those that are; those of the two functions above.
+ *    .csv   a header with columns x, y, (z) and others, and one point per line
+ *  Triangles and quadrangles, in space tetrahedra, form a mesh as in
+ *  pnpbs_placement_set_spacing_mesh; without any, the points are used as in
+ *  pnpbs_placement_set_spacing_points. In the plane z is ignored. Collective; every rank reads the
+ *  file. Errors: PNPBS_ERROR_FILE for a file that cannot be read, has another format or other
+ *  elements, and for a missing field (the message lists the fields in the file); those of the two
+ *  functions above.
  *  @param[in] path   the file
  *  @param[in] field  its name in the file; NULL or "": the only one, or the one called "spacing" */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_file(pnpbs_placement placement, const char *path,
                                                         const char *field);
 
-/** The spacing from the shape of the domain as it is now: the least that its curves and surfaces
- * ask for, each growing with the distance from it. Collective. The same on any number of ranks.
- *  Errors: PNPBS_ERROR_DOMAIN as pnpbs_domain_check, PNPBS_ERROR_ARGUMENT for negative numbers,
- *  PNPBS_ERROR_SPACING where the domain is too narrow to take its width all along.
- *  @param[in] nodes_per_turn  by curvature: nodes on a full circle of its radius. That of polylines
- *                             is of the circle through neighbouring vertices, that of triangulated
- *                             surfaces is by how normals turn, where they turn by less than 40
- *                             degrees from one to the next. 0: does not count
- *  @param[in] nodes_across    by width: d at a place of the boundary is this part of the diameter
- * of the largest ball that touches it there and meets nothing ahead. 0: does not count
- *  @param[in] nodes_per_edge  by the input: d at a segment is this part of its length, at a
- * triangle of the mean length of its edges. Arcs and curves have none. 0: does not count
+/** Sets the spacing from the current shape of the domain: the minimum of what its curves and
+ *  surfaces require, each value growing with the distance from them. Collective. The same on any
+ *  number of ranks. Errors: PNPBS_ERROR_DOMAIN as in pnpbs_domain_check, PNPBS_ERROR_ARGUMENT for
+ *  negative numbers, PNPBS_ERROR_SPACING where the domain is too narrow to measure its width
+ *  everywhere.
+ *  @param[in] nodes_per_turn  by curvature: nodes on a full circle of the radius of curvature. On
+ *                             polylines it is the radius of the circle through neighbouring
+ *                             vertices; on triangulated surfaces it follows from the change of the
+ *                             normals, where they turn by less than 40 degrees from one to the
+ *                             next. 0: not used
+ *  @param[in] nodes_across    by width: d at a boundary point is the diameter of the largest ball
+ *                             that touches the boundary there and meets nothing ahead, divided by
+ *                             this. 0: not used
+ *  @param[in] nodes_per_edge  by the input: d is the length of a segment, or the mean edge length
+ *                             of a triangle, divided by this. Arcs and curves have none. 0: not
+ *                             used
  *  @param[in] growth          of d per unit of distance; 0: 0.15
- *  @param[in] min_spacing     d is at least this; 0: no bound
- *  @param[in] max_spacing     d is at most this; 0: the size of the domain */
+ *  @param[in] min_spacing     lower bound of d; 0: no bound
+ *  @param[in] max_spacing     upper bound of d; 0: the size of the domain */
 PNPBS_API pnpbs_status pnpbs_placement_set_spacing_from_shape(
     pnpbs_placement placement, double nodes_per_turn, double nodes_across, double nodes_per_edge,
     double growth, double min_spacing, double max_spacing);
 
-/** The spacing from values at the nodes there are: d is linear on each triangle or tetrahedron of
+/** Sets the spacing to values at the current nodes. It is linear on each triangle or tetrahedron of
  *  their Delaunay triangulation (pnpbs_placement_get_triangles, pnpbs_placement_get_tetrahedra),
- *  and beyond its rim, next to curved boundaries, what it is at the nearest point of the rim. Every
- *  rank gives the values of its own nodes; they stay with the ranks, copied together with the
- *  triangles or tetrahedra, and the nodes may go on to be replaced. Collective. Errors:
+ *  and beyond its boundary, next to curved boundaries, equal to the value at the nearest point of
+ *  it. Each rank passes the values of its own nodes; they stay on that rank, copied together with
+ *  the triangles or tetrahedra, and the nodes may be replaced afterwards. Collective. Errors:
  *  PNPBS_ERROR_STATE without nodes, PNPBS_ERROR_SPACING for a value that is zero, negative or not
  *  finite: the message names the rank, the node's id and the value.
  *  @param[in] n  number of nodes of this rank (pnpbs_placement_count)
@@ -663,114 +674,116 @@ PNPBS_API pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement plac
 PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
                                                    pnpbs_monitor_fn monitor, void *user);
 
-/** Inner nodes to start from instead of the initial fill, copied; the boundary is laid by the
- *  library. Over several ranks each gives some, wherever they lie. Where they are many times too
- *  dense for d they are thinned (statistic `deleted`). Points outside the domain or too close to
- *  its boundary are left out (statistic `dropped`). Clears the nodes there are. Collective.
- *  On surfaces alone they go to the nearest place on a surface, if that is no farther than d.
- *  @param[in] coordinates   [n][dim]
- *  @param[in] ids  [n], distinct, 0 .. 2^62, or NULL for ids of the library's choice */
+/** Sets inner nodes to start from instead of the initial fill; they are copied, and the library
+ *  places the boundary nodes. On several ranks each passes some, wherever they lie. Nodes many
+ *  times too dense for d are thinned (statistic `deleted`). Points outside the domain or too close
+ *  to its boundary are dropped (statistic `dropped`). Clears the current nodes. Collective. On
+ *  surfaces alone each point moves to the nearest point of a surface, if that is no farther than d.
+ *  @param[in] coordinates  [n][dim]
+ *  @param[in] ids          [n], distinct, 0 .. 2^62, or NULL for ids chosen by the library */
 PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
                                                  const double *coordinates, const int64_t *ids);
 
-/** What a run from nothing would come to, from domain, spacing and options alone: d is sampled in
- *  some thousand places (where its growth is limited, in as many as by the run), no inner node is
- *  made, and the nodes there are stay as they are.
- *  Collective; outputs may be NULL. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
- *  @param[out] nodes    on all ranks: in the plane mostly within one percent, in space five
+/** Estimates a run from scratch, from domain, spacing and options alone. d is sampled at some
+ *  thousand points (where its growth is limited, at as many as in the run), no inner node is
+ *  created, and the current nodes are unchanged. Collective; outputs may be NULL. Errors:
+ *  PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
+ *  @param[out] nodes    on all ranks: accurate in the plane mostly to one percent, in space to five
  *  @param[out] bytes    memory of each process, for the run alone
- *  @param[out] seconds  roughly: by what a core of a present server does, times the threads of all
- *                       ranks */
+ *  @param[out] seconds  rough: from the speed of a core of a current server, times the threads of
+ *                       all ranks */
 PNPBS_API pnpbs_status pnpbs_placement_estimate(pnpbs_placement placement, int64_t *nodes,
                                                 int64_t *bytes, double *seconds);
 
-/** Checks domain and spacing, builds the background tree, lays the boundary nodes and the initial
- *  inner nodes. Where d varies these come from coarser levels (option `levels`), which are run.
- *  Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK; PNPBS_ERROR_MEMORY also where d
- *  asks for nodes that need more than the memory available, times the option `max_memory`. Returns
- *  PNPBS_OK, or PNPBS_STOPPED: of a coarser level there are nodes. */
+/** Checks domain and spacing, builds the background tree, and lays the boundary nodes and the
+ *  initial inner nodes. Where d varies, the inner nodes are computed by runs on coarser levels
+ *  (option `levels`). Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK;
+ *  PNPBS_ERROR_MEMORY also where d requires nodes that need more than the memory available, times
+ *  the option `max_memory`. Returns PNPBS_OK, or PNPBS_STOPPED; stopped on a coarser level, it
+ *  keeps the nodes of that level. */
 PNPBS_API pnpbs_status pnpbs_placement_initialise(pnpbs_placement placement);
 
-/** Advances the simulation by n steps, with the events (refresh of d, population, stop test)
- *  that fall on them. Initialises first if need be. Collective.
- *  Returns PNPBS_OK if the bubbles rest (stop test met), PNPBS_NOT_CONVERGED if they still move,
- *  PNPBS_STOPPED. */
+/** Advances the simulation by n steps, with the events (refresh of d, population, stop test) that
+ *  fall on them. Initialises first if necessary. Collective. Returns PNPBS_OK if the bubbles are at
+ *  rest (stop test met), PNPBS_NOT_CONVERGED if they still move, PNPBS_STOPPED. */
 PNPBS_API pnpbs_status pnpbs_placement_step(pnpbs_placement placement, int64_t n);
 
-/** One population adjustment, now: deletes where the overlap ratio is too large, inserts where
- *  it is too small (equation (3) of the paper). Initialises first if need be; if the monitor stops
- *  that, PNPBS_STOPPED is returned, and nothing is adjusted. Collective. Outputs may be NULL. */
+/** Performs one population adjustment: deletes bubbles where the overlap ratio is too large,
+ *  inserts them where it is too small (equation (3) of the paper). Initialises first if necessary;
+ *  if the monitor stops that, returns PNPBS_STOPPED without an adjustment. Collective. Outputs may
+ *  be NULL. */
 PNPBS_API pnpbs_status pnpbs_placement_adjust_population(pnpbs_placement placement,
                                                          int64_t *inserted, int64_t *deleted);
 
-/** Deals the work out to the ranks anew, by METIS and the work counted in the lists, so that each
- *  owns an equal share and little changes its rank. The nodes stay as they are; who owns them, and
- *  who has which ghosts, changes. A run does so by itself where the statistic `imbalance` (largest
- *  over mean work) passes the option `rebalance_above`. Initialises first if need be; if the
- *  monitor stops that, PNPBS_STOPPED is returned, and the ranks keep what they have. Collective. */
+/** Repartitions the work over the ranks, by METIS with the work counted in the lists, so that each
+ *  rank owns an equal share and few nodes change rank. The nodes are unchanged; their owners and
+ *  the ghosts of each rank change. A run does this by itself where the statistic `imbalance`
+ *  (largest over mean work) exceeds the option `rebalance_above`. Initialises first if necessary;
+ *  if the monitor stops that, returns PNPBS_STOPPED without a change of owners. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
 
-/** The whole job: initialise if need be, steps until the stop test is met or `steps` are done,
- *  finish. Afterwards it starts a new schedule from the nodes there are. Collective.
- *  Returns PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether
- *  the bubbles rest or not, if in one of the bands of pnpbs_placement_get_edge_bands with 50 edges
- *  or more the mean is off 1 by more than 0.1: then there is a warning that names the band;
+/** Runs the whole placement: initialises if necessary, steps until the stop test is met or `steps`
+ *  are done, and finishes. A later call starts a new schedule from the current nodes. Collective.
+ *  Returns PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether or
+ *  not the bubbles are at rest, if in one of the bands of pnpbs_placement_get_edge_bands with 50
+ *  edges or more the mean differs from 1 by more than 0.1 (a warning names the band);
  *  PNPBS_NOT_CONFORMING, whatever else is true, if there are no tetrahedra, nodes are in none, some
  *  have no volume, their boundary is torn or has another Euler characteristic than the domain's,
- *  the volume is off the domain's by more than 0.001 of it and more than boundary faces can cut
- *  off, or triangles of surfaces alone do not join: then there is a warning that says so;
- *  PNPBS_STOPPED. The nodes are valid in all these cases. In space, before it would return
- *  PNPBS_NOT_CONFORMING, d is made smaller around the places where elements are lacking, and the
- *  run goes on from its nodes, up to `conforming_rounds` times; a warning says what that cost
- *  (statistic `unresolved_places`). It stays smaller there until another spacing is set. There is a
- *  warning, too, where the tetrahedra's boundary does not follow the surfaces (statistic
- *  `missing_faces`): see the option `resolve`; and where corners and sharp edges are left out
- *  (statistic `left_out`), as no tetrahedra hold on to them: what lies between them is smaller than
- *  half of d, or the body ends there in a tip or an edge too sharp for any d. */
+ *  the volume differs from the domain's by more than 0.001 of it and more than boundary faces can
+ *  cut off, or triangles of surfaces alone do not join (a warning says which); PNPBS_STOPPED. The
+ *  nodes are valid in all these cases. In space, before it would return PNPBS_NOT_CONFORMING, it
+ *  reduces d where elements are missing and continues from its nodes, up to `conforming_rounds`
+ *  times; a warning reports the cost (statistic `unresolved_places`). d stays reduced there until
+ *  another spacing is set. There is also a warning where the boundary of the tetrahedra does not
+ *  follow the surfaces (statistic `missing_faces`; see the option `resolve`), and where corners and
+ *  sharp edges are left out (statistic `left_out`) because no tetrahedra connect to them: what lies
+ *  between them is smaller than half of d, or the body ends there in a tip or an edge too sharp for
+ *  any d. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
-/** The dimension of the placement's domain. Local.
+/** Returns the dimension of the placement's domain. Local.
  *  @param[out] dim  2: in the plane, 3: in space */
 PNPBS_API pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t *dim);
 
-/** Number of nodes of this rank. Local. */
+/** Returns the number of nodes of this rank. Local. */
 PNPBS_API pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t *nodes);
 
-/** Copies the nodes of this rank out, in their local order; any array may be NULL. Local.
- *  @param[in]  capacity  nodes the arrays have room for; too small is PNPBS_ERROR_CAPACITY
+/** Copies the nodes of this rank, in their local order; any array may be NULL. Local.
+ *  @param[in] capacity      nodes the arrays have room for; too small is PNPBS_ERROR_CAPACITY
  *  @param[out] coordinates  [nodes][dim]
- *  @param[out] ids       [nodes] global ids, the same for any number of ranks and threads
- *  @param[out] tags      [nodes] 0 inner, otherwise the tag of the curve, surface or fixed node
- *  @param[out] spacing   [nodes] d at the node, no more than 1024 times the domain's size; on a
- *                        boundary that is far finer than d, 32 of the node's longest edge there */
+ *  @param[out] ids          [nodes] global ids, the same for any number of ranks and threads
+ *  @param[out] tags         [nodes] 0 inner, otherwise the tag of the curve, surface or fixed node
+ *  @param[out] spacing      [nodes] d at the node, no more than 1024 times the domain's size; on a
+ *                           boundary that is far finer than d, 32 times the node's longest edge
+ *                           there */
 PNPBS_API pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capacity,
                                                  double *coordinates, int64_t *ids, int32_t *tags,
                                                  double *spacing);
 
-/** Copies out where the surfaces look at the nodes of this rank, of a placement in space: the unit
- *  normal of the triangle that a node lies on, on feature edges and in corners the mean of those on
- *  its sides (where these look against each other, and for inner nodes, 0). On level sets, but for
- *  their corners, it is the gradient of f, by differences. They point out of a filled domain.
- *  Local.
- *  @param[in]  capacity  nodes the array has room for; too small is PNPBS_ERROR_CAPACITY
- *  @param[out] normals   [nodes][3] */
+/** Copies the surface normals at the nodes of this rank, of a placement in space: the unit normal
+ *  of the triangle that a node lies on, and on feature edges and in corners the mean of the
+ *  adjacent normals. It is 0 where these oppose each other, and for inner nodes. On level sets,
+ *  except at their corners, it is the gradient of f, by differences. Normals point out of a filled
+ *  domain. Local.
+ *  @param[in] capacity  nodes the array has room for; too small is PNPBS_ERROR_CAPACITY
+ *  @param[out] normals  [nodes][3] */
 PNPBS_API pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capacity,
                                                    double *normals);
 
-/** Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars,
- *  triangles and tetrahedra ghost g has the local index nodes + g. Collective. */
+/** Returns the number of ghosts: nodes of other ranks that this rank sees near its own. In lists,
+ *  stars, triangles and tetrahedra ghost g has the local index nodes + g. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t *ghosts);
 
-/** Copies the ghosts out, by increasing id; any array may be NULL. Collective.
- *  @param[in]  capacity  ghosts the arrays have room for
+/** Copies the ghosts, by increasing id; any array may be NULL. Collective.
+ *  @param[in] capacity                          ghosts the arrays have room for
  *  @param[out] coordinates, ids, tags, spacing  as pnpbs_placement_get_nodes
- *  @param[out] owners    [ghosts] the rank that owns each */
+ *  @param[out] owners                           [ghosts] the rank that owns each */
 PNPBS_API pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capacity,
                                                   double *coordinates, int64_t *ids, int32_t *tags,
                                                   double *spacing, int32_t *owners);
 
-/** Sizes of the exchange pattern: how values at nodes reach their ghosts on other ranks.
- *  Collective; outputs may be NULL.
+/** Returns the sizes of the exchange pattern, by which values at nodes reach their ghosts on other
+ *  ranks. Collective; outputs may be NULL.
  *  @param[out] neighbours  ranks that have ghosts of our nodes, or nodes that are ghosts here
  *  @param[out] sends       nodes to send, one for every rank that has it as a ghost
  *  @param[out] receives    nodes to receive: the number of ghosts */
@@ -778,98 +791,98 @@ PNPBS_API pnpbs_status pnpbs_placement_exchange_sizes(pnpbs_placement placement,
                                                       int32_t *neighbours, int64_t *sends,
                                                       int64_t *receives);
 
-/** The exchange pattern, for a solver to use again: send the values at nodes
- *  send_nodes[send_offsets[k] .. send_offsets[k+1]-1] to ranks[k], and put what comes from there
- *  into places receive_nodes[receive_offsets[k] .. receive_offsets[k+1]-1], in the same order (that
- *  of ids). It stays right until nodes move. Collective.
+/** Copies the exchange pattern, for reuse in a solver: send the values at nodes
+ *  send_nodes[send_offsets[k] .. send_offsets[k+1]-1] to ranks[k], and store what it sends at
+ *  receive_nodes[receive_offsets[k] .. receive_offsets[k+1]-1], in the same order (that of ids).
+ *  Valid until nodes move. Collective.
  *  @param[in] neighbours, sends, receives  what the arrays have room for; too small is
  *                                          PNPBS_ERROR_CAPACITY
- *  @param[out] ranks            [neighbours] in increasing order; rank r names s where s names r
- *  @param[out] send_offsets     [neighbours + 1]
- *  @param[out] send_nodes       [sends] local indices of this rank's nodes
- *  @param[out] receive_offsets  [neighbours + 1]
- *  @param[out] receive_nodes    [receives] local indices of ghosts (nodes + g) */
+ *  @param[out] ranks                       [neighbours] in increasing order; rank r lists s where s
+ *                                          lists r
+ *  @param[out] send_offsets                [neighbours + 1]
+ *  @param[out] send_nodes                  [sends] local indices of this rank's nodes
+ *  @param[out] receive_offsets             [neighbours + 1]
+ *  @param[out] receive_nodes               [receives] local indices of ghosts (nodes + g) */
 PNPBS_API pnpbs_status pnpbs_placement_get_exchange(pnpbs_placement placement, int32_t neighbours,
                                                     int64_t sends, int64_t receives, int32_t *ranks,
                                                     int64_t *send_offsets, int64_t *send_nodes,
                                                     int64_t *receive_offsets,
                                                     int64_t *receive_nodes);
 
-/** Numbers that are contiguous per rank, as PETSc and hypre want them, besides the ids: node i of
- *  this rank has number first + i, and rank r's numbers follow those of rank r - 1. Unlike the ids
- *  they depend on the ranks. Collective; outputs may be NULL.
- *  @param[in]  capacity       ghosts `ghost_numbers` has room for; if that is given and too small,
+/** Returns numbers that are contiguous per rank, as PETSc and hypre require, in addition to the
+ *  ids: node i of this rank has number first + i, and the numbers of rank r follow those of rank r
+ *  - 1. Unlike the ids they depend on the ranks. Collective; outputs may be NULL.
+ *  @param[in] capacity        ghosts `ghost_numbers` has room for; if that is given and too small,
  *                             PNPBS_ERROR_CAPACITY
  *  @param[out] first          the number of this rank's first node; 0 on rank 0
  *  @param[out] count          how many numbers this rank has: its nodes
- *  @param[out] ghost_numbers  [ghosts] the numbers of the ghosts, as pnpbs_placement_get_ghosts has
- *                             them */
+ *  @param[out] ghost_numbers  [ghosts] the numbers of the ghosts, in the order of
+ *                             pnpbs_placement_get_ghosts */
 PNPBS_API pnpbs_status pnpbs_placement_get_numbering(pnpbs_placement placement, int64_t capacity,
                                                      int64_t *first, int64_t *count,
                                                      int64_t *ghost_numbers);
 
-/** Gives the ghosts the values that their owners have, of a field of `components` numbers at each
- *  node. The plan of the exchange is made at the first call after nodes have moved, and kept.
- *  Collective. Errors: PNPBS_ERROR_ARGUMENT for another n, fewer than one component, or numbers of
- *  components that differ between ranks; PNPBS_ERROR_STATE without nodes, or while an update that
- *  was begun has not ended.
+/** Updates the values at ghosts from their owners, for a field of `components` numbers at each
+ *  node. The exchange plan is built at the first call after nodes have moved, and kept. Collective.
+ *  Errors: PNPBS_ERROR_ARGUMENT for another n, fewer than one component, or numbers of components
+ *  that differ between ranks; PNPBS_ERROR_STATE without nodes, or while an update is in progress.
  *  @param[in] n           nodes and ghosts of this rank (pnpbs_placement_count, _ghost_count)
  *  @param[in] components  numbers at each node, the same on all ranks
- *  @param[out] values     [n][components] those of this rank's nodes, which are read, then those
- *                         of its ghosts, which are filled */
+ *  @param[out] values     [n][components] those of this rank's nodes, which are read, then those of
+ *                         its ghosts, which are filled */
 PNPBS_API pnpbs_status pnpbs_placement_update_ghosts(pnpbs_placement placement, int64_t n,
                                                      int32_t components, double *values);
 
-/** The first half of pnpbs_placement_update_ghosts, for a solver that computes while messages
- *  travel: copies the values of this rank's nodes that others need, and sends them on their way.
- *  The array may change or go as soon as it returns. One update at a time is under way for a
- *  placement; other calls may come before it is ended. Collective. Errors: as there. */
+/** Begins an update of ghosts, for a solver that computes while messages travel: copies the values
+ *  of this rank's nodes that others need, and starts sending them. The array may be changed or
+ *  freed after the call. A placement has at most one update in progress; other calls are allowed
+ *  before it ends. Collective. Errors: as there. */
 PNPBS_API pnpbs_status pnpbs_placement_begin_update_ghosts(pnpbs_placement placement, int64_t n,
                                                            int32_t components,
                                                            const double *values);
 
-/** The second half: waits for the values that the other ranks sent when they began, and fills those
- *  of the ghosts; those of this rank's nodes are not touched. Local: it waits for no other rank to
- *  end. Errors: PNPBS_ERROR_STATE without an update under way, or if nodes have moved since it
- *  began, which ends it; PNPBS_ERROR_ARGUMENT for another n or number of components, after which
- *  the update is still under way.
- *  @param[out] values     [n][components] of which those of the ghosts are filled; need not be
- *                         the array that the update began with */
+/** Ends an update of ghosts: waits for the values that the other ranks sent when they began, and
+ *  fills those of the ghosts; those of this rank's nodes are unchanged. Local: does not wait for
+ *  other ranks to end theirs. Errors: PNPBS_ERROR_STATE without an update in progress, or if nodes
+ *  have moved since it began, which ends it; PNPBS_ERROR_ARGUMENT for another n or number of
+ *  components, after which the update is still in progress.
+ *  @param[out] values  [n][components] of which those of the ghosts are filled; need not be the
+ *                      array that the update began with */
 PNPBS_API pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_t n,
                                                          int32_t components, double *values);
 
-/** Adds the values at ghosts to those of the nodes that they stand for, on the ranks that own
- * these: the way of pnpbs_placement_update_ghosts back, for sums over elements to which several
- * ranks contribute. Each sum, of a node's own value and of those at its ghosts, is exact and
- * rounded once, so no order of ranks matters: it has the same bits wherever the terms are the same
- * ones. What a rank has added up by itself before it has been rounded there; so, unless these sums
- * are exact, other numbers of ranks give results that differ by rounding. Where all bits shall be
- * the same, pnpbs_placement_get_incident_elements has what a row needs on its own rank. NaN and
- * infinities as in pnpbs_placement_sum; a sum that is 0 is +0. May be called while an update is
- * under way. Collective. Errors: PNPBS_ERROR_ARGUMENT for another n, fewer than one component, or
- * numbers of components that differ between ranks; PNPBS_ERROR_STATE without nodes.
+/** Adds the values at ghosts to those of the nodes they represent, on the ranks that own these. It
+ *  is the reverse of pnpbs_placement_update_ghosts, for sums over elements to which several ranks
+ *  contribute. Each sum, of a node's own value and those at its ghosts, is exact and rounded once,
+ *  so the order of ranks has no effect: it has the same bits wherever the terms are the same.
+ *  Values that a rank has summed by itself before were rounded there, so unless these sums are
+ *  exact, results differ by rounding between numbers of ranks. Where all bits must agree,
+ *  pnpbs_placement_get_incident_elements provides what a row needs on its own rank. NaN and
+ *  infinities as in pnpbs_placement_sum; a sum that is 0 is +0. May be called while an update is in
+ *  progress. Collective. Errors: PNPBS_ERROR_ARGUMENT for another n, fewer than one component, or
+ *  numbers of components that differ between ranks; PNPBS_ERROR_STATE without nodes.
  *  @param[in] n           nodes and ghosts of this rank (pnpbs_placement_count, _ghost_count)
  *  @param[in] components  numbers at each node, the same on all ranks
- *  @param[out] values  [n][components] those of this rank's nodes, which become the sums, then
- *                         those of its ghosts, which stay as they are */
+ *  @param[out] values     [n][components] those of this rank's nodes, which become the sums, then
+ *                         those of its ghosts, which are unchanged */
 PNPBS_API pnpbs_status pnpbs_placement_add_from_ghosts(pnpbs_placement placement, int64_t n,
                                                        int32_t components, double *values);
 
-/** Sums of a field over the nodes of all ranks, of each component by itself: the exact sum, rounded
- *  once, to the nearest double. So it has the same bits for any number of ranks and threads and any
- *  order of nodes. NaN where a value is NaN or where there are infinities of both signs; otherwise
- *  an infinity where a value is, or where the sum is beyond the largest double. A sum that is 0 is
- *  +0. Collective. Errors: as pnpbs_placement_update_ghosts, but for updates under way.
- *  @param[in] n           entries of the array: at least this rank's nodes; those behind, its
- *                         ghosts', do not count
+/** Sums each component of a field over the nodes of all ranks: the exact sum, rounded once to the
+ *  nearest double. It has the same bits for any number of ranks and threads and any order of nodes.
+ *  NaN where a value is NaN or where there are infinities of both signs; otherwise an infinity
+ *  where a value is, or where the sum is beyond the largest double. A sum that is 0 is +0.
+ *  Collective. Errors: as pnpbs_placement_update_ghosts, except for updates in progress.
+ *  @param[in] n           entries of the array: at least this rank's nodes; entries after them, for
+ *                         its ghosts, are ignored
  *  @param[in] components  numbers at each node, the same on all ranks
  *  @param[in] values      [n][components]
  *  @param[out] sums       [components] the same on all ranks */
 PNPBS_API pnpbs_status pnpbs_placement_sum(pnpbs_placement placement, int64_t n, int32_t components,
                                            const double *values, double *sums);
 
-/** Dot products of two fields over the nodes of all ranks, of each component by itself: the sum of
- *  the exact products, rounded once, with all that pnpbs_placement_sum says of its own. No product
+/** Computes the dot product of two fields over the nodes of all ranks, for each component: the sum
+ *  of the exact products, rounded once, with the properties of pnpbs_placement_sum. No product
  *  overflows or underflows; one of an infinity and 0 is NaN. Collective.
  *  @param[in] n           entries of the arrays: at least this rank's nodes
  *  @param[in] components  numbers at each node, the same on all ranks
@@ -878,25 +891,25 @@ PNPBS_API pnpbs_status pnpbs_placement_sum(pnpbs_placement placement, int64_t n,
 PNPBS_API pnpbs_status pnpbs_placement_dot(pnpbs_placement placement, int64_t n, int32_t components,
                                            const double *x, const double *y, double *products);
 
-/** Number of entries of all adjacency lists of this rank's nodes. Collective. */
+/** Returns the number of entries of all adjacency lists of this rank's nodes. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t *entries);
 
-/** Adjacency lists in compressed rows: the neighbours of local node i are
- *  neighbours[offsets[i] .. offsets[i+1]-1], local indices in the order of global ids; directly
- *  usable for node-based local mesh generation. Pairs that a boundary separates are not
- *  neighbours; on surfaces alone, those are that share a patch and whose normals differ by less
- * than 90 degrees. Collective.
+/** Copies the adjacency lists in compressed rows: the neighbours of local node i are
+ *  neighbours[offsets[i] .. offsets[i+1]-1], local indices in the order of global ids. They can be
+ *  used directly for node-based local mesh generation. Pairs separated by a boundary are not
+ *  neighbours; on surfaces alone, neighbours share a patch and their normals differ by less than 90
+ *  degrees. Collective.
  *  @param[in] capacity  entries `neighbours` has room for
  *  @param[out] offsets  [nodes + 1] */
 PNPBS_API pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t capacity,
                                                      int64_t *offsets, int64_t *neighbours);
 
-/** Number of entries of all Delaunay stars. Collective. */
+/** Returns the number of entries of all Delaunay stars. Collective. */
 PNPBS_API pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int64_t *entries);
 
-/** Each node's star in the constrained Delaunay triangulation of the domain: in the plane
- *  counter-clockwise; in space all nodes that share a tetrahedron with it, or a triangle of
- * surfaces alone, in no order that means anything. Collective.
+/** Copies each node's star in the constrained Delaunay triangulation of the domain: in the plane
+ *  counter-clockwise; in space all nodes that share a tetrahedron with it, on surfaces alone a
+ *  triangle, in no particular order. Collective.
  *  @param[out] offsets     [nodes + 1]
  *  @param[out] neighbours  [entries] local indices
  *  @param[out] triangle    [entries] 1 if the node, this neighbour and the next one around (the
@@ -906,35 +919,34 @@ PNPBS_API pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int6
                                                  int64_t *offsets, int64_t *neighbours,
                                                  int8_t *triangle);
 
-/** Triangles of the stars of a placement in the plane, each once, counter-clockwise. Over several
- *  ranks a triangle is the rank's that owns its node with the least id; other corners may be
- *  ghosts, and the triangles of all ranks together are one conforming triangulation of the domain.
- *  Collective. Ask with capacity 0 for the count.
+/** Copies the triangles of the stars of a placement in the plane, each once, counter-clockwise. On
+ *  several ranks a triangle belongs to the rank that owns its node with the lowest id; other
+ *  corners may be ghosts, and the triangles of all ranks together are one conforming triangulation
+ *  of the domain. Collective. Call with capacity 0 to get the count.
  *  @param[out] triangles  [count][3] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_triangles(pnpbs_placement placement, int64_t capacity,
                                                      int64_t *count, int64_t *triangles);
 
-/** Tetrahedra of the stars of a placement in space, each once: seen from the fourth corner, the
- *  first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of corners a, b, c
- *  and d is positive. Over several ranks a tetrahedron is the rank's that owns its node with the
- *  least id; other corners may be ghosts, and the tetrahedra of all ranks together are one
- *  conforming triangulation of the domain. Surfaces alone have none. Collective. Ask with capacity
- * 0 for the count.
+/** Copies the tetrahedra of the stars of a placement in space, each once: seen from the fourth
+ *  corner, the first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of
+ *  corners a, b, c and d is positive. On several ranks a tetrahedron belongs to the rank that owns
+ *  its node with the lowest id; other corners may be ghosts, and the tetrahedra of all ranks
+ *  together are one conforming triangulation of the domain. Surfaces alone have none. Collective.
+ *  Call with capacity 0 to get the count.
  *  @param[out] tetrahedra  [count][4] local indices, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_tetrahedra(pnpbs_placement placement, int64_t capacity,
                                                       int64_t *count, int64_t *tetrahedra);
 
-/** Every element with a corner among this rank's nodes, whichever rank it belongs to: triangles
- *  in the plane, tetrahedra in space, triangles on surfaces alone. With these a rank assembles
- *  the rows of its nodes by itself, without a message. An element whose corners have several
- *  owners comes on each of these ranks. The corner with the least id comes first; so an element
- *  belongs to this rank, as pnpbs_placement_get_triangles and its relatives deal them out, if its
- *  first corner is a node of this rank. The others follow in the same orientation as there, in a
- *  tetrahedron the least id of the three first. Elements are in the order of the ids of their
- *  corners: so those of a node are the same, in the same order, for any number of ranks, and a
- *  row that adds them up in this order has the same bits. Collective. Ask with capacity 0 for the
- *  count.
- *  @param[in]  capacity  elements the array has room for; too small is PNPBS_ERROR_CAPACITY
+/** Copies every element with a corner among this rank's nodes, whichever rank it belongs to:
+ *  triangles in the plane, tetrahedra in space, triangles on surfaces alone. With these a rank
+ *  assembles the rows of its nodes without communication. An element whose corners have several
+ *  owners is returned on each of these ranks. The corner with the lowest id comes first, so an
+ *  element belongs to this rank, as defined by pnpbs_placement_get_triangles and related functions,
+ *  if its first corner is a node of this rank. The others follow in the same orientation as there;
+ *  in a tetrahedron the lowest id of the three comes first. Elements are in the order of the ids of
+ *  their corners, so those of a node are the same, in the same order, for any number of ranks, and
+ *  a row summed in this order has the same bits. Collective. Call with capacity 0 to get the count.
+ *  @param[in] capacity   elements the array has room for; too small is PNPBS_ERROR_CAPACITY
  *  @param[out] count     number of elements
  *  @param[out] corners   3 or 4: corners of an element; may be NULL
  *  @param[out] elements  [count][corners] local indices, or NULL */
@@ -942,42 +954,41 @@ PNPBS_API pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement pla
                                                              int64_t capacity, int64_t *count,
                                                              int32_t *corners, int64_t *elements);
 
-/** Triangles of the boundary of a placement in space: the faces of tetrahedra that have no other
- *  tetrahedron behind them, counter-clockwise as seen from outside. Of surfaces alone, the
- * triangles between the nodes on them, counter-clockwise as seen from where the surface's normal
- * points to. Over several ranks a triangle is the rank's that owns its node with the least id, and
- * the triangles of all ranks together conform. Collective. Ask with capacity 0 for the count.
+/** Copies the boundary triangles of a placement in space: the faces that belong to one tetrahedron
+ *  only, counter-clockwise as seen from outside. On surfaces alone, they are the triangles between
+ *  the nodes, counter-clockwise as seen from the side that the surface's normal points to. On
+ *  several ranks a triangle belongs to the rank that owns its node with the lowest id, and the
+ *  triangles of all ranks together conform. Collective. Call with capacity 0 to get the count.
  *  @param[out] triangles  [count][3] local indices, or NULL
  *  @param[out] tags       [count] of the surface there, or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement,
                                                               int64_t capacity, int64_t *count,
                                                               int64_t *triangles, int32_t *tags);
 
-/** Boundary edges of a placement in the plane: consecutive nodes on boundary and inner curves. Over
- *  several ranks an edge is the rank's that owns the node it begins with; the other end may be a
- *  ghost. Local. Ask with capacity 0 for the count.
+/** Copies the boundary edges of a placement in the plane: consecutive nodes on boundary and inner
+ *  curves. On several ranks an edge belongs to the rank that owns its first node; the other end may
+ *  be a ghost. Local. Call with capacity 0 to get the count.
  *  @param[out] edges  [count][2] local indices, or NULL
  *  @param[out] tags   [count], or NULL */
 PNPBS_API pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement,
                                                           int64_t capacity, int64_t *count,
                                                           int64_t *edges, int32_t *tags);
 
-/** Checks that the results keep what is promised of them: ids are unique, no two nodes lie in one
- *  place, all lie inside or on the boundary, and all that the boundary's curves or feature edges
- *  have are there; adjacency lists are symmetric; the triangles or tetrahedra of the stars are one
- *  conforming triangulation of the domain, each in the stars of all its corners, with every
- *  boundary edge, and their areas or volumes add up to what the boundary encloses; in space the
- *  boundary triangles are closed, and cut off no more of the domain than chords do; on surfaces
- *  alone every edge has a triangle on both sides, at borders on one, and the areas add up. It takes
- *  about as long as making lists and stars, and no rank holds more than its share. Collective.
- *  Returns PNPBS_OK; PNPBS_NOT_CONFORMING where a run returns it, too: pnpbs_last_error says where,
- *  and all that the elements there are must keep holds. Errors: PNPBS_ERROR_INTERNAL if something
- *  else is wrong: the message says what, with ids and coordinates; PNPBS_ERROR_STATE without nodes.
- */
+/** Checks the invariants of the results. Ids are unique, no two nodes coincide, all lie inside or
+ *  on the boundary, and all nodes of the boundary's curves or feature edges are present. Adjacency
+ *  lists are symmetric. The triangles or tetrahedra of the stars are one conforming triangulation
+ *  of the domain, each in the stars of all its corners, with every boundary edge, and their areas
+ *  or volumes add up to what the boundary encloses. In space the boundary triangles are closed, and
+ *  cut off no more of the domain than chords do; on surfaces alone every edge has a triangle on
+ *  both sides, at borders on one, and the areas add up. It takes about as long as building lists
+ *  and stars, and no rank holds more than its share. Collective. Returns PNPBS_OK;
+ *  PNPBS_NOT_CONFORMING where a run returns it, too: pnpbs_last_error says where, and the existing
+ *  elements satisfy all other invariants. Errors: PNPBS_ERROR_INTERNAL if something else is wrong:
+ *  the message says what, with ids and coordinates; PNPBS_ERROR_STATE without nodes. */
 PNPBS_API pnpbs_status pnpbs_placement_check(pnpbs_placement placement);
 
-/** A statistic by key (see pnpbs_statistic_info). Collective (some are computed when asked).
- *  Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type differs;
+/** Returns a statistic by key (see pnpbs_statistic_info). Collective (some are computed on
+ *  request). Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type differs;
  *  PNPBS_ERROR_ARGUMENT if the key differs between ranks. */
 PNPBS_API pnpbs_status pnpbs_placement_get_int64(pnpbs_placement placement, const char *key,
                                                  int64_t *value);
@@ -986,17 +997,17 @@ PNPBS_API pnpbs_status pnpbs_placement_get_double(pnpbs_placement placement, con
 PNPBS_API pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, const char *key,
                                                   const char **value);
 
-/** How well the edges of the triangles or tetrahedra follow the spacing, by bands of it: eight,
- *  equal in log d between the least and the largest d at the nodes, or one if that is less than 1.1
- *  times the least. Bands without edges are left out. An edge's d is the mean of d at its ends.
- *  Edges between two boundary nodes, whose places the corners of the domain decide, do not count
- *  here. Over all ranks, and the same on each. Collective. Ask with capacity 0 for the count;
- *  arrays may be NULL.
- *  @param[in]  capacity   bands the arrays have room for; 8 is always enough
+/** Measures how well the edges of the triangles or tetrahedra follow the spacing, by bands of d.
+ *  There are eight, equal in log d between the smallest and the largest d at the nodes, or one if
+ *  the largest is less than 1.1 times the smallest. Bands without edges are left out. An edge's d
+ *  is the mean of d at its ends. Edges between two boundary nodes are not counted, because the
+ *  corners of the domain determine their positions. Includes all ranks, and is the same on each.
+ *  Collective. Call with capacity 0 to get the count; arrays may be NULL.
+ *  @param[in] capacity    bands the arrays have room for; 8 is always enough
  *  @param[out] count      number of bands
- *  @param[out] d_from     [count] where each begins, in the unit of the coordinates; increasing
- *  @param[out] d_to       [count] where it ends
- *  @param[out] edges      [count] how many edges there are
+ *  @param[out] d_from     [count] lower end, in the unit of the coordinates; increasing
+ *  @param[out] d_to       [count] upper end
+ *  @param[out] edges      [count] number of edges
  *  @param[out] mean       [count] of their length over d
  *  @param[out] deviation  [count] standard deviation of that */
 PNPBS_API pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t capacity,
@@ -1004,25 +1015,26 @@ PNPBS_API pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement,
                                                       int64_t *edges, double *mean,
                                                       double *deviation);
 
-/** Warnings about domain and spacing, gathered at initialise (a feature smaller than d, an unused
- *  vertex, ...), and about nodes that do not follow the spacing, of the last run. Local. */
+/** Returns warnings about domain and spacing, collected at initialise (a feature smaller than d, an
+ *  unused vertex, ...), and about nodes that do not follow the spacing, from the last run.
+ *  Local. */
 PNPBS_API pnpbs_status pnpbs_placement_warning_count(pnpbs_placement placement, int32_t *count);
 PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, int32_t index,
                                                    const char **text);
 
 /* ---------------------------------------------------------------- transfer -------------- */
 
-/** Takes a field to the nodes that will be: copies the values of all ranks at the nodes that the
- *  placement has now, together with these nodes and their triangles or tetrahedra, each rank its
- *  own. The nodes may then move, be replaced or change their ranks, and the placement may go. The
- *  field is linear on each triangle or tetrahedron; beyond their rim, next to curved boundaries, it
- *  goes on as on the one behind the nearest place of the rim. So fields that are linear stay what
- *  they are, and others change by a part of the second order in d. On surfaces alone it is linear
- *  on each triangle between their nodes, and elsewhere what it is at the nearest place of these.
- *  Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for another n, fewer
- *  than one component, or a value that is not finite: the message names the rank, the component and
- *  the node's id.
- *  @param[in] placement   whose nodes there are values for
+/** Transfers a field to a later set of nodes: copies the values of all ranks at the current nodes
+ *  of the placement, with these nodes and their triangles or tetrahedra, each rank its own. The
+ *  nodes may then move, be replaced or change their ranks, and the placement may be destroyed. The
+ *  field is linear on each triangle or tetrahedron; beyond their boundary, next to curved
+ *  boundaries, it is extrapolated from the one at the nearest point of that boundary. Linear fields
+ *  are thus preserved, and others change by a term of second order in d. On surfaces alone it is
+ *  linear on each triangle between their nodes, and elsewhere equal to the value at the nearest
+ *  point of these. Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for
+ *  another n, fewer than one component, or a value that is not finite: the message names the rank,
+ *  the component and the node's id.
+ *  @param[in] placement   whose nodes have the values
  *  @param[in] n           number of nodes of this rank (pnpbs_placement_count)
  *  @param[in] components  numbers at each node, the same on all ranks
  *  @param[in] values      [n][components] in the order of pnpbs_placement_get_nodes
@@ -1031,54 +1043,54 @@ PNPBS_API pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t 
                                              int32_t components, const double *values,
                                              pnpbs_transfer *transfer);
 
-/** The same with a field of second order: at each node a polynomial of second order goes through
- * its value and is fitted by least squares to those of its neighbours and of their neighbours in
- * the stars (so across no boundary, and the same for all components); within an element those of
- * its corners count as much as in the linear field. So fields that are quadratic in the coordinates
- * stay what they are, and smooth ones change by a part of the third order in d. Next to jumps the
- * field may leave the range of the values there. Where a node has too few neighbours for that, its
- * part is linear (pnpbs_transfer_order tells at how many), as it is everywhere on surfaces alone.
- *  Collective. Errors and parameters as there. */
+/** Transfers a field as pnpbs_transfer_create does, with second order. At each node a quadratic
+ *  polynomial passes through its value and is fitted by least squares to those of its neighbours
+ *  and of their neighbours in the stars (so across no boundary, and the same for all components).
+ *  Within an element those of its corners are weighted as in the linear field. Quadratic fields are
+ *  thus preserved, and smooth ones change by a term of third order in d. Next to jumps the field
+ *  may leave the range of the values there. Where a node has too few neighbours, its part is linear
+ *  (pnpbs_transfer_order returns their number), as it is everywhere on surfaces alone. Collective.
+ *  Errors and parameters as there. */
 PNPBS_API pnpbs_status pnpbs_transfer_create_second_order(pnpbs_placement placement, int64_t n,
                                                           int32_t components, const double *values,
                                                           pnpbs_transfer *transfer);
 
-/** Of which order the field is. Outputs may be NULL. Local.
+/** Returns the order of the field. Outputs may be NULL. Local.
  *  @param[out] order         1 or 2
- *  @param[out] linear_nodes  nodes on all ranks without a polynomial of second order; with order 1
- *                            all, told as -1 */
+ *  @param[out] linear_nodes  nodes on all ranks without a quadratic polynomial; with order 1 all,
+ *                            reported as -1 */
 PNPBS_API pnpbs_status pnpbs_transfer_order(pnpbs_transfer transfer, int32_t *order,
                                             int64_t *linear_nodes);
 
-/** Destroys the handle and sets it to NULL; takes NULL. Local. */
+/** Destroys the handle and sets it to NULL; accepts NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer *transfer);
 
-/** What shape its arrays have; outputs may be NULL. Local.
+/** Returns the shape of its arrays; outputs may be NULL. Local.
  *  @param[out] dim         2: in the plane, 3: in space
  *  @param[out] components  numbers at each node */
 PNPBS_API pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t *dim,
                                             int32_t *components);
 
-/** The field at the nodes that a placement has now: the same bits for any number of ranks and
- *  threads, then and now. A node where there was one before gets its value as it was. The placement
- *  may be another one of the same context, in the same dimension. Collective. Errors:
- *  PNPBS_ERROR_CAPACITY; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for a placement of
- *  another context or dimension.
- *  @param[in] conserve  nonzero: to the values of each component the same number is added, so that
- *                       the integral of the field that is linear on the triangles or tetrahedra
- *                       (on surfaces alone, triangles) there are now is the integral that it had on
- *                       those before, to rounding. Where these fill the same domain the number is
- *                       of the second order in d, and rounding for a linear field; next to curved
- *                       boundaries, where they do not, it also makes up for what they fill more or
- *                       less. Values may thereby leave the range they had.
+/** Evaluates the field at the current nodes of a placement: the same bits for any number of ranks
+ *  and threads, at creation and now. A node at the position of an earlier one gets its value
+ *  unchanged. The placement may be another one of the same context, in the same dimension.
+ *  Collective. Errors: PNPBS_ERROR_CAPACITY; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT
+ *  for a placement of another context or dimension.
+ *  @param[in] conserve  nonzero: adds the same number to the values of each component, so that the
+ *                       integral of the field that is linear on the current triangles or tetrahedra
+ *                       (on surfaces alone, triangles) equals its integral on the previous ones, to
+ *                       rounding. Where both fill the same domain, the number is of second order in
+ *                       d, and rounding for a linear field; next to curved boundaries, where they
+ *                       do not, it also compensates for the difference in what they fill. Values
+ *                       may leave their previous range.
  *  @param[in] capacity  nodes the array has room for, at least those of this rank
- *  @param[out] values   [nodes][components] in the order of pnpbs_placement_get_nodes; those of
- *                       ghosts are for pnpbs_placement_update_ghosts */
+ *  @param[out] values   [nodes][components] in the order of pnpbs_placement_get_nodes; for those of
+ *                       ghosts use pnpbs_placement_update_ghosts */
 PNPBS_API pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement placement,
                                                int32_t conserve, int64_t capacity, double *values);
 
-/** The field at any points, of which each rank asks those it wants, 0 or more. Collective. Errors:
- *  PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
+/** Evaluates the field at arbitrary points; each rank passes its own, 0 or more. Collective.
+ *  Errors: PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
  *  @param[in] n            points of this rank
  *  @param[in] coordinates  [n][dim]
  *  @param[out] values      [n][components] */
@@ -1087,25 +1099,25 @@ PNPBS_API pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t
 
 /* ---------------------------------------------------------------- files ----------------- */
 
-/** Writes the nodes of all ranks into one file. The extension is the format:
+/** Writes the nodes of all ranks into one file. The extension selects the format:
  *    .vtu   VTK's unstructured grid: nodes with id, tag and spacing; triangles with their quality,
  *           2 r_in / R, or tetrahedra with theirs, 3 r_in / R (without elements: one vertex cell
  *           per node). The facets, which are the edges of boundary and inner curves or the
  *           triangles of boundary and inner surfaces, are in a second grid with their tag,
- *           mesh_facets.vtu for mesh.vtu: its points are the same nodes. Of surfaces alone the
- *           triangles are the cells of mesh.vtu, and there is no second grid, nor beside streams
- *           and devices
- *    .pvtu  the same as a file that names one piece per rank, written by that rank beside it:
- *           mesh_0.vtu, mesh_1.vtu, ... for mesh.pvtu. Nodes of other ranks that a piece's elements
- *           need are in it, too, marked by vtkGhostType.
- *    .vtkhdf the same as .vtu as one file by HDF5, VTK's 1.0, and one of facets; no checkpoint
- *    .xdmf  the same as XDMF 3, which tells of the arrays in a second file of the same name, .h5;
- *           its grids are called mesh and facets, and points of the plane have two coordinates
+ *           mesh_facets.vtu for mesh.vtu, with the same nodes as points. On surfaces alone the
+ *           triangles are the cells of mesh.vtu, and there is no second grid. Streams and devices
+ *           have none either
+ *    .pvtu  the same as a file that names one piece per rank, which that rank writes beside it:
+ *           mesh_0.vtu, mesh_1.vtu, ... for mesh.pvtu. A piece also contains the nodes of other
+ *           ranks that its elements need, marked by vtkGhostType.
+ *    .vtkhdf the same as .vtu as one HDF5 file, VTK's 1.0, and one of facets; no checkpoint
+ *    .xdmf  the same as XDMF 3, which describes arrays in a second file of the same name, .h5; its
+ *           grids are called mesh and facets, and points of the plane have two coordinates
  *    .msh   Gmsh's format 4.1: nodes, triangles and the edges of boundary and inner curves, or
- *           tetrahedra and the triangles of boundary and inner surfaces; the tags of these as
- *           physical groups with their names, or "tag_7" (without elements: one point per node).
- *           Of an inner surface, triangles are the faces whose tetrahedra lie on two sides of it;
- *           they turn as the surface does. The other formats in space have the same triangles
+ *           tetrahedra and the triangles of boundary and inner surfaces; their tags as physical
+ *           groups with their names, or "tag_7" (without elements: one point per node). The
+ *           triangles of an inner surface are the faces with tetrahedra on two sides of it,
+ *           oriented as the surface. The other formats in space have the same triangles
  *    .msh2  the same in Gmsh's format 2.2
  *    .node  Triangle's or TetGen's nodes, numbered from 1, tags as markers; with elements, these in
  *           a second file of the same name, .ele, and in space the triangles in a third, .face
@@ -1113,92 +1125,91 @@ PNPBS_API pnpbs_status pnpbs_transfer_at_points(pnpbs_transfer transfer, int64_t
  *    .face  TetGen's triangles of boundary and inner surfaces alone, in space
  *    .csv   id,x,y,tag,spacing, in space id,x,y,z,tag,spacing
  *  Nodes are in the order of their ids, elements and boundary in the order of their corners: all
- *  but .pvtu have the same bytes for any number of ranks and threads. All ranks write at the same
- *  time (MPI-IO), and none holds more than its share. A file appears under its name only when it is
- *  complete; after an error, what was there before is still there. The folder must be the same one
- *  for all ranks, and so must `path`. The monitor is asked now and then, and with fraction 1 before
- *  names are given; if it stops the call, PNPBS_STOPPED is returned, nothing changes. Collective.
- *  Errors: PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_UNSUPPORTED for .vtkhdf and .xdmf if the
- *  library was built without HDF5 or does not find it, PNPBS_ERROR_ARGUMENT, and, where all of this
- *  is right, PNPBS_ERROR_STATE if there are no nodes yet.
- *  @param[in] path      - is standard output of rank 0 (pnpbs_placement_write_files tells in which
- *                       format). What is no regular file, such as a pipe, is written by rank 0, to
- *                       which the others send their parts in turn; .vtkhdf and .xdmf are regular
- *                       files alone.
+ *  formats but .pvtu have the same bytes for any number of ranks and threads. All ranks write at
+ *  the same time (MPI-IO), and none holds more than its share. A file appears under its name only
+ *  when it is complete; after an error, an existing file is unchanged. The folder and `path` must
+ *  be the same for all ranks. The monitor is called from time to time, and with fraction 1 before
+ *  files are renamed; if it stops the call, PNPBS_STOPPED is returned, and nothing changes.
+ *  Collective. Errors: PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_UNSUPPORTED for .vtkhdf and
+ *  .xdmf if the library was built without HDF5 or does not find it, PNPBS_ERROR_ARGUMENT, and, if
+ *  none of these occurs, PNPBS_ERROR_STATE if there are no nodes yet.
+ *  @param[in] path      - is standard output of rank 0 (pnpbs_placement_write_files sets its
+ *                       format). What is not a regular file, such as a pipe, is written by rank 0,
+ *                       to which the others send their parts in turn; .vtkhdf and .xdmf must be
+ *                       regular files.
  *  @param[in] elements  nonzero: triangles or tetrahedra (and the boundary) as well */
 PNPBS_API pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path,
                                              int32_t elements);
 
-/** Writes several files, which appear together when all are complete, or none does. Otherwise as
+/** Writes several files, which appear together when all are complete, or not at all. Otherwise as
  *  pnpbs_placement_write. Collective.
  *  @param[in] paths     [n]
- *  @param[in] formats   [n] names of formats (pnpbs_format_info), or NULL for those of the
- *                       extensions; so is an entry that is NULL
+ *  @param[in] formats   [n] names of formats (pnpbs_format_info); where it or an entry is NULL, the
+ *                       extension selects the format
  *  @param[in] elements  [n], or NULL for nodes only */
 PNPBS_API pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
                                                    const char *const *paths,
                                                    const char *const *formats,
                                                    const int32_t *elements);
 
-/** Adds a field of the caller's, of `components` numbers at each node, to the files that are
- * written from now on: beside id, tag and spacing in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and
- * .msh2 as $NodeData. Other formats leave it out. The values are copied. They belong to the nodes
- * there are: once these have moved or changed their ranks, writing is PNPBS_ERROR_STATE until
+/** Adds a field of the caller, with `components` numbers at each node, to files written from now
+ *  on: beside id, tag and spacing in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as
+ *  $NodeData. Other formats omit it. The values are copied. They belong to the current nodes: once
+ *  these have moved or changed their ranks, writing is PNPBS_ERROR_STATE until
  *  pnpbs_placement_clear_output_fields. When files are written, all ranks must have added the same
  *  fields in the same order, or it is PNPBS_ERROR_ARGUMENT. Local. Errors: PNPBS_ERROR_ARGUMENT for
  *  a name that is taken, fewer than 1 or more than 9 components, or too few values;
  *  PNPBS_ERROR_STATE without nodes.
  *  @param[in] name        1 to 63 letters, digits, '_' and '-'; none of id, tag, spacing, quality
  *                         and vtkGhostType
- *  @param[in] n           entries of the array: at least this rank's nodes; those behind, its
- *                         ghosts', do not count
+ *  @param[in] n           entries of the array: at least this rank's nodes; entries after them, for
+ *                         its ghosts, are ignored
  *  @param[in] components  numbers at each node; Gmsh's files have 1, 3 or 9, the last ones 0
  *  @param[in] values      [n][components] in the order of pnpbs_placement_get_nodes */
 PNPBS_API pnpbs_status pnpbs_placement_add_output_field(pnpbs_placement placement, const char *name,
                                                         int64_t n, int32_t components,
                                                         const double *values);
 
-/** Forgets the fields that pnpbs_placement_add_output_field has added. Local. */
+/** Removes the fields that pnpbs_placement_add_output_field has added. Local. */
 PNPBS_API pnpbs_status pnpbs_placement_clear_output_fields(pnpbs_placement placement);
 
-/** Writes a checkpoint: one file from which pnpbs_placement_read_checkpoint goes on, in another
- *  process and on any number of ranks, as if there had been no interruption: bit for bit. It holds
- *  the nodes with their velocities, where the run is in its schedule, and what tells another
- * domain, other options and another spacing; the spacing itself only where it is given by values at
- * nodes (pnpbs_placement_set_spacing_at_nodes). d is asked at every node. The file is VTKHDF, which
+/** Writes a checkpoint: one file from which pnpbs_placement_read_checkpoint continues, in another
+ *  process and on any number of ranks, bit for bit as if there had been no interruption. It holds
+ *  the nodes with their velocities, the position of the run in its schedule, and data that identify
+ *  the domain, options and spacing; the spacing itself only if it is given by values at nodes
+ *  (pnpbs_placement_set_spacing_at_nodes). d is evaluated at every node. The file is VTKHDF, which
  *  ParaView opens (name it .vtkhdf): nodes with id, tag and spacing. All ranks write their own
- * nodes at the same time (MPI-IO), beside the file that is there, which is replaced only when all
- * is complete and on the disk. Changes nothing of the placement. May be called at any time when
- * there are nodes, after pnpbs_placement_step as after a whole run, and from the monitor of
- * pnpbs_placement_run and pnpbs_placement_step: at an event, and on one rank at every turn between
- * two steps. There it must be called on all ranks; it is PNPBS_ERROR_STATE in the monitor's other
- * turns, before the first nodes are laid, on coarser levels, and in the finish. Collective. Errors:
- * PNPBS_ERROR_STATE, also where the spacing or the options growth_limit, resolve or wanted_nodes
- * have been set since the nodes were placed; PNPBS_ERROR_FILE naming the file;
- *  PNPBS_ERROR_UNSUPPORTED if the library was built without HDF5; PNPBS_ERROR_ARGUMENT.
- *  @param[in] path  the same on all ranks, in a folder that all of them see */
+ *  nodes at the same time (MPI-IO), beside an existing file, which is replaced only when the new
+ *  one is complete and on the disk. The placement is unchanged. May be called at any time when
+ *  there are nodes, after pnpbs_placement_step as after a whole run, and from the monitor of
+ *  pnpbs_placement_run and pnpbs_placement_step: at an event, and on one rank also at every call
+ *  between two steps. There it must be called on all ranks; it is PNPBS_ERROR_STATE in other calls
+ *  of the monitor, before the first nodes are laid, on coarser levels, and in the finish.
+ *  Collective. Errors: PNPBS_ERROR_STATE, also where the spacing or the options growth_limit,
+ *  resolve or wanted_nodes have been set since the nodes were placed; PNPBS_ERROR_FILE naming the
+ *  file; PNPBS_ERROR_UNSUPPORTED if the library was built without HDF5; PNPBS_ERROR_ARGUMENT.
+ *  @param[in] path  the same on all ranks, in a folder visible to all of them */
 PNPBS_API pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement,
                                                         const char *path);
 
-/** Goes on from a checkpoint. Beforehand the placement is given what it was given for the first
- * run: domain, options and spacing (unless that was given by values at nodes: the checkpoint brings
- * it; its nodes, too, where it was given some). Then the next pnpbs_placement_run or _step does
- * what it would have done where the checkpoint was written, and so do later calls, such as another
- * spacing with another run. Options may be changed afterwards, or, with the option restart_options
- * = changed, by this call, which tells them as a warning: then a run that its step limit ended goes
- * on if it is given more steps, and one that is at its end begins again from its nodes if other
- * options are set. Those that decide on no node (threads, exchange_interval, rebalance_above,
- * metis_seed, adjacency_radius, max_nodes, max_memory, restart_options) are free. After an error
- * the placement is as it was. Collective. Errors:
- * PNPBS_ERROR_FILE naming the file if it is damaged, no checkpoint, or of a newer format;
- *  PNPBS_ERROR_DOMAIN, PNPBS_ERROR_SPACING (with the first place found) or PNPBS_ERROR_ARGUMENT
- *  (other options, or the other dimension) if it is of another run; PNPBS_ERROR_UNSUPPORTED if the
- *  library was built without HDF5.
+/** Restores a placement from a checkpoint. Before the call, the placement must be given the domain,
+ *  options and spacing of the first run (except a spacing given by values at nodes and nodes set by
+ *  the caller, which the checkpoint contains). Then the next pnpbs_placement_run or _step does what
+ *  it would have done where the checkpoint was written, and so do later calls, such as another
+ *  spacing with another run. Options may be changed afterwards, or, with the option restart_options
+ *  = changed, by this call, which reports them as a warning. A run that ended at its step limit
+ *  then continues if it is given more steps, and a completed one starts again from its nodes if
+ *  other options are set. Options that affect no node (threads, exchange_interval, rebalance_above,
+ *  metis_seed, adjacency_radius, max_nodes, max_memory, restart_options) are free. After an error
+ *  the placement is unchanged. Collective. Errors: PNPBS_ERROR_FILE naming the file if it is
+ *  damaged, not a checkpoint, or of a newer format; PNPBS_ERROR_DOMAIN, PNPBS_ERROR_SPACING (with
+ *  the first point found) or PNPBS_ERROR_ARGUMENT (other options, or the other dimension) if it is
+ *  of another run; PNPBS_ERROR_UNSUPPORTED if the library was built without HDF5.
  *  @param[in] path  the same on all ranks */
 PNPBS_API pnpbs_status pnpbs_placement_read_checkpoint(pnpbs_placement placement, const char *path);
 
-/** Removes what unfinished calls of this process have written aside so far, unless it is just
- *  getting its name. For signal handlers that end the program; async-signal-safe. Local. */
+/** Removes the temporary files of unfinished calls of this process, except one that is just being
+ *  renamed. For signal handlers that end the program; async-signal-safe. Local. */
 PNPBS_API pnpbs_status pnpbs_discard_unfinished_files(void);
 
 #ifdef __cplusplus

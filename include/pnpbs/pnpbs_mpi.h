@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * PNPBS - the functions that take an MPI communicator, inline, so that the library itself has no
- * MPI type in its interface.
+ * PNPBS - the functions that take an MPI communicator. They are inline, so that the interface of
+ * the library itself has no MPI type.
  */
 #ifndef PNPBS_PNPBS_MPI_H
 #define PNPBS_PNPBS_MPI_H
@@ -10,9 +10,10 @@
 
 #include "pnpbs/pnpbs.h"
 
-/** A context on a duplicate of `comm`: messages of yours never mix with ours. Collective.
- *  MPI must be initialised, at any thread level; calls come from the thread that calls us.
- *  Errors as pnpbs_context_create_checked_f, which compares your MPI with ours. */
+/** Creates a context on a duplicate of `comm`: messages of the caller never mix with those of
+ *  PNPBS. Collective. MPI must be initialised, at any thread level; MPI is called only from the
+ *  calling thread. Errors as pnpbs_context_create_checked_f, which compares the caller's MPI with
+ *  that of PNPBS. */
 static inline pnpbs_status pnpbs_context_create_mpi(MPI_Comm comm, pnpbs_context *context) {
   char library[MPI_MAX_LIBRARY_VERSION_STRING] = "";
   int length = 0, initialized = 0, finalized = 0;

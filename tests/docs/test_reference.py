@@ -49,7 +49,7 @@ class Changes(unittest.TestCase):
 
     def test_comment(self):
         self.change("include/pnpbs/pnpbs.h", "in space its volume, of surfaces alone their area.", "its size.")
-        self.assertIn("+Area of the inside, its size.", self.found())
+        self.assertIn("+Returns the area of the inside, its size.", self.found())
 
     def test_fortran_argument(self):
         self.change(FORTRAN, "real(c_double), intent(in) :: point(:)",
@@ -88,9 +88,9 @@ class Changes(unittest.TestCase):
             self.found()
 
     def test_new_function(self):
-        self.change("include/pnpbs/pnpbs.h", "/** Area of the inside,",
+        self.change("include/pnpbs/pnpbs.h", "/** Returns the area of the inside,",
                     "/** Its centre. Local. */\nPNPBS_API pnpbs_status pnpbs_domain_centre("
-                    "pnpbs_domain domain, double *xy);\n\n/** Area of the inside,")
+                    "pnpbs_domain domain, double *xy);\n\n/** Returns the area of the inside,")
         with self.assertRaisesRegex(ValueError, "centre: no procedure"):
             self.found()
 
