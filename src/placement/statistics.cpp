@@ -64,69 +64,70 @@ const std::vector<StatisticRow>& statistic_table() {
           "boundary_nodes", [](P p) { return p.boundary_nodes(); },
           "nodes on boundary and inner curves and surfaces, and fixed nodes"),
       integer(
-          "steps", [](P p) { return p.steps_done(); }, "time steps done, on coarser levels, too"),
+          "steps", [](P p) { return p.steps_done(); },
+          "time steps done, including those on coarser levels"),
       integer(
           "finished", [](P p) { return std::int64_t{p.finished()}; },
-          "1 if a run has come to its end and no step was done since, otherwise 0"),
+          "1 if a run has finished and no step was done since, otherwise 0"),
       integer(
           "levels", [](P p) { return std::int64_t{p.coarser_levels()}; },
-          "coarser levels that the nodes came from"),
+          "coarser levels that provided the first nodes"),
       integer(
-          "rebuilds", [](P p) { return p.rebuilds(); }, "times the adjacency lists were made"),
+          "rebuilds", [](P p) { return p.rebuilds(); },
+          "number of times the adjacency lists were built"),
       integer(
           "inserted", [](P p) { return p.inserted(); },
-          "nodes inserted by population control, or where d has become finer"),
+          "nodes inserted by population control, or where d became finer"),
       integer(
           "deleted", [](P p) { return p.deleted(); },
-          "nodes deleted by population control, or where d has become coarser"),
+          "nodes deleted by population control, or where d became coarser"),
       integer(
           "dropped", [](P p) { return p.dropped(); },
           "nodes given by the user that lie outside or too close to the boundary"),
       integer(
           "missing_faces", [](P p) { return p.missing_faces(); },
-          "triangles of the surfaces that the boundary of the last run's tetrahedra lacks, and its "
-          "faces that are none of the surfaces"),
+          "surface triangles missing from the boundary of the last run's tetrahedra, and its "
+          "faces that are on no surface"),
       integer(
           "left_out", [](P p) { return p.left_out(); },
-          "nodes of corners and sharp edges that the last run left out, as no tetrahedra held on "
-          "to them"),
+          "nodes of corners and sharp edges that the last run left out because no tetrahedra "
+          "connected to them"),
       integer(
           "unresolved_places", [](P p) { return p.unresolved_places(); },
-          "places, nodes that lacked elements and their neighbours, around which d is held down "
-          "since "
-          "it did not resolve the shape (option conforming_rounds)"),
+          "places (nodes without elements, and their neighbours) around which d is reduced "
+          "because it did not resolve the shape (option conforming_rounds)"),
       real(
           "repaired.resolution", [](P p) { return p.repair_distances().resolution; },
-          "of the surface of a repaired body (pnpbs_domain_set_repair); 0 without a repair, as are "
-          "the other distances of one, which are taken at points no farther apart than that"),
+          "resolution of the surface of a repaired body (pnpbs_domain_set_repair); the other "
+          "distances are evaluated at points no farther apart than this; all are 0 without a "
+          "repair"),
       real(
           "repaired.distance", [](P p) { return p.repair_distances().to_given; },
-          "largest distance of the repaired surface from the triangles given, but where it closes "
-          "holes"),
+          "largest distance of the repaired surface from the given triangles, except where it "
+          "closes holes"),
       real(
           "repaired.hole_distance", [](P p) { return p.repair_distances().over_holes; },
-          "largest distance of the repaired surface from the triangles given where it closes "
-          "holes: where the way to the nearest point of these runs along it rather than off it"),
+          "largest distance of the repaired surface from the given triangles where it closes "
+          "holes: where the direction to their nearest point is tangential rather than normal "
+          "to it"),
       real(
           "repaired.mean_distance", [](P p) { return p.repair_distances().mean_to_given; },
-          "mean distance of the repaired surface from the triangles given, holes included"),
+          "mean distance of the repaired surface from the given triangles, including holes"),
       real(
           "repaired.given_distance", [](P p) { return p.repair_distances().to_new; },
-          "largest distance of the triangles given from the repaired surface: large where some lie "
-          "inside, enclose nothing or are nearer to others than the resolution"),
+          "largest distance of the given triangles from the repaired surface: large where some "
+          "lie inside, enclose nothing or are closer to others than the resolution"),
       real(
           "repaired.lost_area", [](P p) { return p.repair_distances().lost; },
-          "share of the area of the triangles given that is farther than the resolution from the "
-          "repaired surface"),
+          "share of the area of the given triangles that is farther than the resolution from "
+          "the repaired surface"),
       integer(
           "unknown_uses", [](P p) { return p.unknown_uses(); },
-          "decisions, as of the end of the last run, that looked at stars which a rank does not "
-          "know "
+          "decisions, up to the end of the last run, based on stars that a rank does not know "
           "exactly, and nodes whose adjacency lists could miss a node, or that lie in a leaf of "
-          "the "
-          "background tree which no rank holds; in a library built with PNPBS_COUNT_UNKNOWN_USES "
-          "also nodes moved or judged by others that are not exact; 0, or the nodes may depend on "
-          "the number of ranks"),
+          "the background tree held by no rank; in a library built with "
+          "PNPBS_COUNT_UNKNOWN_USES also nodes moved or judged by others that are not exact; if "
+          "not 0, the nodes may depend on the number of ranks"),
       integer(
           "nodes_held",
           [](P p) {
@@ -134,10 +135,10 @@ const std::vector<StatisticRow>& statistic_table() {
             return static_cast<std::int64_t>(
                 p.communicator().allreduce_max(static_cast<double>(held)));
           },
-          "most nodes that any rank holds, its ghosts included"),
+          "maximum number of nodes held by a rank, including its ghosts"),
       integer(
           "ghosts", [](P p) { return p.nodes().count - p.count(); },
-          "nodes of other ranks that this rank holds now"),
+          "nodes of other ranks that this rank currently holds"),
       integer(
           "neighbours", [](P p) { return p.level_figures().neighbour_ranks; },
           "ranks that this rank exchanges ghosts with"),
@@ -149,12 +150,13 @@ const std::vector<StatisticRow>& statistic_table() {
           "cost of a step to this rank: listed pairs of its own nodes, and 8 for each node"),
       real(
           "imbalance", [](P p) { return p.imbalance(); },
-          "largest over mean of that, over the ranks"),
+          "largest over mean of work.owned over the ranks"),
       integer(
-          "rebalances", [](P p) { return p.rebalances(); }, "times the work was partitioned anew"),
+          "rebalances", [](P p) { return p.rebalances(); },
+          "number of times the work was repartitioned"),
       real("seconds.boundary", seconds<Phase::boundary>, "laying the boundary nodes"),
       real("seconds.tree", seconds<Phase::tree>, "background tree and samples of d"),
-      real("seconds.partition", seconds<Phase::partition>, "leaves to ranks"),
+      real("seconds.partition", seconds<Phase::partition>, "assigning leaves to ranks"),
       real("seconds.fill", seconds<Phase::fill>, "initial inner nodes"),
       real("seconds.spacing", seconds<Phase::spacing>, "evaluating d at the nodes; growth limit"),
       real("seconds.lists", seconds<Phase::lists>, "buckets and adjacency lists"),
@@ -164,17 +166,17 @@ const std::vector<StatisticRow>& statistic_table() {
       real("seconds.stars", seconds<Phase::stars>, "Delaunay stars"),
       real("seconds.sweeps", seconds<Phase::sweeps>, "finishing sweeps"),
       real("seconds.total", seconds<Phase::total>,
-           "from domain and spacing given to nodes in hand, no files"),
+           "from domain and spacing given to nodes available, without files"),
       integer(
           "memory.peak_bytes", [](P) { return peak_memory(); },
-          "largest memory of this process so far"),
+          "peak memory of this process so far"),
       computed(integer(
           "memory.max_peak_bytes",
           [](P p) {
             const auto mine = static_cast<double>(peak_memory());
             return static_cast<std::int64_t>(p.communicator().allreduce_max(mine));
           },
-          "the largest of that, over the ranks")),
+          "largest memory.peak_bytes over the ranks")),
       computed(real(
           "d_error.mean", [](P p) { return p.spacing_error().mean; },
           "nearest-neighbour distance over d: mean")),
@@ -183,7 +185,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "nearest-neighbour distance over d: standard deviation")),
       computed(real(
           "d_error.least", [](P p) { return p.spacing_error().min; },
-          "nearest-neighbour distance over d: least")),
+          "nearest-neighbour distance over d: minimum")),
       computed(real(
           "quality.mean", [](P p) { return p.element_quality().simplex.mean; },
           "quality of the triangles, 2 r_in / R, or of the tetrahedra, 3 r_in / R: mean")),
@@ -192,13 +194,13 @@ const std::vector<StatisticRow>& statistic_table() {
           "quality of the elements: 99 % lie above this, a multiple of 2^-16")),
       computed(real(
           "quality.min", [](P p) { return p.element_quality().simplex.min; },
-          "quality of the elements: the worst")),
+          "quality of the elements: minimum")),
       computed(real(
           "quality.min_angle", [](P p) { return p.element_quality().simplex.min_angle; },
           "smallest angle of the triangles, or between faces of the tetrahedra, degrees")),
       computed(real(
           "quality.irregular", [](P p) { return p.element_quality().irregular; },
-          "share of the inner nodes that have not six neighbours in their stars, in space 14")),
+          "share of the inner nodes that do not have six neighbours in their stars, in space 14")),
       computed(real(
           "edge.mean", [](P p) { return p.element_quality().edge.mean; },
           "length of the elements' edges over d, the mean of d at their ends: mean")),
@@ -213,12 +215,14 @@ const std::vector<StatisticRow>& statistic_table() {
       text("stop_reason", stop_reason,
            "why the last run or step call ended: rest, step limit, monitor, or none"),
       text("hash", hash,
-           "64 bits over ids, coordinate bits and tags; the same for any ranks and threads"),
+           "64-bit hash of ids, coordinate bits and tags; the same for any number of ranks and "
+           "threads"),
       text(
-          "version", [](P) { return std::string(PNPBS_PROJECT_VERSION); }, "of the library"),
+          "version", [](P) { return std::string(PNPBS_PROJECT_VERSION); },
+          "version of the library"),
       integer(
           "ranks", [](P p) { return std::int64_t{p.communicator().size()}; },
-          "processes placing together"),
+          "number of processes of the placement"),
       integer(
           "threads", [](P) { return thread_count(); }, "threads of this process"),
   };

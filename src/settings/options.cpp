@@ -60,105 +60,105 @@ const std::vector<OptionRow>& option_table() {
   using T = OptionType;
   static const std::vector<OptionRow> table = naming_both_defaults({
       {"method", T::choice, "default", nullptr, nullptr, 0, 0, "default | paper",
-       "preset for the options below: what measures best, or the paper's scheme to the letter"},
+       "preset for the options below: the best by measurement, or exactly the paper's scheme"},
       {"effort", T::choice, "default", nullptr, nullptr, 0, 0, "default | best",
-       "preset, too: fast and good, or some three times slower for the best spacing there is"},
+       "second preset: fast and good, or about three times slower for the best spacing possible"},
       {"law", T::choice, "push", "cubic", nullptr, 0, 0, "push | cubic",
        "force between bubbles: linear push, or equation (2) of the paper"},
       {"scheme", T::choice, "damped", "predictor_corrector", nullptr, 0, 0,
        "damped | predictor_corrector",
        "time step of equation (1): one force per step, or the paper's Euler predictor-corrector"},
       {"finish", T::choice, "none", "runge_kutta", nullptr, 0, 0, "none | runge_kutta",
-       "last step of a run: as the others, or fourth-order Runge-Kutta"},
+       "last step of a run: like the others, or fourth-order Runge-Kutta"},
       {"rest_length", T::real, "1.06", nullptr, nullptr, 0.8, 1.4, nullptr,
-       "where the push ends, in desired distances"},
+       "distance at which the push ends, in desired distances"},
       {"time_step", T::real, "0.8", "0.3", nullptr, 1e-3, 2, nullptr,
        "in units of sqrt(m / k0) of a scaled bubble"},
       {"damping", T::real, "0.2", "0.7", "0.1", 0, 100, nullptr,
        "c of equation (1), in units of sqrt(k0 m) of a scaled bubble"},
       {"max_move", T::real, "0.03", nullptr, nullptr, 1e-3, 0.2, nullptr,
-       "no step moves a node by more than this many spacings"},
-      {"steps", T::integer, "300", "1000", nullptr, 0, 1e9, nullptr, "most steps of a run"},
+       "maximum displacement of a node in one step, in spacings"},
+      {"steps", T::integer, "300", "1000", nullptr, 0, 1e9, nullptr,
+       "maximum number of steps of a run"},
       {"levels", T::integer, "3", "0", "4", 0, 10, nullptr,
-       "coarser levels that the first nodes come from, each with twice the spacing of the next; "
-       "fewer where d varies too fast for them or asks for few nodes, or the boundary for too "
-       "many"},
+       "number of coarser levels that provide the first nodes, each with twice the spacing of "
+       "the next; fewer where d varies too fast for them or requires few nodes, or the boundary "
+       "requires too many"},
       {"coarsest_steps", T::integer, "100", nullptr, "1000", 0, 1e9, nullptr,
-       "most steps on the coarsest of several levels"},
+       "maximum number of steps on the coarsest of several levels"},
       {"refined_steps", T::integer, "80", nullptr, "500", 0, 1e9, nullptr,
-       "most steps on the levels between the coarsest and the finest"},
+       "maximum number of steps on the levels between the coarsest and the finest"},
       {"event_interval", T::integer, "20", "8", nullptr, 1, 1e6, nullptr,
        "steps between events: refresh of d, population, stop test, monitor"},
       {"population_share", T::real, "0.6", "0.75", nullptr, 0, 1, nullptr,
-       "the population is adjusted during this share of the steps at most"},
+       "maximum share of the steps during which the population is adjusted"},
       {"population_tolerance", T::real, "0.0002", nullptr, nullptr, 0, 1, nullptr,
-       "... and until two events in a row change no more than this share of the nodes"},
+       "the adjustment ends when two events in a row change at most this share of the nodes"},
       {"delete_above", T::real, "8.5", "9", nullptr, 6, 100, nullptr,
        "bubbles with a larger overlap ratio are deleted"},
       {"insert_below", T::real, "4.4", "5", nullptr, 0, 14, nullptr,
-       "beside bubbles with a smaller overlap ratio new ones are inserted"},
+       "new bubbles are inserted beside those with a smaller overlap ratio"},
       {"mean_distance", T::real, "1", "0", nullptr, 0, 1.2, nullptr,
-       "mean distance of touching bubbles, in desired distances, that inserting and deleting aim "
-       "at "
-       "in every octave of d; 0: what the two thresholds leave"},
+       "target mean distance of touching bubbles, in desired distances, for inserting and "
+       "deleting in every octave of d; 0: the result of the two thresholds"},
       {"tolerance_mean", T::real, "0.006", "0.001", "0.003", 0, 1, nullptr,
-       "the bubbles rest when their mean scaled speed is below this ..."},
+       "stop test: the mean scaled speed must be below this (spacings per unit of time)"},
       {"tolerance_max", T::real, "0.15", "0.05", nullptr, 0, 10, nullptr,
-       "... and their largest one below this (spacings per unit of time)"},
+       "stop test: the largest scaled speed must be below this (spacings per unit of time)"},
       {"sweeps", T::integer, "6", "0", "8", 0, 10000, nullptr,
-       "finishing sweeps towards the mean of the Delaunay neighbours"},
+       "finishing sweeps, which move nodes towards the mean of their Delaunay neighbours"},
       {"sweep_weight", T::real, "0.6", nullptr, nullptr, 0, 1, nullptr,
-       "share of the way to that mean that a sweep goes"},
+       "fraction of the distance to that mean by which a sweep moves a node"},
       {"topology_repairs", T::integer, "0", nullptr, "1", 0, 1000, nullptr,
-       "most rounds at the end of every level in which nodes come or go where one is missing or "
-       "too many: tried on a copy of the nodes around, and kept where the triangles are better"},
+       "maximum rounds at the end of every level that insert or delete nodes where one is "
+       "missing or in excess: tried on a copy of the nodes around, and kept where the triangles "
+       "improve"},
       {"smoothing_rounds", T::integer, "10", "0", nullptr, 0, 10000, nullptr,
-       "most rounds after the sweeps in which triangles below 0.82 are repaired, and then all bad "
-       "ones; before the sweeps, nodes that are one too many go; 0: neither; in space slivers are "
+       "maximum rounds after the sweeps that repair triangles below 0.82, and then all bad "
+       "ones; before the sweeps, excess nodes are deleted; 0: neither; in space slivers are "
        "repaired unless it is 0"},
       {"smooth_below", T::real, "0.82", nullptr, "0.87", 0, 1, nullptr,
-       "triangles are bad whose quality, 2 r_in / R, or 1.365 times the sine of the smallest angle "
-       "is below this; in the plane alone"},
+       "triangles are bad if their quality, 2 r_in / R, or 1.365 times the sine of the smallest "
+       "angle is below this; only in the plane"},
       {"sliver_angle", T::real, "33", nullptr, "38", 0, 40, nullptr,
-       "tetrahedra with a dihedral angle below this, in degrees, are slivers and repaired; in "
-       "space "
-       "alone"},
+       "tetrahedra with a dihedral angle below this, in degrees, are slivers and repaired; only "
+       "in space"},
       {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
        "radius of the lists during the run, in desired distances"},
       {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 4, nullptr,
-       "radius of the adjacency lists handed out, in desired distances"},
+       "radius of the returned adjacency lists, in desired distances"},
       {"growth_limit", T::real, "0.3", "0", nullptr, 0, 1e6, nullptr,
-       "d may grow by at most this much per unit of length; 0 is no limit. As long as it is not "
-       "set, it counts only where d as given grows faster, and there is a warning then"},
+       "maximum growth of d per unit of length; 0: no limit. If not set, it applies only where "
+       "the given d grows faster, with a warning"},
       {"resolve", T::integer, "0", nullptr, nullptr, 0, 1, nullptr,
-       "1, in space alone: d is held down where it does not resolve the shape, to half of a wall's "
-       "thickness, 3/4 of a gap's width, and at sharp edges; from there it grows by growth_limit"},
+       "1, only in space: d is reduced where it does not resolve the shape, to half of a wall's "
+       "thickness, 3/4 of a gap's width, and at sharp edges; from there it grows by "
+       "growth_limit"},
       {"conforming_rounds", T::integer, "8", nullptr, nullptr, 0, 20, nullptr,
-       "in space alone: where elements are lacking at the end of a run or their boundary is torn, "
-       "d is halved there, and the run goes on from its nodes, at most so often; 0: d stays as it "
-       "is given"},
+       "only in space: maximum number of times that d is halved where elements are missing at "
+       "the end of a run or their boundary is torn, and the run continues from its nodes; 0: d "
+       "is unchanged"},
       {"wanted_nodes", T::real, "0", nullptr, nullptr, 0, 2e9, nullptr,
-       "d is multiplied by the factor with which a run is expected to come to so many nodes; 0: d "
-       "is taken as it is"},
+       "requested number of nodes: d is multiplied by the factor with which a run is expected "
+       "to reach it; 0: d is unchanged"},
       {"exchange_interval", T::integer, "5", nullptr, nullptr, 1, 64, nullptr,
        "steps between exchanges of ghosts between ranks"},
       {"rebalance_above", T::real, "1.1", nullptr, nullptr, 1, 1e6, nullptr,
-       "the work is partitioned anew at an event when its largest share passes the mean by this "
+       "the work is repartitioned at an event when its largest share exceeds the mean by this "
        "factor"},
       {"metis_seed", T::integer, "1", nullptr, nullptr, 0, 2e9, nullptr,
        "seed of the partition; the nodes do not depend on it"},
       {"max_nodes", T::integer, "100000000", nullptr, nullptr, 1, 2e9, nullptr,
-       "more nodes than this are taken for a mistake in d"},
+       "a larger number of nodes is rejected as an error in d"},
       {"max_memory", T::real, "1", nullptr, nullptr, 0, 1e6, nullptr,
-       "a run is refused that would need more than this share of the memory that its machines have "
-       "available; 0: no check"},
+       "a run is refused if it would need more than this share of the memory available on its "
+       "machines; 0: no check"},
       {"restart_options", T::choice, "same", nullptr, nullptr, 0, 0, "same | changed",
-       "options set to other values than a checkpoint was written with are refused when it is "
-       "read, "
-       "or change from there on"},
+       "whether options set to other values than those of a checkpoint are refused when it is "
+       "read, or change from there on"},
       {"threads", T::integer, "0", nullptr, nullptr, 0, 4096, nullptr,
        "threads of the process, set on the context before anything runs; 0: OMP_NUM_THREADS or "
-       "KOKKOS_NUM_THREADS, else the cores there are, divided by our ranks on the node"},
+       "KOKKOS_NUM_THREADS, else the number of cores divided by our ranks on the node"},
   });
   return table;
 }
