@@ -76,39 +76,41 @@ void add_spacing_bounds(CLI::App& app, Arguments& arguments) {
       ->group(group);
   app.add_option_function<std::string>(
          "--nodes", [&arguments](const std::string& text) { take_nodes(text, arguments); },
-         "d times the factor with which there are about so many nodes;\nthe same as --set "
-         "wanted_nodes=NUMBER")
+         "requested number of nodes: d is multiplied by a factor to reach\n"
+         "about this many; the same as --set wanted_nodes=NUMBER")
       ->type_name("NUMBER")
       ->group(group);
 }
 
 void add_input(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to fill";
-  app.add_option(
-         "--domain", arguments.domain,
-         "the domain: in the plane, a file in Triangle's .poly format, -\nfor standard "
-         "input; in space, a closed surface as .stl, .off,\n.obj, .ply, or .poly or "
-         ".smesh as TetGen has them; of either, a\nmesh in Gmsh's .msh format; in the plane, what "
-         "GDAL reads:\n.geojson, .shp, .gpkg and others; or\n'box(x0,y0,z0, "
-         "x1,y1,z1)', 'ball(x,y,z, r)',\n"
-         "'cylinder(x0,y0,z0, x1,y1,z1, r)', or in a box, to the resolution\nh, where a formula is "
-         "negative: 'levelset(x0,y0,z0, x1,y1,z1, h, f)'")
+  app.add_option("--domain", arguments.domain,
+                 "the domain: in the plane, a file in Triangle's .poly format (- for\n"
+                 "standard input), or in a format that GDAL reads (.geojson, .shp,\n"
+                 ".gpkg and others); in space, a closed surface in .stl, .off, .obj,\n"
+                 ".ply, or TetGen's .poly or .smesh; in both, a mesh in Gmsh's .msh\n"
+                 "format; or 'box(x0,y0,z0, x1,y1,z1)', 'ball(x,y,z, r)',\n"
+                 "'cylinder(x0,y0,z0, x1,y1,z1, r)', or where a formula is negative\n"
+                 "in a box, to the resolution h:\n"
+                 "'levelset(x0,y0,z0, x1,y1,z1, h, f)'")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--spacing", arguments.spacing,
-                 "wanted distance d between neighbouring nodes: a number, or\na formula in x and y "
-                 "(and z) such as '1 + 0.02*hypot(x,y)' or\n'0.5 + 0.15*dist', with what the shape "
-                 "is there: dist, dist(TAG),\nseglen, curvature(NODES), gap(NODES); or auto: what "
-                 "the shape asks\nfor; or FILE or FILE:FIELD with values at points: a mesh (.vtu "
-                 "or\n.msh), between whose nodes d is linear, or scattered points (.csv\nwith "
+                 "requested distance d between neighbouring nodes: a number, or a\n"
+                 "formula in x and y (and z) such as '1 + 0.02*hypot(x,y)' or\n"
+                 "'0.5 + 0.15*dist', with functions of the shape: dist, dist(TAG),\n"
+                 "seglen, curvature(NODES), gap(NODES); or auto: derived from the\n"
+                 "shape; or FILE or FILE:FIELD with values at points: a mesh (.vtu\n"
+                 "or .msh), on which d is linear, or scattered points (.csv with\n"
                  "columns x, y and d)")
       ->type_name("EXPR")
       ->group(group);
   add_repeatable(app, "--spacing-grid", arguments.spacing_grids,
-                 "d sampled on a grid, in place of --spacing; or values that the\nformula of "
-                 "--spacing calls NAME (grid without one), as a depth;\nan ESRI ASCII grid (.asc), "
-                 "or what GDAL reads: .tif, .nc and\nothers, projected as the domain is; may be "
-                 "given several times");
+                 "d sampled on a grid, instead of --spacing; or values with the name\n"
+                 "NAME in the formula of --spacing (grid without one), such as a\n"
+                 "depth; an ESRI ASCII grid (.asc), or a format that GDAL reads\n"
+                 "(.tif, .nc and others), projected like the domain; may be given\n"
+                 "several times");
   app.get_option("--spacing-grid")->type_name("[NAME=]FILE[:VARIABLE]")->group(group);
   app.add_option_function<std::string>(
          "--feature-angle",
@@ -128,14 +130,16 @@ void add_curves(CLI::App& app, Arguments& arguments) {
          [&arguments](const std::string& text) {
            take_angle("--corner-angle", text, arguments.corner_angle);
          },
-         "in the plane: nodes lie on vertices where the boundary turns by\nmore than this, between "
-         "them as far apart as d says; default: 0,\nevery vertex is a node")
+         "in the plane: nodes lie on vertices where the boundary turns by\n"
+         "more than this, and between them at distances of d; default: 0,\n"
+         "every vertex is a node")
       ->type_name("DEGREES")
       ->group(group);
   app.add_option_function<std::string>(
          "--simplify", [&arguments](const std::string& text) { take_simplify(text, arguments); },
-         "in the plane: vertices closer together than d are left out,\nwithin TOLERANCE times d of "
-         "the boundary, and islands and lakes\nof less extent than EXTENT times d, if it is given")
+         "in the plane: remove vertices closer together than d, within\n"
+         "TOLERANCE times d of the boundary, and islands and lakes with an\n"
+         "extent less than EXTENT times d, if it is given")
       ->type_name("TOLERANCE[,EXTENT]")
       ->group(group);
 }
@@ -144,15 +148,16 @@ void add_curves(CLI::App& app, Arguments& arguments) {
 void add_geo(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to fill";
   app.add_option("--projection", arguments.projection,
-                 "of GeoJSON, shapefiles and the like: what x and y are, as a\ncode (EPSG:2180), a "
-                 "string of PROJ's or a .prj file; auto, a\nlocal one, the default for longitude "
-                 "and latitude; or none")
+                 "of GeoJSON, shapefiles and the like: the coordinate system of x\n"
+                 "and y, as a code (EPSG:2180), a PROJ string or a .prj file; auto,\n"
+                 "a local projection, the default for longitude and latitude; or\n"
+                 "none")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--unit", arguments.unit, "of that projection: m or km, default: its own")
+  app.add_option("--unit", arguments.unit, "unit of that projection: m or km; default: its own")
       ->type_name("UNIT")
       ->group(group);
-  app.add_option("--layer", arguments.layer, "the layer to read, of files that have several")
+  app.add_option("--layer", arguments.layer, "the layer to read, for files with several")
       ->type_name("NAME")
       ->group(group);
   app.add_option("--tag-field", arguments.tag_field, "the attribute that becomes the tag")
@@ -196,8 +201,9 @@ void add_repair(CLI::App& app, Arguments& arguments) {
            }
            arguments.repair = resolution;
          },
-         "in space: what the triangles enclose, though they are open, cross\nor turn this way and "
-         "that, to this resolution; default: 1/64 of\nthe longest side")
+         "in space: the body that the triangles enclose, even if they are\n"
+         "open, crossing or inconsistently oriented, to this resolution;\n"
+         "default: 1/64 of the longest side")
       ->expected(0, 1)
       ->type_name("[RESOLUTION]")
       ->group("What to fill");
@@ -205,8 +211,8 @@ void add_repair(CLI::App& app, Arguments& arguments) {
 
 void add_surfaces_only(CLI::App& app, Arguments& arguments) {
   app.add_flag("--surfaces-only", arguments.surfaces_only,
-               "in space: nodes and triangles on the surfaces alone, which may\nbe open, and "
-               "nothing inside")
+               "in space: place nodes and triangles only on the surfaces, which\n"
+               "may be open")
       ->group("What to fill");
 }
 
@@ -225,8 +231,8 @@ void take_colour(const std::string& name, Arguments& arguments) {
 void add_output(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to write";
   add_repeatable(app, "-o,--output", arguments.outputs,
-                 "file to write, format by its extension (below); may be\ngiven several times; - "
-                 "for standard output");
+                 "file to write; the extension selects the format (below); may be\n"
+                 "given several times; - for standard output");
   app.get_option("--output")->type_name("FILE")->group(group);
   app.add_option("--format", arguments.format, "format of standard output and of other extensions")
       ->type_name("NAME")
@@ -235,21 +241,21 @@ void add_output(CLI::App& app, Arguments& arguments) {
       ->type_name("FILE")
       ->group(group);
   app.add_flag("--nodes-only", arguments.nodes_only,
-               "no triangles or tetrahedra in files that may be without\n(.vtu, .pvtu, .vtkhdf, "
-               ".xdmf, .msh, "
-               ".msh2)")
+               "no triangles or tetrahedra in formats where they are optional\n"
+               "(.vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2)")
       ->group(group);
   app.add_flag("--bubbles", arguments.bubbles, "draw the bubbles in pictures")->group(group);
   app.add_option_function<std::string>(
          "--color", [&arguments](const std::string& name) { take_colour(name, arguments); },
-         "colour the triangles in pictures by quality, edge (mean\nlength over d) or spacing (d), "
-         "or none, the default; of\nbodies the tetrahedra that are cut, by quality if not\nasked "
-         "otherwise")
+         "colour the triangles in pictures by quality, edge (mean length\n"
+         "over d) or spacing (d), or none, the default; for bodies the cut\n"
+         "tetrahedra, with quality as default")
       ->type_name("BY")
       ->group(group);
   app.add_option("--cut", arguments.cut,
-                 "where pictures cut a body open: x=NUMBER, y=NUMBER,\nz=NUMBER, or A,B,C,D for "
-                 "A x + B y + C z = D; default:\nthrough the middle, square to the shortest extent")
+                 "the plane where pictures cut a body open: x=NUMBER, y=NUMBER,\n"
+                 "z=NUMBER, or A,B,C,D for A x + B y + C z = D; default: through the\n"
+                 "middle, perpendicular to the shortest extent")
       ->type_name("PLANE")
       ->group(group);
 }
@@ -257,8 +263,8 @@ void add_output(CLI::App& app, Arguments& arguments) {
 void add_checkpoints(CLI::App& app, Arguments& arguments) {
   const std::string group = "How to be interrupted";
   app.add_option("--checkpoint", arguments.checkpoint,
-                 "write a file from which --restart goes on, at the end and when\nit is stopped "
-                 "(Ctrl-C); .vtkhdf, which ParaView opens")
+                 "write a file from which --restart continues, at the end and when\n"
+                 "the run is stopped (Ctrl-C); .vtkhdf, which ParaView opens")
       ->type_name("FILE")
       ->group(group);
   app.add_option_function<std::string>(
@@ -266,13 +272,15 @@ void add_checkpoints(CLI::App& app, Arguments& arguments) {
          [&arguments](const std::string& text) {
            arguments.checkpoint_interval = checkpoint_interval_in(text);
          },
-         "and so often: after so many steps, or after a time as 90s,\n30min or 2h")
+         "and at this interval: a number of steps, or a time such as 90s,\n"
+         "30min or 2h")
       ->type_name("STEPS|TIME")
       ->group(group);
   app.add_option("--restart", arguments.restart,
-                 "go on from a checkpoint, with the same domain, spacing and\noptions, on any "
-                 "number of ranks: to the same nodes, bit\nfor bit; options that --set gives "
-                 "another value change from there\non: --set steps=600 for more steps")
+                 "continue from a checkpoint, with the same domain, spacing and\n"
+                 "options, on any number of ranks, to the same nodes bit for bit;\n"
+                 "options that --set gives another value change from there on:\n"
+                 "--set steps=600 for more steps")
       ->type_name("FILE")
       ->group(group);
 }
@@ -280,22 +288,21 @@ void add_checkpoints(CLI::App& app, Arguments& arguments) {
 void add_general(CLI::App& app, Arguments& arguments, Questions& questions) {
   const std::string group = "Others";
   app.set_help_flag();
-  app.add_flag(
-         "--dry-run", arguments.dry_run,
-         "tell about how many nodes, how much memory and time it would\ntake; place and write "
-         "nothing")
+  app.add_flag("--dry-run", arguments.dry_run,
+               "report the approximate number of nodes, memory and time; place and\n"
+               "write nothing")
       ->group(group);
   app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors")->group(group);
   app.add_flag("--progress", arguments.progress,
-               "a progress bar even where standard error is no terminal,\nas under mpirun")
+               "show a progress bar even if standard error is not a terminal, as\n"
+               "under mpirun")
       ->group(group);
-  app.add_flag(
-         "--check", arguments.check,
-         "check the results before they are written: lists, triangles\nor tetrahedra, area or "
-         "volume; an error if any of it is wrong")
+  app.add_flag("--check", arguments.check,
+               "check the results before they are written: lists, triangles or\n"
+               "tetrahedra, area or volume; an error if any check fails")
       ->group(group);
   app.add_flag("-h,--help", questions.help, "this text")->group(group);
-  app.add_flag("--version", questions.version, "version, and what it was built with")->group(group);
+  app.add_flag("--version", questions.version, "version and build configuration")->group(group);
   app.add_flag("--list-statistics", questions.statistics, "the keys of the report")->group(group);
 }
 
@@ -353,7 +360,7 @@ std::string compact(std::string text) {
 
 std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app(
-      "Places nodes in a domain, plane or in space, so that their distances follow a spacing "
+      "Places nodes in a domain, in the plane or in space, with distances that follow a spacing "
       "function.",
       "pnpbs");
   Questions questions;
