@@ -1,32 +1,31 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> PNPBS - parallel node placement by bubble simulation: the Fortran 2003 module.
 !>
-!> It does what the C interface (pnpbs/pnpbs.h) does, where the terms are explained: node, spacing,
-!> boundary, tag, adjacency, star. A page with an example: docs/fortran.md.
+!> It corresponds to the C interface (pnpbs/pnpbs.h), which explains the terms node, spacing,
+!> boundary, tag, adjacency and star. A page with an example: docs/fortran.md.
 !>
 !> Conventions of every procedure
-!>   stat        optional: an integer of four or eight bytes, told the outcome: PNPBS_OK (0), > 0 an
-!>               outcome whose results are valid, < 0 an error, after which nothing has changed.
+!>   stat        optional: an integer of four or eight bytes, set to the outcome: PNPBS_OK (0), > 0
+!>               an outcome with valid results, < 0 an error, after which nothing has changed.
 !>               Without stat an error writes its message to standard error and stops the program
 !>               with exit status 1; outcomes > 0 do not.
-!>   errmsg      optional: told the message of an error; otherwise it stays as it is.
+!>   errmsg      optional: set to the message of an error; otherwise unchanged.
 !>   collective  "Collective" procedures must be called by all ranks of the context, in the same
 !>               order, and have the same outcome on all of them. "Local" ones need not.
-!>   arrays      are yours, are read or filled during the call, and are never kept. Coordinates are
-!>               (dim, n) with dim = 2 in the plane, 3 in space; other rows are
+!>   arrays      belong to the caller, are read or filled during the call, and are never kept.
+!>               Coordinates are (dim, n) with dim = 2 in the plane, 3 in space; other rows are
 !>               PNPBS_ERROR_ARGUMENT. Arrays to fill may have more room than needed; too little is
-!>               PNPBS_ERROR_CAPACITY. Arrays to fill and optional arrays must have no gaps in
+!>               PNPBS_ERROR_CAPACITY. Arrays to fill and optional arrays must be contiguous in
 !>               memory: whole ones, or sections x(i:j) and x(:,i:j) of such.
-!>   dimension   procedures for domains or placements "in the plane" or "in space" refuse others
+!>   dimension   procedures for domains or placements "in the plane" or "in space" reject others
 !>               with PNPBS_ERROR_ARGUMENT; all others are for both.
 !>   integers    ids, counts, indices and offsets are integer(c_int64_t), the others
 !>               integer(c_int32_t). Local indices and offsets count from 1; ids and numbers of
 !>               nodes are the same as in C, ranks are as in MPI.
-!>   objects     are handles: a copy means the same thing. There is no finalisation: call destroy,
-!>               in any order. A dead one is answered with PNPBS_ERROR_HANDLE.
-!>   callbacks   are module procedures with bind(C) and the interface stated; they come on the
-!>               calling thread, never two at once. From inside one, only queries of the
-!>               library work.
+!>   objects     are handles: a copy refers to the same object. There is no finalisation: call
+!>               destroy, in any order. A dead handle returns PNPBS_ERROR_HANDLE.
+!>   callbacks   are module procedures with bind(C) and the interface stated; they run on the
+!>               calling thread, one at a time. Inside a callback only queries of the library work.
 module pnpbs
   use, intrinsic :: iso_c_binding
   use pnpbs_c
@@ -52,7 +51,7 @@ module pnpbs
 
   ! ------------------------------------------------------------ types -------------------------
 
-  !> Who takes part: one process, or the ranks of an MPI communicator.
+  !> A context: one process, or the ranks of an MPI communicator.
   type :: pnpbs_context
     private
     type(c_ptr) :: c = c_null_ptr
@@ -70,7 +69,7 @@ module pnpbs
     procedure :: from_handle => context_from_handle
   end type
 
-  !> Where there shall be nodes.
+  !> The domain to be filled with nodes.
   type :: pnpbs_domain
     private
     type(c_ptr) :: c = c_null_ptr
@@ -212,7 +211,7 @@ module pnpbs
     procedure :: from_handle => placement_from_handle
   end type
 
-  !> A field on its way to other nodes.
+  !> A field that is transferred to other nodes.
   type :: pnpbs_transfer
     private
     type(c_ptr) :: c = c_null_ptr
@@ -241,55 +240,55 @@ contains
 
   ! ------------------------------------------------------------ the library -------------------
 
-  !> What a status means, in a few words. Local.
+  !> Returns the meaning of a status in a few words. Local.
   function pnpbs_status_string(status) result(text)
     integer(c_int), intent(in) :: status
     character(len=:), allocatable :: text
     text = text_of(c_status_string(status))
   end function
 
-  !> The message of the calling thread's last error, whatever object it belongs to; '' if there was
-  !> none. Local.
+  !> Returns the message of the calling thread's last error, whatever object it belongs to; '' if
+  !> there was none. Local.
   function pnpbs_last_error() result(text)
     character(len=:), allocatable :: text
     text = text_of(c_last_error(c_null_ptr))
   end function
 
-  !> The version of the library at run time. Local.
+  !> Returns the version of the library at run time. Local.
   subroutine pnpbs_version(major, minor, patch)
     integer(c_int32_t), intent(out) :: major, minor, patch
     call conclude('pnpbs_version', c_version(major, minor, patch))
   end subroutine
 
-  !> What the library was built with, one "name: value" per line: version, compiler, Kokkos and its
+  !> Returns the build configuration, one "name: value" per line: version, compiler, Kokkos and its
   !> back ends, linkage, MPI. Local.
   function pnpbs_build_info() result(text)
     character(len=:), allocatable :: text
     text = text_of(c_build_info())
   end function
 
-  !> The MPI library that PNPBS was built with; '' in a build without MPI. Local.
+  !> Returns the MPI library that PNPBS was built with; '' in a build without MPI. Local.
   function pnpbs_mpi_library() result(text)
     character(len=:), allocatable :: text
     text = text_of(c_mpi_library())
   end function
 
-  !> Ends Kokkos if PNPBS started it. Optional: otherwise Kokkos stays up until the process ends.
-  !> Kokkos cannot start twice, so computing calls fail afterwards. Local.
+  !> Finalises Kokkos if PNPBS initialised it. Optional: otherwise Kokkos runs until the process
+  !> ends. Kokkos cannot be initialised twice, so computing calls fail afterwards. Local.
   subroutine pnpbs_finalize(stat, errmsg)
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call conclude('pnpbs_finalize', c_finalize(), stat, errmsg)
   end subroutine
 
-  !> Removes what unfinished calls of this process have written aside so far. Local.
+  !> Removes the temporary files of unfinished calls of this process. Local.
   subroutine pnpbs_discard_unfinished_files()
     call conclude('pnpbs_discard_unfinished_files', c_discard_unfinished_files())
   end subroutine
 
   ! ------------------------------------------------------------ tables ------------------------
 
-  !> Number of options. Local.
+  !> Returns the number of options. Local.
   subroutine pnpbs_option_count(count, stat, errmsg)
     integer(c_int32_t), intent(out) :: count
     class(*), intent(out), optional :: stat
@@ -297,7 +296,7 @@ contains
     call conclude('pnpbs_option_count', c_option_count(count), stat, errmsg)
   end subroutine
 
-  !> One row of the options table. Local.
+  !> Returns one row of the options table. Local.
   !>   index          1 .. count
   !>   type           'integer', 'real', 'choice'
   !>   default_value  as text
@@ -320,7 +319,7 @@ contains
     if (present(help)) help = text_of(c_help)
   end subroutine
 
-  !> Number of statistics. Local.
+  !> Returns the number of statistics. Local.
   subroutine pnpbs_statistic_count(count, stat, errmsg)
     integer(c_int32_t), intent(out) :: count
     class(*), intent(out), optional :: stat
@@ -328,9 +327,9 @@ contains
     call conclude('pnpbs_statistic_count', c_statistic_count(count), stat, errmsg)
   end subroutine
 
-  !> One row of the statistics table (the report's keys). Local.
+  !> Returns one row of the statistics table (the keys of the report). Local.
   !>   index  1 .. count
-  !>   type   'integer', 'real' or 'string': what placement%get wants its value to be
+  !>   type   'integer', 'real' or 'string': the type of value that placement%get requires
   !>   help   one line, with the unit
   subroutine pnpbs_statistic_info(index, name, type, help, stat, errmsg)
     integer(c_int32_t), intent(in) :: index
@@ -347,7 +346,7 @@ contains
     if (present(help)) help = text_of(c_help)
   end subroutine
 
-  !> Number of file formats. Local.
+  !> Returns the number of file formats. Local.
   subroutine pnpbs_format_count(count, stat, errmsg)
     integer(c_int32_t), intent(out) :: count
     class(*), intent(out), optional :: stat
@@ -355,11 +354,11 @@ contains
     call conclude('pnpbs_format_count', c_format_count(count), stat, errmsg)
   end subroutine
 
-  !> One row of the table of file formats (see placement%write). Local.
+  !> Returns one row of the table of file formats (see placement%write). Local.
   !>   index     1 .. count
   !>   name      also the extension, without its dot
   !>   help      one line
-  !>   binary    whether it is no text
+  !>   binary    whether the format is not text
   !>   elements  whether one file holds nodes and, on request, elements
   subroutine pnpbs_format_info(index, name, help, binary, elements, stat, errmsg)
     integer(c_int32_t), intent(in) :: index
@@ -381,7 +380,7 @@ contains
 
   ! ------------------------------------------------------------ context -----------------------
 
-  !> A context for one process; calls no MPI procedure, ever. Local.
+  !> Creates a context for one process. It never calls an MPI procedure. Local.
   subroutine context_create_serial(self, stat, errmsg)
     class(pnpbs_context), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -389,12 +388,13 @@ contains
     call conclude('context%create_serial', c_context_create_serial(self%c), stat, errmsg)
   end subroutine
 
-  !> A context on a duplicate of an MPI communicator: messages of yours never mix with ours.
-  !> Collective. Errors: PNPBS_ERROR_UNSUPPORTED in a build without MPI, PNPBS_ERROR_MPI if MPI is
-  !> not initialised, already finalised, comm is MPI_COMM_NULL, or the library is another one.
-  !>   comm     as mpif.h and the module mpi have it; of mpi_f08, comm%MPI_VAL
-  !>   library  optional: what MPI_Get_library_version tells you, to be compared with the MPI that
-  !>            PNPBS calls; the communicator of one MPI library means nothing to another
+  !> Creates a context on a duplicate of an MPI communicator: messages of the caller never mix with
+  !> those of PNPBS. Collective. Errors: PNPBS_ERROR_UNSUPPORTED in a build without MPI,
+  !> PNPBS_ERROR_MPI if MPI is not initialised, already finalised, comm is MPI_COMM_NULL, or the
+  !> library is another one.
+  !>   comm     as in mpif.h and the module mpi; for mpi_f08, comm%MPI_VAL
+  !>   library  optional: what MPI_Get_library_version returns in the caller, compared with the MPI
+  !>            that PNPBS calls; the communicator of one MPI library is meaningless to another
   subroutine context_create_mpi(self, comm, library, stat, errmsg)
     class(pnpbs_context), intent(inout) :: self
     class(*), intent(in) :: comm
@@ -422,8 +422,8 @@ contains
     end if
   end subroutine
 
-  !> Ends the context; does nothing where there is none. Its domains and placements live on until
-  !> they are destroyed. Collective.
+  !> Destroys the context; does nothing if there is none. Its domains and placements remain valid
+  !> until they are destroyed. Collective.
   subroutine context_destroy(self, stat, errmsg)
     class(pnpbs_context), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -433,8 +433,8 @@ contains
 
   !> set(key, value): sets an option that placements created later on this context start with (see
   !> pnpbs_option_info). 'threads' can only be set here, and only before the first placement of the
-  !> process is created. Local. Errors: PNPBS_ERROR_KEY (the message has the nearest known name),
-  !> PNPBS_ERROR_ARGUMENT (the message has the range).
+  !> process is created. Local. Errors: PNPBS_ERROR_KEY (the message names the nearest known
+  !> option), PNPBS_ERROR_ARGUMENT (the message gives the range).
   !>   value  text, an integer of four or eight bytes, or real(c_double)
   subroutine context_set_text(self, key, value, stat, errmsg)
     class(pnpbs_context), intent(in) :: self
@@ -471,23 +471,23 @@ contains
     call conclude('context%set', c_context_set_double(self%c, c_text(key), value), stat, errmsg)
   end subroutine
 
-  !> The message of the last error on the context or on its domains and placements; of a dead
-  !> context, that of the calling thread. Local. '' if there was none.
+  !> Returns the message of the last error on the context or on its domains and placements; of a
+  !> dead context, that of the calling thread. Local. '' if there was none.
   function context_last_error(self) result(text)
     class(pnpbs_context), intent(in) :: self
     character(len=:), allocatable :: text
     text = text_of(c_last_error(self%c))
   end function
 
-  !> The handle as an integer, for common blocks and other code without derived types; 0 where there
-  !> is no context. Local.
+  !> Returns the handle as an integer, for common blocks and other code without derived types; 0 if
+  !> there is no context. Local.
   function context_handle(self) result(handle)
     class(pnpbs_context), intent(in) :: self
     integer(c_int64_t) :: handle
     handle = integer_of(self%c)
   end function
 
-  !> Makes this the context that has the handle. Local; checks nothing.
+  !> Makes this the context with the given handle. Local; checks nothing.
   subroutine context_from_handle(self, handle)
     class(pnpbs_context), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -496,8 +496,8 @@ contains
 
   ! ------------------------------------------------------------ domain ------------------------
 
-  !> An empty domain. Local.
-  !>   dim  optional: 2, in the plane, or 3, in space; 2 without
+  !> Creates an empty domain. Local.
+  !>   dim  optional: 2, in the plane, or 3, in space; default: 2
   subroutine domain_create(self, context, dim, stat, errmsg)
     class(pnpbs_domain), intent(inout) :: self
     type(pnpbs_context), intent(in) :: context
@@ -510,7 +510,7 @@ contains
     call conclude('domain%create', c_domain_create(context%c, dimensions, self%c), stat, errmsg)
   end subroutine
 
-  !> Destroys it; does nothing where there is none. Local.
+  !> Destroys the domain; does nothing if there is none. Local.
   subroutine domain_destroy(self, stat, errmsg)
     class(pnpbs_domain), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -518,7 +518,7 @@ contains
     call conclude('domain%destroy', c_domain_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> The dimension that the domain was created with. Local.
+  !> Returns the dimension that the domain was created with. Local.
   !>   dim  2: in the plane, 3: in space
   subroutine domain_dimension(self, dim, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -531,15 +531,15 @@ contains
 
   !> Adds straight segments through n vertices. Local.
   !>   role          PNPBS_BOUNDARY or PNPBS_INNER; in space PNPBS_INNER
-  !>   closed        whether a segment leads from the last vertex to the first; the first vertex is
-  !>                 not repeated
+  !>   closed        whether a segment joins the last vertex to the first; the first vertex is not
+  !>                 repeated
   !>   coordinates   (dim, n)
-  !>   tags          optional: one for each segment, nonzero; 1 without
-  !>   corner_angle  optional, degrees, 0 .. 180; 0 without: every vertex becomes a node. Otherwise
-  !>                 only vertices where the direction turns by more than this do, as do the ends of
-  !>                 open polylines and vertices where curves meet; between them the polyline stands
-  !>                 for a smooth curve. In space it does not count, but the feature_angle of the
-  !>                 surfaces does in its place
+  !>   tags          optional: one for each segment, nonzero; default: 1
+  !>   corner_angle  optional, degrees, 0 .. 180; default: 0, every vertex becomes a node. Otherwise
+  !>                 only vertices where the direction turns by more than this, ends of open
+  !>                 polylines and vertices where curves meet become nodes; between them the
+  !>                 polyline represents a smooth curve. In space it is ignored, and the
+  !>                 feature_angle of the surfaces is used instead
   subroutine domain_add_polyline(self, role, closed, coordinates, tags, corner_angle, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(in) :: role
@@ -569,17 +569,17 @@ contains
     call conclude('domain%add_polyline', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds a triangulated surface to a domain in space. Closed ones with the role PNPBS_BOUNDARY
-  !> bound it: the inside is what lies behind an odd number of them. PNPBS_INNER: nodes follow the
-  !> surface, closed or open, inside the domain. Vertices that coincide are one; what the triangles
-  !> enclose decides their orientation. Local.
+  !> Adds a triangulated surface to a domain in space. Closed surfaces with the role PNPBS_BOUNDARY
+  !> bound the domain: its inside lies behind an odd number of them. PNPBS_INNER: nodes follow the
+  !> surface, closed or open, inside the domain. Coincident vertices are merged; the orientation is
+  !> determined by what the triangles enclose. Local.
   !>   role           PNPBS_BOUNDARY or PNPBS_INNER
   !>   coordinates    (3, vertices)
   !>   corners        (3, triangles) vertices, counted from 1
-  !>   tags           optional, (triangles), nonzero; 1 without
-  !>   feature_angle  optional, degrees, 0 .. 180; 40 without: where the normals of two triangles
-  !>                  differ by more, or their tags do, nodes lie on the edge between them. Between
-  !>                  such edges the triangles are the shape alone, whatever their size
+  !>   tags           optional, (triangles), nonzero; default: 1
+  !>   feature_angle  optional, degrees, 0 .. 180; default: 40. Nodes lie on the edge between two
+  !>                  triangles if their normals differ by more than this, or if their tags differ.
+  !>                  Between such edges the triangles only define the shape, whatever their size
   subroutine domain_add_surface(self, role, coordinates, corners, tags, feature_angle, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(in) :: role
@@ -606,12 +606,13 @@ contains
     call conclude('domain%add_surface', status, stat, errmsg, given)
   end subroutine
 
-  !> The same from a file: .stl (text or binary), .off, .obj, .ply, or .poly and .smesh as TetGen
-  !> has them. Solids, groups, materials and facet markers become tags, with their names
-  !> (get_tag_name), hole points holes of the domain in space. Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected.
+  !> Reads a surface from a file and adds it as add_surface does: .stl (text or binary), .off, .obj,
+  !> .ply, or TetGen's .poly and .smesh. Solids, groups, materials and facet markers become tags
+  !> with their names (get_tag_name); hole points become holes of the domain in space. Local.
+  !> Errors: PNPBS_ERROR_FILE with file, line and what was expected.
   !>   role           PNPBS_BOUNDARY or PNPBS_INNER
-  !>   path           blanks at its end do not count
-  !>   feature_angle  optional, as add_surface has it
+  !>   path           trailing blanks are ignored
+  !>   feature_angle  optional, as in add_surface
   subroutine domain_read_surface(self, role, path, feature_angle, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(in) :: role
@@ -624,9 +625,9 @@ contains
                   stat, errmsg)
   end subroutine
 
-  !> The role of all triangles in a domain in space that have this tag, whatever role they are added
-  !> with, before or after: so single groups of a file can be inner surfaces. Local. Checking the
-  !> domain fails if no triangle has the tag.
+  !> Sets the role of all triangles with a tag in a domain in space. It overrides the role they are
+  !> added with, before or after, so that single groups of a file can be inner surfaces. Local.
+  !> Checking the domain fails if no triangle has the tag.
   !>   tag   nonzero
   !>   role  PNPBS_BOUNDARY or PNPBS_INNER
   subroutine domain_set_role(self, tag, role, stat, errmsg)
@@ -637,12 +638,12 @@ contains
     call conclude('domain%set_role', c_domain_set_role(self%c, tag, role), stat, errmsg)
   end subroutine
 
-  !> Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds what bounds it and what
+  !> Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds its boundary and what
   !> lies in it to the domain: see pnpbs_domain_read_msh in pnpbs.h. The tag of a physical group
-  !> becomes the tag, its name stays with it (get_tag_name). Local. Errors: PNPBS_ERROR_FILE with
+  !> becomes the tag, and its name is kept (get_tag_name). Local. Errors: PNPBS_ERROR_FILE with
   !> file, line or byte, and what was expected.
-  !>   path           blanks at its end do not count
-  !>   feature_angle  optional, as add_surface has it, in the plane the corner_angle of add_polyline
+  !>   path           trailing blanks are ignored
+  !>   feature_angle  optional, as in add_surface, in the plane as the corner_angle of add_polyline
   subroutine domain_read_msh(self, path, feature_angle, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     character(len=*), intent(in) :: path
@@ -653,9 +654,10 @@ contains
                   c_domain_read_msh(self%c, c_text(path), angle_or_40(feature_angle)), stat, errmsg)
   end subroutine
 
-  !> The dimension of the domain that a file describes, 2 or 3: by the ending of its name, of .poly
-  !> by the second number in it, of .msh by whether it lies in a plane of constant z. Local.
-  !>   path  blanks at its end do not count
+  !> Returns the dimension of the domain that a file describes, 2 or 3, from its extension; for
+  !> .poly from the second number in the file, for .msh from whether the mesh lies in a plane of
+  !> constant z. Local.
+  !>   path  trailing blanks are ignored
   subroutine pnpbs_file_dimension(path, dim, stat, errmsg)
     character(len=*), intent(in) :: path
     integer(c_int32_t), intent(out) :: dim
@@ -664,12 +666,12 @@ contains
     call conclude('pnpbs_file_dimension', c_file_dimension(c_text(path), dim), stat, errmsg)
   end subroutine
 
-  !> Names a tag: files that have physical groups (.msh) are written with it. Replaces the name that
-  !> it has. Local.
-  !>   dim   of what has the tag: 0 points, 1 curves, 2 surfaces, 3 bodies; the inside of the domain
-  !>         has the domain's dimension
+  !> Sets the name of a tag, which files with physical groups (.msh) contain. Replaces an existing
+  !> name. Local.
+  !>   dim   of the entity with the tag: 0 points, 1 curves, 2 surfaces, 3 bodies; the inside of the
+  !>         domain has the domain's dimension
   !>   tag   nonzero
-  !>   name  blanks at its end do not count
+  !>   name  trailing blanks are ignored
   subroutine domain_set_tag_name(self, dim, tag, name, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(in) :: dim, tag
@@ -680,7 +682,7 @@ contains
                   stat, errmsg)
   end subroutine
 
-  !> Number of tags that have names, given or from files. Local.
+  !> Returns the number of tags that have names, set or from files. Local.
   subroutine domain_tag_name_count(self, count, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(out) :: count
@@ -689,7 +691,7 @@ contains
     call conclude('domain%tag_name_count', c_domain_tag_name_count(self%c, count), stat, errmsg)
   end subroutine
 
-  !> One of the names, by dimension, then by tag. Local.
+  !> Returns one of the names, sorted by dimension, then by tag. Local.
   !>   index  1 .. count
   subroutine domain_get_tag_name(self, index, dim, tag, name, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -710,7 +712,7 @@ contains
 
   !> Adds a box to a domain in space; its sides bound the domain. Local.
   !>   low, high  (3)
-  !>   tag        optional: nonzero; 1 without
+  !>   tag        optional: nonzero; default: 1
   subroutine domain_add_box(self, low, high, tag, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: low(:), high(:)
@@ -729,7 +731,7 @@ contains
   !> Adds a ball to a domain in space, as triangles within 1e-4 of the radius. Local.
   !>   centre  (3)
   !>   radius  > 0
-  !>   tag     optional: nonzero; 1 without
+  !>   tag     optional: nonzero; default: 1
   subroutine domain_add_ball(self, centre, radius, tag, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: centre(:), radius
@@ -744,10 +746,10 @@ contains
     call conclude('domain%add_ball', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds a round cylinder to a domain in space, as triangles within 1e-4 of the radius. Local.
-  !>   begin, end  (3), the middles of its two circles
+  !> Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius. Local.
+  !>   begin, end  (3), the centres of its two circles
   !>   radius      > 0
-  !>   tag         optional: nonzero; 1 without
+  !>   tag         optional: nonzero; default: 1
   subroutine domain_add_cylinder(self, begin, end, radius, tag, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: begin(:), end(:), radius
@@ -765,19 +767,19 @@ contains
   end subroutine
 
   !> Adds the body where f < 0 to a domain in space; it must lie in the box. Its surface is found on
-  !> an octree that is refined near f = 0 down to cells of side resolution: what is thinner can be
-  !> lost, and so can a body that is small beside the box and towards which f does not fall. Nodes
-  !> on the surface lie where f = 0, however coarse the triangles are that lead them there. Where
-  !> the gradient of f jumps by more than 40 degrees, as that of max(g, h) does, the surface has an
-  !> edge, with nodes on it; where triangles would cross, as they may at edges of less than 60
-  !> degrees, it stays rounded by the resolution, with a warning. The callback is called during
-  !> this procedure, whenever a placement is initialised or runs, and for its normals, so it and
-  !> user must outlive the placements made on the domain. Local.
-  !>   low, high   (3), the box, in which alone f is asked
-  !>   resolution  > 0, at most the box's shortest side; no more than the spacing at the surface, and
-  !>               than half of the least radius to which it is bent
-  !>   tag         optional: nonzero; 1 without
-  !>   user        optional: what the callback is given; null without
+  !> an octree refined near f = 0 down to cells of side resolution. Thinner features can be lost,
+  !> and so can a body that is small relative to the box and towards which f does not decrease.
+  !> Nodes on the surface lie where f = 0, however coarse the triangles of the octree are. Where the
+  !> gradient of f jumps by more than 40 degrees, as that of max(g, h) does, the surface has an edge
+  !> with nodes on it; where triangles would cross, as they may at edges of less than 60 degrees, it
+  !> stays rounded by the resolution, with a warning. The callback is called during this procedure,
+  !> whenever a placement is initialised or runs, and for its normals, so it and user must outlive
+  !> the placements made on the domain. Local.
+  !>   low, high   (3), the box; f is evaluated only inside it
+  !>   resolution  > 0, at most the box's shortest side; no more than the spacing at the surface,
+  !>               and half of the minimum radius of curvature
+  !>   tag         optional: nonzero; default: 1
+  !>   user        optional: passed to the callback; default: null
   subroutine domain_add_level_set(self, level_set, low, high, resolution, tag, user, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     procedure(pnpbs_level_set_fn) :: level_set
@@ -802,7 +804,7 @@ contains
   !>   centre      (2)
   !>   radius      > 0
   !>   begin, end  angles in radians; |end - begin| = 2 pi makes a full circle
-  !>   tag         optional: nonzero; 1 without
+  !>   tag         optional: nonzero; default: 1
   subroutine domain_add_arc(self, role, centre, radius, begin, end, tag, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(in) :: role
@@ -821,10 +823,10 @@ contains
 
   !> Adds a general curve, given by a callback on begin <= t <= end, to a domain in the plane. The
   !> callback is called during this procedure and whenever a placement is initialised, so it and
-  !> user must outlive the placements made on the domain. A curve whose ends coincide is closed.
-  !> Smooth inside: corners are where curves meet. Local.
-  !>   tag   optional: nonzero; 1 without
-  !>   user  optional: what the callback is given; null without
+  !> user must outlive the placements made on the domain. A curve whose ends coincide is closed. The
+  !> curve is smooth between its ends: corners exist only where curves meet. Local.
+  !>   tag   optional: nonzero; default: 1
+  !>   user  optional: passed to the callback; default: null
   subroutine domain_add_curve(self, role, curve, begin, end, tag, user, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(in) :: role
@@ -839,15 +841,15 @@ contains
                                      end, tag_or_one(tag)), stat, errmsg)
   end subroutine
 
-  !> Adds a planar straight-line graph as Triangle means it to a domain in the plane: what the
-  !> segments enclose is the domain, except the regions that contain a hole point; a loop without a
+  !> Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The domain
+  !> is what the segments enclose, except the regions that contain a hole point; a loop without a
   !> hole point and any open chain are inner curves. Every vertex becomes a node. Shared vertices
-  !> and T-junctions (within 1e-12 of the domain's size) are legal. Once a graph was added, this
+  !> and T-junctions (within 1e-12 of the domain's size) are allowed. Once a graph is added, this
   !> rule holds for all curves of the domain. Local.
   !>   coordinates   (2, vertices)
   !>   segment_ends  (2, segments) vertices, counted from 1
-  !>   vertex_tags   optional, (vertices); 0 = take the segment's
-  !>   segment_tags  optional, (segments); 1 without
+  !>   vertex_tags   optional, (vertices); 0: the segment's tag
+  !>   segment_tags  optional, (segments); default: 1
   !>   hole_points   optional, (2, holes)
   subroutine domain_add_pslg(self, coordinates, segment_ends, vertex_tags, segment_tags, &
                              hole_points, stat, errmsg)
@@ -880,12 +882,12 @@ contains
     call conclude('domain%add_pslg', status, stat, errmsg, given)
   end subroutine
 
-  !> Whether a domain in space is what its surfaces enclose, as it is at first, or the surfaces
-  !> alone: nodes on them and triangles between these, and nothing inside. Then surfaces of both
-  !> roles count alike and may be closed or open. Polylines must follow edges of the triangles, fixed
-  !> nodes must be vertices of them, holes there are none. Options mean what they do in the plane.
-  !> Local.
-  !>   filled  .true.: what they enclose; .false.: the surfaces alone
+  !> Sets whether a domain in space is the volume enclosed by its surfaces (the default) or the
+  !> surfaces alone: nodes on them, triangles between these nodes, and no interior. On surfaces
+  !> alone, both roles are equivalent and surfaces may be closed or open. Polylines must follow
+  !> edges of the triangles, fixed nodes must be vertices of them, and there are no holes. Options
+  !> have the same meaning as in the plane. Local.
+  !>   filled  .true.: the enclosed volume; .false.: the surfaces alone
   subroutine domain_set_filled(self, filled, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     logical, intent(in) :: filled
@@ -896,14 +898,14 @@ contains
                   errmsg)
   end subroutine
 
-  !> Takes the surfaces of a domain in space that are given as triangles and bound it for what
-  !> encloses one body badly: open, crossing, folded, turned this way and that. The body is where
-  !> they wind around a point more than half a time, whichever way: holes are closed, overlapping
-  !> bodies are joined, what encloses nothing is dropped. Its surface is found as that of a level
-  !> set, with its sharp edges; all of it has the tag of the first triangle. A warning tells how far
-  !> it is from the triangles given. Local.
-  !>   resolution  what is thinner can be lost; > 0, no more than the spacing at the surface, or 0:
-  !>               1/64 of the longest side of the box around the triangles
+  !> Repairs the triangulated boundary surfaces of a domain in space where they enclose one body
+  !> badly: open, crossing, folded or inconsistently oriented. The body is where they wind around a
+  !> point more than half a time, in either orientation. Holes are closed, overlapping bodies are
+  !> joined, and surfaces that enclose nothing are dropped. The surface of the body is extracted as
+  !> that of a level set, with its sharp edges; all of it has the tag of the first triangle. A
+  !> warning reports its distance from the given triangles. Local.
+  !>   resolution  thinner features can be lost; > 0, no more than the spacing at the surface, or 0:
+  !>               1/64 of the longest side of the bounding box of the triangles
   subroutine domain_set_repair(self, resolution, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: resolution
@@ -912,8 +914,8 @@ contains
     call conclude('domain%set_repair', c_domain_set_repair(self%c, resolution), stat, errmsg)
   end subroutine
 
-  !> Removes from the domain the region around a point, as far as the next curves or surfaces of
-  !> either role. Local.
+  !> Removes the region around a point from the domain, up to the next curves or surfaces of either
+  !> role. Local.
   !>   point  (dim)
   subroutine domain_add_hole(self, point, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -930,9 +932,9 @@ contains
     call conclude('domain%add_hole', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds nodes that must appear exactly. Local.
+  !> Adds fixed nodes, which keep their exact coordinates. Local.
   !>   coordinates  (dim, n), inside the domain or on a vertex of its curves or surfaces
-  !>   tags         optional, (n), nonzero; 1 without
+  !>   tags         optional, (n), nonzero; default: 1
   subroutine domain_add_fixed_nodes(self, coordinates, tags, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)
@@ -954,10 +956,10 @@ contains
     call conclude('domain%add_fixed_nodes', status, stat, errmsg, given)
   end subroutine
 
-  !> Reads a file of Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
+  !> Reads a file in Triangle's .poly format (vertices numbered from 0 or 1, attributes ignored,
   !> markers kept as tags) and adds it to a domain in the plane as add_pslg does. Local. Errors:
   !> PNPBS_ERROR_FILE with file, line and what was expected.
-  !>   path  blanks at its end do not count
+  !>   path  trailing blanks are ignored
   subroutine domain_read_poly(self, path, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     character(len=*), intent(in) :: path
@@ -966,9 +968,9 @@ contains
     call conclude('domain%read_poly', c_domain_read_poly(self%c, c_text(path)), stat, errmsg)
   end subroutine
 
-  !> The same from memory. Local.
+  !> Does the same as read_poly with a text in memory. Local.
   !>   text  lines that end with new_line('a')
-  !>   name  what to call the text in messages
+  !>   name  the name of the text in messages
   subroutine domain_parse_poly(self, text, name, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     character(len=*), intent(in) :: text, name
@@ -979,12 +981,12 @@ contains
                                       c_text(name)), stat, errmsg)
   end subroutine
 
-  !> Where the graphs of a domain in the plane have corners (add_pslg, read_poly, parse_poly), those
-  !> given before and those given after: at vertices where the direction turns by more than this,
-  !> where segments of different tags or other than two of them end, and at vertices with a tag of
-  !> their own. Nodes lie on corners; between them a graph stands for a smooth curve, and nodes lie
-  !> on it as d says. Local.
-  !>   corner_angle  degrees, 0 .. 180. 0, as it is at first: every vertex becomes a node
+  !> Sets the corner angle of the graphs of a domain in the plane (add_pslg, read_poly, parse_poly),
+  !> both those already added and later ones. Corners are vertices where the direction turns by more
+  !> than this, where segments of different tags or other than two of them end, and vertices with a
+  !> tag of their own. Nodes lie on corners; between them a graph represents a smooth curve, with
+  !> nodes spaced by d. Local.
+  !>   corner_angle  degrees, 0 .. 180. 0, the default: every vertex becomes a node
   subroutine domain_set_corner_angle(self, corner_angle, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: corner_angle
@@ -994,18 +996,19 @@ contains
                   errmsg)
   end subroutine
 
-  !> Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs and
-  !> polylines given so far, vertices beside segments shorter than d, as long as the curve then
-  !> passes them within tolerance * d; and closed curves, islands and lakes, whose extent (the longer
-  !> side of their bounding box) is less than smallest * d. No other vertex, fixed node or hole point
-  !> comes to another side of a curve. Vertices stay where curves meet or end, where tags change or a
-  !> vertex has its own, and at fixed nodes. Local; on several ranks all must do the same.
-  !>   spacing    d, called during this procedure alone
+  !> Removes features finer than d, such as those of coastlines, from a domain in the plane. From
+  !> the graphs and polylines added so far, it removes vertices next to segments shorter than d, as
+  !> long as the curve then passes them within tolerance * d, and closed curves, islands and lakes,
+  !> whose extent (the longer side of their bounding box) is less than smallest * d. No other
+  !> vertex, fixed node or hole point changes to another side of a curve. Vertices are kept where
+  !> curves meet or end, where tags change or a vertex has its own, and at fixed nodes. Local; must
+  !> be called identically on all ranks.
+  !>   spacing    d, called only during this procedure
   !>   tolerance  >= 0; 0.25 suits most
-  !>   smallest   >= 0; 0 leaves no curve out
-  !>   user       optional: what the callback gets as user
-  !>   vertices   optional: how many were left out, those of the curves included
-  !>   curves     optional: how many were left out
+  !>   smallest   >= 0; 0 removes no curve
+  !>   user       optional: passed to the callback
+  !>   vertices   optional: number removed, including those of the curves
+  !>   curves     optional: number removed
   subroutine domain_simplify(self, spacing, tolerance, smallest, user, vertices, curves, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     procedure(pnpbs_spacing_fn) :: spacing
@@ -1023,9 +1026,10 @@ contains
     if (present(curves)) curves = left_out(2)
   end subroutine
 
-  !> The same by a spacing from a file with values at points, as placement%set_spacing_file takes it.
-  !> Local; on several ranks all must do the same. Checks the domain first.
-  !>   field  optional: the values that are meant; without, the only ones, or those called 'spacing'
+  !> Does the same as simplify with a spacing from a file with values at points, as in
+  !> placement%set_spacing_file. Local; must be called identically on all ranks. Checks the domain
+  !> first.
+  !>   field  optional: the name of the values; default: the only ones, or those called 'spacing'
   subroutine domain_simplify_by_file(self, path, tolerance, smallest, field, vertices, curves, stat, &
                                      errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1052,7 +1056,7 @@ contains
 
   !> Checks the whole geometry: duplicate vertices, self-intersections, boundary curves or surfaces
   !> that do not close, hole points outside or on one, fixed nodes outside or too close. Placements
-  !> check too; asking early costs nothing extra. Local. Errors: PNPBS_ERROR_DOMAIN naming the
+  !> check it, too; checking early adds no cost. Local. Errors: PNPBS_ERROR_DOMAIN naming the
   !> vertex, segment or triangle.
   subroutine domain_check(self, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1061,7 +1065,7 @@ contains
     call conclude('domain%check', c_domain_check(self%c), stat, errmsg)
   end subroutine
 
-  !> Bounding box of the curves or surfaces. Local.
+  !> Returns the bounding box of the curves or surfaces. Local.
   !>   low, high  (dim)
   subroutine domain_bounds(self, low, high, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1079,7 +1083,7 @@ contains
     call conclude('domain%bounds', status, stat, errmsg, given)
   end subroutine
 
-  !> Area of the inside, in space its volume. Local; checks the domain first.
+  !> Returns the area of the inside, in space its volume. Local; checks the domain first.
   subroutine domain_measure(self, measure, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(out) :: measure
@@ -1088,14 +1092,14 @@ contains
     call conclude('domain%measure', c_domain_measure(self%c, measure), stat, errmsg)
   end subroutine
 
-  !> Distances to the shape of the domain: exact to segments and triangles, to arcs and curves by
-  !> callback within 1e-7 of the domain's size. Local; checks the domain first. The first question
-  !> after a change of the domain builds a tree of its pieces, for which curves by callback are
-  !> asked: ask one before asking from inside a callback (as a spacing callback may). Errors:
-  !> PNPBS_ERROR_ARGUMENT if nothing has the tag.
+  !> Evaluates distances to the shape of the domain. They are exact for segments and triangles, and
+  !> within 1e-7 of the domain's size for arcs and curves by callback. Local; checks the domain
+  !> first. The first query after a change of the domain builds a search tree and calls the
+  !> callbacks of curves: make one query before querying from inside a callback (as a spacing
+  !> callback may). Errors: PNPBS_ERROR_ARGUMENT if nothing has the tag.
   !>   coordinates  (dim, n)
   !>   distances    (n)
-  !>   tag          optional: of curves, surfaces or nodes; without, to what bounds the domain
+  !>   tag          optional: of curves, surfaces or nodes; default: the boundary of the domain
   subroutine domain_distance(self, coordinates, distances, tag, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)
@@ -1116,11 +1120,11 @@ contains
     call conclude('domain%distance', status, stat, errmsg, given)
   end subroutine
 
-  !> The spacing that placement%set_spacing_from_shape would set, without its bounds: for a spacing
-  !> callback that has its own use for it. Local; checks the domain first. What the shape asks for is
-  !> found at the first question and kept: ask one before asking from inside a callback.
-  !>   coordinates  (dim, n)
-  !>   d            (n)
+  !> Evaluates the spacing that placement%set_spacing_from_shape would set, without its bounds, for
+  !> use in a spacing callback. Local; checks the domain first. The first query computes what the
+  !> shape requires and keeps it: make one query before querying from inside a callback.
+  !>   coordinates                                           (dim, n)
+  !>   d                                                     (n)
   !>   nodes_per_turn, nodes_across, nodes_per_edge, growth  optional, as there
   subroutine domain_shape_spacing(self, coordinates, d, nodes_per_turn, nodes_across, &
                                   nodes_per_edge, growth, stat, errmsg)
@@ -1161,7 +1165,7 @@ contains
     if (present(value)) or_none = value
   end function
 
-  !> Number of segments that get_segments has. Local.
+  !> Returns the number of segments that get_segments returns. Local.
   subroutine domain_segment_count(self, count, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -1172,7 +1176,8 @@ contains
                   errmsg)
   end subroutine
 
-  !> Straight segments that show a domain in the plane (curves finely sampled), for pictures. Local.
+  !> Returns straight segments that approximate a domain in the plane (curves finely sampled), for
+  !> pictures. Local.
   !>   segments  optional, (2, 2, count): coordinates, ends, segments
   !>   tags      optional, (count)
   subroutine domain_get_segments(self, segments, tags, stat, errmsg)
@@ -1192,14 +1197,14 @@ contains
     call conclude('domain%get_segments', status, stat, errmsg, given)
   end subroutine
 
-  !> The handle as an integer; 0 where there is no domain. Local.
+  !> Returns the handle as an integer; 0 if there is no domain. Local.
   function domain_handle(self) result(handle)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int64_t) :: handle
     handle = integer_of(self%c)
   end function
 
-  !> Makes this the domain that has the handle. Local; checks nothing.
+  !> Makes this the domain with the given handle. Local; checks nothing.
   subroutine domain_from_handle(self, handle)
     class(pnpbs_domain), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -1208,8 +1213,8 @@ contains
 
   ! ------------------------------------------------------------ placement: settings -----------
 
-  !> A placement of nodes in domain, with the options of its context. The domain is taken as it is
-  !> at initialise. Collective.
+  !> Creates a placement of nodes in domain, with the options of its context. The domain is read
+  !> when the placement is initialised. Collective.
   subroutine placement_create(self, context, domain, stat, errmsg)
     class(pnpbs_placement), intent(inout) :: self
     type(pnpbs_context), intent(in) :: context
@@ -1219,7 +1224,7 @@ contains
     call conclude('placement%create', c_placement_create(context%c, domain%c, self%c), stat, errmsg)
   end subroutine
 
-  !> Destroys it; does nothing where there is none. Local.
+  !> Destroys the placement; does nothing if there is none. Local.
   subroutine placement_destroy(self, stat, errmsg)
     class(pnpbs_placement), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -1227,7 +1232,7 @@ contains
     call conclude('placement%destroy', c_placement_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> set(key, value): sets an option of this placement; otherwise as that of contexts. Local.
+  !> set(key, value): sets an option of this placement; otherwise as for contexts. Local.
   subroutine placement_set_text(self, key, value, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: key, value
@@ -1264,8 +1269,8 @@ contains
     call conclude('placement%set', c_placement_set_double(self%c, c_text(key), value), stat, errmsg)
   end subroutine
 
-  !> The spacing everywhere the same. On a live placement the spacing is replaced: the nodes there
-  !> are stay, and the next run starts from them. Collective. Errors: PNPBS_ERROR_SPACING for zero,
+  !> Sets a constant spacing. On a live placement it replaces the spacing: the current nodes are
+  !> kept, and the next run starts from them. Collective. Errors: PNPBS_ERROR_SPACING for zero,
   !> negative, not finite.
   subroutine placement_set_spacing_constant(self, d, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1276,10 +1281,10 @@ contains
                   c_placement_set_spacing_constant(self%c, d), stat, errmsg)
   end subroutine
 
-  !> The spacing from a callback, which must stay valid as long as the placement uses it, and so
-  !> must user. Collective. Bad values are found when it is asked, in initialise or run: the error
-  !> names the point and the number of nodes it would have meant.
-  !>   user  optional: what the callback is given; null without
+  !> Sets the spacing to a callback, which must stay valid as long as the placement uses it, and so
+  !> must user. Collective. Invalid values are detected when it is called, in initialise or run: the
+  !> error names the point and the number of nodes it would have implied.
+  !>   user  optional: passed to the callback; default: null
   subroutine placement_set_spacing_callback(self, spacing, user, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     procedure(pnpbs_spacing_fn) :: spacing
@@ -1291,10 +1296,10 @@ contains
                                                    pointer_or_null(user)), stat, errmsg)
   end subroutine
 
-  !> The spacing from values on a rectangular grid, copied; linear in each direction between them,
-  !> constant beyond the grid's edge. Collective.
+  !> Sets the spacing to values on a rectangular grid, which are copied. It is linear in each
+  !> direction between grid points and constant beyond the grid's edge. Collective.
   !>   origin  (dim) the first grid point
-  !>   step    (dim) > 0, distance of grid points
+  !>   step    (dim) > 0, distance between grid points
   !>   values  (nx, ny), in space (nx, ny, nz)
   subroutine placement_set_spacing_grid(self, origin, step, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1338,15 +1343,15 @@ contains
     call given%check_rows('step', steps, rank_of_values)
   end subroutine
 
-  !> The spacing from values at the nodes of a background mesh, copied: linear on each triangle, in
-  !> space on each tetrahedron, and beyond the mesh what it is at the mesh's nearest point.
-  !> Collective; every rank gives the same arrays, and holds them. Checks the domain first. Errors:
-  !> PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and for a mesh whose box
-  !> does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node number out of range, an element that
-  !> is flat, ranks that differ.
+  !> Sets the spacing to values at the nodes of a background mesh, which are copied. It is linear on
+  !> each triangle, in space on each tetrahedron, and beyond the mesh equal to the value at the
+  !> nearest point of the mesh. Collective; every rank passes and stores the same arrays. Checks the
+  !> domain first. Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and
+  !> for a mesh whose bounding box does not meet the domain's; PNPBS_ERROR_ARGUMENT for a node
+  !> number out of range, a flat element, or arrays that differ between ranks.
   !>   coordinates  (dim, n)
   !>   d            (n)
-  !>   corners      (dim + 1, elements) node numbers from 1 on, whichever way round
+  !>   corners      (dim + 1, elements) node numbers, counted from 1, in either orientation
   subroutine placement_set_spacing_mesh(self, coordinates, d, corners, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:), d(:)
@@ -1364,12 +1369,13 @@ contains
     call conclude('placement%set_spacing_mesh', status, stat, errmsg, given)
   end subroutine
 
-  !> The spacing from values at scattered points, copied: at each of them its own value, elsewhere a
-  !> plane fitted to the 8 (in space 16) nearest ones by weighted least squares, never below the
-  !> least nor above the largest of their values. Collective; every rank gives the same arrays, and
-  !> holds them. Checks the domain first. Errors: PNPBS_ERROR_SPACING for a value that is zero,
-  !> negative or not finite, for points in one place with different values, and for points whose box
-  !> does not meet the domain's; PNPBS_ERROR_ARGUMENT for ranks that differ.
+  !> Sets the spacing to values at scattered points, which are copied. It equals the given value at
+  !> each point and elsewhere a plane fitted to the 8 (in space 16) nearest points by weighted least
+  !> squares, bounded by the smallest and largest of their values. Collective; every rank passes and
+  !> stores the same arrays. Checks the domain first. Errors: PNPBS_ERROR_SPACING for a value that
+  !> is zero, negative or not finite, for coincident points with different values, and for points
+  !> whose bounding box does not meet the domain's; PNPBS_ERROR_ARGUMENT for arrays that differ
+  !> between ranks.
   !>   coordinates  (dim, n)
   !>   d            (n)
   subroutine placement_set_spacing_points(self, coordinates, d, stat, errmsg)
@@ -1385,13 +1391,13 @@ contains
     call conclude('placement%set_spacing_points', status, stat, errmsg, given)
   end subroutine
 
-  !> The spacing from a file with values at points, by the ending of its name: .vtu (VTK's
-  !> unstructured grid), .msh (Gmsh's, with $NodeData) or .csv (columns x, y, (z) and others).
-  !> Triangles and quadrangles, in space tetrahedra are a mesh as set_spacing_mesh takes it; without
-  !> any the points are as for set_spacing_points. In the plane z is left out. Collective; every rank
-  !> reads the file. Errors: PNPBS_ERROR_FILE, and as these two.
-  !>   path   blanks at its end do not count
-  !>   field  optional: its name in the file; without, the only one, or the one called "spacing"
+  !> Sets the spacing to values at points from a file, by its extension: .vtu (VTK's unstructured
+  !> grid), .msh (Gmsh's, with $NodeData) or .csv (columns x, y, (z) and others). Triangles and
+  !> quadrangles, in space tetrahedra, form a mesh as in set_spacing_mesh; without any, the points
+  !> are used as in set_spacing_points. In the plane z is ignored. Collective; every rank reads the
+  !> file. Errors: PNPBS_ERROR_FILE, and as these two.
+  !>   path   trailing blanks are ignored
+  !>   field  optional: its name in the file; default: the only one, or the one called "spacing"
   subroutine placement_set_spacing_file(self, path, field, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: path
@@ -1416,19 +1422,20 @@ contains
     call given%require('d', size(d, kind=c_int64_t), size(coordinates, 2, kind=c_int64_t))
   end subroutine
 
-  !> The spacing from the shape of the domain as it is now: the least that its curves and surfaces
-  !> ask for, each growing with the distance from it. Collective. The same on any number of ranks.
-  !> Errors: PNPBS_ERROR_DOMAIN as domain%check, PNPBS_ERROR_ARGUMENT for negative numbers,
-  !> PNPBS_ERROR_SPACING where the domain is too narrow to take its width all along.
-  !>   nodes_per_turn  optional: by curvature, nodes on a full circle of its radius; without, it does
-  !>                   not count
-  !>   nodes_across    optional: by width, nodes across the diameter of the largest ball that touches
-  !>                   the boundary and meets nothing ahead; without, it does not count
+  !> Sets the spacing from the current shape of the domain: the minimum of what its curves and
+  !> surfaces require, each value growing with the distance from them. Collective. The same on any
+  !> number of ranks. Errors: PNPBS_ERROR_DOMAIN as in domain%check, PNPBS_ERROR_ARGUMENT for
+  !> negative numbers, PNPBS_ERROR_SPACING where the domain is too narrow to measure its width
+  !> everywhere.
+  !>   nodes_per_turn  optional: by curvature, nodes on a full circle of the radius of curvature;
+  !>                   default: not used
+  !>   nodes_across    optional: by width, nodes across the diameter of the largest ball that
+  !>                   touches the boundary and meets nothing ahead; default: not used
   !>   nodes_per_edge  optional: by the input, nodes along its segments and the mean edge of its
-  !>                   triangles; without, it does not count
-  !>   growth          optional: of d per unit of distance; without, 0.15
-  !>   min_spacing     optional: d is at least this
-  !>   max_spacing     optional: d is at most this; without, the size of the domain
+  !>                   triangles; default: not used
+  !>   growth          optional: of d per unit of distance; default: 0.15
+  !>   min_spacing     optional: lower bound of d
+  !>   max_spacing     optional: upper bound of d; default: the size of the domain
   subroutine placement_set_spacing_from_shape(self, nodes_per_turn, nodes_across, nodes_per_edge, &
                                               growth, min_spacing, max_spacing, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1444,13 +1451,13 @@ contains
                   stat, errmsg)
   end subroutine
 
-  !> The spacing from values at the nodes there are: d is linear on each triangle or tetrahedron of
-  !> their Delaunay triangulation (get_triangles, get_tetrahedra), and beyond its rim, next to
-  !> curved boundaries, what it is at the nearest point of the rim. Every rank gives the values of
-  !> its own nodes; they stay with the ranks, copied together with the triangles or tetrahedra, and
-  !> the nodes may go on to be replaced. Collective. Errors: PNPBS_ERROR_STATE without nodes,
-  !> PNPBS_ERROR_SPACING for a value that is zero, negative or not finite: the message names the
-  !> rank, the node's id and the value.
+  !> Sets the spacing to values at the current nodes. It is linear on each triangle or tetrahedron
+  !> of their Delaunay triangulation (get_triangles, get_tetrahedra), and beyond its boundary, next
+  !> to curved boundaries, equal to the value at the nearest point of it. Each rank passes the
+  !> values of its own nodes; they stay on that rank, copied together with the triangles or
+  !> tetrahedra, and the nodes may be replaced afterwards. Collective. Errors: PNPBS_ERROR_STATE
+  !> without nodes, PNPBS_ERROR_SPACING for a value that is zero, negative or not finite: the
+  !> message names the rank, the node's id and the value.
   !>   d  one for every node of this rank, in the order of get_nodes
   subroutine placement_set_spacing_at_nodes(self, d, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1463,7 +1470,7 @@ contains
   end subroutine
 
   !> Sets the monitor, or removes it if none is given. Local.
-  !>   user  optional: what the monitor is given; null without
+  !>   user  optional: passed to the monitor; default: null
   subroutine placement_set_monitor(self, monitor, user, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     procedure(pnpbs_monitor_fn), optional :: monitor
@@ -1477,12 +1484,12 @@ contains
                   c_placement_set_monitor(self%c, address, pointer_or_null(user)), stat, errmsg)
   end subroutine
 
-  !> Inner nodes to start from instead of the initial fill, copied; the boundary is laid by the
-  !> library. Over several ranks each gives some, wherever they lie. Where they are many times too
-  !> dense for d they are thinned (statistic 'deleted'). Points outside the domain or too close to
-  !> its boundary are left out (statistic 'dropped'). Clears the nodes there are. Collective.
+  !> Sets inner nodes to start from instead of the initial fill; they are copied, and the library
+  !> places the boundary nodes. On several ranks each passes some, wherever they lie. Nodes many
+  !> times too dense for d are thinned (statistic 'deleted'). Points outside the domain or too close
+  !> to its boundary are dropped (statistic 'dropped'). Clears the current nodes. Collective.
   !>   coordinates  (dim, n)
-  !>   ids          optional, (n): distinct, 0 .. 2**62; of the library's choice without
+  !>   ids          optional, (n): distinct, 0 .. 2**62; default: chosen by the library
   subroutine placement_set_nodes(self, coordinates, ids, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)
@@ -1505,12 +1512,12 @@ contains
 
   ! ------------------------------------------------------------ placement: computing ----------
 
-  !> What a run from nothing would come to, from domain, spacing and options alone: d is sampled in
-  !> some thousand places, no inner node is made, and the nodes there are stay as they are.
-  !> Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
+  !> Estimates a run from scratch, from domain, spacing and options alone. d is sampled at some
+  !> thousand points, no inner node is created, and the current nodes are unchanged. Collective.
+  !> Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
   !>   nodes    optional: on all ranks, mostly within a few percent
   !>   bytes    optional: memory of each process, for the run alone
-  !>   seconds  optional: roughly
+  !>   seconds  optional: rough
   subroutine placement_estimate(self, nodes, bytes, seconds, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out), optional :: nodes, bytes
@@ -1529,8 +1536,8 @@ contains
     if (present(seconds)) seconds = time
   end subroutine
 
-  !> Checks domain and spacing, builds the background tree, lays the boundary nodes and the initial
-  !> inner nodes. Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK, _MEMORY.
+  !> Checks domain and spacing, builds the background tree, and lays the boundary nodes and the
+  !> initial inner nodes. Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK, _MEMORY.
   subroutine placement_initialise(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -1539,8 +1546,8 @@ contains
   end subroutine
 
   !> step(n): advances the simulation by n steps, with the events (refresh of d, population, stop
-  !> test) that fall on them. Initialises first if need be. Collective. stat: PNPBS_OK if the
-  !> bubbles rest (stop test met), PNPBS_NOT_CONVERGED if they still move, PNPBS_STOPPED.
+  !> test) that fall on them. Initialises first if necessary. Collective. stat: PNPBS_OK if the
+  !> bubbles are at rest (stop test met), PNPBS_NOT_CONVERGED if they still move, PNPBS_STOPPED.
   subroutine placement_step_int32(self, n, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int32_t), intent(in) :: n
@@ -1557,9 +1564,9 @@ contains
     call conclude('placement%step', c_placement_step(self%c, n), stat, errmsg)
   end subroutine
 
-  !> One population adjustment, now: deletes where the overlap ratio is too large, inserts where it
-  !> is too small (equation (3) of the paper). Collective.
-  !>   inserted, deleted  optional: how many nodes
+  !> Performs one population adjustment: deletes bubbles where the overlap ratio is too large,
+  !> inserts them where it is too small (equation (3) of the paper). Collective.
+  !>   inserted, deleted  optional: number of nodes
   subroutine placement_adjust_population(self, inserted, deleted, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out), optional :: inserted, deleted
@@ -1574,10 +1581,11 @@ contains
     if (present(deleted)) deleted = out
   end subroutine
 
-  !> Deals the work out to the ranks anew, by METIS and the work counted in the lists, so that each
-  !> owns an equal share and little changes its rank. The nodes stay as they are; who owns them, and
-  !> who has which ghosts, changes. A run does so by itself where the statistic 'imbalance' (largest
-  !> over mean work) passes the option 'rebalance_above'. Initialises first if need be. Collective.
+  !> Repartitions the work over the ranks, by METIS with the work counted in the lists, so that each
+  !> rank owns an equal share and few nodes change rank. The nodes are unchanged; their owners and
+  !> the ghosts of each rank change. A run does this by itself where the statistic 'imbalance'
+  !> (largest over mean work) exceeds the option 'rebalance_above'. Initialises first if necessary.
+  !> Collective.
   subroutine placement_rebalance(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -1585,12 +1593,13 @@ contains
     call conclude('placement%rebalance', c_placement_rebalance(self%c), stat, errmsg)
   end subroutine
 
-  !> The whole job: initialise if need be, steps until the stop test is met or the option 'steps' is
-  !> used up, finish. Afterwards it starts a new schedule from the nodes there are. Collective.
-  !> stat: PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether the
-  !> bubbles rest or not, if in one of the bands of get_edge_bands with 50 edges or more the mean is
-  !> off 1 by more than 0.1: then there is a warning that names the band; PNPBS_NOT_CONFORMING, if
-  !> the elements do not fill the domain: then there is a warning that says where; PNPBS_STOPPED.
+  !> Runs the whole placement: initialises if necessary, steps until the stop test is met or the
+  !> option 'steps' is used up, and finishes. A later call starts a new schedule from the current
+  !> nodes. Collective. stat: PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept);
+  !> PNPBS_SPACING_MISSED, whether or not the bubbles are at rest, if in one of the bands of
+  !> get_edge_bands with 50 edges or more the mean differs from 1 by more than 0.1 (a warning names
+  !> the band); PNPBS_NOT_CONFORMING, if the elements do not fill the domain (a warning says where);
+  !> PNPBS_STOPPED.
   subroutine placement_run(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -1600,7 +1609,7 @@ contains
 
   ! ------------------------------------------------------------ placement: results ------------
 
-  !> The dimension of the placement's domain. Local.
+  !> Returns the dimension of the placement's domain. Local.
   !>   dim  2: in the plane, 3: in space
   subroutine placement_dimension(self, dim, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1611,7 +1620,7 @@ contains
     call conclude('placement%dimension', c_placement_dimension(self%c, dim), stat, errmsg)
   end subroutine
 
-  !> Number of nodes of this rank. Local.
+  !> Returns the number of nodes of this rank. Local.
   subroutine placement_count(self, nodes, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: nodes
@@ -1621,7 +1630,7 @@ contains
     call conclude('placement%count', c_placement_count(self%c, nodes), stat, errmsg)
   end subroutine
 
-  !> Copies the nodes of this rank out, in their local order; all arrays are optional. Local.
+  !> Copies the nodes of this rank, in their local order; all arrays are optional. Local.
   !>   coordinates  (dim, nodes)
   !>   ids          (nodes) global ids, the same for any number of ranks and threads
   !>   tags         (nodes) 0 inner, otherwise the tag of the curve, surface or fixed node
@@ -1648,9 +1657,9 @@ contains
     call conclude('placement%get_nodes', status, stat, errmsg, given)
   end subroutine
 
-  !> Copies out where the surfaces look at the nodes of this rank, of a placement in space: the unit
-  !> normal of the triangle that a node lies on, on feature edges and in corners the mean of those on
-  !> its sides, 0 for inner nodes. Local.
+  !> Copies the surface normals at the nodes of this rank, of a placement in space: the unit normal
+  !> of the triangle that a node lies on, on feature edges and in corners the mean of the adjacent
+  !> normals, 0 for inner nodes. Local.
   !>   normals  (3, nodes)
   subroutine placement_get_normals(self, normals, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1664,8 +1673,8 @@ contains
     call conclude('placement%get_normals', status, stat, errmsg, given)
   end subroutine
 
-  !> Number of ghosts: nodes of other ranks that this rank sees near its own. In lists, stars,
-  !> triangles and tetrahedra ghost g has the local index nodes + g. Collective.
+  !> Returns the number of ghosts: nodes of other ranks that this rank sees near its own. In lists,
+  !> stars, triangles and tetrahedra ghost g has the local index nodes + g. Collective.
   subroutine placement_ghost_count(self, ghosts, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: ghosts
@@ -1675,7 +1684,7 @@ contains
     call conclude('placement%ghost_count', c_placement_ghost_count(self%c, ghosts), stat, errmsg)
   end subroutine
 
-  !> Copies the ghosts out, by increasing id; all arrays are optional. Collective.
+  !> Copies the ghosts, by increasing id; all arrays are optional. Collective.
   !>   coordinates, ids, tags, spacing  as get_nodes
   !>   owners                           (ghosts) the rank that owns each
   subroutine placement_get_ghosts(self, coordinates, ids, tags, spacing, owners, stat, errmsg)
@@ -1701,8 +1710,8 @@ contains
     call conclude('placement%get_ghosts', status, stat, errmsg, given)
   end subroutine
 
-  !> Sizes of the exchange pattern: how values at nodes reach their ghosts on other ranks.
-  !> Collective; all are optional.
+  !> Returns the sizes of the exchange pattern, by which values at nodes reach their ghosts on other
+  !> ranks. Collective; all are optional.
   !>   neighbours  ranks that have ghosts of our nodes, or nodes that are ghosts here
   !>   sends       nodes to send, one for every rank that has it as a ghost
   !>   receives    nodes to receive: the number of ghosts
@@ -1724,11 +1733,11 @@ contains
     if (present(receives)) receives = in
   end subroutine
 
-  !> The exchange pattern, for a solver to use again: send the values at nodes
-  !> send_nodes(send_offsets(k) : send_offsets(k+1)-1) to ranks(k), and put what comes from there
-  !> into places receive_nodes(receive_offsets(k) : receive_offsets(k+1)-1), in the same order (that
-  !> of ids). It stays right until nodes move. Collective.
-  !>   ranks            (neighbours) in increasing order, counted from 0 as MPI's are
+  !> Copies the exchange pattern, for reuse in a solver: send the values at nodes
+  !> send_nodes(send_offsets(k) : send_offsets(k+1)-1) to ranks(k), and store what it sends at
+  !> receive_nodes(receive_offsets(k) : receive_offsets(k+1)-1), in the same order (that of ids).
+  !> Valid until nodes move. Collective.
+  !>   ranks            (neighbours) in increasing order, counted from 0 as in MPI
   !>   send_offsets     (neighbours + 1)
   !>   send_nodes       (sends) local indices of this rank's nodes
   !>   receive_offsets  (neighbours + 1)
@@ -1772,12 +1781,13 @@ contains
     call count_from_one(receive_nodes(:receives))
   end subroutine
 
-  !> Numbers that are contiguous per rank, as PETSc and hypre want them, besides the ids: node i of
-  !> this rank has number first + i - 1, and rank r's numbers follow those of rank r - 1. They count
-  !> from 0, as in C. Unlike the ids they depend on the ranks. Collective; all are optional.
+  !> Returns numbers that are contiguous per rank, as PETSc and hypre require, in addition to the
+  !> ids: node i of this rank has number first + i - 1, and the numbers of rank r follow those of
+  !> rank r - 1. They count from 0, as in C. Unlike the ids they depend on the ranks. Collective;
+  !> all are optional.
   !>   first          the number of this rank's first node; 0 on rank 0
   !>   count          how many numbers this rank has: its nodes
-  !>   ghost_numbers  (ghosts) the numbers of the ghosts, as get_ghosts has them
+  !>   ghost_numbers  (ghosts) the numbers of the ghosts, in the order of get_ghosts
   subroutine placement_get_numbering(self, first, count, ghost_numbers, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out), optional :: first, count
@@ -1797,10 +1807,10 @@ contains
     if (present(count)) count = nodes
   end subroutine
 
-  !> Gives the ghosts the values that their owners have. The plan of the exchange is made at the first
-  !> call after nodes have moved, and kept. Collective. Errors: PNPBS_ERROR_ARGUMENT for another
-  !> number of values, or numbers of components that differ between ranks; PNPBS_ERROR_STATE without
-  !> nodes, or while an update that was begun has not ended.
+  !> Updates the values at ghosts from their owners. The exchange plan is built at the first call
+  !> after nodes have moved, and kept. Collective. Errors: PNPBS_ERROR_ARGUMENT for another number
+  !> of values, or numbers of components that differ between ranks; PNPBS_ERROR_STATE without nodes,
+  !> or while an update is in progress.
   !>   values  (nodes + ghosts), or (components, nodes + ghosts): those of this rank's nodes, then
   !>           those of its ghosts, which are filled
   subroutine placement_update_ghosts(self, values, stat, errmsg)
@@ -1823,10 +1833,10 @@ contains
                                             size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> The first half of update_ghosts, for a solver that computes while messages travel: copies the
-  !> values of this rank's nodes that others need, and sends them on their way. The array may change
-  !> or go as soon as it returns. One update at a time is under way for a placement; other calls may
-  !> come before it is ended. Collective. Errors: as there.
+  !> Begins an update of ghosts, for a solver that computes while messages travel: copies the values
+  !> of this rank's nodes that others need, and starts sending them. The array may be changed or
+  !> freed after the call. A placement has at most one update in progress; other calls are allowed
+  !> before it ends. Collective. Errors: as there.
   !>   values  as in update_ghosts
   subroutine placement_begin_update_ghosts(self, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1848,11 +1858,11 @@ contains
                                                   size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> The second half: waits for the values that the other ranks sent when they began, and fills those
-  !> of the ghosts; those of this rank's nodes are not touched. Local: it waits for no other rank to
-  !> end. Errors: PNPBS_ERROR_STATE without an update under way, or if nodes have moved since it
-  !> began, which ends it; PNPBS_ERROR_ARGUMENT for another shape, after which the update is still
-  !> under way.
+  !> Ends an update of ghosts: waits for the values that the other ranks sent when they began, and
+  !> fills those of the ghosts; those of this rank's nodes are unchanged. Local: does not wait for
+  !> other ranks to end theirs. Errors: PNPBS_ERROR_STATE without an update in progress, or if nodes
+  !> have moved since it began, which ends it; PNPBS_ERROR_ARGUMENT for another shape, after which
+  !> the update is still in progress.
   !>   values  as in update_ghosts; need not be the array that the update began with
   subroutine placement_end_update_ghosts(self, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1874,15 +1884,15 @@ contains
                                                 size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> Adds the values at ghosts to those of the nodes that they stand for, on the ranks that own these:
-  !> the way of update_ghosts back, for sums over elements to which several ranks contribute. Each
-  !> sum, of a node's own value and of those at its ghosts, is exact and rounded once, so no order of
-  !> ranks matters. What a rank has added up by itself before it has been rounded there: unless these
-  !> sums are exact, other numbers of ranks give results that differ by rounding. Where all bits shall
-  !> be the same, use get_incident_elements. Collective. Errors: as update_ghosts, but for updates
-  !> under way.
+  !> Adds the values at ghosts to those of the nodes they represent, on the ranks that own these. It
+  !> is the reverse of update_ghosts, for sums over elements to which several ranks contribute. Each
+  !> sum, of a node's own value and those at its ghosts, is exact and rounded once, so the order of
+  !> ranks has no effect. Values that a rank has summed by itself before were rounded there: unless
+  !> these sums are exact, results differ by rounding between numbers of ranks. Where all bits must
+  !> agree, use get_incident_elements. Collective. Errors: as update_ghosts, except for updates in
+  !> progress.
   !>   values  (nodes + ghosts), or (components, nodes + ghosts): those of this rank's nodes, which
-  !>           become the sums, then those of its ghosts, which stay as they are
+  !>           become the sums, then those of its ghosts, which are unchanged
   subroutine placement_add_from_ghosts(self, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(inout) :: values(:)
@@ -1903,13 +1913,13 @@ contains
                                               size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> Sums of a field over the nodes of all ranks, of each component by itself: the exact sum, rounded
-  !> once, to the nearest number. So it has the same bits for any number of ranks and threads and
-  !> any order of nodes. NaN where a value is NaN or where there are infinities of both signs;
-  !> otherwise an infinity where a value is, or where the sum is beyond the largest number.
-  !> Collective. Errors: as update_ghosts, but for updates under way.
-  !>   values  (n), or (components, n): of this rank's nodes at least; what is behind, its ghosts',
-  !>           does not count
+  !> Sums each component of a field over the nodes of all ranks: the exact sum, rounded once to the
+  !> nearest number. It has the same bits for any number of ranks and threads and any order of
+  !> nodes. NaN where a value is NaN or where there are infinities of both signs; otherwise an
+  !> infinity where a value is, or where the sum is beyond the largest number. Collective. Errors:
+  !> as update_ghosts, except for updates in progress.
+  !>   values  (n), or (components, n): of this rank's nodes at least; entries after them, for its
+  !>           ghosts, are ignored
   !>   total   a number, or (components): the same on all ranks
   subroutine placement_sum(self, values, total, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1937,8 +1947,8 @@ contains
                                   size(values, 1, c_int32_t), values, total), stat, errmsg, given)
   end subroutine
 
-  !> Dot products of two fields over the nodes of all ranks, of each component by itself: the sum of
-  !> the exact products, rounded once, with all that sum says of its own. No product overflows or
+  !> Computes the dot product of two fields over the nodes of all ranks, for each component: the sum
+  !> of the exact products, rounded once, with the properties of sum. No product overflows or
   !> underflows; one of an infinity and 0 is NaN. Collective.
   !>   x, y     (n), or (components, n): of this rank's nodes at least
   !>   product  a number, or (components): the same on all ranks
@@ -1972,7 +1982,7 @@ contains
                   stat, errmsg, given)
   end subroutine
 
-  !> Number of entries of all adjacency lists of this rank's nodes. Collective.
+  !> Returns the number of entries of all adjacency lists of this rank's nodes. Collective.
   subroutine placement_adjacency_size(self, entries, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: entries
@@ -1983,9 +1993,9 @@ contains
                   c_placement_adjacency_size(self%c, entries), stat, errmsg)
   end subroutine
 
-  !> Adjacency lists in compressed rows: the neighbours of local node i are
-  !> neighbours(offsets(i) : offsets(i+1)-1), local indices in the order of global ids; directly
-  !> usable for node-based local mesh generation. Pairs that a boundary separates are not
+  !> Copies the adjacency lists in compressed rows: the neighbours of local node i are
+  !> neighbours(offsets(i) : offsets(i+1)-1), local indices in the order of global ids. They can be
+  !> used directly for node-based local mesh generation. Pairs separated by a boundary are not
   !> neighbours. Collective.
   !>   offsets     (nodes + 1)
   !>   neighbours  (entries)
@@ -2009,7 +2019,7 @@ contains
     call count_from_one(neighbours(:offsets(nodes + 1) - 1))
   end subroutine
 
-  !> Number of entries of all Delaunay stars. Collective.
+  !> Returns the number of entries of all Delaunay stars. Collective.
   subroutine placement_star_size(self, entries, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: entries
@@ -2019,14 +2029,14 @@ contains
     call conclude('placement%star_size', c_placement_star_size(self%c, entries), stat, errmsg)
   end subroutine
 
-  !> Each node's star in the constrained Delaunay triangulation of the domain: in the plane
-  !> counter-clockwise; in space all nodes that share a tetrahedron with it, in no order that means
-  !> anything. Collective.
+  !> Copies each node's star in the constrained Delaunay triangulation of the domain: in the plane
+  !> counter-clockwise; in space all nodes that share a tetrahedron with it, in no particular order.
+  !> Collective.
   !>   offsets     (nodes + 1)
   !>   neighbours  (entries) local indices
   !>   triangle    optional, (entries), logical or integer(c_int8_t): true or 1 if the node, this
-  !>               neighbour and the next one around (the first one after the last) are a triangle of
-  !>               the domain, false or 0 if a gap outside the domain lies between them, and
+  !>               neighbour and the next one around (the first one after the last) are a triangle
+  !>               of the domain, false or 0 if a gap outside the domain lies between them, and
   !>               everywhere in space
   subroutine placement_get_stars(self, offsets, neighbours, triangle, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2064,7 +2074,7 @@ contains
     where (flags /= not_set) triangle = flags /= 0
   end subroutine
 
-  !> Number of triangles that get_triangles has, in the plane. Collective.
+  !> Returns the number of triangles that get_triangles returns, in the plane. Collective.
   subroutine placement_triangle_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -2075,10 +2085,10 @@ contains
                   c_placement_get_triangles(self%c, 0_c_int64_t, count, c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Triangles of the stars of a placement in the plane, each once, counter-clockwise. Over several
-  !> ranks a triangle is the rank's that owns its node with the least id; other corners may be
-  !> ghosts, and the triangles of all ranks together are one conforming triangulation of the domain.
-  !> Collective.
+  !> Copies the triangles of the stars of a placement in the plane, each once, counter-clockwise. On
+  !> several ranks a triangle belongs to the rank that owns its node with the lowest id; other
+  !> corners may be ghosts, and the triangles of all ranks together are one conforming triangulation
+  !> of the domain. Collective.
   !>   triangles  (3, count) local indices
   subroutine placement_get_triangles(self, triangles, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2098,7 +2108,7 @@ contains
     end do
   end subroutine
 
-  !> Number of tetrahedra that get_tetrahedra has, in space. Collective.
+  !> Returns the number of tetrahedra that get_tetrahedra returns, in space. Collective.
   subroutine placement_tetrahedron_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -2109,11 +2119,11 @@ contains
                   c_placement_get_tetrahedra(self%c, 0_c_int64_t, count, c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Tetrahedra of the stars of a placement in space, each once: seen from the fourth corner, the
-  !> first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of corners a, b, c,
-  !> d is positive. Over several ranks a tetrahedron is the rank's that owns its node with the least
-  !> id; other corners may be ghosts, and the tetrahedra of all ranks together are one conforming
-  !> triangulation of the domain. Collective.
+  !> Copies the tetrahedra of the stars of a placement in space, each once: seen from the fourth
+  !> corner, the first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of
+  !> corners a, b, c, d is positive. On several ranks a tetrahedron belongs to the rank that owns
+  !> its node with the lowest id; other corners may be ghosts, and the tetrahedra of all ranks
+  !> together are one conforming triangulation of the domain. Collective.
   !>   tetrahedra  (4, count) local indices
   subroutine placement_get_tetrahedra(self, tetrahedra, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2133,7 +2143,7 @@ contains
     end do
   end subroutine
 
-  !> Number of elements that get_incident_elements has. Collective.
+  !> Returns the number of elements that get_incident_elements returns. Collective.
   !>   corners  optional: of each, 3 or 4
   subroutine placement_incident_element_count(self, count, corners, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2150,13 +2160,13 @@ contains
     if (present(corners)) corners = rows
   end subroutine
 
-  !> Every element with a corner among this rank's nodes, whichever rank it belongs to: triangles in
-  !> the plane, tetrahedra in space, triangles on surfaces alone. With these a rank assembles the rows
-  !> of its nodes by itself, without a message. The corner with the least id comes first; an element
-  !> belongs to this rank, as get_triangles and get_tetrahedra have it, if that is one of its nodes.
-  !> Elements are in the order of the ids of their corners: so those of a node are the same, in the
-  !> same order, for any number of ranks, and a row that adds them up in this order has the same bits.
-  !> Collective.
+  !> Copies every element with a corner among this rank's nodes, whichever rank it belongs to:
+  !> triangles in the plane, tetrahedra in space, triangles on surfaces alone. With these a rank
+  !> assembles the rows of its nodes without communication. The corner with the lowest id comes
+  !> first; an element belongs to this rank, as defined by get_triangles and get_tetrahedra, if that
+  !> is one of its nodes. Elements are in the order of the ids of their corners, so those of a node
+  !> are the same, in the same order, for any number of ranks, and a row summed in this order has
+  !> the same bits. Collective.
   !>   elements  (corners, count) local indices
   subroutine placement_get_incident_elements(self, elements, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2181,7 +2191,7 @@ contains
     end do
   end subroutine
 
-  !> Number of triangles that get_boundary_triangles has, in space. Collective.
+  !> Returns the number of triangles that get_boundary_triangles returns, in space. Collective.
   subroutine placement_boundary_triangle_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -2193,10 +2203,10 @@ contains
                                                      c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Triangles of the boundary of a placement in space: the faces of tetrahedra that have no other
-  !> tetrahedron behind them, counter-clockwise as seen from outside. Of surfaces alone, the triangles
-  !> between the nodes on them. Over several ranks a triangle
-  !> is the rank's that owns its node with the least id. Collective.
+  !> Copies the boundary triangles of a placement in space: the faces that belong to one tetrahedron
+  !> only, counter-clockwise as seen from outside. On surfaces alone, they are the triangles between
+  !> the nodes. On several ranks a triangle belongs to the rank that owns its node with the lowest
+  !> id. Collective.
   !>   triangles  optional, (3, count) local indices
   !>   tags       optional, (count) of the surface there
   subroutine placement_get_boundary_triangles(self, triangles, tags, stat, errmsg)
@@ -2220,7 +2230,7 @@ contains
     end do
   end subroutine
 
-  !> Number of boundary edges that get_boundary_edges has, in the plane. Local.
+  !> Returns the number of boundary edges that get_boundary_edges returns, in the plane. Local.
   subroutine placement_boundary_edge_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -2232,9 +2242,9 @@ contains
                                                  c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Boundary edges of a placement in the plane: consecutive nodes on boundary and inner curves.
-  !> Over several ranks an edge is the rank's that owns the node it begins with; the other end may
-  !> be a ghost. Local.
+  !> Copies the boundary edges of a placement in the plane: consecutive nodes on boundary and inner
+  !> curves. On several ranks an edge belongs to the rank that owns its first node; the other end
+  !> may be a ghost. Local.
   !>   edges  optional, (2, count) local indices
   !>   tags   optional, (count)
   subroutine placement_get_boundary_edges(self, edges, tags, stat, errmsg)
@@ -2258,15 +2268,15 @@ contains
     end do
   end subroutine
 
-  !> Checks that the results keep what is promised of them: ids are unique, no two nodes lie in one
-  !> place, all lie inside or on the boundary, and all that the boundary's curves or feature edges
-  !> have are there; adjacency lists are symmetric; the triangles or tetrahedra of the stars are one
-  !> conforming triangulation of the domain, each in the stars of all its corners, with every boundary
-  !> edge, and their areas or volumes add up to what the boundary encloses; in space the boundary
-  !> triangles are closed, and cut off no more of the domain than chords do. It takes about as long as
-  !> making lists and stars, and no rank holds more than its share. Collective. stat: PNPBS_OK;
-  !> PNPBS_NOT_CONFORMING where run tells it, too. Errors: PNPBS_ERROR_INTERNAL if something else is
-  !> wrong: the message says what, with ids and coordinates; PNPBS_ERROR_STATE without nodes.
+  !> Checks the invariants of the results. Ids are unique, no two nodes coincide, all lie inside or
+  !> on the boundary, and all nodes of the boundary's curves or feature edges are present. Adjacency
+  !> lists are symmetric. The triangles or tetrahedra of the stars are one conforming triangulation
+  !> of the domain, each in the stars of all its corners, with every boundary edge, and their areas
+  !> or volumes add up to what the boundary encloses. In space the boundary triangles are closed,
+  !> and cut off no more of the domain than chords do. It takes about as long as building lists and
+  !> stars, and no rank holds more than its share. Collective. stat: PNPBS_OK; PNPBS_NOT_CONFORMING
+  !> where run returns it, too. Errors: PNPBS_ERROR_INTERNAL if something else is wrong: the message
+  !> says what, with ids and coordinates; PNPBS_ERROR_STATE without nodes.
   subroutine placement_check(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -2274,9 +2284,9 @@ contains
     call conclude('placement%check', c_placement_check(self%c), stat, errmsg)
   end subroutine
 
-  !> get(key, value): a statistic by key (see pnpbs_statistic_info). Collective (some are computed
-  !> when asked). Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type differs;
-  !> PNPBS_ERROR_ARGUMENT if the key differs between ranks.
+  !> get(key, value): returns a statistic by key (see pnpbs_statistic_info). Collective (some are
+  !> computed on request). Errors: PNPBS_ERROR_KEY with the nearest known name, or if the type
+  !> differs; PNPBS_ERROR_ARGUMENT if the key differs between ranks.
   !>   value  integer(c_int64_t), real(c_double), or character(len=:), allocatable
   subroutine placement_get_int64(self, key, value, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2312,7 +2322,7 @@ contains
     if (status >= 0) value = text_of(text)
   end subroutine
 
-  !> Number of bands that get_edge_bands has: 8 at most. Collective.
+  !> Returns the number of bands that get_edge_bands returns: 8 at most. Collective.
   subroutine placement_edge_band_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -2324,13 +2334,14 @@ contains
                                              c_null_ptr, c_null_ptr, c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> How well the edges of the triangles or tetrahedra follow the spacing, by bands of it: eight,
-  !> equal in log d between the least and the largest d at the nodes, or one if that is less than
-  !> 1.1 times the least. Bands without edges are left out. An edge's d is the mean of d at its
-  !> ends. Edges between two boundary nodes, whose places the corners of the domain decide, do not
-  !> count here. Over all ranks, and the same on each. Collective.
-  !>   d_from, d_to  optional, (count): where each band begins and ends, increasing
-  !>   edges         optional, (count): how many edges there are
+  !> Measures how well the edges of the triangles or tetrahedra follow the spacing, by bands of d.
+  !> There are eight, equal in log d between the smallest and the largest d at the nodes, or one if
+  !> the largest is less than 1.1 times the smallest. Bands without edges are left out. An edge's d
+  !> is the mean of d at its ends. Edges between two boundary nodes are not counted, because the
+  !> corners of the domain determine their positions. Includes all ranks, and is the same on each.
+  !> Collective.
+  !>   d_from, d_to  optional, (count): lower and upper end of each band, increasing
+  !>   edges         optional, (count): number of edges
   !>   mean          optional, (count): of their length over d
   !>   deviation     optional, (count): standard deviation of that
   subroutine placement_get_edge_bands(self, d_from, d_to, edges, mean, deviation, stat, errmsg)
@@ -2353,9 +2364,9 @@ contains
                   given)
   end subroutine
 
-  !> Number of warnings about domain and spacing, gathered at initialise (a feature smaller than the
-  !> spacing, an unused vertex, ...), and about nodes that do not follow the spacing, of the last
-  !> run. Local.
+  !> Returns the number of warnings about domain and spacing, collected at initialise (a feature
+  !> smaller than the spacing, an unused vertex, ...), and about nodes that do not follow the
+  !> spacing, from the last run. Local.
   subroutine placement_warning_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int32_t), intent(out) :: count
@@ -2365,7 +2376,7 @@ contains
     call conclude('placement%warning_count', c_placement_warning_count(self%c, count), stat, errmsg)
   end subroutine
 
-  !> One of the warnings. Local.
+  !> Returns one of the warnings. Local.
   !>   index  1 .. count
   subroutine placement_get_warning(self, index, text, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2383,17 +2394,17 @@ contains
 
   ! ------------------------------------------------------------ transfer ----------------------
 
-  !> Takes a field to the nodes that will be: copies the values of all ranks at the nodes that the
-  !> placement has now, together with these nodes and their triangles or tetrahedra, each rank its
-  !> own. The nodes may then move, be replaced or change their ranks, and the placement may go. The
-  !> field is linear on each triangle or tetrahedron; beyond their rim, next to curved boundaries,
-  !> it goes on as on the one behind the nearest place of the rim. So fields that are linear stay
-  !> what they are, and others change by a part of the second order in d. On surfaces alone it is
-  !> linear on each triangle between their nodes, and elsewhere what it is at the nearest place of
-  !> these. Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for another
-  !> number of values, or one that is not finite: the message names the rank, the component (from 0)
-  !> and the node's id.
-  !>   placement  whose nodes there are values for
+  !> Transfers a field to a later set of nodes: copies the values of all ranks at the current nodes
+  !> of the placement, with these nodes and their triangles or tetrahedra, each rank its own. The
+  !> nodes may then move, be replaced or change their ranks, and the placement may be destroyed. The
+  !> field is linear on each triangle or tetrahedron; beyond their boundary, next to curved
+  !> boundaries, it is extrapolated from the one at the nearest point of that boundary. Linear
+  !> fields are thus preserved, and others change by a term of second order in d. On surfaces alone
+  !> it is linear on each triangle between their nodes, and elsewhere equal to the value at the
+  !> nearest point of these. Collective. Errors: PNPBS_ERROR_STATE without nodes;
+  !> PNPBS_ERROR_ARGUMENT for another number of values, or one that is not finite: the message names
+  !> the rank, the component (from 0) and the node's id.
+  !>   placement  whose nodes have the values
   !>   values     (nodes), or (components, nodes), in the order of get_nodes
   subroutine transfer_create(self, placement, values, stat, errmsg)
     class(pnpbs_transfer), intent(inout) :: self
@@ -2417,14 +2428,14 @@ contains
                                     size(values, 1, c_int32_t), values, self%c), stat, errmsg)
   end subroutine
 
-  !> The same with a field of second order: at each node a polynomial of second order goes through its
-  !> value and is fitted by least squares to those of its neighbours and of their neighbours; within
-  !> an element those of its corners count as much as in the linear field. So fields that are
-  !> quadratic in the coordinates stay what they are, and smooth ones change by a part of the third
-  !> order in d. Next to jumps the field may leave the range of the values there. Where a node has too
-  !> few neighbours for that, its part is linear (order tells at how many), as it is everywhere on
-  !> surfaces alone. Collective.
-  !>   placement  whose nodes there are values for
+  !> Transfers a field as create does, with second order. At each node a quadratic polynomial passes
+  !> through its value and is fitted by least squares to those of its neighbours and of their
+  !> neighbours. Within an element those of its corners are weighted as in the linear field.
+  !> Quadratic fields are thus preserved, and smooth ones change by a term of third order in d. Next
+  !> to jumps the field may leave the range of the values there. Where a node has too few
+  !> neighbours, its part is linear (order returns their number), as it is everywhere on surfaces
+  !> alone. Collective.
+  !>   placement  whose nodes have the values
   !>   values     (nodes), or (components, nodes), in the order of get_nodes
   subroutine transfer_create_second_order(self, placement, values, stat, errmsg)
     class(pnpbs_transfer), intent(inout) :: self
@@ -2449,10 +2460,10 @@ contains
                   stat, errmsg)
   end subroutine
 
-  !> Of which order the field is. Local.
+  !> Returns the order of the field. Local.
   !>   order         1 or 2
-  !>   linear_nodes  optional: nodes on all ranks without a polynomial of second order; with order 1
-  !>                 all, told as -1
+  !>   linear_nodes  optional: nodes on all ranks without a quadratic polynomial; with order 1 all,
+  !>                 reported as -1
   subroutine transfer_order(self, order, linear_nodes, stat, errmsg)
     class(pnpbs_transfer), intent(in) :: self
     integer(c_int32_t), intent(out) :: order
@@ -2466,7 +2477,7 @@ contains
     if (present(linear_nodes)) linear_nodes = found
   end subroutine
 
-  !> Destroys it; does nothing where there is none. Local.
+  !> Destroys the transfer; does nothing if there is none. Local.
   subroutine transfer_destroy(self, stat, errmsg)
     class(pnpbs_transfer), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -2474,7 +2485,7 @@ contains
     call conclude('transfer%destroy', c_transfer_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> What shape its arrays have. Local; all are optional.
+  !> Returns the shape of its arrays. Local; all are optional.
   !>   dim         2: in the plane, 3: in space
   !>   components  numbers at each node
   subroutine transfer_sizes(self, dim, components, stat, errmsg)
@@ -2491,20 +2502,20 @@ contains
     if (present(components)) components = found_components
   end subroutine
 
-  !> The field at the nodes that a placement has now: the same bits for any number of ranks and
-  !> threads, then and now. A node where there was one before gets its value as it was. The placement
-  !> may be another one of the same context, in the same dimension. Collective. Errors:
-  !> PNPBS_ERROR_CAPACITY; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for a placement of
-  !> another context or dimension.
-  !>   values    (nodes), or (components, nodes), in the order of get_nodes; those of ghosts are for
+  !> Evaluates the field at the current nodes of a placement: the same bits for any number of ranks
+  !> and threads, at creation and now. A node at the position of an earlier one gets its value
+  !> unchanged. The placement may be another one of the same context, in the same dimension.
+  !> Collective. Errors: PNPBS_ERROR_CAPACITY; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT
+  !> for a placement of another context or dimension.
+  !>   values    (nodes), or (components, nodes), in the order of get_nodes; for those of ghosts use
   !>             update_ghosts
-  !>   conserve  optional: if it is true, to the values of each component the same number is added,
-  !>             so that the integral of the field that is linear on the triangles or tetrahedra (on
-  !>             surfaces alone, triangles) there are now is the integral that it had on those
-  !>             before, to rounding. Where these fill the same domain the number is of the second
-  !>             order in d, and rounding for a linear field; next to curved boundaries, where they
-  !>             do not, it also makes up for what they fill more or less. Values may thereby leave
-  !>             the range they had.
+  !>   conserve  optional: if true, adds the same number to the values of each component, so that
+  !>             the integral of the field that is linear on the current triangles or tetrahedra (on
+  !>             surfaces alone, triangles) equals its integral on the previous ones, to rounding.
+  !>             Where both fill the same domain, the number is of second order in d, and rounding
+  !>             for a linear field; next to curved boundaries, where they do not, it also
+  !>             compensates for the difference in what they fill. Values may leave their previous
+  !>             range
   subroutine transfer_at_nodes(self, placement, values, conserve, stat, errmsg)
     class(pnpbs_transfer), intent(in) :: self
     type(pnpbs_placement), intent(in) :: placement
@@ -2535,8 +2546,8 @@ contains
                   stat, errmsg, given)
   end subroutine
 
-  !> The field at any points, of which each rank asks those it wants, 0 or more. Collective. Errors:
-  !> PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
+  !> Evaluates the field at arbitrary points; each rank passes its own, 0 or more. Collective.
+  !> Errors: PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
   !>   coordinates  (dim, n)
   !>   values       (n), or (components, n)
   subroutine transfer_at_points(self, coordinates, values, stat, errmsg)
@@ -2571,7 +2582,7 @@ contains
                   errmsg, given)
   end subroutine
 
-  ! Refuses values with another number of components than the field has.
+  ! Rejects values with another number of components than the field has.
   subroutine check_components(self, components, given)
     class(pnpbs_transfer), intent(in) :: self
     integer, intent(in) :: components
@@ -2581,7 +2592,7 @@ contains
     call given%check_rows('values', components, int(right))
   end subroutine
 
-  ! Refuses points of another dimension, and values without room for all of them.
+  ! Rejects points of another dimension, and values without room for all of them.
   subroutine check_points(self, rows, room, points, given)
     class(pnpbs_transfer), intent(in) :: self
     integer, intent(in) :: rows
@@ -2600,14 +2611,15 @@ contains
     if (present(choice)) flag = merge(1_c_int32_t, 0_c_int32_t, choice)
   end function
 
-  !> The handle as an integer, for code that cannot hold the type; 0 if there is none. Local.
+  !> Returns the handle as an integer, for code that cannot hold the type; 0 if there is none.
+  !> Local.
   function transfer_handle(self) result(handle)
     class(pnpbs_transfer), intent(in) :: self
     integer(c_int64_t) :: handle
     handle = integer_of(self%c)
   end function
 
-  !> Makes this the transfer that has the handle. Local; checks nothing.
+  !> Makes this the transfer with the given handle. Local; checks nothing.
   subroutine transfer_from_handle(self, handle)
     class(pnpbs_transfer), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -2617,14 +2629,14 @@ contains
   ! ------------------------------------------------------------ placement: files --------------
 
   !> Writes the nodes of all ranks into one file, at the same time, in the format of its extension:
-  !> .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2, .node, .ele, .face, .csv (see pnpbs_placement_write in
-  !> pnpbs.h). A file appears under its name only when it is complete; after an error, what was there before is still
-  !> there. The folder must be the same one for all ranks, and so must path. The monitor, if there
-  !> is one, is asked now and then. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors:
+  !> .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2, .node, .ele, .face, .csv (see pnpbs_placement_write
+  !> in pnpbs.h). A file appears under its name only when it is complete; after an error, an
+  !> existing file is unchanged. The folder and path must be the same for all ranks. The monitor, if
+  !> there is one, is called from time to time. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors:
   !> PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_STATE if there are no nodes yet,
   !> PNPBS_ERROR_ARGUMENT.
-  !>   path      blanks at its end do not count
-  !>   elements  optional: triangles or tetrahedra (and the boundary) as well; .false. without
+  !>   path      trailing blanks are ignored
+  !>   elements  optional: triangles or tetrahedra (and the boundary) as well; default: .false.
   subroutine placement_write(self, path, elements, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: path
@@ -2642,7 +2654,7 @@ contains
   !> Collective.
   !>   paths     (n)
   !>   formats   optional, (n): names of formats (pnpbs_format_info), ' ' for that of the extension
-  !>   elements  optional, (n); .false. without
+  !>   elements  optional, (n); default: .false.
   subroutine placement_write_files(self, paths, formats, elements, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: paths(:)
@@ -2680,17 +2692,16 @@ contains
     call conclude('placement%write_files', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds a field of the caller's to the files that are written from now on: beside id, tag and
-  !> spacing in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as $NodeData. Other formats leave
-  !> it out. The values are copied. They belong to the nodes there are: once these have moved or
-  !> changed their ranks, writing is PNPBS_ERROR_STATE until clear_output_fields. When files are
-  !> written, all ranks must have added the same fields in the same order. Local. Errors:
-  !> PNPBS_ERROR_ARGUMENT for a name that is taken, more than 9 components, or too few values;
-  !> PNPBS_ERROR_STATE without nodes.
+  !> Adds a field of the caller to files written from now on: beside id, tag and spacing in .vtu,
+  !> .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as $NodeData. Other formats omit it. The values are
+  !> copied. They belong to the current nodes: once these have moved or changed their ranks, writing
+  !> is PNPBS_ERROR_STATE until clear_output_fields. When files are written, all ranks must have
+  !> added the same fields in the same order. Local. Errors: PNPBS_ERROR_ARGUMENT for a name that is
+  !> taken, more than 9 components, or too few values; PNPBS_ERROR_STATE without nodes.
   !>   name    1 to 63 letters, digits, '_' and '-'; none of id, tag, spacing, quality and
-  !>           vtkGhostType; blanks at its end do not count
-  !>   values  (n), or (components, n): of this rank's nodes at least; what is behind, its ghosts',
-  !>           does not count
+  !>           vtkGhostType; trailing blanks are ignored
+  !>   values  (n), or (components, n): of this rank's nodes at least; entries after them, for its
+  !>           ghosts, are ignored
   subroutine placement_add_output_field(self, name, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: name
@@ -2713,7 +2724,7 @@ contains
                                                size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> Forgets the fields that add_output_field has added. Local.
+  !> Removes the fields that add_output_field has added. Local.
   subroutine placement_clear_output_fields(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -2722,13 +2733,13 @@ contains
                   errmsg)
   end subroutine
 
-  !> Writes a checkpoint: a file from which read_checkpoint goes on, in another process and on any
+  !> Writes a checkpoint: a file from which read_checkpoint continues, in another process and on any
   !> number of ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView
-  !> opens: name it .vtkhdf. It replaces the file that is there when it is complete. Also from a
-  !> monitor, on all ranks, in its turns between two steps (see pnpbs_placement_write_checkpoint in
+  !> opens: name it .vtkhdf. It replaces an existing file once it is complete. May be called from a
+  !> monitor, on all ranks, in its calls between two steps (see pnpbs_placement_write_checkpoint in
   !> pnpbs.h). Collective. Errors: PNPBS_ERROR_STATE, PNPBS_ERROR_FILE naming the file,
   !> PNPBS_ERROR_UNSUPPORTED if the library was built without HDF5, PNPBS_ERROR_ARGUMENT.
-  !>   path  blanks at its end do not count
+  !>   path  trailing blanks are ignored
   subroutine placement_write_checkpoint(self, path, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: path
@@ -2738,12 +2749,12 @@ contains
                   c_placement_write_checkpoint(self%c, c_text(path)), stat, errmsg)
   end subroutine
 
-  !> Goes on from a checkpoint, in a placement with the domain, the options and the spacing of the
-  !> first run (unless that was given by values at nodes, which the file brings). The next run or step
-  !> does what it would have done there. After an error all is as it was. Collective. Errors:
-  !> PNPBS_ERROR_FILE naming the file if it is damaged or no checkpoint, PNPBS_ERROR_DOMAIN,
+  !> Restores a placement from a checkpoint, with the domain, options and spacing of the first run
+  !> (except a spacing given by values at nodes, which the file contains). The next run or step does
+  !> what it would have done there. After an error the placement is unchanged. Collective. Errors:
+  !> PNPBS_ERROR_FILE naming the file if it is damaged or not a checkpoint, PNPBS_ERROR_DOMAIN,
   !> PNPBS_ERROR_SPACING or PNPBS_ERROR_ARGUMENT if it is of another run, PNPBS_ERROR_UNSUPPORTED.
-  !>   path  blanks at its end do not count
+  !>   path  trailing blanks are ignored
   subroutine placement_read_checkpoint(self, path, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: path
@@ -2753,14 +2764,14 @@ contains
                   c_placement_read_checkpoint(self%c, c_text(path)), stat, errmsg)
   end subroutine
 
-  !> The handle as an integer; 0 where there is no placement. Local.
+  !> Returns the handle as an integer; 0 if there is no placement. Local.
   function placement_handle(self) result(handle)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t) :: handle
     handle = integer_of(self%c)
   end function
 
-  !> Makes this the placement that has the handle. Local; checks nothing.
+  !> Makes this the placement with the given handle. Local; checks nothing.
   subroutine placement_from_handle(self, handle)
     class(pnpbs_placement), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle

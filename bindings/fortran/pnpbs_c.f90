@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The C interface of PNPBS (pnpbs/pnpbs.h), function by function, for the module pnpbs, which is
-!> the one to use. Every body below is compared with the header, argument by argument, by
-!> tests/linkage/check_signatures.py; a change of one without the other fails there.
+!> The C interface of PNPBS (pnpbs/pnpbs.h), function by function, for the module pnpbs. Use that
+!> module. tests/linkage/check_signatures.py compares every body below with the header, argument by
+!> argument, and fails if only one of them changes.
 !>
-!> How a body is written, so that the check can read it: the C function pnpbs_<name> is c_<name>,
-!> and its arguments have their names in C. Arrays that C takes as NULL, and addresses of nothing in
-!> particular, are type(c_ptr), value, with the C type in a comment behind: Fortran 2003 has no
-!> optional arguments in procedures with bind(C).
+!> Bodies have a form that the check can read: the C function pnpbs_<name> is c_<name>, and its
+!> arguments have their names in C. Arrays that may be NULL in C, and untyped addresses, are
+!> type(c_ptr), value, followed by the C type in a comment: Fortran 2003 has no optional arguments
+!> in procedures with bind(C).
 module pnpbs_c
   use, intrinsic :: iso_c_binding
   implicit none
@@ -43,14 +43,14 @@ module pnpbs_c
   integer(c_int32_t), parameter :: PNPBS_VERSION_PATCH = 0
 
   ! ------------------------------------------------------------ callbacks ---------------------
-  ! Write yours as module procedures with bind(C): internal procedures need a stack that runs code,
-  ! which many systems forbid. Never stop or jump out of one: return something other than 0. What
-  ! they need to know comes through user, the c_loc of a target that outlives the calls.
+  ! Write callbacks as module procedures with bind(C): internal procedures need an executable stack,
+  ! which many systems forbid. Never stop or jump out of one: return a nonzero value. Pass data
+  ! through user, the c_loc of a target that outlives the calls.
 
   abstract interface
-    !> A curve in the plane by its parameter: fills coordinates(dim,n), dim = 2, for t(n). Must be a
-    !> pure function, continuous, and with no self-intersection. Returns 0, or anything else to fail
-    !> the call with PNPBS_ERROR_CALLBACK.
+    !> Parametric curve in the plane: fills coordinates(dim,n), dim = 2, for t(n). Must be a pure
+    !> function, continuous and without self-intersection. Returns 0, or anything else to fail the
+    !> call with PNPBS_ERROR_CALLBACK.
     function pnpbs_curve_fn(n, dim, t, coordinates, user) bind(C)
       import
       implicit none
@@ -63,8 +63,8 @@ module pnpbs_c
     end function
 
     !> The spacing: fills d(n) for coordinates(dim,n); n may be 0. Must be a pure function of the
-    !> point. May be asked wherever there is domain or boundary; how often and with which points, and on which
-    !> rank, may differ from run to run. Returns as above.
+    !> point. May be evaluated anywhere in the domain or on its boundary; how often, with which
+    !> points and on which rank may differ from run to run. Returns as above.
     function pnpbs_spacing_fn(n, dim, coordinates, d, user) bind(C)
       import
       implicit none
@@ -77,8 +77,8 @@ module pnpbs_c
     end function
 
     !> A level set: fills values(n) with f at coordinates(dim,n), dim = 3; the body is where f < 0.
-    !> Must be a pure function of the point, the same on all ranks, continuous and finite everywhere
-    !> in the box; it need not be a distance. Returns as above.
+    !> Must be a pure function of the point, the same on all ranks, continuous and finite in the
+    !> whole box; it need not be a distance. Returns as above.
     function pnpbs_level_set_fn(n, dim, coordinates, values, user) bind(C)
       import
       implicit none
@@ -90,12 +90,13 @@ module pnpbs_c
       integer(c_int32_t) :: pnpbs_level_set_fn
     end function
 
-    !> Progress, told at fixed step numbers and, some times a second, while the first nodes are laid
-    !> or the growth of the spacing is limited (on each rank by its own clock: do nothing collective
-    !> while the fraction is 0), between long steps, and between the parts of the finish: the part of
-    !> the work of the call that is done (0 to 1), steps so far, nodes now (0 while the first ones are
-    !> laid), and the largest speed in spacings per unit time. Returns 0 to go on, anything else to
-    !> stop: the call then ends with PNPBS_STOPPED and its nodes are valid.
+    !> Progress callback. It is called at fixed step numbers and, a few times a second, while the
+    !> first nodes are laid or the growth of the spacing is limited (on each rank by its own clock:
+    !> do nothing collective while the fraction is 0), between long steps, and between the parts of
+    !> the finish. Its arguments are the completed part of the work of the call (0 to 1), steps so
+    !> far, the current number of nodes (0 while the first ones are laid), and the largest speed in
+    !> spacings per unit time. Returns 0 to continue, anything else to stop: the call then returns
+    !> PNPBS_STOPPED with valid nodes.
     function pnpbs_monitor_fn(fraction, step, nodes, max_speed, user) bind(C)
       import
       implicit none

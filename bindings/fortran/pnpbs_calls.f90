@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What lies between the modules pnpbs and pnpbs_geo and the C interface: arrays become addresses, C's texts become
-!> Fortran's, and a status becomes stat and errmsg, or the end of the program.
+!> Conversions between the modules pnpbs and pnpbs_geo and the C interface: arrays become addresses,
+!> C strings become Fortran strings, and a status becomes stat and errmsg, or the end of the
+!> program.
 module pnpbs_calls
   use, intrinsic :: iso_c_binding
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -9,12 +10,12 @@ module pnpbs_calls
   private
   public :: arguments, conclude, text_of, c_text, count_from_one, integer_of, pointer_of
 
-  !> The room in an array that was not given.
+  !> The room in an absent array.
   integer(c_int64_t), parameter :: unlimited = huge(0_c_int64_t)
 
-  !> The arguments of one call, and the first thing that is wrong with them. Over several ranks a
-  !> call must be made even then, or the other ranks would wait for ever: it is made with a capacity
-  !> of -1, which the library refuses on all of them.
+  !> The arguments of one call, and the first error in them. On several ranks the call must be made
+  !> even after an error, or the other ranks would wait forever: it is made with a capacity of -1,
+  !> which the library rejects on all of them.
   type :: arguments
     private
     integer(c_int) :: status = PNPBS_OK
@@ -26,7 +27,7 @@ module pnpbs_calls
     procedure :: capacity
     procedure :: found
     ! place_<type>(name, array, [rows,] address, room): the address of an array's first element,
-    ! NULL if the array is not given, and the places or columns it has.
+    ! NULL if the array is absent, and its number of elements or columns.
     procedure :: place_int8
     procedure :: place_int32
     procedure :: place_int64
@@ -39,7 +40,7 @@ module pnpbs_calls
     procedure, private :: check_neighbours_in_memory
   end type
 
-  ! The address of arrays without elements: given, but no room.
+  ! The address of arrays without elements: present, but without room.
   integer(c_int64_t), target, save :: nothing = 0
 
   interface
@@ -55,10 +56,10 @@ contains
 
   ! ------------------------------------------------------------ status ------------------------
 
-  !> How every call of a procedure ends. With stat nothing stops: it gets the status, and errmsg, if
-  !> there is one, the message of an error (otherwise it stays as it is). Without stat, an error stops
-  !> the program, and the message begins with the procedure's name. The message of an error is the
-  !> last one of libpnpbs, or said, what another library has as its last one.
+  !> Concludes every call of a procedure. With stat the program continues: stat is set to the
+  !> status, and errmsg, if present, to the message of an error (otherwise it is unchanged). Without
+  !> stat, an error stops the program, and the message begins with the procedure's name. The message
+  !> of an error is the last one of libpnpbs, or said, the last one of another library.
   subroutine conclude(procedure_name, status, stat, errmsg, given, said)
     character(len=*), intent(in) :: procedure_name
     integer(c_int), intent(in) :: status
@@ -90,7 +91,7 @@ contains
     end if
   end subroutine
 
-  ! stat is of either kind, so that code compiled with eight-byte default integers need not care.
+  ! stat is of either kind, for code compiled with eight-byte default integers.
   subroutine tell(procedure_name, status, stat)
     character(len=*), intent(in) :: procedure_name
     integer(c_int), intent(in) :: status
@@ -114,7 +115,7 @@ contains
 
   ! ------------------------------------------------------------ texts -------------------------
 
-  !> A text of the library's, copied.
+  !> Copies a text of the library.
   function text_of(c) result(text)
     type(c_ptr), intent(in) :: c
     character(len=:), allocatable :: text
@@ -131,7 +132,7 @@ contains
     end do
   end function
 
-  !> A message with the functions that it names called as they are in Fortran.
+  !> Replaces the names of C functions in a message by their Fortran names.
   recursive function in_fortran(message) result(text)
     character(len=*), intent(in) :: message
     character(len=:), allocatable :: text
@@ -148,7 +149,7 @@ contains
     end do
   end function
 
-  !> A text for C, without the blanks at its end.
+  !> Returns a text for C, without trailing blanks.
   function c_text(text) result(c)
     character(len=*), intent(in) :: text
     character(kind=c_char, len=len_trim(text) + 1) :: c
@@ -171,7 +172,7 @@ contains
 
   ! ------------------------------------------------------------ arguments ---------------------
 
-  !> Notes what is wrong; the first thing counts.
+  !> Records an error; the first one is kept.
   subroutine refuse(self, status, message)
     class(arguments), intent(inout) :: self
     integer(c_int), intent(in) :: status
@@ -181,7 +182,7 @@ contains
     self%message = message
   end subroutine
 
-  !> Refuses an array with less room than is needed.
+  !> Rejects an array with less room than required.
   subroutine require(self, name, room, needed)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -198,14 +199,14 @@ contains
     is_wrong = self%status /= PNPBS_OK
   end function
 
-  !> What is wrong, as a status.
+  !> Returns the error as a status.
   function found(self)
     class(arguments), intent(in) :: self
     integer(c_int) :: found
     found = self%status
   end function
 
-  !> The room to tell the library of: none at all if something is wrong.
+  !> Returns the room to report to the library: -1 after an error.
   function capacity(self, room)
     class(arguments), intent(in) :: self
     integer(c_int64_t), intent(in) :: room
@@ -348,7 +349,7 @@ contains
     room = 0
   end subroutine
 
-  !> Refuses an array whose first extent is not the right one.
+  !> Rejects an array whose first extent is wrong.
   subroutine check_rows(self, name, rows, needed)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -359,7 +360,7 @@ contains
     call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
   end subroutine
 
-  !> Refuses an array of another rank than the dimension.
+  !> Rejects an array of another rank than the dimension.
   subroutine check_rank(self, name, rank_of_array, dim)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -370,7 +371,7 @@ contains
     call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
   end subroutine
 
-  ! C sees arrays without gaps only.
+  ! C sees only contiguous arrays.
   subroutine check_neighbours_in_memory(self, name, first, second, bytes)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -381,7 +382,7 @@ contains
       'give a whole array, or a section x(i:j) or x(:,i:j) of one')
   end subroutine
 
-  !> Indices and offsets of C's, from 0, become Fortran's, from 1.
+  !> Converts indices and offsets of C, from 0, to those of Fortran, from 1.
   subroutine count_from_one(indices)
     integer(c_int64_t), intent(inout) :: indices(:)
     integer(c_int64_t) :: i

@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> PNPBS - shapes as geographers have them: GeoJSON, shapefiles, GeoPackage and whatever else GDAL
-!> reads, projected by PROJ, as a domain in the plane. The Fortran 2003 module of libpnpbs_geo, which
-!> is there where PNPBS was built with GDAL.
+!> PNPBS - geographic shapes: reads GeoJSON, shapefiles, GeoPackage and whatever else GDAL reads,
+!> projected by PROJ, into a domain in the plane. The Fortran 2003 module of libpnpbs_geo, which
+!> exists only where PNPBS was built with GDAL.
 !>
-!> It does what the C interface (pnpbs/pnpbs_geo.h) does, where it is said what becomes of polygons,
-!> lines and points. A page with an example: docs/guide/shapes.md. Conventions are those of the module
-!> pnpbs; errmsg holds the message of this library. All procedures are local: on several ranks all
-!> must do the same.
+!> It corresponds to the C interface (pnpbs/pnpbs_geo.h), which explains how polygons, lines and
+!> points are interpreted. A page with an example: docs/guide/shapes.md. The conventions of the
+!> module pnpbs apply; errmsg holds the message of this library. All procedures are local: on
+!> several ranks all must make the same calls.
 module pnpbs_geo
   use, intrinsic :: iso_c_binding
   use pnpbs, only: pnpbs_context, pnpbs_domain
@@ -37,7 +37,7 @@ module pnpbs_geo
     procedure :: get_note => geo_get_note
   end type
 
-  !> Values on a grid in a file, GeoTIFF, NetCDF and whatever else GDAL reads.
+  !> Values on a grid in a file: GeoTIFF, NetCDF and other formats that GDAL reads.
   type :: pnpbs_geo_grid
     private
     type(c_ptr) :: c = c_null_ptr
@@ -50,28 +50,27 @@ module pnpbs_geo
 
 contains
 
-  !> The message of the last error of this library on the calling thread; '' if there was none.
-  !> Local.
+  !> Returns the message of the last error of this library on the calling thread; '' if there was
+  !> none. Local.
   function pnpbs_geo_last_error() result(text)
     character(len=:), allocatable :: text
     text = text_of(c_geo_last_error())
   end function
 
-  !> The versions of GDAL and PROJ that it runs with, one "name: version" per line. Local.
+  !> Returns the versions of GDAL and PROJ in use, one "name: version" per line. Local.
   function pnpbs_geo_build_info() result(text)
     character(len=:), allocatable :: text
     text = text_of(c_geo_build_info())
   end function
 
-  !> Reads one layer of a file and projects it. Local. What was read before should be destroyed
-  !> first.
+  !> Reads one layer of a file and projects it. Local. Destroy previously read shapes first.
   !>   path        a file, or anything else that GDAL opens
-  !>   layer       optional: its name; without, the file must have only one
-  !>   projection  optional: what x and y shall be: 'auto', 'none', a code ('EPSG:2180'), a string of
-  !>               PROJ's, WKT, or the path of a .prj file. Without, longitude and latitude are
-  !>               projected as by 'auto', projected coordinates stay as they are
-  !>   unit        optional: 'm' or 'km'; without, the projection's own, mostly metres
-  !>   tag_field   optional: the attribute that becomes the tag; without, all tags are 1
+  !>   layer       optional: its name; without it, the file must have only one
+  !>   projection  optional: the coordinate system of x and y: 'auto', 'none', a code ('EPSG:2180'),
+  !>               a PROJ string, WKT, or the path of a .prj file. Default: longitude and latitude
+  !>               are projected as by 'auto', projected coordinates are kept
+  !>   unit        optional: 'm' or 'km'; default: the projection's own, mostly metres
+  !>   tag_field   optional: the attribute that becomes the tag; default: all tags are 1
   subroutine geo_read(self, path, layer, projection, unit, tag_field, stat, errmsg)
     class(pnpbs_geo_shapes), intent(inout) :: self
     character(len=*), intent(in) :: path
@@ -92,11 +91,11 @@ contains
     call conclude_geo('destroy', c_geo_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> Adds the shapes to a domain in the plane: curves as by domain%add_polyline, points as by
-  !> domain%add_fixed_nodes, names of tags for dimension 1. What crosses or does not close is found
-  !> by domain%check; see explain. Local.
+  !> Adds the shapes to a domain in the plane: curves as domain%add_polyline does, points as
+  !> domain%add_fixed_nodes does, names of tags for dimension 1. Curves that cross or do not close
+  !> are found by domain%check; see explain. Local.
   !>   context       of the domain
-  !>   corner_angle  optional: degrees, 0 .. 180, as domain%add_polyline has it. 0, as without: every
+  !>   corner_angle  optional: degrees, 0 .. 180, as in domain%add_polyline. Default: 0, every
   !>                 vertex becomes a node
   subroutine geo_add_to_domain(self, context, domain, corner_angle, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
@@ -114,9 +113,9 @@ contains
     call conclude_geo('add_to_domain', status, stat, errmsg)
   end subroutine
 
-  !> What was read. Local.
-  !>   vertices  different places, those of points included
-  !>   boundary  curves, closed or from where curves meet to where they meet
+  !> Returns the numbers of what was read. Local.
+  !>   vertices  distinct positions, including those of points
+  !>   boundary  curves, closed or between the vertices where curves meet
   !>   inner     likewise
   !>   points    fixed nodes
   subroutine geo_counts(self, vertices, boundary, inner, points, stat, errmsg)
@@ -134,13 +133,13 @@ contains
     if (present(points)) points = found(4)
   end subroutine
 
-  !> The projection, as texts; '' where the file does not say what its coordinates are, or a form
-  !> cannot tell it. Local.
+  !> Returns the projection as texts; '' where the file does not define its coordinate system, or a
+  !> form cannot express it. Local.
   !>   name  e.g. 'WGS 84 / UTM zone 34N'
   !>   unit  of x and y, e.g. 'metre'
-  !>   proj  PROJ's string, which leaves out what it has no words for
-  !>   wkt   WKT 2 (ISO 19162:2019), complete; read takes it
-  !>   prj   WKT 1 as ESRI has it, which .prj files contain
+  !>   proj  PROJ string, without what it cannot express
+  !>   wkt   WKT 2 (ISO 19162:2019), complete; accepted by read
+  !>   prj   WKT 1 as defined by ESRI, the content of .prj files
   subroutine geo_projection(self, name, unit, proj, wkt, prj, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
     character(len=:), allocatable, intent(out), optional :: name, unit, proj, wkt, prj
@@ -158,9 +157,9 @@ contains
     if (present(prj)) prj = text_of(c_prj)
   end subroutine
 
-  !> How long lengths on the Earth are in the projection, along meridians and parallels, at the
-  !> vertices (of many, at some thousand of them): d is off by so much. 1 and 1 where it is not
-  !> known. Local.
+  !> Returns the range of the scale, projected length over length on the Earth, along meridians and
+  !> parallels at the vertices (of many, at some thousand of them); d is off by this factor. 1 and 1
+  !> where it is not known. Local.
   subroutine geo_scale(self, least, greatest, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
     real(c_double), intent(out) :: least, greatest
@@ -171,8 +170,8 @@ contains
     call conclude_geo('scale', c_geo_scale(self%c, least, greatest), stat, errmsg)
   end subroutine
 
-  !> Writes the projection beside a file of results, as shapefiles have it: for 'out/nodes.vtu',
-  !> 'out/nodes.prj' is written anew. Local; of several ranks let one do it.
+  !> Writes the projection beside a file of results, as for shapefiles: for 'out/nodes.vtu' it
+  !> writes or replaces 'out/nodes.prj'. Local; on several ranks call it on one.
   subroutine geo_write_prj(self, results, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
     character(len=*), intent(in) :: results
@@ -181,8 +180,8 @@ contains
     call conclude_geo('write_prj', c_geo_write_prj(self%c, c_text(results)), stat, errmsg)
   end subroutine
 
-  !> Longitude and latitude in degrees, on the ellipsoid of the file, from x and y; in place. Where
-  !> there are none they become infinite. Local.
+  !> Converts x and y to longitude and latitude in degrees, on the ellipsoid of the file; in place.
+  !> Values that do not exist become infinite. Local.
   !>   coordinates  (2, n), in and out
   subroutine geo_to_degrees(self, coordinates, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
@@ -192,7 +191,7 @@ contains
     call converted('to_degrees', c_geo_to_degrees, self, coordinates, stat, errmsg)
   end subroutine
 
-  !> x and y from longitude and latitude, likewise. Local.
+  !> Converts longitude and latitude to x and y, likewise. Local.
   !>   coordinates  (2, n), in and out
   subroutine geo_from_degrees(self, coordinates, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
@@ -202,8 +201,8 @@ contains
     call converted('from_degrees', c_geo_from_degrees, self, coordinates, stat, errmsg)
   end subroutine
 
-  !> A message about a domain of these shapes, and after each place "(x, y)" in it its longitude and
-  !> latitude. Local.
+  !> Returns a message about a domain of these shapes, with longitude and latitude inserted after
+  !> each point "(x, y)". Local.
   function geo_explain(self, message) result(text)
     class(pnpbs_geo_shapes), intent(in) :: self
     character(len=*), intent(in) :: message
@@ -211,7 +210,7 @@ contains
     text = text_of(c_geo_explain(self%c, c_text(message)))
   end function
 
-  !> Number of notes about how the file was taken. Local.
+  !> Returns the number of notes on how the file was interpreted. Local.
   subroutine geo_note_count(self, count, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
     integer(c_int32_t), intent(out) :: count
@@ -221,7 +220,7 @@ contains
     call conclude_geo('note_count', c_geo_note_count(self%c, count), stat, errmsg)
   end subroutine
 
-  !> One of them. Local.
+  !> Returns one of the notes. Local.
   !>   index  1 .. count
   subroutine geo_get_note(self, index, note, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
@@ -239,12 +238,13 @@ contains
 
   ! ------------------------------------------------------------ grids -------------------------
 
-  !> Reads a part of a grid. Local. What was read before should be destroyed first.
+  !> Reads a part of a grid. Local. Destroy a previously read grid first.
   !>   path        a file, or anything else that GDAL opens
-  !>   low, high   (2) of the part that is wanted, in the projection of the points: domain%bounds, say
+  !>   low, high   (2) of the requested part, in the projection of the points, e.g. from
+  !>               domain%bounds
   !>   variable    optional: its name in a file of several, or the number of a band
-  !>   projection  optional: of the points that it will be asked at, e.g. the wkt of
-  !>               shapes%projection; without, they are in the grid's own system
+  !>   projection  optional: of the points at which the grid is evaluated, e.g. the wkt of
+  !>               shapes%projection; default: the grid's own system
   subroutine grid_read(self, path, low, high, variable, projection, stat, errmsg)
     class(pnpbs_geo_grid), intent(inout) :: self
     character(len=*), intent(in) :: path
@@ -271,8 +271,9 @@ contains
     call conclude_grid('destroy', c_geo_grid_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> Values at points: linear in each direction between the middles of the cells, constant beyond
-  !> the edge. Cells without data take the value of the nearest cell that has some. Local.
+  !> Evaluates the grid at points: linear in each direction between the centres of the cells,
+  !> constant beyond the edge. Cells without data take the value of the nearest cell that has some.
+  !> Local.
   !>   coordinates  (2, n)
   !>   values       (n)
   !>   inside       optional: (n), false where a point lies beyond the edge, to half a cell
@@ -299,7 +300,7 @@ contains
     call conclude_grid('values', status, stat, errmsg, given)
   end subroutine
 
-  !> What lies around all of the grid in the file, in the projection of the points. Local.
+  !> Returns the bounding box of the whole grid in the file, in the projection of the points. Local.
   !>   low, high  (2)
   subroutine grid_extent(self, low, high, stat, errmsg)
     class(pnpbs_geo_grid), intent(in) :: self
@@ -354,7 +355,7 @@ contains
     call conclude('shapes%' // called, status, stat, errmsg, given, pnpbs_geo_last_error())
   end subroutine
 
-  ! What is left out is '' in C.
+  ! Absent arguments are '' in C.
   function given_text(text) result(c)
     character(len=*), intent(in), optional :: text
     character(kind=c_char, len=:), allocatable :: c

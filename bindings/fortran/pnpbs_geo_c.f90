@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The C interface of libpnpbs_geo (pnpbs/pnpbs_geo.h), function by function, for the module
-!> pnpbs_geo, which is the one to use. As in pnpbs_c.f90, every body below is compared with the
-!> header by tests/linkage/check_signatures.py.
+!> pnpbs_geo. Use that module. As in pnpbs_c.f90, tests/linkage/check_signatures.py compares every
+!> body below with the header.
 module pnpbs_geo_c
   use, intrinsic :: iso_c_binding
   implicit none
