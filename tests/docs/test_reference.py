@@ -61,8 +61,8 @@ class Changes(unittest.TestCase):
         self.assertIn("+add_hole!(domain, x)", self.found())
 
     def test_docstring_of_python(self):
-        self.change(PYTHON + "results.py", "Checks that the results keep", "Looks whether the results keep")
-        self.assertIn("+Looks whether the results keep", self.found())
+        self.change(PYTHON + "results.py", "Checks the invariants of", "Tests the invariants of")
+        self.assertIn("+Tests the invariants of", self.found())
 
     def test_argument_of_python(self):
         self.change(PYTHON + "domain.py", "closed: bool = True", "closed: bool = False")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Parallel node placement by bubble simulation: given a domain and a node-spacing function d(x), it
-returns nodes whose mutual distances follow d, with their adjacency lists, boundary tags and Delaunay
-stars, the same ones for any number of threads and MPI ranks.
+returns nodes whose mutual distances follow d, with their adjacency lists, boundary tags and
+Delaunay stars, identical for any number of threads and MPI ranks.
 
     import pnpbs
 
@@ -14,8 +14,8 @@ stars, the same ones for any number of threads and MPI ranks.
         points = placement.nodes().points
 
 Points are the rows of (n, 2) arrays, in space of (n, 3) ones; indices, ids and ranks count from 0.
-"Collective" functions must be called by all ranks of the context in the same order, and raise on all
-of them or on none; "local" ones need not. One thread at a time may use a context."""
+"Collective" functions must be called by all ranks of the context in the same order, and raise on
+all of them or on none; "local" ones need not. One thread at a time may use a context."""
 
 from ._library import library_path
 from .context import Context

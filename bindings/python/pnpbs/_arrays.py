@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments as the library takes them. Arrays of the right type and order are not copied."""
+"""Conversion of arguments for the library. Arrays of the right type and order are not copied."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Python functions as the library's callbacks. No exception may pass through the library: it is kept
-in the context, the callback returns nonzero, and `Context._check` raises it when the call has come
-back. Whoever hands a callback over keeps it alive."""
+"""Python functions as the library's callbacks. No exception may pass through the library: it is
+stored in the context, the callback returns nonzero, and `Context._check` raises it after the call
+returns. The caller that passes a callback keeps it alive."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def _guarded(context: Context, work: Callable[[], object]) -> int:
-    """`work()`, unless an exception is on its way already."""
+    """Calls `work()`, unless an exception is pending."""
     if context._raised is not None:
         return 1
     try:

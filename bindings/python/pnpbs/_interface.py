@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The C interface as it is: `library()` has one function for each function of `pnpbs.h`, of the same
-name and with the same arguments, which that header documents. Nothing is converted beyond what the
-types ask for. A test compares the declarations, the types of callbacks and the constants, `Status`
-among them, with the header."""
+"""The unmodified C interface: `library()` has one function for each function of `pnpbs.h`, with the
+same name and arguments, documented in that header. Nothing is converted beyond what the types
+require. A test compares the declarations, the types of callbacks and the constants, `Status` among
+them, with the header."""
 
 from __future__ import annotations
 
@@ -213,7 +213,7 @@ pnpbs_status pnpbs_discard_unfinished_files(void);
 
 
 class _Array:
-    """An argument that is an array of NumPy's, or `ctypes.byref` of a number, or None."""
+    """An array argument: a NumPy array, `ctypes.byref` of a number, or None."""
 
     dtype: Optional[np.dtype[Any]] = None
 
@@ -237,7 +237,7 @@ _ARRAYS = {"int8_t": _array_of("int8"), "int32_t": _array_of("int32"),
 
 
 def ctypes_of(c_type: str) -> Any:
-    """The type of ctypes for one of C, as the header writes it."""
+    """Returns the ctypes type for a C type, as written in the header."""
     if c_type in _NUMBERS:
         return _NUMBERS[c_type]
     if c_type == "const char *":
@@ -261,7 +261,7 @@ def declarations(text: str) -> Dict[str, Tuple[str, Tuple[Tuple[str, str], ...]]
 
 
 def declared(opened: ctypes.CDLL, text: str) -> ctypes.CDLL:
-    """An opened library whose functions take and return what `text` declares."""
+    """Returns an opened library whose functions take and return what `text` declares."""
     for name, (result, arguments) in declarations(text).items():
         function = getattr(opened, name)
         function.restype = ctypes_of(result)
@@ -286,7 +286,7 @@ _opened: Optional[ctypes.CDLL] = None
 
 
 def library() -> ctypes.CDLL:
-    """The library, opened when it is first needed, with its functions declared."""
+    """Returns the library, opened at first use, with its functions declared."""
     global _opened
     if _opened is None:
         _opened = declared(open_library(), DECLARATIONS)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the shared library is."""
+"""Location of the shared library."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def _candidates() -> Iterator[str]:
 
 
 def library_path() -> str:
-    """The path or name of the library that is opened, or would be: the environment variable
-    `PNPBS_LIBRARY`, or the library that this package was installed with, or whatever the system
+    """Returns the path or name of the library that is or would be opened: the environment variable
+    `PNPBS_LIBRARY`, or the library that this package was installed with, or the one that the system
     finds as `libpnpbs`."""
     return next(_candidates())
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Ctrl-C during a call of the library. Python handles a signal between any two instructions of a
-callback, so also where no `try` of ours stands yet, and ctypes drops what is raised there."""
+callback, even before a `try` of this package is entered, and ctypes drops what is raised there."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 @contextlib.contextmanager
 def signals_kept_in(context: Context) -> Iterator[None]:
-    """What the program's handler of SIGINT raises in the block is kept in the context, as the
-    exceptions of callbacks are: the next callback ends the call. Nothing is changed in threads other
-    than the main one, where Python handles no signals, or where no handler of Python's is set."""
+    """Stores what the program's handler of SIGINT raises in the block in the context, as for
+    exceptions of callbacks: the next callback ends the call. Nothing changes in threads other than
+    the main one, where Python handles no signals, or if no Python handler is set."""
     is_main = threading.current_thread() is threading.main_thread()
     handler = signal.getsignal(signal.SIGINT) if is_main else None
     if not callable(handler):

@@ -21,32 +21,32 @@ _Self = TypeVar("_Self", bound="Handle")
 
 
 class Handle:
-    """What contexts, domains and placements have in common: a handle of the library's that is closed
-    once, by `close` or at the end of a `with` block."""
+    """Common base of contexts, domains and placements: a handle of the library that is closed once,
+    by `close` or at the end of a `with` block."""
 
     def __init__(self) -> None:
         self._handle: Optional[int] = None
 
     @property
     def is_open(self) -> bool:
-        """Whether it has not been closed."""
+        """Whether the object has not been closed."""
         return self._handle is not None
 
     def _live(self) -> int:
-        """What the library is given: never the handle of a closed one."""
+        """Returns the handle for the library: never the handle of a closed object."""
         if self._handle is None:
             raise PNPBSError(Status.ERROR_HANDLE, f"this {type(self).__name__} has been closed")
         return self._handle
 
     def _destroy(self, function: Callable[..., int]) -> int:
-        """The handle stays where the library refuses, as in a callback."""
+        """Destroys the handle; keeps it if the library refuses, as in a callback."""
         handle = ctypes.c_void_p(self._handle)
         code = function(ctypes.byref(handle))
         self._handle = handle.value
         return code
 
     def close(self) -> None:
-        """Releases what the library holds. Closing twice is allowed."""
+        """Releases the resources of the library. Closing twice is allowed."""
         raise NotImplementedError
 
     def __enter__(self: _Self) -> _Self:
@@ -58,19 +58,19 @@ class Handle:
 
 
 class Context(Handle):
-    """What domains and placements are made on.
+    """The context on which domains and placements are made.
 
     `Context()` is for one process and calls no MPI function. `Context(comm)` with a communicator of
-    mpi4py, or with the Fortran handle of any communicator (`comm.py2f()`), lives on a duplicate of
-    that communicator and is made collectively; `library` is what `MPI_Get_library_version` says, if
-    the library should compare it with its own MPI. Other keywords are options, the defaults of
+    mpi4py, or with the Fortran handle of any communicator (`comm.py2f()`), uses a duplicate of that
+    communicator and is created collectively; `library` is the result of `MPI_Get_library_version`,
+    if the library should compare it with its own MPI. Other keywords are options, the defaults of
     placements made on it.
 
-    `close` it, or use it in a `with` block, when it is no longer needed: that is collective, so no
+    `close` it, or use it in a `with` block, when it is no longer needed: this is collective, so no
     garbage collector does it. Contexts on communicators of mpi4py are closed when Python ends, at
     the latest; those with a raw handle must be closed before MPI is finalised. If a `with` block
-    ends by an exception, a context on several ranks is not closed, for the others might never come
-    to close theirs."""
+    ends by an exception, a context on several ranks is not closed, because the others might never
+    close theirs."""
 
     def __init__(self, comm: Optional[Union[int, FortranComm]] = None,
                  library: Optional[str] = None, **options: OptionValue) -> None:
@@ -85,16 +85,16 @@ class Context(Handle):
         self.set(**options)
 
     def set(self, **options: OptionValue) -> Context:
-        """Sets options by name, as placements made later start with them; `threads` can be set only
-        here. Local. Unknown names and values out of range raise a `PNPBSError` that names the
-        nearest option or the range. `pnpbs.option_table()` lists them."""
+        """Sets options by name, for placements made later; `threads` can be set only here. Local.
+        Unknown names and values out of range raise a `PNPBSError` that names the nearest option or
+        the range. `pnpbs.option_table()` lists them."""
         for key, value in options.items():
             self._check(_set_option("context", self._live(), key, value))
         return self
 
     def close(self) -> None:
-        """Releases what the library holds, with the domains and placements made here. Closing twice
-        is allowed. Collective."""
+        """Releases the resources of the library, with the domains and placements made here. Closing
+        twice is allowed. Collective."""
         if not self.is_open:
             return
         for child in list(self._children):
@@ -114,8 +114,8 @@ class Context(Handle):
         return f"<pnpbs.Context, {what}>"
 
     def _check(self, code: int) -> Status:
-        """Every status of a call passes here. What a callback raised comes first: the library's own
-        message could only say that a callback failed."""
+        """Checks the status of every call. An exception raised by a callback has priority: the
+        library's own message only says that a callback failed."""
         raised, self._raised = self._raised, None
         if raised is not None:
             raise raised
@@ -149,8 +149,8 @@ def _created(comm: Optional[Union[int, FortranComm]],
 
 
 def _of_mpi4py(comm: FortranComm) -> Tuple[int, str]:
-    """Fortran handle and library; a communicator means something only while MPI runs, and otherwise
-    the library says what is wrong."""
+    """Returns Fortran handle and library. A communicator is valid only while MPI runs; otherwise
+    the library reports the error."""
     from mpi4py import MPI
     running = MPI.Is_initialized() and not MPI.Is_finalized()
     # Open MPI counts the text's end as a part of it.
@@ -173,7 +173,7 @@ def _close_contexts_of_mpi4py() -> None:
 
 
 def _set_option(kind: str, handle: int, key: str, value: OptionValue) -> int:
-    """The three ways of the library to set an option, of a context or a placement."""
+    """The three functions of the library that set an option, of a context or a placement."""
     code: int
     if isinstance(value, numbers.Integral):
         code = getattr(_library(), f"pnpbs_{kind}_set_int64")(handle, key.encode(), int(value))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Domains: what is to be filled with nodes."""
+"""Domains: the regions to be filled with nodes."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ def _role_number(role: str) -> int:
 
 class Domain(Handle):
     """An empty domain in the plane, or with `dim=3` in space, to which curves, surfaces, holes and
-    fixed nodes are added. What lies behind an odd number of boundary curves, or surfaces in space, is
-    inside; holes and islands nest to any depth. Every method is local and returns the domain; points
-    are the rows of (n, dim) arrays, indices count from 0. Methods for domains "in the plane" or "in
-    space" refuse others.
+    fixed nodes are added. A point is inside if it lies behind an odd number of boundary curves, or
+    surfaces in space; holes and islands nest to any depth. Every method is local and returns the
+    domain; points are the rows of (n, dim) arrays, indices count from 0. Methods for domains "in
+    the plane" or "in space" reject others.
 
     The `role` of a curve or surface is "boundary", which separates inside from outside, or "inner",
     which lies in the domain and which the nodes follow; curves in space are always inner. Its `tag`
@@ -58,8 +58,8 @@ class Domain(Handle):
         context._children.append(self)
 
     def close(self) -> None:
-        """Releases what the library holds. A placement keeps what it needs of its domain. Closing
-        twice is allowed."""
+        """Releases the resources of the library. A placement keeps what it needs of its domain.
+        Closing twice is allowed."""
         if self.is_open:
             self.context._check(self._destroy(library().pnpbs_domain_destroy))
             self.context._children.remove(self)
@@ -82,11 +82,11 @@ class Domain(Handle):
 
     def add_polyline(self, coordinates: ArrayLike, closed: bool = True, role: Role = "boundary",
                      tags: Optional[ArrayLike] = None, corner_angle: float = 0.0) -> Domain:
-        """Adds straight segments through the rows of `coordinates`; `closed` leads one from the last
-        to the first. `tags` is one for all segments or one for each. With `corner_angle=0` every
-        vertex becomes a node; otherwise those where the direction turns by more than so many
-        degrees, and between them the polyline stands for a smooth curve. In space the role is
-        "inner", and the `feature_angle` of the surfaces takes the place of the `corner_angle`."""
+        """Adds straight segments through the rows of `coordinates`; with `closed`, a segment joins
+        the last to the first. `tags` is one for all segments or one for each. With `corner_angle=0`
+        every vertex becomes a node; otherwise only those where the direction turns by more than
+        this many degrees, and between them the polyline represents a smooth curve. In space the
+        role is "inner", and the `feature_angle` of the surfaces replaces the `corner_angle`."""
         points = as_points(coordinates, self.dim, "coordinates")
         n = len(points)
         segments = n if closed else max(n - 1, 0)
@@ -103,9 +103,9 @@ class Domain(Handle):
     def add_curve(self, curve: ArrayFunction, begin: float, end: float, role: Role = "boundary",
                   tag: int = 1) -> Domain:
         """Adds the curve of a function to a domain in the plane: `curve(t)` gets an array of n
-        parameters between `begin` and `end` and returns the points, (n, 2). It must always give the
-        same point for the same parameter, be continuous, and not cross itself. Corners are where
-        curves meet."""
+        parameters between `begin` and `end` and returns the points, (n, 2). It must always return
+        the same point for the same parameter, be continuous, and not cross itself. Corners exist
+        only where curves meet."""
         callback = curve_callback(curve, self.context)
         self._call("add_curve", _role_number(role), callback, None, begin, end, tag)
         self._callbacks.append(callback)
@@ -114,9 +114,10 @@ class Domain(Handle):
     def add_pslg(self, coordinates: ArrayLike, segments: ArrayLike,
                  vertex_tags: Optional[ArrayLike] = None, segment_tags: Optional[ArrayLike] = None,
                  holes: ArrayLike = ()) -> Domain:
-        """Adds a planar straight-line graph as Triangle means it to a domain in the plane: what the
-        segments enclose is the domain, but for the regions that contain a hole point. `segments` is
-        (m, 2), indices of rows of `coordinates`; `holes` is (h, 2). Every vertex becomes a node."""
+        """Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The
+        domain is what the segments enclose, except the regions that contain a hole point.
+        `segments` is (m, 2), indices of rows of `coordinates`; `holes` is (h, 2). Every vertex
+        becomes a node."""
         points = as_points(coordinates, 2, "coordinates")
         ends = as_indices(segments, 2, "segments")
         hole_points = as_points(holes, 2, "holes")
@@ -126,12 +127,12 @@ class Domain(Handle):
                           hole_points)
 
     def read_poly(self, path: Path) -> Domain:
-        """Adds what a file of Triangle's .poly format describes to a domain in the plane."""
+        """Reads a file in Triangle's .poly format and adds its content to a domain in the plane."""
         return self._call("read_poly", os.fsencode(path))
 
     def parse_poly(self, text: str, name: str = "text") -> Domain:
-        """Adds what a text in Triangle's .poly format describes to a domain in the plane; messages
-        call it `name`."""
+        """Adds the content of a text in Triangle's .poly format to a domain in the plane; `name` is
+        the name of the text in messages."""
         content = text.encode()
         return self._call("parse_poly", content, len(content), name.encode())
 
@@ -140,12 +141,12 @@ class Domain(Handle):
     def add_surface(self, coordinates: ArrayLike, corners: ArrayLike, role: Role = "boundary",
                     tags: Optional[ArrayLike] = None, feature_angle: float = 40.0) -> Domain:
         """Adds a triangulated surface to a domain in space: `corners` is (m, 3), indices of rows of
-        `coordinates`. Closed ones with the role "boundary" bound the domain; nodes follow "inner"
-        ones, closed or open. Vertices that coincide are one; what the triangles enclose decides
-        their orientation. `tags` is one for all triangles or one for each. Where the normals of two
-        triangles differ by more than `feature_angle` degrees, or their tags do, nodes lie on the
-        edge between them. Between such edges the triangles are the shape alone, whatever their
-        size."""
+        `coordinates`. Closed surfaces with the role "boundary" bound the domain; nodes follow
+        "inner" ones, closed or open. Coincident vertices are merged; the orientation is determined
+        by what the triangles enclose. `tags` is one for all triangles or one for each. Nodes lie on
+        the edge between two triangles if their normals differ by more than `feature_angle` degrees,
+        or if their tags differ. Between such edges the triangles only define the shape, whatever
+        their size."""
         points = as_points(coordinates, 3, "coordinates")
         triangles = as_indices(corners, 3, "corners")
         return self._call("add_surface", _role_number(role), len(points), points, len(triangles),
@@ -153,9 +154,9 @@ class Domain(Handle):
 
     def read_surface(self, path: Path, role: Role = "boundary",
                      feature_angle: float = 40.0) -> Domain:
-        """Adds the surface of a file to a domain in space, in one of the formats that the header
+        """Reads a surface from a file into a domain in space, in one of the formats that the header
         lists at `pnpbs_domain_read_surface`. Groups, materials and facet markers become tags, hole
-        points holes of the domain. Otherwise as `add_surface`."""
+        points become holes of the domain. Otherwise as `add_surface`."""
         return self._call("read_surface", _role_number(role), os.fsencode(path), feature_angle)
 
     def add_box(self, low: ArrayLike, high: ArrayLike, tag: int = 1) -> Domain:
@@ -167,18 +168,18 @@ class Domain(Handle):
         return self._call("add_ball", as_point(centre, 3, "centre"), radius, tag)
 
     def add_cylinder(self, begin: ArrayLike, end: ArrayLike, radius: float, tag: int = 1) -> Domain:
-        """Adds a round cylinder to a domain in space, as triangles within 1e-4 of the radius;
-        `begin` and `end` are the middles of its two circles."""
+        """Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius;
+        `begin` and `end` are the centres of its two circles."""
         return self._call("add_cylinder", as_point(begin, 3, "begin"), as_point(end, 3, "end"),
                           radius, tag)
 
     def add_level_set(self, level_set: ArrayFunction, low: ArrayLike, high: ArrayLike,
                       resolution: float, tag: int = 1) -> Domain:
         """Adds the body where a function is negative to a domain in space: `level_set(x)` gets the
-        points, (n, 3), and returns n values. It must always give the same value for the same point,
-        be continuous, and be finite everywhere in the box between `low` and `high`, where the body
-        must lie; it need not be a distance. Its surface is found on an octree that is refined near
-        its zeros down to cells of side `resolution`: what is thinner can be lost."""
+        points, (n, 3), and returns n values. It must always return the same value for the same
+        point, be continuous, and be finite everywhere in the box between `low` and `high`, where
+        the body must lie; it need not be a distance. Its surface is found on an octree refined near
+        its zeros down to cells of side `resolution`: thinner features can be lost."""
         callback = level_set_callback(level_set, self.context)
         self._call("add_level_set", callback, None, as_point(low, 3, "low"),
                    as_point(high, 3, "high"), resolution, tag)
@@ -186,24 +187,25 @@ class Domain(Handle):
         return self
 
     def set_corner_angle(self, corner_angle: float) -> Domain:
-        """Where the graphs of a domain in the plane have corners (`add_pslg`, `read_poly`,
-        `parse_poly`), those given before and those given after: at vertices where the direction turns
-        by more than this many degrees, where segments of different tags or other than two of them
-        end, and at vertices with a tag of their own. Nodes lie on corners; between them a graph
-        stands for a smooth curve, and nodes lie on it as d says. With 0, as it is at first, every
+        """Sets the corner angle of the graphs of a domain in the plane (`add_pslg`, `read_poly`,
+        `parse_poly`), both those already added and later ones. Corners are vertices where the
+        direction turns by more than this many degrees, where segments of different tags or other
+        than two of them end, and vertices with a tag of their own. Nodes lie on corners; between
+        them a graph represents a smooth curve, with nodes spaced by d. With 0, the default, every
         vertex becomes a node."""
         return self._call("set_corner_angle", corner_angle)
 
     def simplify(self, d: Union[float, ArrayFunction], tolerance: float = 0.25,
                  smallest: float = 0.0) -> LeftOut:
-        """Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs
-        and polylines given so far, vertices beside segments shorter than d, as long as the curve then
-        passes them within `tolerance` times d; and closed curves, islands and lakes, whose extent
-        (the longer side of their bounding box) is less than `smallest` times d. `d` is a number or a
-        function as `Placement.set_spacing` takes it. No other vertex, fixed node or hole point comes
-        to another side of a curve. Vertices stay where curves meet or end, where tags change or a
-        vertex has its own, and at fixed nodes. Returns how many vertices, those of the curves
-        included, and how many curves were left out. On several ranks all must do the same."""
+        """Removes features finer than d, such as those of coastlines, from a domain in the plane.
+        From the graphs and polylines added so far, it removes vertices next to segments shorter
+        than d, as long as the curve then passes them within `tolerance` times d, and closed curves,
+        islands and lakes, whose extent (the longer side of their bounding box) is less than
+        `smallest` times d. `d` is a number or a function as in `Placement.set_spacing`. No other
+        vertex, fixed node or hole point changes to another side of a curve. Vertices are kept where
+        curves meet or end, where tags change or a vertex has its own, and at fixed nodes. Returns
+        the numbers of removed vertices, including those of the curves, and of removed curves. Must
+        be called identically on all ranks."""
         given = d if callable(d) else lambda x: np.full(len(x), float(d))
         vertices, curves = ctypes.c_int64(), ctypes.c_int64()
         self._call("simplify", spacing_callback(given, self.context), None, tolerance, smallest,
@@ -212,50 +214,51 @@ class Domain(Handle):
 
     def simplify_by_file(self, path: Path, field: Optional[str] = None, tolerance: float = 0.25,
                          smallest: float = 0.0) -> LeftOut:
-        """The same by a spacing from a file with values at points, as `Placement.set_spacing_file`
-        takes it."""
+        """Does the same as `simplify` with a spacing from a file with values at points, as in
+        `Placement.set_spacing_file`."""
         vertices, curves = ctypes.c_int64(), ctypes.c_int64()
         self._call("simplify_by_file", os.fsencode(path), None if field is None else field.encode(),
                    tolerance, smallest, ctypes.byref(vertices), ctypes.byref(curves))
         return LeftOut(vertices.value, curves.value)
 
     def set_filled(self, filled: bool) -> Domain:
-        """Whether a domain in space is what its surfaces enclose, as it is at first, or, with False,
-        the surfaces alone: nodes on them and triangles between these, and nothing inside."""
+        """Sets whether a domain in space is the volume enclosed by its surfaces (the default) or,
+        with False, the surfaces alone: nodes on them, triangles between these nodes, and no
+        interior."""
         return self._call("set_filled", bool(filled))
 
     def set_repair(self, resolution: float = 0.0) -> Domain:
-        """Takes the surfaces of a domain in space that are given as triangles and bound it for what
-        encloses one body badly: open, crossing, folded, turned this way and that. The body is where
-        they wind around a point more than half a time, whichever way: holes are closed, overlapping
-        bodies are joined, what encloses nothing is dropped. Its surface is found as that of a level
-        set, with its sharp edges; all of it has the tag of the first triangle. A warning tells how
-        far it is from the triangles given. What is thinner than the resolution can be lost: it
-        should be no more than the spacing at the surface; 0 is 1/64 of the longest side of the box
-        around the triangles."""
+        """Repairs the triangulated boundary surfaces of a domain in space where they enclose one
+        body badly: open, crossing, folded or inconsistently oriented. The body is where they wind
+        around a point more than half a time, in either orientation. Holes are closed, overlapping
+        bodies are joined, and surfaces that enclose nothing are dropped. The surface of the body is
+        extracted as that of a level set, with its sharp edges; all of it has the tag of the first
+        triangle. A warning reports its distance from the given triangles. Features thinner than the
+        resolution can be lost: it should be no more than the spacing at the surface; 0 is 1/64 of
+        the longest side of the bounding box of the triangles."""
         return self._call("set_repair", float(resolution))
 
     # ------------------------------------------------------------ files and tags ---------------
 
     def read_msh(self, path: Path, feature_angle: float = 0.0) -> Domain:
-        """Reads a mesh in Gmsh's MSH format and adds what bounds it: in the plane lines and edges, in
+        """Reads a mesh in Gmsh's MSH format and adds its boundary: in the plane lines and edges, in
         space triangles, with their physical groups as tags. Sheets and lines inside are inner
-        surfaces and curves, points fixed nodes. `feature_angle` in degrees is as in `add_surface`, in
-        the plane as the `corner_angle` of `add_polyline`."""
+        surfaces and curves, points are fixed nodes. `feature_angle` in degrees is as in
+        `add_surface`, in the plane as the `corner_angle` of `add_polyline`."""
         return self._call("read_msh", os.fsencode(path), feature_angle)
 
     def set_role(self, tag: int, role: Role) -> Domain:
-        """The role of all triangles in a domain in space that have this tag, whatever role they are
-        added with."""
+        """Sets the role of all triangles with a tag in a domain in space. It overrides the role
+        they are added with."""
         return self._call("set_role", tag, _role_number(role))
 
     def set_tag_name(self, dim: int, tag: int, name: str) -> Domain:
-        """Names a tag of points (`dim` 0), curves (1), surfaces (2) or bodies (3), for files that have
-        physical groups."""
+        """Sets the name of a tag of points (`dim` 0), curves (1), surfaces (2) or bodies (3), for
+        files with physical groups."""
         return self._call("set_tag_name", dim, tag, name.encode())
 
     def tag_names(self) -> Dict[Tuple[int, int], str]:
-        """The names of tags, given or from files: {(dim, tag): name}."""
+        """Returns the names of tags, set or from files: {(dim, tag): name}."""
         count = ctypes.c_int32()
         self._call("tag_name_count", ctypes.byref(count))
         names = {}
@@ -269,13 +272,12 @@ class Domain(Handle):
     # ------------------------------------------------------------ points -----------------------
 
     def add_hole(self, point: ArrayLike) -> Domain:
-        """Removes the region around a point from the domain, as far as the next curves or
-        surfaces."""
+        """Removes the region around a point from the domain, up to the next curves or surfaces."""
         return self._call("add_hole", as_point(point, self.dim, "point"))
 
     def add_fixed_nodes(self, coordinates: ArrayLike, tags: Optional[ArrayLike] = None) -> Domain:
-        """Adds nodes that must appear exactly, inside the domain or on a vertex of its curves or
-        surfaces."""
+        """Adds fixed nodes, which keep their exact coordinates, inside the domain or on a vertex of
+        its curves or surfaces."""
         points = as_points(coordinates, self.dim, "coordinates")
         return self._call("add_fixed_nodes", len(points), points,
                           as_tags(tags, len(points), "tags"))
@@ -285,24 +287,24 @@ class Domain(Handle):
     def check(self) -> Domain:
         """Checks the whole geometry: duplicate vertices, crossings, open boundaries, hole points
         outside. A `PNPBSError` with `Status.ERROR_DOMAIN` names the vertex, segment or triangle.
-        Placements check as well; asking early costs nothing extra."""
+        Placements check it, too; checking early adds no cost."""
         return self._call("check")
 
     def bounds(self) -> Tuple[Doubles, Doubles]:
-        """The corners (low, high) of the bounding box of the curves or surfaces."""
+        """Returns the corners (low, high) of the bounding box of the curves or surfaces."""
         low, high = np.zeros(self.dim), np.zeros(self.dim)
         self._call("bounds", low, high)
         return low, high
 
     def measure(self) -> float:
-        """The area of the inside, in space its volume; of surfaces alone their area."""
+        """Returns the area of the inside, in space its volume; of surfaces alone their area."""
         inside = ctypes.c_double()
         self._call("measure", ctypes.byref(inside))
         return inside.value
 
     def distance(self, coordinates: ArrayLike, tag: int = 0) -> Doubles:
-        """The distances of points to what bounds the domain, or to the curves, surfaces or nodes with
-        this tag."""
+        """Evaluates the distances of points to the boundary of the domain, or to the curves,
+        surfaces or nodes with a tag."""
         points = as_points(coordinates, self.dim, "coordinates")
         distances = np.zeros(len(points))
         self._call("distance", tag, len(points), points, distances)
@@ -311,8 +313,9 @@ class Domain(Handle):
     def shape_spacing(self, coordinates: ArrayLike, nodes_per_turn: float = 0.0,
                       nodes_across: float = 0.0, nodes_per_edge: float = 0.0,
                       growth: float = 0.0) -> Doubles:
-        """The spacing at points that `Placement.set_spacing_from_shape` would set, without its
-        bounds. The first question takes longest: ask one before asking from inside a callback."""
+        """Evaluates the spacing that `Placement.set_spacing_from_shape` would set at points,
+        without its bounds. The first query takes longest: make one before querying from inside a
+        callback."""
         points = as_points(coordinates, self.dim, "coordinates")
         d = np.zeros(len(points))
         self._call("shape_spacing", nodes_per_turn, nodes_across, nodes_per_edge, growth,
@@ -320,8 +323,9 @@ class Domain(Handle):
         return d
 
     def outline(self) -> Outline:
-        """Straight segments, (n, 2, 2), that show a domain in the plane, curves finely sampled, for
-        pictures: `segments[k, 0]` and `segments[k, 1]` are the ends of one; and their tags."""
+        """Returns straight segments, (n, 2, 2), that approximate a domain in the plane, curves
+        finely sampled, for pictures: `segments[k, 0]` and `segments[k, 1]` are the ends of one; and
+        their tags."""
         count = ctypes.c_int64()
         self._call("get_segments", 0, ctypes.byref(count), None, None)
         segments, tags = np.zeros((count.value, 2, 2)), np.zeros(count.value, dtype=np.int32)

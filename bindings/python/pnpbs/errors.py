@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From the library's status to Python's exceptions."""
+"""Conversion of the library's status to Python exceptions."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from ._interface import library
 
 
 class Status(enum.IntEnum):
-    """The header's statuses: what a call came to, and why it failed.
+    """The header's statuses: the outcome of a call, or the reason for its failure.
 
-    Of a run: `OK`; `NOT_CONVERGED`, the step limit came before the bubbles rested, which is no
-    failure; `SPACING_MISSED`, in one of the bands of `Placement.edge_bands` with 50 edges or more the
-    mean is off 1 by more than 0.1; `NOT_CONFORMING`, the elements do not fill the domain; `STOPPED`
-    by the monitor. In all these cases the nodes are valid."""
+    Of a run: `OK`; `NOT_CONVERGED`, the step limit was reached before the bubbles were at rest,
+    which is no failure; `SPACING_MISSED`, in one of the bands of `Placement.edge_bands` with 50
+    edges or more the mean differs from 1 by more than 0.1; `NOT_CONFORMING`, the elements do not
+    fill the domain; `STOPPED` by the monitor. In all these cases the nodes are valid."""
 
     OK = 0
     NOT_CONVERGED = 1
@@ -42,12 +42,12 @@ class Status(enum.IntEnum):
 
 
 class PNPBSError(Exception):
-    """What the library refused. `status` is a `Status` such as `Status.ERROR_SPACING`; the message
+    """An error of the library. `status` is a `Status` such as `Status.ERROR_SPACING`; the message
     says what was wrong, with the value, and what to change. Functions marked "collective" raise on
     all ranks or on none.
 
-    An exception that your own callback raises comes out of the call in progress as it is, on the
-    rank that raised it; the other ranks get a `PNPBSError` with `Status.ERROR_CALLBACK`."""
+    An exception that a callback raises is raised unchanged by the call in progress, on the rank
+    that raised it; the other ranks get a `PNPBSError` with `Status.ERROR_CALLBACK`."""
 
     def __init__(self, status: Status, message: str) -> None:
         super().__init__(message)
@@ -55,11 +55,11 @@ class PNPBSError(Exception):
 
 
 def last_error(context: Any) -> str:
-    """The message of the last error on a context; of this thread with None."""
+    """Returns the message of the last error on a context; of this thread with None."""
     return str(library().pnpbs_last_error(context).decode())
 
 
 def check_without_context(code: int) -> None:
-    """What could not be made has no context to hold the message."""
+    """Checks a status without a context to hold the message, after a failed create."""
     if code < 0:
         raise PNPBSError(Status(code), last_error(None))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields: values at nodes, over ranks and from one set of nodes to the next."""
+"""Fields: values at nodes, on all ranks and from one set of nodes to the next."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def _sizes(values: Doubles) -> Tuple[int, int]:
-    """Entries, and numbers at each."""
+    """Returns the number of entries, and of components at each."""
     return values.shape[0], int(np.prod(values.shape[1:], dtype=np.int64))
 
 
@@ -34,32 +34,32 @@ class Fields(PlacementHandle):
     those of this rank's nodes in the order of `nodes`, then those of its ghosts."""
 
     def update_ghosts(self, values: Doubles) -> Doubles:
-        """Gives the ghosts the values that their owners have: `values`, with an entry for each node
-        of this rank and each ghost behind them, is changed where it is, and returned. Collective."""
+        """Updates the values at ghosts from their owners: `values`, with an entry for each node of
+        this rank, followed by one for each ghost, is changed in place and returned. Collective."""
         self._in_place("update_ghosts", values)
         return values
 
     def begin_update_ghosts(self, values: ArrayLike) -> None:
-        """The first half of `update_ghosts`, for a solver that computes while messages travel: sends
-        what other ranks need of `values`, which may change as soon as it returns. One update at a
-        time is under way. Collective."""
+        """Begins an update of ghosts, for a solver that computes while messages travel: starts
+        sending what other ranks need of `values`, which may be changed after the call. At most one
+        update is in progress. Collective."""
         field = _as_field(values)
         self._call("begin_update_ghosts", *_sizes(field), field)
 
     def end_update_ghosts(self, values: Doubles) -> Doubles:
-        """The second half: waits for what the other ranks sent and fills the ghosts' entries of
-        `values`, which is returned. Local."""
+        """Ends an update of ghosts: waits for what the other ranks sent and fills the ghosts'
+        entries of `values`, which is returned. Local."""
         self._in_place("end_update_ghosts", values)
         return values
 
     def add_from_ghosts(self, values: Doubles) -> Doubles:
-        """Adds the values at ghosts to those of the nodes that they stand for, on the ranks that own
-        these: the way of `update_ghosts` back, for sums over elements to which several ranks
-        contribute. `values` is changed where it is, and returned; the entries of ghosts stay as they
-        are. Each sum, of a node's value and of those at its ghosts, is exact and rounded once, so no
-        order of ranks matters. What a rank has added up by itself before it has been rounded there:
-        unless these sums are exact, other numbers of ranks give results that differ by rounding.
-        Where all bits shall be the same, use `incident_elements`. Collective."""
+        """Adds the values at ghosts to those of the nodes they represent, on the ranks that own
+        these. It is the reverse of `update_ghosts`, for sums over elements to which several ranks
+        contribute. `values` is changed in place and returned; the entries of ghosts are unchanged.
+        Each sum, of a node's value and those at its ghosts, is exact and rounded once, so the order
+        of ranks has no effect. Values that a rank has summed by itself before were rounded there:
+        unless these sums are exact, results differ by rounding between numbers of ranks. Where all
+        bits must agree, use `incident_elements`. Collective."""
         self._in_place("add_from_ghosts", values)
         return values
 
@@ -75,9 +75,8 @@ class Fields(PlacementHandle):
 
     # Any: a float of (n,) values, an array of others, which their types do not tell apart.
     def sum(self, values: ArrayLike) -> Any:
-        """The sum over the nodes of all ranks, of each component by itself: exact, rounded once, and
-        so the same bits for any number of ranks and threads. Entries of ghosts do not count.
-        Collective."""
+        """Sums each component over the nodes of all ranks: exact, rounded once, and so the same
+        bits for any number of ranks and threads. Entries of ghosts are ignored. Collective."""
         field = _as_field(values)
         n, components = _sizes(field)
         sums = np.zeros(components)
@@ -85,8 +84,8 @@ class Fields(PlacementHandle):
         return _shaped(sums, field)
 
     def dot(self, x: ArrayLike, y: ArrayLike) -> Any:
-        """Dot products of two fields over the nodes of all ranks, of each component by itself, as
-        exact as `sum`. Collective."""
+        """Computes the dot product of two fields over the nodes of all ranks, for each component,
+        as exact as `sum`. Collective."""
         first, second = _as_field(x), _as_field(y)
         n, components = _sizes(first)
         if first.shape != second.shape:
@@ -102,13 +101,13 @@ def _shaped(sums: Doubles, field: Doubles) -> Any:
 
 
 class Transfer(Handle):
-    """A field on its way to the nodes that will be: copies `values` at the nodes that the placement
-    has now, (n,) or (n, ...) in the order of `nodes`, together with these nodes and their triangles
-    or tetrahedra, on which it is linear. The nodes may then move, be replaced or change their ranks.
-    Fields that are linear stay what they are, and others change by a part of the second order in d.
-    With `order=2` a polynomial of second order is fitted to the neighbours of each node: then fields
-    that are quadratic in the coordinates stay what they are, others change by a part of the third
-    order, and next to jumps they may leave the range of the values there. Collective.
+    """Transfers a field to a later set of nodes: copies `values` at the current nodes of the
+    placement, (n,) or (n, ...) in the order of `nodes`, with these nodes and their triangles or
+    tetrahedra, on which it is linear. The nodes may then move, be replaced or change their ranks.
+    Linear fields are preserved, and others change by a term of second order in d. With `order=2` a
+    quadratic polynomial is fitted to the neighbours of each node: then quadratic fields are
+    preserved, others change by a term of third order, and next to jumps they may leave the range of
+    the values there. Collective.
 
         field = pnpbs.Transfer(placement, temperature)
         placement.set_spacing(finer).run()
@@ -129,7 +128,7 @@ class Transfer(Handle):
         self.context._children.append(self)
 
     def close(self) -> None:
-        """Releases what the library holds. Closing twice is allowed. Local."""
+        """Releases the resources of the library. Closing twice is allowed. Local."""
         if self.is_open:
             self.context._check(self._destroy(library().pnpbs_transfer_destroy))
             self.context._children.remove(self)
@@ -139,17 +138,17 @@ class Transfer(Handle):
 
     @property
     def linear_nodes(self) -> int:
-        """At how many nodes, on all ranks, a transfer of the second order has no polynomial of that
-        order: they had too few neighbours, or are on surfaces alone. -1 for one of the first
-        order. Local."""
+        """The number of nodes, on all ranks, at which a second-order transfer has no quadratic
+        polynomial: they had too few neighbours, or are on surfaces alone. -1 for a first-order one.
+        Local."""
         count = ctypes.c_int64()
         self.context._check(library().pnpbs_transfer_order(self._live(), None, ctypes.byref(count)))
         return count.value
 
     def at_nodes(self, placement: Placement, conserve: bool = False) -> Doubles:
-        """The field at the nodes that a placement has now, the same bits for any number of ranks, then
-        and now. With `conserve` the same number is added everywhere, so that the integral is what it
-        was, to rounding. Collective."""
+        """Evaluates the field at the current nodes of a placement: the same bits for any number of
+        ranks, at creation and now. With `conserve` the same number is added everywhere, so that the
+        integral is unchanged, to rounding. Collective."""
         n = placement.node_count
         values = np.zeros((n, *self._shape))
         self.context._check(library().pnpbs_transfer_at_nodes(
@@ -157,8 +156,8 @@ class Transfer(Handle):
         return values
 
     def at_points(self, coordinates: ArrayLike) -> Doubles:
-        """The field at any points, the rows of `coordinates`, of which each rank asks those it wants,
-        or none. Collective."""
+        """Evaluates the field at arbitrary points, the rows of `coordinates`; each rank passes its
+        own, or none. Collective."""
         dim = ctypes.c_int32()
         self.context._check(library().pnpbs_transfer_sizes(self._live(), ctypes.byref(dim), None))
         points = as_points(coordinates, dim.value, "coordinates")

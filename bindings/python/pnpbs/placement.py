@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Placements: the nodes in a domain, and how they come to be."""
+"""Placements: the nodes in a domain, and how they are computed."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Placement(Results, Fields):
     """A placement of nodes in a domain, on the domain's context. Keywords are options, as in `set`;
     the others are those of the context. Set a spacing (`set_spacing`), then `run`. Collective.
 
-    Ctrl-C ends what computes within a second or two with a `KeyboardInterrupt`; the nodes are then
+    Ctrl-C ends a computation within a second or two with a `KeyboardInterrupt`; the nodes are then
     as if a monitor had stopped the run, which is what it returns on the other ranks."""
 
     def __init__(self, domain: Domain, **options: OptionValue) -> None:
@@ -65,7 +65,7 @@ class Placement(Results, Fields):
             raise
 
     def close(self) -> None:
-        """Releases what the library holds. Closing twice is allowed. Local."""
+        """Releases the resources of the library. Closing twice is allowed. Local."""
         if self.is_open:
             self.context._check(self._destroy(library().pnpbs_placement_destroy))
             self.context._children.remove(self)
@@ -86,18 +86,18 @@ class Placement(Results, Fields):
 
     def set_spacing(self, d: Union[ArrayFunction, ArrayLike], origin: Optional[ArrayLike] = None,
                     step: Optional[ArrayLike] = None) -> Placement:
-        """The node spacing d(x), the wanted distance between neighbouring nodes about x. On a
-        placement that has nodes the spacing is replaced: the nodes stay, and the next run starts
-        from them. Collective.
+        """Sets the node spacing d(x), the requested distance between neighbouring nodes near x. On
+        a placement that has nodes it replaces the spacing: the nodes are kept, and the next run
+        starts from them. Collective.
 
-        - A number: the same everywhere.
-        - A function: `d(x)` gets points, (n, dim), and returns n values. It must always give the
-          same value for the same point, and is asked for different points on different ranks, so
-          nothing collective may happen inside. An exception that it raises comes out of the call in
+        - A number: constant spacing.
+        - A function: `d(x)` gets points, (n, dim), and returns n values. It must always return the
+          same value for the same point. It is called with different points on different ranks, so
+          it must do nothing collective. An exception that it raises is raised by the call in
           progress.
         - An array of `dim` dimensions with `origin` and `step`: values on a rectangular grid whose
-          first point is `origin`, with distances `step`; the first index goes along x. Linear between
-          the grid's points, constant beyond its edge.
+          first point is `origin`, with distances `step`; the first index goes along x. Linear
+          between grid points, constant beyond the grid's edge.
         - An array of one dimension: values at the nodes of this rank, in the order of `nodes`;
           linear on each triangle or tetrahedron of their triangulation."""
         callback = None
@@ -127,31 +127,31 @@ class Placement(Results, Fields):
         return self
 
     def set_spacing_mesh(self, points: ArrayLike, d: ArrayLike, corners: ArrayLike) -> Placement:
-        """The spacing from values `d` at the nodes of a background mesh, the rows of `points`: linear
-        on each element, and beyond the mesh what it is at the mesh's nearest point. `corners` is (m,
-        dim + 1), indices of rows: triangles, in space tetrahedra. Collective; every rank gives the
-        same arrays, and holds a copy."""
+        """Sets the spacing to values `d` at the nodes of a background mesh, the rows of `points`.
+        It is linear on each element, and beyond the mesh equal to the value at the nearest point of
+        the mesh. `corners` is (m, dim + 1), indices of rows: triangles, in space tetrahedra.
+        Collective; every rank passes the same arrays, and holds a copy."""
         coordinates, values = self._field(points, d)
         elements = as_indices(corners, self.dim + 1, "corners")
         self._call("set_spacing_mesh", len(values), coordinates, values, len(elements), elements)
         return self._keep_spacing(None)
 
     def set_spacing_points(self, points: ArrayLike, d: ArrayLike) -> Placement:
-        """The spacing from values `d` at scattered points, the rows of `points`: at each of them its
-        own value, elsewhere a plane fitted to the 8 (in space 16) nearest ones by weighted least
-        squares, never below the least nor above the largest of their values. Collective; every rank
-        gives the same arrays, and holds a copy."""
+        """Sets the spacing to values `d` at scattered points, the rows of `points`. It equals the
+        given value at each point and elsewhere a plane fitted to the 8 (in space 16) nearest points
+        by weighted least squares, bounded by the smallest and largest of their values. Collective;
+        every rank passes the same arrays, and holds a copy."""
         coordinates, values = self._field(points, d)
         self._call("set_spacing_points", len(values), coordinates, values)
         return self._keep_spacing(None)
 
     def set_spacing_file(self, path: Path, field: Optional[str] = None) -> Placement:
-        """The spacing from a file with values at points: VTK's unstructured grid (.vtu), Gmsh's mesh
-        with values at nodes (.msh), or a table with columns x, y, (z) and others (.csv). Triangles
-        and quadrangles, in space tetrahedra are a mesh as `set_spacing_mesh` takes it; without any
-        the points are as for `set_spacing_points`. In the plane z is left out. `field` is the name of
-        the values in the file; without it they are the only ones, or those called "spacing".
-        Collective; every rank reads the file."""
+        """Sets the spacing to values at points from a file: VTK's unstructured grid (.vtu), Gmsh's
+        mesh with values at nodes (.msh), or a table with columns x, y, (z) and others (.csv).
+        Triangles and quadrangles, in space tetrahedra, form a mesh as in `set_spacing_mesh`;
+        without any, the points are used as in `set_spacing_points`. In the plane z is ignored.
+        `field` is the name of the values in the file; the default is the only ones, or those called
+        "spacing". Collective; every rank reads the file."""
         self._call("set_spacing_file", os.fsencode(path),
                    None if field is None else field.encode())
         return self._keep_spacing(None)
@@ -166,17 +166,17 @@ class Placement(Results, Fields):
     def set_spacing_from_shape(self, nodes_per_turn: float = 0.0, nodes_across: float = 0.0,
                                nodes_per_edge: float = 0.0, growth: float = 0.0,
                                min_spacing: float = 0.0, max_spacing: float = 0.0) -> Placement:
-        """The spacing from the shape of the domain: the least that its curves and surfaces ask for,
-        each growing with the distance from it by `growth` (0: 0.15), between `min_spacing` and
-        `max_spacing` (0: no bound). Collective.
+        """Sets the spacing from the shape of the domain: the minimum of what its curves and
+        surfaces require, each value growing with the distance from them by `growth` (0: 0.15),
+        between `min_spacing` and `max_spacing` (0: no bound). Collective.
 
-        - `nodes_per_turn`, by curvature: nodes on a full circle of its radius.
-        - `nodes_across`, by width: d at a place of the boundary is this part of the diameter of the
-          largest ball that touches it there and meets nothing ahead.
-        - `nodes_per_edge`, by the input: d at a segment is this part of its length, at a triangle of
-          the mean length of its edges.
+        - `nodes_per_turn`, by curvature: nodes on a full circle of the radius of curvature.
+        - `nodes_across`, by width: d at a boundary point is the diameter of the largest ball that
+          touches the boundary there and meets nothing ahead, divided by this.
+        - `nodes_per_edge`, by the input: d is the length of a segment, or the mean edge length of a
+          triangle, divided by this.
 
-        What is 0 does not count."""
+        Zero arguments are not used."""
         self._call("set_spacing_from_shape", nodes_per_turn, nodes_across, nodes_per_edge, growth,
                    min_spacing, max_spacing)
         return self._keep_spacing(None)
@@ -194,10 +194,10 @@ class Placement(Results, Fields):
                    as_point(origin, dim, "origin"), as_point(step, dim, "step"), values)
 
     def set_monitor(self, monitor: Optional[Monitor]) -> Placement:
-        """Calls `monitor(fraction, step, nodes, max_speed)` now and then during a run; while the first
-        nodes are laid, or the growth of the spacing is limited, with `fraction` 0 and on each rank by
-        its own clock: do nothing collective then. When it returns True, the run ends early with valid
-        nodes and `Status.STOPPED`. None removes the monitor. Local."""
+        """Calls `monitor(fraction, step, nodes, max_speed)` from time to time during a run. While
+        the first nodes are laid, or the growth of the spacing is limited, `fraction` is 0 and each
+        rank calls it by its own clock: do nothing collective then. When it returns True, the run
+        ends early with valid nodes and `Status.STOPPED`. None removes the monitor. Local."""
         # The library's monitor stays: it is where Ctrl-C acts.
         callback = monitor_callback(_keep_going if monitor is None else monitor, self.context)
         self._call("set_monitor", callback, None)
@@ -205,9 +205,9 @@ class Placement(Results, Fields):
         return self
 
     def set_nodes(self, coordinates: ArrayLike, ids: Optional[ArrayLike] = None) -> Placement:
-        """Inner nodes to start from instead of the library's own: the rows of `coordinates`, on any
-        ranks, with distinct global ids from 0 on if `ids` are given. The boundary is laid by the
-        library. Clears the nodes there are. Collective."""
+        """Sets inner nodes to start from instead of the initial fill: the rows of `coordinates`, on
+        any ranks, with distinct global ids from 0 if `ids` are given. The library places the
+        boundary nodes. Clears the current nodes. Collective."""
         points = as_points(coordinates, self.dim, "coordinates")
         given = None if ids is None else np.ascontiguousarray(ids, np.int64)
         wrong = None if given is None or given.shape == (len(points),) else given.shape
@@ -223,40 +223,40 @@ class Placement(Results, Fields):
     # ------------------------------------------------------------ running ----------------------
 
     def estimate(self) -> Estimate:
-        """What a run from nothing would come to, from domain, spacing and options alone: how many
-        nodes on all ranks, mostly within a few percent, the memory of each process for the run alone,
-        and roughly the time in seconds. Collective."""
+        """Estimates a run from scratch, from domain, spacing and options alone: the number of nodes
+        on all ranks, mostly within a few percent, the memory of each process for the run alone, and
+        roughly the time in seconds. Collective."""
         nodes, size, seconds = ctypes.c_int64(), ctypes.c_int64(), ctypes.c_double()
         self._call("estimate", ctypes.byref(nodes), ctypes.byref(size), ctypes.byref(seconds))
         return Estimate(nodes.value, size.value, seconds.value)
 
     def initialise(self) -> Placement:
         """Checks domain and spacing and lays the nodes that the simulation starts from. `run` and
-        `step` do it where it is needed. Collective."""
+        `step` do this if necessary. Collective."""
         self._call("initialise")
         return self
 
     def run(self) -> Status:
-        """Places the nodes: the whole job. Run again, after another spacing perhaps, it starts from
-        the nodes there are. See `Status` for the outcomes. Collective."""
+        """Runs the whole placement. A later run, for example after another spacing, starts from the
+        current nodes. See `Status` for the outcomes. Collective."""
         outcome = self._call("run")
         self._spacings_before.clear()
         return outcome
 
     def step(self, n: int = 1) -> Status:
-        """Advances the simulation by n steps. The outcome is as of `run`, `Status.OK` when the
-        bubbles rest. Collective."""
+        """Advances the simulation by n steps. The outcome is as in `run`, `Status.OK` if the
+        bubbles are at rest. Collective."""
         return self._call("step", n)
 
     def adjust_population(self) -> PopulationChange:
-        """Deletes nodes where they are too dense and inserts where they are too sparse, once, now.
-        Collective."""
+        """Performs one population adjustment: deletes nodes where they are too dense and inserts
+        nodes where they are too sparse. Collective."""
         inserted, deleted = ctypes.c_int64(), ctypes.c_int64()
         self._call("adjust_population", ctypes.byref(inserted), ctypes.byref(deleted))
         return PopulationChange(inserted.value, deleted.value)
 
     def rebalance(self) -> Placement:
-        """Deals the work out to the ranks anew. The nodes stay as they are; who owns them changes. A
-        run does so by itself where it pays. Collective."""
+        """Repartitions the work over the ranks. The nodes are unchanged; their owners change. A run
+        does this by itself where it pays. Collective."""
         self._call("rebalance")
         return self

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the parts of `Placement` call the library by."""
+"""The base through which the parts of `Placement` call the library."""
 
 from __future__ import annotations
 

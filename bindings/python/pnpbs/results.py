@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a placement holds, copied once, into arrays of the caller's. Local indices count this rank's
-nodes from 0, then its ghosts; global ids are the library's, the same for any number of ranks."""
+"""Results of a placement, copied once into arrays of the caller. Local indices count this rank's
+nodes from 0, then its ghosts; global ids are those of the library, the same for any number of
+ranks."""
 
 from __future__ import annotations
 
@@ -67,7 +68,7 @@ _Self = TypeVar("_Self", bound="Results")
 
 
 class Results(PlacementHandle):
-    """The part of `Placement` that copies out and writes."""
+    """The part of `Placement` that copies and writes results."""
 
     def _number(self, name: str, c_type: Any, *arguments: Any) -> Any:
         number = c_type()
@@ -87,8 +88,8 @@ class Results(PlacementHandle):
         return int(self._number("count", ctypes.c_int64))
 
     def nodes(self) -> Nodes:
-        """The nodes of this rank in their local order: `points` is (n, dim); `ids` are global;
-        `tags` are 0 for inner nodes and otherwise that of the curve, surface or fixed node;
+        """Returns the nodes of this rank in their local order: `points` is (n, dim); `ids` are
+        global; `tags` are 0 for inner nodes and otherwise that of the curve, surface or fixed node;
         `spacing` is d at the node. Local."""
         n = self.node_count
         found = Nodes(np.zeros((n, self.dim)), np.zeros(n, np.int64), np.zeros(n, np.int32),
@@ -97,9 +98,9 @@ class Results(PlacementHandle):
         return found
 
     def normals(self) -> Doubles:
-        """Where the surfaces look at this rank's nodes, of a placement in space: (n, 3), the unit
-        normal, on feature edges and in corners the mean of those on its sides, and 0 for inner
-        nodes. Local."""
+        """Returns the surface normals at this rank's nodes, of a placement in space: (n, 3), the
+        unit normal, on feature edges and in corners the mean of the adjacent normals, and 0 for
+        inner nodes. Local."""
         found = np.zeros((self.node_count, 3))
         self._call("get_normals", len(found), found)
         return found
@@ -110,8 +111,8 @@ class Results(PlacementHandle):
         return int(self._number("ghost_count", ctypes.c_int64))
 
     def ghosts(self) -> Ghosts:
-        """The ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars,
-        triangles and tetrahedra ghost g has the local index `node_count + g`. Collective."""
+        """Returns the ghosts, by increasing id; `owners` are the ranks that own them. In lists,
+        stars, triangles and tetrahedra ghost g has the local index `node_count + g`. Collective."""
         n = self.ghost_count()
         found = Ghosts(np.zeros((n, self.dim)), np.zeros(n, np.int64), np.zeros(n, np.int32),
                        np.zeros(n), np.zeros(n, np.int32))
@@ -119,9 +120,9 @@ class Results(PlacementHandle):
         return found
 
     def exchange_pattern(self) -> ExchangePattern:
-        """How values at nodes reach their ghosts on other ranks: send the values at the nodes
-        `send[k]` to `ranks[k]`, and put what comes from there into `receive[k]`, in the same order.
-        Right until nodes move. Collective."""
+        """Returns the pattern by which values at nodes reach their ghosts on other ranks: send the
+        values at the nodes `send[k]` to `ranks[k]`, and store what it sends at `receive[k]`, in the
+        same order. Valid until nodes move. Collective."""
         neighbours, sends, receives = ctypes.c_int32(), ctypes.c_int64(), ctypes.c_int64()
         self._call("exchange_sizes", ctypes.byref(neighbours), ctypes.byref(sends),
                    ctypes.byref(receives))
@@ -134,9 +135,9 @@ class Results(PlacementHandle):
         return ExchangePattern(ranks, send, receive)
 
     def numbering(self) -> Numbering:
-        """Numbers that are contiguous per rank, from 0 over all ranks, as PETSc and hypre want them:
-        local node i has the number `first + i`, and ghost g has `ghosts[g]`. Unlike the ids they
-        depend on the ranks. Collective."""
+        """Returns numbers that are contiguous per rank, from 0 over all ranks, as PETSc and hypre
+        require: local node i has the number `first + i`, and ghost g has `ghosts[g]`. Unlike the
+        ids they depend on the ranks. Collective."""
         first, count = ctypes.c_int64(), ctypes.c_int64()
         numbers = np.zeros(self.ghost_count(), np.int64)
         self._call("get_numbering", len(numbers), ctypes.byref(first), ctypes.byref(count), numbers)
@@ -145,20 +146,20 @@ class Results(PlacementHandle):
     # ------------------------------------------------------------ lists and elements -----------
 
     def adjacency(self) -> CompressedRows[np.int64]:
-        """The adjacency lists: row i has the local indices of the nodes within `adjacency_radius` of
-        node i, in the order of global ids. Pairs that a boundary separates are not neighbours.
-        Collective."""
+        """Returns the adjacency lists: row i has the local indices of the nodes within
+        `adjacency_radius` of node i, in the order of global ids. Pairs separated by a boundary are
+        not neighbours. Collective."""
         entries = self._number("adjacency_size", ctypes.c_int64)
         rows = CompressedRows(np.zeros(self.node_count + 1, np.int64), np.zeros(entries, np.int64))
         self._call("get_adjacency", entries, rows.offsets, rows.values)
         return rows
 
     def stars(self) -> Stars:
-        """Each node's star in the constrained Delaunay triangulation of the domain. `neighbours[i]`
-        has the local indices of node i's neighbours, counter-clockwise; `triangle[i][k]` tells
-        whether the node, its k-th neighbour and the next one around are a triangle of the domain,
-        or whether a gap lies between them. In space the neighbours are all nodes that share a
-        tetrahedron with node i, and `triangle[i][k]` is False. Collective."""
+        """Returns each node's star in the constrained Delaunay triangulation of the domain.
+        `neighbours[i]` has the local indices of node i's neighbours, counter-clockwise;
+        `triangle[i][k]` is whether the node, its k-th neighbour and the next one around are a
+        triangle of the domain, or whether a gap lies between them. In space the neighbours are all
+        nodes that share a tetrahedron with node i, and `triangle[i][k]` is False. Collective."""
         entries = self._number("star_size", ctypes.c_int64)
         rows = CompressedRows(np.zeros(self.node_count + 1, np.int64), np.zeros(entries, np.int64))
         triangle = np.zeros(entries, np.int8)
@@ -166,25 +167,25 @@ class Results(PlacementHandle):
         return Stars(rows, CompressedRows(rows.offsets, triangle.view(np.bool_)))
 
     def triangles(self) -> Ids:
-        """The triangles of a placement in the plane, (n, 3) local indices, counter-clockwise, each
-        once: a triangle is the rank's that owns its node with the least id, other corners may be
-        ghosts. Collective."""
+        """Returns the triangles of a placement in the plane, (n, 3) local indices,
+        counter-clockwise, each once: a triangle belongs to the rank that owns its node with the
+        lowest id; other corners may be ghosts. Collective."""
         return self._elements("get_triangles", 3)
 
     def tetrahedra(self) -> Ids:
-        """The tetrahedra of a placement in space, (n, 4) local indices, each once: seen from the
-        fourth corner, the first three turn counter-clockwise. A tetrahedron is the rank's that owns
-        its node with the least id, other corners may be ghosts. Collective."""
+        """Returns the tetrahedra of a placement in space, (n, 4) local indices, each once: seen
+        from the fourth corner, the first three turn counter-clockwise. A tetrahedron belongs to the
+        rank that owns its node with the lowest id; other corners may be ghosts. Collective."""
         return self._elements("get_tetrahedra", 4)
 
     def incident_elements(self) -> Ids:
-        """Every element with a corner among this rank's nodes, whichever rank it belongs to:
-        triangles in the plane, (n, 3) local indices, tetrahedra in space, (n, 4), triangles on
-        surfaces alone. With these a rank assembles the rows of its nodes by itself, without a
-        message. The corner with the least id comes first; an element belongs to this rank, as
-        `triangles` and `tetrahedra` have it, if that is one of its nodes. Elements are in the order
-        of the ids of their corners: so those of a node are the same, in the same order, for any
-        number of ranks, and a row that adds them up in this order has the same bits. Collective."""
+        """Returns every element with a corner among this rank's nodes, whichever rank it belongs
+        to: triangles in the plane, (n, 3) local indices, tetrahedra in space, (n, 4), triangles on
+        surfaces alone. With these a rank assembles the rows of its nodes without communication. The
+        corner with the lowest id comes first; an element belongs to this rank, as defined by
+        `triangles` and `tetrahedra`, if that is one of its nodes. Elements are in the order of the
+        ids of their corners, so those of a node are the same, in the same order, for any number of
+        ranks, and a row summed in this order has the same bits. Collective."""
         count, corners = ctypes.c_int64(), ctypes.c_int32()
         sizes = ctypes.byref(count), ctypes.byref(corners)
         self._call("get_incident_elements", 0, *sizes, None)
@@ -193,15 +194,15 @@ class Results(PlacementHandle):
         return found
 
     def boundary_edges(self) -> Facets:
-        """The edges between consecutive nodes on boundary and inner curves of a placement in the
-        plane: (n, 2) local indices, and the tags of the curves. An edge is the rank's that owns its
-        first node. Local."""
+        """Returns the edges between consecutive nodes on boundary and inner curves of a placement
+        in the plane: (n, 2) local indices, and the tags of the curves. An edge belongs to the rank
+        that owns its first node. Local."""
         return self._facets("get_boundary_edges", 2)
 
     def boundary_triangles(self) -> Facets:
-        """The triangles of the boundary of a placement in space: (n, 3) local indices,
-        counter-clockwise as seen from outside, and the tags of the surfaces there. Of surfaces
-        alone, the triangles between the nodes on them. Collective."""
+        """Returns the boundary triangles of a placement in space: (n, 3) local indices,
+        counter-clockwise as seen from outside, and the tags of the surfaces there. On surfaces
+        alone, they are the triangles between the nodes. Collective."""
         return self._facets("get_boundary_triangles", 3)
 
     def _elements(self, name: str, corners: int) -> Ids:
@@ -219,21 +220,21 @@ class Results(PlacementHandle):
         return found
 
     def check(self) -> Status:
-        """Checks that the results keep what is promised of them. `Status.NOT_CONFORMING` where `run`
-        tells it, too; if anything else is wrong, a `PNPBSError` with `Status.ERROR_INTERNAL` says
-        what, with ids and coordinates. Collective."""
+        """Checks the invariants of the results. `Status.NOT_CONFORMING` where `run` returns it,
+        too; if anything else is wrong, a `PNPBSError` with `Status.ERROR_INTERNAL` says what, with
+        ids and coordinates. Collective."""
         return self._call("check")
 
     # ------------------------------------------------------------ statistics -------------------
 
     def statistic(self, key: str) -> Any:
-        """A statistic by its name, such as "nodes", "hash" or "imbalance": an int, a float or a str.
-        `pnpbs.statistic_table()` lists them. Collective."""
+        """Returns a statistic by its name, such as "nodes", "hash" or "imbalance": an int, a float
+        or a str. `pnpbs.statistic_table()` lists them. Collective."""
         types = {row.name: row.type for row in statistic_table()}
         return self._statistic(key, types.get(key, "real"))
 
     def statistics(self) -> Dict[str, Any]:
-        """All statistics, by name. Collective."""
+        """Returns all statistics, by name. Collective."""
         return {row.name: self._statistic(row.name, row.type) for row in statistic_table()}
 
     def _statistic(self, key: str, kind: str) -> Any:
@@ -244,12 +245,12 @@ class Results(PlacementHandle):
         return (self._number("get_string", ctypes.c_char_p, key.encode()) or b"").decode()
 
     def edge_bands(self) -> EdgeBands:
-        """How well the edges of the triangles or tetrahedra follow the spacing, by bands of it:
-        eight, equal in log d between the least and the largest d at the nodes, or one if that is
-        less than 1.1 times the least. Bands without edges are left out. For each band where it
-        begins and ends, how many edges there are, and the mean and standard deviation of their
-        length over d. Edges between two boundary nodes do not count. Over all ranks, and the same on
-        each. Collective."""
+        """Measures how well the edges of the triangles or tetrahedra follow the spacing, by bands
+        of d. There are eight, equal in log d between the smallest and the largest d at the nodes,
+        or one if the largest is less than 1.1 times the smallest. Bands without edges are left out.
+        Returns for each band its lower and upper end, the number of edges, and the mean and
+        standard deviation of their length over d. Edges between two boundary nodes are not counted.
+        Includes all ranks, and is the same on each. Collective."""
         count = ctypes.c_int64()
         self._call("get_edge_bands", 0, ctypes.byref(count), *[None] * 5)
         n = count.value
@@ -258,8 +259,8 @@ class Results(PlacementHandle):
         return bands
 
     def warnings(self) -> List[str]:
-        """Warnings about domain and spacing, and about nodes that do not follow the spacing, of the
-        last run. Local."""
+        """Returns warnings about domain and spacing, and about nodes that do not follow the
+        spacing, from the last run. Local."""
         count = self._number("warning_count", ctypes.c_int32)
         texts = [self._number("get_warning", ctypes.c_char_p, i) for i in range(count)]
         return [text.decode() for text in texts]
@@ -268,44 +269,44 @@ class Results(PlacementHandle):
 
     def write(self, *paths: Path, elements: Union[bool, Sequence[bool]] = False) -> Status:
         """Writes the nodes of all ranks, and the triangles or tetrahedra if `elements` (one for all
-        or one for each), into files whose extensions are their formats (`pnpbs.format_table()`).
-        Several files appear together when all are complete, or none does. The outcome is
-        `Status.OK`, or `Status.STOPPED` by the monitor, which leaves the old files. Collective."""
+        or one for each), into files whose extensions select the formats (`pnpbs.format_table()`).
+        Several files appear together when all are complete, or not at all. The outcome is
+        `Status.OK`, or `Status.STOPPED` by the monitor, which keeps the old files. Collective."""
         encoded = [os.fsencode(path) for path in paths]
         wanted = np.full(len(paths), elements, np.int32)
         return self._call("write_files", len(paths), (ctypes.c_char_p * len(paths))(*encoded), None,
                           wanted)
 
     def add_output_field(self: _Self, name: str, values: ArrayLike) -> _Self:
-        """Adds a field of your own to the files that are written from now on: beside `id`, `tag` and
-        `spacing` in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `$NodeData`. `values` are
-        (n,) or (n, ...) numbers, up to 9 at each node, those of this rank's nodes in the order of
-        `nodes`; entries behind, the ghosts', do not count. They are copied, and belong to the nodes
-        there are: once these have moved, `write` raises until `clear_output_fields`. All ranks add
-        the same fields in the same order. A name has 1 to 63 letters, digits, "_" and "-". Local."""
+        """Adds a field of the caller to files written from now on: beside `id`, `tag` and `spacing`
+        in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `$NodeData`. `values` are (n,) or
+        (n, ...) numbers, up to 9 at each node, those of this rank's nodes in the order of `nodes`;
+        entries after them, for its ghosts, are ignored. They are copied, and belong to the current
+        nodes: once these have moved, `write` raises until `clear_output_fields`. All ranks add the
+        same fields in the same order. A name has 1 to 63 letters, digits, "_" and "-". Local."""
         field = np.atleast_1d(np.ascontiguousarray(values, np.float64))
         components = int(np.prod(field.shape[1:], dtype=np.int64))
         self._call("add_output_field", name.encode(), len(field), components, field)
         return self
 
     def clear_output_fields(self: _Self) -> _Self:
-        """Forgets the fields that `add_output_field` has added. Local."""
+        """Removes the fields that `add_output_field` has added. Local."""
         self._call("clear_output_fields")
         return self
 
     def write_checkpoint(self: _Self, path: Path) -> _Self:
-        """Writes a file from which `read_checkpoint` goes on, in another process and on any number of
-        ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView opens:
-        name it .vtkhdf. It replaces the file that is there when it is complete. Also from a monitor,
-        on all ranks, in its turns between two steps; in the others it raises with
-        `Status.ERROR_STATE`. Collective."""
+        """Writes a file from which `read_checkpoint` continues, in another process and on any
+        number of ranks, bit for bit as if there had been no interruption. It is VTKHDF, which
+        ParaView opens: name it .vtkhdf. It replaces an existing file once it is complete. May be
+        called from a monitor, on all ranks, in its calls between two steps; in others it raises
+        with `Status.ERROR_STATE`. Collective."""
         self._call("write_checkpoint", os.fsencode(path))
         return self
 
     def read_checkpoint(self: _Self, path: Path) -> _Self:
-        """Goes on from a checkpoint: for a placement with the domain, the options and the spacing of
-        the first run (unless that was given by values at nodes, which the file brings). The next
-        `run` or `step` does what it would have done there. If it raises, all is as it was.
+        """Restores a placement from a checkpoint, with the domain, options and spacing of the first
+        run (except a spacing given by values at nodes, which the file contains). The next `run` or
+        `step` does what it would have done there. If it raises, the placement is unchanged.
         Collective."""
         self._call("read_checkpoint", os.fsencode(path))
         return self

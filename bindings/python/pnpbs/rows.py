@@ -13,8 +13,8 @@ from ._types import Ids, Scalar
 
 
 class CompressedRows(Sequence["NDArray[Scalar]"], Generic[Scalar]):
-    """Rows one behind the other: row i is `values[offsets[i]:offsets[i + 1]]`, which `rows[i]` gives
-    without a copy. As the indices of a sparse matrix they are what SciPy takes:
+    """Rows stored one after another: row i is `values[offsets[i]:offsets[i + 1]]`, which `rows[i]`
+    returns without a copy. SciPy accepts them as the indices of a sparse matrix:
     `csr_array((entries, rows.values, rows.offsets))`."""
 
     def __init__(self, offsets: Ids, values: NDArray[Scalar]) -> None:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shapes as geographers have them: GeoJSON, shapefiles and what else GDAL reads, projected. Their
-library, libpnpbs_geo, is opened when it is first needed; PNPBS has it where it was built with GDAL."""
+"""Geographic shapes: GeoJSON, shapefiles and other formats that GDAL reads, projected. Their
+library, libpnpbs_geo, is opened at first use; it exists only where PNPBS was built with GDAL."""
 
 from __future__ import annotations
 
@@ -76,13 +76,13 @@ def _text(value: Optional[Path]) -> Optional[bytes]:
 
 
 def geo_build_info() -> str:
-    """The versions of GDAL and PROJ that shapes are read with, one "name: version" per line."""
+    """Returns the versions of GDAL and PROJ in use, one "name: version" per line."""
     return str(_library().pnpbs_geo_build_info().decode())
 
 
 class ShapeCounts(NamedTuple):
-    """What was read of a file: different places, those of points included; boundary curves and
-    inner ones, closed or from where curves meet to where they meet; and fixed nodes."""
+    """Numbers of what was read: distinct positions, including those of points; boundary curves and
+    inner ones, closed or between the vertices where curves meet; and fixed nodes."""
     vertices: int
     boundary: int
     inner: int
@@ -90,9 +90,9 @@ class ShapeCounts(NamedTuple):
 
 
 class Projection(NamedTuple):
-    """Texts, "" where the file does not say what its coordinates are: a name, the unit of x and y,
-    PROJ's string, WKT 2, and what .prj files contain; and the least and the greatest length in the
-    projection over that on the Earth."""
+    """Texts, "" where the file does not define its coordinate system: a name, the unit of x and y,
+    the PROJ string, WKT 2, and the content of .prj files; and the range of projected length over
+    length on the Earth."""
     name: str
     unit: str
     proj: str
@@ -104,11 +104,11 @@ class Projection(NamedTuple):
 class Shapes(Handle):
     """One layer of a file, projected; all methods are local.
 
-    Polygons bound a domain, edges that neighbours share and lines are inner curves, points are
-    fixed nodes. `projection` is a code ("EPSG:2180"), a string of PROJ's, WKT, the path of a .prj
-    file, "auto", a projection made for the data, or "none", the coordinates as they are; by
-    default longitude and latitude are projected as by "auto", and anything else stays. `unit` is
-    "m" or "km", `tag_field` the attribute that becomes the tag. `pnpbs_geo.h` says more.
+    Polygons bound a domain, edges shared by neighbours and lines are inner curves, points are fixed
+    nodes. `projection` is a code ("EPSG:2180"), a PROJ string, WKT, the path of a .prj file,
+    "auto", a projection chosen for the data, or "none", the coordinates of the file; by default
+    longitude and latitude are projected as by "auto", and other coordinates are kept. `unit` is "m"
+    or "km", `tag_field` the attribute that becomes the tag. `pnpbs_geo.h` has the details.
 
         with pnpbs.Shapes("coast.geojson", unit="km") as shapes:
             shapes.add_to(domain, corner_angle=45)
@@ -123,8 +123,8 @@ class Shapes(Handle):
         self._handle = handle.value
 
     def close(self) -> None:
-        """Releases what the library holds. What was added to domains stays there. Closing twice is
-        allowed."""
+        """Releases the resources of the library. What was added to domains stays there. Closing
+        twice is allowed."""
         if self.is_open:
             _check(self._destroy(_library().pnpbs_geo_destroy))
 
@@ -135,14 +135,15 @@ class Shapes(Handle):
         _check(getattr(_library(), f"pnpbs_geo_{name}")(self._live(), *arguments))
 
     def add_to(self, domain: Domain, corner_angle: float = 0.0) -> Domain:
-        """Adds them to a domain in the plane and returns it. With `corner_angle=0` every vertex
-        becomes a node; otherwise those where the direction turns by more than so many degrees."""
+        """Adds the shapes to a domain in the plane and returns it. With `corner_angle=0` every
+        vertex becomes a node; otherwise only those where the direction turns by more than this many
+        degrees."""
         self._call("add_to_domain", domain.context._live(), domain._live(), corner_angle)
         return domain
 
     @property
     def projection(self) -> Projection:
-        """What x and y are."""
+        """The projection of x and y."""
         texts = [ctypes.c_char_p() for _ in range(5)]
         self._call("projection", *(ctypes.byref(text) for text in texts))
         scale = ctypes.c_double(), ctypes.c_double()
@@ -152,14 +153,14 @@ class Shapes(Handle):
 
     @property
     def counts(self) -> ShapeCounts:
-        """How much was read."""
+        """The numbers of what was read."""
         found = [ctypes.c_int64() for _ in range(4)]
         self._call("counts", *(ctypes.byref(one) for one in found))
         return ShapeCounts(*(one.value for one in found))
 
     @property
     def notes(self) -> List[str]:
-        """What you should know about how the file was taken."""
+        """Notes on how the file was interpreted."""
         count, note = ctypes.c_int32(), ctypes.c_char_p()
         self._call("note_count", ctypes.byref(count))
         notes = []
@@ -173,11 +174,11 @@ class Shapes(Handle):
         self._call("write_prj", os.fsencode(results))
 
     def to_degrees(self, points: ArrayLike) -> Doubles:
-        """Longitudes and latitudes of points, (n, 2); infinite where there are none."""
+        """Converts points, (n, 2), to longitude and latitude; infinite where they do not exist."""
         return self._changed("to_degrees", points)
 
     def from_degrees(self, degrees: ArrayLike) -> Doubles:
-        """x and y of longitudes and latitudes, (n, 2); infinite where there are none."""
+        """Converts longitude and latitude, (n, 2), to x and y; infinite where they do not exist."""
         return self._changed("from_degrees", degrees)
 
     def _changed(self, name: str, points: ArrayLike) -> Doubles:
@@ -186,18 +187,19 @@ class Shapes(Handle):
         return changed
 
     def explain(self, message: object) -> str:
-        """A message about a domain of these shapes, with longitude and latitude of its places."""
+        """Returns a message about a domain of these shapes, with longitude and latitude of its
+        points."""
         text = _library().pnpbs_geo_explain(self._live(), str(message).encode())
         return str(text.decode())
 
 
 class GeoGrid(Handle):
-    """Values on a grid in a file, GeoTIFF, NetCDF and whatever else GDAL reads; all methods are
-    local. Called with points it returns the values there, as a spacing does.
+    """Values on a grid in a file: GeoTIFF, NetCDF and other formats that GDAL reads; all methods
+    are local. Called with points it returns the values there, like a spacing.
 
     `low` and `high` are the corners of the part that is read, in the projection of the points.
-    `projection` is what these are, as that of `Shapes` or the `wkt` of its projection; by default
-    they are in the grid's own system. `variable` is the name of one in a file of several, or the
+    `projection` is that projection, as in `Shapes` or the `wkt` of its projection; by default the
+    points are in the grid's own system. `variable` is the name of one in a file of several, or the
     number of a band.
 
         depth = pnpbs.GeoGrid("depth.tif", low, high, projection=shapes.projection.wkt)
@@ -216,7 +218,7 @@ class GeoGrid(Handle):
         self._handle = handle.value
 
     def close(self) -> None:
-        """Releases what the library holds. Closing twice is allowed."""
+        """Releases the resources of the library. Closing twice is allowed."""
         if self.is_open:
             _check(self._destroy(_library().pnpbs_geo_grid_destroy))
 
@@ -224,13 +226,14 @@ class GeoGrid(Handle):
         return f"<pnpbs.GeoGrid, {'open' if self.is_open else 'closed'}>"
 
     def __call__(self, points: ArrayLike) -> Doubles:
-        """Values at points, (n, 2): linear in each direction between the middles of the cells,
-        constant beyond the edge. Cells without data take the value of the nearest cell that has
-        some."""
+        """Evaluates the grid at points, (n, 2): linear in each direction between the centres of the
+        cells, constant beyond the edge. Cells without data take the value of the nearest cell that
+        has some."""
         return self._asked(points)[0]
 
     def inside(self, points: ArrayLike) -> "np.ndarray[Any, np.dtype[np.bool_]]":
-        """Whether points, (n, 2), lie in the grid, or less than half a cell beyond its edge."""
+        """Returns whether points, (n, 2), lie in the grid, or less than half a cell beyond its
+        edge."""
         return np.asarray(self._asked(points)[1] != 0)
 
     def _asked(self, points: ArrayLike) -> Tuple[Doubles, "np.ndarray[Any, np.dtype[np.int32]]"]:
@@ -241,7 +244,7 @@ class GeoGrid(Handle):
 
     @property
     def extent(self) -> Tuple[Doubles, Doubles]:
-        """What lies around all of the grid in the file, in the projection of the points."""
+        """The bounding box of the whole grid in the file, in the projection of the points."""
         low, high = np.zeros(2), np.zeros(2)
         _check(_library().pnpbs_geo_grid_extent(self._live(), low, high))
         return low, high

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the library tells about itself. All local, and without a context."""
+"""Information about the library. All local, and without a context."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class FormatRow(NamedTuple):
 
 
 def library_version() -> Tuple[int, int, int]:
-    """The version of the library that is loaded."""
+    """Returns the version of the library that is loaded."""
     parts = [ctypes.c_int32() for _ in range(3)]
     check_without_context(library().pnpbs_version(*map(ctypes.byref, parts)))
     major, minor, patch = (part.value for part in parts)
@@ -42,33 +42,34 @@ def library_version() -> Tuple[int, int, int]:
 
 
 def build_info() -> str:
-    """What the library was built with, one "name: value" per line."""
+    """Returns the build configuration, one "name: value" per line."""
     return str(library().pnpbs_build_info().decode())
 
 
 def mpi_library() -> str:
-    """The MPI that the library was built with, such as "Open MPI 4.1.4"; empty in a build without
-    MPI. mpi4py must use the same one."""
+    """Returns the MPI that the library was built with, such as "Open MPI 4.1.4"; empty in a build
+    without MPI. mpi4py must use the same one."""
     return str(library().pnpbs_mpi_library().decode())
 
 
 def file_dimension(path: Path) -> int:
-    """The dimension of the domain that a file describes, 2 or 3: by the ending of its name, of .poly
-    by the second number in it, of .msh by whether it lies in a plane of constant z."""
+    """Returns the dimension of the domain that a file describes, 2 or 3, from its extension; for
+    .poly from the second number in the file, for .msh from whether the mesh lies in a plane of
+    constant z."""
     dim = ctypes.c_int32()
     check_without_context(library().pnpbs_file_dimension(os.fsencode(path), ctypes.byref(dim)))
     return dim.value
 
 
 def shutdown() -> None:
-    """Ends Kokkos if PNPBS started it. Optional. Kokkos cannot start twice, so nothing can be placed
-    afterwards."""
+    """Finalises Kokkos if PNPBS initialised it. Optional. Kokkos cannot be initialised twice, so
+    nothing can be placed afterwards."""
     check_without_context(library().pnpbs_finalize())
 
 
 def discard_unfinished_files() -> None:
-    """Removes what unfinished writes of this process have left aside so far; for programs about to
-    end."""
+    """Removes the temporary files of unfinished writes of this process; for programs about to end.
+    """
     check_without_context(library().pnpbs_discard_unfinished_files())
 
 
@@ -85,19 +86,19 @@ def _texts(function: Any, index: int, n: int, *others: Any) -> List[str]:
 
 
 def option_table() -> List[OptionRow]:
-    """The options of contexts and placements (`Placement.set`)."""
+    """Returns the options of contexts and placements (`Placement.set`)."""
     return [OptionRow(*_texts(library().pnpbs_option_info, i, 5))
             for i in _count(library().pnpbs_option_count)]
 
 
 def statistic_table() -> List[StatisticRow]:
-    """The statistics of placements (`Placement.statistic`)."""
+    """Returns the statistics of placements (`Placement.statistic`)."""
     return [StatisticRow(*_texts(library().pnpbs_statistic_info, i, 3))
             for i in _count(library().pnpbs_statistic_count)]
 
 
 def format_table() -> List[FormatRow]:
-    """The formats of files (`Placement.write`)."""
+    """Returns the formats of files (`Placement.write`)."""
     rows = []
     for i in _count(library().pnpbs_format_count):
         binary, elements = ctypes.c_int32(), ctypes.c_int32()

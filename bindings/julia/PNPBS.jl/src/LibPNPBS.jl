@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-The C interface as it is: one Julia function for each function of `pnpbs.h`, of the same name and
-with the same arguments, which that header documents. Nothing here is checked or converted beyond
-what `ccall` does. A test compares every signature below with the header.
+The unmodified C interface: one Julia function for each function of `pnpbs.h`, with the same name and
+arguments, documented in that header. Nothing here is checked or converted beyond what `ccall` does. A
+test compares every signature below with the header.
 """
 module LibPNPBS
 

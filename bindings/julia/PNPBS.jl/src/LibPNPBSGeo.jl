@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-The C interface of `libpnpbs_geo`, one Julia function for each function of `pnpbs_geo.h`, as
-`LibPNPBS` has those of `pnpbs.h`. The library is opened when it is first needed: it is there where
-PNPBS was built with GDAL.
+The C interface of `libpnpbs_geo`, one Julia function for each function of `pnpbs_geo.h`, like
+`LibPNPBS` for `pnpbs.h`. The library is opened at first use; it exists only where PNPBS was built
+with GDAL.
 """
 module LibPNPBSGeo
 

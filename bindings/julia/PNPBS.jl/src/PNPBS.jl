@@ -2,7 +2,7 @@
 """
 Parallel node placement by bubble simulation: given a domain and a node-spacing function d(x), it
 returns nodes whose mutual distances follow d, with their adjacency lists, boundary tags and
-Delaunay stars, the same ones for any number of threads and MPI ranks.
+Delaunay stars, identical for any number of threads and MPI ranks.
 
     using PNPBS
     Context() do context

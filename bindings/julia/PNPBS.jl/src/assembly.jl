@@ -5,14 +5,14 @@
     incident_elements(placement) -> Matrix{Int64}
     incident_elements!(placement, corners) -> corners
 
-Every element with a corner among this rank's nodes, whichever rank it belongs to: triangles in the
-plane, `(3, n)` local indices, tetrahedra in space, `(4, n)`, triangles on surfaces alone. With these
-a rank assembles the rows of its nodes by itself, without a message. The corner with the least id
-comes first; an element belongs to this rank, as [`triangles`](@ref) and [`tetrahedra`](@ref) have
-it, if that is one of its nodes. Elements are in the order of the ids of their corners: so those of a
-node are the same, in the same order, for any number of ranks, and a row that adds them up in this
-order has the same bits. `incident_elements!` fills the matrix of an earlier result if it has the
-size that is needed now, and otherwise returns a new one. Collective.
+Returns every element with a corner among this rank's nodes, whichever rank it belongs to: triangles
+in the plane, `(3, n)` local indices, tetrahedra in space, `(4, n)`, triangles on surfaces alone.
+With these a rank assembles the rows of its nodes without communication. The corner with the lowest
+id comes first; an element belongs to this rank, as defined by [`triangles`](@ref) and
+[`tetrahedra`](@ref), if that is one of its nodes. Elements are in the order of the ids of their
+corners, so those of a node are the same, in the same order, for any number of ranks, and a row
+summed in this order has the same bits. `incident_elements!` fills the matrix of an earlier result
+if it has the required size, and otherwise returns a new one. Collective.
 """
 incident_elements, incident_elements!
 
@@ -30,12 +30,12 @@ end
 """
     add_from_ghosts!(placement, values) -> values
 
-Adds the values at ghosts to those of the nodes that they stand for, on the ranks that own these: the
-way of [`update_ghosts!`](@ref) back, for sums over elements to which several ranks contribute. The
-ghosts' own entries stay as they are. Each sum, of a node's value and of those at its ghosts, is
-exact and rounded once, so no order of ranks matters. What a rank has added up by itself before it
-has been rounded there: unless these sums are exact, other numbers of ranks give results that differ
-by rounding. Where all bits shall be the same, use [`incident_elements`](@ref). Collective.
+Adds the values at ghosts to those of the nodes they represent, on the ranks that own these. It is
+the reverse of [`update_ghosts!`](@ref), for sums over elements to which several ranks contribute.
+The entries of ghosts are unchanged. Each sum, of a node's value and those at its ghosts, is exact
+and rounded once, so the order of ranks has no effect. Values that a rank has summed by itself
+before were rounded there: unless these sums are exact, results differ by rounding between numbers
+of ranks. Where all bits must agree, use [`incident_elements`](@ref). Collective.
 """
 function add_from_ghosts!(placement::Placement, values::AbstractArray{Float64})
     summed = dense(values)

@@ -3,10 +3,10 @@
 """
     reinterpret_columns(T, matrix) -> AbstractVector{T}
 
-The columns of a matrix as a vector of `T`, without a copy: what is written to one is written to the
-other. `T` is `NTuple{2,Float64}`, `SVector{2,Float64}` of StaticArrays, or any other type of plain
-bits (`isbitstype`) that consists of as many numbers of the matrix's type as a column has; other
-types are an `ArgumentError`. For points and normals, and with `NTuple{3,Int64}` for triangles.
+Returns the columns of a matrix as a vector of `T`, without a copy: both share their memory. `T` is
+`NTuple{2,Float64}`, `SVector{2,Float64}` of StaticArrays, or any other plain bits type
+(`isbitstype`) that consists of as many numbers of the matrix's type as a column has; other types
+are an `ArgumentError`. For points and normals, and with `NTuple{3,Int64}` for triangles.
 
     x = reinterpret_columns(SVector{2,Float64}, nodes(placement).points)
     norm(x[1] - x[2])

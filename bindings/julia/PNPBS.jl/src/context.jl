@@ -6,19 +6,19 @@
     Context(handle::Integer; library = nothing, options...)
     Context(f, arguments...; options...)
 
-What domains and placements are made on. Without arguments it is for one process and calls no MPI
-function. With a communicator of MPI.jl, or with the Fortran handle of any communicator
-(`MPI_Comm_c2f`), it lives on a duplicate of that communicator, and is made collectively; `library`
-is what `MPI_Get_library_version` says, if the library should compare it with its own MPI. Options
-are defaults for the placements made on it, as [`set!`](@ref) takes them.
+Creates the context on which domains and placements are made. Without arguments it is for one
+process and calls no MPI function. With a communicator of MPI.jl, or with the Fortran handle of any
+communicator (`MPI_Comm_c2f`), it uses a duplicate of that communicator, and is created
+collectively; `library` is the result of `MPI_Get_library_version`, if the library should compare it
+with its own MPI. Options are defaults for the placements made on it, as in [`set!`](@ref).
 
-`close` it when it is no longer needed. No finalizer does, because ending a context is collective
-and the garbage collectors of different ranks run at different times. Contexts made with MPI.jl are
-closed by `MPI.Finalize` at the latest; those with a raw handle must be closed before MPI is
-finalised.
+`close` it when it is no longer needed. No finalizer does, because destroying a context is
+collective and the garbage collectors of different ranks run at different times. Contexts made with
+MPI.jl are closed by `MPI.Finalize` at the latest; those with a raw handle must be closed before MPI
+is finalised.
 
 The last form calls `f(context)` and closes the context, as `open` does with files. If `f` throws, a
-context on several ranks is not closed, for the others might never come to close theirs.
+context on several ranks is not closed, because the others might never close theirs.
 
     Context() do context
         domain = Domain(context)
@@ -72,10 +72,10 @@ end
     close(placement::Placement)
     close(transfer::Transfer)
 
-Releases what the library holds. Closing twice is allowed; using what is closed is a
+Releases the resources of the library. Closing twice is allowed; using a closed object is a
 [`PNPBSError`](@ref) with status `:error_handle`. Closing a context is collective and closes the
-domains, placements and transfers made on it; closing those is local. A placement keeps what it needs
-of its domain, so the domain may be closed first.
+domains, placements and transfers made on it; closing those is local. A placement keeps what it
+needs of its domain, so the domain may be closed first.
 """
 function Base.close(context::Context)
     isopen(context) || return nothing
@@ -89,7 +89,7 @@ end
 """
     isopen(context), isopen(domain), isopen(placement), isopen(transfer)
 
-Whether it has not been closed.
+Returns whether the object has not been closed.
 """
 Base.isopen(context::Context) = context.handle != C_NULL
 
@@ -134,9 +134,9 @@ end
     set!(placement::Placement; options...) -> placement
 
 Sets options by name, as in `set!(placement; steps = 60, method = "paper")`; values are numbers,
-strings or symbols. [`option_table`](@ref) lists them. On a context they are what placements made
-later start with; `threads` can be set only there. Local. Unknown names and values out of range are
-a [`PNPBSError`](@ref) that names the nearest option or the range.
+strings or symbols. [`option_table`](@ref) lists them. On a context they apply to placements made
+later; `threads` can only be set there. Local. Unknown names and values out of range are a
+[`PNPBSError`](@ref) that names the nearest option or the range.
 """
 function set!(context::Context; options...)
     for (key, value) in options

@@ -3,11 +3,11 @@
 """
     Domain(context::Context; dim = 2)
 
-An empty domain in the plane, or with `dim = 3` in space, to which curves, surfaces, holes and fixed
-nodes are added. What lies behind an odd number of boundary curves, or surfaces in space, is inside;
-holes and islands nest to any depth. Every function on domains is local, and its points are the
-columns of a `(dim, n)` matrix. Functions for domains "in the plane" or "in space" refuse others, as
-a [`PNPBSError`](@ref) with status `:error_argument` or as a `DimensionMismatch`.
+Creates an empty domain in the plane, or with `dim = 3` in space, to which curves, surfaces, holes
+and fixed nodes are added. A point is inside if it lies behind an odd number of boundary curves, or
+surfaces in space; holes and islands nest to any depth. Every function on domains is local, and its
+points are the columns of a `(dim, n)` matrix. Functions for domains "in the plane" or "in space"
+reject others, with a [`PNPBSError`](@ref) with status `:error_argument` or a `DimensionMismatch`.
 
 The `role` of a curve or surface is `:boundary`, which separates inside from outside, or `:inner`,
 which lies in the domain and which the nodes follow; curves in space are always `:inner`. Its `tag`
@@ -40,7 +40,7 @@ end
 """
     ndims(domain), ndims(placement), ndims(transfer)
 
-The dimension: 2 in the plane, 3 in space. Local.
+Returns the dimension: 2 in the plane, 3 in space. Local.
 """
 function Base.ndims(domain::Domain)
     dim = Ref{Int32}(0)
@@ -60,12 +60,11 @@ end
     add_polyline!(domain, coordinates; closed = true, role = :boundary, tags = nothing,
                   corner_angle = 0)
 
-Adds straight segments through the columns of `coordinates`; `closed` leads one from the last to the
-first.
-`tags` is one for all segments or one for each. With `corner_angle = 0` every vertex becomes a
-node; otherwise those where the direction turns by more than so many degrees, and between them the
-polyline stands for a smooth curve. In space the `role` is `:inner`, and the `feature_angle` of the
-surfaces takes the place of the `corner_angle`.
+Adds straight segments through the columns of `coordinates`; with `closed`, a segment joins the last
+to the first. `tags` is one for all segments or one for each. With `corner_angle = 0` every vertex
+becomes a node; otherwise only those where the direction turns by more than this many degrees, and
+between them the polyline represents a smooth curve. In space the `role` is `:inner`, and the
+`feature_angle` of the surfaces replaces the `corner_angle`.
 """
 function add_polyline!(domain::Domain, coordinates::AbstractMatrix{<:Real}; closed::Bool = true,
                        role::Symbol = :boundary, tags = nothing, corner_angle::Real = 0)
@@ -83,11 +82,11 @@ end
                  feature_angle = 40)
 
 Adds a triangulated surface to a domain in space: `corners` is `(3, m)`, indices of columns of
-`coordinates` from 1. Closed ones with the role `:boundary` bound the domain; nodes follow `:inner`
-ones, closed or open. Vertices that coincide are one; what the triangles enclose decides their
-orientation. `tags` is one for all triangles or one for each. Where the normals of two triangles
-differ by more than `feature_angle` degrees, or their tags do, nodes lie on the edge between them.
-Between such edges the triangles are the shape alone, whatever their size.
+`coordinates` from 1. Closed surfaces with the role `:boundary` bound the domain; nodes follow
+`:inner` ones, closed or open. Coincident vertices are merged; the orientation is determined by what
+the triangles enclose. `tags` is one for all triangles or one for each. Nodes lie on the edge
+between two triangles if their normals differ by more than `feature_angle` degrees, or if their tags
+differ. Between such edges the triangles only define the shape, whatever their size.
 """
 function add_surface!(domain::Domain, coordinates::AbstractMatrix{<:Real},
                       corners::AbstractMatrix{<:Integer}; role::Symbol = :boundary, tags = nothing,
@@ -105,9 +104,9 @@ end
 """
     read_surface!(domain, path; role = :boundary, feature_angle = 40)
 
-Adds the surface of a file to a domain in space: .stl (text or binary), .off, .obj, .ply, or .poly
-and .smesh as TetGen has them. Solids, groups, materials and facet markers become tags, with their
-names ([`tag_names`](@ref)), hole points holes of the domain. Otherwise as [`add_surface!`](@ref).
+Reads a surface from a file into a domain in space: .stl (text or binary), .off, .obj, .ply, or
+TetGen's .poly and .smesh. Solids, groups, materials and facet markers become tags with their names
+([`tag_names`](@ref)); hole points become holes of the domain. Otherwise as [`add_surface!`](@ref).
 """
 function read_surface!(domain::Domain, path::AbstractString; role::Symbol = :boundary,
                        feature_angle::Real = 40)
@@ -119,8 +118,9 @@ end
 """
     set_role!(domain, tag, role)
 
-The role, `:boundary` or `:inner`, of all triangles in a domain in space that have this tag, whatever
-role they are added with, before or after: so single groups of a file can be inner surfaces.
+Sets the role, `:boundary` or `:inner`, of all triangles with a tag in a domain in space. It
+overrides the role they are added with, before or after, so that single groups of a file can be
+inner surfaces.
 """
 function set_role!(domain::Domain, tag::Integer, role::Symbol)
     check(domain.context, LibPNPBS.pnpbs_domain_set_role(live(domain), tag, role_number(role)))
@@ -130,11 +130,11 @@ end
 """
     read_msh!(domain, path; feature_angle = 40)
 
-Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds what bounds it and what lies
+Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds its boundary and what lies
 in it to the domain. In space triangles and quadrangles are boundary, or inner surfaces where the
-domain is on both sides, lines and points in physical groups inner curves and fixed nodes; in the
-plane the same of lines and of the edges that bound triangles. The tag of a physical group becomes
-the tag, its name stays with it ([`tag_names`](@ref)). `feature_angle` is that of
+domain is on both sides, and lines and points in physical groups are inner curves and fixed nodes.
+In the plane the same holds for lines and for the edges that bound triangles. The tag of a physical
+group becomes the tag, and its name is kept ([`tag_names`](@ref)). `feature_angle` is that of
 [`add_surface!`](@ref), in the plane the `corner_angle` of [`add_polyline!`](@ref).
 """
 function read_msh!(domain::Domain, path::AbstractString; feature_angle::Real = 40)
@@ -145,8 +145,8 @@ end
 """
     file_dimension(path)
 
-The dimension of the domain that a file describes, 2 or 3: by the ending of its name, of .poly by the
-second number in it, of .msh by whether it lies in a plane of constant z.
+Returns the dimension of the domain that a file describes, 2 or 3, from its extension; for .poly
+from the second number in the file, for .msh from whether the mesh lies in a plane of constant z.
 """
 function file_dimension(path::AbstractString)
     dim = Ref{Int32}(0)
@@ -157,8 +157,8 @@ end
 """
     set_tag_name!(domain, dim, tag, name)
 
-Names a tag of points (`dim` 0), curves (1), surfaces (2) or bodies (3); the inside of the domain has
-the domain's dimension. Files that have physical groups (.msh) are written with it.
+Sets the name of a tag of points (`dim` 0), curves (1), surfaces (2) or bodies (3); the inside of
+the domain has the domain's dimension. Files with physical groups (.msh) contain it.
 """
 function set_tag_name!(domain::Domain, dim::Integer, tag::Integer, name::AbstractString)
     check(domain.context, LibPNPBS.pnpbs_domain_set_tag_name(live(domain), dim, tag, name))
@@ -168,7 +168,7 @@ end
 """
     tag_names(domain)
 
-The names of tags, given or from files: a vector of named tuples `(dim, tag, name)`.
+Returns the names of tags, set or from files: a vector of named tuples `(dim, tag, name)`.
 """
 function tag_names(domain::Domain)
     count = Ref{Int32}(0)
@@ -208,8 +208,8 @@ end
 """
     add_cylinder!(domain, from, to, radius; tag = 1)
 
-Adds a round cylinder to a domain in space, as triangles within 1e-4 of the radius; `from` and `to`
-are the middles of its two circles.
+Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius; `from` and
+`to` are the centres of its two circles.
 """
 function add_cylinder!(domain::Domain, from, to, radius::Real; tag::Integer = 1)
     check(domain.context,
@@ -221,16 +221,16 @@ end
 """
     add_level_set!(f, domain, low, high, resolution; tag = 1, per_point = false)
 
-Adds the body where a function is negative to a domain in space: `f(x)` gets the points as a `(3, n)`
-matrix and returns a vector of `n` values. It must always give the same value for the same point, be
-continuous, and be finite everywhere in the box between `low` and `high`, where the body must lie; it
-need not be a distance. Its surface is found on an octree that is refined near `f = 0` down to cells
-of side `resolution`: what is thinner can be lost, and so can a body that is small beside the box and
-towards which `f` does not fall. Nodes on the surface lie where `f = 0`, and on its edges, where the
-gradient of `f` jumps by more than 40 degrees; these stay rounded, with a warning, where triangles
-would cross. The resolution is to be no more than the spacing there, and than half of the least radius
-to which the surface is bent. With `per_point` the function is called as `f(x, y, z)`, for each point
-by itself, and returns a number.
+Adds the body where a function is negative to a domain in space: `f(x)` gets the points as a `(3,
+n)` matrix and returns a vector of `n` values. It must always return the same value for the same
+point, be continuous, and be finite everywhere in the box between `low` and `high`, where the body
+must lie; it need not be a distance. Its surface is found on an octree refined near `f = 0` down to
+cells of side `resolution`. Thinner features can be lost, and so can a body that is small relative
+to the box and towards which `f` does not decrease. Nodes on the surface lie where `f = 0`, and on
+its edges, where the gradient of `f` jumps by more than 40 degrees; these stay rounded, with a
+warning, where triangles would cross. The resolution should be no more than the spacing there, and
+half of the minimum radius of curvature. With `per_point` the function is called as `f(x, y, z)`,
+for each point by itself, and returns a number.
 
     add_level_set!(body, (-2, -2, -1), (2, 2, 1), 0.1) do x
         hypot.(hypot.(x[1, :], x[2, :]) .- 1, x[3, :]) .- 0.4
@@ -268,9 +268,9 @@ end
     add_curve!(f, domain, from, to; role = :boundary, tag = 1, per_point = false)
 
 Adds the curve of a function to a domain in the plane: `f(t)` gets a vector of parameters between
-`from` and `to` and returns the points as a `(2, length(t))` matrix. It must always give the same
-point for the same parameter, be continuous, and not cross itself. Corners are where curves meet.
-With `per_point` it gets one parameter at a time and returns the two coordinates of the point.
+`from` and `to` and returns the points as a `(2, length(t))` matrix. It must always return the same
+point for the same parameter, be continuous, and not cross itself. Corners exist only where curves
+meet. With `per_point` it gets one parameter at a time and returns the two coordinates of the point.
 
     add_curve!(domain, 0, 2pi) do t
         [cos.(t) 0.5 .* sin.(t)]'
@@ -293,8 +293,8 @@ end
     add_pslg!(domain, coordinates, segments; vertex_tags = nothing, segment_tags = nothing,
               holes = nothing)
 
-Adds a planar straight-line graph as Triangle means it to a domain in the plane: what the segments
-enclose is the domain, but for the regions that contain a hole point. `segments` is `(2, m)`,
+Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The domain is
+what the segments enclose, except the regions that contain a hole point. `segments` is `(2, m)`,
 indices of columns of `coordinates` from 1; `holes` is `(2, h)`. Every vertex becomes a node.
 """
 function add_pslg!(domain::Domain, coordinates::AbstractMatrix{<:Real},
@@ -317,10 +317,11 @@ end
 """
     set_filled!(domain, filled)
 
-Whether a domain in space is what its surfaces enclose, as it is at first, or, with `false`, the
-surfaces alone: nodes on them and triangles between these ([`boundary_triangles`](@ref)), and nothing
-inside. Surfaces of both roles count alike then and may be closed or open. Polylines must follow
-edges of the triangles, fixed nodes must be vertices of them, holes there are none.
+Sets whether a domain in space is the volume enclosed by its surfaces (the default) or, with
+`false`, the surfaces alone: nodes on them, triangles between these nodes
+([`boundary_triangles`](@ref)), and no interior. Both roles are then equivalent, and surfaces may be
+closed or open. Polylines must follow edges of the triangles, fixed nodes must be vertices of them,
+and there are no holes.
 """
 function set_filled!(domain::Domain, filled::Bool)
     check(domain.context, LibPNPBS.pnpbs_domain_set_filled(live(domain), filled))
@@ -330,13 +331,14 @@ end
 """
     set_repair!(domain, resolution = 0)
 
-Takes the surfaces of a domain in space that are given as triangles and bound it for what encloses
-one body badly: open, crossing, folded, turned this way and that. The body is where they wind around
-a point more than half a time, whichever way: holes are closed, overlapping bodies are joined, what
-encloses nothing is dropped. Its surface is found as that of a level set, with its sharp edges; all
-of it has the tag of the first triangle. A warning tells how far it is from the triangles given. What
-is thinner than the resolution can be lost: it should be no more than the spacing at the surface; 0
-is 1/64 of the longest side of the box around the triangles.
+Repairs the triangulated boundary surfaces of a domain in space where they enclose one body badly:
+open, crossing, folded or inconsistently oriented. The body is where they wind around a point more
+than half a time, in either orientation. Holes are closed, overlapping bodies are joined, and
+surfaces that enclose nothing are dropped. The surface of the body is extracted as that of a level
+set, with its sharp edges; all of it has the tag of the first triangle. A warning reports its
+distance from the given triangles. Features thinner than the resolution can be lost: it should be no
+more than the spacing at the surface; 0 is 1/64 of the longest side of the bounding box of the
+triangles.
 """
 function set_repair!(domain::Domain, resolution::Real = 0)
     check(domain.context, LibPNPBS.pnpbs_domain_set_repair(live(domain), resolution))
@@ -346,11 +348,12 @@ end
 """
     set_corner_angle!(domain, corner_angle)
 
-Where the graphs of a domain in the plane have corners ([`add_pslg!`](@ref), [`read_poly!`](@ref),
-[`parse_poly!`](@ref)), those given before and those given after: at vertices where the direction
-turns by more than this many degrees, where segments of different tags or other than two of them end,
-and at vertices with a tag of their own. Nodes lie on corners; between them a graph stands for a
-smooth curve, and nodes lie on it as d says. With 0, as it is at first, every vertex becomes a node.
+Sets the corner angle of the graphs of a domain in the plane ([`add_pslg!`](@ref),
+[`read_poly!`](@ref), [`parse_poly!`](@ref)), both those already added and later ones. Corners are
+vertices where the direction turns by more than this many degrees, where segments of different tags
+or other than two of them end, and vertices with a tag of their own. Nodes lie on corners; between
+them a graph represents a smooth curve, with nodes spaced by d. With 0, the default, every vertex
+becomes a node.
 """
 function set_corner_angle!(domain::Domain, corner_angle::Real)
     check(domain.context, LibPNPBS.pnpbs_domain_set_corner_angle(live(domain), corner_angle))
@@ -360,14 +363,14 @@ end
 """
     simplify!(d, domain; tolerance = 0.25, smallest = 0, per_point = false) -> (vertices, curves)
 
-Leaves out what is finer than d in a domain in the plane, as coastlines are: of the graphs and
-polylines given so far, vertices beside segments shorter than d, as long as the curve then passes them
-within `tolerance` times d; and closed curves, islands and lakes, whose extent (the longer side of
-their bounding box) is less than `smallest` times d. `d` is a number or a function as
-[`set_spacing!`](@ref) takes it. No other vertex, fixed node or hole point comes to another side of a
-curve. Vertices stay where curves meet or end, where tags change or a vertex has its own, and at fixed
-nodes. Returns how many vertices, those of the curves included, and how many curves were left out. On
-several ranks all must do the same.
+Removes features finer than d, such as those of coastlines, from a domain in the plane. From the
+graphs and polylines added so far, it removes vertices next to segments shorter than d, as long as
+the curve then passes them within `tolerance` times d, and closed curves, islands and lakes, whose
+extent (the longer side of their bounding box) is less than `smallest` times d. `d` is a number or a
+function as in [`set_spacing!`](@ref). No other vertex, fixed node or hole point changes to another
+side of a curve. Vertices are kept where curves meet or end, where tags change or a vertex has its
+own, and at fixed nodes. Returns the numbers of removed vertices, including those of the curves, and
+of removed curves. Must be called identically on all ranks.
 
     simplify!(domain; smallest = 2) do x
         0.2 .+ 0.05 .* hypot.(x[1, :], x[2, :])
@@ -391,8 +394,8 @@ simplify!(d::Real, domain::Domain; options...) =
 """
     simplify_by_file!(domain, path; field = "", tolerance = 0.25, smallest = 0) -> (vertices, curves)
 
-The same as [`simplify!`](@ref) by a spacing from a file with values at points, as
-[`set_spacing_file!`](@ref) takes it.
+Does the same as [`simplify!`](@ref) with a spacing from a file with values at points, as in
+[`set_spacing_file!`](@ref).
 """
 function simplify_by_file!(domain::Domain, path::AbstractString; field::AbstractString = "",
                            tolerance::Real = 0.25, smallest::Real = 0)
@@ -406,7 +409,7 @@ end
 """
     add_hole!(domain, point)
 
-Removes the region around a point from the domain, as far as the next curves or surfaces.
+Removes the region around a point from the domain, up to the next curves or surfaces.
 """
 function add_hole!(domain::Domain, point)
     check(domain.context,
@@ -417,7 +420,8 @@ end
 """
     add_fixed_nodes!(domain, coordinates; tags = nothing)
 
-Adds nodes that must appear exactly, inside the domain or on a vertex of its curves or surfaces.
+Adds fixed nodes, which keep their exact coordinates, inside the domain or on a vertex of its curves
+or surfaces.
 """
 function add_fixed_nodes!(domain::Domain, coordinates::AbstractMatrix{<:Real}; tags = nothing)
     points = as_points(coordinates, ndims(domain), "coordinates")
@@ -430,7 +434,7 @@ end
 """
     read_poly!(domain, path)
 
-Adds what a file of Triangle's .poly format describes to a domain in the plane.
+Reads a file in Triangle's .poly format and adds its content to a domain in the plane.
 """
 function read_poly!(domain::Domain, path::AbstractString)
     check(domain.context, LibPNPBS.pnpbs_domain_read_poly(live(domain), path))
@@ -440,8 +444,8 @@ end
 """
     parse_poly!(domain, text; name = "text")
 
-Adds what a text in Triangle's .poly format describes to a domain in the plane; messages call it
-`name`.
+Adds the content of a text in Triangle's .poly format to a domain in the plane; `name` is the name
+of the text in messages.
 """
 function parse_poly!(domain::Domain, text::AbstractString; name::AbstractString = "text")
     bytes = String(text)
@@ -455,7 +459,7 @@ end
 
 Checks the whole geometry: duplicate vertices, crossings, open boundaries, hole points outside. A
 [`PNPBSError`](@ref) with status `:error_domain` names the vertex, segment or triangle. Placements
-check as well; asking early costs nothing extra.
+check it, too; checking early adds no cost.
 """
 function check_domain(domain::Domain)
     check(domain.context, LibPNPBS.pnpbs_domain_check(live(domain)))
@@ -465,7 +469,7 @@ end
 """
     bounds(domain) -> (low, high)
 
-The corners of the bounding box of the curves or surfaces.
+Returns the corners of the bounding box of the curves or surfaces.
 """
 function bounds(domain::Domain)
     dim = ndims(domain)
@@ -477,7 +481,7 @@ end
 """
     measure(domain) -> Float64
 
-The area of the inside, in space its volume.
+Returns the area of the inside, in space its volume.
 """
 function measure(domain::Domain)
     inside = Ref(0.0)
@@ -488,9 +492,10 @@ end
 """
     distances(domain, x; tag = 0) -> Vector{Float64}
 
-From points, the columns of `x`, to what bounds the domain, or to the curves, surfaces and nodes with
-a tag: exact to segments and triangles, to arcs and curves by callback within 1e-7 of the domain's
-size. Ask once before asking from inside a callback, as a spacing callback may.
+Evaluates the distances from points, the columns of `x`, to the boundary of the domain, or to the
+curves, surfaces and nodes with a tag. They are exact for segments and triangles, and within 1e-7 of
+the domain's size for arcs and curves by callback. Make one query before querying from inside a
+callback, as a spacing callback may.
 """
 function distances(domain::Domain, x::AbstractMatrix{<:Real}; tag::Integer = 0)
     d = zeros(size(x, 2))
@@ -503,8 +508,9 @@ end
     shape_spacing(domain, x; nodes_per_turn = 0, nodes_across = 0, nodes_per_edge = 0,
                   growth = 0) -> Vector{Float64}
 
-What [`set_spacing_from_shape!`](@ref) would set, without its bounds, at points, the columns of `x`:
-for a spacing of your own. Ask once before asking from inside a callback.
+Evaluates the spacing that [`set_spacing_from_shape!`](@ref) would set, without its bounds, at
+points, the columns of `x`, for use in a spacing function. Make one query before querying from
+inside a callback.
 """
 function shape_spacing(domain::Domain, x::AbstractMatrix{<:Real}; nodes_per_turn::Real = 0,
                        nodes_across::Real = 0, nodes_per_edge::Real = 0, growth::Real = 0)
@@ -525,9 +531,9 @@ end
 """
     outline(domain) -> (segments, tags)
 
-Straight segments that show a domain in the plane, curves finely sampled, for pictures:
-`segments[:, 1, k]` and `segments[:, 2, k]` are the ends of the k-th. With Plots.jl and Julia 1.9 or
-later, `plot(domain)` draws them.
+Returns straight segments that approximate a domain in the plane, curves finely sampled, for
+pictures: `segments[:, 1, k]` and `segments[:, 2, k]` are the ends of the k-th. With Plots.jl and
+Julia 1.9 or later, `plot(domain)` draws them.
 """
 function outline(domain::Domain)
     count = Ref{Int64}(0)

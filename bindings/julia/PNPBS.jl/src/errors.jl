@@ -11,12 +11,12 @@ status_name(code) = get(STATUS_NAMES, Int(code), Symbol("status_", Int(code)))
 """
     PNPBSError <: Exception
 
-What the library refused. `status` is the header's name for it in lower case, such as
+An error of the library. `status` is the name of the status in the header in lower case, such as
 `:error_argument`, `:error_spacing` or `:error_state`; `message` says what was wrong, with the
 value, and what to change. Functions marked "collective" throw on all ranks or on none.
 
-An exception that your own callback throws comes out of the call in progress as it is, on the
-rank that threw it; the other ranks get a `PNPBSError` with status `:error_callback`.
+An exception that a callback throws is rethrown unchanged by the call in progress, on the rank that
+threw it; the other ranks get a `PNPBSError` with status `:error_callback`.
 """
 struct PNPBSError <: Exception
     status::Symbol

@@ -12,9 +12,9 @@ dense(values::AbstractArray) = Array{Float64}(values)
 """
     update_ghosts!(placement, values) -> values
 
-Gives the ghosts the values that their owners have. `values` is a vector of `Float64` with an entry
-for each node of this rank and each ghost behind them, or an array whose last index is that. On one
-process there are no ghosts, and nothing happens. Collective.
+Updates the values at ghosts from their owners. `values` is a vector of `Float64` with an entry for
+each node of this rank, followed by one for each ghost, or an array with that last index. On one
+process there are no ghosts, and the call has no effect. Collective.
 
     u = zeros(node_count(placement) + ghost_count(placement))
     ...
@@ -32,10 +32,10 @@ end
     end_update_ghosts!(placement, values) -> values
 
 The two halves of [`update_ghosts!`](@ref), for a solver that computes while messages travel. The
-first sends the values of this rank's nodes on their way; `values` may change as soon as it returns.
-The second waits for what comes and fills the ghosts. One update at a time is under way for a
-placement; other calls may come between. The first is collective; the second is local, and waits for
-no other rank to end.
+first starts sending the values of this rank's nodes; `values` may be changed after it returns. The
+second waits for the received values and fills the ghosts. A placement has at most one update in
+progress; other calls are allowed in between. The first is collective; the second is local, and does
+not wait for other ranks to end theirs.
 
     begin_update_ghosts(placement, u)
     multiply!(q, inner_rows, u)
@@ -62,11 +62,11 @@ end
 """
     sum_over_nodes(placement, values)
 
-The sum of a field over the nodes of all ranks: a number for a vector, and for an array with more
+Sums a field over the nodes of all ranks: returns a number for a vector, and for an array with more
 than one index an array of the sums of each component. It is the exact sum, rounded once, so it has
 the same bits for any number of ranks and threads. NaN where a value is NaN or where there are
 infinities of both signs; otherwise an infinity where a value is, or where the sum is beyond the
-largest number. Entries behind those of this rank's nodes, its ghosts', do not count. Collective.
+largest number. Entries after those of this rank's nodes, for its ghosts, are ignored. Collective.
 """
 function sum_over_nodes(placement::Placement, values::AbstractArray{<:Real})
     sums = zeros(size(values)[1:(end - 1)])
@@ -78,7 +78,7 @@ end
 """
     dot_over_nodes(placement, x, y)
 
-The dot product of two fields over the nodes of all ranks, of each component by itself: the sum of
+Computes the dot product of two fields over the nodes of all ranks, for each component: the sum of
 the exact products, rounded once, otherwise as [`sum_over_nodes`](@ref). No product overflows or
 underflows; one of an infinity and 0 is NaN. Collective.
 """

@@ -29,9 +29,9 @@ end
 """
     LibPNPBS.library_path() -> String
 
-The path or name of the library that is opened, or would be: the environment variable
+Returns the path or name of the library that is or would be opened: the environment variable
 `PNPBS_LIBRARY`, or the preference `library`, or the library that this package was installed with,
-or whatever the system finds as `libpnpbs`.
+or the one that the system finds as `libpnpbs`.
 """
 function library_path()
     isempty(opened_path[]) || return opened_path[]

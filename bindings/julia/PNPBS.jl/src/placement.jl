@@ -3,12 +3,12 @@
 """
     Placement(domain::Domain; options...)
 
-A placement of nodes in a domain, on the domain's context. Options are as in [`set!`](@ref); the
-others are those of the context. Set a spacing ([`set_spacing!`](@ref)), then [`run!`](@ref).
+Creates a placement of nodes in a domain, on the domain's context. Options are as in [`set!`](@ref);
+the others are those of the context. Set a spacing ([`set_spacing!`](@ref)), then [`run!`](@ref).
 Collective.
 
 With Plots.jl and Julia 1.9 or later, `plot(placement)` draws this rank's nodes, of a placement in
-the plane, and the edges between them: those of the triangles, or with `edges = :adjacency` the pairs
+the plane, and the edges between them: those of the triangles, with `edges = :adjacency` the pairs
 of the adjacency lists, or with `edges = :none` none. Collective.
 """
 mutable struct Placement
@@ -81,18 +81,19 @@ set_placement_option(handle, key, value) =
     set_spacing!(placement, values::AbstractArray; origin, step)
     set_spacing!(placement, d::AbstractVector)
 
-The node spacing d(x), the wanted distance between neighbouring nodes about x. On a placement that
-has nodes the spacing is replaced: the nodes stay, and the next run starts from them. Collective.
+Sets the node spacing d(x), the requested distance between neighbouring nodes near x. On a placement
+that has nodes it replaces the spacing: the nodes are kept, and the next run starts from them.
+Collective.
 
-- A number: the same everywhere.
+- A number: constant spacing.
 - A function: `f(x)` gets points as the columns of a `(dim, n)` matrix and returns a vector of n
-  values. It must always give the same value for the same point, and is asked for different points
-  on different ranks, so nothing collective may happen inside. An exception that it throws comes
-  out of the call in progress. With `per_point` it is called for each point by itself, as `f(x, y)`
-  or, in space, `f(x, y, z)`, and returns a number.
+  values. It must always return the same value for the same point. It is called with different
+  points on different ranks, so it must do nothing collective. An exception that it throws is
+  rethrown by the call in progress. With `per_point` it is called for each point by itself, as `f(x,
+  y)` or, in space, `f(x, y, z)`, and returns a number.
 - A matrix, in space an array of three dimensions: values on a rectangular grid whose first point is
-  `origin`, with distances `step`; the first index goes along x. Linear between the grid's points,
-  constant beyond its edge.
+  `origin`, with distances `step`; the first index goes along x. Linear between grid points,
+  constant beyond the grid's edge.
 - A vector: values at the nodes of this rank, in the order of [`nodes`](@ref); linear on each
   triangle or tetrahedron of their triangulation.
 
@@ -143,10 +144,10 @@ end
 """
     set_spacing_mesh!(placement, points, d, corners)
 
-The spacing from values `d` at the nodes of a background mesh, the columns of `points`: linear on each
-element, and beyond the mesh what it is at the mesh's nearest point. The columns of `corners` are
-triangles, in space tetrahedra, by node numbers from 1 on. Collective; every rank gives the same
-arrays, and holds a copy.
+Sets the spacing to values `d` at the nodes of a background mesh, the columns of `points`. It is
+linear on each element, and beyond the mesh equal to the value at the nearest point of the mesh. The
+columns of `corners` are triangles, in space tetrahedra, by node numbers from 1. Collective; every
+rank passes the same arrays, and holds a copy.
 """
 function set_spacing_mesh!(placement::Placement, points::AbstractMatrix{<:Real},
                            d::AbstractVector{<:Real}, corners::AbstractMatrix{<:Integer})
@@ -164,10 +165,10 @@ end
 """
     set_spacing_points!(placement, points, d)
 
-The spacing from values `d` at scattered points, the columns of `points`: at each of them its own
-value, elsewhere a plane fitted to the 8 (in space 16) nearest ones by weighted least squares, never
-below the least nor above the largest of their values. Collective; every rank gives the same arrays,
-and holds a copy.
+Sets the spacing to values `d` at scattered points, the columns of `points`. It equals the given
+value at each point and elsewhere a plane fitted to the 8 (in space 16) nearest points by weighted
+least squares, bounded by the smallest and largest of their values. Collective; every rank passes
+the same arrays, and holds a copy.
 """
 function set_spacing_points!(placement::Placement, points::AbstractMatrix{<:Real},
                              d::AbstractVector{<:Real})
@@ -182,12 +183,12 @@ end
 """
     set_spacing_file!(placement, path; field = "")
 
-The spacing from a file with values at points: VTK's unstructured grid (.vtu), Gmsh's mesh with values
-at nodes (.msh), or a table with columns x, y, (z) and others (.csv). Triangles and quadrangles, in
-space tetrahedra are a mesh as [`set_spacing_mesh!`](@ref) takes it; without any the points are as for
-[`set_spacing_points!`](@ref). In the plane z is left out. `field` is the name of the values in the
-file; without it they are the only ones, or those called "spacing". Collective; every rank reads the
-file.
+Sets the spacing to values at points from a file: VTK's unstructured grid (.vtu), Gmsh's mesh with
+values at nodes (.msh), or a table with columns x, y, (z) and others (.csv). Triangles and
+quadrangles, in space tetrahedra, form a mesh as in [`set_spacing_mesh!`](@ref); without any, the
+points are used as in [`set_spacing_points!`](@ref). In the plane z is ignored. `field` is the name
+of the values in the file; the default is the only ones, or those called "spacing". Collective;
+every rank reads the file.
 """
 function set_spacing_file!(placement::Placement, path::AbstractString; field::AbstractString = "")
     check(placement, LibPNPBS.pnpbs_placement_set_spacing_file(live(placement), path, field))
@@ -198,10 +199,10 @@ end
     set_spacing_from_shape!(placement; nodes_per_turn = 0, nodes_across = 0, nodes_per_edge = 0,
                             growth = 0, min_spacing = 0, max_spacing = 0)
 
-The spacing from the shape of the domain as it is now: the least that its curves and surfaces ask
-for, each growing with the distance from it. What is 0 does not count. Collective.
+Sets the spacing from the current shape of the domain: the minimum of what its curves and surfaces
+require, each value growing with the distance from them. Zero arguments are not used. Collective.
 
-- `nodes_per_turn`: by curvature, nodes on a full circle of its radius.
+- `nodes_per_turn`: by curvature, nodes on a full circle of the radius of curvature.
 - `nodes_across`: by width, nodes across the diameter of the largest ball that touches the boundary
   there and meets nothing ahead.
 - `nodes_per_edge`: by the input, nodes along its segments and the mean edge of its triangles.
@@ -228,10 +229,10 @@ end
     set_monitor!(f, placement)
     set_monitor!(placement, nothing)
 
-Calls `f(fraction, step, nodes, max_speed)` now and then during a run; while the first nodes are laid,
-or the growth of the spacing is limited, with `fraction` 0 and on each rank by its own clock: do
-nothing collective then. When it returns `true`, the run ends early with valid nodes and the outcome
-`:stopped`. Anything else goes on. The second form removes the monitor. Local.
+Calls `f(fraction, step, nodes, max_speed)` from time to time during a run. While the first nodes
+are laid, or the growth of the spacing is limited, `fraction` is 0 and each rank calls it by its own
+clock: do nothing collective then. When it returns `true`, the run ends early with valid nodes and
+the outcome `:stopped`. Any other value continues. The second form removes the monitor. Local.
 """
 function set_monitor!(f, placement::Placement)
     callback = Callback(f, placement.context)
@@ -252,9 +253,9 @@ keep_going(fraction, step, nodes, max_speed) = false
 """
     set_nodes!(placement, coordinates; ids = nothing)
 
-Inner nodes to start from instead of the library's own: the columns of `coordinates`, on any ranks, with
-distinct global ids from 0 on if `ids` are given. The boundary is laid by the library. Clears the
-nodes there are. Collective.
+Sets inner nodes to start from instead of the initial fill: the columns of `coordinates`, on any
+ranks, with distinct global ids from 0 if `ids` are given. The library places the boundary nodes.
+Clears the current nodes. Collective.
 """
 function set_nodes!(placement::Placement, coordinates::AbstractMatrix{<:Real};
                     ids::Union{Nothing,AbstractVector{<:Integer}} = nothing)
@@ -280,9 +281,9 @@ end
 """
     estimate(placement) -> (nodes, bytes, seconds)
 
-What a run from nothing would come to, from domain, spacing and options alone: how many nodes on all
+Estimates a run from scratch, from domain, spacing and options alone: the number of nodes on all
 ranks, mostly within a few percent, the memory of each process for the run alone, and roughly the
-time. No inner node is made, and the nodes there are stay as they are. Collective.
+time. No inner node is created, and the current nodes are unchanged. Collective.
 """
 function estimate(placement::Placement)
     nodes, bytes, seconds = Ref{Int64}(0), Ref{Int64}(0), Ref(0.0)
@@ -294,7 +295,7 @@ end
     initialise!(placement)
 
 Checks domain and spacing and lays the nodes that the simulation starts from. [`run!`](@ref) and
-[`step!`](@ref) do it where it is needed. Collective.
+[`step!`](@ref) do this if necessary. Collective.
 """
 function initialise!(placement::Placement)
     compute(placement, LibPNPBS.pnpbs_placement_initialise)
@@ -304,14 +305,14 @@ end
 """
     run!(placement) -> Symbol
 
-Places the nodes: the whole job. Run again, after another spacing perhaps, it starts from the nodes
-there are. The outcome is `:ok`; `:not_converged` if the step limit came before the bubbles rested,
-which is no failure; `:spacing_missed` if in one of the bands of [`edge_bands`](@ref) with 50 edges
-or more the mean is off 1 by more than 0.1, whether the bubbles rest or not, with a warning that
-names the band; `:not_conforming` if the elements do not fill the domain, with a warning that says
-where; or `:stopped` by the monitor. In all cases the nodes are valid. Collective.
+Runs the whole placement. A later run, for example after another spacing, starts from the current
+nodes. The outcome is `:ok`; `:not_converged` if the step limit was reached before the bubbles were
+at rest, which is no failure; `:spacing_missed` if in one of the bands of [`edge_bands`](@ref) with
+50 edges or more the mean differs from 1 by more than 0.1, whether or not the bubbles are at rest,
+with a warning that names the band; `:not_conforming` if the elements do not fill the domain, with a
+warning that says where; or `:stopped` by the monitor. In all cases the nodes are valid. Collective.
 
-Ctrl-C ends it, as every call that computes, within a second or two with an `InterruptException`;
+Ctrl-C ends it, like every call that computes, within a second or two with an `InterruptException`;
 the nodes are then as if a monitor had stopped the run, which is what it returns on the other ranks.
 """
 function run!(placement::Placement)
@@ -323,7 +324,7 @@ end
 """
     step!(placement, n = 1) -> Symbol
 
-Advances the simulation by n steps. The outcome is as in [`run!`](@ref), `:ok` when the bubbles
+Advances the simulation by n steps. The outcome is as in [`run!`](@ref), `:ok` if the bubbles are at
 rest. Collective.
 """
 step!(placement::Placement, n::Integer = 1) =
@@ -332,7 +333,8 @@ step!(placement::Placement, n::Integer = 1) =
 """
     adjust_population!(placement) -> (inserted, deleted)
 
-Deletes nodes where they are too dense and inserts where they are too sparse, once, now. Collective.
+Performs one population adjustment: deletes nodes where they are too dense and inserts nodes where
+they are too sparse. Collective.
 """
 function adjust_population!(placement::Placement)
     inserted, deleted = Ref{Int64}(0), Ref{Int64}(0)
@@ -343,8 +345,8 @@ end
 """
     rebalance!(placement)
 
-Deals the work out to the ranks anew. The nodes stay as they are; who owns them changes. A run does
-so by itself where it pays. Collective.
+Repartitions the work over the ranks. The nodes are unchanged; their owners change. A run does this
+by itself where it pays. Collective.
 """
 function rebalance!(placement::Placement)
     compute(placement, LibPNPBS.pnpbs_placement_rebalance)

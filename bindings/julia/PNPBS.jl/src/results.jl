@@ -14,7 +14,7 @@ no_rows(T = Int64) = CompressedRows(Int64[1], T[])
 """
     node_count(placement) -> Int
 
-The number of nodes of this rank. Local.
+Returns the number of nodes of this rank. Local.
 """
 function node_count(placement::Placement)
     n = Ref{Int64}(0)
@@ -26,13 +26,12 @@ end
     nodes(placement) -> (points, ids, tags, spacing)
     nodes!(placement, placed) -> placed
 
-The nodes of this rank in their local order: `points` is `(dim, n)`; `ids` are global; `tags` are 0
-for inner nodes and otherwise that of the curve, surface or fixed node; `spacing` is d at the node.
-Local.
+Returns the nodes of this rank in their local order: `points` is `(dim, n)`; `ids` are global;
+`tags` are 0 for inner nodes and otherwise that of the curve, surface or fixed node; `spacing` is d
+at the node. Local.
 
-`nodes!` puts them into the arrays of an earlier result instead of new ones. Vectors get the length
-that is needed now; a matrix of another size is replaced, so go on with what is returned. After an
-exception the arrays hold nothing of use.
+`nodes!` reuses the arrays of an earlier result. Vectors are resized; a matrix of another size is
+replaced, so use the returned value. After an exception the content of the arrays is undefined.
 
     placed = nodes!(placement, placed)
 """
@@ -52,7 +51,7 @@ end
 """
     ghost_count(placement) -> Int
 
-The number of ghosts: nodes of other ranks that this rank sees near its own. Collective.
+Returns the number of ghosts: nodes of other ranks that this rank sees near its own. Collective.
 """
 function ghost_count(placement::Placement)
     n = Ref{Int64}(0)
@@ -64,9 +63,9 @@ end
     ghosts(placement) -> (points, ids, tags, spacing, owners)
     ghosts!(placement, others) -> others
 
-The ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars, triangles
-and tetrahedra ghost g has the local index `node_count(placement) + g`. `ghosts!` uses the arrays of
-an earlier result again, as [`nodes!`](@ref) does. Collective.
+Returns the ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars,
+triangles and tetrahedra ghost g has the local index `node_count(placement) + g`. `ghosts!` reuses
+the arrays of an earlier result, as [`nodes!`](@ref) does. Collective.
 """
 ghosts, ghosts!
 
@@ -85,10 +84,10 @@ end
 """
     exchange_pattern(placement) -> (ranks, send, receive)
 
-How values at nodes reach their ghosts on other ranks: send the values at the nodes `send[k]` to
-`ranks[k]`, and put what comes from there into `receive[k]`, in the same order. `send` and
-`receive` are [`CompressedRows`](@ref) of local indices; ranks count from 0, as MPI's do.
-[`update_ghosts!`](@ref) does so for numbers. Right until nodes move. Collective.
+Returns the pattern by which values at nodes reach their ghosts on other ranks: send the values at
+the nodes `send[k]` to `ranks[k]`, and store what it sends at `receive[k]`, in the same order.
+`send` and `receive` are [`CompressedRows`](@ref) of local indices; ranks count from 0, as in MPI.
+[`update_ghosts!`](@ref) does this for numbers. Valid until nodes move. Collective.
 """
 function exchange_pattern(placement::Placement)
     neighbours, sends, receives = Ref{Int32}(0), Ref{Int64}(0), Ref{Int64}(0)
@@ -108,9 +107,9 @@ end
 """
     numbering(placement) -> (first, count, ghosts)
 
-Numbers that are contiguous per rank, from 0 over all ranks, as PETSc and hypre want them: local
-node i has the number `first + i - 1`, and ghost g has `ghosts[g]`. Unlike the ids they depend on
-the ranks. Collective.
+Returns numbers that are contiguous per rank, from 0 over all ranks, as PETSc and hypre require:
+local node i has the number `first + i - 1`, and ghost g has `ghosts[g]`. Unlike the ids they depend
+on the ranks. Collective.
 """
 function numbering(placement::Placement)
     first, count = Ref{Int64}(0), Ref{Int64}(0)
@@ -124,9 +123,9 @@ end
     adjacency(placement) -> CompressedRows{Int64}
     adjacency!(placement, lists) -> lists
 
-The adjacency lists: row i has the local indices of the nodes within `adjacency_radius` of node i,
-in the order of global ids. Pairs that a boundary separates are not neighbours. `adjacency!` puts
-them into earlier lists. Collective.
+Returns the adjacency lists: row i has the local indices of the nodes within `adjacency_radius` of
+node i, in the order of global ids. Pairs separated by a boundary are not neighbours. `adjacency!`
+reuses earlier lists. Collective.
 """
 adjacency, adjacency!
 
@@ -146,12 +145,12 @@ end
     stars(placement) -> (neighbours, triangle)
     stars!(placement, around) -> around
 
-Each node's star in the constrained Delaunay triangulation of the domain. `neighbours[i]` has the
-local indices of node i's neighbours, counter-clockwise; `triangle[i][k]` tells whether the node,
-its k-th neighbour and the next one around are a triangle of the domain, or whether a gap lies
+Returns each node's star in the constrained Delaunay triangulation of the domain. `neighbours[i]`
+has the local indices of node i's neighbours, counter-clockwise; `triangle[i][k]` is whether the
+node, its k-th neighbour and the next one around are a triangle of the domain, or whether a gap lies
 between them. In space the neighbours are all nodes that share a tetrahedron with node i, in no
-order that means anything, and `triangle[i][k]` is `false`. Both are [`CompressedRows`](@ref), with
-the same offsets. `stars!` uses the arrays of an earlier result again. Collective.
+particular order, and `triangle[i][k]` is `false`. Both are [`CompressedRows`](@ref), with the same
+offsets. `stars!` reuses the arrays of an earlier result. Collective.
 """
 stars, stars!
 
@@ -174,9 +173,9 @@ end
     triangles(placement) -> Matrix{Int64}
     triangles!(placement, corners) -> corners
 
-The triangles of a placement in the plane, `(3, n)` local indices, counter-clockwise, each once: a
-triangle is the rank's that owns its node with the least id, other corners may be ghosts.
-`triangles!` fills the matrix of an earlier result if it has the size that is needed now, and
+Returns the triangles of a placement in the plane, `(3, n)` local indices, counter-clockwise, each
+once: a triangle belongs to the rank that owns its node with the lowest id; other corners may be
+ghosts. `triangles!` fills the matrix of an earlier result if it has the required size, and
 otherwise returns a new one. Collective.
 """
 triangles, triangles!
@@ -190,10 +189,10 @@ triangles!(placement::Placement, corners::Matrix{Int64}) =
     tetrahedra(placement) -> Matrix{Int64}
     tetrahedra!(placement, corners) -> corners
 
-The tetrahedra of a placement in space, `(4, n)` local indices, each once: seen from the fourth
-corner, the first three turn counter-clockwise. A tetrahedron is the rank's that owns its node with
-the least id, other corners may be ghosts. `tetrahedra!` fills the matrix of an earlier result if it
-has the size that is needed now, and otherwise returns a new one. Collective.
+Returns the tetrahedra of a placement in space, `(4, n)` local indices, each once: seen from the
+fourth corner, the first three turn counter-clockwise. A tetrahedron belongs to the rank that owns
+its node with the lowest id; other corners may be ghosts. `tetrahedra!` fills the matrix of an
+earlier result if it has the required size, and otherwise returns a new one. Collective.
 """
 tetrahedra, tetrahedra!
 
@@ -213,9 +212,9 @@ end
 """
     boundary_edges(placement) -> (edges, tags)
 
-The edges between consecutive nodes on boundary and inner curves of a placement in the plane:
-`(2, n)` local indices, and the tags of the curves. An edge is the rank's that owns its first node.
-Local.
+Returns the edges between consecutive nodes on boundary and inner curves of a placement in the
+plane: `(2, n)` local indices, and the tags of the curves. An edge belongs to the rank that owns its
+first node. Local.
 """
 function boundary_edges(placement::Placement)
     edges, tags = facets(placement, LibPNPBS.pnpbs_placement_get_boundary_edges, 2)
@@ -225,9 +224,9 @@ end
 """
     normals(placement)
 
-Where the surfaces look at this rank's nodes, of a placement in space: `(3, n)`, the unit normal of
-the triangle that a node lies on, on feature edges and in corners the mean of those on its sides,
-and 0 for inner nodes. Local.
+Returns the surface normals at this rank's nodes, of a placement in space: `(3, n)`, the unit normal
+of the triangle that a node lies on, on feature edges and in corners the mean of the adjacent
+normals, and 0 for inner nodes. Local.
 """
 function normals(placement::Placement)
     n = node_count(placement)
@@ -239,10 +238,10 @@ end
 """
     boundary_triangles(placement) -> (triangles, tags)
 
-The triangles of the boundary of a placement in space, the faces of tetrahedra that have no other
-tetrahedron behind them: `(3, n)` local indices, counter-clockwise as seen from outside, and the
-tags of the surfaces there. Of surfaces alone, the triangles between the nodes on them. A triangle is
-the rank's that owns its node with the least id. Collective.
+Returns the boundary triangles of a placement in space, the faces that belong to one tetrahedron
+only: `(3, n)` local indices, counter-clockwise as seen from outside, and the tags of the surfaces
+there. On surfaces alone, they are the triangles between the nodes. A triangle belongs to the rank
+that owns its node with the lowest id. Collective.
 """
 function boundary_triangles(placement::Placement)
     corners, tags = facets(placement, LibPNPBS.pnpbs_placement_get_boundary_triangles, 3)
@@ -260,12 +259,12 @@ end
 """
     check_results(placement) -> Symbol
 
-Checks that the results keep what is promised of them: unique ids, no two nodes in one place, all
-inside or on the boundary; symmetric adjacency lists; stars that are one conforming triangulation of
-the domain, with every boundary edge and the right area, or in space a closed boundary and the right
-volume. The outcome is `:ok`, or `:not_conforming` where [`run!`](@ref) tells it, too. If anything
-else is wrong, a [`PNPBSError`](@ref) with status `:error_internal` says what, with ids and
-coordinates. Collective.
+Checks the invariants of the results: unique ids, no two nodes that coincide, all inside or on the
+boundary; symmetric adjacency lists; stars that are one conforming triangulation of the domain, with
+every boundary edge and the right area, or in space a closed boundary and the right volume. The
+outcome is `:ok`, or `:not_conforming` where [`run!`](@ref) returns it, too. If anything else is
+wrong, a [`PNPBSError`](@ref) with status `:error_internal` says what, with ids and coordinates.
+Collective.
 """
 check_results(placement::Placement) =
     check(placement, LibPNPBS.pnpbs_placement_check(live(placement)))
@@ -274,8 +273,8 @@ check_results(placement::Placement) =
 """
     statistic(placement, key)
 
-A statistic by its name, such as `"nodes"`, `"hash"` or `:imbalance`: an `Int64`, a `Float64` or a
-`String`. [`statistic_table`](@ref) lists them. Collective.
+Returns a statistic by its name, such as `"nodes"`, `"hash"` or `:imbalance`: an `Int64`, a
+`Float64` or a `String`. [`statistic_table`](@ref) lists them. Collective.
 """
 function statistic(placement::Placement, key)
     name = string(key)
@@ -302,7 +301,7 @@ end
 """
     statistics(placement) -> Dict{String,Any}
 
-All statistics, by name. Collective.
+Returns all statistics, by name. Collective.
 """
 statistics(placement::Placement) =
     Dict{String,Any}(row.name => statistic(placement, row.name, row.type)
@@ -311,12 +310,13 @@ statistics(placement::Placement) =
 """
     edge_bands(placement) -> (d_from, d_to, edges, mean, deviation)
 
-How well the edges of the triangles or tetrahedra follow the spacing, by bands of it: eight, equal
-in log d between the least and the largest d at the nodes, or one if that is less than 1.1 times the
-least. Bands without edges are left out. For each band where it begins and ends, how many edges
-there are, and the mean and standard deviation of their length over d, the mean of d at their ends.
-Edges between two boundary nodes, whose places the corners of the domain decide, do not count here.
-Over all ranks, and the same on each. Collective.
+Measures how well the edges of the triangles or tetrahedra follow the spacing, by bands of d. There
+are eight, equal in log d between the smallest and the largest d at the nodes, or one if the largest
+is less than 1.1 times the smallest. Bands without edges are left out. Returns for each band its
+lower and upper end, the number of edges, and the mean and standard deviation of their length over
+d, the mean of d at their ends. Edges between two boundary nodes are not counted, because the
+corners of the domain determine their positions. Includes all ranks, and is the same on each.
+Collective.
 """
 function edge_bands(placement::Placement)
     count = Ref{Int64}(0)
@@ -333,8 +333,8 @@ end
 """
     warnings(placement) -> Vector{String}
 
-Warnings about domain and spacing (a feature smaller than the spacing, an unused vertex), and about
-nodes that do not follow the spacing, of the last run. Local.
+Returns warnings about domain and spacing (a feature smaller than the spacing, an unused vertex),
+and about nodes that do not follow the spacing, from the last run. Local.
 """
 function warnings(placement::Placement)
     count = Ref{Int32}(0)
@@ -352,10 +352,10 @@ end
 """
     write_file(placement, path; elements = false) -> Symbol
 
-Writes the nodes of all ranks, and the triangles or tetrahedra if `elements`, into one file whose
-extension is its format ([`format_table`](@ref)): .vtu, .pvtu, .vtkhdf, .xdmf, .msh,
-.msh2, .node, .ele, .face, .csv. The file appears when it is complete. The outcome is `:ok`, or `:stopped` by the monitor, which leaves
-the old file. Collective.
+Writes the nodes of all ranks, and the triangles or tetrahedra if `elements`, into one file. The
+extension selects the format ([`format_table`](@ref)): .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2,
+.node, .ele, .face, .csv. The file appears when it is complete. The outcome is `:ok`, or `:stopped`
+by the monitor, which keeps the old file. Collective.
 """
 write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
     check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path, elements))
@@ -389,12 +389,12 @@ end
 """
     add_output_field(placement, name, values) -> Placement
 
-Adds a field of your own to the files that are written from now on: beside `id`, `tag` and `spacing`
-in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `\$NodeData`. `values` is a vector with an
-entry for each node of this rank, or an array whose last index is that, with up to 9 components;
-entries behind, the ghosts', do not count. The values are copied. They belong to the nodes there
-are: once these have moved, writing fails until [`clear_output_fields`](@ref). All ranks add the
-same fields in the same order. A name has 1 to 63 letters, digits, `_` and `-`. Local.
+Adds a field of the caller to files written from now on: beside `id`, `tag` and `spacing` in .vtu,
+.pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `\$NodeData`. `values` is a vector with an entry for
+each node of this rank, or an array with that last index, with up to 9 components; entries after
+them, for its ghosts, are ignored. The values are copied. They belong to the current nodes: once
+these have moved, writing fails until [`clear_output_fields`](@ref). All ranks add the same fields
+in the same order. A name has 1 to 63 letters, digits, `_` and `-`. Local.
 """
 function add_output_field(placement::Placement, name::AbstractString,
                           values::AbstractArray{<:Real})
@@ -407,7 +407,7 @@ end
 """
     clear_output_fields(placement) -> Placement
 
-Forgets the fields that [`add_output_field`](@ref) has added. Local.
+Removes the fields that [`add_output_field`](@ref) has added. Local.
 """
 function clear_output_fields(placement::Placement)
     check(placement, LibPNPBS.pnpbs_placement_clear_output_fields(live(placement)))
@@ -417,10 +417,10 @@ end
 """
     write_checkpoint(placement, path) -> Placement
 
-Writes a file from which [`read_checkpoint!`](@ref) goes on, in another process and on any number of
-ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView opens: name it
-`.vtkhdf`. It replaces the file that is there when it is complete. Also from a monitor, on all ranks,
-in its turns between two steps; in the others it throws `:error_state`. Collective.
+Writes a file from which [`read_checkpoint!`](@ref) continues, in another process and on any number
+of ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView opens: name
+it `.vtkhdf`. It replaces an existing file once it is complete. May be called from a monitor, on all
+ranks, in its calls between two steps; in others it throws `:error_state`. Collective.
 """
 function write_checkpoint(placement::Placement, path::AbstractString)
     check(placement, LibPNPBS.pnpbs_placement_write_checkpoint(live(placement), path))
@@ -430,9 +430,9 @@ end
 """
     read_checkpoint!(placement, path) -> Placement
 
-Goes on from a checkpoint: for a placement with the domain, the options and the spacing of the first
-run (unless that was given by values at nodes, which the file brings). The next `run!` or `step!` does
-what it would have done there. If it throws, all is as it was. Collective.
+Restores a placement from a checkpoint, with the domain, options and spacing of the first run
+(except a spacing given by values at nodes, which the file contains). The next `run!` or `step!`
+does what it would have done there. If it throws, the placement is unchanged. Collective.
 """
 function read_checkpoint!(placement::Placement, path::AbstractString)
     check(placement, LibPNPBS.pnpbs_placement_read_checkpoint(live(placement), path))

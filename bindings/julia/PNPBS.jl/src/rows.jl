@@ -3,9 +3,8 @@
 """
     CompressedRows{T} <: AbstractVector
 
-Lists of different lengths in compressed rows: row `i` holds
-`entries[offsets[i]:offsets[i + 1] - 1]`, 1-based. It is a vector of its rows, each of them a view
-without a copy, so that
+Lists of different lengths in compressed rows: row `i` holds `entries[offsets[i]:offsets[i + 1] -
+1]`, 1-based. It is a vector of its rows, each of them a view without a copy, so that
 
     for (i, neighbours) in enumerate(adjacency(placement))
         for j in neighbours ... end

@@ -5,13 +5,13 @@
     Shapes(path; layer = nothing, projection = nothing, unit = nothing, tag_field = nothing)
     Shapes(f, path; ...)
 
-One layer of a file that GDAL reads, as GeoJSON, a shapefile or GeoPackage, projected by PROJ;
-everything about it is local. PNPBS has it where it was built with GDAL. Polygons bound a domain,
-edges that neighbours share and lines are inner curves, points are fixed nodes; `pnpbs_geo.h` says
-more. `projection` is a code (`"EPSG:2180"`), a string of PROJ's, WKT, the path of a `.prj` file,
-`"auto"`, a projection made for the data, or `"none"`, the coordinates as they are; without it,
-longitude and latitude are projected as by `"auto"`, and anything else stays. `unit` is `"m"` or
-`"km"`, `tag_field` the attribute that becomes the tag. A file that cannot be taken is a
+One layer of a file that GDAL reads, such as GeoJSON, a shapefile or GeoPackage, projected by PROJ;
+all its functions are local. Available where PNPBS was built with GDAL. Polygons bound a domain,
+edges shared by neighbours and lines are inner curves, points are fixed nodes; `pnpbs_geo.h` has the
+details. `projection` is a code (`"EPSG:2180"`), a PROJ string, WKT, the path of a `.prj` file,
+`"auto"`, a projection chosen for the data, or `"none"`, the coordinates of the file; by default
+longitude and latitude are projected as by `"auto"`, and other coordinates are kept. `unit` is `"m"`
+or `"km"`, `tag_field` the attribute that becomes the tag. A file that cannot be used is a
 [`PNPBSError`](@ref).
 
 `close` them when they are no longer needed; the second form calls `f(shapes)` and closes them, as
@@ -69,9 +69,9 @@ Base.show(io::IO, shapes::Shapes) =
     add_shapes!(domain, shapes; corner_angle = 0) -> domain
 
 Adds [`Shapes`](@ref) to a domain in the plane: curves as [`add_polyline!`](@ref) does, points as
-[`add_fixed_nodes!`](@ref), and the names of tags. With `corner_angle = 0` every vertex becomes a
-node; otherwise those where the direction turns by more than so many degrees. What crosses or does
-not close is found by [`check_domain`](@ref); see [`explain`](@ref).
+[`add_fixed_nodes!`](@ref) does, and the names of tags. With `corner_angle = 0` every vertex becomes
+a node; otherwise only those where the direction turns by more than this many degrees. Curves that
+cross or do not close are found by [`check_domain`](@ref); see [`explain`](@ref).
 """
 function add_shapes!(domain::Domain, shapes::Shapes; corner_angle::Real = 0)
     check_geo(LibPNPBSGeo.pnpbs_geo_add_to_domain(live(shapes), live(domain.context), live(domain),
@@ -82,8 +82,8 @@ end
 """
     shape_counts(shapes) -> (vertices = ..., boundary = ..., inner = ..., points = ...)
 
-What was read: different places, those of points included; boundary curves and inner ones, closed
-or from where curves meet to where they meet; and fixed nodes.
+Returns the numbers of what was read: distinct positions, including those of points; boundary curves
+and inner ones, closed or between the vertices where curves meet; and fixed nodes.
 """
 function shape_counts(shapes::Shapes)
     counts = Tuple(Ref{Int64}(0) for _ in 1:4)
@@ -94,9 +94,9 @@ end
 """
     projection(shapes) -> (name = ..., unit = ..., proj = ..., wkt = ..., prj = ..., scale = ...)
 
-What x and y are, as texts, `""` where the file does not say it: a name, their unit, PROJ's string,
-WKT 2, and what `.prj` files contain; and the least and the greatest length in the projection over
-that on the Earth.
+Returns the projection of x and y as texts, `""` where the file does not define it: a name, their
+unit, the PROJ string, WKT 2, and the content of `.prj` files; and the range of projected length
+over length on the Earth.
 """
 function projection(shapes::Shapes)
     texts = Tuple(Ref{Cstring}() for _ in 1:5)
@@ -111,7 +111,7 @@ end
 """
     notes(shapes) -> Vector{String}
 
-What you should know about how the file was taken.
+Returns notes on how the file was interpreted.
 """
 function notes(shapes::Shapes)
     count = Ref{Int32}(0)
@@ -128,8 +128,8 @@ end
 """
     write_prj(shapes, results)
 
-Writes the projection beside a file of results, as shapefiles have it: `"nodes.prj"` for
-`"nodes.vtu"`. Of several ranks let one do it.
+Writes the projection beside a file of results, as for shapefiles: `"nodes.prj"` for `"nodes.vtu"`.
+On several ranks call it on one.
 """
 function write_prj(shapes::Shapes, results::AbstractString)
     check_geo(LibPNPBSGeo.pnpbs_geo_write_prj(live(shapes), results))
@@ -140,8 +140,8 @@ end
     to_degrees(shapes, points) -> degrees
     from_degrees(shapes, degrees) -> points
 
-Longitudes and latitudes, on the ellipsoid of the file, of points, and x and y of them; `(2, n)`
-both. Infinite where there are none.
+Convert points to longitude and latitude, on the ellipsoid of the file, and back; `(2, n)` both.
+Values that do not exist are infinite.
 """
 to_degrees, from_degrees
 
@@ -160,8 +160,8 @@ end
 """
     explain(shapes, message) -> String
 
-A message about a domain of these shapes, and after each place "(x, y)" in it its longitude and
-latitude.
+Returns a message about a domain of these shapes, with longitude and latitude inserted after each
+point "(x, y)".
 """
 explain(shapes::Shapes, message::AbstractString) =
     string_or_empty(LibPNPBSGeo.pnpbs_geo_explain(live(shapes), message))
@@ -169,17 +169,17 @@ explain(shapes::Shapes, message::AbstractString) =
 """
     geo_build_info() -> String
 
-The versions of GDAL and PROJ that shapes are read with, one "name: version" per line.
+Returns the versions of GDAL and PROJ in use, one "name: version" per line.
 """
 geo_build_info() = string_or_empty(LibPNPBSGeo.pnpbs_geo_build_info())
 
 """
     GeoGrid(path, low, high; variable = nothing, projection = nothing)
 
-Values on a grid in a file, GeoTIFF, NetCDF and whatever else GDAL reads; everything about it is
-local. `low` and `high` are the corners of the part that is read, as the points that it will be
-asked at; `projection` is what these are, as that of [`Shapes`](@ref) or the `wkt` of its
-[`projection`](@ref), and without it they are in the grid's own system. `variable` is the name of
+Values on a grid in a file: GeoTIFF, NetCDF and other formats that GDAL reads; all its functions are
+local. `low` and `high` are the corners of the part that is read, in the projection of the points at
+which it is evaluated; `projection` is that projection, as in [`Shapes`](@ref) or the `wkt` of its
+[`projection`](@ref); by default the points are in the grid's own system. `variable` is the name of
 one in a file of several, or the number of a band. `close` it when it is no longer needed.
 
     depth = GeoGrid("depth.tif", low, high; projection = projection(shapes).wkt)
@@ -216,15 +216,15 @@ Base.show(io::IO, grid::GeoGrid) = print(io, "PNPBS.GeoGrid(", isopen(grid) ? ""
 """
     grid_values(grid, points) -> values
 
-Values at points, `2 x n`: linear in each direction between the middles of the cells, constant
-beyond the edge. Cells without data take the value of the nearest cell that has some.
+Evaluates the grid at points, `2 x n`: linear in each direction between the centres of the cells,
+constant beyond the edge. Cells without data take the value of the nearest cell that has some.
 """
 grid_values(grid::GeoGrid, points::AbstractMatrix) = asked_grid(grid, points)[1]
 
 """
     inside_grid(grid, points) -> BitVector
 
-Whether points, `2 x n`, lie in the grid, or less than half a cell beyond its edge.
+Returns whether points, `2 x n`, lie in the grid, or less than half a cell beyond its edge.
 """
 inside_grid(grid::GeoGrid, points::AbstractMatrix) = asked_grid(grid, points)[2] .!= 0
 
@@ -239,7 +239,7 @@ end
 """
     grid_extent(grid) -> (low, high)
 
-What lies around all of the grid in the file, in the projection of the points.
+Returns the bounding box of the whole grid in the file, in the projection of the points.
 """
 function grid_extent(grid::GeoGrid)
     low, high = zeros(2), zeros(2)

@@ -4,12 +4,12 @@
     sparse(rows::CompressedRows; columns = length(rows)) -> SparseMatrixCSC{Bool,Int64}
     sparse(rows::CompressedRows, values; columns = length(rows)) -> SparseMatrixCSC
 
-The sparse matrix whose row i has its entries in the columns `rows[i]`, in time linear in their
-number. `values` has one for each of `rows.entries`, in that order, or is a `CompressedRows` with the
-same offsets, as the flags of [`stars`](@ref) are; without it the entries are `true`. Where a row
-names a column twice, the values are added (of `Bool`s, `|`).
+Returns the sparse matrix whose row i has its entries in the columns `rows[i]`, in time linear in
+their number. `values` has one for each of `rows.entries`, in that order, or is a `CompressedRows`
+with the same offsets, like the flags of [`stars`](@ref); without it the entries are `true`. If a
+row contains a column twice, the values are added (of `Bool`s, `|`).
 
-Lists name ghosts as well, whose columns follow those of the nodes: on several ranks `columns` is
+Lists contain ghosts as well, whose columns follow those of the nodes: on several ranks `columns` is
 `node_count(placement) + ghost_count(placement)`, and the matrix is this rank's rows, for vectors
 that [`update_ghosts!`](@ref) has completed. An entry beyond the last column is an `ArgumentError`.
 Local. `sparse` is that of Julia's SparseArrays.

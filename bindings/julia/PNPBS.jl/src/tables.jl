@@ -4,7 +4,7 @@
 """
     library_version() -> VersionNumber
 
-The version of the library that is loaded.
+Returns the version of the library that is loaded.
 """
 function library_version()
     major, minor, patch = Ref{Int32}(), Ref{Int32}(), Ref{Int32}()
@@ -15,30 +15,30 @@ end
 """
     build_info() -> String
 
-What the library was built with, one "name: value" per line.
+Returns the build configuration, one "name: value" per line.
 """
 build_info() = string_or_empty(LibPNPBS.pnpbs_build_info())
 
 """
     mpi_library() -> String
 
-The MPI that the library was built with, such as "Open MPI 4.1.4"; empty in a build without MPI.
-Julia's MPI.jl must use the same one.
+Returns the MPI that the library was built with, such as "Open MPI 4.1.4"; empty in a build without
+MPI. Julia's MPI.jl must use the same one.
 """
 mpi_library() = string_or_empty(LibPNPBS.pnpbs_mpi_library())
 
 """
     shutdown()
 
-Ends Kokkos if PNPBS started it. Optional. Kokkos cannot start twice, so nothing can be placed
-afterwards. Local.
+Finalises Kokkos if PNPBS initialised it. Optional. Kokkos cannot be initialised twice, so nothing
+can be placed afterwards. Local.
 """
 shutdown() = check_without_context(LibPNPBS.pnpbs_finalize())
 
 """
     discard_unfinished_files()
 
-Removes what unfinished writes of this process have left aside so far; for programs about to end.
+Removes the temporary files of unfinished writes of this process; for programs about to end.
 """
 discard_unfinished_files() = check_without_context(LibPNPBS.pnpbs_discard_unfinished_files())
 
@@ -54,8 +54,8 @@ end
 """
     option_table()
 
-The options of contexts and placements ([`set!`](@ref)): a vector of named tuples
-`(name, type, default, range, help)`.
+Returns the options of contexts and placements ([`set!`](@ref)): a vector of named tuples `(name,
+type, default, range, help)`.
 """
 option_table() =
     [text_row((:name, :type, :default, :range, :help),
@@ -65,7 +65,8 @@ option_table() =
 """
     statistic_table()
 
-The statistics of placements ([`statistic`](@ref)): a vector of named tuples `(name, type, help)`.
+Returns the statistics of placements ([`statistic`](@ref)): a vector of named tuples `(name, type,
+help)`.
 """
 statistic_table() =
     [text_row((:name, :type, :help), (texts...) -> LibPNPBS.pnpbs_statistic_info(i, texts...))
@@ -74,8 +75,8 @@ statistic_table() =
 """
     format_table()
 
-The formats of files ([`write_file`](@ref)): a vector of named tuples
-`(name, help, binary, elements)`.
+Returns the formats of files ([`write_file`](@ref)): a vector of named tuples `(name, help, binary,
+elements)`.
 """
 format_table() = format_row.(row_count(LibPNPBS.pnpbs_format_count))
 

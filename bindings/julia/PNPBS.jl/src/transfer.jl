@@ -3,17 +3,17 @@
 """
     Transfer(placement, values; order = 1)
 
-A field on its way to other nodes: takes the values at the nodes that the placement has now, together
+Transfers a field to a later set of nodes: copies the values at the current nodes of the placement,
 with these nodes and their triangles or tetrahedra, each rank its own. `values` is a vector with an
-entry for each node of this rank, or an array whose last index is that of the node. The nodes may then
-move, be replaced or change their ranks, and the placement may be closed. The field is linear on each
-triangle or tetrahedron; beyond their rim, next to curved boundaries, it goes on as on the one behind
-the nearest place of the rim. So fields that are linear stay what they are, and others change by a
-part of the second order in d. With `order = 2` a polynomial of second order is fitted to the
-neighbours of each node: then fields that are quadratic in the coordinates stay what they are, others
-change by a part of the third order, and next to jumps they may leave the range of the values there
-([`linear_nodes`](@ref) tells where that could not be done). A value that is not finite is a [`PNPBSError`](@ref) that names it.
-Collective.
+entry for each node of this rank, or an array whose last index is that of the node. The nodes may
+then move, be replaced or change their ranks, and the placement may be closed. The field is linear
+on each triangle or tetrahedron; beyond their boundary, next to curved boundaries, it is
+extrapolated from the one at the nearest point of that boundary. Linear fields are thus preserved,
+and others change by a term of second order in d. With `order = 2` a quadratic polynomial is fitted
+to the neighbours of each node: then quadratic fields are preserved, others change by a term of
+third order, and next to jumps they may leave the range of the values there ([`linear_nodes`](@ref)
+returns the number of nodes where this was not possible). A value that is not finite is a
+[`PNPBSError`](@ref) that names it. Collective.
 
     transfer = Transfer(placement, u)
     set_spacing!(placement, d)
@@ -61,8 +61,8 @@ end
 """
     linear_nodes(transfer) -> Int
 
-At how many nodes, on all ranks, a transfer of the second order has no polynomial of that order: they
-had too few neighbours, or are on surfaces alone. -1 for one of the first order. Local.
+Returns the number of nodes, on all ranks, at which a second-order transfer has no quadratic
+polynomial: they had too few neighbours, or are on surfaces alone. -1 for a first-order one. Local.
 """
 function linear_nodes(transfer::Transfer)
     count = Ref{Int64}(0)
@@ -73,11 +73,12 @@ end
 """
     at_nodes(transfer, placement; conserve = false) -> Array{Float64}
 
-The field at the nodes of this rank that a placement has now: the same bits for any number of ranks
-and threads, then and now. A node where there was one before gets its value as it was. The placement
-may be another one of the same context, in the same dimension. With `conserve` the same number is
-added to the values of each component, so that the integral of the field that is linear on the
-triangles or tetrahedra there are now is the integral that it had on those before. Collective.
+Evaluates the field at the nodes of this rank that a placement has now: the same bits for any number
+of ranks and threads, at creation and now. A node at the position of an earlier one gets its value
+unchanged. The placement may be another one of the same context, in the same dimension. With
+`conserve` the same number is added to the values of each component, so that the integral of the
+field that is linear on the current triangles or tetrahedra equals its integral on the previous
+ones. Collective.
 """
 function at_nodes(transfer::Transfer, placement::Placement; conserve::Bool = false)
     n = node_count(placement)
@@ -90,7 +91,8 @@ end
 """
     at_points(transfer, points) -> Array{Float64}
 
-The field at any points, `(dim, n)`, of which each rank asks those it wants, 0 or more. Collective.
+Evaluates the field at arbitrary points, `(dim, n)`; each rank passes its own, 0 or more.
+Collective.
 """
 function at_points(transfer::Transfer, points::AbstractMatrix{<:Real})
     n = size(points, 2)
