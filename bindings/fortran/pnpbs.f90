@@ -898,12 +898,12 @@ contains
                   errmsg)
   end subroutine
 
-  !> Repairs the triangulated boundary surfaces of a domain in space where they enclose one body
-  !> badly: open, crossing, folded or inconsistently oriented. The body is where they wind around a
-  !> point more than half a time, in either orientation. Holes are closed, overlapping bodies are
-  !> joined, and surfaces that enclose nothing are dropped. The surface of the body is extracted as
-  !> that of a level set, with its sharp edges; all of it has the tag of the first triangle. A
-  !> warning reports its distance from the given triangles. Local.
+  !> Repairs the triangulated boundary surfaces of a domain in space that enclose one body
+  !> imperfectly: open, crossing, folded or inconsistently oriented. The body is where they wind
+  !> around a point more than half a time, in either orientation. Holes are closed, overlapping
+  !> bodies are joined, and surfaces that enclose nothing are dropped. The surface of the body is
+  !> extracted as that of a level set, with its sharp edges; all of it has the tag of the first
+  !> triangle. A warning reports its distance from the given triangles. Local.
   !>   resolution  thinner features can be lost; > 0, no more than the spacing at the surface, or 0:
   !>               1/64 of the longest side of the bounding box of the triangles
   subroutine domain_set_repair(self, resolution, stat, errmsg)
@@ -2430,9 +2430,9 @@ contains
 
   !> Transfers a field as create does, with second order. At each node a quadratic polynomial passes
   !> through its value and is fitted by least squares to those of its neighbours and of their
-  !> neighbours. Within an element those of its corners are weighted as in the linear field.
-  !> Quadratic fields are thus preserved, and smooth ones change by a term of third order in d. Next
-  !> to jumps the field may leave the range of the values there. Where a node has too few
+  !> neighbours. Within an element the polynomials of its corners are weighted as in the linear
+  !> field. Quadratic fields are thus preserved, and smooth ones change by a term of third order in
+  !> d. Next to jumps the field may leave the range of the values there. Where a node has too few
   !> neighbours, its part is linear (order returns their number), as it is everywhere on surfaces
   !> alone. Collective.
   !>   placement  whose nodes have the values
@@ -2485,7 +2485,7 @@ contains
     call conclude('transfer%destroy', c_transfer_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> Returns the shape of its arrays. Local; all are optional.
+  !> Returns the shape of the arrays of a transfer. Local; all are optional.
   !>   dim         2: in the plane, 3: in space
   !>   components  numbers at each node
   subroutine transfer_sizes(self, dim, components, stat, errmsg)

@@ -237,7 +237,7 @@ PNPBS_API pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim)
 PNPBS_API pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled);
 
 /** Repairs the triangulated boundary surfaces of a domain in space, including boxes, balls and
- *  cylinders, where they enclose one body badly: open, crossing, folded or inconsistently oriented,
+ *  cylinders, that enclose one body imperfectly: open, crossing, folded or inconsistently oriented,
  *  as in scans and assembled parts. The body is where they wind around a point more than half a
  *  time (generalised winding number, Jacobson, Kavan and Sorkine-Hornung 2013), in either
  *  orientation. Holes are closed, surfaces inside the body or enclosing nothing are dropped, and
@@ -299,8 +299,8 @@ PNPBS_API pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t ro
 PNPBS_API pnpbs_status pnpbs_domain_set_role(pnpbs_domain domain, int32_t tag, int32_t role);
 
 /** Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds its boundary to the
- *  domain. In space the boundary is its triangles and quadrangles: they are inner surfaces where
- *  the file has volume elements, or volumes in its geometry, on both sides, and boundary otherwise.
+ *  domain. In space the boundary is its triangles and quadrangles: they are inner surfaces if
+ *  volume elements, or volumes of the file's geometry, lie on both sides, and boundary otherwise.
  *  If the file has neither, closed surfaces are boundary (also within each other: cavities), and
  *  sheets and surfaces that divide a body are inner. Lines and points in physical groups are inner
  *  curves and fixed nodes. In the plane the boundary is its lines, and the edges that bound
@@ -509,9 +509,8 @@ PNPBS_API pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, i
  *  for use in a spacing callback. Local; checks the domain first. The first query computes what the
  *  shape requires and keeps it: make one query before querying from inside a callback.
  *  @param[in] nodes_per_turn,nodes_across,nodes_per_edge,growth  as there
- *  @param[in] coordinates                                        [n][dim]
- *  @param[out] d                                                 [n] at most the size of the
- *                                                                domain */
+ *  @param[in] coordinates  [n][dim]
+ *  @param[out] d           [n] at most the size of the domain */
 PNPBS_API pnpbs_status pnpbs_domain_shape_spacing(pnpbs_domain domain, double nodes_per_turn,
                                                   double nodes_across, double nodes_per_edge,
                                                   double growth, int64_t n,
@@ -697,10 +696,10 @@ PNPBS_API pnpbs_status pnpbs_placement_estimate(pnpbs_placement placement, int64
 
 /** Checks domain and spacing, builds the background tree, and lays the boundary nodes and the
  *  initial inner nodes. Where d varies, the inner nodes are computed by runs on coarser levels
- *  (option `levels`). Collective. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK;
+ *  (option `levels`). Collective. Returns PNPBS_OK, or PNPBS_STOPPED; stopped on a coarser level,
+ *  it keeps the nodes of that level. Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK;
  *  PNPBS_ERROR_MEMORY also where d requires nodes that need more than the memory available, times
- *  the option `max_memory`. Returns PNPBS_OK, or PNPBS_STOPPED; stopped on a coarser level, it
- *  keeps the nodes of that level. */
+ *  the option `max_memory`. */
 PNPBS_API pnpbs_status pnpbs_placement_initialise(pnpbs_placement placement);
 
 /** Advances the simulation by n steps, with the events (refresh of d, population, stop test) that
@@ -732,13 +731,13 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  the volume differs from the domain's by more than 0.001 of it and more than boundary faces can
  *  cut off, or triangles of surfaces alone do not join (a warning says which); PNPBS_STOPPED. The
  *  nodes are valid in all these cases. In space, before it would return PNPBS_NOT_CONFORMING, it
- *  reduces d where elements are missing and continues from its nodes, up to `conforming_rounds`
- *  times; a warning reports the cost (statistic `unresolved_places`). d stays reduced there until
- *  another spacing is set. There is also a warning where the boundary of the tetrahedra does not
- *  follow the surfaces (statistic `missing_faces`; see the option `resolve`), and where corners and
- *  sharp edges are left out (statistic `left_out`) because no tetrahedra connect to them: what lies
- *  between them is smaller than half of d, or the body ends there in a tip or an edge too sharp for
- *  any d. */
+ *  reduces d around the places where elements are missing and continues from its nodes, up to
+ *  `conforming_rounds` times; a warning reports the cost (statistic `unresolved_places`). d stays
+ *  reduced there until another spacing is set. There is also a warning where the boundary of the
+ *  tetrahedra does not follow the surfaces (statistic `missing_faces`; see the option `resolve`),
+ *  and where corners and sharp edges are left out (statistic `left_out`) because no tetrahedra
+ *  connect to them: what lies between them is smaller than half of d, or the body ends there in a
+ *  tip or an edge too sharp for any d. */
 PNPBS_API pnpbs_status pnpbs_placement_run(pnpbs_placement placement);
 
 /** Returns the dimension of the placement's domain. Local.
@@ -775,9 +774,9 @@ PNPBS_API pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, in
 PNPBS_API pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t *ghosts);
 
 /** Copies the ghosts, by increasing id; any array may be NULL. Collective.
- *  @param[in] capacity                          ghosts the arrays have room for
+ *  @param[in] capacity  ghosts the arrays have room for
  *  @param[out] coordinates, ids, tags, spacing  as pnpbs_placement_get_nodes
- *  @param[out] owners                           [ghosts] the rank that owns each */
+ *  @param[out] owners   [ghosts] the rank that owns each */
 PNPBS_API pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capacity,
                                                   double *coordinates, int64_t *ids, int32_t *tags,
                                                   double *spacing, int32_t *owners);
@@ -797,12 +796,11 @@ PNPBS_API pnpbs_status pnpbs_placement_exchange_sizes(pnpbs_placement placement,
  *  Valid until nodes move. Collective.
  *  @param[in] neighbours, sends, receives  what the arrays have room for; too small is
  *                                          PNPBS_ERROR_CAPACITY
- *  @param[out] ranks                       [neighbours] in increasing order; rank r lists s where s
- *                                          lists r
- *  @param[out] send_offsets                [neighbours + 1]
- *  @param[out] send_nodes                  [sends] local indices of this rank's nodes
- *  @param[out] receive_offsets             [neighbours + 1]
- *  @param[out] receive_nodes               [receives] local indices of ghosts (nodes + g) */
+ *  @param[out] ranks            [neighbours] in increasing order; rank r lists s where s lists r
+ *  @param[out] send_offsets     [neighbours + 1]
+ *  @param[out] send_nodes       [sends] local indices of this rank's nodes
+ *  @param[out] receive_offsets  [neighbours + 1]
+ *  @param[out] receive_nodes    [receives] local indices of ghosts (nodes + g) */
 PNPBS_API pnpbs_status pnpbs_placement_get_exchange(pnpbs_placement placement, int32_t neighbours,
                                                     int64_t sends, int64_t receives, int32_t *ranks,
                                                     int64_t *send_offsets, int64_t *send_nodes,
@@ -1046,11 +1044,11 @@ PNPBS_API pnpbs_status pnpbs_transfer_create(pnpbs_placement placement, int64_t 
 /** Transfers a field as pnpbs_transfer_create does, with second order. At each node a quadratic
  *  polynomial passes through its value and is fitted by least squares to those of its neighbours
  *  and of their neighbours in the stars (so across no boundary, and the same for all components).
- *  Within an element those of its corners are weighted as in the linear field. Quadratic fields are
- *  thus preserved, and smooth ones change by a term of third order in d. Next to jumps the field
- *  may leave the range of the values there. Where a node has too few neighbours, its part is linear
- *  (pnpbs_transfer_order returns their number), as it is everywhere on surfaces alone. Collective.
- *  Errors and parameters as there. */
+ *  Within an element the polynomials of its corners are weighted as in the linear field. Quadratic
+ *  fields are thus preserved, and smooth ones change by a term of third order in d. Next to jumps
+ *  the field may leave the range of the values there. Where a node has too few neighbours, its part
+ *  is linear (pnpbs_transfer_order returns their number), as it is everywhere on surfaces alone.
+ *  Collective. Errors and parameters as there. */
 PNPBS_API pnpbs_status pnpbs_transfer_create_second_order(pnpbs_placement placement, int64_t n,
                                                           int32_t components, const double *values,
                                                           pnpbs_transfer *transfer);
@@ -1065,7 +1063,7 @@ PNPBS_API pnpbs_status pnpbs_transfer_order(pnpbs_transfer transfer, int32_t *or
 /** Destroys the handle and sets it to NULL; accepts NULL. Local. */
 PNPBS_API pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer *transfer);
 
-/** Returns the shape of its arrays; outputs may be NULL. Local.
+/** Returns the shape of the arrays of a transfer; outputs may be NULL. Local.
  *  @param[out] dim         2: in the plane, 3: in space
  *  @param[out] components  numbers at each node */
 PNPBS_API pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t *dim,

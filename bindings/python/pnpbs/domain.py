@@ -228,8 +228,8 @@ class Domain(Handle):
         return self._call("set_filled", bool(filled))
 
     def set_repair(self, resolution: float = 0.0) -> Domain:
-        """Repairs the triangulated boundary surfaces of a domain in space where they enclose one
-        body badly: open, crossing, folded or inconsistently oriented. The body is where they wind
+        """Repairs the triangulated boundary surfaces of a domain in space that enclose one body
+        imperfectly: open, crossing, folded or inconsistently oriented. The body is where they wind
         around a point more than half a time, in either orientation. Holes are closed, overlapping
         bodies are joined, and surfaces that enclose nothing are dropped. The surface of the body is
         extracted as that of a level set, with its sharp edges; all of it has the tag of the first

@@ -331,7 +331,7 @@ end
 """
     set_repair!(domain, resolution = 0)
 
-Repairs the triangulated boundary surfaces of a domain in space where they enclose one body badly:
+Repairs the triangulated boundary surfaces of a domain in space that enclose one body imperfectly:
 open, crossing, folded or inconsistently oriented. The body is where they wind around a point more
 than half a time, in either orientation. Holes are closed, overlapping bodies are joined, and
 surfaces that enclose nothing are dropped. The surface of the body is extracted as that of a level
