@@ -13,7 +13,8 @@ namespace hunt {
 const char* const kUsage =
     "usage: hunt [--seed N | --seed today] --cases A..B | --case SEED:NUMBER | --kept FILE "
     "[--bodies FOLDER]\n"
-    "            [--plane | --space] [--data FOLDER] [--files FILE,...] [--shrink] [--all]\n"
+    "            [--seconds N] [--plane | --space] [--data FOLDER] [--files FILE,...] [--shrink] "
+    "[--all]\n"
     "            [--ranks N [--interval N] [--metis-seed N] [--rebalance] [--serial]]\n"
     "            [--threads N,...] [--once] [--default-options] [--share X] [--set KEY=VALUE]\n"
     "            [--option KEY=VALUE] [--nodes N [--slope X --from X,Y,Z]] "
@@ -99,6 +100,8 @@ bool take_value(const std::string& word, const std::string& value, Arguments& ma
   } else if (word == "--cases" && dots != std::string::npos) {
     made.first = number(value);
     made.last = number(value.substr(dots + 2));
+  } else if (word == "--seconds") {
+    made.seconds = real(value);
   } else if (word == "--case" && colon != std::string::npos) {
     made.spec.seed = number(value);
     made.first = number(value.substr(colon + 1));

@@ -14,6 +14,7 @@ namespace hunt {
 struct Arguments {
   CaseSpec spec;
   std::uint64_t first = 0, last = 0;   // numbers; last is not one of them
+  double seconds = 0;                  // after which no case begins but the first; 0: no limit
   std::optional<Configuration> group;  // in place of random ones
   std::vector<int> threads;            // of the ranks behind the reference
   Settings extra;                      // options of all but the reference

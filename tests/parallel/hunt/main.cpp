@@ -28,6 +28,7 @@ class Hunt {
 
   void run_all() {
     for (std::uint64_t number = arguments_.first; number < arguments_.last; ++number) {
+      if (number > arguments_.first && time_is_over()) break;
       CaseSpec spec = arguments_.spec;
       spec.number = number;
       run(spec, arguments_.group, arguments_.extra);
@@ -48,6 +49,13 @@ class Hunt {
   }
 
  private:
+  /** The same on all ranks. */
+  bool time_is_over() const {
+    int over = arguments_.seconds > 0 && MPI_Wtime() - begin_ > arguments_.seconds;
+    MPI_Bcast(&over, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    return over != 0;
+  }
+
   // The reference has one; the last two ranks of a large world two and three.
   void set_threads() {
     threads_.assign(static_cast<std::size_t>(size_), 1);
@@ -150,6 +158,7 @@ class Hunt {
   }
 
   const Arguments& arguments_;
+  const double begin_ = MPI_Wtime();
   int rank_ = 0, size_ = 1;
   Threads threads_;
   unsigned long long counted_ = 0, skipped_ = 0, failed_checks_ = 0, differ_ = 0;
