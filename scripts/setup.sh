@@ -106,6 +106,7 @@ missing() {
     have ninja || echo ninja-build
     have make || echo make
     have clang-format || echo clang-format
+    have ccache || echo ccache
     module check || echo check
     have "${FC:-gfortran}" || echo gfortran
     # Its Fortran module files, which some distributions have apart from mpicc.

@@ -30,6 +30,11 @@ scripts/setup.sh --tests --kokkos 4.5.1-clang --kokkos 4.7.0-shared
 if command -v ninja > /dev/null; then export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}; fi
 export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 export CTEST_PARALLEL_LEVEL=${CTEST_PARALLEL_LEVEL:-$(nproc)}
+# What has been compiled before, in this clone or another, need not be compiled again.
+if command -v ccache > /dev/null; then
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+fi
 
 say "checking the format"
 # Versions of clang-format differ in taste; 14 is the one the files are written with.
