@@ -249,15 +249,26 @@ double SliverRepair::penalty_around(std::int32_t i) const {
   return penalty(around, i, nodes_.position(i));
 }
 
-bool SliverRepair::within_reach(const StarChange& change) const {
-  const Point<3> x = nodes_.position(change.node);
-  const double reach = kSliverReach * nodes_.d(change.node);
-  const auto near = [&](const TetrahedronNodes& t) {
-    return std::all_of(t.begin(), t.end(),
-                       [&](std::int32_t i) { return distance<3>(nodes_.position(i), x) <= reach; });
-  };
-  return std::all_of(change.gone.begin(), change.gone.end(), near) &&
-         std::all_of(change.made.begin(), change.made.end(), near);
+bool SliverRepair::within_reach(std::int32_t i, const TetrahedronNodes& tetrahedron) const {
+  const Point<3> x = nodes_.position(i);
+  const double reach = kSliverReach * nodes_.d(i);
+  return std::all_of(tetrahedron.begin(), tetrahedron.end(),
+                     [&](std::int32_t j) { return distance<3>(nodes_.position(j), x) <= reach; });
+}
+
+bool SliverRepair::within_reach(std::int32_t i,
+                                std::span<const TetrahedronNodes> tetrahedra) const {
+  return std::all_of(tetrahedra.begin(), tetrahedra.end(),
+                     [&](const TetrahedronNodes& t) { return within_reach(i, t); });
+}
+
+// Wherever the node goes, all tetrahedra around it are gone then.
+bool SliverRepair::star_within_reach(std::int32_t i) const {
+  bool within = true;
+  stars_.for_simplices(i, [&](const StarChanges::Corners& c) {
+    within = within && within_reach(i, TetrahedronNodes{i, c[0], c[1], c[2]});
+  });
+  return within;
 }
 
 // Of what is made no more than a part is known yet, and all that may be gone: less is never made,
@@ -271,8 +282,9 @@ bool SliverRepair::may_help(const StarChange& change) const {
 bool SliverRepair::helps(const StarChange& change) const {
   constexpr double kRounding = 1e-9;
   const std::int32_t i = change.node;
-  return within_reach(change) && penalty(change.made, i, change.x) <
-                                     (1 - kRounding) * penalty(change.gone, i, nodes_.position(i));
+  return within_reach(i, change.gone) && within_reach(i, change.made) &&
+         penalty(change.made, i, change.x) <
+             (1 - kRounding) * penalty(change.gone, i, nodes_.position(i));
 }
 
 void SliverRepair::try_moves(Attempt& attempt) const {
@@ -312,6 +324,7 @@ bool SliverRepair::crowded(std::int32_t i, const Point<3>& x) const {
 
 void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
   const std::int32_t i = attempt.node;
+  if (!star_within_reach(i)) return;
   SurfaceNodeMove move(nodes_, stars_, i, along_surfaces_.in_domain);
   for (int trial = 0; trial < kTrials; ++trial) {
     const std::uint64_t bits = bits_of_trial(attempt.lot, trial);
@@ -319,7 +332,8 @@ void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
         along_surfaces_.walk(i, direction_to_try(attempt, trial, bits), way_to_try(attempt, bits));
     if (to.x == nodes_.position(i) || too_far(i, to.x) || crowded(i, to.x)) continue;
     move.go_to(to.x, to.facet);
-    if (!may_help(move.change()) || !move.complete() || !helps(move.change())) continue;
+    if (!within_reach(i, move.change().made) || !may_help(move.change())) continue;
+    if (!move.complete() || !helps(move.change())) continue;
     attempt.success.push_back(move.change());
     return;
   }

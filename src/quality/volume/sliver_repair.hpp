@@ -135,7 +135,9 @@ class SliverRepair {
   bool helps(const StarChange& change) const;
   bool crowded(std::int32_t i, const Point<3>& x) const;
   bool too_far(std::int32_t i, const Point<3>& x) const;
-  bool within_reach(const StarChange& change) const;
+  bool within_reach(std::int32_t i, const TetrahedronNodes& tetrahedron) const;
+  bool within_reach(std::int32_t i, std::span<const TetrahedronNodes> tetrahedra) const;
+  bool star_within_reach(std::int32_t i) const;
   double penalty(std::span<const TetrahedronNodes> tetrahedra, std::int32_t node,
                  const Point<3>& at) const;
   double penalty_around(std::int32_t i) const;

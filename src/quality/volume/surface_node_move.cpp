@@ -15,6 +15,12 @@ void sort_unique(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
+template <class Found>
+bool has_node(const Found& tetrahedron, std::int32_t node) {
+  return std::find(tetrahedron.by_id.begin(), tetrahedron.by_id.end(), node) !=
+         tetrahedron.by_id.end();
+}
+
 }  // namespace
 
 SurfaceNodeMove::SurfaceNodeMove(const Nodes<3>& nodes, const StarChanges& stars, std::int32_t node,
@@ -36,11 +42,18 @@ SurfaceNodeMove::SurfaceNodeMove(const Nodes<3>& nodes, const StarChanges& stars
   }
 }
 
-// The tetrahedra of the domain that node i makes with those near while the node that goes is at x;
-// and all neighbours, on the far side of the surface, too.
-void SurfaceNodeMove::add_star(std::int32_t i, const Point<3>& x, std::vector<Found>& found_there,
-                               std::vector<std::int32_t>* neighbours) const {
+bool SurfaceNodeMove::is_element(const Found& tetrahedron, const std::array<std::int64_t, 4>& nodes,
+                                 const Tetrahedron& corners) {
+  if (has_node(tetrahedron, change_.node)) return in_domain_(nodes, corners);
+  const auto [known, is_new] = elements_.try_emplace(tetrahedron.by_id, false);
+  if (is_new) known->second = in_domain_(nodes, corners);
+  return known->second;
+}
+
+// What node i makes with those near while the node that goes is at x.
+SurfaceNodeMove::Star SurfaceNodeMove::star_of(std::int32_t i, const Point<3>& x) {
   static thread_local VolumeStar star;
+  Star result;
   star.start(node_at(i, x));
   std::vector<std::int32_t> candidates;
   for (const std::int32_t j : near_) {
@@ -57,47 +70,74 @@ void SurfaceNodeMove::add_star(std::int32_t i, const Point<3>& x, std::vector<Fo
       nodes[k + 1] = t[k + 1] = candidates[static_cast<std::size_t>(corners[k])];
       at[k + 1] = star.candidates()[static_cast<std::size_t>(corners[k])];
     }
-    if (neighbours != nullptr) neighbours->insert(neighbours->end(), t.begin() + 1, t.end());
-    if (in_domain_(nodes, at)) found_there.push_back(found(t));
+    result.neighbours.insert(result.neighbours.end(), t.begin() + 1, t.end());
+    if (const Found tetrahedron = found(t); is_element(tetrahedron, nodes, at))
+      result.tetrahedra.push_back(tetrahedron);
     return true;
   });
+  std::sort(result.tetrahedra.begin(), result.tetrahedra.end());
+  return result;
 }
 
-// Of these nodes together. A tetrahedron must be in the stars of all its corners among them.
-bool SurfaceNodeMove::make_stars(const std::vector<std::int32_t>& centres, const Point<3>& x,
-                                 std::vector<Found>& found_there) const {
-  for (const std::int32_t i : centres) add_star(i, x, found_there, nullptr);
-  std::sort(found_there.begin(), found_there.end());
-  for (auto first = found_there.begin(); first != found_there.end();) {
-    const auto last = std::upper_bound(first, found_there.end(), *first);
+const SurfaceNodeMove::Star& SurfaceNodeMove::star_before(std::int32_t i) {
+  const auto found = before_.find(i);
+  if (found != before_.end()) return found->second;
+  return before_.emplace(i, star_of(i, nodes_.position(change_.node))).first->second;
+}
+
+// Is the star made from the nodes around the one that is there?
+bool SurfaceNodeMove::is_as_before(std::int32_t i) {
+  return star_before(i).tetrahedra == star_there(i);
+}
+
+// Of the centres, with the node where it goes. A tetrahedron must be in the stars of all its
+// corners among them.
+bool SurfaceNodeMove::find_stars_after(std::vector<Found>& found) {
+  for (const std::int32_t i : centres_) {
+    const Star star = star_of(i, change_.x);
+    found.insert(found.end(), star.tetrahedra.begin(), star.tetrahedra.end());
+  }
+  std::sort(found.begin(), found.end());
+  for (auto first = found.begin(); first != found.end();) {
+    const auto last = std::upper_bound(first, found.end(), *first);
     const auto corners = std::count_if(
         first->by_id.begin(), first->by_id.end(),
-        [&](std::int32_t i) { return std::binary_search(centres.begin(), centres.end(), i); });
+        [&](std::int32_t i) { return std::binary_search(centres_.begin(), centres_.end(), i); });
     if (last - first != corners) return false;
     first = last;
   }
-  found_there.erase(std::unique(found_there.begin(), found_there.end()), found_there.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return true;
+}
+
+std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::star_there(std::int32_t i) const {
+  std::vector<Found> there;
+  stars_.for_simplices(i, [&](const StarChanges::Corners& c) {
+    there.push_back(found({i, c[0], c[1], c[2]}));
+  });
+  std::sort(there.begin(), there.end());
+  return there;
 }
 
 std::vector<SurfaceNodeMove::Found> SurfaceNodeMove::stars_there(
     const std::vector<std::int32_t>& centres) const {
   std::vector<Found> there;
   for (const std::int32_t i : centres) stars_.count_if_unknown(i);
-  for (const std::int32_t i : centres)
-    stars_.for_simplices(i, [&](const StarChanges::Corners& c) {
-      there.push_back(found({i, c[0], c[1], c[2]}));
-    });
+  for (const std::int32_t i : centres) {
+    const std::vector<Found> star = star_there(i);
+    there.insert(there.end(), star.begin(), star.end());
+  }
   sort_unique(there);
   return there;
 }
 
 void SurfaceNodeMove::go_to(const Point<3>& x, std::int32_t on) {
   change_ = {change_.node, x, {}, {}, on};
-  std::vector<Found> before, after;
-  centres_.assign(1, change_.node);
-  add_star(change_.node, nodes_.position(change_.node), before, &centres_);
-  add_star(change_.node, x, after, &centres_);
+  const Star& before = star_before(change_.node);
+  const Star after = star_of(change_.node, x);
+  centres_ = before.neighbours;
+  centres_.insert(centres_.end(), after.neighbours.begin(), after.neighbours.end());
+  centres_.push_back(change_.node);
   std::erase_if(centres_,
                 [&](std::int32_t i) {  // on the far side of a gap, far away within the body
                   return !std::binary_search(two_rings_.begin(), two_rings_.end(), i);
@@ -107,27 +147,25 @@ void SurfaceNodeMove::go_to(const Point<3>& x, std::int32_t on) {
   sort_unique(centres_);
   there_ = stars_there(centres_);
   for (const Found& t : there_) change_.gone.push_back(t.oriented);
-  for (const Found& t : after) change_.made.push_back(t.oriented);
+  for (const Found& t : after.tetrahedra) change_.made.push_back(t.oriented);
 }
 
 bool SurfaceNodeMove::complete() {
-  std::vector<Found> before, after;
-  if (!make_stars(centres_, nodes_.position(change_.node), before) || before != there_)
+  if (!std::all_of(centres_.begin(), centres_.end(),
+                   [this](std::int32_t i) { return is_as_before(i); }))
     return false;
-  if (!make_stars(centres_, change_.x, after)) return false;
+  std::vector<Found> after;
+  if (!find_stars_after(after)) return false;
   change_.gone.clear();
   change_.made.clear();
-  const auto moves_along = [&](const Found& t) {
-    return std::find(t.by_id.begin(), t.by_id.end(), change_.node) != t.by_id.end();
-  };
   const auto differing = [&](const std::vector<Found>& of, const std::vector<Found>& others,
                              std::vector<TetrahedronNodes>& changed) {
     for (const Found& t : of)
-      if (moves_along(t) || !std::binary_search(others.begin(), others.end(), t))
+      if (has_node(t, change_.node) || !std::binary_search(others.begin(), others.end(), t))
         changed.push_back(t.oriented);
   };
-  differing(before, after, change_.gone);
-  differing(after, before, change_.made);
+  differing(there_, after, change_.gone);
+  differing(after, there_, change_.made);
   return true;
 }
 

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
+#include <map>
 #include <vector>
 
 #include "delaunay/volume/volume_star.hpp"
@@ -38,14 +38,21 @@ class SurfaceNodeMove {
     bool operator<(const Found& other) const { return by_id < other.by_id; }
     bool operator==(const Found& other) const { return by_id == other.by_id; }
   };
+  struct Star {
+    std::vector<Found> tetrahedra;         // of the domain, in order
+    std::vector<std::int32_t> neighbours;  // on the far side of the surface, too
+  };
 
   VolumeNode node_at(std::int32_t i, const Point<3>& x) const {
     return {i == change_.node ? x : nodes_.position(i), nodes_.d(i), nodes_.id(i)};
   }
-  void add_star(std::int32_t i, const Point<3>& x, std::vector<Found>& found,
-                std::vector<std::int32_t>* neighbours) const;
-  bool make_stars(const std::vector<std::int32_t>& centres, const Point<3>& x,
-                  std::vector<Found>& found) const;
+  Star star_of(std::int32_t i, const Point<3>& x);
+  const Star& star_before(std::int32_t i);
+  bool is_element(const Found& tetrahedron, const std::array<std::int64_t, 4>& nodes,
+                  const Tetrahedron& corners);
+  bool is_as_before(std::int32_t i);
+  bool find_stars_after(std::vector<Found>& found);
+  std::vector<Found> star_there(std::int32_t i) const;
   std::vector<Found> stars_there(const std::vector<std::int32_t>& centres) const;
   Found found(const TetrahedronNodes& t) const { return {stars_.by_id(t), t}; }
 
@@ -56,6 +63,10 @@ class SurfaceNodeMove {
   std::vector<std::int32_t> two_rings_, near_;
   std::vector<std::int32_t> centres_;  // of the stars that may change
   std::vector<Found> there_;           // their tetrahedra
+  // What does not depend on where the node goes: the stars while it has not gone, and of tetrahedra
+  // without it, by id, whether they are elements.
+  std::map<std::int32_t, Star> before_;
+  std::map<TetrahedronNodes, bool> elements_;
   StarChange change_;
 };
 
