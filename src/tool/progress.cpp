@@ -49,10 +49,12 @@ std::string percent(double fraction) {
 
 }  // namespace
 
-Progress::Progress(bool wanted, bool forced) : shown_(wanted && (forced || can_redraw_lines())) {}
+Progress::Progress(bool wanted, bool forced)
+    : wanted_(wanted), shown_(wanted && (forced || can_redraw_lines())) {}
 
 void Progress::watch(pnpbs_placement placement, Turn turn) {
   turn_ = std::move(turn);
+  placement_ = placement;
   pnpbs_placement_set_monitor(placement, monitor, this);
 }
 
@@ -60,6 +62,7 @@ std::int32_t Progress::monitor(double fraction, std::int64_t step, std::int64_t 
                                double max_speed, void* user) {
   auto* const progress = static_cast<Progress*>(user);
   try {
+    progress->note_held_spacing();
     progress->update(fraction, step, nodes, max_speed);
   } catch (...) {
     // A run is worth more than its progress bar.
@@ -83,6 +86,20 @@ void Progress::update(double fraction, std::int64_t step, std::int64_t nodes, do
   const std::string left = percent(fraction) + " ";
   const int room = terminal_width() - static_cast<int>(left.size() + right.size()) - 3;
   draw(left + (room < narrowest_bar ? "" : bar(fraction, std::min(room, widest_bar))) + right);
+}
+
+// Where d is held down, a run takes several times as long: that is said before.
+void Progress::note_held_spacing() {
+  std::int64_t places = 0;
+  if (!wanted_ || pnpbs_placement_get_int64(placement_, "unresolved_places", &places) < 0) return;
+  if (places > unresolved_places_) {
+    clear();
+    std::cerr << "pnpbs: note: the elements do not follow the shape at "
+              << grouped(places - unresolved_places_)
+              << " places; d is reduced around them, and the run continues (option "
+                 "conforming_rounds)\n";
+  }
+  unresolved_places_ = places;
 }
 
 void Progress::say(const std::string& what) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress bar on standard error, for terminals unless it is asked for.
+// The progress bar on standard error, for terminals unless it is requested, and notes on what makes
+// a run longer than expected.
 #pragma once
 
 #include <chrono>
@@ -33,10 +34,13 @@ class Progress {
   static std::int32_t monitor(double fraction, std::int64_t step, std::int64_t nodes,
                               double max_speed, void* user);
   void update(double fraction, std::int64_t step, std::int64_t nodes, double max_speed);
+  void note_held_spacing();
   void draw(const std::string& line);
 
   Turn turn_;
-  bool shown_;
+  pnpbs_placement placement_ = nullptr;
+  std::int64_t unresolved_places_ = 0;  // reported so far
+  bool wanted_, shown_;
   bool drawn_ = false;
   Clock::time_point begin_ = Clock::now();
   Clock::time_point last_{};

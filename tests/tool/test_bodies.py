@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Domains in space: what the command reads, tells and refuses."""
 
+import itertools
 import json
 import re
 import struct
@@ -115,6 +116,16 @@ class Files(CommandTest):
         self.assertNotIn("feature_angle", json.loads((self.folder / "a.json").read_text()))
         self.assertEqual(json.loads((self.folder / "b.json").read_text())["feature_angle"], 20)
 
+    def test_held_spacing_is_noted_before_it_takes_long(self):
+        self.save_rough_globe("globe.off")
+        _, err = self.place_body("globe.off", "0.4")
+        note, warning = (err.find(f"pnpbs: {words}") for words in (
+            "note: the elements do not follow the shape at ",
+            "warning: the spacing did not resolve the shape at "))
+        self.assertTrue(0 <= note < warning, err)
+        _, err = self.place_body("globe.off", "0.4", "--quiet")
+        self.assertEqual(err, "")
+
     def test_surfaces_only(self):
         # An open box: a cube without its lid.
         self.save_cube_without_lid("open.off")
@@ -167,6 +178,20 @@ class Files(CommandTest):
         picture = (self.folder / "a.svg").read_text()
         self.assertNotIn("cut at", picture)
         self.assertGreaterEqual(len(re.findall("<path", picture)), triangles)
+
+    def save_rough_globe(self, name):
+        """With bumps and dents that d = 0.4 does not resolve."""
+        rows = 12
+        faces = [((i + up, j + up), (i + 1, j), (i, j + 1))
+                 for i in range(rows) for j in range(rows - i)
+                 for up in range(2 if i + j + 1 < rows else 1)]
+        signs = numpy.array(list(itertools.product((1, -1), repeat=3)))
+        octant = numpy.array([(i, j, rows - i - j) for face in faces for i, j in face])
+        x = (signs[:, None] * octant[None] / numpy.linalg.norm(octant, axis=1)[:, None]).reshape(-1, 3)
+        x *= (1 + 0.7 * numpy.prod(numpy.sin(6.5 * x + [0, 1, 2]), axis=1))[:, None]
+        text = f"OFF\n{len(x)} {len(x) // 3} 0\n" + "".join("%.17g %.17g %.17g\n" % tuple(p) for p in x)
+        text += "".join(f"3 {t} {t + 1} {t + 2}\n" for t in range(0, len(x), 3))
+        (self.folder / name).write_text(text)
 
     def save_cube_without_lid(self, name):
         vertices = [line.split()[1:] for line in VERTICES.splitlines()[1:]]
