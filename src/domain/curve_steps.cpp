@@ -7,7 +7,7 @@
 
 #include "base/point_text.hpp"
 #include "domain/plane/curve_track.hpp"
-#include "domain/polyline_track.hpp"
+#include "geometry/polyline_track.hpp"
 
 namespace pnpbs {
 

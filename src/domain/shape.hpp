@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "domain/boundary_mesh.hpp"
 #include "domain/domain.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

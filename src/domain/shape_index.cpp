@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/space_vectors.hpp"
-#include "domain/plane/edges.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/plane/edges.hpp"
+#include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "domain/clearance.hpp"
+#include "geometry/clearance.hpp"
 
 namespace pnpbs {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "domain/clearance.hpp"
 #include "dynamics/bubble_force.hpp"
+#include "geometry/clearance.hpp"
 #include "level/finish.hpp"
 
 namespace pnpbs {

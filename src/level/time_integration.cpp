@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "domain/clearance.hpp"
 #include "dynamics/pair_laws.hpp"
+#include "geometry/clearance.hpp"
 #include "level/reach.hpp"
 
 namespace pnpbs {

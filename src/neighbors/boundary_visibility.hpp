@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/nodes.hpp"
-#include "domain/plane/incident_sectors.hpp"
+#include "geometry/plane/incident_sectors.hpp"
 #include "neighbors/near_edges.hpp"
 #include "spacing/domain_map.hpp"
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "domain/plane/segments.hpp"
+#include "geometry/plane/segments.hpp"
 
 namespace pnpbs {
 

@@ -9,7 +9,7 @@
 
 #include "base/chunked_rows.hpp"
 #include "base/nodes.hpp"
-#include "domain/plane/incident_sectors.hpp"
+#include "geometry/plane/incident_sectors.hpp"
 #include "neighbors/buckets.hpp"
 #include "spacing/domain_map.hpp"
 

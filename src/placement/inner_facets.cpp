@@ -6,7 +6,7 @@
 
 #include "base/space_vectors.hpp"
 #include "delaunay/volume/element_rule.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "domain/clearance.hpp"
+#include "geometry/clearance.hpp"
 #include "initial/initial_fill.hpp"
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "domain/boundary_mesh.hpp"
 #include "domain/spacing_evaluator.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

@@ -9,7 +9,7 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 

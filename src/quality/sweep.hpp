@@ -5,7 +5,7 @@
 #pragma once
 
 #include "delaunay/delaunay_stars.hpp"
-#include "domain/clearance.hpp"
+#include "geometry/clearance.hpp"
 #include "neighbors/near_edges.hpp"
 
 namespace pnpbs {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "comm/communicator.hpp"
-#include "domain/facet_index.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
+#include "geometry/facet_index.hpp"
 #include "spacing/growth_source.hpp"
 #include "tree/background_tree.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "predicates/plane.hpp"
 #include "predicates/space.hpp"
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "domain/plane/boundary.hpp"
-#include "domain/plane/edges.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/plane/edges.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "spacing/domain_map.hpp"
 #include "tree/cell_samples.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "domain/domain.hpp"
-#include "domain/facet_index.hpp"
 #include "domain/spacing_evaluator.hpp"
+#include "geometry/facet_index.hpp"
 
 namespace pnpbs {
 

@@ -9,8 +9,8 @@
 #include "base/error.hpp"
 #include "base/space_vectors.hpp"
 #include "base/started_execution.hpp"
-#include "domain/plane/edges.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/plane/edges.hpp"
+#include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "domain/clearance.hpp"
+#include "geometry/clearance.hpp"
 #include "geometry/expect_error.hpp"
 #include "level_run.hpp"
 #include "predicates/plane.hpp"

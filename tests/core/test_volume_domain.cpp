@@ -8,9 +8,9 @@
 #include <numeric>
 #include <vector>
 
-#include "domain/clearance.hpp"
 #include "domain/volume/level_set.hpp"
 #include "domain/volume/volume_domain.hpp"
+#include "geometry/clearance.hpp"
 #include "geometry/expect_error.hpp"
 #include "mapped_volume.hpp"
 #include "random.hpp"

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "domain/volume/surface_index.hpp"
+#include "geometry/volume/surface_index.hpp"
 #include "spacing/open_ways.hpp"
 #include "spacing/spacing.hpp"
 #include "surfaces.hpp"

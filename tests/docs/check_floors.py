@@ -12,7 +12,7 @@ import re
 import sys
 import tempfile
 
-FLOORS = ("base comm predicates tree domain spacing initial partition neighbors dynamics "
+FLOORS = ("base comm predicates tree geometry domain spacing initial partition neighbors dynamics "
           "population delaunay quality settings level placement io picture api geo tool").split()
 PUBLIC_HEADER_FOR = "api", "geo", "tool"
 MAX_LINES = 400

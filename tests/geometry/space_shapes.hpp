@@ -12,9 +12,9 @@
 
 #include "base/space_vectors.hpp"
 #include "core/surfaces.hpp"
-#include "domain/boundary_mesh.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/surfaces.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace space_shapes {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "domain/plane/boundary.hpp"
-#include "domain/plane/faces.hpp"
 #include "domain/plane/poly_reader.hpp"
 #include "expect_error.hpp"
+#include "geometry/plane/faces.hpp"
 #include "run_suite.hpp"
 #include "shapes.hpp"
 

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "domain/plane/faces.hpp"
-#include "domain/plane/plane_sweep.hpp"
+#include "geometry/plane/faces.hpp"
+#include "geometry/plane/plane_sweep.hpp"
 #include "predicates/plane.hpp"
 #include "run_suite.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "domain/volume/polygon_triangles.hpp"
 #include "domain/volume/polygons.hpp"
+#include "geometry/plane/polygon_triangles.hpp"
 #include "run_suite.hpp"
 
 using pnpbs::Point;

@@ -10,8 +10,8 @@
 
 #include "base/space_vectors.hpp"
 #include "domain/volume/repaired_body.hpp"
-#include "domain/volume/winding_number.hpp"
 #include "expect_error.hpp"
+#include "geometry/volume/winding_number.hpp"
 #include "run_suite.hpp"
 #include "triangle_soup.hpp"
 

@@ -10,8 +10,8 @@
 
 #include "base/error.hpp"
 #include "domain/plane/plane_domain.hpp"
-#include "domain/plane/segments.hpp"
 #include "expect_error.hpp"
+#include "geometry/plane/segments.hpp"
 #include "run_suite.hpp"
 #include "shapes.hpp"
 

@@ -10,7 +10,7 @@
 #include "core/quick_assert.hpp"
 #include "core/random.hpp"
 #include "domain/volume/feature_nodes.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "run_suite.hpp"
 #include "surface_case.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "domain/volume/welding.hpp"
+#include "geometry/volume/welding.hpp"
 #include "run_suite.hpp"
 #include "triangle_soup.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/quick_assert.hpp"
-#include "domain/volume/triangles.hpp"
 #include "expect_error.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "initial/volume/surface_fill.hpp"
 #include "run_suite.hpp"
 #include "surface_case.hpp"

@@ -8,8 +8,8 @@
 #include "core/surfaces.hpp"
 #include "domain/volume/nesting.hpp"
 #include "domain/volume/self_intersections.hpp"
-#include "domain/volume/triangle_contacts.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangle_contacts.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "run_suite.hpp"
 
 using surfaces::Place;

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "run_suite.hpp"
 #include "triangle_soup.hpp"
 

@@ -15,7 +15,7 @@
 #include "base/nodes.hpp"
 #include "delaunay/volume/element_labels.hpp"
 #include "delaunay/volume/surface_rings.hpp"
-#include "domain/facet_index.hpp"
+#include "geometry/facet_index.hpp"
 #include "neighbors/adjacency_list.hpp"
 #include "neighbors/buckets.hpp"
 #include "partition/known_region.hpp"

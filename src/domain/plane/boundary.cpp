@@ -8,9 +8,9 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/plane/curve_track.hpp"
-#include "domain/plane/faces.hpp"
-#include "domain/plane/plane_sweep.hpp"
-#include "domain/plane/point_tree.hpp"
+#include "geometry/plane/faces.hpp"
+#include "geometry/plane/plane_sweep.hpp"
+#include "geometry/plane/point_tree.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {

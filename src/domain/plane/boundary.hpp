@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "domain/boundary_mesh.hpp"
 #include "domain/curve_steps.hpp"
 #include "domain/plane/plane_domain.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

@@ -7,7 +7,7 @@
 
 #include "base/point_text.hpp"
 #include "domain/domain_error.hpp"
-#include "domain/plane/segments.hpp"
+#include "geometry/plane/segments.hpp"
 #include "predicates/plane.hpp"
 #include "tree/box_tree.hpp"
 

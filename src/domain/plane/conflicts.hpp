@@ -6,7 +6,7 @@
 
 #include "domain/plane/curve_source.hpp"
 #include "domain/plane/domain_graph.hpp"
-#include "domain/plane/plane_sweep.hpp"
+#include "geometry/plane/plane_sweep.hpp"
 
 namespace pnpbs {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "domain/plane/sampling.hpp"
-#include "domain/plane/segments.hpp"
+#include "geometry/plane/segments.hpp"
 
 namespace pnpbs {
 

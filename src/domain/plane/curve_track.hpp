@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "domain/plane/plane_domain.hpp"
-#include "domain/polyline_track.hpp"
+#include "geometry/polyline_track.hpp"
 
 namespace pnpbs {
 

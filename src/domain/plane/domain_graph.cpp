@@ -9,8 +9,8 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/domain_error.hpp"
-#include "domain/plane/point_tree.hpp"
 #include "domain/plane/smooth_graph.hpp"
+#include "geometry/plane/point_tree.hpp"
 
 namespace pnpbs {
 

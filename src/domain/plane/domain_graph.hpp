@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "domain/plane/plane_domain.hpp"
-#include "domain/plane/plane_sweep.hpp"
+#include "geometry/plane/plane_sweep.hpp"
 
 namespace pnpbs {
 

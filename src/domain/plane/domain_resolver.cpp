@@ -11,10 +11,10 @@
 #include "domain/plane/conflicts.hpp"
 #include "domain/plane/domain_extent.hpp"
 #include "domain/plane/domain_graph.hpp"
-#include "domain/plane/faces.hpp"
-#include "domain/plane/plane_sweep.hpp"
 #include "domain/plane/sampling.hpp"
 #include "domain/plane/smooth_contacts.hpp"
+#include "geometry/plane/faces.hpp"
+#include "geometry/plane/plane_sweep.hpp"
 
 namespace pnpbs {
 

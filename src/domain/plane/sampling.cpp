@@ -6,7 +6,7 @@
 
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
-#include "domain/plane/segments.hpp"
+#include "geometry/plane/segments.hpp"
 
 namespace pnpbs {
 

@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "domain/plane/domain_graph.hpp"
-#include "domain/plane/point_tree.hpp"
-#include "domain/plane/segments.hpp"
 #include "domain/plane/small_loops.hpp"
+#include "geometry/plane/point_tree.hpp"
+#include "geometry/plane/segments.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {

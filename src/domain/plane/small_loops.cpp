@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/limits.hpp"
-#include "domain/plane/point_tree.hpp"
+#include "geometry/plane/point_tree.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {

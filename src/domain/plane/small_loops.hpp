@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/plane/chains.hpp"
 #include "domain/plane/domain_graph.hpp"
+#include "geometry/plane/chains.hpp"
 
 namespace pnpbs {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/limits.hpp"
-#include "domain/plane/point_tree.hpp"
 #include "domain/plane/sampling.hpp"
+#include "geometry/plane/point_tree.hpp"
 
 namespace pnpbs {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "domain/plane/chains.hpp"
+#include "geometry/plane/chains.hpp"
 
 namespace pnpbs {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "base/space_vectors.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "domain/curve_steps.hpp"
-#include "domain/polyline_track.hpp"
 #include "domain/volume/large_facets.hpp"
+#include "geometry/polyline_track.hpp"
 
 namespace pnpbs {
 

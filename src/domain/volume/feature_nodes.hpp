@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "domain/boundary_mesh.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/features.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

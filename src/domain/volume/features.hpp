@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/boundary_mesh.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/point_text.hpp"
 #include "domain/domain_error.hpp"
-#include "domain/volume/triangle_contacts.hpp"
+#include "geometry/volume/triangle_contacts.hpp"
 
 namespace pnpbs {
 

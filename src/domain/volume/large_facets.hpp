@@ -3,10 +3,10 @@
 // say.
 #pragma once
 
-#include "domain/boundary_mesh.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "domain/volume/features.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

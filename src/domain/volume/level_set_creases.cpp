@@ -13,7 +13,7 @@
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/volume/crease_cutting.hpp"
-#include "domain/volume/triangle_contacts.hpp"
+#include "geometry/volume/triangle_contacts.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

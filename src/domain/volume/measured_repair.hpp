@@ -2,9 +2,9 @@
 // Measures the distances between a repaired body and the triangles it was made from.
 #pragma once
 
-#include "domain/volume/nearest_triangles.hpp"
 #include "domain/volume/repair_distances.hpp"
 #include "domain/volume/triangulation.hpp"
+#include "geometry/volume/nearest_triangles.hpp"
 
 namespace pnpbs {
 

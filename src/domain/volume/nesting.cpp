@@ -7,7 +7,7 @@
 #include "base/limits.hpp"
 #include "base/space_vectors.hpp"
 #include "base/union_find.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "predicates/expansion.hpp"
 
 namespace pnpbs {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "domain/volume/polygon_triangles.hpp"
+#include "geometry/plane/polygon_triangles.hpp"
 
 namespace pnpbs {
 

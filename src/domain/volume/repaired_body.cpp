@@ -12,14 +12,14 @@
 #include "domain/volume/level_set_creases.hpp"
 #include "domain/volume/level_set_surface.hpp"
 #include "domain/volume/measured_repair.hpp"
-#include "domain/volume/nearest_triangles.hpp"
 #include "domain/volume/soup.hpp"
 #include "domain/volume/surface_edges.hpp"
 #include "domain/volume/surface_orientation.hpp"
 #include "domain/volume/surface_sides.hpp"
 #include "domain/volume/thin_pieces.hpp"
-#include "domain/volume/triangles.hpp"
-#include "domain/volume/winding_number.hpp"
+#include "geometry/volume/nearest_triangles.hpp"
+#include "geometry/volume/triangles.hpp"
+#include "geometry/volume/winding_number.hpp"
 
 namespace pnpbs {
 

@@ -8,7 +8,7 @@
 
 #include "base/point_text.hpp"
 #include "domain/domain_error.hpp"
-#include "domain/volume/triangle_contacts.hpp"
+#include "geometry/volume/triangle_contacts.hpp"
 
 namespace pnpbs {
 

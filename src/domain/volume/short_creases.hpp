@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "domain/boundary_mesh.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/index.hpp"
-#include "domain/volume/welding.hpp"
+#include "geometry/volume/welding.hpp"
 
 namespace pnpbs {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/space_vectors.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "domain/boundary_mesh.hpp"
 #include "domain/volume/feature_sides.hpp"
 #include "domain/volume/features.hpp"
+#include "geometry/boundary_mesh.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

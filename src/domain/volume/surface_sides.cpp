@@ -6,7 +6,7 @@
 
 #include "base/space_vectors.hpp"
 #include "domain/volume/self_intersections.hpp"
-#include "domain/volume/triangle_contacts.hpp"
+#include "geometry/volume/triangle_contacts.hpp"
 
 namespace pnpbs {
 

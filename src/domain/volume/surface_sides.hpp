@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "domain/volume/surface_edges.hpp"
-#include "domain/volume/triangles.hpp"
-#include "domain/volume/winding_number.hpp"
+#include "geometry/volume/triangles.hpp"
+#include "geometry/volume/winding_number.hpp"
 
 namespace pnpbs {
 

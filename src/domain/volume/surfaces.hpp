@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "domain/boundary_mesh.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

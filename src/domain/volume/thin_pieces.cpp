@@ -11,7 +11,7 @@
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
 #include "base/union_find.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 

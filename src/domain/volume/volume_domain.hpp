@@ -16,9 +16,9 @@
 #include "domain/volume/inner_curves.hpp"
 #include "domain/volume/level_set.hpp"
 #include "domain/volume/repair_distances.hpp"
-#include "domain/volume/surface_index.hpp"
 #include "domain/volume/surface_triangles.hpp"
 #include "domain/volume/triangulation.hpp"
+#include "geometry/volume/surface_index.hpp"
 
 namespace pnpbs {
 

@@ -15,12 +15,12 @@
 #include "domain/volume/resolved_features.hpp"
 #include "domain/volume/self_intersections.hpp"
 #include "domain/volume/surface_checks.hpp"
-#include "domain/volume/surface_extent.hpp"
 #include "domain/volume/surface_orientation.hpp"
 #include "domain/volume/surface_roles.hpp"
 #include "domain/volume/thin_triangles.hpp"
-#include "domain/volume/triangles.hpp"
-#include "domain/volume/welding.hpp"
+#include "geometry/volume/surface_extent.hpp"
+#include "geometry/volume/triangles.hpp"
+#include "geometry/volume/welding.hpp"
 
 namespace pnpbs {
 

@@ -10,7 +10,7 @@
 #include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "predicates/plane.hpp"
 #include "tree/box_tree.hpp"
 

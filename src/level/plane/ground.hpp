@@ -12,8 +12,8 @@
 #include "base/nodes.hpp"
 #include "domain/node_limit.hpp"
 #include "domain/plane/boundary.hpp"
-#include "domain/plane/incident_sectors.hpp"
 #include "domain/plane/plane_domain.hpp"
+#include "geometry/plane/incident_sectors.hpp"
 #include "spacing/spacing.hpp"
 
 namespace pnpbs {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/plane/near_boundary.hpp"
 
-#include "domain/clearance.hpp"
+#include "geometry/clearance.hpp"
 
 namespace pnpbs {
 

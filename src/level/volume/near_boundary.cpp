@@ -5,8 +5,8 @@
 #include <atomic>
 
 #include "base/space_vectors.hpp"
-#include "domain/clearance.hpp"
 #include "domain/volume/surface_walk.hpp"
+#include "geometry/clearance.hpp"
 
 namespace pnpbs {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/space_vectors.hpp"
-#include "domain/clearance.hpp"
 #include "domain/volume/surface_walk.hpp"
+#include "geometry/clearance.hpp"
 #include "initial/volume/surface_fill.hpp"
 #include "level/exchange.hpp"
 #include "level/kept_node.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "delaunay/delaunay_stars.hpp"
-#include "domain/clearance.hpp"
+#include "geometry/clearance.hpp"
 #include "neighbors/near_edges.hpp"
 
 namespace pnpbs {

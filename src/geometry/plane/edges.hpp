@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "domain/boundary_mesh.hpp"
-#include "domain/plane/segments.hpp"
+#include "geometry/boundary_mesh.hpp"
+#include "geometry/plane/segments.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {

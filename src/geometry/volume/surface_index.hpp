@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "domain/facet_index.hpp"
+#include "geometry/facet_index.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/plane/point_tree.hpp"
+#include "geometry/plane/point_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "domain/plane/segments.hpp"
+#include "geometry/plane/segments.hpp"
 
 namespace pnpbs {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "domain/boundary_mesh.hpp"
+#include "geometry/boundary_mesh.hpp"
 #include "tree/background_tree.hpp"
 
 namespace pnpbs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/plane/plane_sweep.hpp"
+#include "geometry/plane/plane_sweep.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/facet_cells.hpp"
+#include "geometry/facet_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "domain/plane/edges.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/plane/edges.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "tree/cell_samples.hpp"
 
 namespace pnpbs {

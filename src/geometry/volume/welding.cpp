@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/welding.hpp"
+#include "geometry/volume/welding.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/plane/incident_sectors.hpp"
+#include "geometry/plane/incident_sectors.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/clearance.hpp"
+#include "geometry/clearance.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "domain/plane/edges.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/plane/edges.hpp"
+#include "geometry/volume/triangles.hpp"
 
 namespace pnpbs {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "base/space_vectors.hpp"
-#include "domain/boundary_mesh.hpp"
+#include "geometry/boundary_mesh.hpp"
 #include "predicates/space.hpp"
 
 namespace pnpbs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/triangle_contacts.hpp"
+#include "geometry/volume/triangle_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/space_vectors.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/plane/faces.hpp"
+#include "geometry/plane/faces.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "domain/boundary_mesh.hpp"
-#include "domain/facet_blocks.hpp"
-#include "domain/facet_cells.hpp"
+#include "geometry/boundary_mesh.hpp"
+#include "geometry/facet_blocks.hpp"
+#include "geometry/facet_cells.hpp"
 #include "tree/background_tree.hpp"
 
 namespace pnpbs {

@@ -2,7 +2,7 @@
 // Bounding box, volume and area of a domain.
 #pragma once
 
-#include "domain/boundary_mesh.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

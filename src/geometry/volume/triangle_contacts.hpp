@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "domain/boundary_mesh.hpp"
+#include "geometry/boundary_mesh.hpp"
 
 namespace pnpbs {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <type_traits>
 
-#include "domain/facet_index.hpp"
+#include "geometry/facet_index.hpp"
 
 namespace pnpbs {
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "domain/plane/edges.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/plane/edges.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "domain/plane/plane_sweep.hpp"
+#include "geometry/plane/plane_sweep.hpp"
 
 namespace pnpbs {
 

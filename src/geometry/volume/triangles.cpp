@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/triangles.hpp"
+#include "geometry/volume/triangles.hpp"
 
 #include <cmath>
 

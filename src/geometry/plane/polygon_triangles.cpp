@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/polygon_triangles.hpp"
+#include "geometry/plane/polygon_triangles.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/facet_index.hpp"
+#include "geometry/facet_index.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "base/limits.hpp"
-#include "domain/plane/edges.hpp"
-#include "domain/volume/triangles.hpp"
+#include "geometry/plane/edges.hpp"
+#include "geometry/volume/triangles.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

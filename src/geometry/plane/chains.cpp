@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/plane/chains.hpp"
+#include "geometry/plane/chains.hpp"
 
 #include <cstddef>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/surface_extent.hpp"
+#include "geometry/volume/surface_extent.hpp"
 
 #include "base/limits.hpp"
 #include "base/space_vectors.hpp"
