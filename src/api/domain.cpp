@@ -5,7 +5,7 @@
 
 #include "api/domain_calls.hpp"
 #include "domain/plane/poly_reader.hpp"
-#include "domain/volume/surface_triangles.hpp"
+#include "formats/surface_triangles.hpp"
 
 using namespace pnpbs;
 using namespace pnpbs::api;

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "domain/group_names.hpp"
+#include "formats/group_names.hpp"
 #include "io/output_fields.hpp"
 
 namespace pnpbs::io {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "domain/volume/surface_triangles.hpp"
+#include "formats/surface_triangles.hpp"
 
 namespace surface_files {
 

@@ -6,8 +6,8 @@
 #include <initializer_list>
 #include <string>
 
-#include "domain/volume/surface_triangles.hpp"
 #include "expect_error.hpp"
+#include "formats/surface_triangles.hpp"
 #include "surface_files.hpp"
 
 using pnpbs::SurfaceFormat;

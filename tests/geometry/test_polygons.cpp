@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/volume/polygons.hpp"
+#include "formats/polygons.hpp"
 #include "geometry/plane/polygon_triangles.hpp"
 #include "run_suite.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "domain/msh_facets.hpp"
+#include "formats/msh_facets.hpp"
 
 namespace pnpbs {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "domain/msh_mesh.hpp"
 #include "domain/plane/plane_domain.hpp"
+#include "formats/msh_mesh.hpp"
 
 namespace pnpbs {
 

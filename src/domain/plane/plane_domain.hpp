@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "domain/group_names.hpp"
 #include "domain/plane/curve_source.hpp"
 #include "domain/spacing_evaluator.hpp"
+#include "formats/group_names.hpp"
 
 namespace pnpbs {
 

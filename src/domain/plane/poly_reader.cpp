@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "domain/poly_sections.hpp"
-#include "domain/text_fields.hpp"
-#include "domain/whole_file.hpp"
+#include "formats/poly_sections.hpp"
+#include "formats/text_fields.hpp"
+#include "formats/whole_file.hpp"
 
 namespace pnpbs {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "domain/msh_facets.hpp"
-#include "domain/volume/polygons.hpp"
+#include "formats/msh_facets.hpp"
+#include "formats/polygons.hpp"
 
 namespace pnpbs {
 

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "domain/group_names.hpp"
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
 #include "domain/volume/level_set.hpp"
 #include "domain/volume/repair_distances.hpp"
-#include "domain/volume/surface_triangles.hpp"
 #include "domain/volume/triangulation.hpp"
+#include "formats/group_names.hpp"
+#include "formats/surface_triangles.hpp"
 #include "geometry/volume/surface_index.hpp"
 
 namespace pnpbs {

@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/limits.hpp"
-#include "domain/text_fields.hpp"
+#include "formats/text_fields.hpp"
 #include "spacing/files/field_file.hpp"
 
 namespace pnpbs {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "domain/msh_mesh.hpp"
-#include "domain/msh_node_table.hpp"
+#include "formats/msh_mesh.hpp"
+#include "formats/msh_node_table.hpp"
 #include "spacing/files/field_file.hpp"
 
 namespace pnpbs {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/number_bytes.hpp"
-#include "domain/text_fields.hpp"
+#include "formats/text_fields.hpp"
 #include "spacing/files/byte_source.hpp"
 #include "spacing/files/inflate.hpp"
 #include "spacing/files/xml_tags.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "base/error.hpp"
-#include "domain/text_fields.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

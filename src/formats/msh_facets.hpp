@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "domain/msh_mesh.hpp"
+#include "formats/msh_mesh.hpp"
 
 namespace pnpbs {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "domain/msh_mesh.hpp"
+#include "formats/msh_mesh.hpp"
 
 namespace pnpbs {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // OFF, as Geomview has it (http://www.geomview.org/docs/html/OFF.html), a vertex or face in a line.
 // Normals and colors are not read.
-#include "domain/text_fields.hpp"
-#include "domain/volume/polygons.hpp"
-#include "domain/volume/surface_formats.hpp"
+#include "formats/polygons.hpp"
+#include "formats/surface_formats.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "domain/text_fields.hpp"
-#include "domain/volume/byte_fields.hpp"
-#include "domain/volume/ply_header.hpp"
-#include "domain/volume/polygons.hpp"
-#include "domain/volume/surface_formats.hpp"
+#include "formats/byte_fields.hpp"
+#include "formats/ply_header.hpp"
+#include "formats/polygons.hpp"
+#include "formats/surface_formats.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

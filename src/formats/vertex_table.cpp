@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/vertex_table.hpp"
+#include "formats/vertex_table.hpp"
 
 #include "base/mixed_hash.hpp"
 

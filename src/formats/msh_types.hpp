@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "domain/msh_mesh.hpp"
+#include "formats/msh_mesh.hpp"
 
 namespace pnpbs {
 

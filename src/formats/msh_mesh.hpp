@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "domain/group_names.hpp"
+#include "formats/group_names.hpp"
 
 namespace pnpbs {
 

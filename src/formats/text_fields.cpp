@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/text_fields.hpp"
+#include "formats/text_fields.hpp"
 
 #include <algorithm>
 #include <charconv>

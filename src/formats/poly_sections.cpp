@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/poly_sections.hpp"
+#include "formats/poly_sections.hpp"
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/whole_file.hpp"
+#include "formats/whole_file.hpp"
 
 #include <array>
 #include <cerrno>

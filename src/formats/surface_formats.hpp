@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "domain/poly_sections.hpp"
-#include "domain/volume/surface_triangles.hpp"
+#include "formats/poly_sections.hpp"
+#include "formats/surface_triangles.hpp"
 
 namespace pnpbs {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/file_dimension.hpp"
+#include "formats/file_dimension.hpp"
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "domain/msh_mesh.hpp"
-#include "domain/volume/surface_formats.hpp"
+#include "formats/msh_mesh.hpp"
+#include "formats/surface_formats.hpp"
 
 namespace pnpbs {
 

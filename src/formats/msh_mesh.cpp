@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/msh_mesh.hpp"
+#include "formats/msh_mesh.hpp"
 
 #include <algorithm>
 #include <set>
 #include <utility>
 
 #include "base/extension.hpp"
-#include "domain/whole_file.hpp"
+#include "formats/whole_file.hpp"
 
 namespace pnpbs {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/text_fields.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

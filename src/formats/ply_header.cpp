@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/ply_header.hpp"
+#include "formats/ply_header.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "domain/poly_sections.hpp"
+#include "formats/poly_sections.hpp"
 
 namespace pnpbs {
 

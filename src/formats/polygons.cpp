@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/polygons.hpp"
+#include "formats/polygons.hpp"
 
 #include <cmath>
 #include <set>

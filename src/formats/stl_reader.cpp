@@ -6,11 +6,11 @@
 
 #include "base/error.hpp"
 #include "base/small_letters.hpp"
-#include "domain/text_fields.hpp"
-#include "domain/volume/byte_fields.hpp"
-#include "domain/volume/surface_formats.hpp"
-#include "domain/volume/tag_names.hpp"
-#include "domain/volume/vertex_table.hpp"
+#include "formats/byte_fields.hpp"
+#include "formats/surface_formats.hpp"
+#include "formats/tag_names.hpp"
+#include "formats/text_fields.hpp"
+#include "formats/vertex_table.hpp"
 
 namespace pnpbs {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "domain/text_fields.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "base/point_text.hpp"
-#include "domain/msh_fields.hpp"
-#include "domain/msh_mesh.hpp"
-#include "domain/msh_node_table.hpp"
-#include "domain/msh_region_table.hpp"
-#include "domain/msh_types.hpp"
-#include "domain/text_fields.hpp"
+#include "formats/msh_fields.hpp"
+#include "formats/msh_mesh.hpp"
+#include "formats/msh_node_table.hpp"
+#include "formats/msh_region_table.hpp"
+#include "formats/msh_types.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

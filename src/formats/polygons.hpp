@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "domain/volume/surface_triangles.hpp"
+#include "formats/surface_triangles.hpp"
 
 namespace pnpbs {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/surface_triangles.hpp"
+#include "formats/surface_triangles.hpp"
 
 #include <algorithm>
 #include <functional>
 
 #include "base/error.hpp"
 #include "base/extension.hpp"
-#include "domain/volume/surface_formats.hpp"
-#include "domain/whole_file.hpp"
+#include "formats/surface_formats.hpp"
+#include "formats/whole_file.hpp"
 
 namespace pnpbs {
 

@@ -2,8 +2,8 @@
 // TetGen's .poly and .smesh (https://wias-berlin.de/software/tetgen/fformats.html): vertices,
 // facets, holes; regional attributes are skipped. A facet is one polygon or more that do not lie in
 // each other.
-#include "domain/volume/polygons.hpp"
-#include "domain/volume/surface_formats.hpp"
+#include "formats/polygons.hpp"
+#include "formats/surface_formats.hpp"
 
 namespace pnpbs {
 

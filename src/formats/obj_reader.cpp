@@ -4,10 +4,10 @@
 // over.
 #include <optional>
 
-#include "domain/text_fields.hpp"
-#include "domain/volume/polygons.hpp"
-#include "domain/volume/surface_formats.hpp"
-#include "domain/volume/tag_names.hpp"
+#include "formats/polygons.hpp"
+#include "formats/surface_formats.hpp"
+#include "formats/tag_names.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

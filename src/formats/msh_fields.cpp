@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/msh_fields.hpp"
+#include "formats/msh_fields.hpp"
 
 #include <algorithm>
 
 #include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/number_bytes.hpp"
-#include "domain/text_fields.hpp"
+#include "formats/text_fields.hpp"
 
 namespace pnpbs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/msh_facets.hpp"
+#include "formats/msh_facets.hpp"
 
 #include <algorithm>
 #include <limits>
