@@ -11,8 +11,8 @@
 #include <set>
 #include <vector>
 
-#include "domain/volume/surfaces.hpp"
 #include "quick_assert.hpp"
+#include "surfaces/surfaces.hpp"
 
 namespace surfaces {
 

@@ -13,8 +13,8 @@
 #include "base/space_vectors.hpp"
 #include "core/surfaces.hpp"
 #include "domain/spacing_evaluator.hpp"
-#include "domain/volume/surfaces.hpp"
 #include "geometry/boundary_mesh.hpp"
+#include "surfaces/surfaces.hpp"
 
 namespace space_shapes {
 

@@ -6,11 +6,11 @@
 
 #include "core/random.hpp"
 #include "core/surfaces.hpp"
-#include "domain/volume/nesting.hpp"
-#include "domain/volume/self_intersections.hpp"
 #include "geometry/volume/triangle_contacts.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "run_suite.hpp"
+#include "surfaces/nesting.hpp"
+#include "surfaces/self_intersections.hpp"
 
 using surfaces::Place;
 using surfaces::Surface;

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "base/domain_error.hpp"
 #include "base/point_text.hpp"
-#include "domain/domain_error.hpp"
 #include "geometry/plane/segments.hpp"
 #include "predicates/plane.hpp"
 #include "tree/box_tree.hpp"

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "base/domain_error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
-#include "domain/domain_error.hpp"
 #include "domain/plane/smooth_graph.hpp"
 #include "geometry/plane/point_tree.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/domain_error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
-#include "domain/domain_error.hpp"
 #include "domain/plane/conflicts.hpp"
 #include "domain/plane/domain_extent.hpp"
 #include "domain/plane/domain_graph.hpp"

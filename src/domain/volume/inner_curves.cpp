@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/domain_error.hpp"
 #include "base/error.hpp"
 #include "base/point_text.hpp"
-#include "domain/domain_error.hpp"
 #include "geometry/volume/triangle_contacts.hpp"
 
 namespace pnpbs {

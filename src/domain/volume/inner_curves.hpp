@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

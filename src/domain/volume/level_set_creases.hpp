@@ -4,7 +4,7 @@
 #pragma once
 
 #include "domain/volume/level_set.hpp"
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "domain/volume/level_set_kinks.hpp"
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "domain/volume/level_set.hpp"
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

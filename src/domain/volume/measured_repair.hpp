@@ -3,8 +3,8 @@
 #pragma once
 
 #include "domain/volume/repair_distances.hpp"
-#include "domain/volume/triangulation.hpp"
 #include "geometry/volume/nearest_triangles.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

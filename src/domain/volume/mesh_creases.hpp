@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/volume/triangulation.hpp"
 #include "domain/volume/volume_domain.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

@@ -5,21 +5,21 @@
 #include <cmath>
 #include <utility>
 
+#include "base/domain_error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/domain_error.hpp"
 #include "domain/volume/level_set_creases.hpp"
 #include "domain/volume/level_set_surface.hpp"
 #include "domain/volume/measured_repair.hpp"
-#include "domain/volume/soup.hpp"
-#include "domain/volume/surface_edges.hpp"
-#include "domain/volume/surface_orientation.hpp"
-#include "domain/volume/surface_sides.hpp"
-#include "domain/volume/thin_pieces.hpp"
 #include "geometry/volume/nearest_triangles.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "geometry/volume/winding_number.hpp"
+#include "surfaces/soup.hpp"
+#include "surfaces/surface_edges.hpp"
+#include "surfaces/surface_orientation.hpp"
+#include "surfaces/surface_sides.hpp"
+#include "surfaces/thin_pieces.hpp"
 
 namespace pnpbs {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "domain/volume/repair_distances.hpp"
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

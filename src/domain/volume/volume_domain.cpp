@@ -8,15 +8,15 @@
 #include <functional>
 #include <utility>
 
+#include "base/domain_error.hpp"
 #include "base/limits.hpp"
-#include "domain/domain_error.hpp"
 #include "domain/given_values.hpp"
 #include "domain/volume/level_set_creases.hpp"
 #include "domain/volume/level_set_surface.hpp"
 #include "domain/volume/node_distance.hpp"
-#include "domain/volume/primitives.hpp"
 #include "domain/volume/repaired_body.hpp"
 #include "domain/volume/volume_resolver.hpp"
+#include "surfaces/primitives.hpp"
 
 namespace pnpbs {
 

@@ -15,10 +15,10 @@
 #include "domain/volume/inner_curves.hpp"
 #include "domain/volume/level_set.hpp"
 #include "domain/volume/repair_distances.hpp"
-#include "domain/volume/triangulation.hpp"
 #include "formats/group_names.hpp"
 #include "formats/surface_triangles.hpp"
 #include "geometry/volume/surface_index.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

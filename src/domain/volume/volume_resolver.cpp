@@ -7,20 +7,20 @@
 #include <optional>
 #include <utility>
 
+#include "base/domain_error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
-#include "domain/domain_error.hpp"
 #include "domain/volume/mesh_creases.hpp"
-#include "domain/volume/nesting.hpp"
 #include "domain/volume/resolved_features.hpp"
-#include "domain/volume/self_intersections.hpp"
-#include "domain/volume/surface_checks.hpp"
-#include "domain/volume/surface_orientation.hpp"
-#include "domain/volume/surface_roles.hpp"
-#include "domain/volume/thin_triangles.hpp"
 #include "geometry/volume/surface_extent.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "geometry/volume/welding.hpp"
+#include "surfaces/nesting.hpp"
+#include "surfaces/self_intersections.hpp"
+#include "surfaces/surface_checks.hpp"
+#include "surfaces/surface_orientation.hpp"
+#include "surfaces/surface_roles.hpp"
+#include "surfaces/thin_triangles.hpp"
 
 namespace pnpbs {
 

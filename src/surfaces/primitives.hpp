@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/surface_edges.hpp"
+#include "surfaces/surface_edges.hpp"
 
 #include <algorithm>
 #include <tuple>

@@ -2,7 +2,7 @@
 // Closed surfaces of several pieces, some of which are much thinner than they were looked for.
 #pragma once
 
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/surface_roles.hpp"
+#include "surfaces/surface_roles.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include "base/error.hpp"
-#include "domain/volume/nesting.hpp"
-#include "domain/volume/self_intersections.hpp"
+#include "surfaces/nesting.hpp"
+#include "surfaces/self_intersections.hpp"
 
 namespace pnpbs {
 

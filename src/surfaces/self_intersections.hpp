@@ -2,7 +2,7 @@
 // Surfaces meet in common vertices and edges only.
 #pragma once
 
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

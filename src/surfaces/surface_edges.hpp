@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/surfaces.hpp"
+#include "surfaces/surfaces.hpp"
 
 namespace pnpbs {
 

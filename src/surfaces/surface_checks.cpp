@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/surface_checks.hpp"
+#include "surfaces/surface_checks.hpp"
 
 #include <algorithm>
 
+#include "base/domain_error.hpp"
 #include "base/union_find.hpp"
-#include "domain/domain_error.hpp"
 
 namespace pnpbs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/primitives.hpp"
+#include "surfaces/primitives.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/soup.hpp"
+#include "surfaces/soup.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 #include "base/limits.hpp"
 #include "base/point_text.hpp"

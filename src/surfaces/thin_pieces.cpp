@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/thin_pieces.hpp"
+#include "surfaces/thin_pieces.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/surface_orientation.hpp"
+#include "surfaces/surface_orientation.hpp"
 
-#include "domain/domain_error.hpp"
+#include "base/domain_error.hpp"
 
 namespace pnpbs {
 

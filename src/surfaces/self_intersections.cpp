@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/self_intersections.hpp"
+#include "surfaces/self_intersections.hpp"
 
 #include <iterator>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "base/domain_error.hpp"
 #include "base/point_text.hpp"
-#include "domain/domain_error.hpp"
 #include "geometry/volume/triangle_contacts.hpp"
 
 namespace pnpbs {

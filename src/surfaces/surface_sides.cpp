@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/surface_sides.hpp"
+#include "surfaces/surface_sides.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/space_vectors.hpp"
-#include "domain/volume/self_intersections.hpp"
 #include "geometry/volume/triangle_contacts.hpp"
+#include "surfaces/self_intersections.hpp"
 
 namespace pnpbs {
 

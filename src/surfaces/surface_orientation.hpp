@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/volume/surface_edges.hpp"
+#include "surfaces/surface_edges.hpp"
 
 namespace pnpbs {
 

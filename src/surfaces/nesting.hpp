@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/volume/surface_edges.hpp"
+#include "surfaces/surface_edges.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/thin_triangles.hpp"
+#include "surfaces/thin_triangles.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

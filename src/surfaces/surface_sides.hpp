@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/volume/surface_edges.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "geometry/volume/winding_number.hpp"
+#include "surfaces/surface_edges.hpp"
 
 namespace pnpbs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/nesting.hpp"
+#include "surfaces/nesting.hpp"
 
 #include <algorithm>
 #include <utility>

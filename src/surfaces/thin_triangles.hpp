@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/volume/triangulation.hpp"
+#include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
 

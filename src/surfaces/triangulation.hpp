@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "domain/volume/surfaces.hpp"
 #include "geometry/boundary_mesh.hpp"
+#include "surfaces/surfaces.hpp"
 
 namespace pnpbs {
 
