@@ -14,7 +14,7 @@
 #include "comm/exchange_pattern.hpp"
 #include "comm/ghost_sum.hpp"
 #include "comm/ghost_update.hpp"
-#include "domain/volume/repair_distances.hpp"
+#include "implicit/repair_distances.hpp"
 #include "level/finish.hpp"
 #include "level/level_stamp.hpp"
 #include "level/population_events.hpp"

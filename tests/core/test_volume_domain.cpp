@@ -8,10 +8,10 @@
 #include <numeric>
 #include <vector>
 
-#include "domain/volume/level_set.hpp"
 #include "domain/volume/volume_domain.hpp"
 #include "geometry/clearance.hpp"
 #include "geometry/expect_error.hpp"
+#include "implicit/level_set.hpp"
 #include "mapped_volume.hpp"
 #include "random.hpp"
 #include "run_kernel_suite.hpp"

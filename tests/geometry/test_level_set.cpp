@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
-#include "domain/volume/level_set_lattice.hpp"
-#include "domain/volume/level_set_surface.hpp"
 #include "domain/volume/volume_domain.hpp"
 #include "expect_error.hpp"
+#include "implicit/level_set_lattice.hpp"
+#include "implicit/level_set_surface.hpp"
 #include "run_suite.hpp"
 
 using pnpbs::Box;

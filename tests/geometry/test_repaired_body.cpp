@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
-#include "domain/volume/repaired_body.hpp"
 #include "expect_error.hpp"
 #include "geometry/volume/winding_number.hpp"
+#include "implicit/repaired_body.hpp"
 #include "run_suite.hpp"
 #include "triangle_soup.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "base/index.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/volume/level_set_kinks.hpp"
+#include "implicit/level_set_kinks.hpp"
 
 namespace pnpbs {
 

@@ -8,7 +8,7 @@
 #include "base/space_vectors.hpp"
 #include "domain/volume/crease_nodes.hpp"
 #include "domain/volume/features.hpp"
-#include "domain/volume/level_set.hpp"
+#include "implicit/level_set.hpp"
 
 namespace pnpbs {
 

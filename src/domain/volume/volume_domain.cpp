@@ -11,11 +11,11 @@
 #include "base/domain_error.hpp"
 #include "base/limits.hpp"
 #include "domain/given_values.hpp"
-#include "domain/volume/level_set_creases.hpp"
-#include "domain/volume/level_set_surface.hpp"
 #include "domain/volume/node_distance.hpp"
-#include "domain/volume/repaired_body.hpp"
 #include "domain/volume/volume_resolver.hpp"
+#include "implicit/level_set_creases.hpp"
+#include "implicit/level_set_surface.hpp"
+#include "implicit/repaired_body.hpp"
 #include "surfaces/primitives.hpp"
 
 namespace pnpbs {

@@ -13,11 +13,11 @@
 
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
-#include "domain/volume/level_set.hpp"
-#include "domain/volume/repair_distances.hpp"
 #include "formats/group_names.hpp"
 #include "formats/surface_triangles.hpp"
 #include "geometry/volume/surface_index.hpp"
+#include "implicit/level_set.hpp"
+#include "implicit/repair_distances.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
@@ -100,7 +100,7 @@ class VolumeDomain {
   // The body where f < 0. It is asked now, and again where nodes are to lie on its surface.
   void add_level_set(LevelSetFunction f, const Box<3>& box, double resolution, std::int32_t tag);
   // The surfaces given by triangles that bound the domain are taken for what encloses one body
-  // badly; resolution: 0 for the default (repaired_body.hpp).
+  // badly; resolution: 0 for the default (implicit/repaired_body.hpp).
   void set_repair(double resolution);
   // A curve inside, with a tag for each segment.
   void add_polyline(bool closed, std::int64_t n, const double* xyz, const std::int32_t* tags);

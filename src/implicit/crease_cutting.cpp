@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/crease_cutting.hpp"
+#include "implicit/crease_cutting.hpp"
 
 #include <algorithm>
 #include <cstddef>

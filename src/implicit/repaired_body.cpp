@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/repaired_body.hpp"
+#include "implicit/repaired_body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,12 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/volume/level_set_creases.hpp"
-#include "domain/volume/level_set_surface.hpp"
-#include "domain/volume/measured_repair.hpp"
 #include "geometry/volume/nearest_triangles.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "geometry/volume/winding_number.hpp"
+#include "implicit/level_set_creases.hpp"
+#include "implicit/level_set_surface.hpp"
+#include "implicit/measured_repair.hpp"
 #include "surfaces/soup.hpp"
 #include "surfaces/surface_edges.hpp"
 #include "surfaces/surface_orientation.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/level_set_zeros.hpp"
+#include "implicit/level_set_zeros.hpp"
 
 #include <algorithm>
 

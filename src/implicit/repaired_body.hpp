@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/volume/repair_distances.hpp"
+#include "implicit/repair_distances.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {

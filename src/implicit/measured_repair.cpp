@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/measured_repair.hpp"
+#include "implicit/measured_repair.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // Measures the distances between a repaired body and the triangles it was made from.
 #pragma once
 
-#include "domain/volume/repair_distances.hpp"
 #include "geometry/volume/nearest_triangles.hpp"
+#include "implicit/repair_distances.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {

@@ -4,7 +4,7 @@
 // cut where f = 0.
 #pragma once
 
-#include "domain/volume/level_set.hpp"
+#include "implicit/level_set.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {

@@ -3,7 +3,7 @@
 // triangulation.
 #pragma once
 
-#include "domain/volume/level_set.hpp"
+#include "implicit/level_set.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {

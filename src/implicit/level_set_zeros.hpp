@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "domain/volume/level_set.hpp"
+#include "implicit/level_set.hpp"
 
 namespace pnpbs {
 

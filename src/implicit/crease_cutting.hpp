@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/volume/level_set_crossings.hpp"
+#include "implicit/level_set_crossings.hpp"
 
 namespace pnpbs {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "domain/volume/level_set.hpp"
+#include "implicit/level_set.hpp"
 
 namespace pnpbs {
 

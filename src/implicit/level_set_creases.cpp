@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/level_set_creases.hpp"
+#include "implicit/level_set_creases.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/volume/crease_cutting.hpp"
 #include "geometry/volume/triangle_contacts.hpp"
+#include "implicit/crease_cutting.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

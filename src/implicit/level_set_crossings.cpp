@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/level_set_crossings.hpp"
+#include "implicit/level_set_crossings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "base/index.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/volume/level_set_zeros.hpp"
+#include "implicit/level_set_zeros.hpp"
 
 namespace pnpbs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/level_set_surface.hpp"
+#include "implicit/level_set_surface.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
-#include "domain/volume/level_set_lattice.hpp"
-#include "domain/volume/level_set_zeros.hpp"
+#include "implicit/level_set_lattice.hpp"
+#include "implicit/level_set_zeros.hpp"
 
 namespace pnpbs {
 

@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "domain/volume/level_set.hpp"
+#include "implicit/level_set.hpp"
 
 namespace pnpbs {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/volume/level_set_kinks.hpp"
+#include "implicit/level_set_kinks.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {

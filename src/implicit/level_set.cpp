@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/volume/level_set.hpp"
+#include "implicit/level_set.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
-#include "domain/volume/level_set_zeros.hpp"
+#include "implicit/level_set_zeros.hpp"
 
 namespace pnpbs {
 
