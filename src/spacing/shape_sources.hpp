@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "domain/shape_index.hpp"
+#include "shape/shape_index.hpp"
 
 namespace pnpbs {
 

@@ -12,9 +12,9 @@ import re
 import sys
 import tempfile
 
-FLOORS = ("base comm predicates tree geometry formats surfaces implicit domain spacing initial "
-          "partition neighbors dynamics population delaunay quality settings level placement io "
-          "picture api geo tool").split()
+FLOORS = ("base comm predicates tree geometry formats surfaces implicit domain shape spacing "
+          "initial partition neighbors dynamics population delaunay quality settings level "
+          "placement io picture api geo tool").split()
 PUBLIC_HEADER_FOR = "api", "geo", "tool"
 MAX_LINES = 400
 MAX_FUNCTION_LINES = 60

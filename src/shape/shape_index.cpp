@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "domain/shape_index.hpp"
+#include "shape/shape_index.hpp"
 
 #include <algorithm>
 #include <cmath>

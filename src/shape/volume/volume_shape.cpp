@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/space_vectors.hpp"
-#include "domain/shape.hpp"
+#include "shape/shape.hpp"
 
 namespace pnpbs {
 

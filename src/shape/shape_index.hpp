@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "domain/shape.hpp"
+#include "shape/shape.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "domain/plane/sampling.hpp"
-#include "domain/shape.hpp"
+#include "shape/shape.hpp"
 
 namespace pnpbs {
 
