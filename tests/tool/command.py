@@ -9,7 +9,8 @@ import tempfile
 import unittest
 
 COMMAND = os.environ["PNPBS_COMMAND"]
-DATA = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"]) / "examples" / "data"
+SOURCE = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"])
+DATA = SOURCE / "examples" / "data"
 LAKE = DATA / "lake_victoria.poly"
 
 DONE, FAILED, BAD_INPUT, NOT_CONVERGED, SPACING_MISSED, LEFT_OUT, NOT_CONFORMING = range(7)

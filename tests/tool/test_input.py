@@ -4,10 +4,11 @@
 import json
 import os
 import random
+import re
 import struct
 import unittest
 
-from command import DONE, FAILED, LAKE, NOT_CONVERGED, SQUARE, CommandTest
+from command import DONE, FAILED, LAKE, NOT_CONVERGED, SOURCE, SQUARE, CommandTest
 
 GRID = """\
 ncols 3
@@ -27,6 +28,12 @@ class Usage(CommandTest):
         for word in ("--domain", "--spacing", "--set", ".vtu", "hypot", "growth_limit", "130"):
             self.assertIn(word, text)
         self.assertLessEqual(max(map(len, text.splitlines())), 100)
+
+    def test_manual_page_has_the_same_options(self):
+        text = self.run_command("--help")[0].decode()
+        page = (SOURCE / "docs" / "pnpbs.1").read_text().replace("\\-", "-")
+        self.assertEqual(set(re.findall(r"(?m)^  (?:-\w,)?(--[a-z-]+)", text)),
+                         set(re.findall(r"--[a-z][a-z-]+", page)))
 
     def test_help_to_a_reader_that_goes_away(self):
         for ask in ("--help", "--list-statistics"):
