@@ -11,6 +11,11 @@ namespace pnpbs {
 
 namespace {
 
+// Where the boundary of the tetrahedra is not that of the domain.
+constexpr const char* kWaysOut =
+    "make it smaller there, try the option resolve, or repair the body to a resolution of the "
+    "spacing, which removes what is finer (pnpbs_domain_set_repair, in the command --repair)";
+
 bool in_no_element(const Level<2>& level, std::int64_t i) {
   bool none = true;
   level.stars.for_simplices(i, [&](const DelaunayStars::Corners&) { none = false; });
@@ -119,19 +124,20 @@ std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& p
            std::to_string(conformity.boundary.torn.count) + " nodes, one of them at " +
            rounded_point_text<3>(conformity.boundary.torn.at) +
            ": sheets of the surface are nearer to each other there, or rougher, than the spacing "
-           "resolves: make it smaller there, or try the option resolve";
+           "resolves: " +
+           kWaysOut;
   if (conformity.boundary.euler != conformity.boundary.euler_of_domain)
     return "the boundary of the tetrahedra has the Euler characteristic " +
            std::to_string(conformity.boundary.euler) + ", the surfaces of the domain " +
            std::to_string(conformity.boundary.euler_of_domain) +
            ": the spacing is too coarse somewhere, so that a wall has a hole, a gap is bridged or "
-           "a neck is cut: make it smaller there, or try the option resolve";
+           "a neck is cut: " +
+           kWaysOut;
   if (conformity.boundary.pieces != conformity.boundary.pieces_of_domain)
     return "the boundary of the tetrahedra is of " + std::to_string(conformity.boundary.pieces) +
            " pieces, that of the domain of " +
            std::to_string(conformity.boundary.pieces_of_domain) +
-           ": the spacing is too coarse somewhere: make it smaller there, or try the option "
-           "resolve";
+           ": the spacing is too coarse somewhere: " + kWaysOut;
   return "";
 }
 

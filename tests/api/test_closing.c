@@ -81,14 +81,18 @@ static void check_closed(const volume* v) {
   free(on_boundary);
 }
 
-static void run_and_check_closed(const job* it) {
+static void check_is_closed(const job* it) {
   volume v;
-  MUST_COMPUTE(pnpbs_placement_run(it->placement));
   ck_assert_int_eq(pnpbs_placement_check(it->placement), PNPBS_OK);
   ck_assert_int_eq(warnings_with(it->placement, "torn"), 0);
   v = volume_of(it->placement);
   check_closed(&v);
   volume_free(&v);
+}
+
+static void run_and_check_closed(const job* it) {
+  MUST_COMPUTE(pnpbs_placement_run(it->placement));
+  check_is_closed(it);
 }
 
 START_TEST(rough_bodies_close) {
@@ -115,6 +119,20 @@ START_TEST(torn_bodies_are_told) {
   ck_assert_ptr_nonnull(which);
   ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_NOT_CONFORMING);
   ck_assert_ptr_nonnull(strstr(MESSAGE(), which));
+  ck_assert_ptr_nonnull(strstr(MESSAGE(), "pnpbs_domain_set_repair"));
+  job_end(&it);
+}
+END_TEST
+
+/* What that message advises: without what d does not resolve, the body is whole as d is given. */
+START_TEST(repaired_to_the_spacing_it_closes) {
+  const double d = 0.4;
+  job it = repaired_job(0.7, 6.5, d, d);
+  pnpbs_status status;
+  MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
+  status = pnpbs_placement_run(it.placement);
+  ck_assert_msg(status >= 0 && status != PNPBS_NOT_CONFORMING, "status %d", (int)status);
+  check_is_closed(&it);
   job_end(&it);
 }
 END_TEST
@@ -289,6 +307,7 @@ int main(void) {
   tcase_add_test(tests, a_rough_body_closes_at_once);
   tcase_add_test(tests, nodes_in_the_way_leave);
   tcase_add_test(tests, torn_bodies_are_told);
+  tcase_add_test(tests, repaired_to_the_spacing_it_closes);
   /* Sanitizers see in rounds_are_monitored what they would see in these two. */
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, torn_bodies_are_mended);
   tcase_add_loop_test(tests, rounds_are_monitored, 0, WHEN_SANITIZED(2, 4));

@@ -158,11 +158,14 @@ static void add_rough_globe(pnpbs_domain domain, double depth, double waves) {
   MUST(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 3 * n, xyz[0], n, corners[0], NULL, 40));
 }
 
-job rough_job(double depth, double waves, double d) {
+job rough_job(double depth, double waves, double d) { return repaired_job(depth, waves, d, 0); }
+
+job repaired_job(double depth, double waves, double d, double resolution) {
   job it = {NULL, NULL, NULL};
   MUST(pnpbs_context_create_serial(&it.context));
   MUST(pnpbs_domain_create(it.context, 3, &it.domain));
   add_rough_globe(it.domain, depth, waves);
+  if (resolution > 0) MUST(pnpbs_domain_set_repair(it.domain, resolution));
   job_place(&it);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
   return it;

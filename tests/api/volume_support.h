@@ -15,6 +15,7 @@ job box_job(double d);          /* in the unit box */
 
 /* In a globe with bumps and dents, the deeper and narrower the larger these two are. */
 job rough_job(double depth, double waves, double d);
+job repaired_job(double depth, double waves, double d, double resolution); /* 0: not repaired */
 
 /* d does not resolve it: whatever is done with the elements, its boundary is torn. */
 job unresolved_job(void);
