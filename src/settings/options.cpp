@@ -179,18 +179,6 @@ constexpr std::string_view kNotDeciding[] = {
     "method",     "effort",    "adjacency_radius", "exchange_interval", "rebalance_above",
     "metis_seed", "max_nodes", "max_memory",       "restart_options",   "threads"};
 
-struct RenamedOption {
-  const char* before;
-  const char* name;
-};
-constexpr RenamedOption kRenamed[] = {
-    // since 0.2
-    {"population_pays", "population_tolerance"},
-    {"defect_repairs", "topology_repairs"},
-    {"repairs", "smoothing_rounds"},
-    {"repair_below", "smooth_below"},
-};
-
 std::vector<std::string> choices_of(const OptionRow& row) {
   std::vector<std::string> names;
   std::string_view rest = row.choices;
@@ -210,10 +198,6 @@ const OptionRow& find_row(const std::string& key) {
   }
   for (const OptionRow& row : hidden_table())
     if (key == row.name) return row;
-  for (const RenamedOption& renamed : kRenamed)
-    if (key == renamed.before)
-      throw Error(ErrorKind::key, "unknown option \"" + key + "\"; it is \"" + renamed.name +
-                                      "\" since version 0.2");
   throw Error(ErrorKind::key, "unknown option \"" + key + "\"; the nearest known one is \"" +
                                   nearest_name(key, names) + "\"");
 }

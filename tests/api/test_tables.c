@@ -353,19 +353,6 @@ START_TEST(the_population_adds_up) {
 }
 END_TEST
 
-/* With the names that options had before version 0.2. */
-START_TEST(renamed_options) {
-  const char* names[][2] = {{"population_pays", "\"population_tolerance\""},
-                            {"defect_repairs", "\"topology_repairs\""},
-                            {"repairs", "\"smoothing_rounds\""},
-                            {"repair_below", "\"smooth_below\""}};
-  size_t k;
-  for (k = 0; k < sizeof names / sizeof names[0]; ++k)
-    MUST_FAIL(PNPBS_ERROR_KEY, pnpbs_context_set(context, names[k][0], "1"), names[k][1],
-              "since version 0.2");
-}
-END_TEST
-
 START_TEST(hooks_of_tests_are_not_listed) {
   int32_t k;
   MUST(pnpbs_context_set(context, "halo_deficit", "0"));
@@ -385,7 +372,6 @@ int main(void) {
   tcase_add_loop_test(first, ranges, 0, options());
   tcase_add_loop_test(first, misspelt_options, 0, options());
   tcase_add_test(first, numbers_in_another_locale);
-  tcase_add_test(first, renamed_options);
   tcase_add_test(first, hooks_of_tests_are_not_listed);
   suite_add_tcase(suite, first);
   tcase_add_loop_test(then, options_of_a_placement, 0, options());
