@@ -307,7 +307,7 @@ int main(void) {
   tcase_add_test(tests, a_rough_body_closes_at_once);
   tcase_add_test(tests, nodes_in_the_way_leave);
   tcase_add_test(tests, torn_bodies_are_told);
-  tcase_add_test(tests, repaired_to_the_spacing_it_closes);
+  if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, repaired_to_the_spacing_it_closes);
   /* Sanitizers see in rounds_are_monitored what they would see in these two. */
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, torn_bodies_are_mended);
   tcase_add_loop_test(tests, rounds_are_monitored, 0, WHEN_SANITIZED(2, 4));
