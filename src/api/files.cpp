@@ -85,7 +85,7 @@ pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement, const c
     std::optional<Computing> computing;
     if (!object.context->computing)
       computing.emplace(*object.context);
-    else if (!object.placement->between_steps())
+    else if (!object.placement->monitoring().between_steps())
       throw Error(
           ErrorKind::state,
           "from inside a callback, a checkpoint can be written by the monitor alone, in its "

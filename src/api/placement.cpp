@@ -110,10 +110,10 @@ pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monito
                                          void* user) {
   return local_change(placement, [&](Placement& p) {
     if (!monitor)
-      p.set_monitor({});
+      p.monitoring().set({});
     else
-      p.set_monitor([monitor, user](double fraction, std::int64_t step, std::int64_t nodes,
-                                    double max_speed) {
+      p.monitoring().set([monitor, user](double fraction, std::int64_t step, std::int64_t nodes,
+                                         double max_speed) {
         const HostArithmetic arithmetic;
         return monitor(fraction, step, nodes, max_speed, user) != 0;
       });

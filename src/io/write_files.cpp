@@ -158,7 +158,7 @@ class Writing {
   void give_up_if_asked() const {
     const double fraction =
         done_ == expected_ ? 1 : static_cast<double>(done_) / static_cast<double>(expected_);
-    if (placement_.asks_to_stop(fraction, nodes_))
+    if (placement_.monitoring().asks_to_stop(fraction, nodes_))
       throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
   }
 

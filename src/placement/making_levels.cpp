@@ -183,7 +183,7 @@ void PlacementOf<Dim>::gather_warnings(const SteepestGrowth<Dim>& steepest) {
 
 template <int Dim>
 void PlacementOf<Dim>::fill(Level<Dim>& level, LaidNodes<Dim> laid) {
-  while_monitored("the first nodes were laid", [&](const std::function<void()>& beat) {
+  monitoring_.watch("the first nodes were laid", count(), [&](const std::function<void()>& beat) {
     pnpbs::fill(level, std::move(laid), beat, lattice_is_stretched());
   });
 }

@@ -135,7 +135,7 @@ Outcome PlacementOf<Dim>::run() {
     }
     if (outcome == Outcome::stopped) return outcome;
     warn_of_held_spacing();
-    monitor_stops(1.0);
+    monitoring_.stops(1.0, count());
     return outcome;
   });
 }

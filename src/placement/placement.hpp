@@ -3,9 +3,7 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,21 +18,14 @@
 #include "level/population_events.hpp"
 #include "level/speeds.hpp"
 #include "level/volume/surface_fit.hpp"
+#include "placement/monitoring.hpp"
 #include "placement/node_estimate.hpp"
 #include "placement/option_changes.hpp"
+#include "placement/outcome.hpp"
 #include "placement/run_state.hpp"
 #include "settings/options.hpp"
 
 namespace pnpbs {
-
-// The part of a call's work that is in progress, for the monitor: from a fraction to another.
-struct ProgressPart {
-  double begin = 0, end = 1;
-};
-
-// spacing_missed: somewhere the nodes do not follow d, whether the bubbles rest or not.
-// not_conforming: the elements do not fill the domain, whatever else is true.
-enum class [[nodiscard]] Outcome{converged, not_converged, stopped, spacing_missed, not_conforming};
 
 // Of the level there is, on this rank.
 struct LevelFigures {
@@ -60,22 +51,16 @@ struct NearestNeighbourError {
 // What is the same in any dimension. PlacementOf<Dim> is the rest of it.
 class Placement {
  public:
-  // fraction done of the call in progress, step, nodes, largest scaled speed -> true to stop
-  using Monitor = std::function<bool(double, std::int64_t, std::int64_t, double)>;
-
   Placement(std::shared_ptr<const Communicator> comm, Options options)
-      : comm_(std::move(comm)), options_(std::move(options)) {}
+      : comm_(std::move(comm)), options_(std::move(options)), monitoring_(*comm_, state_) {}
   virtual ~Placement() = default;
 
   virtual int dimension() const = 0;
   Options& options() { return options_; }
   const Options& options() const { return options_; }
   virtual void forget_nodes() = 0;  // lets go of everything that lives in Kokkos' memory
-  void set_monitor(Monitor monitor) { monitor_ = std::move(monitor); }
-  // Asks this rank's monitor. The nodes told are those of all ranks.
-  bool asks_to_stop(double fraction, std::int64_t nodes) const {
-    return monitor_ && monitor_(fraction, state_.steps_done, nodes, state_.last_speeds.max);
-  }
+  Monitoring& monitoring() { return monitoring_; }
+  const Monitoring& monitoring() const { return monitoring_; }
 
   // converged, or stopped by the monitor
   virtual Outcome initialise() = 0;
@@ -84,8 +69,6 @@ class Placement {
   // The counts are of what was done before a stop, too.
   virtual Outcome adjust_population(PopulationCounts& change) = 0;
   virtual Outcome rebalance() = 0;
-  // Is this a monitor's turn between two steps of a level that stays? Then the nodes can be saved.
-  bool between_steps() const { return between_steps_; }
   // Of a run from nothing; the nodes there are stay. Collective.
   virtual Estimate estimate() = 0;
 
@@ -159,12 +142,6 @@ class Placement {
   void require_owned(std::int64_t n) const;   // of all nodes at least
   void gather_terms(std::int64_t components, const double* x, const double* y);
   void finish_sums(double* sums);
-  bool monitor_stops(double fraction);
-  bool monitor_stops_between_steps(bool is_event, double fraction);
-  bool monitor_stops_by_clock(double fraction);
-  bool monitor_is_due() const;
-  void while_monitored(const std::string& what,
-                       const std::function<void(const std::function<void()>& beat)>& work);
   void require_same_options() const;
   void begin_schedule(bool refined);
   void begin_schedule_again();
@@ -178,12 +155,8 @@ class Placement {
 
   std::shared_ptr<const Communicator> comm_;
   Options options_;
-  Monitor monitor_;
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point last_asked_ = Clock::now();  // of the monitor
-
-  bool between_steps_ = false, at_event_ = false;  // while a monitor is asked
   RunState state_;
+  Monitoring monitoring_;
   Timers timers_;
 
   // For which these were prepared last.

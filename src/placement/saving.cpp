@@ -230,7 +230,7 @@ Saved<Dim> PlacementOf<Dim>::saved() {
   s.ended = state_.schedule.ended;
   s.population_settled = state_.schedule.population_settled;
   s.quiet_events = state_.schedule.quiet_events;
-  s.at_event = at_event_ || state_.schedule.at_event;
+  s.at_event = monitoring_.at_event() || state_.schedule.at_event;
   s.coarser_levels = state_.coarser_levels;
   s.steps_done = state_.steps_done;
   s.inserted = state_.inserted;

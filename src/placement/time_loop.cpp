@@ -76,6 +76,15 @@ Outcome PlacementOf<Dim>::advance(std::int64_t until, ProgressPart part) {
   return outcome;
 }
 
+// The steps between two events of ten million nodes take some seconds. Several ranks have fewer
+// nodes each, and would have to agree every time: they are asked at events. On coarser levels,
+// which do not stay, nothing can be saved.
+template <int Dim>
+bool PlacementOf<Dim>::stops_after_step(bool is_event, double fraction) {
+  if (!is_event && (level_->distributed() || !monitoring_.is_due())) return false;
+  return monitoring_.stops_between_steps(is_event, !state_.schedule.coarser, fraction, count());
+}
+
 // What happens at an event, in this order.
 template <int Dim>
 void PlacementOf<Dim>::event() {
@@ -175,7 +184,8 @@ template <int Dim>
 Outcome PlacementOf<Dim>::finish() {
   const Settings& settings = level_->settings;
   const auto stops = [this] {
-    if (!monitor_stops_by_clock(part_of_steps().end)) return false;
+    if (!monitoring_.is_due_anywhere() || !monitoring_.stops(part_of_steps().end, count()))
+      return false;
     refresh_spacing(*level_);
     state_.stop_reason = StopReason::monitor;
     return true;
