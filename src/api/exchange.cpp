@@ -19,8 +19,8 @@ void copy_out(const std::vector<Value>& from, Value* to) {
 
 pnpbs_status pnpbs_placement_exchange_sizes(pnpbs_placement placement, int32_t* neighbours,
                                             int64_t* sends, int64_t* receives) {
-  return collective(placement, [&](Placement& p) {
-    const auto exchange = p.exchange_pattern();
+  return collective_results(placement, [&](NodalResults& results) {
+    const auto exchange = results.exchange_pattern();
     const ExchangePattern& pattern = *exchange;
     if (neighbours) *neighbours = static_cast<int32_t>(pattern.ranks.size());
     if (sends) *sends = pattern.send_offsets.back();
@@ -33,8 +33,8 @@ pnpbs_status pnpbs_placement_get_exchange(pnpbs_placement placement, int32_t nei
                                           int64_t sends, int64_t receives, int32_t* ranks,
                                           int64_t* send_offsets, int64_t* send_nodes,
                                           int64_t* receive_offsets, int64_t* receive_nodes) {
-  return collective(placement, [&](Placement& p) {
-    const auto exchange = p.exchange_pattern();
+  return collective_results(placement, [&](NodalResults& results) {
+    const auto exchange = results.exchange_pattern();
     const ExchangePattern& pattern = *exchange;
     require_capacity(neighbours, static_cast<std::int64_t>(pattern.ranks.size()), "neighbours");
     require_capacity(sends, pattern.send_offsets.back(), "sends");
@@ -50,15 +50,15 @@ pnpbs_status pnpbs_placement_get_exchange(pnpbs_placement placement, int32_t nei
 
 pnpbs_status pnpbs_placement_get_numbering(pnpbs_placement placement, int64_t capacity,
                                            int64_t* first, int64_t* count, int64_t* ghost_numbers) {
-  return collective(placement, [&](Placement& p) {
-    const auto exchange = p.exchange_pattern();
+  return collective_results(placement, [&](NodalResults& results) {
+    const auto exchange = results.exchange_pattern();
     const ExchangePattern& pattern = *exchange;
-    const std::int64_t owned = p.count(), begin = p.nodes_on_ranks_before();
-    std::vector<std::int64_t> number(static_cast<std::size_t>(p.nodes().count));
+    const std::int64_t owned = results.count(), begin = results.nodes_on_ranks_before();
+    std::vector<std::int64_t> number(static_cast<std::size_t>(results.nodes().count));
     for (std::int64_t i = 0; i < owned; ++i) number[static_cast<std::size_t>(i)] = begin + i;
-    fill_ghosts(p.communicator(), pattern, number);
+    fill_ghosts(results.communicator(), pattern, number);
     if (ghost_numbers) {
-      require_capacity(capacity, p.nodes().count - owned);
+      require_capacity(capacity, results.nodes().count - owned);
       std::copy(number.begin() + owned, number.end(), ghost_numbers);
     }
     if (first) *first = begin;

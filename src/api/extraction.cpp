@@ -13,8 +13,8 @@ using namespace pnpbs::api;
 namespace {
 
 template <int Dim>
-std::int64_t adjacency_entries(const PlacementOf<Dim>& placement) {
-  const Level<Dim>& level = placement.level();
+std::int64_t adjacency_entries(const Results<Dim>& results) {
+  const Level<Dim>& level = results.level();
   return static_cast<std::int64_t>(
       sum_of("pnpbs::adjacency_entries", level.nodes.count, [&](std::int64_t i) {
         std::int64_t n = 0;
@@ -25,8 +25,8 @@ std::int64_t adjacency_entries(const PlacementOf<Dim>& placement) {
 }
 
 template <int Dim>
-std::int64_t star_entries(const PlacementOf<Dim>& placement) {
-  const Level<Dim>& level = placement.level();
+std::int64_t star_entries(const Results<Dim>& results) {
+  const Level<Dim>& level = results.level();
   return static_cast<std::int64_t>(
       sum_of("pnpbs::star_entries", level.nodes.count,
              [&](std::int64_t i) { return level.nodes.owned(i) ? level.stars.size(i) : 0; }));
@@ -35,21 +35,21 @@ std::int64_t star_entries(const PlacementOf<Dim>& placement) {
 // Calls visit(j, triangle) for the neighbours in the star of node i; in space they have no order,
 // and no triangle follows a neighbour.
 template <class Visit>
-void for_star(const PlacementOf<2>& placement, std::int64_t i, const Visit& visit) {
-  placement.level().stars.for_neighbours_in_order(i, visit);
+void for_star(const Results<2>& results, std::int64_t i, const Visit& visit) {
+  results.level().stars.for_neighbours_in_order(i, visit);
 }
 template <class Visit>
-void for_star(const PlacementOf<3>& placement, std::int64_t i, const Visit& visit) {
-  placement.level().stars.for_neighbours(i, [&](std::int64_t j) { visit(j, false); });
+void for_star(const Results<3>& results, std::int64_t i, const Visit& visit) {
+  results.level().stars.for_neighbours(i, [&](std::int64_t j) { visit(j, false); });
 }
 
 // Copies nodes with places first .. first + n - 1 out; arrays may be NULL.
-void copy_nodes(const Placement& p, std::int64_t first, std::int64_t n, double* coordinates,
-                std::int64_t* ids, std::int32_t* tags, double* spacing) {
-  const NodeColumns nodes = p.nodes();
-  const int dim = p.dimension();
+void copy_nodes(const NodalResults& results, std::int64_t first, std::int64_t n,
+                double* coordinates, std::int64_t* ids, std::int32_t* tags, double* spacing) {
+  const NodeColumns nodes = results.nodes();
+  const int dim = results.dimension();
   for_each("pnpbs::copy_nodes", n, [&](std::int64_t k) {
-    const std::int64_t i = p.node_at(first + k);
+    const std::int64_t i = results.node_at(first + k);
     if (coordinates)
       for (int c = 0; c < dim; ++c)
         coordinates[dim * k + c] = nodes.x[static_cast<std::size_t>(c)](i);
@@ -72,7 +72,7 @@ pnpbs_status pnpbs_placement_dimension(pnpbs_placement placement, int32_t* dim) 
 pnpbs_status pnpbs_placement_count(pnpbs_placement placement, int64_t* nodes) {
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(nodes, "nodes");
-    *nodes = object.placement->count();
+    *nodes = object.placement->results().count();
     return PNPBS_OK;
   });
 }
@@ -81,11 +81,11 @@ pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capaci
                                        double* coordinates, int64_t* ids, int32_t* tags,
                                        double* spacing) {
   return guarded(placement, [&](PlacementObject& object) {
-    Placement& p = *object.placement;
-    require_capacity(capacity, p.count());
-    if (p.count() == 0) return PNPBS_OK;
-    p.prepare_order();
-    copy_nodes(p, 0, p.count(), coordinates, ids, tags, spacing);
+    NodalResults& results = object.placement->results();
+    require_capacity(capacity, results.count());
+    if (results.count() == 0) return PNPBS_OK;
+    results.prepare_order();
+    copy_nodes(results, 0, results.count(), coordinates, ids, tags, spacing);
     return PNPBS_OK;
   });
 }
@@ -93,14 +93,15 @@ pnpbs_status pnpbs_placement_get_nodes(pnpbs_placement placement, int64_t capaci
 pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capacity,
                                          double* normals) {
   return guarded(placement, [&](PlacementObject& object) {
-    Placement& p = *object.placement;
-    const PlacementOf<3>& in = require_dimension<3>(p);
-    require_capacity(capacity, p.count());
-    if (p.count() == 0) return PNPBS_OK;
+    NodalResults& results = object.placement->results();
+    const Results<3>& in = require_dimension<3>(results);
+    require_capacity(capacity, results.count());
+    if (results.count() == 0) return PNPBS_OK;
     require_pointer(normals, "normals");
-    p.prepare_order();
+    results.prepare_order();
     std::vector<std::int64_t> nodes;
-    for (std::int64_t place = 0; place < p.count(); ++place) nodes.push_back(p.node_at(place));
+    for (std::int64_t place = 0; place < results.count(); ++place)
+      nodes.push_back(results.node_at(place));
     for (const Point<3>& normal : node_normals(in.level(), nodes))
       normals = std::copy(normal.begin(), normal.end(), normals);
     return PNPBS_OK;
@@ -108,10 +109,10 @@ pnpbs_status pnpbs_placement_get_normals(pnpbs_placement placement, int64_t capa
 }
 
 pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t* ghosts) {
-  return collective(placement, [&](Placement& p) {
+  return collective_results(placement, [&](NodalResults& results) {
     require_pointer(ghosts, "ghosts");
-    p.prepare_lists();
-    *ghosts = p.nodes().count - p.count();
+    results.prepare_lists();
+    *ghosts = results.nodes().count - results.count();
     return PNPBS_OK;
   });
 }
@@ -119,42 +120,43 @@ pnpbs_status pnpbs_placement_ghost_count(pnpbs_placement placement, int64_t* gho
 pnpbs_status pnpbs_placement_get_ghosts(pnpbs_placement placement, int64_t capacity,
                                         double* coordinates, int64_t* ids, int32_t* tags,
                                         double* spacing, int32_t* owners) {
-  return collective(placement, [&](Placement& p) {
-    p.prepare_lists();
-    const std::int64_t owned = p.count(), ghosts = p.nodes().count - owned;
+  return collective_results(placement, [&](NodalResults& results) {
+    results.prepare_lists();
+    const std::int64_t owned = results.count(), ghosts = results.nodes().count - owned;
     require_capacity(capacity, ghosts);
-    copy_nodes(p, owned, ghosts, coordinates, ids, tags, spacing);
-    in_its_dimension(p, [&](const auto& in) {
+    copy_nodes(results, owned, ghosts, coordinates, ids, tags, spacing);
+    in_its_dimension(results, [&](const auto& in) {
       for (std::int64_t g = 0; owners && g < ghosts; ++g)
-        owners[g] = in.owner_of(p.node_at(owned + g));
+        owners[g] = in.owner_of(results.node_at(owned + g));
     });
     return PNPBS_OK;
   });
 }
 
 pnpbs_status pnpbs_placement_adjacency_size(pnpbs_placement placement, int64_t* entries) {
-  return collective(placement, [&](Placement& p) {
+  return collective_results(placement, [&](NodalResults& results) {
     require_pointer(entries, "entries");
-    p.prepare_lists();
-    *entries = in_its_dimension(p, [](const auto& in) { return adjacency_entries(in); });
+    results.prepare_lists();
+    *entries = in_its_dimension(results, [](const auto& in) { return adjacency_entries(in); });
     return PNPBS_OK;
   });
 }
 
 pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t capacity,
                                            int64_t* offsets, int64_t* neighbours) {
-  return collective(placement, [&](Placement& p) {
+  return collective_results(placement, [&](NodalResults& results) {
     require_pointer(offsets, "offsets");
-    p.prepare_lists();
-    return in_its_dimension(p, [&](const auto& in) {
+    results.prepare_lists();
+    return in_its_dimension(results, [&](const auto& in) {
       require_capacity(capacity, adjacency_entries(in));
       if (capacity > 0) require_pointer(neighbours, "neighbours");
       std::int64_t at = 0;
-      const std::int64_t owned = p.count();
+      const std::int64_t owned = results.count();
       for (std::int64_t place = 0; place < owned; ++place) {
         offsets[place] = at;
-        in.level().lists().for_neighbours(
-            p.node_at(place), [&](std::int64_t j) { neighbours[at++] = p.place_of(j); });
+        in.level().lists().for_neighbours(results.node_at(place), [&](std::int64_t j) {
+          neighbours[at++] = results.place_of(j);
+        });
       }
       offsets[owned] = at;
       return PNPBS_OK;
@@ -163,29 +165,29 @@ pnpbs_status pnpbs_placement_get_adjacency(pnpbs_placement placement, int64_t ca
 }
 
 pnpbs_status pnpbs_placement_star_size(pnpbs_placement placement, int64_t* entries) {
-  return collective(placement, [&](Placement& p) {
+  return collective_results(placement, [&](NodalResults& results) {
     require_pointer(entries, "entries");
-    p.prepare_stars();
-    *entries = in_its_dimension(p, [](const auto& in) { return star_entries(in); });
+    results.prepare_stars();
+    *entries = in_its_dimension(results, [](const auto& in) { return star_entries(in); });
     return PNPBS_OK;
   });
 }
 
 pnpbs_status pnpbs_placement_get_stars(pnpbs_placement placement, int64_t capacity,
                                        int64_t* offsets, int64_t* neighbours, int8_t* triangle) {
-  return collective(placement, [&](Placement& p) {
+  return collective_results(placement, [&](NodalResults& results) {
     require_pointer(offsets, "offsets");
-    p.prepare_stars();
-    return in_its_dimension(p, [&](const auto& in) {
+    results.prepare_stars();
+    return in_its_dimension(results, [&](const auto& in) {
       require_capacity(capacity, star_entries(in));
       if (capacity > 0) require_pointer(neighbours, "neighbours");
       std::int64_t at = 0;
-      const std::int64_t owned = p.count();
+      const std::int64_t owned = results.count();
       for (std::int64_t place = 0; place < owned; ++place) {
         offsets[place] = at;
-        for_star(in, p.node_at(place), [&](std::int64_t j, bool is_triangle) {
+        for_star(in, results.node_at(place), [&](std::int64_t j, bool is_triangle) {
           if (triangle) triangle[at] = is_triangle;
-          neighbours[at++] = p.place_of(j);
+          neighbours[at++] = results.place_of(j);
         });
       }
       offsets[owned] = at;
@@ -200,10 +202,10 @@ namespace {
 template <int Dim>
 pnpbs_status get_elements(pnpbs_placement placement, std::int64_t capacity, std::int64_t* count,
                           std::int64_t* elements) {
-  return collective(placement, [&](Placement& p) {
+  return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
-    const PlacementOf<Dim>& in = require_dimension<Dim>(p);
-    p.prepare_stars();
+    const Results<Dim>& in = require_dimension<Dim>(results);
+    results.prepare_stars();
     *count = 0;
     in.for_elements([&](const auto&) { ++*count; });
     if (capacity == 0 && !elements) return PNPBS_OK;
@@ -217,7 +219,7 @@ pnpbs_status get_elements(pnpbs_placement placement, std::int64_t capacity, std:
 }
 
 template <int Dim>
-pnpbs_status copy_boundary_facets(const PlacementOf<Dim>& in, std::int64_t capacity,
+pnpbs_status copy_boundary_facets(const Results<Dim>& in, std::int64_t capacity,
                                   std::int64_t* count, std::int64_t* facets, std::int32_t* tags) {
   *count = 0;
   in.for_boundary_facets([&](const auto&, std::int32_t) { ++*count; });
@@ -249,10 +251,10 @@ pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64
   return guarded(placement, [&](PlacementObject& object) {
     require_pointer(count, "count");
     *count = 0;
-    Placement& p = *object.placement;
-    const PlacementOf<2>& in = require_dimension<2>(p);
-    if (!p.has_nodes()) return PNPBS_OK;
-    p.prepare_order();
+    NodalResults& results = object.placement->results();
+    const Results<2>& in = require_dimension<2>(results);
+    if (!results.has_nodes()) return PNPBS_OK;
+    results.prepare_order();
     return copy_boundary_facets(in, capacity, count, edges, tags);
   });
 }
@@ -260,19 +262,19 @@ pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64
 pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, int64_t capacity,
                                                     int64_t* count, int64_t* triangles,
                                                     int32_t* tags) {
-  return collective(placement, [&](Placement& p) {
+  return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
     *count = 0;
-    const PlacementOf<3>& in = require_dimension<3>(p);
-    p.prepare_stars();
+    const Results<3>& in = require_dimension<3>(results);
+    results.prepare_stars();
     return copy_boundary_facets(in, capacity, count, triangles, tags);
   });
 }
 
 pnpbs_status pnpbs_placement_check(pnpbs_placement placement) {
   std::string lacking;
-  const pnpbs_status status = collective(placement, [&](Placement& p) {
-    in_its_dimension(p, [&](auto& in) { lacking = check_results(in); });
+  const pnpbs_status status = collective_results(placement, [&](NodalResults& results) {
+    in_its_dimension(results, [&](auto& in) { lacking = check_results(in); });
     return PNPBS_OK;
   });
   if (status != PNPBS_OK || lacking.empty()) return status;

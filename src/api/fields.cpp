@@ -8,8 +8,8 @@ using namespace pnpbs::api;
 pnpbs_status pnpbs_placement_update_ghosts(pnpbs_placement placement, int64_t n, int32_t components,
                                            double* values) {
   return local_change(placement, [&](Placement& p) {
-    p.begin_ghost_update(n, components, values);
-    p.end_ghost_update(n, components, values);
+    p.results().begin_ghost_update(n, components, values);
+    p.results().end_ghost_update(n, components, values);
     return PNPBS_OK;
   });
 }
@@ -17,7 +17,7 @@ pnpbs_status pnpbs_placement_update_ghosts(pnpbs_placement placement, int64_t n,
 pnpbs_status pnpbs_placement_begin_update_ghosts(pnpbs_placement placement, int64_t n,
                                                  int32_t components, const double* values) {
   return local_change(placement, [&](Placement& p) {
-    p.begin_ghost_update(n, components, values);
+    p.results().begin_ghost_update(n, components, values);
     return PNPBS_OK;
   });
 }
@@ -25,7 +25,7 @@ pnpbs_status pnpbs_placement_begin_update_ghosts(pnpbs_placement placement, int6
 pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_t n,
                                                int32_t components, double* values) {
   return local_change(placement, [&](Placement& p) {
-    p.end_ghost_update(n, components, values);
+    p.results().end_ghost_update(n, components, values);
     return PNPBS_OK;
   });
 }
@@ -33,7 +33,7 @@ pnpbs_status pnpbs_placement_end_update_ghosts(pnpbs_placement placement, int64_
 pnpbs_status pnpbs_placement_add_from_ghosts(pnpbs_placement placement, int64_t n,
                                              int32_t components, double* values) {
   return local_change(placement, [&](Placement& p) {
-    p.add_from_ghosts(n, components, values);
+    p.results().add_from_ghosts(n, components, values);
     return PNPBS_OK;
   });
 }
@@ -41,7 +41,7 @@ pnpbs_status pnpbs_placement_add_from_ghosts(pnpbs_placement placement, int64_t 
 pnpbs_status pnpbs_placement_sum(pnpbs_placement placement, int64_t n, int32_t components,
                                  const double* values, double* sums) {
   return local_change(placement, [&](Placement& p) {
-    p.sum(n, components, values, sums);
+    p.results().sum(n, components, values, sums);
     return PNPBS_OK;
   });
 }
@@ -49,7 +49,7 @@ pnpbs_status pnpbs_placement_sum(pnpbs_placement placement, int64_t n, int32_t c
 pnpbs_status pnpbs_placement_dot(pnpbs_placement placement, int64_t n, int32_t components,
                                  const double* x, const double* y, double* products) {
   return local_change(placement, [&](Placement& p) {
-    p.dot(n, components, x, y, products);
+    p.results().dot(n, components, x, y, products);
     return PNPBS_OK;
   });
 }

@@ -66,7 +66,7 @@ pnpbs_status pnpbs_placement_add_output_field(pnpbs_placement placement, const c
   return guarded(placement, [&](PlacementObject& object) {
     const Computing computing(*object.context);
     require_pointer(name, "name");
-    object.output_fields.add(*object.placement, name, n, components, values);
+    object.output_fields.add(object.placement->results(), name, n, components, values);
     return PNPBS_OK;
   });
 }

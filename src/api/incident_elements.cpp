@@ -12,7 +12,7 @@ using namespace pnpbs::api;
 namespace {
 
 template <std::size_t Corners, int Dim>
-pnpbs_status copy_elements(const PlacementOf<Dim>& in, std::int64_t capacity, std::int64_t* count,
+pnpbs_status copy_elements(const Results<Dim>& in, std::int64_t capacity, std::int64_t* count,
                            std::int32_t* corners, std::int64_t* elements) {
   *count = count_incident_elements<Corners>(in);
   if (corners) *corners = static_cast<std::int32_t>(Corners);
@@ -29,12 +29,12 @@ pnpbs_status copy_elements(const PlacementOf<Dim>& in, std::int64_t capacity, st
 pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement placement, int64_t capacity,
                                                    int64_t* count, int32_t* corners,
                                                    int64_t* elements) {
-  return collective(placement, [&](Placement& p) {
+  return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
-    p.prepare_stars();
-    if (p.dimension() == 2)
-      return copy_elements<3>(require_dimension<2>(p), capacity, count, corners, elements);
-    const PlacementOf<3>& in = require_dimension<3>(p);
+    results.prepare_stars();
+    if (results.dimension() == 2)
+      return copy_elements<3>(require_dimension<2>(results), capacity, count, corners, elements);
+    const Results<3>& in = require_dimension<3>(results);
     return in.surfaces_alone() ? copy_elements<3>(in, capacity, count, corners, elements)
                                : copy_elements<4>(in, capacity, count, corners, elements);
   });

@@ -11,7 +11,7 @@ pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t c
                                             int64_t* edges, double* mean, double* deviation) {
   return collective(placement, [&](Placement& p) {
     require_pointer(count, "count");
-    const std::vector<EdgeBand>& bands = p.element_quality().bands;
+    const std::vector<EdgeBand>& bands = p.results().element_quality().bands;
     *count = static_cast<std::int64_t>(bands.size());
     if (capacity == 0 && !d_from && !d_to && !edges && !mean && !deviation) return PNPBS_OK;
     require_capacity(capacity, *count);

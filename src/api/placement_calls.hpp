@@ -26,6 +26,12 @@ pnpbs_status collective(pnpbs_placement placement, const Body& body) {
   });
 }
 
+// The same of what only asks for results.
+template <class Body>
+pnpbs_status collective_results(pnpbs_placement placement, const Body& body) {
+  return collective(placement, [&](Placement& p) { return body(p.results()); });
+}
+
 inline void require_capacity(std::int64_t capacity, std::int64_t needed,
                              const std::string& argument = "capacity") {
   require_count(capacity, argument.c_str());
@@ -34,14 +40,14 @@ inline void require_capacity(std::int64_t capacity, std::int64_t needed,
                                          "; " + std::to_string(needed) + " are needed");
 }
 
-// Throws unless the placement is one in that dimension.
+// Throws unless the results are of a placement in that dimension.
 template <int Dim>
-PlacementOf<Dim>& require_dimension(Placement& placement) {
-  if (placement.dimension() != Dim)
+Results<Dim>& require_dimension(NodalResults& results) {
+  if (results.dimension() != Dim)
     throw Error(ErrorKind::argument,
-                "argument placement has " + std::to_string(placement.dimension()) +
+                "argument placement has " + std::to_string(results.dimension()) +
                     " dimensions; this function is for " + std::to_string(Dim));
-  return static_cast<PlacementOf<Dim>&>(placement);
+  return static_cast<Results<Dim>&>(results);
 }
 
 }  // namespace pnpbs::api

@@ -7,6 +7,7 @@
 #include "api/placement_calls.hpp"
 #include "api/spacing_callback.hpp"
 #include "domain/given_values.hpp"
+#include "placement/nodal_values.hpp"
 #include "spacing/beside_domain.hpp"
 #include "spacing/files/field_file.hpp"
 #include "spacing/given_field.hpp"
@@ -192,19 +193,20 @@ pnpbs_status pnpbs_placement_set_spacing_grid(pnpbs_placement placement, const i
 
 pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int64_t n,
                                                   const double* d) {
-  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& p) {
-    p.prepare_order();
-    if (n != p.count())
+  return replace_spacing(placement, [&]<int Dim>(PlacementOf<Dim>& in) {
+    Results<Dim>& results = in.results();
+    results.prepare_order();
+    if (n != results.count())
       throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
-                                           std::to_string(p.count()) +
+                                           std::to_string(results.count()) +
                                            " nodes, and every one has its value");
     if (n > 0) require_pointer(d, "d");
     for (std::int64_t i = 0; i < n; ++i)
       if (!std::isfinite(d[i]) || d[i] <= 0)
-        throw Error(ErrorKind::spacing, "argument d[" + std::to_string(i) +
-                                            "] = " + number_text(d[i]) + " at node " +
-                                            std::to_string(p.level().nodes.id(p.node_at(i))) +
-                                            ": the spacing must be finite and greater than 0");
-    return p.spacing_from(std::vector<double>(d, d + n));
+        throw Error(ErrorKind::spacing,
+                    "argument d[" + std::to_string(i) + "] = " + number_text(d[i]) + " at node " +
+                        std::to_string(results.level().nodes.id(results.node_at(i))) +
+                        ": the spacing must be finite and greater than 0");
+    return spacing_from(results, std::vector<double>(d, d + n));
   });
 }

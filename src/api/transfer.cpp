@@ -21,21 +21,22 @@ pnpbs_status collective(pnpbs_transfer transfer, const Body& body) {
   });
 }
 
-void require_field(Placement& p, std::int64_t n, std::int64_t components, const double* values) {
-  p.prepare_order();
+void require_field(NodalResults& results, std::int64_t n, std::int64_t components,
+                   const double* values) {
+  results.prepare_order();
   if (components < 1)
     throw Error(ErrorKind::argument,
                 "argument components = " + std::to_string(components) + "; there is at least 1");
-  if (n != p.count())
+  if (n != results.count())
     throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
-                                         std::to_string(p.count()) +
+                                         std::to_string(results.count()) +
                                          " nodes, and every one has its values");
   if (n > 0) require_pointer(values, "values");
   for (std::int64_t k = 0; k < n * components; ++k)
     if (!std::isfinite(values[k]))
       throw Error(ErrorKind::argument,
                   "argument values: component " + std::to_string(k % components) + " at node " +
-                      std::to_string(p.nodes().id(p.node_at(k / components))) + " is " +
+                      std::to_string(results.nodes().id(results.node_at(k / components))) + " is " +
                       number_text(values[k]) + "; all must be finite");
 }
 
@@ -45,20 +46,20 @@ pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t
   if (transfer) *transfer = nullptr;
   return guarded(placement, [&](PlacementObject& object) {
     const Computing computing(*object.context);
-    Placement& p = *object.placement;
-    agreed(p.communicator(), [&] {
+    NodalResults& results = object.placement->results();
+    agreed(results.communicator(), [&] {
       require_pointer(transfer, "transfer");
-      require_field(p, n, components, values);
+      require_field(results, n, components, values);
     });
-    agreed(p.communicator(), [&] {
-      if (!p.communicator().same_on_all(static_cast<std::uint64_t>(components)))
+    agreed(results.communicator(), [&] {
+      if (!results.communicator().same_on_all(static_cast<std::uint64_t>(components)))
         throw Error(ErrorKind::argument, "argument components = " + std::to_string(components) +
                                              " here; all ranks must give the same");
-      if (!p.communicator().same_on_all(static_cast<std::uint64_t>(order)))
+      if (!results.communicator().same_on_all(static_cast<std::uint64_t>(order)))
         throw Error(ErrorKind::argument, "all ranks must ask for a transfer of the same order");
       auto made = std::make_shared<TransferObject>();
       made->context = object.context;
-      made->transfer = make_field_transfer(p, order, components, values);
+      made->transfer = make_field_transfer(results, order, components, values);
       *transfer = transfers().add(std::move(made));
     });
     return PNPBS_OK;
@@ -125,15 +126,16 @@ pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement pl
       if (target->context != object.context)
         throw Error(ErrorKind::argument,
                     "argument placement belongs to another context than the transfer");
-      Placement& p = *target->placement;
-      if (p.dimension() != object.transfer->dimension())
-        throw Error(ErrorKind::argument, "argument placement has " + std::to_string(p.dimension()) +
+      NodalResults& results = target->placement->results();
+      if (results.dimension() != object.transfer->dimension())
+        throw Error(ErrorKind::argument, "argument placement has " +
+                                             std::to_string(results.dimension()) +
                                              " dimensions; the transfer's nodes had " +
                                              std::to_string(object.transfer->dimension()));
-      p.prepare_order();
-      require_capacity(capacity, p.count());
-      if (p.count() > 0) require_pointer(values, "values");
-      object.transfer->evaluate_at_nodes(p, conserve != 0, values);
+      results.prepare_order();
+      require_capacity(capacity, results.count());
+      if (results.count() > 0) require_pointer(values, "values");
+      object.transfer->evaluate_at_nodes(results, conserve != 0, values);
     });
     return PNPBS_OK;
   });

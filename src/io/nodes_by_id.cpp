@@ -132,25 +132,25 @@ class TagGroups {
 }  // namespace
 
 template <int Dim>
-NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements,
+NodesById<Dim>::NodesById(Results<Dim>& results, bool elements,
                           const std::vector<OutputField>& fields)
-    : placement_(placement), comm_(placement.communicator()) {
-  prepare(placement, elements);
-  owned_ = placement.count();
+    : results_(results), comm_(results.communicator()) {
+  prepare(results, elements);
+  owned_ = results.count();
   contents_.dimension = Dim;
   contents_.with_elements = elements;
-  contents_.cells = cells_of(placement, elements);
-  contents_.names = &placement.domain().names();
+  contents_.cells = cells_of(results, elements);
+  contents_.names = &results.domain().names();
   contents_.fields = &fields;
   std::vector<std::int64_t> counts{owned_, 0, 0};
   if (elements) {
-    placement.for_elements([&](const auto&) { ++counts[1]; });
+    results.for_elements([&](const auto&) { ++counts[1]; });
     const auto count_facet = [&](const auto&...) { ++counts[2]; };
     if constexpr (Dim == 2) {
-      placement.for_boundary_facets(count_facet);
+      results.for_boundary_facets(count_facet);
     } else {
-      placement.for_open_facets(count_facet);
-      placement.for_inner_facets(count_facet);
+      results.for_open_facets(count_facet);
+      results.for_inner_facets(count_facet);
     }
   }
   comm_.allreduce_sum(counts);
@@ -158,8 +158,8 @@ NodesById<Dim>::NodesById(PlacementOf<Dim>& placement, bool elements,
   contents_.elements = counts[1];
   contents_.facets = counts[2];
   if (comm_.size() == 1) return;
-  const View<std::int64_t> id = placement.level().nodes.id;
-  blocks_.emplace(comm_, owned_, [&](std::int64_t place) { return id(placement.node_at(place)); });
+  const View<std::int64_t> id = results.level().nodes.id;
+  blocks_.emplace(comm_, owned_, [&](std::int64_t place) { return id(results.node_at(place)); });
   std::vector<std::int64_t> numbers;
   for (std::int64_t number = 0; number < contents_.nodes; number += kWindow)
     numbers.push_back(number);
@@ -173,9 +173,9 @@ template <int Dim>
 std::int64_t NodesById<Dim>::first_place_in(std::size_t part) const {
   if (!blocks_) return std::min(static_cast<std::int64_t>(part) * kWindow, owned_);
   if (part >= bounds_.size()) return owned_;
-  const View<std::int64_t> id = placement_.level().nodes.id;
+  const View<std::int64_t> id = results_.level().nodes.id;
   return leading_count(
-      owned_, [&](std::int64_t place) { return id(placement_.node_at(place)) < bounds_[part]; });
+      owned_, [&](std::int64_t place) { return id(results_.node_at(place)) < bounds_[part]; });
 }
 
 template <int Dim>
@@ -202,7 +202,7 @@ std::vector<Row> NodesById<Dim>::brought(std::vector<Row> rows, const Label& fir
 
 template <int Dim>
 std::int64_t NodesById<Dim>::label(std::int64_t place) const {
-  return blocks_ ? placement_.level().nodes.id(placement_.node_at(place)) : place;
+  return blocks_ ? results_.level().nodes.id(results_.node_at(place)) : place;
 }
 
 template <int Dim>
@@ -223,11 +223,11 @@ void NodesById<Dim>::label_by_numbers(std::vector<std::int64_t>& labels) const {
 
 template <int Dim>
 void NodesById<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
-  const Nodes<Dim>& nodes = placement_.level().nodes;
+  const Nodes<Dim>& nodes = results_.level().nodes;
   for_windows([&](const Window& window) {
     std::vector<NodeRow<Dim>> own;
     for (std::int64_t place = window.begin; place < window.end; ++place)
-      own.push_back(node_row<Dim>(nodes, placement_.node_at(place)));
+      own.push_back(node_row<Dim>(nodes, results_.node_at(place)));
     NodeRows rows =
         sorted_nodes<Dim>(brought(std::move(own), [](const NodeRow<Dim>& n) { return n.id; }));
     rows.first = window.first;
@@ -239,12 +239,12 @@ template <int Dim>
 void NodesById<Dim>::for_field(std::size_t field,
                                const std::function<void(const FieldRows&)>& visit) const {
   const OutputField& of = (*contents_.fields)[field];
-  const View<std::int64_t> id = placement_.level().nodes.id;
+  const View<std::int64_t> id = results_.level().nodes.id;
   for_windows([&](const Window& window) {
     std::vector<FieldValue> values;
     for (std::int64_t place = window.begin; place < window.end; ++place)
       for (std::int64_t c = 0; c < of.components; ++c)
-        values.push_back({id(placement_.node_at(place)), c,
+        values.push_back({id(results_.node_at(place)), c,
                           of.values[static_cast<std::size_t>(place * of.components + c)]});
     values = brought(std::move(values), [](const FieldValue& v) { return v.id; });
     std::ranges::sort(values, {}, [](const FieldValue& v) { return std::pair(v.id, v.component); });
@@ -270,8 +270,8 @@ void NodesById<Dim>::for_elements(const std::function<void(const ElementRows&)>&
   std::int64_t before = 0;
   for_windows([&](const Window& window) {
     std::vector<ElementRow<Dim>> own;
-    placement_.for_elements(window.begin, window.end, [&](const auto& places) {
-      own.push_back({labels(places), quality_of(positions_at(placement_, places))});
+    results_.for_elements(window.begin, window.end, [&](const auto& places) {
+      own.push_back({labels(places), quality_of(positions_at(results_, places))});
     });
     ElementRows rows = sorted_elements<Dim>(
         brought(std::move(own), [](const ElementRow<Dim>& e) { return e.corners[0]; }));
@@ -285,7 +285,7 @@ void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& vis
   std::int64_t before = 0;
   std::vector<FacetRow<Dim>> own;
   const auto keep = [&](const auto& places, std::int32_t tag) {
-    own.push_back({labels(places), tag, facet_quality(placement_, places)});
+    own.push_back({labels(places), tag, facet_quality(results_, places)});
   };
   const auto first = [](const FacetRow<Dim>& f) { return f.corners[0]; };
   const auto pass_on = [&](std::vector<FacetRow<Dim>> arrived) {
@@ -295,7 +295,7 @@ void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& vis
   };
   if constexpr (Dim == 2) {
     // All at once: the boundary is in every rank's memory anyway.
-    placement_.for_boundary_facets(keep);
+    results_.for_boundary_facets(keep);
     if (blocks_)
       own = redistribute<FacetRow<Dim>>(
           comm_, own, [&](const FacetRow<Dim>& f) { return blocks_->rank_of(first(f)); });
@@ -303,8 +303,8 @@ void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& vis
   } else {
     for_windows([&](const Window& window) {
       own.clear();
-      placement_.for_boundary_facets(window.begin, window.end, keep);
-      placement_.for_inner_facets(window.begin, window.end, keep);
+      results_.for_boundary_facets(window.begin, window.end, keep);
+      results_.for_inner_facets(window.begin, window.end, keep);
       pass_on(brought(own, first));
     });
   }
@@ -312,10 +312,10 @@ void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& vis
 
 template <int Dim>
 std::vector<TagGroup> NodesById<Dim>::node_groups() const {
-  const Nodes<Dim>& nodes = placement_.level().nodes;
+  const Nodes<Dim>& nodes = results_.level().nodes;
   TagGroups groups;
   for (std::int64_t place = 0; place < owned_; ++place) {
-    const std::int64_t i = placement_.node_at(place);
+    const std::int64_t i = results_.node_at(place);
     const Point<Dim> x = nodes.position(i);
     groups.add<Dim>(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});
   }
@@ -326,11 +326,11 @@ template <int Dim>
 std::vector<TagGroup> NodesById<Dim>::facet_groups() const {
   TagGroups groups;
   const auto add = [&](const auto& places, std::int32_t tag) {
-    const auto corners = positions_at(placement_, places);
+    const auto corners = positions_at(results_, places);
     groups.add<Dim>(tag, corners);
   };
-  placement_.for_boundary_facets(add);
-  if constexpr (Dim == 3) placement_.for_inner_facets(add);
+  results_.for_boundary_facets(add);
+  if constexpr (Dim == 3) results_.for_inner_facets(add);
   return groups.of_all(comm_);
 }
 

@@ -8,7 +8,7 @@
 
 #include "comm/id_blocks.hpp"
 #include "io/node_source.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs::io {
 
@@ -16,7 +16,7 @@ template <int Dim>
 class NodesById : public NodeSource {
  public:
   // Collective.
-  NodesById(PlacementOf<Dim>& placement, bool elements, const std::vector<OutputField>& fields);
+  NodesById(Results<Dim>& results, bool elements, const std::vector<OutputField>& fields);
 
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
   void for_field(std::size_t field,
@@ -44,7 +44,7 @@ class NodesById : public NodeSource {
   std::array<std::int64_t, n> labels(const std::array<std::int64_t, n>& places) const;
   void label_by_numbers(std::vector<std::int64_t>& labels) const;
 
-  const PlacementOf<Dim>& placement_;
+  const Results<Dim>& results_;
   const Communicator& comm_;
   std::int64_t owned_ = 0;  // nodes of this rank
   // More ranks than one know nodes of others by their ids; one alone by their places, which are

@@ -36,15 +36,15 @@ void require_name(const std::string& name) {
 }
 
 // Of ids and coordinates of this rank's nodes, in their order.
-std::uint64_t hash_of_nodes(Placement& placement) {
-  placement.prepare_order();
-  const NodeColumns nodes = placement.nodes();
+std::uint64_t hash_of_nodes(NodalResults& results) {
+  results.prepare_order();
+  const NodeColumns nodes = results.nodes();
   std::uint64_t hash = 0;
-  const std::int64_t owned = placement.count();
+  const std::int64_t owned = results.count();
   for (std::int64_t place = 0; place < owned; ++place) {
-    const std::int64_t i = placement.node_at(place);
+    const std::int64_t i = results.node_at(place);
     hash = mixed(hash ^ static_cast<std::uint64_t>(nodes.id(i)));
-    for (int axis = 0; axis < placement.dimension(); ++axis)
+    for (int axis = 0; axis < results.dimension(); ++axis)
       hash = mixed_with(hash, nodes.x[static_cast<std::size_t>(axis)](i));
   }
   return hash;
@@ -52,7 +52,7 @@ std::uint64_t hash_of_nodes(Placement& placement) {
 
 }  // namespace
 
-void OutputFields::add(Placement& placement, const std::string& name, std::int64_t n,
+void OutputFields::add(NodalResults& results, const std::string& name, std::int64_t n,
                        std::int64_t components, const double* values) {
   require_name(name);
   if (std::ranges::find(all_, name, &OutputField::name) != all_.end())
@@ -61,8 +61,8 @@ void OutputFields::add(Placement& placement, const std::string& name, std::int64
   if (components < 1 || components > kMaxComponents)
     refuse_field("argument components = " + std::to_string(components) +
                  "; an output field has 1 to " + std::to_string(kMaxComponents));
-  const std::uint64_t hash = hash_of_nodes(placement);
-  const std::int64_t owned = placement.count();
+  const std::uint64_t hash = hash_of_nodes(results);
+  const std::int64_t owned = results.count();
   if (n < owned)
     refuse_field("argument n = " + std::to_string(n) + "; this rank has " + std::to_string(owned) +
                  " nodes, and every one has its values");
@@ -71,10 +71,10 @@ void OutputFields::add(Placement& placement, const std::string& name, std::int64
       {name, components, std::vector<double>(values, values + owned * components), hash});
 }
 
-void OutputFields::require_current(Placement& placement) const {
-  const Communicator& comm = placement.communicator();
+void OutputFields::require_current(NodalResults& results) const {
+  const Communicator& comm = results.communicator();
   agreed(comm, [&] {
-    const std::uint64_t hash = all_.empty() ? 0 : hash_of_nodes(placement);
+    const std::uint64_t hash = all_.empty() ? 0 : hash_of_nodes(results);
     for (const OutputField& field : all_)
       if (field.nodes_hash != hash)
         throw Error(ErrorKind::state,
@@ -92,17 +92,17 @@ void OutputFields::require_current(Placement& placement) const {
         "the output fields differ between ranks: add the same ones in the same order on all");
 }
 
-std::vector<OutputField> OutputFields::with_ghosts(Placement& placement) const {
+std::vector<OutputField> OutputFields::with_ghosts(NodalResults& results) const {
   if (all_.empty()) return {};
-  const auto pattern = placement.exchange_pattern();
-  const auto places = static_cast<std::size_t>(placement.nodes().count);
+  const auto pattern = results.exchange_pattern();
+  const auto places = static_cast<std::size_t>(results.nodes().count);
   std::vector<OutputField> fields;
   for (const OutputField& field : all_) {
     GhostUpdate update;
-    agreed(placement.communicator(), [&] {
+    agreed(results.communicator(), [&] {
       fields.push_back(field);
       fields.back().values.resize(places * static_cast<std::size_t>(field.components));
-      update.pack(placement.communicator(), pattern, field.components, fields.back().values.data());
+      update.pack(results.communicator(), pattern, field.components, fields.back().values.data());
     });
     update.start();
     update.wait();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "placement/placement.hpp"
+#include "placement/nodal_results.hpp"
 
 namespace pnpbs::io {
 
@@ -21,14 +21,14 @@ class OutputFields {
  public:
   // values: [n][components], in places; those of ghosts are left out. Throws
   // Error(ErrorKind::argument). Local.
-  void add(Placement& placement, const std::string& name, std::int64_t n, std::int64_t components,
+  void add(NodalResults& results, const std::string& name, std::int64_t n, std::int64_t components,
            const double* values);
   void clear() { all_.clear(); }
   const std::vector<OutputField>& all() const { return all_; }
   // Throws unless they belong to the nodes there are, and are the same on all ranks. Collective.
-  void require_current(Placement& placement) const;
+  void require_current(NodalResults& results) const;
   // With values at ghosts, too. Collective.
-  std::vector<OutputField> with_ghosts(Placement& placement) const;
+  std::vector<OutputField> with_ghosts(NodalResults& results) const;
 
  private:
   std::vector<OutputField> all_;

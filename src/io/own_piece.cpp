@@ -8,18 +8,18 @@
 namespace pnpbs::io {
 
 template <int Dim>
-OwnPiece<Dim>::OwnPiece(const PlacementOf<Dim>& placement, bool elements,
+OwnPiece<Dim>::OwnPiece(const Results<Dim>& results, bool elements,
                         const std::vector<OutputField>& fields)
-    : placement_(placement),
-      owned_(placement.count()),
-      number_(static_cast<std::size_t>(placement.level().nodes.count - owned_), -1) {
+    : results_(results),
+      owned_(results.count()),
+      number_(static_cast<std::size_t>(results.level().nodes.count - owned_), -1) {
   contents_.dimension = Dim;
   contents_.is_piece = true;
   contents_.fields = &fields;
   contents_.with_elements = elements;
-  contents_.cells = cells_of(placement, elements);
+  contents_.cells = cells_of(results, elements);
   if (elements) {
-    placement.for_elements([&](const auto& places) {
+    results.for_elements([&](const auto& places) {
       ++contents_.elements;
       for (const std::int64_t place : places) know(place);
     });
@@ -28,10 +28,10 @@ OwnPiece<Dim>::OwnPiece(const PlacementOf<Dim>& placement, bool elements,
       for (const std::int64_t place : places) know(place);
     };
     if constexpr (Dim == 3) {
-      placement.for_open_facets(add);
-      placement.for_inner_facets(add);
+      results.for_open_facets(add);
+      results.for_inner_facets(add);
     } else {
-      placement.for_boundary_facets(add);
+      results.for_boundary_facets(add);
     }
   }
   contents_.nodes = owned_ + static_cast<std::int64_t>(ghosts_.size());
@@ -48,12 +48,12 @@ void OwnPiece<Dim>::know(std::int64_t place) {
 
 template <int Dim>
 void OwnPiece<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit) const {
-  const Nodes<Dim>& nodes = placement_.level().nodes;
+  const Nodes<Dim>& nodes = results_.level().nodes;
   for (std::int64_t begin = 0; begin < contents_.nodes; begin += kWindow) {
     NodeRows rows;
     rows.first = begin;
     for (std::int64_t k = begin; k < std::min(begin + kWindow, contents_.nodes); ++k) {
-      const std::int64_t i = placement_.node_at(place_of_number(k));
+      const std::int64_t i = results_.node_at(place_of_number(k));
       for (std::size_t axis = 0; axis < Dim; ++axis) rows.x.push_back(nodes.x[axis](i));
       rows.ids.push_back(nodes.id(i));
       rows.tags.push_back(nodes.tag(i));
@@ -93,9 +93,9 @@ void OwnPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>& 
   for_windows([&](std::int64_t begin, std::int64_t end) {
     ElementRows rows;
     rows.first = before;
-    placement_.for_elements(begin, end, [&](const auto& places) {
+    results_.for_elements(begin, end, [&](const auto& places) {
       for (const std::int64_t place : places) rows.corners.push_back(number(place));
-      rows.quality.push_back(quality_of(positions_at(placement_, places)));
+      rows.quality.push_back(quality_of(positions_at(results_, places)));
     });
     before += static_cast<std::int64_t>(rows.quality.size());
     visit(rows);
@@ -108,18 +108,18 @@ void OwnPiece<Dim>::for_facets(const std::function<void(const FacetRows&)>& visi
   const auto add = [&](const auto& places, std::int32_t tag) {
     for (const std::int64_t place : places) rows.corners.push_back(number(place));
     rows.tags.push_back(tag);
-    rows.quality.push_back(facet_quality(placement_, places));
+    rows.quality.push_back(facet_quality(results_, places));
   };
   if constexpr (Dim == 2) {
-    placement_.for_boundary_facets(add);
+    results_.for_boundary_facets(add);
     visit(rows);
   } else {
     std::int64_t before = 0;
     for_windows([&](std::int64_t begin, std::int64_t end) {
       rows = FacetRows();
       rows.first = before;
-      placement_.for_boundary_facets(begin, end, add);
-      placement_.for_inner_facets(begin, end, add);
+      results_.for_boundary_facets(begin, end, add);
+      results_.for_inner_facets(begin, end, add);
       before += static_cast<std::int64_t>(rows.tags.size());
       visit(rows);
     });

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/node_source.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs::io {
 
@@ -11,8 +11,7 @@ template <int Dim>
 class OwnPiece : public NodeSource {
  public:
   // Local, after rows.hpp's prepare. fields: with values at ghosts.
-  OwnPiece(const PlacementOf<Dim>& placement, bool elements,
-           const std::vector<OutputField>& fields);
+  OwnPiece(const Results<Dim>& results, bool elements, const std::vector<OutputField>& fields);
 
   // Local.
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
@@ -33,7 +32,7 @@ class OwnPiece : public NodeSource {
   template <class Visit>
   void for_windows(const Visit& visit) const;
 
-  const PlacementOf<Dim>& placement_;
+  const Results<Dim>& results_;
   std::int64_t owned_;
   // Ghosts in the order in which elements and facets ask for them.
   std::vector<std::int64_t> ghosts_;  // places

@@ -42,11 +42,11 @@ float quality_of(const std::array<Point<3>, 4>& tetrahedron) {
   return as_written(tetrahedron_quality(tetrahedron));
 }
 
-void prepare(Placement& placement, bool elements) {
+void prepare(NodalResults& results, bool elements) {
   if (elements)
-    placement.prepare_stars();
+    results.prepare_stars();
   else
-    placement.prepare_order();
+    results.prepare_order();
 }
 
 }  // namespace pnpbs::io

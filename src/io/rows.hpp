@@ -5,7 +5,7 @@
 #include <array>
 
 #include "io/node_source.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs::io {
 
@@ -21,30 +21,30 @@ float quality_of(const std::array<Point<3>, 4>& tetrahedron);
 
 // Where the nodes at these places are.
 template <int Dim, std::size_t n>
-std::array<Point<Dim>, n> positions_at(const PlacementOf<Dim>& placement,
+std::array<Point<Dim>, n> positions_at(const Results<Dim>& results,
                                        const std::array<std::int64_t, n>& places) {
   std::array<Point<Dim>, n> x;
   for (std::size_t k = 0; k < n; ++k)
-    x[k] = placement.level().nodes.position(placement.node_at(places[k]));
+    x[k] = results.level().nodes.position(results.node_at(places[k]));
   return x;
 }
 
 // Of a facet: see FacetRows.
 template <int Dim, std::size_t n>
-float facet_quality(const PlacementOf<Dim>& placement, const std::array<std::int64_t, n>& places) {
+float facet_quality(const Results<Dim>& results, const std::array<std::int64_t, n>& places) {
   if constexpr (Dim == 3)
-    return quality_of(positions_at(placement, places));
+    return quality_of(positions_at(results, places));
   else
     return 0;
 }
 
 template <int Dim>
-Cells cells_of(const PlacementOf<Dim>& placement, bool elements) {
+Cells cells_of(const Results<Dim>& results, bool elements) {
   if (!elements) return Cells::nodes;
-  return placement.surfaces_alone() ? Cells::facets : Cells::elements;
+  return results.surfaces_alone() ? Cells::facets : Cells::elements;
 }
 
 // Makes ready what for_elements and for_facets need, or only the order. Collective.
-void prepare(Placement& placement, bool elements);
+void prepare(NodalResults& results, bool elements);
 
 }  // namespace pnpbs::io

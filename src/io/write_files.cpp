@@ -73,9 +73,7 @@ void require_possible(const std::string& path, const Format& format, bool elemen
     refuse("elements would go to a second file beside standard output: ask for ele there");
 }
 
-bool has_elements(const Placement& placement) {
-  return in_its_dimension(placement, [](const auto& in) { return !in.surfaces_alone(); });
-}
+bool has_elements(const Placement& placement) { return !placement.results().surfaces_alone(); }
 
 // Not for streams and devices, which have no files beside them.
 bool has_room_beside(const std::string& path) {
@@ -87,8 +85,9 @@ bool has_room_beside(const std::string& path) {
 template <int Dim>
 class Writing {
  public:
-  Writing(PlacementOf<Dim>& placement, const OutputFields& fields, std::size_t files)
-      : placement_(placement), fields_(fields), expected_(files) {}
+  Writing(const Monitoring& monitoring, Results<Dim>& results, const OutputFields& fields,
+          std::size_t files)
+      : monitoring_(monitoring), results_(results), fields_(fields), expected_(files) {}
 
   void add(const FileWish& wish) {
     if (wish.format->write) {
@@ -110,7 +109,7 @@ class Writing {
   }
 
  private:
-  const std::shared_ptr<const Communicator>& comm() const { return placement_.ranks(); }
+  const std::shared_ptr<const Communicator>& comm() const { return results_.ranks(); }
 
   SharedFile& open(const std::shared_ptr<const Communicator>& ranks, const std::string& path) {
     return *files_.emplace_back(
@@ -119,7 +118,7 @@ class Writing {
 
   void add_file(const FileWish& wish) {
     std::optional<NodesById<Dim>>& nodes = wish.elements ? with_elements_ : nodes_only_;
-    if (!nodes) nodes.emplace(placement_, wish.elements, fields_.all());
+    if (!nodes) nodes.emplace(results_, wish.elements, fields_.all());
     SharedFile& file = open(comm(), wish.path);
     if (wish.facets)
       wish.format->write(FacetsBeside(*nodes), file);
@@ -130,10 +129,10 @@ class Writing {
 
   // Each rank alone; what fails on one is told to all.
   void add_piece(const FileWish& wish) {
-    prepare(placement_, wish.elements);
-    if (fields_with_ghosts_.empty()) fields_with_ghosts_ = fields_.with_ghosts(placement_);
+    prepare(results_, wish.elements);
+    if (fields_with_ghosts_.empty()) fields_with_ghosts_ = fields_.with_ghosts(results_);
     agreed(*comm(), [&] {
-      const OwnPiece<Dim> piece(placement_, wish.elements, fields_with_ghosts_);
+      const OwnPiece<Dim> piece(results_, wish.elements, fields_with_ghosts_);
       like_ = piece.contents();
       SharedFile& file = open(serial_communicator(), piece_path(wish.path, comm()->rank()));
       if (wish.facets) {
@@ -158,14 +157,15 @@ class Writing {
   void give_up_if_asked() const {
     const double fraction =
         done_ == expected_ ? 1 : static_cast<double>(done_) / static_cast<double>(expected_);
-    if (placement_.monitoring().asks_to_stop(fraction, nodes_))
+    if (monitoring_.asks_to_stop(fraction, nodes_))
       throw Error(ErrorKind::stopped, "stopped by the monitor; no file was written");
   }
 
-  PlacementOf<Dim>& placement_;
+  const Monitoring& monitoring_;
+  Results<Dim>& results_;
   const OutputFields& fields_;
   std::vector<OutputField> fields_with_ghosts_;  // once a piece needs them
-  const std::int64_t nodes_ = placement_.global_count();
+  const std::int64_t nodes_ = results_.global_count();
   std::size_t expected_, done_ = 0;
   std::optional<NodesById<Dim>> with_elements_, nodes_only_;
   Contents like_;  // of this rank's piece
@@ -208,9 +208,9 @@ void write_files(Placement& placement, const OutputFields& fields,
   // What one rank cannot do at any step of it, all give up.
   agreed(comm, [&] {
     require_hdf5_for(wishes, comm);
-    fields.require_current(placement);
-    in_its_dimension(placement, [&]<int Dim>(PlacementOf<Dim>& it) {
-      Writing<Dim> writing(it, fields, wishes.size());
+    fields.require_current(placement.results());
+    in_its_dimension(placement.results(), [&]<int Dim>(Results<Dim>& results) {
+      Writing<Dim> writing(placement.monitoring(), results, fields, wishes.size());
       for (const FileWish& wish : wishes) writing.add(wish);
       writing.publish();
     });

@@ -23,8 +23,8 @@ std::vector<Point<3>> bridging_nodes(const Level<3>& level) {
   return bridging;
 }
 
-BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<Point<3>>& torn) {
-  const Level<3>& level = placement.level();
+BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<3>>& torn) {
+  const Level<3>& level = results.level();
   const Nodes<3>& nodes = level.nodes;
   BoundaryTopology result;
   std::uint64_t on_surfaces = 0;
@@ -40,8 +40,8 @@ BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<
       level.stars.for_neighbours(i, [&](std::int64_t j) { torn.push_back(nodes.position(j)); });
     }
   }
-  result.torn = over_ranks(placement.communicator(), result.torn);
-  result.torn_on_surfaces = placement.communicator().allreduce_sum(on_surfaces) > 0;
+  result.torn = over_ranks(results.communicator(), result.torn);
+  result.torn_on_surfaces = results.communicator().allreduce_sum(on_surfaces) > 0;
   result.euler = euler_of_boundary(level);
   result.euler_of_domain = euler_of_surfaces(level);
   result.pieces = pieces_of_boundary(level);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "level/found_nodes.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs {
 
@@ -27,7 +27,7 @@ struct BoundaryTopology {
 
 // Of a body, after prepare_stars. This rank's nodes where it is torn are added to `torn`, with
 // their neighbours. Collective.
-BoundaryTopology boundary_topology(const PlacementOf<3>& placement, std::vector<Point<3>>& torn);
+BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<3>>& torn);
 
 // This rank's nodes with open faces that do not lie along the surfaces but go from one sheet of
 // them to another, which may be right where they are rough. Of a body, after prepare_stars. Local.

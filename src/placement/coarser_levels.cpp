@@ -121,7 +121,7 @@ GivenNodes<Dim> PlacementOf<Dim>::nodes_from_coarser_levels(
     if (outcome != Outcome::stopped) outcome = Outcome::converged;
     adopt_level(nullptr);
   } catch (...) {
-    level_.reset();
+    keep(nullptr);
     throw;
   }
   return nodes;
@@ -134,7 +134,7 @@ TakenNodes PlacementOf<Dim>::put_first_nodes(std::unique_ptr<Level<Dim>>& level,
                                              GivenNodes<Dim>& from_coarser, int which,
                                              Outcome& outcome) {
   if constexpr (Dim == 3) {
-    if (surfaces_alone()) {
+    if (results_.surfaces_alone()) {
       put_on_surfaces(*level, std::move(from_coarser));
       return {};
     }

@@ -28,42 +28,41 @@ bool in_no_element(const Level<3>& level, std::int64_t i) {
   return none;
 }
 
-FoundNodes<2> unmatched_edges(const PlacementOf<2>&, std::vector<Point<2>>&) { return {}; }
-FoundNodes<3> unmatched_edges(const PlacementOf<3>& placement, std::vector<Point<3>>& places) {
+FoundNodes<2> unmatched_edges(const Results<2>&, std::vector<Point<2>>&) { return {}; }
+FoundNodes<3> unmatched_edges(const Results<3>& results, std::vector<Point<3>>& places) {
   FoundNodes<3> found;
-  if (!placement.surfaces_alone()) return found;
-  for_unmatched_edges(placement, [&](const SurfaceEdge& edge) {
+  if (!results.surfaces_alone()) return found;
+  for_unmatched_edges(results, [&](const SurfaceEdge& edge) {
     found.add(1, edge.low, edge.at);
     places.push_back(edge.at);
   });
-  return over_ranks(placement.communicator(), found);
+  return over_ranks(results.communicator(), found);
 }
 
-ElementMeasure measure_in(const PlacementOf<2>&) { return {}; }
-ElementMeasure measure_in(const PlacementOf<3>& placement) { return measure_if_far_off(placement); }
+ElementMeasure measure_in(const Results<2>&) { return {}; }
+ElementMeasure measure_in(const Results<3>& results) { return measure_if_far_off(results); }
 
-BoundaryTopology topology_of(const PlacementOf<2>&, Conformity<2>&) { return {}; }
-BoundaryTopology topology_of(const PlacementOf<3>& placement, Conformity<3>& result) {
-  return placement.surfaces_alone() ? BoundaryTopology{}
-                                    : boundary_topology(placement, result.torn);
+BoundaryTopology topology_of(const Results<2>&, Conformity<2>&) { return {}; }
+BoundaryTopology topology_of(const Results<3>& results, Conformity<3>& result) {
+  return results.surfaces_alone() ? BoundaryTopology{} : boundary_topology(results, result.torn);
 }
 
-FoundNodes<2> flat_in(const PlacementOf<2>&, std::vector<Point<2>>&) { return {}; }
-FoundNodes<3> flat_in(const PlacementOf<3>& placement, std::vector<Point<3>>& places) {
-  return placement.surfaces_alone() ? FoundNodes<3>{} : flat_elements(placement.level(), places);
+FoundNodes<2> flat_in(const Results<2>&, std::vector<Point<2>>&) { return {}; }
+FoundNodes<3> flat_in(const Results<3>& results, std::vector<Point<3>>& places) {
+  return results.surfaces_alone() ? FoundNodes<3>{} : flat_elements(results.level(), places);
 }
 
-const char* elements_of(const PlacementOf<2>&) { return "triangle"; }
-const char* elements_of(const PlacementOf<3>& placement) {
-  return placement.surfaces_alone() ? "triangle" : "tetrahedron";
+const char* elements_of(const Results<2>&) { return "triangle"; }
+const char* elements_of(const Results<3>& results) {
+  return results.surfaces_alone() ? "triangle" : "tetrahedron";
 }
 
 }  // namespace
 
 template <int Dim>
-Conformity<Dim> conformity_of(const PlacementOf<Dim>& placement) {
-  const Communicator& comm = placement.communicator();
-  const Level<Dim>& level = placement.level();
+Conformity<Dim> conformity_of(const Results<Dim>& results) {
+  const Communicator& comm = results.communicator();
+  const Level<Dim>& level = results.level();
   const Nodes<Dim>& nodes = level.nodes;
   Conformity<Dim> result;
   FoundNodes<Dim> isolated;
@@ -78,18 +77,18 @@ Conformity<Dim> conformity_of(const PlacementOf<Dim>& placement) {
       static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(result.nodes)));
   result.isolated = over_ranks(comm, isolated);
   agreed(comm, [&] {
-    result.unmatched = unmatched_edges(placement, result.torn);
-    result.measure = measure_in(placement);
-    result.boundary = topology_of(placement, result);
-    result.flat = flat_in(placement, result.torn);
+    result.unmatched = unmatched_edges(results, result.torn);
+    result.measure = measure_in(results);
+    result.boundary = topology_of(results, result);
+    result.flat = flat_in(results, result.torn);
   });
   return result;
 }
 
 template <int Dim>
-std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& placement) {
-  const Level<Dim>& level = placement.level();
-  const std::string element = elements_of(placement);
+std::string text_of(const Conformity<Dim>& conformity, const Results<Dim>& results) {
+  const Level<Dim>& level = results.level();
+  const std::string element = elements_of(results);
   if (!conformity.any_elements()) {
     const SpacingRange d = spacing_range<Dim>(*level.comm, level.nodes);
     const double side = size_of<Dim>(level.ground.bounds());
@@ -143,9 +142,9 @@ std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& p
 
 template struct Conformity<2>;
 template struct Conformity<3>;
-template Conformity<2> conformity_of(const PlacementOf<2>&);
-template Conformity<3> conformity_of(const PlacementOf<3>&);
-template std::string text_of(const Conformity<2>&, const PlacementOf<2>&);
-template std::string text_of(const Conformity<3>&, const PlacementOf<3>&);
+template Conformity<2> conformity_of(const Results<2>&);
+template Conformity<3> conformity_of(const Results<3>&);
+template std::string text_of(const Conformity<2>&, const Results<2>&);
+template std::string text_of(const Conformity<3>&, const Results<3>&);
 
 }  // namespace pnpbs

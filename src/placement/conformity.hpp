@@ -9,7 +9,7 @@
 #include "level/found_nodes.hpp"
 #include "placement/boundary_topology.hpp"
 #include "placement/element_measure.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs {
 
@@ -36,10 +36,10 @@ struct Conformity {
 
 // After prepare_stars. Collective.
 template <int Dim>
-Conformity<Dim> conformity_of(const PlacementOf<Dim>& placement);
+Conformity<Dim> conformity_of(const Results<Dim>& results);
 
 // What is wrong, with places; empty if nothing is. Collective.
 template <int Dim>
-std::string text_of(const Conformity<Dim>& conformity, const PlacementOf<Dim>& placement);
+std::string text_of(const Conformity<Dim>& conformity, const Results<Dim>& results);
 
 }  // namespace pnpbs

@@ -20,9 +20,9 @@ constexpr double kFoundTo = 1e-6;    // of its resolution: as well as edges of a
 
 class Measuring : public VolumeNodeCheck {
  public:
-  explicit Measuring(const PlacementOf<3>& placement)
-      : VolumeNodeCheck(placement),
-        alone_(placement.surfaces_alone()),
+  explicit Measuring(const Results<3>& results)
+      : VolumeNodeCheck(results),
+        alone_(results.surfaces_alone()),
         domain_(alone_ ? ground_.domain().area() : ground_.measure()) {}
 
   ElementMeasure all() const {
@@ -134,12 +134,10 @@ double ElementMeasure::difference() const { return std::fabs(elements - domain);
 
 bool ElementMeasure::far_off() const { return difference() > kSmall * domain && !agrees(); }
 
-ElementMeasure measure_of_elements(const PlacementOf<3>& placement) {
-  return Measuring(placement).all();
-}
+ElementMeasure measure_of_elements(const Results<3>& results) { return Measuring(results).all(); }
 
-ElementMeasure measure_if_far_off(const PlacementOf<3>& placement) {
-  const Measuring measuring(placement);
+ElementMeasure measure_if_far_off(const Results<3>& results) {
+  const Measuring measuring(results);
   const ElementMeasure elements = measuring.of_elements();
   return elements.difference() <= kSmall * elements.domain ? ElementMeasure() : measuring.all();
 }

@@ -2,7 +2,7 @@
 // What the elements of a placement in space fill, against the domain.
 #pragma once
 
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs {
 
@@ -20,10 +20,10 @@ struct ElementMeasure {
 };
 
 // After prepare_stars. Collective.
-ElementMeasure measure_of_elements(const PlacementOf<3>& placement);
+ElementMeasure measure_of_elements(const Results<3>& results);
 
 // The same, or an empty one if the elements surely fill the domain but for a thousandth: that takes
 // next to no time.
-ElementMeasure measure_if_far_off(const PlacementOf<3>& placement);
+ElementMeasure measure_if_far_off(const Results<3>& results);
 
 }  // namespace pnpbs

@@ -13,8 +13,9 @@
 #include "base/space_vectors.hpp"
 #include "comm/records.hpp"
 #include "placement/ghost_values.hpp"
+#include "placement/nodal_values.hpp"
 #include "placement/parabolic_fits.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 #include "spacing/nodal_search.hpp"
 
 namespace pnpbs {
@@ -93,21 +94,21 @@ std::vector<double> integrals(const Communicator& comm, const Patch<Dim>& patch,
 template <int Dim>
 class FieldTransferOf : public FieldTransfer {
  public:
-  FieldTransferOf(PlacementOf<Dim>& placement, TransferOrder order, std::int64_t components,
+  FieldTransferOf(Results<Dim>& results, TransferOrder order, std::int64_t components,
                   const double* values)
-      : search_(placement.ranks(), placement.patch()),
-        values_(with_ghosts(placement, components, values)),
-        integrals_(integrals(placement.communicator(), search_.patch().patch(),
-                             placement.surfaces_alone(), components, values_)) {
+      : search_(results.ranks(), patch_of(results)),
+        values_(with_ghosts(results, components, values)),
+        integrals_(integrals(results.communicator(), search_.patch().patch(),
+                             results.surfaces_alone(), components, values_)) {
     components_ = components;
     if (order == TransferOrder::second)
-      fits_.emplace(placement, search_.patch().patch(), components, values_);
+      fits_.emplace(results, search_.patch().patch(), components, values_);
   }
 
   int dimension() const override { return Dim; }
   std::int64_t nodes_of_first_order() const override { return fits_ ? fits_->nodes_without() : -1; }
   void evaluate(std::int64_t n, const double* x, double* values) const override;
-  void evaluate_at_nodes(Placement& placement, bool conserve, double* values) const override;
+  void evaluate_at_nodes(NodalResults& results, bool conserve, double* values) const override;
 
  private:
   // A place on a simplex or facet of the rank that is asked.
@@ -119,7 +120,7 @@ class FieldTransferOf : public FieldTransfer {
   std::vector<Message> answered(const std::vector<Message>& asked) const;
   void answer(const Question& question, double* values) const;
   void add_curvature(const Point<Dim>& x, const PatchWeights<Dim>& w, double* values) const;
-  void conserve_integrals(PlacementOf<Dim>& placement, double* values) const;
+  void conserve_integrals(Results<Dim>& results, double* values) const;
 
   NodalSearch<Dim> search_;
   std::vector<double> values_;     // at the nodes of the patch
@@ -225,12 +226,12 @@ void FieldTransferOf<Dim>::evaluate(std::int64_t n, const double* x, double* val
 }
 
 template <int Dim>
-void FieldTransferOf<Dim>::conserve_integrals(PlacementOf<Dim>& placement, double* values) const {
+void FieldTransferOf<Dim>::conserve_integrals(Results<Dim>& results, double* values) const {
   const Communicator& comm = search_.communicator();
-  const std::vector<double> all = with_ghosts(placement, components_, values);
+  const std::vector<double> all = with_ghosts(results, components_, values);
   const std::vector<double> now =
-      integrals(comm, placement.patch(), placement.surfaces_alone(), components_, all);
-  const std::int64_t owned = placement.count();
+      integrals(comm, patch_of(results), results.surfaces_alone(), components_, all);
+  const std::int64_t owned = results.count();
   for (std::int64_t c = 0; c < components_; ++c) {
     const auto k = static_cast<std::size_t>(c);
     const double lacking = (integrals_[k] - now[k]) / now.back();
@@ -239,9 +240,9 @@ void FieldTransferOf<Dim>::conserve_integrals(PlacementOf<Dim>& placement, doubl
 }
 
 template <int Dim>
-void FieldTransferOf<Dim>::evaluate_at_nodes(Placement& placement, bool conserve,
+void FieldTransferOf<Dim>::evaluate_at_nodes(NodalResults& results, bool conserve,
                                              double* values) const {
-  auto& in = static_cast<PlacementOf<Dim>&>(placement);
+  auto& in = static_cast<Results<Dim>&>(results);
   std::vector<double> x;
   agreed(search_.communicator(), [&] {
     in.prepare_order();
@@ -257,13 +258,13 @@ void FieldTransferOf<Dim>::evaluate_at_nodes(Placement& placement, bool conserve
 
 }  // namespace
 
-std::unique_ptr<FieldTransfer> make_field_transfer(Placement& placement, TransferOrder order,
+std::unique_ptr<FieldTransfer> make_field_transfer(NodalResults& results, TransferOrder order,
                                                    std::int64_t components, const double* values) {
-  if (placement.dimension() == 2)
-    return std::make_unique<FieldTransferOf<2>>(static_cast<PlacementOf<2>&>(placement), order,
+  if (results.dimension() == 2)
+    return std::make_unique<FieldTransferOf<2>>(static_cast<Results<2>&>(results), order,
                                                 components, values);
-  return std::make_unique<FieldTransferOf<3>>(static_cast<PlacementOf<3>&>(placement), order,
-                                              components, values);
+  return std::make_unique<FieldTransferOf<3>>(static_cast<Results<3>&>(results), order, components,
+                                              values);
 }
 
 }  // namespace pnpbs

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "placement/placement.hpp"
+#include "placement/nodal_results.hpp"
 
 namespace pnpbs {
 
@@ -27,14 +27,14 @@ class FieldTransfer {
   // At this rank's nodes, in places. With `conserve` the field that is linear on the placement's
   // elements has the integral that the old one had on the old elements: every value is changed by
   // the same number. Collective.
-  virtual void evaluate_at_nodes(Placement& placement, bool conserve, double* values) const = 0;
+  virtual void evaluate_at_nodes(NodalResults& results, bool conserve, double* values) const = 0;
 
  protected:
   std::int64_t components_ = 0;
 };
 
 // values: [nodes of this rank][components]. Collective.
-std::unique_ptr<FieldTransfer> make_field_transfer(Placement& placement, TransferOrder order,
+std::unique_ptr<FieldTransfer> make_field_transfer(NodalResults& results, TransferOrder order,
                                                    std::int64_t components, const double* values);
 
 }  // namespace pnpbs

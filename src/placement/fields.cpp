@@ -9,7 +9,7 @@
 #include "base/execution.hpp"
 #include "base/kokkos_runtime.hpp"
 #include "base/mixed_hash.hpp"
-#include "placement/placement.hpp"
+#include "placement/nodal_results.hpp"
 
 namespace pnpbs {
 
@@ -62,7 +62,8 @@ void sum_component(std::int64_t n, std::int64_t components, const double* x, con
 }  // namespace
 
 // Once the ranks have agreed, nothing can fail before the messages are on their way.
-void Placement::begin_ghost_update(std::int64_t n, std::int64_t components, const double* values) {
+void NodalResults::begin_ghost_update(std::int64_t n, std::int64_t components,
+                                      const double* values) {
   agreed_with_same(*comm_, components, "components", [&] {
     const auto pattern = exchange_pattern();
     if (ghost_update_.under_way())
@@ -75,7 +76,7 @@ void Placement::begin_ghost_update(std::int64_t n, std::int64_t components, cons
   ghost_update_.start();
 }
 
-void Placement::end_ghost_update(std::int64_t n, std::int64_t components, double* values) {
+void NodalResults::end_ghost_update(std::int64_t n, std::int64_t components, double* values) {
   if (!ghost_update_.under_way())
     throw Error(ErrorKind::state, "no update of ghosts is under way: begin one first");
   ghost_update_.wait();
@@ -95,7 +96,7 @@ void Placement::end_ghost_update(std::int64_t n, std::int64_t components, double
 }
 
 // Once the ranks have agreed, nothing can fail before the messages have come.
-void Placement::add_from_ghosts(std::int64_t n, std::int64_t components, double* values) {
+void NodalResults::add_from_ghosts(std::int64_t n, std::int64_t components, double* values) {
   agreed_with_same(*comm_, components, "components", [&] {
     const auto pattern = exchange_pattern();
     require_components(components);
@@ -107,7 +108,7 @@ void Placement::add_from_ghosts(std::int64_t n, std::int64_t components, double*
   ghost_sum_.add(count(), values);
 }
 
-void Placement::require_places(std::int64_t n) const {
+void NodalResults::require_places(std::int64_t n) const {
   const std::int64_t places = nodes().count;
   if (n != places)
     throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
@@ -116,14 +117,15 @@ void Placement::require_places(std::int64_t n) const {
                                          " ghosts, and every one has its values");
 }
 
-void Placement::require_owned(std::int64_t n) const {
+void NodalResults::require_owned(std::int64_t n) const {
   if (n < count())
     throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
                                          std::to_string(count()) +
                                          " nodes, and every one has its values");
 }
 
-void Placement::sum(std::int64_t n, std::int64_t components, const double* values, double* sums) {
+void NodalResults::sum(std::int64_t n, std::int64_t components, const double* values,
+                       double* sums) {
   agreed_with_same(*comm_, components, "components", [&] {
     require_components(components);
     require_owned(n);
@@ -134,8 +136,8 @@ void Placement::sum(std::int64_t n, std::int64_t components, const double* value
   finish_sums(sums);
 }
 
-void Placement::dot(std::int64_t n, std::int64_t components, const double* x, const double* y,
-                    double* products) {
+void NodalResults::dot(std::int64_t n, std::int64_t components, const double* x, const double* y,
+                       double* products) {
   agreed_with_same(*comm_, components, "components", [&] {
     require_components(components);
     require_owned(n);
@@ -147,7 +149,7 @@ void Placement::dot(std::int64_t n, std::int64_t components, const double* x, co
   finish_sums(products);
 }
 
-void Placement::gather_terms(std::int64_t components, const double* x, const double* y) {
+void NodalResults::gather_terms(std::int64_t components, const double* x, const double* y) {
   prepare_order();
   sum_entries_.resize(static_cast<std::size_t>(components) * ExactSum::kEntries);
   for (std::int64_t c = 0; c < components; ++c)
@@ -155,7 +157,7 @@ void Placement::gather_terms(std::int64_t components, const double* x, const dou
                   sum_entries_.data() + c * ExactSum::kEntries);
 }
 
-void Placement::finish_sums(double* sums) {
+void NodalResults::finish_sums(double* sums) {
   comm_->allreduce_sum(sum_entries_);
   ExactSum sum;
   for (auto next = sum_entries_.begin(); next != sum_entries_.end(); next += ExactSum::kEntries) {

@@ -5,20 +5,20 @@
 #include <vector>
 
 #include "comm/ghost_update.hpp"
-#include "placement/placement.hpp"
+#include "placement/nodal_results.hpp"
 
 namespace pnpbs {
 
 // [places][components], of which the owned ones are given. Collective.
-inline std::vector<double> with_ghosts(Placement& placement, std::int64_t components,
+inline std::vector<double> with_ghosts(NodalResults& results, std::int64_t components,
                                        const double* values) {
-  const Communicator& comm = placement.communicator();
-  const auto pattern = placement.exchange_pattern();
+  const Communicator& comm = results.communicator();
+  const auto pattern = results.exchange_pattern();
   std::vector<double> all;
   GhostUpdate update;
   agreed(comm, [&] {
-    all.assign(values, values + placement.count() * components);
-    all.resize(static_cast<std::size_t>(placement.nodes().count * components));
+    all.assign(values, values + results.count() * components);
+    all.resize(static_cast<std::size_t>(results.nodes().count * components));
     update.pack(comm, pattern, components, all.data());
   });
   update.start();

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs {
 
@@ -16,23 +16,23 @@ namespace incident {
 
 // Calls visit(other corners) for the elements around node i.
 template <std::size_t Corners, int Dim, class Visit>
-void for_elements_around(const PlacementOf<Dim>& placement, std::int64_t i, const Visit& visit) {
+void for_elements_around(const Results<Dim>& results, std::int64_t i, const Visit& visit) {
   if constexpr (Corners == Dim + 1)
-    placement.level().stars.for_simplices(i, visit);
+    results.level().stars.for_simplices(i, visit);
   else
-    placement.level().stars.for_triangles(i, visit);
+    results.level().stars.for_triangles(i, visit);
 }
 
 // Calls visit(places of the corners) for each element once: at its first own node. They turn as the
 // elements of the stars do.
 template <std::size_t Corners, int Dim, class Visit>
-void for_each_element(const PlacementOf<Dim>& placement, const Visit& visit) {
-  const std::int64_t owned = placement.count();
+void for_each_element(const Results<Dim>& results, const Visit& visit) {
+  const std::int64_t owned = results.count();
   for (std::int64_t place = 0; place < owned; ++place)
-    for_elements_around<Corners>(placement, placement.node_at(place), [&](const auto& others) {
+    for_elements_around<Corners>(results, results.node_at(place), [&](const auto& others) {
       std::array<std::int64_t, Corners> places{place};
       for (std::size_t k = 0; k + 1 < Corners; ++k) {
-        places[k + 1] = placement.place_of(others[k]);
+        places[k + 1] = results.place_of(others[k]);
         if (places[k + 1] < place) return;  // ghosts have greater places than own nodes
       }
       visit(places);
@@ -64,21 +64,20 @@ void bring_least_id_first(std::array<std::int64_t, Corners>& places, const Id& i
 // Corners: those of an element of the placement, Dim + 1, or 3 on surfaces alone. After
 // prepare_stars.
 template <std::size_t Corners, int Dim>
-std::int64_t count_incident_elements(const PlacementOf<Dim>& placement) {
+std::int64_t count_incident_elements(const Results<Dim>& results) {
   std::int64_t count = 0;
-  incident::for_each_element<Corners>(placement, [&](const auto&) { ++count; });
+  incident::for_each_element<Corners>(results, [&](const auto&) { ++count; });
   return count;
 }
 
 // Places of their corners, in the order of the corners' ids: any two ranks have those that both
 // have in the same order, with the same first corner.
 template <std::size_t Corners, int Dim>
-std::vector<std::array<std::int64_t, Corners>> incident_elements(
-    const PlacementOf<Dim>& placement) {
-  const auto ids = placement.level().nodes.id;
-  const auto id = [&](std::int64_t place) { return ids(placement.node_at(place)); };
+std::vector<std::array<std::int64_t, Corners>> incident_elements(const Results<Dim>& results) {
+  const auto ids = results.level().nodes.id;
+  const auto id = [&](std::int64_t place) { return ids(results.node_at(place)); };
   std::vector<std::array<std::int64_t, Corners>> elements;
-  incident::for_each_element<Corners>(placement, [&](std::array<std::int64_t, Corners> places) {
+  incident::for_each_element<Corners>(results, [&](std::array<std::int64_t, Corners> places) {
     incident::bring_least_id_first(places, id);
     elements.push_back(places);
   });

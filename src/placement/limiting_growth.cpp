@@ -79,7 +79,7 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::bounded(
 template <int Dim>
 std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::growth_limited(
     std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) {
-  monitoring_.watch("the growth of the spacing was limited", count(),
+  monitoring_.watch("the growth of the spacing was limited", results_.count(),
                     [&](const std::function<void()>& beat) {
                       const PhaseTimer timer(timers_, Phase::spacing);
                       spacing = growth_limited(std::move(spacing), settings, beat);

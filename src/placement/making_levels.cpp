@@ -16,8 +16,8 @@ namespace pnpbs {
 // growth of d is not limited there.
 template <int Dim>
 Settings PlacementOf<Dim>::present_settings() const {
-  Settings settings(options_, surfaces_alone() ? 2 : Dim);
-  if (surfaces_alone()) settings.growth_limit = 0;
+  Settings settings(options_, results_.surfaces_alone() ? 2 : Dim);
+  if (results_.surfaces_alone()) settings.growth_limit = 0;
   return settings;
 }
 
@@ -128,7 +128,7 @@ Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpaci
   Outcome outcome = Outcome::converged;
   state_.coarser_levels = 0;
   state_.filled_level = 0;
-  if (surfaces_alone()) {
+  if (results_.surfaces_alone()) {
     if constexpr (Dim == 3) taken = begin_on_surfaces(*next, spacing, settings, outcome);
     inserted = taken.numbered;
   } else if (level_) {
@@ -174,7 +174,8 @@ void PlacementOf<Dim>::gather_warnings(const SteepestGrowth<Dim>& steepest) {
                          level_->ground.warnings().end());
   if (too_steep(steepest))
     state_.warnings.push_back(warning_of_growth(steepest, level_->settings.growth_limit));
-  if (surfaces_alone() && options_.is_set("growth_limit") && options_.real("growth_limit") > 0)
+  if (results_.surfaces_alone() && options_.is_set("growth_limit") &&
+      options_.real("growth_limit") > 0)
     state_.warnings.push_back("the option growth_limit has no effect on surfaces alone");
   warn_of_partial_extent();
   if constexpr (Dim == 3) warn_of_coarse_spacing();
@@ -183,9 +184,10 @@ void PlacementOf<Dim>::gather_warnings(const SteepestGrowth<Dim>& steepest) {
 
 template <int Dim>
 void PlacementOf<Dim>::fill(Level<Dim>& level, LaidNodes<Dim> laid) {
-  monitoring_.watch("the first nodes were laid", count(), [&](const std::function<void()>& beat) {
-    pnpbs::fill(level, std::move(laid), beat, lattice_is_stretched());
-  });
+  monitoring_.watch("the first nodes were laid", results_.count(),
+                    [&](const std::function<void()>& beat) {
+                      pnpbs::fill(level, std::move(laid), beat, lattice_is_stretched());
+                    });
 }
 
 template <int Dim>
@@ -195,7 +197,7 @@ void PlacementOf<Dim>::adopt_level(std::unique_ptr<Level<Dim>> next) {
     state_.rebalances_before += level_->rebalances;
     state_.unknown_uses_before += level_->unknown_uses;
   }
-  level_ = std::move(next);
+  keep(std::move(next));
   state_.edge_bands.clear();
   state_.surface_fit = {};
 }

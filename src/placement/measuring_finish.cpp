@@ -3,6 +3,7 @@
 #include <string>
 
 #include "placement/conformity.hpp"
+#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -23,7 +24,7 @@ template void PlacementOf<3>::gather_unknown_uses();
 // Collective.
 template <>
 void PlacementOf<3>::measure_finish() {
-  prepare_stars();
+  results_.prepare_stars();
   const View<char> held = held_nodes();  // there d is not the user's
   agreed(*comm_, [&] {
     state_.edge_bands = measure_edge_bands<3>(*comm_, level_->nodes, level_->stars, held);
@@ -38,8 +39,8 @@ bool PlacementOf<2>::elements_conform() {
 }
 template <>
 bool PlacementOf<3>::elements_conform() {
-  const Conformity<3> conformity = conformity_of(*this);
-  const std::string text = text_of(conformity, *this);
+  const Conformity<3> conformity = conformity_of(results_);
+  const std::string text = text_of(conformity, results_);
   if (!text.empty()) state_.warnings.push_back(text);
   unresolved_.clear();
   if (conformity.holds()) return true;

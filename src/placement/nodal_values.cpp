@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangulation of the nodes there are as a patch, and a spacing made of values at them.
+#include "placement/nodal_values.hpp"
+
 #include <algorithm>
 #include <array>
 #include <type_traits>
 
 #include "base/error.hpp"
-#include "placement/placement_of.hpp"
 #include "spacing/nodal_spacing.hpp"
 
 namespace pnpbs {
@@ -15,13 +15,13 @@ namespace {
 // Calls visit(places, behind) for the facets of stars beside a gap, each at the owner of its node
 // with the least id; behind: the place of the other corner of its simplex, or -1.
 template <class Visit>
-void for_rim_facets(const PlacementOf<2>& placement, const Visit& visit) {
-  const Level<2>& level = placement.level();
+void for_rim_facets(const Results<2>& results, const Visit& visit) {
+  const Level<2>& level = results.level();
   const Nodes<2>& nodes = level.nodes;
   std::vector<std::pair<std::int64_t, bool>> star;
-  const std::int64_t owned = placement.count();  // which counts
+  const std::int64_t owned = results.count();  // which counts
   for (std::int64_t p = 0; p < owned; ++p) {
-    const std::int64_t i = placement.node_at(p);
+    const std::int64_t i = results.node_at(p);
     star.clear();
     level.stars.for_neighbours_in_order(
         i, [&](std::int64_t j, bool triangle) { star.emplace_back(j, triangle); });
@@ -29,22 +29,22 @@ void for_rim_facets(const PlacementOf<2>& placement, const Visit& visit) {
       const auto& before = star[k > 0 ? k - 1 : star.size() - 1];
       const auto& after = star[k + 1 < star.size() ? k + 1 : 0];
       if ((star[k].second && before.second) || nodes.id(star[k].first) < nodes.id(i)) continue;
-      const std::int64_t behind = star[k].second  ? placement.place_of(after.first)
-                                  : before.second ? placement.place_of(before.first)
+      const std::int64_t behind = star[k].second  ? results.place_of(after.first)
+                                  : before.second ? results.place_of(before.first)
                                                   : -1;
-      visit(std::array<std::int64_t, 2>{p, placement.place_of(star[k].first)}, behind);
+      visit(std::array<std::int64_t, 2>{p, results.place_of(star[k].first)}, behind);
     }
   }
 }
 
 template <class Visit>
-void for_rim_facets(const PlacementOf<3>& placement, const Visit& visit) {
-  const Level<3>& level = placement.level();
-  placement.for_open_facets([&](const std::array<std::int64_t, 3>& places) {
+void for_rim_facets(const Results<3>& results, const Visit& visit) {
+  const Level<3>& level = results.level();
+  results.for_open_facets([&](const std::array<std::int64_t, 3>& places) {
     std::int64_t behind = -1;
-    const std::int64_t a = placement.node_at(places[1]), b = placement.node_at(places[2]);
-    if (!placement.surfaces_alone())
-      level.stars.for_simplices(placement.node_at(places[0]), [&](const auto& others) {
+    const std::int64_t a = results.node_at(places[1]), b = results.node_at(places[2]);
+    if (!results.surfaces_alone())
+      level.stars.for_simplices(results.node_at(places[0]), [&](const auto& others) {
         std::int64_t third = -1;
         int shared = 0;
         for (const std::int64_t other : others)
@@ -52,7 +52,7 @@ void for_rim_facets(const PlacementOf<3>& placement, const Visit& visit) {
             ++shared;
           else
             third = other;
-        if (shared == 2) behind = placement.place_of(third);
+        if (shared == 2) behind = results.place_of(third);
       });
     visit(places, behind);
   });
@@ -61,24 +61,25 @@ void for_rim_facets(const PlacementOf<3>& placement, const Visit& visit) {
 }  // namespace
 
 template <int Dim>
-Patch<Dim> PlacementOf<Dim>::patch() {
-  const auto ids = [this] {
+Patch<Dim> patch_of(Results<Dim>& results) {
+  const auto ids = [&] {
     std::vector<std::int64_t> all;
-    const std::int64_t owned = count();
-    for (std::int64_t p = 0; p < owned; ++p) all.push_back(level_->nodes.id(node_at(p)));
+    const std::int64_t owned = results.count();
+    for (std::int64_t p = 0; p < owned; ++p)
+      all.push_back(results.level().nodes.id(results.node_at(p)));
     return all;
   };
-  prepare_order();
+  results.prepare_order();
   const std::vector<std::int64_t> before = ids();
-  prepare_stars();
+  results.prepare_stars();
   if (ids() != before)
     throw Error(ErrorKind::state,
                 "nodes have changed their ranks since the computation before failed: ask for the "
                 "nodes again, and give the values at them");
-  const Nodes<Dim>& nodes = level_->nodes;
+  const Nodes<Dim>& nodes = results.level().nodes;
   Patch<Dim> patch;
   for (std::int64_t p = 0; p < nodes.count; ++p)
-    patch.nodes.push_back({nodes.position(node_at(p)), nodes.id(node_at(p)), 0});
+    patch.nodes.push_back({nodes.position(results.node_at(p)), nodes.id(results.node_at(p)), 0});
   const auto row = [&](const auto& places) {
     std::array<std::int32_t, std::tuple_size_v<std::decay_t<decltype(places)>>> corners;
     std::copy(places.begin(), places.end(), corners.begin());
@@ -88,8 +89,8 @@ Patch<Dim> PlacementOf<Dim>::patch() {
     });
     return corners;
   };
-  for_elements([&](const auto& places) { patch.simplices.push_back(row(places)); });
-  for_rim_facets(*this, [&](const auto& places, std::int64_t behind) {
+  results.for_elements([&](const auto& places) { patch.simplices.push_back(row(places)); });
+  for_rim_facets(results, [&](const auto& places, std::int64_t behind) {
     patch.border.push_back(row(places));
     patch.behind.push_back(static_cast<std::int32_t>(behind));
   });
@@ -97,16 +98,18 @@ Patch<Dim> PlacementOf<Dim>::patch() {
 }
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_from(std::vector<double> values) {
-  Patch<Dim> patch = this->patch();
+std::shared_ptr<const Spacing<Dim>> spacing_from(Results<Dim>& results,
+                                                 std::vector<double> values) {
+  Patch<Dim> patch = patch_of(results);
   values.resize(patch.nodes.size());
-  fill_ghosts(*comm_, *exchange_pattern(), values);
+  fill_ghosts(results.communicator(), *results.exchange_pattern(), values);
   for (std::size_t p = 0; p < values.size(); ++p) patch.nodes[p].value = values[p];
-  return std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch));
+  return std::make_shared<NodalSpacing<Dim>>(results.ranks(), std::move(patch));
 }
 
-// Of the members defined here.
-template class PlacementOf<2>;
-template class PlacementOf<3>;
+template Patch<2> patch_of(Results<2>&);
+template Patch<3> patch_of(Results<3>&);
+template std::shared_ptr<const Spacing<2>> spacing_from(Results<2>&, std::vector<double>);
+template std::shared_ptr<const Spacing<3>> spacing_from(Results<3>&, std::vector<double>);
 
 }  // namespace pnpbs

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/point_text.hpp"
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs {
 
@@ -19,12 +19,12 @@ namespace pnpbs {
 template <int Dim>
 class NodeCheck {
  public:
-  explicit NodeCheck(const PlacementOf<Dim>& placement)
-      : p_(placement),
-        comm_(placement.communicator()),
-        level_(placement.level()),
+  explicit NodeCheck(const Results<Dim>& results)
+      : p_(results),
+        comm_(results.communicator()),
+        level_(results.level()),
         nodes_(level_.nodes),
-        owned_(placement.count()) {}
+        owned_(results.count()) {}
 
   // Ids are unique.
   void check_ids() const;
@@ -73,7 +73,7 @@ class NodeCheck {
   // Of all ranks, in parts of 2^-40 of the unit: a sum with no order. Collective.
   double sum_over_ranks(double mine, double unit) const;
 
-  const PlacementOf<Dim>& p_;
+  const Results<Dim>& p_;
   const Communicator& comm_;
   const Level<Dim>& level_;
   const Nodes<Dim>& nodes_;

@@ -127,9 +127,9 @@ class Fitting {
   using M = Monomials<Dim>;
   static constexpr int kOfField = M::up_to(2);
 
-  Fitting(const PlacementOf<Dim>& placement, const Patch<Dim>& patch, std::int64_t components,
+  Fitting(const Results<Dim>& results, const Patch<Dim>& patch, std::int64_t components,
           const std::vector<double>& values)
-      : placement_(placement), patch_(patch), components_(components), values_(values) {
+      : results_(results), patch_(patch), components_(components), values_(values) {
     monomials_.prepare_shifts();
   }
 
@@ -137,8 +137,8 @@ class Fitting {
   // those up to second order, for each component.
   std::int64_t sum_columns() const { return M::kAll + kOfField * components_; }
   std::vector<double> sums() const {
-    std::vector<double> all(static_cast<std::size_t>(placement_.count() * sum_columns()));
-    for_each("pnpbs::ParabolicFits::sums", placement_.count(), [&](std::int64_t p) {
+    std::vector<double> all(static_cast<std::size_t>(results_.count() * sum_columns()));
+    for_each("pnpbs::ParabolicFits::sums", results_.count(), [&](std::int64_t p) {
       double* const own = all.data() + p * sum_columns();
       std::array<double, M::kAll> here;
       for (const std::int64_t q : neighbours(p)) {
@@ -157,8 +157,8 @@ class Fitting {
   // From the sums at all places. 1, and the coefficients; or 0.
   std::int64_t fit_columns() const { return 1 + M::kFitted * components_; }
   std::vector<double> fits(const std::vector<double>& sums) const {
-    std::vector<double> all(static_cast<std::size_t>(placement_.count() * fit_columns()));
-    for_each("pnpbs::ParabolicFits::fits", placement_.count(),
+    std::vector<double> all(static_cast<std::size_t>(results_.count() * fit_columns()));
+    for_each("pnpbs::ParabolicFits::fits", results_.count(),
              [&](std::int64_t p) { fit(p, sums, all.data() + p * fit_columns()); });
     return all;
   }
@@ -167,8 +167,8 @@ class Fitting {
   // Itself among them, by id.
   std::vector<std::int64_t> neighbours(std::int64_t p) const {
     std::vector<std::int64_t> places{p};
-    placement_.level().stars.for_neighbours(
-        placement_.node_at(p), [&](std::int64_t j) { places.push_back(placement_.place_of(j)); });
+    results_.level().stars.for_neighbours(
+        results_.node_at(p), [&](std::int64_t j) { places.push_back(results_.place_of(j)); });
     std::sort(places.begin(), places.end(), [&](std::int64_t a, std::int64_t b) {
       return patch_.nodes[static_cast<std::size_t>(a)].id <
              patch_.nodes[static_cast<std::size_t>(b)].id;
@@ -215,7 +215,7 @@ class Fitting {
     result[0] = solve_scaled(normal, components_, result + 1) ? 1 : 0;
   }
 
-  const PlacementOf<Dim>& placement_;
+  const Results<Dim>& results_;
   const Patch<Dim>& patch_;
   std::int64_t components_;
   const std::vector<double>& values_;
@@ -225,26 +225,26 @@ class Fitting {
 }  // namespace
 
 template <int Dim>
-ParabolicFits<Dim>::ParabolicFits(PlacementOf<Dim>& placement, const Patch<Dim>& patch,
+ParabolicFits<Dim>::ParabolicFits(Results<Dim>& results, const Patch<Dim>& patch,
                                   std::int64_t components, const std::vector<double>& values) {
-  const Communicator& comm = placement.communicator();
-  const Fitting<Dim> fitting(placement, patch, components, values);
+  const Communicator& comm = results.communicator();
+  const Fitting<Dim> fitting(results, patch, components, values);
   std::vector<double> sums, fits;
   agreed(comm, [&] { sums = fitting.sums(); });
-  sums = with_ghosts(placement, fitting.sum_columns(), sums.data());
+  sums = with_ghosts(results, fitting.sum_columns(), sums.data());
   agreed(comm, [&] { fits = fitting.fits(sums); });
   columns_ = fitting.fit_columns();
   std::int64_t without = 0;
-  const std::int64_t owned = placement.count();
+  const std::int64_t owned = results.count();
   for (std::int64_t p = 0; p < owned; ++p) {
     // Those on surfaces tell nothing of what is aside of these.
     double& has = fits[static_cast<std::size_t>(p * columns_)];
-    if (placement.surfaces_alone()) has = 0;
+    if (results.surfaces_alone()) has = 0;
     without += has == 0;
   }
   nodes_without_ =
       static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(without)));
-  fits_ = with_ghosts(placement, columns_, fits.data());
+  fits_ = with_ghosts(results, columns_, fits.data());
 }
 
 template <int Dim>

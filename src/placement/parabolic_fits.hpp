@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 #include "spacing/nodal_patch.hpp"
 
 namespace pnpbs {
@@ -20,7 +20,7 @@ template <int Dim>
 class ParabolicFits {
  public:
   // values: [places][components]. Collective.
-  ParabolicFits(PlacementOf<Dim>& placement, const Patch<Dim>& patch, std::int64_t components,
+  ParabolicFits(Results<Dim>& results, const Patch<Dim>& patch, std::int64_t components,
                 const std::vector<double>& values);
 
   // Is there one? Not where the neighbours are too few, or lie on a curve of second order, as those

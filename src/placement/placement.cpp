@@ -32,7 +32,7 @@ template <int Dim>
 void PlacementOf<Dim>::set_nodes(GivenNodes<Dim> nodes) {
   given_ = std::move(nodes);
   start_from_given_ = true;
-  level_.reset();
+  keep(nullptr);
 }
 
 template <int Dim>
@@ -41,11 +41,12 @@ Outcome PlacementOf<Dim>::initialise() {
   const PhaseTimer timer(timers_, Phase::total);
   require_same_options();
   std::unique_ptr<Level<Dim>> before = std::move(level_);
+  results_.show(nullptr);
   const RunState state = state_;
   try {
     return knowing_finer_places([this] { return make_level(); });
   } catch (...) {
-    level_ = std::move(before);
+    keep(std::move(before));
     put_back(state);
     throw;
   }
@@ -62,10 +63,10 @@ auto PlacementOf<Dim>::while_moving(const Work& work) {
     if (!level_->ghosts.are_exact(level_->nodes, kStarHops<Dim>)) exchange(*level_, kStarHops<Dim>);
     return result;
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::memory) level_.reset();
+    if (error.kind() == ErrorKind::memory) keep(nullptr);
     throw;
   } catch (const std::bad_alloc&) {
-    level_.reset();
+    keep(nullptr);
     throw;
   }
 }
@@ -83,7 +84,7 @@ Outcome PlacementOf<Dim>::knowing_finer_places(const Work& work) {
     } catch (const FinerPlaces& found) {
       if (tries == kMaxTries) throw;
       if constexpr (Dim == 3) remember(found);
-      if (!state_.schedule.taken_over) level_.reset();
+      if (!state_.schedule.taken_over) keep(nullptr);
     }
   }
 }
@@ -135,7 +136,7 @@ Outcome PlacementOf<Dim>::run() {
     }
     if (outcome == Outcome::stopped) return outcome;
     warn_of_held_spacing();
-    monitoring_.stops(1.0, count());
+    monitoring_.stops(1.0, results_.count());
     return outcome;
   });
 }

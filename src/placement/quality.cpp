@@ -110,7 +110,7 @@ void PlacementOf<Dim>::warn_of_partial_extent() {
     }
   });
   beyond = over_ranks(*comm_, beyond);
-  const std::uint64_t all = comm_->allreduce_sum(static_cast<std::uint64_t>(count()));
+  const std::uint64_t all = comm_->allreduce_sum(static_cast<std::uint64_t>(results_.count()));
   if (beyond.count == 0) return;
   const Box<Dim>& bounds = domain_->bounds();
   const std::string name = extent->name;
@@ -122,19 +122,7 @@ void PlacementOf<Dim>::warn_of_partial_extent() {
       extent_text<Dim>(extent->box, bounds) + ", the domain " + extent_text<Dim>(bounds, bounds));
 }
 
-template <int Dim>
-const ElementQuality& PlacementOf<Dim>::element_quality() {
-  prepare_stars();
-  if (quality_stamp_ != level_->stamp()) {
-    quality_ = measure_elements<Dim>(*comm_, level_->nodes, level_->stars);
-    quality_stamp_ = level_->stamp();
-  }
-  return quality_;
-}
-
 template void PlacementOf<2>::warn_of_partial_extent();
 template void PlacementOf<3>::warn_of_partial_extent();
-template const ElementQuality& PlacementOf<2>::element_quality();
-template const ElementQuality& PlacementOf<3>::element_quality();
 
 }  // namespace pnpbs

@@ -21,8 +21,8 @@ struct StarTriangle {
 
 class ResultCheck : public NodeCheck<2> {
  public:
-  explicit ResultCheck(const PlacementOf<2>& placement)
-      : NodeCheck<2>(placement), boundary_(level_.ground.boundary()) {
+  explicit ResultCheck(const Results<2>& results)
+      : NodeCheck<2>(results), boundary_(level_.ground.boundary()) {
     sectors_.build(boundary_);
   }
 
@@ -218,11 +218,11 @@ void ResultCheck::check_area() const {
 
 }  // namespace
 
-std::string check_results(PlacementOf<2>& placement) {
-  placement.prepare_stars();
-  const Conformity<2> conformity = conformity_of(placement);
-  ResultCheck(placement).check(conformity.fills());
-  return text_of(conformity, placement);
+std::string check_results(Results<2>& results) {
+  results.prepare_stars();
+  const Conformity<2> conformity = conformity_of(results);
+  ResultCheck(results).check(conformity.fills());
+  return text_of(conformity, results);
 }
 
 }  // namespace pnpbs

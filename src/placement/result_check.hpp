@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs {
 
@@ -20,7 +20,7 @@ namespace pnpbs {
 //   triangles are one conforming triangulation, which holds all edges of the boundary,
 // - the triangles' areas add up to the domain's.
 // No rank learns more than what its own nodes and ghosts are. Collective.
-std::string check_results(PlacementOf<2>& placement);
+std::string check_results(Results<2>& results);
 // The same in space, unless
 // - ids and places as there, all nodes lie inside, on a surface or where they were laid on the
 //   features, and all of those are there,
@@ -30,13 +30,13 @@ std::string check_results(PlacementOf<2>& placement);
 // - the faces with a tetrahedron on one side only are closed surfaces, which enclose the volume of
 //   the tetrahedra, and that of the domain but for what they may cut off.
 // Collective.
-std::string check_results(PlacementOf<3>& placement);
+std::string check_results(Results<3>& results);
 // The same of surfaces alone, unless
 // - ids, places, nodes and lists as there,
 // - each triangle is in the stars of its three corners,
 // - if they conform, their areas add up to that of the surfaces, but for what lies between these
 //   and them.
 // After prepare_stars. Collective.
-void check_surfaces(const PlacementOf<3>& placement, bool fills);
+void check_surfaces(const Results<3>& results, bool fills);
 
 }  // namespace pnpbs

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is handed out: the nodes in the order of their ids, lists, stars, and figures of them.
+#include "placement/results.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +11,6 @@
 #include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/volume/settled_elements.hpp"
-#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -49,18 +49,18 @@ void append_by_id(const Nodes<Dim>& nodes, bool owned, std::vector<std::int32_t>
 
 }  // namespace
 
-std::int64_t Placement::global_count() const {
+std::int64_t NodalResults::global_count() const {
   return static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(count())));
 }
 
 template <int Dim>
-std::int64_t PlacementOf<Dim>::count() const {
+std::int64_t Results<Dim>::count() const {
   if (!level_) return 0;
   return order_stamp_ == level_->stamp() ? owned_in_order_ : level_->owned_count();
 }
 
 template <int Dim>
-void PlacementOf<Dim>::prepare_order() {
+void Results<Dim>::prepare_order() {
   require_kokkos();
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
   if (order_stamp_ == level_->stamp()) return;
@@ -78,7 +78,7 @@ void PlacementOf<Dim>::prepare_order() {
 }
 
 template <int Dim>
-void PlacementOf<Dim>::prepare_lists() {
+void Results<Dim>::prepare_lists() {
   require_kokkos();
   if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
   if (lists_stamp_ == level_->stamp()) return;
@@ -88,7 +88,7 @@ void PlacementOf<Dim>::prepare_lists() {
 }
 
 template <int Dim>
-void PlacementOf<Dim>::prepare_stars() {
+void Results<Dim>::prepare_stars() {
   prepare_lists();
   if (stars_stamp_ == level_->stamp()) return;
   if (!level_->distributed()) rebuild_stars(*level_);
@@ -97,7 +97,7 @@ void PlacementOf<Dim>::prepare_stars() {
 }
 
 template <int Dim>
-std::shared_ptr<const ExchangePattern> PlacementOf<Dim>::exchange_pattern() {
+std::shared_ptr<const ExchangePattern> Results<Dim>::exchange_pattern() {
   prepare_lists();
   if (exchange_stamp_ == level_->stamp()) return exchange_pattern_;
   const Nodes<Dim>& nodes = level_->nodes;
@@ -114,10 +114,10 @@ std::shared_ptr<const ExchangePattern> PlacementOf<Dim>::exchange_pattern() {
   return exchange_pattern_;
 }
 
-std::int64_t Placement::nodes_on_ranks_before() const { return comm_->sum_before(count()); }
+std::int64_t NodalResults::nodes_on_ranks_before() const { return comm_->sum_before(count()); }
 
 template <int Dim>
-NodeColumns PlacementOf<Dim>::nodes() const {
+NodeColumns Results<Dim>::nodes() const {
   if (!level_) return {};
   const Nodes<Dim>& nodes = level_->nodes;
   NodeColumns columns{nodes.count, {}, nodes.d, nodes.id, nodes.tag, nodes.owned};
@@ -125,22 +125,26 @@ NodeColumns PlacementOf<Dim>::nodes() const {
   return columns;
 }
 
-// ------------------------------------------------------------------ statistics -----------------
+// ------------------------------------------------------------------ figures --------------------
 
 template <int Dim>
-LevelFigures PlacementOf<Dim>::level_figures() const {
+LevelFigures Results<Dim>::level_figures() const {
   if (!level_) return {};
-  return {level_->ghosts.neighbour_ranks(), level_->ghosts.update_bytes(),
-          level_->neighbourhood.owned_work()};
+  return {level_->ghosts.neighbour_ranks(),
+          level_->ghosts.update_bytes(),
+          level_->neighbourhood.owned_work(),
+          level_->neighbourhood.rebuilds(),
+          level_->rebalances,
+          level_->left_out};
 }
 
 template <int Dim>
-std::int64_t PlacementOf<Dim>::boundary_nodes() const {
+std::int64_t Results<Dim>::boundary_nodes() const {
   return level_ ? pnpbs::boundary_nodes(*level_) : 0;
 }
 
 template <int Dim>
-NearestNeighbourError PlacementOf<Dim>::spacing_error() {
+NearestNeighbourError Results<Dim>::spacing_error() {
   prepare_lists();
   const Nodes<Dim>& nodes = level_->nodes;
   const AdjacencyList<Dim>& lists = level_->lists();
@@ -169,9 +173,19 @@ NearestNeighbourError PlacementOf<Dim>::spacing_error() {
   return error;
 }
 
+template <int Dim>
+const ElementQuality& Results<Dim>::element_quality() {
+  prepare_stars();
+  if (quality_stamp_ != level_->stamp()) {
+    quality_ = measure_elements<Dim>(*comm_, level_->nodes, level_->stars);
+    quality_stamp_ = level_->stamp();
+  }
+  return quality_;
+}
+
 // A sum over the nodes, so that it has no order.
 template <int Dim>
-std::uint64_t PlacementOf<Dim>::hash() const {
+std::uint64_t Results<Dim>::hash() const {
   if (!level_) return 0;
   const Nodes<Dim>& nodes = level_->nodes;
   return comm_->allreduce_sum(
@@ -183,8 +197,7 @@ std::uint64_t PlacementOf<Dim>::hash() const {
       }));
 }
 
-// Of the members defined here.
-template class PlacementOf<2>;
-template class PlacementOf<3>;
+template class Results<2>;
+template class Results<3>;
 
 }  // namespace pnpbs

@@ -53,9 +53,11 @@ void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNode
   const Settings inside = level->settings;
   const Schedule schedule = state_.schedule;
   std::swap(level_, level);  // the time loop is that of the level there is
+  results_.show(level_.get());
   const auto restore = [&] {
     state_.schedule = schedule;
     std::swap(level_, level);
+    results_.show(level_.get());
   };
   try {
     level_->change_settings(surface_settings(inside));

@@ -50,7 +50,8 @@ std::string stop_reason(P p) {
 
 std::string hash(P p) {
   char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(p.hash()));
+  std::snprintf(digits, sizeof digits, "%016llx",
+                static_cast<unsigned long long>(p.results().hash()));
   return digits;
 }
 
@@ -59,9 +60,9 @@ std::string hash(P p) {
 const std::vector<StatisticRow>& statistic_table() {
   static const std::vector<StatisticRow> table = {
       integer(
-          "nodes", [](P p) { return p.global_count(); }, "nodes of all kinds"),
+          "nodes", [](P p) { return p.results().global_count(); }, "nodes of all kinds"),
       integer(
-          "boundary_nodes", [](P p) { return p.boundary_nodes(); },
+          "boundary_nodes", [](P p) { return p.results().boundary_nodes(); },
           "nodes on boundary and inner curves and surfaces, and fixed nodes"),
       integer(
           "steps", [](P p) { return p.steps_done(); },
@@ -89,7 +90,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "surface triangles missing from the boundary of the last run's tetrahedra, and its "
           "faces that are on no surface"),
       integer(
-          "left_out", [](P p) { return p.left_out(); },
+          "left_out", [](P p) { return p.results().level_figures().left_out; },
           "nodes of corners and sharp edges that the last run left out because no tetrahedra "
           "connected to them"),
       integer(
@@ -131,25 +132,25 @@ const std::vector<StatisticRow>& statistic_table() {
       integer(
           "nodes_held",
           [](P p) {
-            const std::int64_t held = p.nodes().count;
+            const std::int64_t held = p.results().nodes().count;
             return static_cast<std::int64_t>(
                 p.communicator().allreduce_max(static_cast<double>(held)));
           },
           "maximum number of nodes held by a rank, including its ghosts"),
       integer(
-          "ghosts", [](P p) { return p.nodes().count - p.count(); },
+          "ghosts", [](P p) { return p.results().nodes().count - p.results().count(); },
           "nodes of other ranks that this rank currently holds"),
       integer(
-          "neighbours", [](P p) { return p.level_figures().neighbour_ranks; },
+          "neighbours", [](P p) { return p.results().level_figures().neighbour_ranks; },
           "ranks that this rank exchanges ghosts with"),
       integer(
-          "exchange.bytes", [](P p) { return p.level_figures().exchange_bytes; },
+          "exchange.bytes", [](P p) { return p.results().level_figures().exchange_bytes; },
           "bytes that this rank sends every exchange_interval steps"),
       integer(
-          "work.owned", [](P p) { return p.level_figures().owned_work; },
+          "work.owned", [](P p) { return p.results().level_figures().owned_work; },
           "cost of a step to this rank: listed pairs of its own nodes, and 8 for each node"),
       real(
-          "imbalance", [](P p) { return p.imbalance(); },
+          "imbalance", [](P p) { return p.results().imbalance(); },
           "largest over mean of work.owned over the ranks"),
       integer(
           "rebalances", [](P p) { return p.rebalances(); },
@@ -178,40 +179,41 @@ const std::vector<StatisticRow>& statistic_table() {
           },
           "largest memory.peak_bytes over the ranks")),
       computed(real(
-          "d_error.mean", [](P p) { return p.spacing_error().mean; },
+          "d_error.mean", [](P p) { return p.results().spacing_error().mean; },
           "nearest-neighbour distance over d: mean")),
       computed(real(
-          "d_error.deviation", [](P p) { return p.spacing_error().deviation; },
+          "d_error.deviation", [](P p) { return p.results().spacing_error().deviation; },
           "nearest-neighbour distance over d: standard deviation")),
       computed(real(
-          "d_error.least", [](P p) { return p.spacing_error().min; },
+          "d_error.least", [](P p) { return p.results().spacing_error().min; },
           "nearest-neighbour distance over d: minimum")),
       computed(real(
-          "quality.mean", [](P p) { return p.element_quality().simplex.mean; },
+          "quality.mean", [](P p) { return p.results().element_quality().simplex.mean; },
           "quality of the triangles, 2 r_in / R, or of the tetrahedra, 3 r_in / R: mean")),
       computed(real(
-          "quality.one_percent", [](P p) { return p.element_quality().simplex.one_percent; },
+          "quality.one_percent",
+          [](P p) { return p.results().element_quality().simplex.one_percent; },
           "quality of the elements: 99 % lie above this, a multiple of 2^-16")),
       computed(real(
-          "quality.min", [](P p) { return p.element_quality().simplex.min; },
+          "quality.min", [](P p) { return p.results().element_quality().simplex.min; },
           "quality of the elements: minimum")),
       computed(real(
-          "quality.min_angle", [](P p) { return p.element_quality().simplex.min_angle; },
+          "quality.min_angle", [](P p) { return p.results().element_quality().simplex.min_angle; },
           "smallest angle of the triangles, or between faces of the tetrahedra, degrees")),
       computed(real(
-          "quality.irregular", [](P p) { return p.element_quality().irregular; },
+          "quality.irregular", [](P p) { return p.results().element_quality().irregular; },
           "share of the inner nodes that do not have six neighbours in their stars, in space 14")),
       computed(real(
-          "edge.mean", [](P p) { return p.element_quality().edge.mean; },
+          "edge.mean", [](P p) { return p.results().element_quality().edge.mean; },
           "length of the elements' edges over d, the mean of d at their ends: mean")),
       computed(real(
-          "edge.deviation", [](P p) { return p.element_quality().edge.deviation; },
+          "edge.deviation", [](P p) { return p.results().element_quality().edge.deviation; },
           "length of the elements' edges over d: standard deviation")),
       real(
-          "speed.largest", [](P p) { return p.speeds().max; },
+          "speed.largest", [](P p) { return p.results().speeds().max; },
           "largest scaled speed, spacings per unit of time"),
       real(
-          "speed.mean", [](P p) { return p.speeds().mean; }, "mean scaled speed"),
+          "speed.mean", [](P p) { return p.results().speeds().mean; }, "mean scaled speed"),
       text("stop_reason", stop_reason,
            "why the last run or step call ended: rest, step limit, monitor, or none"),
       text("hash", hash,

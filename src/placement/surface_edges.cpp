@@ -19,16 +19,16 @@ bool is_feature_node(const Nodes<3>& nodes, std::int64_t i) {
 }
 
 // As the triangles of this rank have them, each with one triangle.
-std::vector<SurfaceEdge> edges_here(const PlacementOf<3>& placement) {
-  const Nodes<3>& nodes = placement.level().nodes;
+std::vector<SurfaceEdge> edges_here(const Results<3>& results) {
+  const Nodes<3>& nodes = results.level().nodes;
   std::vector<SurfaceEdge> edges;
-  placement.for_open_facets([&](const std::array<std::int64_t, 3>& places) {
+  results.for_open_facets([&](const std::array<std::int64_t, 3>& places) {
     for (std::size_t k = 0; k < 3; ++k) {
-      std::int64_t i = placement.node_at(places[k]), j = placement.node_at(places[(k + 1) % 3]);
+      std::int64_t i = results.node_at(places[k]), j = results.node_at(places[(k + 1) % 3]);
       const bool forward = nodes.id(i) < nodes.id(j);
       if (!forward) std::swap(i, j);
       edges.push_back(
-          {nodes.id(i), nodes.id(j), 1, forward, sheets_at(placement, i, j), nodes.position(i)});
+          {nodes.id(i), nodes.id(j), 1, forward, sheets_at(results, i, j), nodes.position(i)});
     }
   });
   return edges;
@@ -51,8 +51,8 @@ bool is_matched(const SurfaceEdge& edge) {
 
 }  // namespace
 
-std::int64_t sheets_at(const PlacementOf<3>& placement, std::int64_t i, std::int64_t j) {
-  const Level<3>& level = placement.level();
+std::int64_t sheets_at(const Results<3>& results, std::int64_t i, std::int64_t j) {
+  const Level<3>& level = results.level();
   const Nodes<3>& nodes = level.nodes;
   if (!is_feature_node(nodes, i) || !is_feature_node(nodes, j)) return 0;
   const FeatureNodes& features = level.ground.features();
@@ -73,9 +73,9 @@ std::int64_t sheets_at(const PlacementOf<3>& placement, std::int64_t i, std::int
                                [&](std::int32_t f) { return surface.patch(f) >= 0; });
 }
 
-void for_unmatched_edges(const PlacementOf<3>& placement,
+void for_unmatched_edges(const Results<3>& results,
                          const std::function<void(const SurfaceEdge&)>& visit) {
-  std::vector<SurfaceEdge> edges = gathered(placement.communicator(), edges_here(placement));
+  std::vector<SurfaceEdge> edges = gathered(results.communicator(), edges_here(results));
   const auto ends = [](const SurfaceEdge& edge) { return std::tuple(edge.low, edge.high); };
   std::ranges::sort(edges, {}, ends);
   for (std::size_t first = 0, next = 0; first < edges.size(); first = next) {

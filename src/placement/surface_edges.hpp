@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "placement/placement_of.hpp"
+#include "placement/results.hpp"
 
 namespace pnpbs {
 
@@ -18,11 +18,11 @@ struct SurfaceEdge {
 
 // Of the feature curve on which nodes i and j are next to each other, the sheets that meet there; 0
 // if there is none.
-std::int64_t sheets_at(const PlacementOf<3>& placement, std::int64_t i, std::int64_t j);
+std::int64_t sheets_at(const Results<3>& results, std::int64_t i, std::int64_t j);
 
 // Calls visit(edge) for the edges of triangles that have not one for each sheet; between features
 // two, one on either side. Each on one of the ranks. After prepare_stars; collective.
-void for_unmatched_edges(const PlacementOf<3>& placement,
+void for_unmatched_edges(const Results<3>& results,
                          const std::function<void(const SurfaceEdge&)>& visit);
 
 }  // namespace pnpbs

@@ -22,7 +22,7 @@ struct SentTriangle {
 
 class SurfaceResultCheck : public VolumeNodeCheck {
  public:
-  explicit SurfaceResultCheck(const PlacementOf<3>& placement) : VolumeNodeCheck(placement) {}
+  explicit SurfaceResultCheck(const Results<3>& results) : VolumeNodeCheck(results) {}
 
   void check(bool fills) const {
     check_nodes_and_lists();
@@ -97,8 +97,8 @@ void SurfaceResultCheck::check_area() const {
 
 }  // namespace
 
-void check_surfaces(const PlacementOf<3>& placement, bool fills) {
-  SurfaceResultCheck(placement).check(fills);
+void check_surfaces(const Results<3>& results, bool fills) {
+  SurfaceResultCheck(results).check(fills);
 }
 
 }  // namespace pnpbs

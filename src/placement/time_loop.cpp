@@ -82,7 +82,8 @@ Outcome PlacementOf<Dim>::advance(std::int64_t until, ProgressPart part) {
 template <int Dim>
 bool PlacementOf<Dim>::stops_after_step(bool is_event, double fraction) {
   if (!is_event && (level_->distributed() || !monitoring_.is_due())) return false;
-  return monitoring_.stops_between_steps(is_event, !state_.schedule.coarser, fraction, count());
+  return monitoring_.stops_between_steps(is_event, !state_.schedule.coarser, fraction,
+                                         results_.count());
 }
 
 // What happens at an event, in this order.
@@ -184,7 +185,7 @@ template <int Dim>
 Outcome PlacementOf<Dim>::finish() {
   const Settings& settings = level_->settings;
   const auto stops = [this] {
-    if (!monitoring_.is_due_anywhere() || !monitoring_.stops(part_of_steps().end, count()))
+    if (!monitoring_.is_due_anywhere() || !monitoring_.stops(part_of_steps().end, results_.count()))
       return false;
     refresh_spacing(*level_);
     state_.stop_reason = StopReason::monitor;

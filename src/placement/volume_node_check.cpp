@@ -13,8 +13,8 @@
 
 namespace pnpbs {
 
-VolumeNodeCheck::VolumeNodeCheck(const PlacementOf<3>& placement)
-    : NodeCheck<3>(placement), ground_(level_.ground) {
+VolumeNodeCheck::VolumeNodeCheck(const Results<3>& results)
+    : NodeCheck<3>(results), ground_(level_.ground) {
   for (const std::shared_ptr<const LevelSet>& set : ground_.domain().level_sets().sets)
     if (set) resolution_ = std::max(resolution_, set->resolution());
 }

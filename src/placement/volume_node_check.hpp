@@ -12,7 +12,7 @@ namespace pnpbs {
 
 class VolumeNodeCheck : public NodeCheck<3> {
  public:
-  explicit VolumeNodeCheck(const PlacementOf<3>& placement);
+  explicit VolumeNodeCheck(const Results<3>& results);
 
   // The nodes and their lists, by themselves.
   void check_nodes_and_lists() const {

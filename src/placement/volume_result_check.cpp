@@ -36,8 +36,8 @@ struct TurningEdge {
 
 class VolumeResultCheck : public VolumeNodeCheck {
  public:
-  VolumeResultCheck(const PlacementOf<3>& placement, const Conformity<3>& conformity)
-      : VolumeNodeCheck(placement), conformity_(conformity) {}
+  VolumeResultCheck(const Results<3>& results, const Conformity<3>& conformity)
+      : VolumeNodeCheck(results), conformity_(conformity) {}
 
   void check() const {
     check_nodes_and_lists();
@@ -199,14 +199,14 @@ void VolumeResultCheck::check_volume(bool fills) const {
 
 }  // namespace
 
-std::string check_results(PlacementOf<3>& placement) {
-  placement.prepare_stars();
-  const Conformity<3> conformity = conformity_of(placement);
-  if (placement.surfaces_alone())
-    check_surfaces(placement, conformity.fills());
+std::string check_results(Results<3>& results) {
+  results.prepare_stars();
+  const Conformity<3> conformity = conformity_of(results);
+  if (results.surfaces_alone())
+    check_surfaces(results, conformity.fills());
   else
-    VolumeResultCheck(placement, conformity).check();
-  return text_of(conformity, placement);
+    VolumeResultCheck(results, conformity).check();
+  return text_of(conformity, results);
 }
 
 }  // namespace pnpbs

@@ -9,13 +9,14 @@
 
 #include "base/error.hpp"
 #include "check_runner.h"
+#include "placement/placement_of.hpp"
 #include "placement/result_check.hpp"
 
 // Empty where it finds nothing wrong.
 template <int Dim>
 std::string complaint_of(pnpbs::PlacementOf<Dim>& placement) {
   try {
-    return pnpbs::check_results(placement);
+    return pnpbs::check_results(placement.results());
   } catch (const pnpbs::Error& error) {
     ck_assert(error.kind() == pnpbs::ErrorKind::internal);
     return error.what();

@@ -24,7 +24,7 @@ std::unique_ptr<Placement> small_placement() {
       std::make_unique<Placement>(pnpbs::serial_communicator(), domain, pnpbs::Options());
   placement->set_spacing(spacing_of(constant(0.1)));
   ck_assert(placement->run() != pnpbs::Outcome::stopped);
-  placement->prepare_stars();
+  placement->results().prepare_stars();
   return placement;
 }
 

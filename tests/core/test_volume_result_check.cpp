@@ -27,7 +27,7 @@ std::unique_ptr<Placement3> small_placement() {
                                                 pnpbs::Options());
   placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<3>>(0.125));
   ck_assert(placement->run() != pnpbs::Outcome::stopped);
-  placement->prepare_stars();
+  placement->results().prepare_stars();
   return placement;
 }
 
@@ -182,7 +182,7 @@ END_TEST
 /* A node in the plane of three others that it makes a tetrahedron with. */
 START_TEST(tells_of_tetrahedra_without_a_volume) {
   const std::unique_ptr<Placement3> p = small_placement();
-  ck_assert_int_eq(pnpbs::conformity_of(*p).flat.count, 0);
+  ck_assert_int_eq(pnpbs::conformity_of(p->results()).flat.count, 0);
   const std::int64_t i = inner_node(*p);
   std::array<std::int32_t, 3> others{};
   p->level().stars.for_simplices(i, [&](const std::array<std::int32_t, 3>& at) { others = at; });
@@ -190,11 +190,12 @@ START_TEST(tells_of_tetrahedra_without_a_volume) {
   for (const std::int32_t j : others)
     for (std::size_t k = 0; k < 3; ++k) middle[k] += nodes_of(*p).position(j)[k] / 3;
   nodes_of(*p).set_position(i, middle);
-  const pnpbs::Conformity<3> found = pnpbs::conformity_of(*p);
+  const pnpbs::Conformity<3> found = pnpbs::conformity_of(p->results());
   ck_assert_int_eq(found.flat.count, 1);
   ck_assert_int_eq(std::ssize(found.torn), 4);
   ck_assert(!found.holds());
-  ck_assert(pnpbs::text_of(found, *p).starts_with("of no volume: 1 tetrahedra, one of them at "));
+  ck_assert(pnpbs::text_of(found, p->results())
+                .starts_with("of no volume: 1 tetrahedra, one of them at "));
 }
 END_TEST
 

@@ -27,7 +27,7 @@ std::unique_ptr<Placement> cube_with_cavity() {
                                                pnpbs::Options());
   placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<3>>(0.125));
   ck_assert(placement->run() != pnpbs::Outcome::stopped);
-  placement->prepare_stars();
+  placement->results().prepare_stars();
   return placement;
 }
 

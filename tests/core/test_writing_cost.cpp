@@ -42,7 +42,7 @@ std::unique_ptr<pnpbs::PlacementOf<Dim>> placed(std::shared_ptr<SomeDomain> doma
                                                              std::move(domain), options);
   placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<Dim>>(d));
   ck_assert(placement->run() != pnpbs::Outcome::stopped);
-  placement->prepare_stars();
+  placement->results().prepare_stars();
   return placement;
 }
 
@@ -76,7 +76,7 @@ bool can_write(const pnpbs::io::Format& format, int dimension) {
 
 // `more` is of several times the nodes that `few` is of.
 void expect_same_kernels(pnpbs::Placement& few, pnpbs::Placement& more) {
-  ck_assert_int_gt(more.count(), 3 * few.count());
+  ck_assert_int_gt(more.results().count(), 3 * few.results().count());
   for (const pnpbs::io::Format& format : pnpbs::io::formats()) {
     if (!can_write(format, few.dimension())) continue;
     const std::string path = std::string("test_writing_cost.") + format.name;
@@ -90,8 +90,8 @@ void expect_same_kernels(pnpbs::Placement& few, pnpbs::Placement& more) {
       const std::int64_t of_few = kernels_to_write(few), of_more = kernels_to_write(more);
       ck_assert_msg(of_more <= of_few + kMaxMore, "%s: %lld kernels for %lld nodes, %lld for %lld",
                     path.c_str(), static_cast<long long>(of_few),
-                    static_cast<long long>(few.count()), static_cast<long long>(of_more),
-                    static_cast<long long>(more.count()));
+                    static_cast<long long>(few.results().count()), static_cast<long long>(of_more),
+                    static_cast<long long>(more.results().count()));
     }
   }
 }
@@ -106,11 +106,11 @@ END_TEST
 
 START_TEST(the_number_of_nodes_is_counted_once) {
   const auto placement = square(0.04);
-  placement->prepare_order();
-  const std::int64_t nodes = placement->count();
+  placement->results().prepare_order();
+  const std::int64_t nodes = placement->results().count();
   const std::int64_t launched = kernels_of([&] {
-    for (std::int64_t i = 0; i < placement->count(); ++i)
-      ck_assert_int_eq(nodes, placement->count());
+    for (std::int64_t i = 0; i < placement->results().count(); ++i)
+      ck_assert_int_eq(nodes, placement->results().count());
   });
   ck_assert_int_eq(launched, 0);
 }
