@@ -101,54 +101,54 @@ GivenNodes<Dim> PlacementOf<Dim>::nodes_from_coarser_levels(
     const Level<Dim>& finest, const std::shared_ptr<const Spacing<Dim>>& spacing,
     const Settings& settings, Outcome& outcome) {
   GivenNodes<Dim> nodes;
-  try {
-    for (int l = state_.coarser_levels; l > 0; --l) {
-      std::unique_ptr<Level<Dim>> level =
-          empty_level(spacing_of_level(spacing, l),
-                      settings_of_level(settings, l == state_.coarser_levels), &finest);
-      put_first_nodes(level, nodes, l, outcome);
-      adopt_level(std::move(level));
-      begin_schedule(false);
-      state_.schedule.coarser = state_.schedule.multiplied = true;
-      const ProgressPart part{
-          kCoarseShare * (state_.coarser_levels - l) / state_.coarser_levels,
-          kCoarseShare * (state_.coarser_levels - l + 1) / state_.coarser_levels};
-      if (outcome != Outcome::stopped && l <= state_.filled_level)
-        outcome = advance(level_->settings.steps, part);
-      if (outcome != Outcome::stopped && l <= state_.filled_level) repair_defects();
-      nodes = new_nodes<Dim>(refined(*level_, *spacing_of_level(spacing, l - 1)));
-    }
-    if (outcome != Outcome::stopped) outcome = Outcome::converged;
-    adopt_level(nullptr);
-  } catch (...) {
-    keep(nullptr);
-    throw;
+  std::unique_ptr<Level<Dim>> coarser;
+  const Showing<Dim> showing(results_, nullptr);
+  for (int l = state_.coarser_levels; l > 0; --l) {
+    std::unique_ptr<Level<Dim>> level =
+        empty_level(spacing_of_level(spacing, l),
+                    settings_of_level(settings, l == state_.coarser_levels), &finest);
+    put_first_nodes(*level, nodes, l, outcome);
+    if (coarser) state_.keep_counts(*coarser);
+    state_.forget_finish();
+    coarser = std::move(level);
+    results_.show(coarser.get());
+    Schedule schedule;
+    schedule.role = LevelRole::coarser;
+    Simulation<Dim> simulation(*coarser, schedule, state_, monitoring_);
+    const ProgressPart part{kCoarseShare * (state_.coarser_levels - l) / state_.coarser_levels,
+                            kCoarseShare * (state_.coarser_levels - l + 1) / state_.coarser_levels};
+    if (outcome != Outcome::stopped && l <= state_.filled_level)
+      outcome = simulation.advance(coarser->settings.steps, part);
+    if (outcome != Outcome::stopped && l <= state_.filled_level) simulation.repair_defects();
+    nodes = new_nodes<Dim>(refined(*coarser, *spacing_of_level(spacing, l - 1)));
   }
+  if (coarser) state_.keep_counts(*coarser);
+  if (outcome != Outcome::stopped) outcome = Outcome::converged;
   return nodes;
 }
 
 // The nodes that one of several levels begins with: those of the level before, refined, or on the
 // first one a fill.
 template <int Dim>
-TakenNodes PlacementOf<Dim>::put_first_nodes(std::unique_ptr<Level<Dim>>& level,
-                                             GivenNodes<Dim>& from_coarser, int which,
-                                             Outcome& outcome) {
+TakenNodes PlacementOf<Dim>::put_first_nodes(Level<Dim>& level, GivenNodes<Dim>& from_coarser,
+                                             int which, Outcome& outcome) {
   if constexpr (Dim == 3) {
     if (results_.surfaces_alone()) {
-      put_on_surfaces(*level, std::move(from_coarser));
+      put_on_surfaces(level, std::move(from_coarser));
       return {};
     }
-    settle_surfaces(level, from_coarser, outcome, which > 0);
+    settle_surfaces(level, from_coarser, outcome,
+                    which > 0 ? LevelRole::coarser : LevelRole::surfaces);
     from_coarser = new_nodes<Dim>(std::move(from_coarser));
-    level->next_id = 0;
+    level.next_id = 0;
   }
   if (which > state_.filled_level) return {};  // surfaces alone
   if (which == state_.filled_level) {
-    fill(*level, laid_nodes(level->ground, from_coarser));
+    fill(level, laid_nodes(level.ground, from_coarser));
     return {};
   }
-  const TakenNodes taken = take(*level, std::move(from_coarser), 0);
-  if constexpr (Dim == 3) fill_gaps_inside(*level);
+  const TakenNodes taken = take(level, std::move(from_coarser), 0);
+  if constexpr (Dim == 3) fill_gaps_inside(level);
   return taken;
 }
 

@@ -134,7 +134,7 @@ Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpaci
   } else if (level_) {
     GivenNodes<Dim> kept = refined(*level_, *spacing);
     next->next_id = level_->next_id;
-    if constexpr (Dim == 3) settle_surfaces(next, kept, outcome);
+    if constexpr (Dim == 3) settle_surfaces(*next, kept, outcome);
     taken = take(*next, std::move(kept), next->next_id);
     // Where d was far larger, or the shape is thin.
     inserted = taken.numbered;
@@ -142,7 +142,7 @@ Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpaci
     taken.left_out = 0;  // not the user's
   } else if (start_from_given_) {
     GivenNodes<Dim> given = given_;
-    if constexpr (Dim == 3) settle_surfaces(next, given, outcome);
+    if constexpr (Dim == 3) settle_surfaces(*next, given, outcome);
     taken = take(*next, std::move(given), next->next_id);
   } else {
     state_.filled_level = state_.coarser_levels = coarser_levels_that_pay(*next, spacing);
@@ -151,10 +151,12 @@ Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpaci
     GivenNodes<Dim> nodes;
     if (state_.coarser_levels > 0)
       nodes = nodes_from_coarser_levels(*next, spacing, settings, outcome);
-    put_first_nodes(next, nodes, 0, outcome);
+    put_first_nodes(*next, nodes, 0, outcome);
   }
   // Nothing has failed: from here on the new level counts.
-  adopt_level(std::move(next));
+  if (level_) state_.keep_counts(*level_);
+  state_.forget_finish();
+  keep(std::move(next));
   level_options_ = options_;
   state_.dropped = taken.left_out;
   state_.inserted += inserted;
@@ -162,8 +164,9 @@ Outcome PlacementOf<Dim>::begin_on(std::unique_ptr<Level<Dim>> next, PlacedSpaci
   gather_warnings(placed.steepest);
   placed_ = std::move(placed);
   spacing_replaced_ = false;
-  begin_schedule(state_.filled_level > 0);
-  state_.schedule.taken_over = taken_over || outcome == Outcome::stopped;
+  state_.schedule = Schedule();
+  state_.schedule.first_nodes =
+      first_nodes_of(state_.filled_level > 0, taken_over || outcome == Outcome::stopped);
   return outcome;
 }
 
@@ -188,18 +191,6 @@ void PlacementOf<Dim>::fill(Level<Dim>& level, LaidNodes<Dim> laid) {
                     [&](const std::function<void()>& beat) {
                       pnpbs::fill(level, std::move(laid), beat, lattice_is_stretched());
                     });
-}
-
-template <int Dim>
-void PlacementOf<Dim>::adopt_level(std::unique_ptr<Level<Dim>> next) {
-  if (level_) {
-    state_.rebuilds_before += level_->neighbourhood.rebuilds();
-    state_.rebalances_before += level_->rebalances;
-    state_.unknown_uses_before += level_->unknown_uses;
-  }
-  keep(std::move(next));
-  state_.edge_bands.clear();
-  state_.surface_fit = {};
 }
 
 // Of the members defined here.

@@ -84,7 +84,7 @@ Outcome PlacementOf<Dim>::knowing_finer_places(const Work& work) {
     } catch (const FinerPlaces& found) {
       if (tries == kMaxTries) throw;
       if constexpr (Dim == 3) remember(found);
-      if (!state_.schedule.taken_over) keep(nullptr);
+      if (!state_.schedule.taken_over()) keep(nullptr);
     }
   }
 }
@@ -112,7 +112,7 @@ Outcome PlacementOf<Dim>::taking_steps(const Steps& steps) {
   return knowing_finer_places([&] {
     if (prepare_level() == Outcome::stopped) return Outcome::stopped;
     return while_moving([&] {
-      if (state_.schedule.ended) begin_schedule_again();
+      if (state_.schedule.ended()) state_.schedule = state_.schedule.again();
       return steps();
     });
   });
@@ -152,17 +152,20 @@ template <int Dim>
 ProgressPart PlacementOf<Dim>::part_of_steps() const {
   const double done = done_by_rounds();
   if (rounds_of_run_ > 0) return {done, (done + 1) / 2};
-  return {state_.schedule.refined ? kCoarseShare : 0, kStepsShare};
+  return {state_.schedule.refined() ? kCoarseShare : 0, kStepsShare};
 }
 
 // Ends with whether the elements are such as can be used.
 template <int Dim>
 Outcome PlacementOf<Dim>::steps_and_finish() {
   state_.warnings.resize(state_.warnings_of_level);
-  const Outcome outcome = advance(level_->settings.steps, part_of_steps());
-  state_.schedule.ended = true;
+  const ProgressPart part = part_of_steps();
+  const Outcome outcome = simulation().advance(level_->settings.steps, part);
+  state_.schedule.progress = Progress::ended;
   if (outcome == Outcome::stopped) return outcome;
-  if (finish() == Outcome::stopped) return Outcome::stopped;
+  if (simulation().finish(part.end) == Outcome::stopped) return Outcome::stopped;
+  if constexpr (Dim == 3) measure_finish();
+  gather_unknown_uses();
   warn_of_surface_fit();
   if constexpr (Dim == 3) warn_of_features_left_out();
   const bool conforms = elements_conform(), missed = spacing_missed();
@@ -178,7 +181,7 @@ Outcome PlacementOf<Dim>::step(std::int64_t n) {
   return taking_steps([&] {
     const std::int64_t until =
         state_.schedule.step > kNoLimit - n ? kNoLimit : state_.schedule.step + n;
-    return advance(until, {0, 1});
+    return simulation().advance(until, {0, 1});
   });
 }
 
@@ -188,7 +191,7 @@ Outcome PlacementOf<Dim>::rebalance() {
   const PhaseTimer timer(timers_, Phase::total);
   if (prepare_level() == Outcome::stopped) return Outcome::stopped;
   return while_moving([this] {
-    rebalance_now();
+    simulation().rebalance();
     return Outcome::converged;
   });
 }
@@ -200,7 +203,7 @@ Outcome PlacementOf<Dim>::adjust_population(PopulationCounts& change) {
   const PopulationCounts before{state_.inserted, state_.deleted};
   const Outcome outcome = prepare_level();
   if (outcome != Outcome::stopped)
-    while_moving([this] { return count_population_change(pnpbs::adjust_population(*level_)); });
+    while_moving([this] { return simulation().adjust_population(); });
   change = {state_.inserted - before.inserted, state_.deleted - before.deleted};
   return outcome;
 }
@@ -210,16 +213,6 @@ void Placement::put_back(const RunState& before) {
   const StopReason reason = state_.stop_reason;
   state_ = before;
   if (reason == StopReason::monitor) state_.stop_reason = reason;
-}
-
-PopulationCounts Placement::count_population_change(PopulationCounts change) {
-  change.inserted =
-      static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(change.inserted)));
-  change.deleted =
-      static_cast<std::int64_t>(comm_->allreduce_sum(static_cast<std::uint64_t>(change.deleted)));
-  state_.inserted += change.inserted;
-  state_.deleted += change.deleted;
-  return change;
 }
 
 // Of the members defined here.

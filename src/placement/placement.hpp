@@ -71,21 +71,20 @@ class Placement {
   StopReason stop_reason() const { return state_.stop_reason; }
   // Has a run come to its end, and no step been done since?
   bool finished() const {
-    return results().has_nodes() && state_.schedule.ended &&
+    return shows_its_level() && state_.schedule.ended() &&
            state_.stop_reason != StopReason::monitor;
   }
 
  protected:
+  // Are the results those of the level that the schedule is of, and of none on the way to one?
+  virtual bool shows_its_level() const = 0;
   std::int64_t global_count() const { return results().global_count(); }  // collective
   void require_same_options() const;
-  void begin_schedule(bool refined);
-  void begin_schedule_again();
   // Since the checkpoint that is read.
   void adopt_changes(const std::vector<OptionChange>& changes);
   bool spacing_missed();
   void warn_of_surface_fit();
   double bytes_allowed() const;
-  PopulationCounts count_population_change(PopulationCounts change);
   void put_back(const RunState& before);
 
   std::shared_ptr<const Communicator> comm_;

@@ -18,6 +18,7 @@
 #include "placement/placement.hpp"
 #include "placement/results.hpp"
 #include "placement/saved_state.hpp"
+#include "placement/simulation.hpp"
 #include "spacing/nodal_patch.hpp"
 #include "spacing/steepest_growth.hpp"
 
@@ -140,16 +141,19 @@ class PlacementOf : public Placement {
   std::unique_ptr<Level<Dim>> empty_level(std::shared_ptr<const Spacing<Dim>> spacing,
                                           const Settings& settings,
                                           const Level<Dim>* like = nullptr);
-  void adopt_level(std::unique_ptr<Level<Dim>> next);
+  bool shows_its_level() const override { return level_ && results_.shown() == level_.get(); }
   void gather_warnings(const SteepestGrowth<Dim>& steepest);
   int coarser_levels_that_pay(const Level<Dim>& finest,
                               const std::shared_ptr<const Spacing<Dim>>& spacing) const;
   bool boundary_leaves_room(const Level<Dim>& finest, const Spacing<Dim>& coarser, double factor,
                             double nodes) const;
-  TakenNodes put_first_nodes(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& from_coarser,
-                             int which, Outcome& outcome);
-  void settle_surfaces(std::unique_ptr<Level<Dim>>& level, GivenNodes<Dim>& nodes, Outcome& outcome,
-                       bool multiplied = false);                           // in space
+  TakenNodes put_first_nodes(Level<Dim>& level, GivenNodes<Dim>& from_coarser, int which,
+                             Outcome& outcome);
+  void settle_surfaces(Level<Dim>& level, GivenNodes<Dim>& nodes, Outcome& outcome,
+                       LevelRole role = LevelRole::surfaces);  // in space
+  void rest_on_surfaces(Level<Dim>& level, GivenNodes<Dim> on_surfaces,
+                        const GivenNodes<Dim>& on_features, Outcome& outcome,
+                        LevelRole role);                                   // in space
   std::int64_t put_on_surfaces(Level<Dim>& level, GivenNodes<Dim> nodes);  // in space
   TakenNodes begin_on_surfaces(Level<Dim>& finest,
                                const std::shared_ptr<const Spacing<Dim>>& spacing,
@@ -168,23 +172,11 @@ class PlacementOf : public Placement {
   void remember(const FinerPlaces& found);  // in space
   // Shares of a run's work, for its progress: coarser levels, and steps without the finish.
   static constexpr double kCoarseShare = 0.5, kStepsShare = 0.9;
-  bool bubbles_rest() const;
-  Outcome advance(std::int64_t until, ProgressPart part);
-  void event();
-  double tolerance_of_mean(int round) const;
-  void control_population();
-  void keep_balance();
-  void rebalance_now();
-  bool far_too_few() const;
-  bool stops_after_step(bool is_event, double fraction);
   void fill(Level<Dim>& level, LaidNodes<Dim> laid);
-  void repair_defects();
-  Outcome finish();
+  Simulation<Dim> simulation() { return {*level_, state_.schedule, state_, monitoring_}; }
   Outcome steps_and_finish();
   double done_by_rounds() const;
   ProgressPart part_of_steps() const;
-  template <class Stops>
-  Outcome smooth(const Stops& stops);
   void gather_unknown_uses();
   void measure_finish();    // in space
   bool elements_conform();  // if not there is a warning; collective

@@ -104,6 +104,22 @@ class Results : public NodalResults {
   Level<Dim>* level_ = nullptr;
 };
 
+// While it is there, results are those of another level, which is worked on.
+template <int Dim>
+class Showing {
+ public:
+  Showing(Results<Dim>& results, Level<Dim>* level) : results_(results), before_(results.shown()) {
+    results.show(level);
+  }
+  Showing(const Showing&) = delete;
+  Showing& operator=(const Showing&) = delete;
+  ~Showing() { results_.show(before_); }
+
+ private:
+  Results<Dim>& results_;
+  Level<Dim>* before_;
+};
+
 extern template class Results<2>;
 extern template class Results<3>;
 

@@ -11,22 +11,9 @@
 #include "level/finish.hpp"
 #include "level/speeds.hpp"
 #include "level/volume/surface_fit.hpp"
+#include "placement/schedule.hpp"
 
 namespace pnpbs {
-
-// Where the simulation of a level is. Events happen at step numbers of it.
-struct Schedule {
-  std::int64_t step = 0;
-  bool refined = false;     // it began with the nodes of a coarser level
-  bool coarser = false;     // it is one, or that of the surfaces
-  bool multiplied = false;  // its spacing is a multiple of the one that counts
-  bool taken_over = false;  // it began with nodes given, or placed for another spacing
-  bool ended = false;
-  bool at_event = false;  // restored as it was in the middle of one: is all at rest?
-  bool population_settled = false;
-  int quiet_events = 0;          // that changed too little to pay, in a row
-  double imbalance_reached = 1;  // by the last rebalancing
-};
 
 // Why a run ended, for the report.
 enum class StopReason { none, rest, step_limit, monitor };
@@ -50,6 +37,19 @@ struct RunState {
   // Of the level's finish.
   std::vector<EdgeBand> edge_bands;
   SurfaceFit surface_fit;
+
+  // What this level has counted goes on to count when it is no more.
+  template <class Level>
+  void keep_counts(const Level& level) {
+    rebuilds_before += level.neighbourhood.rebuilds();
+    rebalances_before += level.rebalances;
+    unknown_uses_before += level.unknown_uses;
+  }
+  // No finish has been done on the next one.
+  void forget_finish() {
+    edge_bands.clear();
+    surface_fit = {};
+  }
 };
 
 }  // namespace pnpbs

@@ -224,13 +224,13 @@ Saved<Dim> PlacementOf<Dim>::saved() {
   s.next_id = level_->next_id;
   s.moving = static_cast<int>(level_->nodes.moving);
   s.step = state_.schedule.step;
-  s.refined = state_.schedule.refined;
-  s.coarser = state_.schedule.coarser;
-  s.taken_over = state_.schedule.taken_over;
-  s.ended = state_.schedule.ended;
+  s.refined = state_.schedule.refined();
+  s.coarser = state_.schedule.role != LevelRole::result;
+  s.taken_over = state_.schedule.taken_over();
+  s.ended = state_.schedule.ended();
   s.population_settled = state_.schedule.population_settled;
   s.quiet_events = state_.schedule.quiet_events;
-  s.at_event = monitoring_.at_event() || state_.schedule.at_event;
+  s.at_event = monitoring_.at_event() || state_.schedule.progress == Progress::at_event;
   s.coarser_levels = state_.coarser_levels;
   s.steps_done = state_.steps_done;
   s.inserted = state_.inserted;
@@ -290,7 +290,9 @@ void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Di
     // As it would have been at the next step after the options were changed.
     if (state.meeting_radius != meeting_radius(settings)) next->nodes.set_reference_positions();
     exchange(*next, kStarHops<Dim>);
-    adopt_level(std::move(next));
+    if (level_) state_.keep_counts(*level_);
+    state_.forget_finish();
+    keep(std::move(next));
     gather_warnings(placed.steepest);
     placed_ = std::move(placed);
   } catch (...) {
@@ -317,13 +319,13 @@ void Placement::adopt_changes(const std::vector<OptionChange>& changes) {
   }
   std::string told = "options changed since the checkpoint: " + text_of(changes);
   if (finished() && others) {
-    begin_schedule_again();
+    state_.schedule = state_.schedule.again();
   } else if (finished() && more_steps && state_.stop_reason == StopReason::rest) {
     told += "; the bubbles rest after " + std::to_string(state_.schedule.step) +
             " steps, and more of them change nothing: lower tolerance_mean for a run that goes on";
   } else if (finished() && more_steps &&
              state_.schedule.step < options_.in(dimension()).integer("steps")) {
-    state_.schedule.ended = false;
+    state_.schedule.progress = Progress::steps;
     state_.schedule.population_settled = false;
     state_.schedule.quiet_events = 0;
   } else if (finished()) {
@@ -338,12 +340,12 @@ template <int Dim>
 void PlacementOf<Dim>::adopt_state(const SavedState& s) {
   state_.schedule = Schedule();
   state_.schedule.step = s.step;
-  state_.schedule.refined = s.refined;
-  state_.schedule.taken_over = s.taken_over;
-  state_.schedule.ended = s.ended;
+  state_.schedule.first_nodes = first_nodes_of(s.refined, s.taken_over);
+  state_.schedule.progress = s.ended      ? Progress::ended
+                             : s.at_event ? Progress::at_event
+                                          : Progress::steps;
   state_.schedule.population_settled = s.population_settled;
   state_.schedule.quiet_events = static_cast<int>(s.quiet_events);
-  state_.schedule.at_event = s.at_event;
   state_.coarser_levels = static_cast<int>(s.coarser_levels);
   state_.last_speeds = {s.max_speed, s.mean_speed};
   state_.steps_done = s.steps_done;

@@ -40,52 +40,50 @@ std::int64_t sum_over_ranks(const Communicator& comm, std::int64_t mine) {
 
 }  // namespace
 
+// These nodes become those of the level, and rest on its surfaces.
+template <>
+void PlacementOf<3>::rest_on_surfaces(Level<3>& level, GivenNodes<3> on_surfaces,
+                                      const GivenNodes<3>& on_features, Outcome& outcome,
+                                      LevelRole role) {
+  const bool anew = comm_->allreduce_sum(on_surfaces.size()) == 0;
+  state_.deleted +=
+      sum_over_ranks(*comm_, put_surface_nodes(level, std::move(on_surfaces), on_features, anew));
+  Schedule schedule;
+  schedule.first_nodes = first_nodes_of(!anew, false);
+  schedule.role = role;
+  Simulation<3> simulation(level, schedule, state_, monitoring_);
+  const Settings& settings = level.settings;
+  const double done = done_by_rounds();
+  if (outcome != Outcome::stopped &&
+      simulation.advance(anew ? settings.steps : settings.refined_steps, {done, done}) ==
+          Outcome::stopped)
+    outcome = Outcome::stopped;
+  if (outcome == Outcome::stopped) return;
+  simulation.remove_crowded();  // nodes that coincide have no star
+  state_.inserted += fill_vacancies(level);
+  sweep_on_surfaces(level, settings.sweeps);
+}
+
 // The nodes of the boundary among those given, which may be from a coarser level, come to rest on
 // the level's surfaces, and are given instead; if there are none, the surfaces are filled.
 // If the monitor has stopped the call, or does so here, they stay as they are. Collective.
 template <>
-void PlacementOf<3>::settle_surfaces(std::unique_ptr<Level<3>>& level, GivenNodes<3>& given,
-                                     Outcome& outcome, bool multiplied) {
-  scatter_to_owners(*level, given);
-  reserve_ids(*level, given);
+void PlacementOf<3>::settle_surfaces(Level<3>& level, GivenNodes<3>& given, Outcome& outcome,
+                                     LevelRole role) {
+  scatter_to_owners(level, given);
+  reserve_ids(level, given);
   NodesByCarrier nodes(given);
-  const bool anew = comm_->allreduce_sum(nodes.on_surfaces.size()) == 0;
-  const Settings inside = level->settings;
-  const Schedule schedule = state_.schedule;
-  std::swap(level_, level);  // the time loop is that of the level there is
-  results_.show(level_.get());
-  const auto restore = [&] {
-    state_.schedule = schedule;
-    std::swap(level_, level);
-    results_.show(level_.get());
-  };
-  try {
-    level_->change_settings(surface_settings(inside));
-    state_.deleted += sum_over_ranks(
-        *comm_, put_surface_nodes(*level_, std::move(nodes.on_surfaces), nodes.on_features, anew));
-    begin_schedule(!anew);
-    state_.schedule.coarser = true;
-    state_.schedule.multiplied = multiplied;
-    const Settings& settings = level_->settings;
-    const double done = done_by_rounds();
-    if (outcome != Outcome::stopped &&
-        advance(anew ? settings.steps : settings.refined_steps, {done, done}) == Outcome::stopped)
-      outcome = Outcome::stopped;
-    if (outcome != Outcome::stopped) {
-      count_population_change(remove_crowded(*level_));  // nodes that coincide have no star
-      state_.inserted += fill_vacancies(*level_);
-      sweep_on_surfaces(*level_, settings.sweeps);
-    }
-    fix_surface_nodes(*level_);
-    level_->change_settings(inside);
-  } catch (...) {
-    restore();
-    throw;
+  const Settings inside = level.settings;
+  {
+    const Showing<3> showing(results_, &level);
+    level.change_settings(surface_settings(inside));
+    rest_on_surfaces(level, std::move(nodes.on_surfaces), nodes.on_features, outcome, role);
+    fix_surface_nodes(level);
+    level.change_settings(inside);
   }
-  restore();
-  given = surface_nodes(*level);
-  agreed(*comm_, [&] { put_on_level_sets(level->ground, given); });
-  scatter_to_owners(*level, given);  // some have moved on since the last exchange
+  given = surface_nodes(level);
+  agreed(*comm_, [&] { put_on_level_sets(level.ground, given); });
+  scatter_to_owners(level, given);  // some have moved on since the last exchange
   given.insert(given.end(), nodes.inner.begin(), nodes.inner.end());
 }
 
