@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "placement/domain_fingerprint.hpp"
 
+#include "base/error.hpp"
 #include "base/mixed_hash.hpp"
 
 namespace pnpbs {
@@ -50,6 +51,23 @@ std::uint64_t fingerprint_of(const VolumeDomain& domain) {
   for (const FeatureCurve& curve : domain.features().curves)
     for (const std::int32_t node : curve.nodes) print.add(node);
   return print.value();
+}
+
+namespace {
+
+void require_same(const Communicator& comm, std::uint64_t fingerprint) {
+  if (!comm.same_on_all(fingerprint))
+    throw Error(ErrorKind::domain,
+                "the domains differ between ranks: every rank describes the whole domain");
+}
+
+}  // namespace
+
+void require_same_domain(const Communicator& comm, const PlaneDomain& domain) {
+  require_same(comm, fingerprint_of(domain));
+}
+void require_same_domain(const Communicator& comm, const VolumeDomain& domain) {
+  require_same(comm, fingerprint_of(domain));
 }
 
 }  // namespace pnpbs

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run would come to, and how much memory there is for it.
+#include "placement/estimate.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/available_memory.hpp"
 #include "base/kokkos_runtime.hpp"
-#include "placement/placement_of.hpp"
 
 namespace pnpbs {
 
@@ -29,45 +29,45 @@ double nodes_per_second(const Options& options) {
 }  // namespace
 
 template <int Dim>
-Estimate PlacementOf<Dim>::estimate() {
-  require_kokkos();
-  require_same_options();
-  const Settings settings = settings_for_new_level();
-  const double ranks = comm_->size();
-  const double nodes = estimated_nodes(spacing_to_place(settings), settings);
-  const double threads = from_fixed_point(comm_->allreduce_sum(
+Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settings) {
+  const Communicator& comm = to_place.comm();
+  const double ranks = comm.size();
+  const double nodes = estimated_nodes(to_place, to_place.spacing_to_place(settings), settings);
+  const double threads = from_fixed_point(comm.allreduce_sum(
       static_cast<std::uint64_t>(fixed_point(static_cast<double>(thread_count())))));
   return {static_cast<std::int64_t>(std::round(nodes)),
           static_cast<std::int64_t>(kBytesOfProcess + kBytesPerNode * nodes / ranks),
-          nodes / (nodes_per_second<Dim>(options_) * std::max(1.0, threads))};
+          nodes / (nodes_per_second<Dim>(to_place.options()) * std::max(1.0, threads))};
 }
 
 // With the growth of d limited as the run limits it, which takes a tree as the run does; so it is
 // refused where that would be.
 template <int Dim>
-double PlacementOf<Dim>::estimated_nodes(std::shared_ptr<const Spacing<Dim>> spacing,
-                                         const Settings& settings) const {
+double estimated_nodes(const SpacingToPlace<Dim>& to_place,
+                       std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) {
   const auto estimate_with = [&](const Spacing<Dim>& d) {
-    return estimate_nodes<Dim>(*comm_, *domain_, d, settings.max_nodes, lattice_is_stretched());
+    return estimate_nodes<Dim>(to_place.comm(), to_place.domain(), d, settings.max_nodes,
+                               lattice_is_stretched(to_place.options()));
   };
   if (!settings.user_limits_growth()) {
     const NodeEstimate<Dim> estimate = estimate_with(*spacing);
     if (settings.growth_limit == 0 || !too_steep(estimate.steepest)) return estimate.nodes;
   }
-  return estimate_with(*growth_limited(std::move(spacing), settings, [] {})).nodes;
+  return estimate_with(*to_place.growth_limited(std::move(spacing), settings, [] {})).nodes;
 }
 
-// Of memory, for the nodes of all ranks: these share what their machines have, and hold equal
-// parts.
-double Placement::bytes_allowed() const {
-  const double share = Settings(options_).max_memory;
+double bytes_allowed(const Communicator& comm, const Options& options) {
+  const double share = Settings(options).max_memory;
   if (share == 0) return std::numeric_limits<double>::infinity();
-  const double mine = available_memory() / comm_->ranks_on_node();
-  return share * -comm_->allreduce_max(-mine) * comm_->size();
+  const double mine = available_memory() / comm.ranks_on_node();
+  return share * -comm.allreduce_max(-mine) * comm.size();
 }
 
-// Of the members defined here.
-template class PlacementOf<2>;
-template class PlacementOf<3>;
+template Estimate estimate_of(const SpacingToPlace<2>&, const Settings&);
+template Estimate estimate_of(const SpacingToPlace<3>&, const Settings&);
+template double estimated_nodes(const SpacingToPlace<2>&, std::shared_ptr<const Spacing<2>>,
+                                const Settings&);
+template double estimated_nodes(const SpacingToPlace<3>&, std::shared_ptr<const Spacing<3>>,
+                                const Settings&);
 
 }  // namespace pnpbs

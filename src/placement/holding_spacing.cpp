@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the elements of a finished run do not fill the domain, or their boundary is torn, d does
-// not resolve the shape: it is held down around these places, and the run goes on from its nodes.
+#include "placement/holding_spacing.hpp"
+
 #include <algorithm>
 
 #include "base/point_text.hpp"
 #include "comm/records.hpp"
-#include "level/expected_nodes.hpp"
-#include "level/finer_places.hpp"
 #include "level/node_spacing.hpp"
 #include "placement/narrow_places.hpp"
-#include "placement/placement_of.hpp"
 #include "spacing/held_spacing.hpp"
 #include "spacing/spacing_with_places.hpp"
 
@@ -74,16 +71,14 @@ double resolution_of(const VolumeDomain& domain) {
 
 }  // namespace
 
-// The spacing that counts, from the one that would and the places where it is held down.
-// Collective.
 template <int Dim>
-void PlacementOf<Dim>::hold_down(PlacedSpacing<Dim>& placed, const Settings& settings) const {
+void hold_down(const Communicator& comm, PlacedSpacing<Dim>& placed, const Settings& settings) {
   placed.d = placed.unheld;
   const std::vector<GrowthSource<Dim>>& places = placed.held.places;
   if (places.empty()) return;
   const double growth = settings.growth_limit > 0 ? std::min(settings.growth_limit, kGrowthFollowed)
                                                   : kGrowthFollowed;
-  agreed(*comm_, [&] {
+  agreed(comm, [&] {
     KnownValues<Dim> known;
     known.in_domain = places;
     placed.d = std::make_shared<SpacingWithPlaces<Dim>>(
@@ -91,35 +86,37 @@ void PlacementOf<Dim>::hold_down(PlacedSpacing<Dim>& placed, const Settings& set
   });
 }
 
-// Of this rank's nodes and ghosts, those where d is held down; an empty view if there are no such
-// places. Collective.
 template <int Dim>
-View<char> PlacementOf<Dim>::held_nodes() const {
-  if (placed_.held.places.empty()) return {};
-  const View<double> d = spacing_at_nodes(*level_, level_->ground.spacing());
-  const View<double> unheld = spacing_at_nodes(*level_, *placed_.unheld);
+View<char> held_nodes(const Level<Dim>& level, const PlacedSpacing<Dim>& placed) {
+  if (placed.held.places.empty()) return {};
+  const View<double> d = spacing_at_nodes(level, level.ground.spacing());
+  const View<double> unheld = spacing_at_nodes(level, *placed.unheld);
   View<char> held;
-  agreed(*comm_, [&] {
-    held = make_view<char>("pnpbs::held_nodes", level_->nodes.count);
-    for_each("pnpbs::held_nodes", level_->nodes.count,
+  agreed(*level.comm, [&] {
+    held = make_view<char>("pnpbs::held_nodes", level.nodes.count);
+    for_each("pnpbs::held_nodes", level.nodes.count,
              [&](std::int64_t i) { held(i) = d(i) < unheld(i); });
   });
   return held;
 }
 
-// The places at which the last round asks for a smaller d; false if there are none, or that was
-// tried often enough. Collective.
 template <int Dim>
-bool PlacementOf<Dim>::add_unresolved_places(Held<Dim>& held) const {
-  if (held.rounds >= level_->settings.conforming_rounds) return false;
+bool add_unresolved_places(const Level<Dim>& level, const std::vector<Point<Dim>>& unresolved,
+                           Held<Dim>& held) {
+  const Communicator& comm = *level.comm;
+  const auto global_count = [&] {
+    return static_cast<std::int64_t>(
+        comm.allreduce_sum(static_cast<std::uint64_t>(level.owned_count())));
+  };
+  if (held.rounds >= level.settings.conforming_rounds) return false;
   // Where places are that many, the shape is lost altogether; nor should one rank have them all.
-  if (comm_->allreduce_sum(unresolved_.size()) > static_cast<std::uint64_t>(global_count()))
+  if (comm.allreduce_sum(unresolved.size()) > static_cast<std::uint64_t>(global_count()))
     return false;
   if (held.rounds++ == 0) held.nodes_before = global_count();
   const std::vector<GrowthSource<Dim>> wanted =
-      places_to_hold<Dim>(*level_, gathered<Dim>(*comm_, unresolved_), held.rounds);
-  const std::vector<double> d = spacing_at(*level_, wanted);
-  const double finest = resolution_of(level_->ground.domain());
+      places_to_hold<Dim>(level, gathered<Dim>(comm, unresolved), held.rounds);
+  const std::vector<double> d = spacing_at(level, wanted);
+  const double finest = resolution_of(level.ground.domain());
   const std::size_t before = held.places.size();
   for (std::size_t k = 0; k < wanted.size(); ++k)
     if (const double to = std::max(wanted[k].d, finest); to < d[k])
@@ -127,57 +124,32 @@ bool PlacementOf<Dim>::add_unresolved_places(Held<Dim>& held) const {
   return held.places.size() > before;
 }
 
-// Begins a round with d held down where the last one does not conform: converged, or stopped. Not
-// conforming, as it is, if there is nothing to hold, it was tried often enough, or would take far
-// more nodes than were asked for; then all stays as it is. Collective.
 template <int Dim>
-Outcome PlacementOf<Dim>::hold_spacing() {
-  PlacedSpacing<Dim> placed = placed_;
-  const RunState before = state_;
-  Outcome outcome = Outcome::not_conforming;
-  try {
-    if (add_unresolved_places(placed.held)) outcome = begin_held_round(std::move(placed));
-  } catch (const FinerPlaces&) {
-    throw;  // it is tried again with these
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::spacing && error.kind() != ErrorKind::memory) throw;
-    put_back(before);
-  }
-  // Of the call that the round belongs to.
-  state_.dropped = before.dropped;
-  state_.coarser_levels = before.coarser_levels;
-  return outcome;
-}
-
-// On a level for the spacing as it is held now, with the nodes there were. Collective.
-template <int Dim>
-Outcome PlacementOf<Dim>::begin_held_round(PlacedSpacing<Dim> placed) {
-  const Settings settings = level_->settings;
-  hold_down(placed, settings);
-  std::unique_ptr<Level<Dim>> next = empty_level(placed.d, settings);
-  const double expected = expected_nodes(*next);
-  const auto nodes = static_cast<double>(placed.held.nodes_before);
-  if (expected > std::max(kMaxNodes * nodes, nodes + kFewNodes)) return Outcome::not_conforming;
-  settings.node_limit().require_memory_for(expected);
-  return begin_on(std::move(next), std::move(placed), settings);
+bool takes_too_many(double expected_nodes, const Held<Dim>& held) {
+  const auto nodes = static_cast<double>(held.nodes_before);
+  return expected_nodes > std::max(kMaxNodes * nodes, nodes + kFewNodes);
 }
 
 template <int Dim>
-void PlacementOf<Dim>::warn_of_held_spacing() {
-  const Held<Dim>& held = placed_.held;
-  if (held.places.empty()) return;
+std::string warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes) {
   const GrowthSource<Dim>& finest = *std::ranges::min_element(
       held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
-  state_.warnings.push_back(
-      "the spacing did not resolve the shape at " + std::to_string(held.places.size()) +
-      " places, and is held down there, to " + rounded_text(finest.d) + " at " +
-      rounded_point_text<Dim>(finest.x) + ": " + std::to_string(global_count()) +
-      " nodes instead of " + std::to_string(held.nodes_before) +
-      " (option conforming_rounds, 0 to have d as it is given)");
+  return "the spacing did not resolve the shape at " + std::to_string(held.places.size()) +
+         " places, and is held down there, to " + rounded_text(finest.d) + " at " +
+         rounded_point_text<Dim>(finest.x) + ": " + std::to_string(nodes) + " nodes instead of " +
+         std::to_string(held.nodes_before) +
+         " (option conforming_rounds, 0 to have d as it is given)";
 }
 
-// Of the members defined here.
-template class PlacementOf<2>;
-template class PlacementOf<3>;
+template void hold_down(const Communicator&, PlacedSpacing<2>&, const Settings&);
+template View<char> held_nodes(const Level<2>&, const PlacedSpacing<2>&);
+template bool add_unresolved_places<2>(const Level<2>&, const std::vector<Point<2>>&, Held<2>&);
+template bool takes_too_many(double, const Held<2>&);
+template std::string warning_of_held_spacing(const Held<2>&, std::int64_t);
+template void hold_down(const Communicator&, PlacedSpacing<3>&, const Settings&);
+template View<char> held_nodes(const Level<3>&, const PlacedSpacing<3>&);
+template bool add_unresolved_places<3>(const Level<3>&, const std::vector<Point<3>>&, Held<3>&);
+template bool takes_too_many(double, const Held<3>&);
+template std::string warning_of_held_spacing(const Held<3>&, std::int64_t);
 
 }  // namespace pnpbs

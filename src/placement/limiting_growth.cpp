@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spacing as it counts: as given, no larger than makes sense or, if the user wants it so, than
-// resolves the shape, or with its growth limited, because the user wants that or because nodes
-// could not follow d as given.
+#include "placement/limiting_growth.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
-#include "placement/placement_of.hpp"
+#include "level/finer_region.hpp"
+#include "placement/estimate.hpp"
 #include "spacing/growth_limit.hpp"
 #include "spacing/held_spacing.hpp"
 #include "spacing/multiplied_spacing.hpp"
 #include "spacing/resolving_sources.hpp"
+#include "spacing/spacing_with_places.hpp"
 
 namespace pnpbs {
 
@@ -26,7 +27,7 @@ constexpr double kTooSteep = 1.05 * kGrowthFollowed;
 }  // namespace
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_to_place(
+std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::spacing_to_place(
     const Settings& settings) const {
   const double wanted = options_.real("wanted_nodes");
   if (wanted == 0) return bounded(spacing_, settings);
@@ -39,7 +40,7 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::spacing_to_place(
 // vertices are many: the power is taken from the last two rounds. Below the number of vertices
 // there is nothing to find, and the search ends where the number does not change any more.
 template <int Dim>
-double PlacementOf<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
+double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
   constexpr int kMaxRounds = 10;
   constexpr double kNear = 1e-3, kMinPower = 0.5, kMaxStep = 4;
   const double steepest = settings.dimension;
@@ -60,7 +61,7 @@ double PlacementOf<Dim>::factor_for(double wanted_nodes, const Settings& setting
 }
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::bounded(
+std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::bounded(
     std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) const {
   agreed(*comm_, [&] {
     spacing = std::make_shared<BoundedSpacing<Dim>>(std::move(spacing),
@@ -77,18 +78,7 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::bounded(
 }
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::growth_limited(
-    std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) {
-  monitoring_.watch("the growth of the spacing was limited", results_.count(),
-                    [&](const std::function<void()>& beat) {
-                      const PhaseTimer timer(timers_, Phase::spacing);
-                      spacing = growth_limited(std::move(spacing), settings, beat);
-                    });
-  return spacing;
-}
-
-template <int Dim>
-std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::growth_limited(
+std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::growth_limited(
     std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings,
     const std::function<void()>& beat) const {
   const auto explained = [&](const Error& error) {
@@ -122,13 +112,35 @@ std::shared_ptr<const Spacing<Dim>> PlacementOf<Dim>::growth_limited(
 }
 
 template <int Dim>
-bool PlacementOf<Dim>::too_steep(const SteepestGrowth<Dim>& steepest) {
+double SpacingToPlace<Dim>::estimated_nodes(std::shared_ptr<const Spacing<Dim>> spacing,
+                                            const Settings& settings) const {
+  return pnpbs::estimated_nodes(*this, std::move(spacing), settings);
+}
+
+// As the spacing itself has them: on the level it may be multiplied by a factor.
+std::shared_ptr<const Spacing<3>> spacing_with(const FinerPlaces& found, const Communicator& comm,
+                                               const VolumeDomain& domain,
+                                               std::shared_ptr<const Spacing<3>> spacing) {
+  agreed(comm, [&] {
+    const SpacingEvaluator<3> raw = [&](std::int64_t n, const Point<3>* x, double* d) {
+      evaluate_spacing<3>(*spacing, measure_of(domain), n, x, d);
+    };
+    const auto inside = [&](const Point<3>& x) {
+      return domain.filled() && domain.index().inside(x);
+    };
+    spacing =
+        std::make_shared<SpacingWithPlaces<3>>(spacing, finer_region(found.places(), raw, inside));
+  });
+  return spacing;
+}
+
+template <int Dim>
+bool too_steep(const SteepestGrowth<Dim>& steepest) {
   return steepest.growth > kTooSteep;
 }
 
 template <int Dim>
-std::string PlacementOf<Dim>::warning_of_growth(const SteepestGrowth<Dim>& steepest,
-                                                double growth_limit) {
+std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit) {
   const std::string found = "the spacing grows by " + rounded_text(steepest.growth) +
                             " per unit of length near " + rounded_point_text<Dim>(steepest.at) +
                             ", faster than nodes can follow: ";
@@ -139,8 +151,11 @@ std::string PlacementOf<Dim>::warning_of_growth(const SteepestGrowth<Dim>& steep
          "; set the option growth_limit to choose another limit, or 0 to have it as given";
 }
 
-// Of the members defined here.
-template class PlacementOf<2>;
-template class PlacementOf<3>;
+template class SpacingToPlace<2>;
+template class SpacingToPlace<3>;
+template bool too_steep(const SteepestGrowth<2>&);
+template bool too_steep(const SteepestGrowth<3>&);
+template std::string warning_of_growth(const SteepestGrowth<2>&, double);
+template std::string warning_of_growth(const SteepestGrowth<3>&, double);
 
 }  // namespace pnpbs

@@ -18,6 +18,9 @@ struct ProgressPart {
   double begin = 0, end = 1;
 };
 
+// Shares of a run's work: coarser levels, and steps without the finish.
+constexpr double kCoarseShare = 0.5, kStepsShare = 0.9;
+
 class Monitoring {
  public:
   // fraction done of the call in progress, step, nodes, largest scaled speed -> true to stop

@@ -82,9 +82,6 @@ class Placement {
   void require_same_options() const;
   // Since the checkpoint that is read.
   void adopt_changes(const std::vector<OptionChange>& changes);
-  bool spacing_missed();
-  void warn_of_surface_fit();
-  double bytes_allowed() const;
   void put_back(const RunState& before);
 
   std::shared_ptr<const Communicator> comm_;

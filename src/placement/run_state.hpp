@@ -24,7 +24,6 @@ struct RunState {
   StopReason stop_reason = StopReason::none;
 
   int coarser_levels = 0;  // that the nodes came from
-  int filled_level = 0;    // of these, how many had their inside filled, the first by a lattice
 
   // Since the placement was made, on all levels.
   std::int64_t steps_done = 0, inserted = 0, deleted = 0;
@@ -38,6 +37,9 @@ struct RunState {
   std::vector<EdgeBand> edge_bands;
   SurfaceFit surface_fit;
 
+  void warn(const std::string& warning) {
+    if (!warning.empty()) warnings.push_back(warning);
+  }
   // What this level has counted goes on to count when it is no more.
   template <class Level>
   void keep_counts(const Level& level) {

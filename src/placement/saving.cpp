@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Placements as they are saved, and as they go on from there.
+#include "placement/saving.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/kokkos_runtime.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "comm/records.hpp"
-#include "level/exchange.hpp"
 #include "level/node_spacing.hpp"
 #include "level/reach.hpp"
 #include "placement/domain_fingerprint.hpp"
 #include "placement/option_changes.hpp"
-#include "placement/placement_of.hpp"
 #include "spacing/nodal_spacing.hpp"
 
 namespace pnpbs {
@@ -26,25 +23,6 @@ namespace {
 [[noreturn]] void damaged(const std::string& what) { throw Error(ErrorKind::file, what); }
 
 bool is_flag(std::int64_t value) { return value == 0 || value == 1; }
-
-// What no placement can have saved.
-void require_possible(const SavedState& s) {
-  const auto count = [](std::int64_t n) { return n >= 0; };
-  const bool flags = is_flag(s.refined) && is_flag(s.coarser) && is_flag(s.taken_over) &&
-                     is_flag(s.ended) && is_flag(s.population_settled) && is_flag(s.at_event) &&
-                     is_flag(s.spacing_saved);
-  const bool counts = s.nodes > 0 && count(s.next_id) && count(s.step) && count(s.steps_done) &&
-                      count(s.inserted) && count(s.deleted) && count(s.dropped) &&
-                      count(s.held_rounds) && count(s.nodes_before_held) && count(s.rebuilds) &&
-                      count(s.rebalances) && count(s.missing_faces) && count(s.left_out) &&
-                      count(s.quiet_events) && s.quiet_events < 1 << 30 &&
-                      count(s.coarser_levels) && s.coarser_levels < 1 << 10;
-  const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
-                      (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
-                     s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
-  if (!flags || !counts || !kinds || s.coarser)
-    damaged("what it tells of the run is impossible: it is damaged");
-}
 
 // Is this a node that a level with that ground can have?
 bool fits_ground(const Ground<2>& ground, const PackedNode<2>& node) {
@@ -111,8 +89,7 @@ void require_different_ids(const Communicator& comm, const std::vector<SavedNode
 
 // Each to the rank that owns its place.
 template <int Dim>
-void put_saved_nodes(Level<Dim>& level, const SavedState& state,
-                     std::vector<SavedNode<Dim>>& saved) {
+void put_nodes(Level<Dim>& level, const SavedState& state, std::vector<SavedNode<Dim>>& saved) {
   const Communicator& comm = *level.comm;
   agreed(comm, [&] {
     for (const SavedNode<Dim>& one : saved)
@@ -164,6 +141,94 @@ void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<D
   });
 }
 
+}  // namespace
+
+template <int Dim>
+Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Spacing<Dim>& given,
+                    const RunState& run, const Options& options, bool at_event) {
+  Saved<Dim> saved;
+  SavedState& s = saved.state;
+  saved.nodes = &level.nodes;
+  saved.spacing = spacing_at_owned_nodes(level, level.ground.spacing());
+  std::uint64_t checksum = 0;
+  agreed(*level.comm, [&] {
+    for (std::int32_t i = 0; i < level.nodes.count; ++i)
+      if (level.nodes.owned(i)) saved.owned.push_back(i);
+    for (std::int64_t k = 0; k < saved.count(); ++k) checksum += checksum_of(saved.node(k));
+    for (std::size_t w = run.warnings_of_level; w < run.warnings.size(); ++w)
+      s.warnings += run.warnings[w] + "\n";
+    s.options = lines_of_deciding(options.in(Dim));
+    if (const auto* nodal = dynamic_cast<const NodalSpacing<Dim>*>(&given))
+      saved.patch = &nodal->patch();
+  });
+  s.dimension = Dim;
+  s.nodes = static_cast<std::int64_t>(
+      level.comm->allreduce_sum(static_cast<std::uint64_t>(saved.count())));
+  s.next_id = level.next_id;
+  s.moving = static_cast<int>(level.nodes.moving);
+  s.step = run.schedule.step;
+  s.refined = run.schedule.refined();
+  s.coarser = run.schedule.role != LevelRole::result;
+  s.taken_over = run.schedule.taken_over();
+  s.ended = run.schedule.ended();
+  s.population_settled = run.schedule.population_settled;
+  s.quiet_events = run.schedule.quiet_events;
+  s.at_event = at_event || run.schedule.progress == Progress::at_event;
+  s.coarser_levels = run.coarser_levels;
+  s.steps_done = run.steps_done;
+  s.inserted = run.inserted;
+  s.deleted = run.deleted;
+  s.dropped = run.dropped;
+  s.rebuilds = run.rebuilds_before + level.neighbourhood.rebuilds();
+  s.rebalances = run.rebalances_before + level.rebalances;
+  s.stop_reason = static_cast<int>(run.stop_reason);
+  s.missing_faces = run.surface_fit.missing_faces;
+  s.left_out = level.left_out;
+  s.spacing_saved = saved.patch != nullptr;
+  s.max_speed = run.last_speeds.max;
+  s.mean_speed = run.last_speeds.mean;
+  s.meeting_radius = meeting_radius(level.settings);
+  s.held_rounds = held.rounds;
+  s.nodes_before_held = held.nodes_before;
+  for (const GrowthSource<Dim>& place : held.places) {
+    s.held.insert(s.held.end(), place.x.begin(), place.x.end());
+    s.held.push_back(place.d);
+  }
+  s.domain_fingerprint = fingerprint_of(level.ground.domain());
+  s.checksum = level.comm->allreduce_sum(checksum) + checksum_of(s.held);
+  return saved;
+}
+
+void require_savable_spacing(bool replaced, const Options& now, const Options& then) {
+  const auto refuse = [](const std::string& what) {
+    throw Error(ErrorKind::state, "the nodes are those of another " + what +
+                                      ": write the checkpoint before it is set, or after a run");
+  };
+  if (replaced) refuse("spacing");
+  if (now.integer("resolve") != then.integer("resolve")) refuse("value of the option resolve");
+  for (const char* option : {"wanted_nodes", "growth_limit"})
+    if (now.real(option) != then.real(option) || now.is_set(option) != then.is_set(option))
+      refuse(std::string("value of the option ") + option);
+}
+
+void require_possible(const SavedState& s) {
+  const auto count = [](std::int64_t n) { return n >= 0; };
+  const bool flags = is_flag(s.refined) && is_flag(s.coarser) && is_flag(s.taken_over) &&
+                     is_flag(s.ended) && is_flag(s.population_settled) && is_flag(s.at_event) &&
+                     is_flag(s.spacing_saved);
+  const bool counts = s.nodes > 0 && count(s.next_id) && count(s.step) && count(s.steps_done) &&
+                      count(s.inserted) && count(s.deleted) && count(s.dropped) &&
+                      count(s.held_rounds) && count(s.nodes_before_held) && count(s.rebuilds) &&
+                      count(s.rebalances) && count(s.missing_faces) && count(s.left_out) &&
+                      count(s.quiet_events) && s.quiet_events < 1 << 30 &&
+                      count(s.coarser_levels) && s.coarser_levels < 1 << 10;
+  const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
+                      (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
+                     s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
+  if (!flags || !counts || !kinds || s.coarser)
+    damaged("what it tells of the run is impossible: it is damaged");
+}
+
 template <int Dim>
 Held<Dim> held_in(const SavedState& state) {
   constexpr std::size_t kRow = Dim + 1;
@@ -182,191 +247,49 @@ Held<Dim> held_in(const SavedState& state) {
   return held;
 }
 
-}  // namespace
-
 template <int Dim>
-void PlacementOf<Dim>::require_savable() const {
-  if (!level_) throw Error(ErrorKind::state, "the placement has no nodes yet: call run first");
-  const auto refuse = [](const std::string& what) {
-    throw Error(ErrorKind::state, "the nodes are those of another " + what +
-                                      ": write the checkpoint before it is set, or after a run");
-  };
-  if (spacing_replaced_) refuse("spacing");
-  const Options &now = options_, &then = level_options_;
-  if (now.integer("resolve") != then.integer("resolve")) refuse("value of the option resolve");
-  for (const char* option : {"wanted_nodes", "growth_limit"})
-    if (now.real(option) != then.real(option) || now.is_set(option) != then.is_set(option))
-      refuse(std::string("value of the option ") + option);
+void put_saved_nodes(Level<Dim>& level, const SavedState& saved,
+                     std::vector<SavedNode<Dim>>& nodes) {
+  put_nodes(level, saved, nodes);
+  require_same_spacing(level, nodes);
+  require_same_boundary(level, nodes);
 }
 
 template <int Dim>
-Saved<Dim> PlacementOf<Dim>::saved() {
-  require_kokkos();
-  require_same_options();
-  agreed(*comm_, [this] { require_savable(); });
-  Saved<Dim> saved;
-  SavedState& s = saved.state;
-  saved.nodes = &level_->nodes;
-  saved.spacing = spacing_at_owned_nodes(*level_, level_->ground.spacing());
-  std::uint64_t checksum = 0;
-  agreed(*comm_, [&] {
-    for (std::int32_t i = 0; i < level_->nodes.count; ++i)
-      if (level_->nodes.owned(i)) saved.owned.push_back(i);
-    for (std::int64_t k = 0; k < saved.count(); ++k) checksum += checksum_of(saved.node(k));
-    for (std::size_t w = state_.warnings_of_level; w < state_.warnings.size(); ++w)
-      s.warnings += state_.warnings[w] + "\n";
-    s.options = lines_of_deciding(options_.in(Dim));
-    if (const auto* nodal = dynamic_cast<const NodalSpacing<Dim>*>(spacing_.get()))
-      saved.patch = &nodal->patch();
-  });
-  s.dimension = Dim;
-  s.nodes = global_count();
-  s.next_id = level_->next_id;
-  s.moving = static_cast<int>(level_->nodes.moving);
-  s.step = state_.schedule.step;
-  s.refined = state_.schedule.refined();
-  s.coarser = state_.schedule.role != LevelRole::result;
-  s.taken_over = state_.schedule.taken_over();
-  s.ended = state_.schedule.ended();
-  s.population_settled = state_.schedule.population_settled;
-  s.quiet_events = state_.schedule.quiet_events;
-  s.at_event = monitoring_.at_event() || state_.schedule.progress == Progress::at_event;
-  s.coarser_levels = state_.coarser_levels;
-  s.steps_done = state_.steps_done;
-  s.inserted = state_.inserted;
-  s.deleted = state_.deleted;
-  s.dropped = state_.dropped;
-  s.rebuilds = rebuilds();
-  s.rebalances = rebalances();
-  s.stop_reason = static_cast<int>(state_.stop_reason);
-  s.missing_faces = state_.surface_fit.missing_faces;
-  s.left_out = level_->left_out;
-  s.spacing_saved = saved.patch != nullptr;
-  s.max_speed = state_.last_speeds.max;
-  s.mean_speed = state_.last_speeds.mean;
-  s.meeting_radius = meeting_radius(level_->settings);
-  s.held_rounds = placed_.held.rounds;
-  s.nodes_before_held = placed_.held.nodes_before;
-  for (const GrowthSource<Dim>& place : placed_.held.places) {
-    s.held.insert(s.held.end(), place.x.begin(), place.x.end());
-    s.held.push_back(place.d);
-  }
-  s.domain_fingerprint = fingerprint_of(level_->ground.domain());
-  s.checksum = comm_->allreduce_sum(checksum) + checksum_of(s.held);
-  return saved;
-}
-
-template <int Dim>
-void PlacementOf<Dim>::require_same_as(const SavedState& saved) {
-  require_kokkos();
-  require_same_options();
-  agreed(*comm_, [this] { domain_->check(); });
-  require_same_domain();
-  if (saved.dimension != Dim)
-    throw Error(ErrorKind::argument, "it is of a placement in " + std::to_string(saved.dimension) +
-                                         " dimensions, not in " + std::to_string(Dim));
-  require_possible(saved);
-  if (saved.domain_fingerprint != fingerprint_of(*domain_))
-    throw Error(ErrorKind::domain, "the domain is not the one it was written with");
-  changes_since(saved.options, options_.in(Dim));
-}
-
-template <int Dim>
-void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Dim>> nodes,
-                               Patch<Dim> patch) {
-  const PhaseTimer timer(timers_, Phase::total);
-  require_same_as(state);
-  const std::shared_ptr<const Spacing<Dim>> before = spacing_;
-  try {
-    if (state.spacing_saved)
-      spacing_ = std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch));
-    const Settings settings = settings_for_new_level();
-    PlacedSpacing<Dim> placed;
-    placed.held = held_in<Dim>(state);
-    std::unique_ptr<Level<Dim>> next = level_to_place(settings, placed);
-    put_saved_nodes(*next, state, nodes);
-    require_same_spacing(*next, nodes);
-    require_same_boundary(*next, nodes);
-    // As it would have been at the next step after the options were changed.
-    if (state.meeting_radius != meeting_radius(settings)) next->nodes.set_reference_positions();
-    exchange(*next, kStarHops<Dim>);
-    if (level_) state_.keep_counts(*level_);
-    state_.forget_finish();
-    keep(std::move(next));
-    gather_warnings(placed.steepest);
-    placed_ = std::move(placed);
-  } catch (...) {
-    spacing_ = before;
-    throw;
-  }
-  level_options_ = options_;
-  spacing_replaced_ = false;
-  adopt_state(state);
-  adopt_changes(changes_since(state.options, options_.in(Dim)));
-}
-
-// A run that was at its end goes on from its nodes where there is something to do: with other
-// options than the number of steps it begins again.
-void Placement::adopt_changes(const std::vector<OptionChange>& changes) {
-  constexpr std::string_view kOfFirstNodes[] = {"levels", "coarsest_steps", "refined_steps"};
-  if (changes.empty()) return;
-  bool more_steps = false, others = false;
-  for (const OptionChange& change : changes) {
-    more_steps = more_steps || change.name == "steps";
-    others = others || (change.name != "steps" &&
-                        std::ranges::find(kOfFirstNodes, std::string_view(change.name)) ==
-                            std::end(kOfFirstNodes));
-  }
-  std::string told = "options changed since the checkpoint: " + text_of(changes);
-  if (finished() && others) {
-    state_.schedule = state_.schedule.again();
-  } else if (finished() && more_steps && state_.stop_reason == StopReason::rest) {
-    told += "; the bubbles rest after " + std::to_string(state_.schedule.step) +
-            " steps, and more of them change nothing: lower tolerance_mean for a run that goes on";
-  } else if (finished() && more_steps &&
-             state_.schedule.step < options_.in(dimension()).integer("steps")) {
-    state_.schedule.progress = Progress::steps;
-    state_.schedule.population_settled = false;
-    state_.schedule.quiet_events = 0;
-  } else if (finished()) {
-    told += "; the run is at its end, and they change nothing of it";
-  }
-  state_.warnings.insert(
-      state_.warnings.begin() + static_cast<std::ptrdiff_t>(state_.warnings_of_level), told);
-  ++state_.warnings_of_level;
-}
-
-template <int Dim>
-void PlacementOf<Dim>::adopt_state(const SavedState& s) {
-  state_.schedule = Schedule();
-  state_.schedule.step = s.step;
-  state_.schedule.first_nodes = first_nodes_of(s.refined, s.taken_over);
-  state_.schedule.progress = s.ended      ? Progress::ended
-                             : s.at_event ? Progress::at_event
-                                          : Progress::steps;
-  state_.schedule.population_settled = s.population_settled;
-  state_.schedule.quiet_events = static_cast<int>(s.quiet_events);
-  state_.coarser_levels = static_cast<int>(s.coarser_levels);
-  state_.last_speeds = {s.max_speed, s.mean_speed};
-  state_.steps_done = s.steps_done;
-  state_.inserted = s.inserted;
-  state_.deleted = s.deleted;
-  state_.dropped = s.dropped;
-  state_.rebuilds_before = s.rebuilds;
-  state_.rebalances_before = s.rebalances;
-  state_.stop_reason = static_cast<StopReason>(s.stop_reason);
-  state_.surface_fit.missing_faces = s.missing_faces;
-  level_->left_out = s.left_out;
-  level_->held_rounds = s.held_rounds;
+void adopt_state(const SavedState& s, RunState& run, Level<Dim>& level) {
+  run.schedule = Schedule();
+  run.schedule.step = s.step;
+  run.schedule.first_nodes = first_nodes_of(s.refined, s.taken_over);
+  run.schedule.progress = s.ended      ? Progress::ended
+                          : s.at_event ? Progress::at_event
+                                       : Progress::steps;
+  run.schedule.population_settled = s.population_settled;
+  run.schedule.quiet_events = static_cast<int>(s.quiet_events);
+  run.coarser_levels = static_cast<int>(s.coarser_levels);
+  run.last_speeds = {s.max_speed, s.mean_speed};
+  run.steps_done = s.steps_done;
+  run.inserted = s.inserted;
+  run.deleted = s.deleted;
+  run.dropped = s.dropped;
+  run.rebuilds_before = s.rebuilds;
+  run.rebalances_before = s.rebalances;
+  run.stop_reason = static_cast<StopReason>(s.stop_reason);
+  run.surface_fit.missing_faces = s.missing_faces;
+  level.left_out = s.left_out;
+  level.held_rounds = s.held_rounds;
   std::istringstream lines(s.warnings);
-  for (std::string line; std::getline(lines, line);) state_.warnings.push_back(line);
+  for (std::string line; std::getline(lines, line);) run.warnings.push_back(line);
 }
 
-template Saved<2> PlacementOf<2>::saved();
-template Saved<3> PlacementOf<3>::saved();
-template void PlacementOf<2>::require_same_as(const SavedState&);
-template void PlacementOf<3>::require_same_as(const SavedState&);
-template void PlacementOf<2>::restore(const SavedState&, std::vector<SavedNode<2>>, Patch<2>);
-template void PlacementOf<3>::restore(const SavedState&, std::vector<SavedNode<3>>, Patch<3>);
+template Saved<2> saved_of(const Level<2>&, const Held<2>&, const Spacing<2>&, const RunState&,
+                           const Options&, bool);
+template Held<2> held_in(const SavedState&);
+template void put_saved_nodes(Level<2>&, const SavedState&, std::vector<SavedNode<2>>&);
+template void adopt_state(const SavedState&, RunState&, Level<2>&);
+template Saved<3> saved_of(const Level<3>&, const Held<3>&, const Spacing<3>&, const RunState&,
+                           const Options&, bool);
+template Held<3> held_in(const SavedState&);
+template void put_saved_nodes(Level<3>&, const SavedState&, std::vector<SavedNode<3>>&);
+template void adopt_state(const SavedState&, RunState&, Level<3>&);
 
 }  // namespace pnpbs

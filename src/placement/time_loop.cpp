@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The time loop: steps, the events between them, and the finish.
 #include <algorithm>
 #include <cmath>
 #include <exception>

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The spacing as it counts: as given, no larger than makes sense or, if the user wants it so, than
+// resolves the shape, or with its growth limited, because the user wants that or because nodes
+// could not follow d as given.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "comm/communicator.hpp"
+#include "domain/domain.hpp"
+#include "level/finer_places.hpp"
+#include "settings/options.hpp"
+#include "settings/settings.hpp"
+#include "spacing/spacing.hpp"
+#include "spacing/steepest_growth.hpp"
+
+namespace pnpbs {
+
+// The lattice that fills a body with even d, unless so many nodes are wanted: whole layers come in
+// steps.
+inline bool lattice_is_stretched(const Options& options) {
+  return options.real("wanted_nodes") == 0;
+}
+
+// All functions are collective.
+template <int Dim>
+class SpacingToPlace {
+ public:
+  // From the user's spacing.
+  SpacingToPlace(std::shared_ptr<const Communicator> comm,
+                 std::shared_ptr<const Domain<Dim>> domain,
+                 std::shared_ptr<const Spacing<Dim>> spacing, const Options& options)
+      : comm_(std::move(comm)),
+        domain_(std::move(domain)),
+        spacing_(std::move(spacing)),
+        options_(options) {}
+
+  // No larger than makes sense, and with so many nodes as are wanted.
+  std::shared_ptr<const Spacing<Dim>> spacing_to_place(const Settings& settings) const;
+  // With its growth limited. It calls beat() again and again.
+  std::shared_ptr<const Spacing<Dim>> growth_limited(std::shared_ptr<const Spacing<Dim>> spacing,
+                                                     const Settings& settings,
+                                                     const std::function<void()>& beat) const;
+
+  const Communicator& comm() const { return *comm_; }
+  const Domain<Dim>& domain() const { return *domain_; }
+  const Options& options() const { return options_; }
+
+ private:
+  std::shared_ptr<const Spacing<Dim>> bounded(std::shared_ptr<const Spacing<Dim>> spacing,
+                                              const Settings& settings) const;
+  double factor_for(double wanted_nodes, const Settings& settings) const;
+  double estimated_nodes(std::shared_ptr<const Spacing<Dim>> spacing,
+                         const Settings& settings) const;
+
+  std::shared_ptr<const Communicator> comm_;
+  std::shared_ptr<const Domain<Dim>> domain_;
+  std::shared_ptr<const Spacing<Dim>> spacing_;
+  const Options& options_;
+};
+
+extern template class SpacingToPlace<2>;
+extern template class SpacingToPlace<3>;
+
+// The spacing, and places at which nodes came upon more than its samples had told of it.
+// Collective.
+std::shared_ptr<const Spacing<3>> spacing_with(const FinerPlaces& found, const Communicator& comm,
+                                               const VolumeDomain& domain,
+                                               std::shared_ptr<const Spacing<3>> spacing);
+
+// Is it steeper than nodes can follow?
+template <int Dim>
+bool too_steep(const SteepestGrowth<Dim>& steepest);
+template <int Dim>
+std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_limit);
+
+}  // namespace pnpbs

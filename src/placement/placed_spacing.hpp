@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The spacing with which a level is placed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "spacing/spacing.hpp"
+#include "spacing/steepest_growth.hpp"
+
+namespace pnpbs {
+
+// Where the spacing is held down, since there the elements of an earlier round did not fill the
+// domain.
+template <int Dim>
+struct Held {
+  std::vector<GrowthSource<Dim>> places;
+  std::int64_t rounds = 0, nodes_before = 0;  // after the round before the first of these
+};
+
+// The spacing as it counts: what it would be without the places where it is held down, these, and
+// how steep it is where the user sets no limit.
+template <int Dim>
+struct PlacedSpacing {
+  std::shared_ptr<const Spacing<Dim>> d, unheld;
+  Held<Dim> held;
+  SteepestGrowth<Dim> steepest;
+};
+
+}  // namespace pnpbs
