@@ -30,6 +30,8 @@ class LevelTree {
   LevelTree(const LevelTree<Dim>&) = delete;  // the distribution points to the tree
   LevelTree<Dim>& operator=(const LevelTree<Dim>&) = delete;
 
+  const Communicator& comm() const { return comm_; }
+  const Ground<Dim>& ground() const { return ground_; }
   const DomainMap<Dim>& map() const { return map_; }
   const BackgroundTree<Dim>& tree() const { return map_.tree(); }
   // Leaves of which one reaches the other.
@@ -44,35 +46,18 @@ class LevelTree {
   // Made on first use, and kept.
   const Halo& halo(int hops, const Settings& settings);
 
-  // Another partition, by the work counted in each leaf of ours; most of it stays where it is.
-  // Collective.
-  Distribution<Dim> redistributed(const Settings& settings,
-                                  const std::vector<std::int64_t>& work) const;
-
  private:
   LevelTree(const Communicator& comm, const Ground<Dim>& ground) : comm_(comm), ground_(ground) {}
   bool distributed() const { return comm_.size() > 1; }
 
-  // --- growing ---
   void grow_whole(const Settings& settings);
   void grow_part(const Settings& settings, const LevelTree<Dim>* like);
+  void take_rough_cells(const Settings& settings);
+  std::vector<PartitionCell<Dim>> rough_cells(const Settings& settings);
   void refine(const Settings& settings, const std::vector<char>& refined);
   std::vector<GrowthSource<Dim>> known_values(const Settings& settings) const;
   void link_leaves(const Settings& settings);
   void grow_own_part(const Settings& settings);
-
-  // --- the partition ---
-  void take_rough_cells(const Settings& settings);
-  std::vector<PartitionCell<Dim>> rough_cells(const Settings& settings);
-  std::vector<std::int64_t> expected_work() const;
-  PartitionCells<Dim> cells_of_equal_work(const std::vector<std::int64_t>& work) const;
-  std::vector<std::int32_t> cut_on_first_rank(const Settings& settings,
-                                              const PartitionCells<Dim>& cells) const;
-  std::vector<std::int32_t> cut_like(const Settings& settings, const Distribution<Dim>& other,
-                                     const PartitionCells<Dim>& cells) const;
-  std::vector<std::int32_t> keep_numbers(const PartitionCells<Dim>& cells,
-                                         std::vector<std::int32_t> part,
-                                         const std::vector<std::int64_t>& work) const;
   void require_same_ground() const;
   void require_same_leaves() const;
 

@@ -3,6 +3,7 @@
 
 #include "level/exchange.hpp"
 #include "level/lists_and_stars.hpp"
+#include "level/partitioning.hpp"
 #include "level/reach.hpp"
 
 namespace pnpbs {
@@ -44,7 +45,7 @@ void rebalance(Level<Dim>& level) {
   exchange(level, hops);
   agreed(*level.comm, [&] { rebuild_lists_for_steps(level); });
   const PhaseTimer timer(level.timers, Phase::partition);
-  level.adopt_partition(level.tree->redistributed(level.settings, counted_work(level)));
+  level.adopt_partition(redistributed(*level.tree, level.settings, counted_work(level)));
   migrate(level);
   exchange(level, hops);
   level.neighbourhood.recount_work();

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How the tree of a level grows: the same everywhere on one rank, and over several in full only
 // where a rank's own nodes and ghosts can be.
+#include <limits>
+#include <numeric>
+
 #include "base/error.hpp"
 #include "base/mixed_hash.hpp"
 #include "comm/records.hpp"
 #include "level/level_tree.hpp"
+#include "level/partitioning.hpp"
 #include "level/reach.hpp"
+#include "partition/partition.hpp"
 
 namespace pnpbs {
 
@@ -60,11 +65,45 @@ void LevelTree<Dim>::grow_part(const Settings& settings, const LevelTree<Dim>* l
   for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
     own.push_back(distribution_.owner_of_cell(c) == comm_.rank());
   refine(settings, own);
-  PartitionCells<Dim> cells = cells_of_equal_work(expected_work());
-  std::vector<std::int32_t> owner =
-      like ? cut_like(settings, like->distribution_, cells) : cut_on_first_rank(settings, cells);
+  PartitionCells<Dim> cells = cells_of_equal_work(*this, expected_work(map_));
+  std::vector<std::int32_t> owner = like ? cut_like(comm_, settings, like->distribution_, cells)
+                                         : cut_on_first_rank(comm_, settings, cells);
   distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_.rank());
   grow_own_part(settings);
+}
+
+// By a few samples of d.
+template <int Dim>
+void LevelTree<Dim>::take_rough_cells(const Settings& settings) {
+  PartitionCells<Dim> cells(ground_.bounds(), rough_cells(settings));
+  std::vector<std::int32_t> owner = cut_morton_order(cells.work(), comm_.size());
+  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_.rank());
+}
+
+// From samples of d in large cells, the same on every rank: enough to begin with.
+template <int Dim>
+std::vector<PartitionCell<Dim>> LevelTree<Dim>::rough_cells(const Settings& settings) {
+  constexpr int kUniformDepth = 3, kPasses = 3, kCellsPerRank = 32;
+  double max = std::numeric_limits<double>::infinity();
+  std::vector<std::int64_t> work;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    map_.build_part(
+        comm_, ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
+        [&](const BackgroundTree<Dim>& tree, std::int32_t c, double nodes) {
+          return tree.cell(c).depth < kUniformDepth || nodes > max;
+        },
+        kLevelRefinement<Dim>);
+    work = expected_work(map_);
+    max = static_cast<double>(std::accumulate(work.begin(), work.end(), std::int64_t{0})) /
+          (kWorkPerNode * kCellsPerRank * comm_.size());
+  }
+  std::vector<PartitionCell<Dim>> cells;
+  for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    const typename BackgroundTree<Dim>::Cell& cell = map_.tree().cell(map_.tree().leaf_cell(leaf));
+    cells.push_back({cell.index, cell.depth, work[static_cast<std::size_t>(leaf)],
+                     map_.leaf_max_spacing(leaf)});
+  }
+  return cells;
 }
 
 // The tree in full in the cells marked.
