@@ -354,15 +354,7 @@ template <int Dim>
 void PlacementOf<Dim>::require_same_as(const SavedState& saved) {
   require_kokkos();
   require_same_options();
-  agreed(*comm_, [this] { domain_->check(); });
-  require_same_domain(*comm_, *domain_);
-  if (saved.dimension != Dim)
-    throw Error(ErrorKind::argument, "it is of a placement in " + std::to_string(saved.dimension) +
-                                         " dimensions, not in " + std::to_string(Dim));
-  require_possible(saved);
-  if (saved.domain_fingerprint != fingerprint_of(*domain_))
-    throw Error(ErrorKind::domain, "the domain is not the one it was written with");
-  changes_since(saved.options, options_.in(Dim));
+  pnpbs::require_same_as<Dim>(saved, *comm_, *domain_, options_);
 }
 
 template <int Dim>
@@ -376,12 +368,9 @@ void PlacementOf<Dim>::restore(const SavedState& state, std::vector<SavedNode<Di
       spacing_ = std::make_shared<NodalSpacing<Dim>>(comm_, std::move(patch));
     const Settings settings = settings_for_new_level();
     PlacedSpacing<Dim> placed;
-    placed.held = held_in<Dim>(state);
-    std::unique_ptr<Level<Dim>> next = builder().level_to_place(to_place(), settings, placed);
-    put_saved_nodes(*next, state, nodes);
-    // As it would have been at the next step after the options were changed.
-    if (state.meeting_radius != meeting_radius(settings)) next->nodes.set_reference_positions();
-    exchange(*next, kStarHops<Dim>);
+    LevelBuilder<Dim> builder = this->builder();
+    std::unique_ptr<Level<Dim>> next =
+        saved_level(state, std::move(nodes), builder, to_place(), settings, placed);
     replace_level(std::move(next), std::move(placed));
   } catch (...) {
     spacing_ = before;

@@ -10,6 +10,7 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "comm/records.hpp"
+#include "level/exchange.hpp"
 #include "level/node_spacing.hpp"
 #include "level/reach.hpp"
 #include "placement/domain_fingerprint.hpp"
@@ -89,7 +90,8 @@ void require_different_ids(const Communicator& comm, const std::vector<SavedNode
 
 // Each to the rank that owns its place.
 template <int Dim>
-void put_nodes(Level<Dim>& level, const SavedState& state, std::vector<SavedNode<Dim>>& saved) {
+void put_saved_nodes(Level<Dim>& level, const SavedState& state,
+                     std::vector<SavedNode<Dim>>& saved) {
   const Communicator& comm = *level.comm;
   agreed(comm, [&] {
     for (const SavedNode<Dim>& one : saved)
@@ -139,6 +141,43 @@ void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<D
                                           number_text(saved[k].spacing));
     }
   });
+}
+
+// What no placement can have saved.
+void require_possible(const SavedState& s) {
+  const auto count = [](std::int64_t n) { return n >= 0; };
+  const bool flags = is_flag(s.refined) && is_flag(s.coarser) && is_flag(s.taken_over) &&
+                     is_flag(s.ended) && is_flag(s.population_settled) && is_flag(s.at_event) &&
+                     is_flag(s.spacing_saved);
+  const bool counts = s.nodes > 0 && count(s.next_id) && count(s.step) && count(s.steps_done) &&
+                      count(s.inserted) && count(s.deleted) && count(s.dropped) &&
+                      count(s.held_rounds) && count(s.nodes_before_held) && count(s.rebuilds) &&
+                      count(s.rebalances) && count(s.missing_faces) && count(s.left_out) &&
+                      count(s.quiet_events) && s.quiet_events < 1 << 30 &&
+                      count(s.coarser_levels) && s.coarser_levels < 1 << 10;
+  const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
+                      (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
+                     s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
+  if (!flags || !counts || !kinds || s.coarser)
+    damaged("what it tells of the run is impossible: it is damaged");
+}
+
+template <int Dim>
+Held<Dim> held_in(const SavedState& state) {
+  constexpr std::size_t kRow = Dim + 1;
+  if (state.held.size() % kRow != 0)
+    damaged("a place where d is held down is cut off: it is damaged");
+  Held<Dim> held{{}, state.held_rounds, state.nodes_before_held};
+  for (std::size_t k = 0; k < state.held.size(); k += kRow) {
+    GrowthSource<Dim> place;
+    std::copy_n(state.held.begin() + static_cast<std::ptrdiff_t>(k), Dim, place.x.begin());
+    place.d = state.held[k + Dim];
+    if (!is_usable(place.x) || !(place.d > 0) || !is_usable(place.d))
+      damaged("d is held down to " + number_text(place.d) + " at " + point_text(place.x) +
+              ": it is damaged");
+    held.places.push_back(place);
+  }
+  return held;
 }
 
 }  // namespace
@@ -211,48 +250,34 @@ void require_savable_spacing(bool replaced, const Options& now, const Options& t
       refuse(std::string("value of the option ") + option);
 }
 
-void require_possible(const SavedState& s) {
-  const auto count = [](std::int64_t n) { return n >= 0; };
-  const bool flags = is_flag(s.refined) && is_flag(s.coarser) && is_flag(s.taken_over) &&
-                     is_flag(s.ended) && is_flag(s.population_settled) && is_flag(s.at_event) &&
-                     is_flag(s.spacing_saved);
-  const bool counts = s.nodes > 0 && count(s.next_id) && count(s.step) && count(s.steps_done) &&
-                      count(s.inserted) && count(s.deleted) && count(s.dropped) &&
-                      count(s.held_rounds) && count(s.nodes_before_held) && count(s.rebuilds) &&
-                      count(s.rebalances) && count(s.missing_faces) && count(s.left_out) &&
-                      count(s.quiet_events) && s.quiet_events < 1 << 30 &&
-                      count(s.coarser_levels) && s.coarser_levels < 1 << 10;
-  const bool kinds = (s.moving == static_cast<int>(Carrier::free) ||
-                      (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
-                     s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
-  if (!flags || !counts || !kinds || s.coarser)
-    damaged("what it tells of the run is impossible: it is damaged");
+template <int Dim>
+void require_same_as(const SavedState& saved, const Communicator& comm, Domain<Dim>& domain,
+                     const Options& options) {
+  agreed(comm, [&] { domain.check(); });
+  require_same_domain(comm, domain);
+  if (saved.dimension != Dim)
+    throw Error(ErrorKind::argument, "it is of a placement in " + std::to_string(saved.dimension) +
+                                         " dimensions, not in " + std::to_string(Dim));
+  require_possible(saved);
+  if (saved.domain_fingerprint != fingerprint_of(domain))
+    throw Error(ErrorKind::domain, "the domain is not the one it was written with");
+  changes_since(saved.options, options.in(Dim));
 }
 
 template <int Dim>
-Held<Dim> held_in(const SavedState& state) {
-  constexpr std::size_t kRow = Dim + 1;
-  if (state.held.size() % kRow != 0)
-    damaged("a place where d is held down is cut off: it is damaged");
-  Held<Dim> held{{}, state.held_rounds, state.nodes_before_held};
-  for (std::size_t k = 0; k < state.held.size(); k += kRow) {
-    GrowthSource<Dim> place;
-    std::copy_n(state.held.begin() + static_cast<std::ptrdiff_t>(k), Dim, place.x.begin());
-    place.d = state.held[k + Dim];
-    if (!is_usable(place.x) || !(place.d > 0) || !is_usable(place.d))
-      damaged("d is held down to " + number_text(place.d) + " at " + point_text(place.x) +
-              ": it is damaged");
-    held.places.push_back(place);
-  }
-  return held;
-}
-
-template <int Dim>
-void put_saved_nodes(Level<Dim>& level, const SavedState& saved,
-                     std::vector<SavedNode<Dim>>& nodes) {
-  put_nodes(level, saved, nodes);
-  require_same_spacing(level, nodes);
-  require_same_boundary(level, nodes);
+std::unique_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
+                                        LevelBuilder<Dim>& builder,
+                                        const SpacingToPlace<Dim>& to_place,
+                                        const Settings& settings, PlacedSpacing<Dim>& placed) {
+  placed.held = held_in<Dim>(saved);
+  std::unique_ptr<Level<Dim>> level = builder.level_to_place(to_place, settings, placed);
+  put_saved_nodes(*level, saved, nodes);
+  require_same_spacing(*level, nodes);
+  require_same_boundary(*level, nodes);
+  // As it would have been at the next step after the options were changed.
+  if (saved.meeting_radius != meeting_radius(settings)) level->nodes.set_reference_positions();
+  exchange(*level, kStarHops<Dim>);
+  return level;
 }
 
 template <int Dim>
@@ -283,13 +308,19 @@ void adopt_state(const SavedState& s, RunState& run, Level<Dim>& level) {
 
 template Saved<2> saved_of(const Level<2>&, const Held<2>&, const Spacing<2>&, const RunState&,
                            const Options&, bool);
-template Held<2> held_in(const SavedState&);
-template void put_saved_nodes(Level<2>&, const SavedState&, std::vector<SavedNode<2>>&);
+template void require_same_as<2>(const SavedState&, const Communicator&, Domain<2>&,
+                                 const Options&);
+template std::unique_ptr<Level<2>> saved_level(const SavedState&, std::vector<SavedNode<2>>,
+                                               LevelBuilder<2>&, const SpacingToPlace<2>&,
+                                               const Settings&, PlacedSpacing<2>&);
 template void adopt_state(const SavedState&, RunState&, Level<2>&);
 template Saved<3> saved_of(const Level<3>&, const Held<3>&, const Spacing<3>&, const RunState&,
                            const Options&, bool);
-template Held<3> held_in(const SavedState&);
-template void put_saved_nodes(Level<3>&, const SavedState&, std::vector<SavedNode<3>>&);
+template void require_same_as<3>(const SavedState&, const Communicator&, Domain<3>&,
+                                 const Options&);
+template std::unique_ptr<Level<3>> saved_level(const SavedState&, std::vector<SavedNode<3>>,
+                                               LevelBuilder<3>&, const SpacingToPlace<3>&,
+                                               const Settings&, PlacedSpacing<3>&);
 template void adopt_state(const SavedState&, RunState&, Level<3>&);
 
 }  // namespace pnpbs

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "level/level.hpp"
+#include "placement/level_builder.hpp"
+#include "placement/limiting_growth.hpp"
 #include "placement/placed_spacing.hpp"
 #include "placement/run_state.hpp"
 #include "placement/saved_state.hpp"
@@ -39,14 +42,17 @@ Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Spacin
 // Throws Error(ErrorKind::state) if the nodes wait for another spacing than they were placed for:
 // one that replaced it, or what these options have made of it since then.
 void require_savable_spacing(bool replaced, const Options& now, const Options& then);
-// Throws what no placement can have saved.
-void require_possible(const SavedState& saved);
+// Throws unless it is of this dimension, domain and these options. Collective.
 template <int Dim>
-Held<Dim> held_in(const SavedState& saved);
-// On a level that has none, if its boundary and its spacing are those of then. Collective.
+void require_same_as(const SavedState& saved, const Communicator& comm, Domain<Dim>& domain,
+                     const Options& options);
+// The level that goes on from there, if its boundary and its spacing are those of then. `nodes`:
+// anyone's, all of them over all ranks. Collective.
 template <int Dim>
-void put_saved_nodes(Level<Dim>& level, const SavedState& saved,
-                     std::vector<SavedNode<Dim>>& nodes);
+std::unique_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
+                                        LevelBuilder<Dim>& builder,
+                                        const SpacingToPlace<Dim>& to_place,
+                                        const Settings& settings, PlacedSpacing<Dim>& placed);
 // The run goes on from there, on that level.
 template <int Dim>
 void adopt_state(const SavedState& saved, RunState& run, Level<Dim>& level);
