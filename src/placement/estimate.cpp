@@ -32,7 +32,8 @@ template <int Dim>
 Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settings) {
   const Communicator& comm = to_place.comm();
   const double ranks = comm.size();
-  const double nodes = estimated_nodes(to_place, to_place.spacing_to_place(settings), settings);
+  const double nodes =
+      estimated_nodes(to_place, to_place.spacing_to_place(settings), settings, Samples::many);
   const double threads = from_fixed_point(comm.allreduce_sum(
       static_cast<std::uint64_t>(fixed_point(static_cast<double>(thread_count())))));
   return {static_cast<std::int64_t>(std::round(nodes)),
@@ -44,10 +45,11 @@ Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settin
 // refused where that would be.
 template <int Dim>
 double estimated_nodes(const SpacingToPlace<Dim>& to_place,
-                       std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings) {
+                       std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings,
+                       Samples samples) {
   const auto estimate_with = [&](const Spacing<Dim>& d) {
     return estimate_nodes<Dim>(to_place.comm(), to_place.domain(), d, settings.max_nodes,
-                               lattice_is_stretched(to_place.options()));
+                               lattice_is_stretched(to_place.options()), samples);
   };
   if (!settings.user_limits_growth()) {
     const NodeEstimate<Dim> estimate = estimate_with(*spacing);
@@ -66,8 +68,8 @@ double bytes_allowed(const Communicator& comm, const Options& options) {
 template Estimate estimate_of(const SpacingToPlace<2>&, const Settings&);
 template Estimate estimate_of(const SpacingToPlace<3>&, const Settings&);
 template double estimated_nodes(const SpacingToPlace<2>&, std::shared_ptr<const Spacing<2>>,
-                                const Settings&);
+                                const Settings&, Samples);
 template double estimated_nodes(const SpacingToPlace<3>&, std::shared_ptr<const Spacing<3>>,
-                                const Settings&);
+                                const Settings&, Samples);
 
 }  // namespace pnpbs

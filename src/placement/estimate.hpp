@@ -16,7 +16,8 @@ Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settin
 // The nodes with which a run with this spacing is expected to end. Collective.
 template <int Dim>
 double estimated_nodes(const SpacingToPlace<Dim>& to_place,
-                       std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings);
+                       std::shared_ptr<const Spacing<Dim>> spacing, const Settings& settings,
+                       Samples samples);
 
 // Of memory, for the nodes of all ranks: these share what their machines have, and hold equal
 // parts. Collective.

@@ -38,26 +38,32 @@ std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::spacing_to_place(
 // The factor on d with which a run is expected to come to so many nodes. Their number goes with the
 // factor to the power of the dimension where the boundary has few of them, and less where its
 // vertices are many: the power is taken from the last two rounds. Below the number of vertices
-// there is nothing to find, and the search ends where the number does not change any more.
+// there is nothing to find, and the search ends where the number does not change any more. Few
+// samples lead near it, and one estimate by many corrects the rest.
 template <int Dim>
 double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& settings) const {
   constexpr int kMaxRounds = 10;
-  constexpr double kNear = 1e-3, kMinPower = 0.5, kMaxStep = 4;
+  constexpr double kNear = 0.05, kSame = 1e-3, kMinPower = 0.5, kMaxStep = 64;
   const double steepest = settings.dimension;
+  const auto more_than_wanted = [&](double factor, Samples samples) {
+    return estimated_nodes(*this, bounded(resized(spacing_, factor), settings), settings, samples) /
+           wanted_nodes;
+  };
   double factor = 1, power = steepest, before = 0, step = 1;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const double more =
-        estimated_nodes(bounded(resized(spacing_, factor), settings), settings) / wanted_nodes;
-    if (!(more > 0) || std::fabs(more - 1) < kNear) break;
-    if (round > 0) {
-      if (std::fabs(more / before - 1) < kNear) break;
+    const double more = more_than_wanted(factor, Samples::few);
+    if (!(more > 0)) return factor;
+    if (before > 0) {
+      if (std::fabs(more / before - 1) < kSame) return factor;
       power = std::clamp(-std::log(more / before) / std::log(step), kMinPower, 1.5 * steepest);
     }
+    if (std::fabs(more - 1) < kNear) break;
     before = more;
     step = std::clamp(std::pow(more, 1 / power), 1 / kMaxStep, kMaxStep);
     factor *= step;
   }
-  return factor;
+  const double more = more_than_wanted(factor, Samples::many);
+  return more > 0 ? factor * std::pow(more, 1 / power) : factor;
 }
 
 template <int Dim>
@@ -109,12 +115,6 @@ std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::growth_limited(
     }
   });
   return spacing;
-}
-
-template <int Dim>
-double SpacingToPlace<Dim>::estimated_nodes(std::shared_ptr<const Spacing<Dim>> spacing,
-                                            const Settings& settings) const {
-  return pnpbs::estimated_nodes(*this, std::move(spacing), settings);
 }
 
 // As the spacing itself has them: on the level it may be multiplied by a factor.

@@ -53,8 +53,6 @@ class SpacingToPlace {
   std::shared_ptr<const Spacing<Dim>> bounded(std::shared_ptr<const Spacing<Dim>> spacing,
                                               const Settings& settings) const;
   double factor_for(double wanted_nodes, const Settings& settings) const;
-  double estimated_nodes(std::shared_ptr<const Spacing<Dim>> spacing,
-                         const Settings& settings) const;
 
   std::shared_ptr<const Communicator> comm_;
   std::shared_ptr<const Domain<Dim>> domain_;

@@ -19,8 +19,9 @@ namespace pnpbs {
 
 namespace {
 
-// Sample points in a leaf near the boundary.
-constexpr int kMinPerLeaf = 16, kMaxPerLeaf = 1024;
+// Sample points in all leaves near the boundary, about, and in one of them.
+constexpr double kFewSamples = 4e3, kManySamples = 6e4;
+constexpr int kMinPerLeaf = 2, kMinOfMany = 16, kMaxPerLeaf = 1024;
 constexpr double kMaxTests = 1e7;  // of points against facets
 
 // The n-th of points that fill a cell evenly however many there are, and along no axis twice in the
@@ -60,16 +61,18 @@ bool near_boundary(const DomainMap<Dim>& map, const BoundaryRoom<Dim>& boundary,
 
 template <int Dim>
 LeavesNearBoundary<Dim> leaves_near_boundary(const DomainMap<Dim>& map,
-                                             const BoundaryRoom<Dim>& boundary, double samples) {
+                                             const BoundaryRoom<Dim>& boundary, Samples samples) {
+  const bool many = samples == Samples::many;
   LeavesNearBoundary<Dim> near;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf)
     if (!map.leaf_outside(leaf) && near_boundary(map, boundary, leaf)) near.leaves.push_back(leaf);
-  const double wanted = samples / std::max(1.0, static_cast<double>(near.leaves.size()));
+  const double wanted =
+      (many ? kManySamples : kFewSamples) / std::max(1.0, static_cast<double>(near.leaves.size()));
   std::size_t facets = 0;  // that a test of whether a point is inside may look at
   for (const std::int32_t leaf : near.leaves) facets += map.facets_of_leaf(leaf).size();
   const double affordable = kMaxTests / std::max(1.0, static_cast<double>(facets));
-  const int per_leaf =
-      static_cast<int>(std::clamp<double>(std::min(wanted, affordable), kMinPerLeaf, kMaxPerLeaf));
+  const int per_leaf = static_cast<int>(std::clamp<double>(
+      std::min(wanted, affordable), many ? kMinOfMany : kMinPerLeaf, kMaxPerLeaf));
   near.points_per_leaf = per_leaf;
   std::int64_t number = 0;
   for (const std::int32_t leaf : near.leaves) {
@@ -88,7 +91,7 @@ LeavesNearBoundary<Dim> leaves_near_boundary(const DomainMap<Dim>& map,
 // better, by the domain's area or volume.
 template <int Dim>
 double room_inside(const DomainMap<Dim>& map, double measure, const SpacingEvaluator<Dim>& spacing,
-                   const BoundaryRoom<Dim>& boundary, double samples) {
+                   const BoundaryRoom<Dim>& boundary, Samples samples) {
   const auto volume_of = [&](std::int32_t leaf) {
     return power<Dim>(map.tree().cell_side(map.tree().leaf_cell(leaf)));
   };
@@ -175,10 +178,10 @@ double room_on_surfaces(const DomainMap<3>& map, double area) {
   return nodes * area / crossed;
 }
 
-// Nodes that are not of the boundary, by about so many samples near it; on surfaces alone all.
+// Nodes that are not of the boundary; on surfaces alone all.
 template <int Dim>
 double nodes_in(const DomainMap<Dim>& map, const Domain<Dim>& domain,
-                const SpacingEvaluator<Dim>& evaluator, bool stretched, double samples) {
+                const SpacingEvaluator<Dim>& evaluator, bool stretched, Samples samples) {
   const Packing packed = packing(map, domain, stretched);
   if constexpr (Dim == 3)
     if (!domain.filled()) return packed.density * room_on_surfaces(map, domain.area());
@@ -205,9 +208,10 @@ double nodes_on_boundary(const BoundaryMesh<3>& boundary, const SpacingEvaluator
 template <int Dim>
 NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& domain,
                                  const Spacing<Dim>& spacing, std::int64_t max_boundary_nodes,
-                                 bool stretched) {
-  constexpr int kUniformDepth = Dim == 2 ? 4 : 3, kPasses = 4, kCells = 4096;
-  constexpr double kSamplesNearBoundary = 6e4, kFewSamples = 4e3;
+                                 bool stretched, Samples samples) {
+  constexpr int kUniformDepth = Dim == 2 ? 4 : 3;
+  const bool many = samples == Samples::many;
+  const int passes = many ? 4 : 3, cells = many ? 4096 : 512;
   const SpacingEvaluator<Dim> evaluator = [&](std::int64_t n, const Point<Dim>* x, double* d) {
     evaluate_spacing<Dim>(spacing, measure_of(domain), n, x, d);
   };
@@ -219,20 +223,19 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
   });
   DomainMap<Dim> map;
   double max = std::numeric_limits<double>::infinity(), nodes = 0;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < passes; ++pass) {
     map.build_part(
         comm, domain.bounds(), boundary, evaluator, std::numeric_limits<std::int64_t>::max(),
         [&](const BackgroundTree<Dim>& tree, std::int32_t c, double in_cell) {
           return tree.cell(c).depth < kUniformDepth || in_cell > max;
         },
         kLevelRefinement<Dim>);
-    const bool last = pass + 1 == kPasses;
+    const bool last = pass + 1 == passes;
     agreed(comm, [&] {
-      nodes = nodes_in<Dim>(map, domain, evaluator, stretched,
-                            last ? kSamplesNearBoundary : kFewSamples);
+      nodes = nodes_in<Dim>(map, domain, evaluator, stretched, last ? samples : Samples::few);
     });
     if (is_filled(domain)) nodes += on_boundary;
-    max = nodes / kCells;
+    max = nodes / cells;
   }
   return {nodes,
           steepest_growth<Dim>(
@@ -240,8 +243,8 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
 }
 
 template NodeEstimate<2> estimate_nodes<2>(const Communicator&, const Domain<2>&, const Spacing<2>&,
-                                           std::int64_t, bool);
+                                           std::int64_t, bool, Samples);
 template NodeEstimate<3> estimate_nodes<3>(const Communicator&, const Domain<3>&, const Spacing<3>&,
-                                           std::int64_t, bool);
+                                           std::int64_t, bool, Samples);
 
 }  // namespace pnpbs
