@@ -2,6 +2,8 @@
 #include "placement/holding_spacing.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "base/point_text.hpp"
 #include "comm/records.hpp"
@@ -125,9 +127,9 @@ bool add_unresolved_places(const Level<Dim>& level, const std::vector<Point<Dim>
 }
 
 template <int Dim>
-bool takes_too_many(double expected_nodes, const Held<Dim>& held) {
+bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms) {
   const auto nodes = static_cast<double>(held.nodes_before);
-  return expected_nodes > std::max(kMaxNodes * nodes, nodes + kFewNodes);
+  return expected_nodes > std::max(kMaxNodes * nodes, conforms ? 0 : nodes + kFewNodes);
 }
 
 template <int Dim>
@@ -144,12 +146,12 @@ std::string warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes) {
 template void hold_down(const Communicator&, PlacedSpacing<2>&, const Settings&);
 template View<char> held_nodes(const Level<2>&, const PlacedSpacing<2>&);
 template bool add_unresolved_places<2>(const Level<2>&, const std::vector<Point<2>>&, Held<2>&);
-template bool takes_too_many(double, const Held<2>&);
+template bool takes_too_many(double, const Held<2>&, bool);
 template std::string warning_of_held_spacing(const Held<2>&, std::int64_t);
 template void hold_down(const Communicator&, PlacedSpacing<3>&, const Settings&);
 template View<char> held_nodes(const Level<3>&, const PlacedSpacing<3>&);
 template bool add_unresolved_places<3>(const Level<3>&, const std::vector<Point<3>>&, Held<3>&);
-template bool takes_too_many(double, const Held<3>&);
+template bool takes_too_many(double, const Held<3>&, bool);
 template std::string warning_of_held_spacing(const Held<3>&, std::int64_t);
 
 }  // namespace pnpbs

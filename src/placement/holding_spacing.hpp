@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the elements of a finished run do not fill the domain, or their boundary is torn, d does
-// not resolve the shape: it is held down around these places, and the run goes on from its nodes.
+// Where the elements of a finished run do not fill the domain, their boundary is torn, or their
+// angles are small, d does not resolve the shape: it is held down around these places, and the run
+// goes on from its nodes.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +29,10 @@ template <int Dim>
 bool add_unresolved_places(const Level<Dim>& level, const std::vector<Point<Dim>>& unresolved,
                            Held<Dim>& held);
 
-// Would a round with so many nodes take far more than were asked for?
+// Would a round with so many nodes take far more than were asked for? More may come if the last one
+// does not conform.
 template <int Dim>
-bool takes_too_many(double expected_nodes, const Held<Dim>& held);
+bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms);
 
 // That d is held down, of a run with so many nodes.
 template <int Dim>

@@ -3,7 +3,9 @@
 
 #include <string>
 
+#include "base/point_text.hpp"
 #include "placement/conformity.hpp"
+#include "placement/element_angles.hpp"
 #include "placement/holding_spacing.hpp"
 
 namespace pnpbs {
@@ -31,20 +33,46 @@ void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunStat
   run.surface_fit = measure_surface_fit(level);
 }
 
-// In the plane they do, as soon as the boundary is one that encloses something.
-bool elements_conform(Results<2>&, RunState&, std::vector<Point<2>>&) { return true; }
+namespace {
 
-bool elements_conform(Results<3>& results, RunState& run, std::vector<Point<3>>& unresolved) {
+// Elements that can be used, but hardly: d is held down there next, if the user wants that.
+void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unresolved) {
+  constexpr double kBad = 5;  // degrees, of which a user is told who does not ask
+  if (level.ground.surfaces_alone()) return;
+  const double min_angle = level.settings.min_angle, below = min_angle > 0 ? min_angle : kBad;
+  SmallAngleElements found = small_angle_elements(level, below);
+  if (found.all.count == 0) return;
+  run.warn("dihedral angles below " + number_text(below) +
+           " degrees: " + std::to_string(found.all.count) + " tetrahedra, one of them at " +
+           rounded_point_text<3>(found.all.at) +
+           ", where the body has walls, gaps or steps much smaller than the spacing: make it "
+           "smaller there" +
+           (min_angle > 0 ? "" : ", or set the option min_angle"));
+  if (min_angle == 0) return;
+  unresolved.small_angles = found.all.count;
+  unresolved.places = std::move(found.places);
+}
+
+}  // namespace
+
+// In the plane they do, as soon as the boundary is one that encloses something.
+bool elements_conform(Results<2>&, RunState&, Unresolved<2>&) { return true; }
+
+bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresolved) {
   const Communicator& comm = results.communicator();
   const Conformity<3> conformity = conformity_of(results);
   run.warn(text_of(conformity, results));
-  unresolved.clear();
-  if (conformity.holds()) return true;
+  unresolved = {};
+  if (conformity.holds()) {
+    find_small_angles(results.level(), run, unresolved);
+    return true;
+  }
   if (!conformity.any_elements()) return false;  // d means another body
-  const auto none = [&] { return comm.allreduce_sum(unresolved.size()) == 0; };
-  unresolved = conformity.torn;
-  if (none()) agreed(comm, [&] { unresolved = bridging_nodes(results.level()); });
-  if (none()) unresolved = run.surface_fit.places;
+  std::vector<Point<3>>& places = unresolved.places;
+  const auto none = [&] { return comm.allreduce_sum(places.size()) == 0; };
+  places = conformity.torn;
+  if (none()) agreed(comm, [&] { places = bridging_nodes(results.level()); });
+  if (none()) places = run.surface_fit.places;
   return false;
 }
 

@@ -3,6 +3,7 @@
 // are collective.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "placement/placed_spacing.hpp"
@@ -19,8 +20,15 @@ void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunStat
 template <int Dim>
 void gather_unknown_uses(const Level<Dim>& level, RunState& run);
 
-// If not there is a warning. Then `unresolved` are the places of this rank that d does not resolve.
-bool elements_conform(Results<2>& results, RunState& run, std::vector<Point<2>>& unresolved);
-bool elements_conform(Results<3>& results, RunState& run, std::vector<Point<3>>& unresolved);
+// Where d is to be held down next.
+template <int Dim>
+struct Unresolved {
+  std::vector<Point<Dim>> places;  // of this rank
+  std::int64_t small_angles = 0;   // elements with one, over all ranks, if they conform
+};
+
+// If not there is a warning.
+bool elements_conform(Results<2>& results, RunState& run, Unresolved<2>& unresolved);
+bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresolved);
 
 }  // namespace pnpbs

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "placement/placement_of.hpp"
 
-#include <cmath>
 #include <limits>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
@@ -14,7 +14,6 @@
 #include "placement/domain_fingerprint.hpp"
 #include "placement/estimate.hpp"
 #include "placement/holding_spacing.hpp"
-#include "placement/measuring_finish.hpp"
 #include "placement/option_changes.hpp"
 #include "placement/warnings.hpp"
 #include "spacing/nodal_spacing.hpp"
@@ -24,22 +23,9 @@ namespace pnpbs {
 namespace {
 
 constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+constexpr int kMaxInVain = 1;  // rounds in a row that leave no fewer small angles
 
 }  // namespace
-
-template <int Dim>
-void PlacementOf<Dim>::set_spacing(std::shared_ptr<const Spacing<Dim>> spacing) {
-  spacing_ = std::move(spacing);
-  spacing_replaced_ = true;
-  placed_.held = {};
-}
-
-template <int Dim>
-void PlacementOf<Dim>::set_nodes(GivenNodes<Dim> nodes) {
-  given_ = std::move(nodes);
-  start_from_given_ = true;
-  keep(nullptr);
-}
 
 // ------------------------------------------------------------------ levels ---------------------
 
@@ -82,7 +68,11 @@ Settings PlacementOf<Dim>::settings_for_new_level() const {
 
 template <int Dim>
 LevelBuilder<Dim> PlacementOf<Dim>::builder() {
-  return {comm_, domain_, options_, timers_, {state_, monitoring_, results_, done_by_rounds()}};
+  return {comm_,
+          domain_,
+          options_,
+          timers_,
+          {state_, monitoring_, results_, done_by_rounds(rounds_of_run_)}};
 }
 
 template <int Dim>
@@ -103,8 +93,9 @@ Outcome PlacementOf<Dim>::make_level() {
 
 // Nothing has failed: from here on the new level counts.
 template <int Dim>
-Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made) {
-  replace_level(std::move(made.level), std::move(made.placed));
+Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made, std::unique_ptr<Level<Dim>>* replaced) {
+  std::unique_ptr<Level<Dim>> before = replace_level(std::move(made.level), std::move(made.placed));
+  if (replaced) *replaced = std::move(before);
   state_.dropped = made.taken.left_out;
   state_.inserted += made.inserted;
   state_.deleted += made.taken.thinned;
@@ -113,9 +104,12 @@ Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made) {
   return made.outcome;
 }
 
+// Returns the one before.
 template <int Dim>
-void PlacementOf<Dim>::replace_level(std::unique_ptr<Level<Dim>> next, PlacedSpacing<Dim> placed) {
-  if (level_) state_.keep_counts(*level_);
+std::unique_ptr<Level<Dim>> PlacementOf<Dim>::replace_level(std::unique_ptr<Level<Dim>> next,
+                                                            PlacedSpacing<Dim> placed) {
+  std::unique_ptr<Level<Dim>> before = std::move(level_);
+  if (before) state_.keep_counts(*before);
   state_.forget_finish();
   keep(std::move(next));
   state_.warnings = warnings_of_level(*level_, *domain_, *spacing_, placed.steepest, options_);
@@ -123,6 +117,7 @@ void PlacementOf<Dim>::replace_level(std::unique_ptr<Level<Dim>> next, PlacedSpa
   placed_ = std::move(placed);
   level_options_ = options_;
   spacing_replaced_ = false;
+  return before;
 }
 
 // ------------------------------------------------------------------ calls ----------------------
@@ -206,13 +201,7 @@ Outcome PlacementOf<Dim>::run() {
     ~Rounds() { count = 0; }
   } rounds{rounds_of_run_};
   return taking_steps([&] {
-    Outcome outcome = steps_and_finish();
-    for (bool held = true; outcome == Outcome::not_conforming && held;) {
-      ++rounds.count;
-      const Outcome begun = hold_spacing();
-      held = begun == Outcome::converged;
-      outcome = held ? steps_and_finish() : begun;
-    }
+    const Outcome outcome = rounds_with_spacing_held(steps_and_finish());
     if (outcome == Outcome::stopped) return outcome;
     if (!placed_.held.places.empty())
       state_.warn(warning_of_held_spacing(placed_.held, global_count()));
@@ -221,25 +210,11 @@ Outcome PlacementOf<Dim>::run() {
   });
 }
 
-// Of a run's work, what is done when a round with d held down begins. Each does half of the rest.
-template <int Dim>
-double PlacementOf<Dim>::done_by_rounds() const {
-  return rounds_of_run_ == 0 ? 0 : 1 - std::ldexp(1 - kStepsShare, 1 - rounds_of_run_);
-}
-
-// Of a run's work, the part that its steps are: what has been done is not told again.
-template <int Dim>
-ProgressPart PlacementOf<Dim>::part_of_steps() const {
-  const double done = done_by_rounds();
-  if (rounds_of_run_ > 0) return {done, (done + 1) / 2};
-  return {state_.schedule.refined() ? kCoarseShare : 0, kStepsShare};
-}
-
 // Ends with whether the elements are such as can be used.
 template <int Dim>
 Outcome PlacementOf<Dim>::steps_and_finish() {
   state_.warnings.resize(state_.warnings_of_level);
-  const ProgressPart part = part_of_steps();
+  const ProgressPart part = part_of_steps(rounds_of_run_, state_.schedule.refined());
   const Outcome outcome = simulation().advance(level_->settings.steps, part);
   state_.schedule.progress = Progress::ended;
   if (outcome == Outcome::stopped) return outcome;
@@ -254,17 +229,50 @@ Outcome PlacementOf<Dim>::steps_and_finish() {
   return !conforms ? Outcome::not_conforming : !missed.empty() ? Outcome::spacing_missed : outcome;
 }
 
-// Begins a round with d held down where the last one does not conform: converged, or stopped. Not
-// conforming, as it is, if there is nothing to hold, it was tried often enough, or would take far
-// more nodes than were asked for; then all stays as it is. Collective.
+// Rounds after the first one, as long as the elements cannot be used, or fewer and fewer of them
+// have small angles. Of those that can be used, the one with the fewest counts. Collective.
 template <int Dim>
-Outcome PlacementOf<Dim>::hold_spacing() {
+Outcome PlacementOf<Dim>::rounds_with_spacing_held(Outcome first) {
+  std::optional<FinishedRound<Dim>> best;
+  Outcome outcome = first;
+  for (int in_vain = 0; outcome != Outcome::stopped;) {
+    const bool conforms = outcome != Outcome::not_conforming;
+    const std::int64_t small_angles = unresolved_.small_angles;
+    if (conforms && small_angles == 0) return outcome;
+    const bool better = conforms && (!best || small_angles < best->small_angles);
+    in_vain = better ? 0 : in_vain + 1;
+    if (best && in_vain > kMaxInVain) break;
+    ++rounds_of_run_;
+    FinishedRound<Dim> last{nullptr, placed_, state_, outcome, small_angles};
+    const Outcome begun = hold_spacing(conforms, last.level);
+    if (begun == Outcome::not_conforming && (better || !best)) return outcome;
+    if (begun == Outcome::not_conforming) break;
+    if (better) best = std::move(last);
+    outcome = begun == Outcome::stopped ? begun : steps_and_finish();
+  }
+  return best && outcome != Outcome::stopped ? return_to(std::move(*best)) : outcome;
+}
+
+template <int Dim>
+Outcome PlacementOf<Dim>::return_to(FinishedRound<Dim> round) {
+  state_.keep_counts(*level_);
+  state_.go_back_to(std::move(round.state), *round.level);
+  keep(std::move(round.level));
+  placed_ = std::move(round.placed);
+  return round.outcome;
+}
+
+// Begins a round with d held down where the last one does not conform or has small angles:
+// converged, or stopped. Not conforming, as it is, if there is nothing to hold, it was tried often
+// enough, or would take far more nodes than were asked for; then all stays as it is. Collective.
+template <int Dim>
+Outcome PlacementOf<Dim>::hold_spacing(bool conforms, std::unique_ptr<Level<Dim>>& replaced) {
   PlacedSpacing<Dim> placed = placed_;
   const RunState before = state_;
   Outcome outcome = Outcome::not_conforming;
   try {
-    if (add_unresolved_places<Dim>(*level_, unresolved_, placed.held))
-      outcome = begin_held_round(std::move(placed));
+    if (add_unresolved_places<Dim>(*level_, unresolved_.places, placed.held))
+      outcome = begin_held_round(std::move(placed), conforms, replaced);
   } catch (const FinerPlaces&) {
     throw;  // it is tried again with these
   } catch (const Error& error) {
@@ -279,16 +287,18 @@ Outcome PlacementOf<Dim>::hold_spacing() {
 
 // On a level for the spacing as it is held now, with the nodes there were. Collective.
 template <int Dim>
-Outcome PlacementOf<Dim>::begin_held_round(PlacedSpacing<Dim> placed) {
+Outcome PlacementOf<Dim>::begin_held_round(PlacedSpacing<Dim> placed, bool conforms,
+                                           std::unique_ptr<Level<Dim>>& replaced) {
   const Settings settings = level_->settings;
   hold_down(*comm_, placed, settings);
   LevelBuilder<Dim> builder = this->builder();
   std::unique_ptr<Level<Dim>> next = builder.empty_level(placed.d, settings);
   const double expected = expected_nodes(*next);
-  if (takes_too_many(expected, placed.held)) return Outcome::not_conforming;
+  if (takes_too_many(expected, placed.held, conforms)) return Outcome::not_conforming;
   settings.node_limit().require_memory_for(expected);
   return adopt(
-      builder.with_first_nodes(std::move(next), std::move(placed), settings, nodes_before()));
+      builder.with_first_nodes(std::move(next), std::move(placed), settings, nodes_before()),
+      &replaced);
 }
 
 template <int Dim>

@@ -5,12 +5,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "level/finer_places.hpp"
 #include "level/level.hpp"
+#include "placement/finished_round.hpp"
 #include "placement/level_builder.hpp"
 #include "placement/limiting_growth.hpp"
+#include "placement/measuring_finish.hpp"
 #include "placement/placed_spacing.hpp"
 #include "placement/placement.hpp"
 #include "placement/results.hpp"
@@ -31,8 +34,16 @@ class PlacementOf : public Placement {
 
   int dimension() const override { return Dim; }
   Domain<Dim>& domain() { return *domain_; }
-  void set_spacing(std::shared_ptr<const Spacing<Dim>> spacing);
-  void set_nodes(GivenNodes<Dim> nodes);
+  void set_spacing(std::shared_ptr<const Spacing<Dim>> spacing) {
+    spacing_ = std::move(spacing);
+    spacing_replaced_ = true;
+    placed_.held = {};
+  }
+  void set_nodes(GivenNodes<Dim> nodes) {
+    given_ = std::move(nodes);
+    start_from_given_ = true;
+    keep(nullptr);
+  }
   void forget_nodes() override { keep(nullptr); }
 
   Outcome initialise() override;
@@ -77,8 +88,9 @@ class PlacementOf : public Placement {
   NodesBefore<Dim> nodes_before() const;
   Outcome prepare_level();
   Outcome make_level();
-  Outcome adopt(MadeLevel<Dim> made);
-  void replace_level(std::unique_ptr<Level<Dim>> next, PlacedSpacing<Dim> placed);
+  Outcome adopt(MadeLevel<Dim> made, std::unique_ptr<Level<Dim>>* replaced = nullptr);
+  std::unique_ptr<Level<Dim>> replace_level(std::unique_ptr<Level<Dim>> next,
+                                            PlacedSpacing<Dim> placed);
 
   // --- what moves its nodes ---
   Simulation<Dim> simulation() { return {*level_, state_.schedule, state_, monitoring_}; }
@@ -89,10 +101,11 @@ class PlacementOf : public Placement {
   template <class Steps>
   Outcome taking_steps(const Steps& steps);
   Outcome steps_and_finish();
-  Outcome hold_spacing();
-  Outcome begin_held_round(PlacedSpacing<Dim> placed);
-  double done_by_rounds() const;
-  ProgressPart part_of_steps() const;
+  Outcome rounds_with_spacing_held(Outcome first);
+  Outcome return_to(FinishedRound<Dim> round);
+  Outcome hold_spacing(bool conforms, std::unique_ptr<Level<Dim>>& replaced);
+  Outcome begin_held_round(PlacedSpacing<Dim> placed, bool conforms,
+                           std::unique_ptr<Level<Dim>>& replaced);
   void require_savable() const;
 
   std::shared_ptr<Domain<Dim>> domain_;
@@ -101,11 +114,11 @@ class PlacementOf : public Placement {
   Results<Dim> results_;
   GivenNodes<Dim> given_;  // nodes to start from instead of a fill
   bool start_from_given_ = false;
-  bool spacing_replaced_ = false;       // since the level was made
-  PlacedSpacing<Dim> placed_;           // with which it was
-  int rounds_of_run_ = 0;               // in which d is held down, in the call in progress
-  std::vector<Point<Dim>> unresolved_;  // by the last finish, this rank's places
-  Options level_options_;               // with which it was
+  bool spacing_replaced_ = false;  // since the level was made
+  PlacedSpacing<Dim> placed_;      // with which it was
+  int rounds_of_run_ = 0;          // in which d is held down, in the call in progress
+  Unresolved<Dim> unresolved_;     // by the last finish
+  Options level_options_;          // with which it was
 };
 
 extern template class PlacementOf<2>;

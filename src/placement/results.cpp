@@ -11,6 +11,7 @@
 #include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/volume/settled_elements.hpp"
+#include "placement/element_angles.hpp"
 
 namespace pnpbs {
 
@@ -178,6 +179,14 @@ const ElementQuality& Results<Dim>::element_quality() {
   prepare_stars();
   if (quality_stamp_ != level_->stamp()) {
     quality_ = measure_elements<Dim>(*comm_, level_->nodes, level_->stars);
+    quality_.simplex.min_angle_elsewhere = quality_.simplex.min_angle;
+    if constexpr (Dim == 3) {
+      if (!surfaces_alone()) {
+        const LeastAngles least = least_angles(*level_);
+        quality_.simplex.min_angle_at_sharp_edges = least.at_sharp_edges;
+        quality_.simplex.min_angle_elsewhere = least.elsewhere;
+      }
+    }
     quality_stamp_ = level_->stamp();
   }
   return quality_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "level/finish.hpp"
@@ -46,6 +47,18 @@ struct RunState {
     rebuilds_before += level.neighbourhood.rebuilds();
     rebalances_before += level.rebalances;
     unknown_uses_before += level.unknown_uses;
+  }
+  // As it was when there was that level, but for what has been counted since.
+  template <class Level>
+  void go_back_to(RunState then, const Level& level) {
+    then.steps_done = steps_done;
+    then.inserted = inserted;
+    then.deleted = deleted;
+    then.unknown_uses = unknown_uses;
+    then.rebuilds_before = rebuilds_before - level.neighbourhood.rebuilds();
+    then.rebalances_before = rebalances_before - level.rebalances;
+    then.unknown_uses_before = unknown_uses_before - level.unknown_uses;
+    *this = std::move(then);
   }
   // No finish has been done on the next one.
   void forget_finish() {

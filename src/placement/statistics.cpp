@@ -95,8 +95,8 @@ const std::vector<StatisticRow>& statistic_table() {
           "connected to them"),
       integer(
           "unresolved_places", [](P p) { return p.unresolved_places(); },
-          "places (nodes without elements, and their neighbours) around which d is reduced "
-          "because it did not resolve the shape (option conforming_rounds)"),
+          "places around which d is reduced because elements were missing there, or had angles "
+          "below min_angle (option conforming_rounds)"),
       real(
           "repaired.resolution", [](P p) { return p.repair_distances().resolution; },
           "resolution of the surface of a repaired body (pnpbs_domain_set_repair); the other "
@@ -200,6 +200,15 @@ const std::vector<StatisticRow>& statistic_table() {
       computed(real(
           "quality.min_angle", [](P p) { return p.results().element_quality().simplex.min_angle; },
           "smallest angle of the triangles, or between faces of the tetrahedra, degrees")),
+      computed(real(
+          "quality.min_angle_at_sharp_edges",
+          [](P p) { return p.results().element_quality().simplex.min_angle_at_sharp_edges; },
+          "the same of the tetrahedra with a node closer than d to an edge at which the body "
+          "itself has an angle below 33 degrees; 180 without such edges")),
+      computed(real(
+          "quality.min_angle_elsewhere",
+          [](P p) { return p.results().element_quality().simplex.min_angle_elsewhere; },
+          "the same of all other elements")),
       computed(real(
           "quality.irregular", [](P p) { return p.results().element_quality().irregular; },
           "share of the inner nodes that do not have six neighbours in their stars, in space 14")),

@@ -31,6 +31,9 @@ struct SimplexQuality {
   double mean = 0, min = 0;  // 2 r_in / R, 3 r_in / R
   double one_percent = 0;    // 99 % lie above; in steps of 2^-16, downwards
   double min_angle = 0;      // degrees; of tetrahedra, between faces
+  // The same of the elements at edges where the body itself is sharp, and of all others; 180 if
+  // there are none. In the plane and on surfaces all are others.
+  double min_angle_at_sharp_edges = 180, min_angle_elsewhere = 0;
 };
 
 struct ElementQuality {

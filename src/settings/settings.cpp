@@ -28,6 +28,7 @@ Settings::Settings(const Options& o)
       growth_limit_set(o.is_set("growth_limit")),
       resolve(o.integer("resolve") != 0),
       conforming_rounds(o.integer("conforming_rounds")),
+      min_angle(o.real("min_angle")),
       max_nodes(o.integer("max_nodes")),
       max_memory(o.real("max_memory")),
       exchange_interval(o.integer("exchange_interval")),

@@ -46,6 +46,7 @@ struct Settings {
   bool growth_limit_set;  // by the user: otherwise it counts where nodes could not follow d
   bool resolve;           // hold d down where it does not resolve the shape, in space
   std::int64_t conforming_rounds;
+  double min_angle;  // degrees
   std::int64_t max_nodes;
   double max_memory;                                           // share of what there is; 0: any
   double max_bytes = std::numeric_limits<double>::infinity();  // the placement's business

@@ -94,7 +94,7 @@ void Progress::note_held_spacing() {
   if (!wanted_ || pnpbs_placement_get_int64(placement_, "unresolved_places", &places) < 0) return;
   if (places > unresolved_places_) {
     clear();
-    std::cerr << "pnpbs: note: the elements do not follow the shape at "
+    std::cerr << "pnpbs: note: the elements do not follow the shape, or have small angles, at "
               << grouped(places - unresolved_places_)
               << " places; d is reduced around them, and the run continues (option "
                  "conforming_rounds)\n";

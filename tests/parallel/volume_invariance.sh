@@ -27,7 +27,7 @@ compare() { # ranks, threads, options
 }
 
 for subject in box-graded globe ring-graded two-halves kleopatra-graded slotted adapt given-nodes \
-  by-steps surface-halves surface-terrain; do
+  by-steps small-angles surface-halves surface-terrain; do
   expected=$(place 1 1 "$subject")
   require_output
   echo "$expected"

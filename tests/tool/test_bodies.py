@@ -120,7 +120,7 @@ class Files(CommandTest):
         self.save_rough_globe("globe.off")
         _, err = self.place_body("globe.off", "0.4")
         note, warning = (err.find(f"pnpbs: {words}") for words in (
-            "note: the elements do not follow the shape at ",
+            "note: the elements do not follow the shape, or have small angles, at ",
             "warning: the spacing did not resolve the shape at "))
         self.assertTrue(0 <= note < warning, err)
         _, err = self.place_body("globe.off", "0.4", "--quiet")

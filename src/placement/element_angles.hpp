@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small dihedral angles of the tetrahedra of a body: those at edges where the body itself is sharp,
+// which no nodes can avoid, apart from the others.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "level/found_nodes.hpp"
+#include "level/level.hpp"
+
+namespace pnpbs {
+
+// In degrees, over all ranks; 180 if there are no elements of the kind. Of an element at a sharp
+// edge (shape/sharp_edges.hpp), a corner is less than d from it.
+struct LeastAngles {
+  double at_sharp_edges = 180, elsewhere = 180;
+};
+
+// From the stars there are. Collective.
+LeastAngles least_angles(const Level<3>& level);
+
+struct SmallAngleElements {
+  FoundNodes<3> all;             // over all ranks, at their nodes with the least ids
+  std::vector<Point<3>> places;  // the corners of this rank's, each once
+};
+
+// Elements with an angle below so many degrees, but not those at sharp edges. From the stars there
+// are. Collective.
+SmallAngleElements small_angle_elements(const Level<3>& level, double below);
+
+}  // namespace pnpbs

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Small dihedral angles: those at sharp edges of the body are told apart, the others are told to
+ * the user, and enlarged by a smaller d if the option min_angle asks for it.
+ */
+#include "volume_support.h"
+
+/* ---------------------------------------------------------------- by hand --------------- */
+
+static void difference(const double* a, const double* b, double* of) {
+  int k;
+  for (k = 0; k < 3; ++k) of[k] = a[k] - b[k];
+}
+
+static double dot(const double* a, const double* b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The part of x - a that is at a right angle to the edge from a to b. */
+static void across(const double* a, const double* b, const double* x, double* part) {
+  double edge[3], way[3];
+  int k;
+  difference(b, a, edge);
+  difference(x, a, way);
+  for (k = 0; k < 3; ++k) part[k] = way[k] - dot(way, edge) / dot(edge, edge) * edge[k];
+}
+
+static double least_angle(const volume* v, int64_t t) {
+  static const int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
+                                  {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
+  double least = 180;
+  int e;
+  for (e = 0; e < 6; ++e) {
+    const double* x[4];
+    double u[3], w[3];
+    int k;
+    for (k = 0; k < 4; ++k) x[k] = v->xyz + 3 * v->corners[4 * t + edges[e][k]];
+    across(x[0], x[1], x[2], u);
+    across(x[0], x[1], x[3], w);
+    least = fmin(least, acos(dot(u, w) / sqrt(dot(u, u) * dot(w, w))) * 180 / PI);
+  }
+  return least;
+}
+
+static int64_t elements_below(const job* it, double angle) {
+  volume v = volume_of(it->placement);
+  int64_t below = 0, t;
+  for (t = 0; t < v.tetrahedra; ++t) below += least_angle(&v, t) < angle;
+  volume_free(&v);
+  return below;
+}
+
+/* ---------------------------------------------------------------- a wedge --------------- */
+
+/* Of 20 degrees; its sharp edge lies on the y axis, from 0 to 1. */
+static pnpbs_status wedge(pnpbs_domain domain, const char* data) {
+  const double h = tan(20 * PI / 180);
+  const double xyz[] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 1, 0, h, 1, 1, h};
+  static const int faces[][4] = {
+      {0, 1, 3, 2}, {0, 4, 5, 1}, {2, 3, 5, 4}, {0, 2, 4, 0}, {1, 5, 3, 1}};
+  (void)data;
+  return volume_add_quads(domain, PNPBS_BOUNDARY, 6, xyz, 5, faces);
+}
+
+static int is_at_the_edge(const volume* v, int64_t t) {
+  int k, found = 0;
+  for (k = 0; k < 4; ++k) {
+    const int64_t i = v->corners[4 * t + k];
+    const double* x = v->xyz + 3 * i;
+    found |= sqrt(x[0] * x[0] + x[2] * x[2]) < v->d[i]; /* y is between 0 and 1 */
+  }
+  return found;
+}
+
+START_TEST(those_at_sharp_edges_are_told_apart) {
+  job it = body_job(wedge);
+  double at_edge = 180, elsewhere = 180;
+  volume v;
+  int64_t t;
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  MUST(pnpbs_placement_set(it.placement, "min_angle", "20"));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  v = volume_of(it.placement);
+  for (t = 0; t < v.tetrahedra; ++t) {
+    double* least = is_at_the_edge(&v, t) ? &at_edge : &elsewhere;
+    *least = fmin(*least, least_angle(&v, t));
+  }
+  volume_free(&v);
+  ck_assert_double_lt(at_edge, 20.001);
+  ck_assert_double_gt(elsewhere, 20);
+  ck_assert_double_eq_tol(real_of(it.placement, "quality.min_angle_at_sharp_edges"), at_edge, 1e-6);
+  ck_assert_double_eq_tol(real_of(it.placement, "quality.min_angle_elsewhere"), elsewhere, 1e-6);
+  /* And d is as it was. */
+  ck_assert_int_eq(integer_of(it.placement, "unresolved_places"), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "dihedral angles"), 0);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(in_the_plane_there_are_no_sharp_edges) {
+  job it = square_job(1);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_double_eq(real_of(it.placement, "quality.min_angle_at_sharp_edges"), 180);
+  ck_assert_double_eq(real_of(it.placement, "quality.min_angle_elsewhere"),
+                      real_of(it.placement, "quality.min_angle"));
+  job_end(&it);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- a smaller d ----------- */
+
+/* Steps of 1 mm, at d of 6. */
+static job coarse_bracket(const char* min_angle) {
+  job it = body_job(volume_bracket);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 6)); /* mm */
+  MUST(pnpbs_placement_set(it.placement, "min_angle", min_angle));
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  return it;
+}
+
+START_TEST(they_are_enlarged) {
+  job it = coarse_bracket("0"), enlarged = coarse_bracket("15");
+  ck_assert_int_gt(elements_below(&it, 15), 0);
+  ck_assert_int_eq(integer_of(it.placement, "unresolved_places"), 0);
+  ck_assert_int_eq(elements_below(&enlarged, 15), 0);
+  ck_assert_int_gt(integer_of(enlarged.placement, "unresolved_places"), 0);
+  ck_assert_int_eq(warnings_with(enlarged.placement, "is held down there"), 1);
+  ck_assert_int_eq(warnings_with(enlarged.placement, "dihedral angles"), 0);
+  ck_assert_double_lt((double)integer_of(enlarged.placement, "nodes"),
+                      1.3 * (double)integer_of(it.placement, "nodes"));
+  check_body(&enlarged, 0.02);
+  job_end(&enlarged);
+  job_end(&it);
+}
+END_TEST
+
+/* With more rounds there are never more of them: one that was in vain does not count. */
+START_TEST(the_best_round_counts) {
+  const int last = WHEN_SANITIZED(2, 6);
+  int64_t small_before = INT64_MAX, steps_before = 0;
+  hash_text hash_before = {""};
+  int rounds;
+  for (rounds = 0; rounds <= last; ++rounds) {
+    job it = rough_job(0.4, 6, 0.3);
+    int64_t small, steps;
+    char text[2] = {(char)('0' + rounds), 0};
+    MUST(pnpbs_placement_set(it.placement, "min_angle", "25"));
+    MUST(pnpbs_placement_set(it.placement, "conforming_rounds", text));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_OK);
+    small = elements_below(&it, 25);
+    steps = integer_of(it.placement, "steps");
+    ck_assert_int_le(small, small_before);
+    ck_assert_int_eq(warnings_with(it.placement, "dihedral angles below 25"), small > 0);
+    if (small == small_before) ck_assert_str_eq(hash_of(it.placement).text, hash_before.text);
+    ck_assert_int_ge(steps, steps_before); /* those of all rounds */
+    small_before = small;
+    steps_before = steps;
+    hash_before = hash_of(it.placement);
+    /* And the placement goes on from there. */
+    if (rounds == last) {
+      MUST_COMPUTE(pnpbs_placement_step(it.placement, 10));
+      MUST_COMPUTE(pnpbs_placement_run(it.placement));
+      ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_OK);
+    }
+    job_end(&it);
+  }
+}
+END_TEST
+
+START_TEST(a_user_is_told) {
+  job it = rough_job(0.3, 8, 0.3);
+  MUST_COMPUTE(pnpbs_placement_run(it.placement));
+  ck_assert_int_gt(elements_below(&it, 5), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "dihedral angles below 5 degrees: "), 1);
+  ck_assert_int_eq(warnings_with(it.placement, "min_angle"), 1);
+  job_end(&it);
+}
+END_TEST
+
+int main(void) {
+  Suite* suite = suite_create("element angles");
+  TCase* angles = tcase_create("angles");
+  tcase_set_timeout(angles, 0);
+  tcase_add_test(angles, those_at_sharp_edges_are_told_apart);
+  tcase_add_test(angles, in_the_plane_there_are_no_sharp_edges);
+  tcase_add_test(angles, they_are_enlarged);
+  tcase_add_test(angles, the_best_round_counts);
+  tcase_add_test(angles, a_user_is_told);
+  suite_add_tcase(suite, angles);
+  return run_suite(suite);
+}
