@@ -299,6 +299,6 @@ ExitCode start(int argc, char** argv) {
 }  // namespace pnpbs::tool
 
 int main(int argc, char** argv) {
-  pnpbs::tool::let_threads_sleep_if_oversubscribed(argv);
+  pnpbs::tool::let_waiting_threads_sleep(argv);
   return static_cast<int>(pnpbs::tool::start(argc, argv));
 }

@@ -14,6 +14,9 @@ namespace {
 // Of Open MPI, MPICH and its kin, and MVAPICH: how many processes of the job this machine has.
 constexpr const char* ranks_here[] = {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS",
                                       "MV2_COMM_WORLD_LOCAL_SIZE"};
+// Some microseconds, in which most waits on an idle machine end, instead of GCC's 300 000, which
+// are a millisecond.
+constexpr const char* spins_before_sleep = "1000";
 constexpr const char* threads_of_one[] = {"OMP_NUM_THREADS", "KOKKOS_NUM_THREADS"};
 
 template <std::size_t N>
@@ -38,12 +41,16 @@ int cores() {
 
 }  // namespace
 
-// Where no number of threads is asked for, there are as many as cores.
-void let_threads_sleep_if_oversubscribed(char** argv) {
+// Where no number of threads is asked for, the ranks here share the cores.
+void let_waiting_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
-  const int threads = threads_asked_for(argv);
-  if (threads < 2 || threads * std::max(1, first_number(ranks_here)) <= cores()) return;
-  setenv("OMP_WAIT_POLICY", "passive", 0);
+  const int ranks = std::max(1, first_number(ranks_here)), asked_for = threads_asked_for(argv),
+            threads = asked_for > 0 ? asked_for : cores() / ranks;
+  if (threads < 2) return;
+  if (threads * ranks > cores())
+    setenv("OMP_WAIT_POLICY", "passive", 0);
+  else
+    setenv("GOMP_SPINCOUNT", spins_before_sleep, 0);
   execv("/proc/self/exe", argv);  // returns if it cannot: then they spin
 }
 

@@ -3,6 +3,8 @@
 import os
 import pathlib
 import signal
+import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -399,6 +401,21 @@ class Handles(Case):
     def test_what_is_no_communicator(self):
         with self.assertRaises(TypeError):
             pnpbs.Context("world")
+
+
+class Threads(unittest.TestCase):
+    def spins(self, **variables):
+        """What is set for GCC's OpenMP when it is loaded."""
+        program = "import os, pnpbs; pnpbs.build_info(); print(os.environ.get('GOMP_SPINCOUNT'))"
+        environment = {name: value for name, value in os.environ.items()
+                       if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")}
+        return subprocess.run([sys.executable, "-c", program], env={**environment, **variables},
+                              check=True, capture_output=True, text=True).stdout.strip()
+
+    def test_they_soon_sleep_while_they_wait(self):
+        self.assertEqual(self.spins(), "1000")
+        self.assertEqual(self.spins(GOMP_SPINCOUNT="7"), "7")
+        self.assertEqual(self.spins(OMP_WAIT_POLICY="active"), "None")
 
 
 class Stopping(Case):

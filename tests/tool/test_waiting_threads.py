@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Threads sleep while they wait for each other where there are more of them than cores."""
+"""Threads sleep while they wait for each other: soon, or at once where there are more of them than
+cores."""
 
 import os
 import pathlib
@@ -13,7 +14,7 @@ CORES = len(os.sched_getaffinity(0))
 
 
 def wait_policy(*arguments, **variables):
-    """OMP_WAIT_POLICY of the command while it waits for a domain from standard input."""
+    """What the environment of the command says of it, while it waits for a domain from standard input."""
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMP_", "GOMP_", "OMPI_", "KOKKOS_"))}
     process = subprocess.Popen([COMMAND, "--domain", "-", "--spacing", "1", *arguments],
@@ -26,7 +27,7 @@ def wait_policy(*arguments, **variables):
     finally:
         process.stdin.close()
         process.wait()
-    return [one.decode() for one in found if one.startswith(b"OMP_WAIT_POLICY=")]
+    return [one.decode() for one in found if one.startswith((b"OMP_WAIT_POLICY=", b"GOMP_SPINCOUNT="))]
 
 
 class WaitingThreads(unittest.TestCase):
@@ -39,13 +40,19 @@ class WaitingThreads(unittest.TestCase):
         self.assertEqual(wait_policy(**two, OMPI_COMM_WORLD_LOCAL_SIZE=str(CORES)),
                          ["OMP_WAIT_POLICY=passive"])
 
+    @unittest.skipIf(CORES < 2, "one core")
     def test_enough_cores(self):
-        self.assertEqual(wait_policy(OMP_NUM_THREADS=str(CORES)), [])
+        self.assertEqual(wait_policy(OMP_NUM_THREADS=str(CORES)), ["GOMP_SPINCOUNT=1000"])
+        self.assertEqual(wait_policy(), ["GOMP_SPINCOUNT=1000"])
+        self.assertEqual(wait_policy(OMPI_COMM_WORLD_LOCAL_SIZE=str(CORES), PNPBS_MPI="0"), [])
+
+    def test_one_thread(self):
         self.assertEqual(wait_policy("--threads", "1"), [])
 
     def test_what_is_set_stays(self):
         self.assertEqual(wait_policy(OMP_NUM_THREADS=str(CORES + 1), OMP_WAIT_POLICY="active"),
                          ["OMP_WAIT_POLICY=active"])
+        self.assertEqual(wait_policy(GOMP_SPINCOUNT="7"), ["GOMP_SPINCOUNT=7"])
 
 
 if __name__ == "__main__":

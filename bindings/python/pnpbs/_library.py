@@ -40,7 +40,15 @@ def library_path() -> str:
     return next(_candidates())
 
 
+def _let_waiting_threads_sleep() -> None:
+    """GCC's OpenMP reads how threads wait when it is loaded. By default they spin for a millisecond, and
+    where other programs keep the machine busy, a run takes many times as long."""
+    if "OMP_WAIT_POLICY" not in os.environ:
+        os.environ.setdefault("GOMP_SPINCOUNT", "1000")
+
+
 def open_library() -> ctypes.CDLL:
+    _let_waiting_threads_sleep()
     path = library_path()
     try:
         opened = ctypes.CDLL(path)

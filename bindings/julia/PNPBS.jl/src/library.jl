@@ -57,7 +57,15 @@ function require_version(library, path)
     return require_interface(major[], minor[], path)
 end
 
+# GCC's OpenMP reads how threads wait when it is loaded. By default they spin for a millisecond, and
+# where other programs keep the machine busy, a run takes many times as long.
+function let_waiting_threads_sleep()
+    haskey(ENV, "OMP_WAIT_POLICY") || get!(ENV, "GOMP_SPINCOUNT", "1000")
+    return nothing
+end
+
 function open_library()
+    let_waiting_threads_sleep()
     path = library_path()
     library = try
         dlopen(path, RTLD_LAZY | RTLD_LOCAL)

@@ -85,6 +85,17 @@ end
                    "use the package of the same version"
 end
 
+@testset "threads soon sleep while they wait" begin
+    spins(variables...) = withenv("OMP_WAIT_POLICY" => nothing, "GOMP_SPINCOUNT" => nothing,
+                                  variables...) do
+        in_another_process("using PNPBS; build_info(); print(get(ENV, \"GOMP_SPINCOUNT\", \"-\"))",
+                           library = PNPBS.LibPNPBS.library_path())
+    end
+    @test spins() == "1000"
+    @test spins("GOMP_SPINCOUNT" => "7") == "7"
+    @test spins("OMP_WAIT_POLICY" => "active") == "-"
+end
+
 @testset "the end" begin
     @test PNPBS.discard_unfinished_files() === nothing
     after = in_another_process("""
