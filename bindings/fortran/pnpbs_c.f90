@@ -1,12 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
+! Made from include/pnpbs/pnpbs.h by scripts/fortran_layer: change that, and write this by
+!   cmake --build <folder> --target pnpbs-fortran-layer
 !> The C interface of PNPBS (pnpbs/pnpbs.h), function by function, for the module pnpbs. Use that
 !> module. tests/linkage/check_signatures.py compares every body below with the header, argument by
-!> argument, and fails if only one of them changes.
+!> argument, by a reader of its own.
 !>
-!> Bodies have a form that the check can read: the C function pnpbs_<name> is c_<name>, and its
-!> arguments have their names in C. Arrays that may be NULL in C, and untyped addresses, are
-!> type(c_ptr), value, followed by the C type in a comment: Fortran 2003 has no optional arguments
-!> in procedures with bind(C).
+!> The C function pnpbs_<name> is c_<name>, and its arguments have their names in C. Arrays that may
+!> be NULL in C, and untyped addresses, are type(c_ptr), value, followed by the C type in a comment:
+!> Fortran 2003 has no optional arguments in procedures with bind(C).
 module pnpbs_c
   use, intrinsic :: iso_c_binding
   implicit none
@@ -15,10 +16,12 @@ module pnpbs_c
   ! ------------------------------------------------------------ status and constants ----------
 
   integer(c_int), parameter :: PNPBS_OK = 0                   !< done
-  integer(c_int), parameter :: PNPBS_NOT_CONVERGED = 1        !< stopped at the step limit
+  integer(c_int), parameter :: PNPBS_NOT_CONVERGED = 1        !< the step limit was reached before
+                                                              !< the bubbles rested
   integer(c_int), parameter :: PNPBS_STOPPED = 2              !< stopped by the monitor
-  integer(c_int), parameter :: PNPBS_SPACING_MISSED = 3       !< somewhere nodes do not follow d
-  integer(c_int), parameter :: PNPBS_NOT_CONFORMING = 4       !< elements do not fill the domain
+  integer(c_int), parameter :: PNPBS_SPACING_MISSED = 3       !< somewhere the nodes do not follow
+                                                              !< the spacing
+  integer(c_int), parameter :: PNPBS_NOT_CONFORMING = 4       !< the elements do not fill the domain
   integer(c_int), parameter :: PNPBS_ERROR_ARGUMENT = -1      !< invalid argument
   integer(c_int), parameter :: PNPBS_ERROR_HANDLE = -2        !< not a live handle
   integer(c_int), parameter :: PNPBS_ERROR_STATE = -3         !< call not allowed in this state
@@ -27,15 +30,19 @@ module pnpbs_c
   integer(c_int), parameter :: PNPBS_ERROR_KEY = -6           !< unknown option or statistic
   integer(c_int), parameter :: PNPBS_ERROR_CAPACITY = -7      !< array too small
   integer(c_int), parameter :: PNPBS_ERROR_FILE = -8          !< cannot read or write file
-  integer(c_int), parameter :: PNPBS_ERROR_CALLBACK = -9      !< a callback asked to stop
+  integer(c_int), parameter :: PNPBS_ERROR_CALLBACK = -9      !< a callback asked to stop with an
+                                                              !< error
   integer(c_int), parameter :: PNPBS_ERROR_MEMORY = -10       !< out of memory
   integer(c_int), parameter :: PNPBS_ERROR_MPI = -11          !< MPI is not usable
   integer(c_int), parameter :: PNPBS_ERROR_KOKKOS = -12       !< Kokkos is not usable
   integer(c_int), parameter :: PNPBS_ERROR_UNSUPPORTED = -13  !< not supported by this build
   integer(c_int), parameter :: PNPBS_ERROR_INTERNAL = -14     !< internal error
 
-  integer(c_int32_t), parameter :: PNPBS_BOUNDARY = 0  !< what separates inside from outside
-  integer(c_int32_t), parameter :: PNPBS_INNER = 1     !< what lies in the domain, and nodes follow
+  !> Role of a curve, or of a surface in space. PNPBS_BOUNDARY separates inside from outside: a
+  !> point is inside if it lies behind an odd number of them (holes and islands nest to any depth).
+  !> PNPBS_INNER lies in the domain, and nodes follow it. Curves in space are always PNPBS_INNER.
+  integer(c_int32_t), parameter :: PNPBS_BOUNDARY = 0
+  integer(c_int32_t), parameter :: PNPBS_INNER = 1
 
   !> The version this module was written for; pnpbs_version tells the library's.
   integer(c_int32_t), parameter :: PNPBS_VERSION_MAJOR = 0
@@ -45,12 +52,13 @@ module pnpbs_c
   ! ------------------------------------------------------------ callbacks ---------------------
   ! Write callbacks as module procedures with bind(C): internal procedures need an executable stack,
   ! which many systems forbid. Never stop or jump out of one: return a nonzero value. Pass data
-  ! through user, the c_loc of a target that outlives the calls.
+  ! through user, the c_loc of a target that outlives the calls. How often a callback is called,
+  ! with which points and on which rank may differ from run to run.
 
   abstract interface
     !> Parametric curve in the plane: fills coordinates(dim,n), dim = 2, for t(n). Must be a pure
-    !> function, continuous and without self-intersection. Returns 0, or anything else to fail the
-    !> call with PNPBS_ERROR_CALLBACK.
+    !> function, continuous and without self-intersection. Return 0, or nonzero to fail the call
+    !> with PNPBS_ERROR_CALLBACK.
     function pnpbs_curve_fn(n, dim, t, coordinates, user) bind(C)
       import
       implicit none
@@ -62,23 +70,10 @@ module pnpbs_c
       integer(c_int32_t) :: pnpbs_curve_fn
     end function
 
-    !> The spacing: fills d(n) for coordinates(dim,n); n may be 0. Must be a pure function of the
-    !> point. May be evaluated anywhere in the domain or on its boundary; how often, with which
-    !> points and on which rank may differ from run to run. Returns as above.
-    function pnpbs_spacing_fn(n, dim, coordinates, d, user) bind(C)
-      import
-      implicit none
-      integer(c_int64_t), value :: n
-      integer(c_int32_t), value :: dim
-      real(c_double), intent(in) :: coordinates(dim, n)
-      real(c_double), intent(out) :: d(n)
-      type(c_ptr), value :: user ! void *
-      integer(c_int32_t) :: pnpbs_spacing_fn
-    end function
-
-    !> A level set: fills values(n) with f at coordinates(dim,n), dim = 3; the body is where f < 0.
-    !> Must be a pure function of the point, the same on all ranks, continuous and finite in the
-    !> whole box; it need not be a distance. Returns as above.
+    !> Level set callback: fills values(n) with f at coordinates(dim,n), dim = 3; the body is where
+    !> f < 0. Must be a pure function of the point, the same on all ranks, continuous and finite in
+    !> the whole box; it need not be a distance. Return 0, or nonzero to fail the call with
+    !> PNPBS_ERROR_CALLBACK.
     function pnpbs_level_set_fn(n, dim, coordinates, values, user) bind(C)
       import
       implicit none
@@ -90,13 +85,30 @@ module pnpbs_c
       integer(c_int32_t) :: pnpbs_level_set_fn
     end function
 
+    !> Spacing callback: fills d(n) for coordinates(dim,n). n may be 0. Must be a pure function of
+    !> the point; it may be evaluated anywhere in the domain's bounding box that lies inside the
+    !> domain or on its boundary. Return 0, or nonzero to fail the call with PNPBS_ERROR_CALLBACK.
+    function pnpbs_spacing_fn(n, dim, coordinates, d, user) bind(C)
+      import
+      implicit none
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: dim
+      real(c_double), intent(in) :: coordinates(dim, n)
+      real(c_double), intent(out) :: d(n)
+      type(c_ptr), value :: user ! void *
+      integer(c_int32_t) :: pnpbs_spacing_fn
+    end function
+
     !> Progress callback. It is called at fixed step numbers and, a few times a second, while the
-    !> first nodes are laid or the growth of the spacing is limited (on each rank by its own clock:
-    !> do nothing collective while the fraction is 0), between long steps, and between the parts of
-    !> the finish. Its arguments are the completed part of the work of the call (0 to 1), steps so
-    !> far, the current number of nodes (0 while the first ones are laid), and the largest speed in
-    !> spacings per unit time. Returns 0 to continue, anything else to stop: the call then returns
-    !> PNPBS_STOPPED with valid nodes.
+    !> first nodes are laid or the growth of the spacing is limited, between steps that take long
+    !> (on one rank), and between the parts of the finish. While nodes are laid or growth is
+    !> limited, each rank calls it by its own clock: do nothing collective when fraction is 0.
+    !> Return 0 to continue, nonzero to stop: the call in progress then returns PNPBS_STOPPED with
+    !> valid nodes; stopped before the first nodes are laid, it has none.
+    !> @param fraction   of the work of the call in progress, 0 .. 1
+    !> @param step       steps done so far
+    !> @param nodes      current number of nodes, 0 while the first ones are laid
+    !> @param max_speed  largest scaled speed (spacings per unit time)
     function pnpbs_monitor_fn(fraction, step, nodes, max_speed, user) bind(C)
       import
       implicit none
@@ -279,8 +291,24 @@ module pnpbs_c
       integer(c_int) :: c_domain_dimension
     end function
 
-    function c_domain_add_polyline(domain, role, closed, n, coordinates, tags, corner_angle) bind(C, &
-      name="pnpbs_domain_add_polyline")
+    function c_domain_set_filled(domain, filled) bind(C, name="pnpbs_domain_set_filled")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: filled
+      integer(c_int) :: c_domain_set_filled
+    end function
+
+    function c_domain_set_repair(domain, resolution) bind(C, name="pnpbs_domain_set_repair")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), value :: resolution
+      integer(c_int) :: c_domain_set_repair
+    end function
+
+    function c_domain_add_polyline(domain, role, closed, n, coordinates, tags, corner_angle) &
+      bind(C, name="pnpbs_domain_add_polyline")
       import
       implicit none
       type(c_ptr), value :: domain
@@ -456,22 +484,6 @@ module pnpbs_c
       integer(c_int) :: c_domain_add_pslg
     end function
 
-    function c_domain_set_repair(domain, resolution) bind(C, name="pnpbs_domain_set_repair")
-      import
-      implicit none
-      type(c_ptr), value :: domain
-      real(c_double), value :: resolution
-      integer(c_int) :: c_domain_set_repair
-    end function
-
-    function c_domain_set_filled(domain, filled) bind(C, name="pnpbs_domain_set_filled")
-      import
-      implicit none
-      type(c_ptr), value :: domain
-      integer(c_int32_t), value :: filled
-      integer(c_int) :: c_domain_set_filled
-    end function
-
     function c_domain_add_hole(domain, point) bind(C, name="pnpbs_domain_add_hole")
       import
       implicit none
@@ -519,8 +531,8 @@ module pnpbs_c
       integer(c_int) :: c_domain_set_corner_angle
     end function
 
-    function c_domain_simplify(domain, spacing, user, tolerance, smallest, vertices, curves) bind(C, &
-      name="pnpbs_domain_simplify")
+    function c_domain_simplify(domain, spacing, user, tolerance, smallest, vertices, curves) &
+      bind(C, name="pnpbs_domain_simplify")
       import
       implicit none
       type(c_ptr), value :: domain
@@ -532,7 +544,7 @@ module pnpbs_c
     end function
 
     function c_domain_simplify_by_file(domain, path, field, tolerance, smallest, vertices, curves) &
-        bind(C, name="pnpbs_domain_simplify_by_file")
+      bind(C, name="pnpbs_domain_simplify_by_file")
       import
       implicit none
       type(c_ptr), value :: domain
@@ -710,8 +722,8 @@ module pnpbs_c
       import
       implicit none
       type(c_ptr), value :: placement
-      real(c_double), value :: nodes_per_turn, nodes_across, nodes_per_edge, growth
-      real(c_double), value :: min_spacing, max_spacing
+      real(c_double), value :: nodes_per_turn, nodes_across, nodes_per_edge, growth, min_spacing
+      real(c_double), value :: max_spacing
       integer(c_int) :: c_placement_set_spacing_from_shape
     end function
 
@@ -751,8 +763,7 @@ module pnpbs_c
       import
       implicit none
       type(c_ptr), value :: placement
-      integer(c_int64_t), intent(out) :: nodes
-      integer(c_int64_t), intent(out) :: bytes
+      integer(c_int64_t), intent(out) :: nodes, bytes
       real(c_double), intent(out) :: seconds
       integer(c_int) :: c_placement_estimate
     end function
@@ -824,6 +835,16 @@ module pnpbs_c
       integer(c_int) :: c_placement_get_nodes
     end function
 
+    function c_placement_get_normals(placement, capacity, normals) bind(C, &
+      name="pnpbs_placement_get_normals")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: normals(*)
+      integer(c_int) :: c_placement_get_normals
+    end function
+
     function c_placement_ghost_count(placement, ghosts) bind(C, &
       name="pnpbs_placement_ghost_count")
       import
@@ -857,9 +878,8 @@ module pnpbs_c
       integer(c_int) :: c_placement_exchange_sizes
     end function
 
-    function c_placement_get_exchange(placement, neighbours, sends, receives, ranks, &
-      send_offsets, send_nodes, receive_offsets, receive_nodes) bind(C, &
-      name="pnpbs_placement_get_exchange")
+    function c_placement_get_exchange(placement, neighbours, sends, receives, ranks, send_offsets, &
+      send_nodes, receive_offsets, receive_nodes) bind(C, name="pnpbs_placement_get_exchange")
       import
       implicit none
       type(c_ptr), value :: placement
@@ -873,8 +893,8 @@ module pnpbs_c
       integer(c_int) :: c_placement_get_exchange
     end function
 
-    function c_placement_get_numbering(placement, capacity, first, count, ghost_numbers) &
-      bind(C, name="pnpbs_placement_get_numbering")
+    function c_placement_get_numbering(placement, capacity, first, count, ghost_numbers) bind(C, &
+      name="pnpbs_placement_get_numbering")
       import
       implicit none
       type(c_ptr), value :: placement
@@ -1024,16 +1044,6 @@ module pnpbs_c
       integer(c_int32_t), intent(out) :: corners
       type(c_ptr), value :: elements ! int64_t *
       integer(c_int) :: c_placement_get_incident_elements
-    end function
-
-    function c_placement_get_normals(placement, capacity, normals) bind(C, &
-      name="pnpbs_placement_get_normals")
-      import
-      implicit none
-      type(c_ptr), value :: placement
-      integer(c_int64_t), value :: capacity
-      real(c_double), intent(inout) :: normals(*)
-      integer(c_int) :: c_placement_get_normals
     end function
 
     function c_placement_get_boundary_triangles(placement, capacity, count, triangles, tags) &

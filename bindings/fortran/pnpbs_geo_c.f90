@@ -1,11 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
+! Made from include/pnpbs/pnpbs_geo.h by scripts/fortran_layer: change that, and write this by
+!   cmake --build <folder> --target pnpbs-fortran-layer
 !> The C interface of libpnpbs_geo (pnpbs/pnpbs_geo.h), function by function, for the module
-!> pnpbs_geo. Use that module. As in pnpbs_c.f90, tests/linkage/check_signatures.py compares every
-!> body below with the header.
+!> pnpbs_geo. Use that module. Bodies have the form of those in pnpbs_c.f90.
 module pnpbs_geo_c
   use, intrinsic :: iso_c_binding
   implicit none
   public
+
+  ! ------------------------------------------------------------ functions ---------------------
 
   interface
     function c_geo_last_error() bind(C, name="pnpbs_geo_last_error")
@@ -21,7 +24,7 @@ module pnpbs_geo_c
     end function
 
     function c_geo_read(path, layer, projection, unit, tag_field, shapes) bind(C, &
-        name="pnpbs_geo_read")
+      name="pnpbs_geo_read")
       import
       implicit none
       character(kind=c_char), intent(in) :: path(*), layer(*), projection(*), unit(*), tag_field(*)
@@ -37,18 +40,16 @@ module pnpbs_geo_c
     end function
 
     function c_geo_add_to_domain(shapes, context, domain, corner_angle) bind(C, &
-        name="pnpbs_geo_add_to_domain")
+      name="pnpbs_geo_add_to_domain")
       import
       implicit none
-      type(c_ptr), value :: shapes
-      type(c_ptr), value :: context
-      type(c_ptr), value :: domain
+      type(c_ptr), value :: shapes, context, domain
       real(c_double), value :: corner_angle
       integer(c_int) :: c_geo_add_to_domain
     end function
 
     function c_geo_counts(shapes, vertices, boundary, inner, points) bind(C, &
-        name="pnpbs_geo_counts")
+      name="pnpbs_geo_counts")
       import
       implicit none
       type(c_ptr), value :: shapes
@@ -57,7 +58,7 @@ module pnpbs_geo_c
     end function
 
     function c_geo_projection(shapes, name, unit, proj, wkt, prj) bind(C, &
-        name="pnpbs_geo_projection")
+      name="pnpbs_geo_projection")
       import
       implicit none
       type(c_ptr), value :: shapes
@@ -86,7 +87,7 @@ module pnpbs_geo_c
       implicit none
       type(c_ptr), value :: shapes
       integer(c_int64_t), value :: n
-      real(c_double), intent(inout) :: coordinates(2, n)
+      real(c_double), intent(inout) :: coordinates(*)
       integer(c_int) :: c_geo_to_degrees
     end function
 
@@ -95,7 +96,7 @@ module pnpbs_geo_c
       implicit none
       type(c_ptr), value :: shapes
       integer(c_int64_t), value :: n
-      real(c_double), intent(inout) :: coordinates(2, n)
+      real(c_double), intent(inout) :: coordinates(*)
       integer(c_int) :: c_geo_from_degrees
     end function
 
@@ -125,7 +126,7 @@ module pnpbs_geo_c
     end function
 
     function c_geo_grid_read(path, variable, projection, low, high, grid) bind(C, &
-        name="pnpbs_geo_grid_read")
+      name="pnpbs_geo_grid_read")
       import
       implicit none
       character(kind=c_char), intent(in) :: path(*), variable(*), projection(*)
@@ -142,14 +143,14 @@ module pnpbs_geo_c
     end function
 
     function c_geo_grid_values(grid, n, coordinates, values, inside) bind(C, &
-        name="pnpbs_geo_grid_values")
+      name="pnpbs_geo_grid_values")
       import
       implicit none
       type(c_ptr), value :: grid
       integer(c_int64_t), value :: n
       real(c_double), intent(in) :: coordinates(*)
-      real(c_double), intent(out) :: values(*)
-      integer(c_int32_t), intent(out) :: inside(*)
+      real(c_double), intent(inout) :: values(*)
+      integer(c_int32_t), intent(inout) :: inside(*)
       integer(c_int) :: c_geo_grid_values
     end function
 
@@ -157,7 +158,7 @@ module pnpbs_geo_c
       import
       implicit none
       type(c_ptr), value :: grid
-      real(c_double), intent(out) :: low(*), high(*)
+      real(c_double), intent(inout) :: low(*), high(*)
       integer(c_int) :: c_geo_grid_extent
     end function
   end interface
