@@ -50,6 +50,8 @@ Settings random_options(Random& random, int dim) {
   if (random.chance(0.04)) options.emplace_back("effort", "best");
   if (dim == 3 && random.chance(0.05)) options.emplace_back("resolve", "1");
   if (dim == 3 && random.chance(0.25)) options.emplace_back("conforming_rounds", "0");
+  if (dim == 3 && random.chance(0.25))
+    options.emplace_back("min_angle", text_of(random.between(1, 25)));
   return options;
 }
 
