@@ -70,8 +70,7 @@ SmallAngleElements small_angle_elements(const Level<3>& level, double below) {
       for (const VolumeNode& corner : t) found.places.push_back(corner.x);
     });
     std::ranges::sort(found.places);
-    const auto doubled = std::ranges::unique(found.places);
-    found.places.erase(doubled.begin(), doubled.end());
+    found.places.erase(std::unique(found.places.begin(), found.places.end()), found.places.end());
   });
   found.all = over_ranks(*level.comm, found.all);
   return found;

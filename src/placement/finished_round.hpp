@@ -6,7 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 
+#include "base/error.hpp"
 #include "level/level.hpp"
 #include "placement/monitoring.hpp"
 #include "placement/outcome.hpp"
@@ -23,6 +26,41 @@ struct FinishedRound {
   RunState state;
   Outcome outcome;
   std::int64_t small_angles;  // elements with one
+};
+
+// For the nodes that d asks for: then a round before counts.
+inline bool is_lack_of_room(const Error& error) {
+  return error.kind() == ErrorKind::spacing || error.kind() == ErrorKind::memory;
+}
+
+// Which round counts: of those with elements that can be used, the one with the fewest small
+// angles.
+template <int Dim>
+class BestRound {
+ public:
+  // Told of a round that has ended: is there anything to gain by another one?
+  bool asks_for_another(Outcome outcome, std::int64_t small_angles) {
+    const bool conforms = outcome != Outcome::not_conforming;
+    last_is_best_ = conforms && (!best_ || small_angles < best_->small_angles);
+    in_vain_ = last_is_best_ ? 0 : in_vain_ + 1;
+    if (conforms && small_angles == 0) return false;
+    return !best_ || in_vain_ <= kMaxInVain;
+  }
+  // That round, once another one has begun; what is not the best is let go.
+  void offer(FinishedRound<Dim> last) {
+    if (last_is_best_) best_ = std::move(last);
+    last_is_best_ = false;
+  }
+  bool any_kept() const { return best_.has_value(); }
+  bool last_counts() const { return last_is_best_ || !best_; }
+  FinishedRound<Dim> take() { return std::move(*best_); }
+
+ private:
+  static constexpr int kMaxInVain = 1;  // rounds in a row that leave no fewer small angles
+
+  std::optional<FinishedRound<Dim>> best_;
+  bool last_is_best_ = false;
+  int in_vain_ = 0;
 };
 
 // Of a run's work, what is done when a round after so many others begins. Each does half of the

@@ -103,7 +103,7 @@ View<char> held_nodes(const Level<Dim>& level, const PlacedSpacing<Dim>& placed)
 }
 
 template <int Dim>
-bool add_unresolved_places(const Level<Dim>& level, const std::vector<Point<Dim>>& unresolved,
+bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
                            Held<Dim>& held) {
   const Communicator& comm = *level.comm;
   const auto global_count = [&] {
@@ -112,11 +112,15 @@ bool add_unresolved_places(const Level<Dim>& level, const std::vector<Point<Dim>
   };
   if (held.rounds >= level.settings.conforming_rounds) return false;
   // Where places are that many, the shape is lost altogether; nor should one rank have them all.
-  if (comm.allreduce_sum(unresolved.size()) > static_cast<std::uint64_t>(global_count()))
-    return false;
+  // (Corners of elements with small angles may be places of several ranks.)
+  const std::int64_t found =
+      unresolved.small_angles > 0
+          ? unresolved.small_angles
+          : static_cast<std::int64_t>(comm.allreduce_sum(unresolved.places.size()));
+  if (found > global_count()) return false;
   if (held.rounds++ == 0) held.nodes_before = global_count();
   const std::vector<GrowthSource<Dim>> wanted =
-      places_to_hold<Dim>(level, gathered<Dim>(comm, unresolved), held.rounds);
+      places_to_hold<Dim>(level, gathered<Dim>(comm, unresolved.places), held.rounds);
   const std::vector<double> d = spacing_at(level, wanted);
   const double finest = resolution_of(level.ground.domain());
   const std::size_t before = held.places.size();
@@ -145,12 +149,12 @@ std::string warning_of_held_spacing(const Held<Dim>& held, std::int64_t nodes) {
 
 template void hold_down(const Communicator&, PlacedSpacing<2>&, const Settings&);
 template View<char> held_nodes(const Level<2>&, const PlacedSpacing<2>&);
-template bool add_unresolved_places<2>(const Level<2>&, const std::vector<Point<2>>&, Held<2>&);
+template bool add_unresolved_places<2>(const Level<2>&, const Unresolved<2>&, Held<2>&);
 template bool takes_too_many(double, const Held<2>&, bool);
 template std::string warning_of_held_spacing(const Held<2>&, std::int64_t);
 template void hold_down(const Communicator&, PlacedSpacing<3>&, const Settings&);
 template View<char> held_nodes(const Level<3>&, const PlacedSpacing<3>&);
-template bool add_unresolved_places<3>(const Level<3>&, const std::vector<Point<3>>&, Held<3>&);
+template bool add_unresolved_places<3>(const Level<3>&, const Unresolved<3>&, Held<3>&);
 template bool takes_too_many(double, const Held<3>&, bool);
 template std::string warning_of_held_spacing(const Held<3>&, std::int64_t);
 

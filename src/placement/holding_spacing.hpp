@@ -23,10 +23,17 @@ void hold_down(const Communicator& comm, PlacedSpacing<Dim>& placed, const Setti
 template <int Dim>
 View<char> held_nodes(const Level<Dim>& level, const PlacedSpacing<Dim>& placed);
 
+// Where d is to be held down next.
+template <int Dim>
+struct Unresolved {
+  std::vector<Point<Dim>> places;  // of this rank
+  std::int64_t small_angles = 0;   // elements with one, over all ranks, if they conform
+};
+
 // Adds the places at which the last round asks for a smaller d, which left these places of this
 // rank unresolved; false if there are none, or that was tried often enough. Collective.
 template <int Dim>
-bool add_unresolved_places(const Level<Dim>& level, const std::vector<Point<Dim>>& unresolved,
+bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unresolved,
                            Held<Dim>& held);
 
 // Would a round with so many nodes take far more than were asked for? More may come if the last one

@@ -54,8 +54,9 @@ double SpacingToPlace<Dim>::factor_for(double wanted_nodes, const Settings& sett
     const double more = more_than_wanted(factor, Samples::few);
     if (!(more > 0)) return factor;
     if (before > 0) {
-      if (std::fabs(more / before - 1) < kSame) return factor;
-      power = std::clamp(-std::log(more / before) / std::log(step), kMinPower, 1.5 * steepest);
+      if (more > 1 && std::fabs(more / before - 1) < kSame) return factor;
+      if (std::fabs(std::log(step)) > kNear)
+        power = std::clamp(-std::log(more / before) / std::log(step), kMinPower, 1.5 * steepest);
     }
     if (std::fabs(more - 1) < kNear) break;
     before = more;

@@ -3,9 +3,7 @@
 // are collective.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
+#include "placement/holding_spacing.hpp"
 #include "placement/placed_spacing.hpp"
 #include "placement/results.hpp"
 #include "placement/run_state.hpp"
@@ -19,13 +17,6 @@ void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunStat
 // Uses of what a rank does not know exactly, for the run, with a warning if there are any.
 template <int Dim>
 void gather_unknown_uses(const Level<Dim>& level, RunState& run);
-
-// Where d is to be held down next.
-template <int Dim>
-struct Unresolved {
-  std::vector<Point<Dim>> places;  // of this rank
-  std::int64_t small_angles = 0;   // elements with one, over all ranks, if they conform
-};
 
 // If not there is a warning.
 bool elements_conform(Results<2>& results, RunState& run, Unresolved<2>& unresolved);

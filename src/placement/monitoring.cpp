@@ -32,7 +32,7 @@ bool Monitoring::stops_between_steps(bool at_event, bool level_stays, double fra
     Monitoring& monitoring;
     ~Turn() { monitoring.between_steps_ = monitoring.at_event_ = false; }
   } turn{*this};
-  between_steps_ = level_stays;
+  between_steps_ = level_stays && !provisional_;
   at_event_ = at_event;
   return stops(fraction, own_nodes);
 }

@@ -51,6 +51,22 @@ class Monitoring {
   bool between_steps() const { return between_steps_; }
   bool at_event() const { return at_event_; }
 
+  // While there is one for nodes that may not count in the end, they cannot be saved.
+  class Provisional {
+   public:
+    Provisional(Monitoring& monitoring, bool provisional)
+        : monitoring_(monitoring), before_(monitoring.provisional_) {
+      monitoring.provisional_ = provisional;
+    }
+    Provisional(const Provisional&) = delete;
+    Provisional& operator=(const Provisional&) = delete;
+    ~Provisional() { monitoring_.provisional_ = before_; }
+
+   private:
+    Monitoring& monitoring_;
+    bool before_;
+  };
+
   // Does work that leads to first nodes, or to those of a new spacing, and takes long where they
   // are many: it calls beat() again and again, so that this rank's monitor is asked by the clock.
   // Where it stops, all ranks do. Throws Error(ErrorKind::stopped) then. Collective.
@@ -67,6 +83,7 @@ class Monitoring {
   Monitor monitor_;
   Clock::time_point last_asked_ = Clock::now();
   bool between_steps_ = false, at_event_ = false;  // while the monitor is asked
+  bool provisional_ = false;
 };
 
 }  // namespace pnpbs

@@ -12,7 +12,7 @@
 namespace pnpbs {
 
 // Where the spacing is held down, since there the elements of an earlier round did not fill the
-// domain.
+// domain, or had small angles.
 template <int Dim>
 struct Held {
   std::vector<GrowthSource<Dim>> places;

@@ -3,7 +3,6 @@
 
 #include <limits>
 #include <new>
-#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
@@ -23,7 +22,6 @@ namespace pnpbs {
 namespace {
 
 constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
-constexpr int kMaxInVain = 1;  // rounds in a row that leave no fewer small angles
 
 }  // namespace
 
@@ -108,11 +106,13 @@ Outcome PlacementOf<Dim>::adopt(MadeLevel<Dim> made, std::unique_ptr<Level<Dim>>
 template <int Dim>
 std::unique_ptr<Level<Dim>> PlacementOf<Dim>::replace_level(std::unique_ptr<Level<Dim>> next,
                                                             PlacedSpacing<Dim> placed) {
+  std::vector<std::string> warnings =
+      warnings_of_level(*next, *domain_, *spacing_, placed.steepest, options_);
   std::unique_ptr<Level<Dim>> before = std::move(level_);
   if (before) state_.keep_counts(*before);
   state_.forget_finish();
   keep(std::move(next));
-  state_.warnings = warnings_of_level(*level_, *domain_, *spacing_, placed.steepest, options_);
+  state_.warnings = std::move(warnings);
   state_.warnings_of_level = state_.warnings.size();
   placed_ = std::move(placed);
   level_options_ = options_;
@@ -230,27 +230,31 @@ Outcome PlacementOf<Dim>::steps_and_finish() {
 }
 
 // Rounds after the first one, as long as the elements cannot be used, or fewer and fewer of them
-// have small angles. Of those that can be used, the one with the fewest counts. Collective.
+// have small angles. Where one that is only to be better is stopped, or fails for want of room, the
+// best one before it counts. Collective.
 template <int Dim>
 Outcome PlacementOf<Dim>::rounds_with_spacing_held(Outcome first) {
-  std::optional<FinishedRound<Dim>> best;
+  BestRound<Dim> best;
   Outcome outcome = first;
-  for (int in_vain = 0; outcome != Outcome::stopped;) {
-    const bool conforms = outcome != Outcome::not_conforming;
-    const std::int64_t small_angles = unresolved_.small_angles;
-    if (conforms && small_angles == 0) return outcome;
-    const bool better = conforms && (!best || small_angles < best->small_angles);
-    in_vain = better ? 0 : in_vain + 1;
-    if (best && in_vain > kMaxInVain) break;
+  while (outcome != Outcome::stopped && best.asks_for_another(outcome, unresolved_.small_angles)) {
     ++rounds_of_run_;
-    FinishedRound<Dim> last{nullptr, placed_, state_, outcome, small_angles};
-    const Outcome begun = hold_spacing(conforms, last.level);
-    if (begun == Outcome::not_conforming && (better || !best)) return outcome;
+    FinishedRound<Dim> last{nullptr, placed_, state_, outcome, unresolved_.small_angles};
+    const Outcome begun = hold_spacing(outcome != Outcome::not_conforming, last.level);
     if (begun == Outcome::not_conforming) break;
-    if (better) best = std::move(last);
-    outcome = begun == Outcome::stopped ? begun : steps_and_finish();
+    best.offer(std::move(last));
+    const Monitoring::Provisional turns(monitoring_, best.any_kept());
+    try {
+      outcome = begun == Outcome::stopped ? begun : steps_and_finish();
+    } catch (const Error& error) {
+      if (!best.any_kept() || !is_lack_of_room(error)) throw;
+      return return_to(best.take());
+    }
   }
-  return best && outcome != Outcome::stopped ? return_to(std::move(*best)) : outcome;
+  if (best.last_counts()) return outcome;
+  const Outcome of_best = return_to(best.take());
+  if (outcome != Outcome::stopped) return of_best;
+  state_.stop_reason = StopReason::monitor;
+  return Outcome::stopped;
 }
 
 template <int Dim>
@@ -271,12 +275,12 @@ Outcome PlacementOf<Dim>::hold_spacing(bool conforms, std::unique_ptr<Level<Dim>
   const RunState before = state_;
   Outcome outcome = Outcome::not_conforming;
   try {
-    if (add_unresolved_places<Dim>(*level_, unresolved_.places, placed.held))
+    if (add_unresolved_places<Dim>(*level_, unresolved_, placed.held))
       outcome = begin_held_round(std::move(placed), conforms, replaced);
   } catch (const FinerPlaces&) {
     throw;  // it is tried again with these
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::spacing && error.kind() != ErrorKind::memory) throw;
+    if (!is_lack_of_room(error)) throw;
     put_back(before);
   }
   // Of the call that the round belongs to.

@@ -51,7 +51,12 @@ void let_waiting_threads_sleep(char** argv) {
     setenv("OMP_WAIT_POLICY", "passive", 0);
   else
     setenv("GOMP_SPINCOUNT", spins_before_sleep, 0);
-  execv("/proc/self/exe", argv);  // returns if it cannot: then they spin
+  // By its name, which is what lists of processes show. It returns if it cannot: then they spin.
+  char name[4096];
+  const ssize_t length = readlink("/proc/self/exe", name, sizeof name - 1);
+  if (length <= 0) return;
+  name[length] = 0;
+  execv(name, argv);
 }
 
 }  // namespace pnpbs::tool
