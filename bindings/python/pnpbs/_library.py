@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
 import pathlib
@@ -40,18 +41,26 @@ def library_path() -> str:
     return next(_candidates())
 
 
-def _let_waiting_threads_sleep() -> None:
+@contextlib.contextmanager
+def _waiting_threads_sleep() -> Iterator[None]:
     """GCC's OpenMP reads how threads wait when it is loaded. By default they spin for a millisecond, and
-    where other programs keep the machine busy, a run takes many times as long."""
-    if "OMP_WAIT_POLICY" not in os.environ:
-        os.environ.setdefault("GOMP_SPINCOUNT", "1000")
+    where other programs keep the machine busy, a run takes many times as long. What processes of the
+    caller find in their environment stays."""
+    if "OMP_WAIT_POLICY" in os.environ or "GOMP_SPINCOUNT" in os.environ:
+        yield
+        return
+    os.environ["GOMP_SPINCOUNT"] = "1000"
+    try:
+        yield
+    finally:
+        del os.environ["GOMP_SPINCOUNT"]
 
 
 def open_library() -> ctypes.CDLL:
-    _let_waiting_threads_sleep()
     path = library_path()
     try:
-        opened = ctypes.CDLL(path)
+        with _waiting_threads_sleep():
+            opened = ctypes.CDLL(path)
     except OSError as error:
         raise ImportError(f"the shared library of PNPBS could not be opened: {error}; set "
                           "PNPBS_LIBRARY to its path") from error

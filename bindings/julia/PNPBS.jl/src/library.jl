@@ -58,17 +58,17 @@ function require_version(library, path)
 end
 
 # GCC's OpenMP reads how threads wait when it is loaded. By default they spin for a millisecond, and
-# where other programs keep the machine busy, a run takes many times as long.
-function let_waiting_threads_sleep()
-    haskey(ENV, "OMP_WAIT_POLICY") || get!(ENV, "GOMP_SPINCOUNT", "1000")
-    return nothing
+# where other programs keep the machine busy, a run takes many times as long. What processes of the
+# caller find in their environment stays.
+function with_threads_that_sleep(work)
+    any(name -> haskey(ENV, name), ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")) && return work()
+    return withenv(work, "GOMP_SPINCOUNT" => "1000")
 end
 
 function open_library()
-    let_waiting_threads_sleep()
     path = library_path()
     library = try
-        dlopen(path, RTLD_LAZY | RTLD_LOCAL)
+        with_threads_that_sleep(() -> dlopen(path, RTLD_LAZY | RTLD_LOCAL))
     catch e
         error("cannot open the PNPBS library \"$path\": $(sprint(showerror, e))\n",
               "Set the environment variable PNPBS_LIBRARY (or the preference `library` of PNPBS) ",
