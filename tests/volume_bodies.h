@@ -97,6 +97,36 @@ static inline pnpbs_status volume_globe(pnpbs_domain domain, const char* data) {
   return volume_add_globe(domain, centre, 1);
 }
 
+/* A globe with bumps and dents, the deeper and narrower the larger these two are. */
+static inline pnpbs_status volume_add_rough_globe(pnpbs_domain domain, double depth, double waves) {
+  static double xyz[3 * GLOBE_TRIANGLES][3];
+  static int64_t corners[GLOBE_TRIANGLES][3];
+  static const double centre[] = {0, 0, 0};
+  int octant, i, j, up, k;
+  int64_t n = 0, c;
+  for (octant = 0; octant < 8; ++octant)
+    for (i = 0; i < GLOBE_ROWS; ++i)
+      for (j = 0; i + j < GLOBE_ROWS; ++j)
+        for (up = 0; up < (i + j + 1 < GLOBE_ROWS ? 2 : 1); ++up, ++n) {
+          volume_globe_corner(centre, 1, octant, i + up, j + up, xyz[3 * n]);
+          volume_globe_corner(centre, 1, octant, i + 1, j, xyz[3 * n + 1]);
+          volume_globe_corner(centre, 1, octant, i, j + 1, xyz[3 * n + 2]);
+        }
+  for (c = 0; c < 3 * n; ++c) {
+    double* x = xyz[c];
+    const double r = 1 + depth * sin(waves * x[0]) * sin(waves * x[1] + 1) * sin(waves * x[2] + 2);
+    for (k = 0; k < 3; ++k) x[k] *= r;
+    corners[c / 3][c % 3] = c;
+  }
+  return pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 3 * n, xyz[0], n, corners[0], NULL, 40);
+}
+
+/* Where angles are small at d = 0.4, nearly everywhere. */
+static inline pnpbs_status volume_rough_globe(pnpbs_domain domain, const char* data) {
+  (void)data;
+  return volume_add_rough_globe(domain, 0.5, 8);
+}
+
 /* The unit box without a quarter: the union of three boxes of half its size and height 1. */
 static inline pnpbs_status volume_l_block(pnpbs_domain domain, const char* data) {
   const double outline[6][2] = {{0, 0}, {1, 0}, {1, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 1}};

@@ -21,8 +21,9 @@ constexpr double kHeld = 0.5;  // of d at such a place, in one round
 // more nodes. Of 32 bodies of about five parts that need rounds, at 400 nodes, 9 are torn in the
 // end without it, and 1 with it.
 constexpr std::int64_t kRoundsOfHalves = 1;
-constexpr double kMaxNodes = 4;      // times those of the first round, or ...
-constexpr double kFewNodes = 20000;  // ... so many more: beyond that, d is a mistake
+constexpr double kMaxNodes = 4;                // times those of the first round, or ...
+constexpr double kFewNodes = 20000;            // ... so many more: beyond that, d is a mistake
+constexpr std::int64_t kFewElements = 100000;  // with small angles, whose corners one rank can have
 
 // Those of all ranks, each once, in one order on all of them. Collective.
 template <int Dim>
@@ -112,12 +113,12 @@ bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unres
   };
   if (held.rounds >= level.settings.conforming_rounds) return false;
   // Where places are that many, the shape is lost altogether; nor should one rank have them all.
-  // (Corners of elements with small angles may be places of several ranks.)
+  // (Corners of elements with small angles may be places of several ranks: elements are counted.)
+  const bool small = unresolved.small_angles > 0;
   const std::int64_t found =
-      unresolved.small_angles > 0
-          ? unresolved.small_angles
-          : static_cast<std::int64_t>(comm.allreduce_sum(unresolved.places.size()));
-  if (found > global_count()) return false;
+      small ? unresolved.small_angles
+            : static_cast<std::int64_t>(comm.allreduce_sum(unresolved.places.size()));
+  if (found > std::max(global_count(), small ? kFewElements : std::int64_t{0})) return false;
   if (held.rounds++ == 0) held.nodes_before = global_count();
   const std::vector<GrowthSource<Dim>> wanted =
       places_to_hold<Dim>(level, gathered<Dim>(comm, unresolved.places), held.rounds);

@@ -169,6 +169,44 @@ START_TEST(the_best_round_counts) {
 }
 END_TEST
 
+typedef struct {
+  pnpbs_placement placement;
+  int64_t turns;      /* in rounds after the first */
+  pnpbs_status saved; /* what the first one of these says to a checkpoint */
+} trial;
+
+/* Stops in the second round. */
+static int32_t stop_in_a_trial(double fraction, int64_t step, int64_t nodes, double max_speed,
+                               void* user) {
+  trial* it = user;
+  (void)fraction, (void)step, (void)nodes, (void)max_speed;
+  if (integer_of(it->placement, "unresolved_places") == 0) return 0;
+  if (it->turns++ == 1) it->saved = pnpbs_placement_write_checkpoint(it->placement, "no.vtkhdf");
+  return it->turns > 2;
+}
+
+/* What had been reached before a round that is only to be better is what there is. */
+START_TEST(a_stop_in_a_round_leaves_the_best_one) {
+  job first = rough_job(0.4, 6, 0.3), stopped = rough_job(0.4, 6, 0.3);
+  trial it = {stopped.placement, 0, PNPBS_OK};
+  MUST_COMPUTE(pnpbs_placement_run(first.placement));
+  MUST(pnpbs_placement_set(stopped.placement, "min_angle", "25"));
+  MUST(pnpbs_placement_set_monitor(stopped.placement, stop_in_a_trial, &it));
+  MUST_BE(PNPBS_STOPPED, pnpbs_placement_run(stopped.placement));
+  ck_assert_int_eq(it.turns, 3);
+  ck_assert_int_eq(it.saved, PNPBS_ERROR_STATE); /* it may not count */
+  ck_assert_str_eq(hash_of(stopped.placement).text, hash_of(first.placement).text);
+  ck_assert_int_eq(integer_of(stopped.placement, "unresolved_places"), 0);
+  ck_assert_int_eq(integer_of(stopped.placement, "finished"), 0);
+  ck_assert_int_eq(pnpbs_placement_check(stopped.placement), PNPBS_OK);
+  MUST(pnpbs_placement_set_monitor(stopped.placement, NULL, NULL));
+  MUST_COMPUTE(pnpbs_placement_run(stopped.placement));
+  ck_assert_int_gt(integer_of(stopped.placement, "unresolved_places"), 0);
+  job_end(&stopped);
+  job_end(&first);
+}
+END_TEST
+
 START_TEST(a_user_is_told) {
   job it = rough_job(0.3, 8, 0.3);
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
@@ -187,6 +225,7 @@ int main(void) {
   tcase_add_test(angles, in_the_plane_there_are_no_sharp_edges);
   tcase_add_test(angles, they_are_enlarged);
   tcase_add_test(angles, the_best_round_counts);
+  tcase_add_test(angles, a_stop_in_a_round_leaves_the_best_one);
   tcase_add_test(angles, a_user_is_told);
   suite_add_tcase(suite, angles);
   return run_suite(suite);

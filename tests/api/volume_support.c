@@ -134,37 +134,13 @@ void check_stopped_body(const job* it, double tolerance) {
   check_volume(it, tolerance);
 }
 
-/* A globe with bumps and dents, the deeper and narrower the larger these two are. */
-static void add_rough_globe(pnpbs_domain domain, double depth, double waves) {
-  static double xyz[3 * GLOBE_TRIANGLES][3];
-  static int64_t corners[GLOBE_TRIANGLES][3];
-  static const double centre[] = {0, 0, 0};
-  int octant, i, j, up, k;
-  int64_t n = 0, c;
-  for (octant = 0; octant < 8; ++octant)
-    for (i = 0; i < GLOBE_ROWS; ++i)
-      for (j = 0; i + j < GLOBE_ROWS; ++j)
-        for (up = 0; up < (i + j + 1 < GLOBE_ROWS ? 2 : 1); ++up, ++n) {
-          volume_globe_corner(centre, 1, octant, i + up, j + up, xyz[3 * n]);
-          volume_globe_corner(centre, 1, octant, i + 1, j, xyz[3 * n + 1]);
-          volume_globe_corner(centre, 1, octant, i, j + 1, xyz[3 * n + 2]);
-        }
-  for (c = 0; c < 3 * n; ++c) {
-    double* x = xyz[c];
-    const double r = 1 + depth * sin(waves * x[0]) * sin(waves * x[1] + 1) * sin(waves * x[2] + 2);
-    for (k = 0; k < 3; ++k) x[k] *= r;
-    corners[c / 3][c % 3] = c;
-  }
-  MUST(pnpbs_domain_add_surface(domain, PNPBS_BOUNDARY, 3 * n, xyz[0], n, corners[0], NULL, 40));
-}
-
 job rough_job(double depth, double waves, double d) { return repaired_job(depth, waves, d, 0); }
 
 job repaired_job(double depth, double waves, double d, double resolution) {
   job it = {NULL, NULL, NULL};
   MUST(pnpbs_context_create_serial(&it.context));
   MUST(pnpbs_domain_create(it.context, 3, &it.domain));
-  add_rough_globe(it.domain, depth, waves);
+  MUST(volume_add_rough_globe(it.domain, depth, waves));
   if (resolution > 0) MUST(pnpbs_domain_set_repair(it.domain, resolution));
   job_place(&it);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, d));
