@@ -17,8 +17,8 @@ struct LeastAngles {
   double at_sharp_edges = 180, elsewhere = 180;
 };
 
-// From the stars there are. Collective.
-LeastAngles least_angles(const Level<3>& level);
+// From the stars there are, with the least angle of all elements. Collective.
+LeastAngles least_angles(const Level<3>& level, double of_all);
 
 struct SmallAngleElements {
   FoundNodes<3> all;             // over all ranks, at their nodes with the least ids

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "delaunay/volume/circumsphere.hpp"
-#include "delaunay/volume/element_rule.hpp"
+#include "placement/own_elements.hpp"
 
 namespace pnpbs {
 
@@ -15,18 +15,12 @@ bool is_flat(const Tetrahedron& t) { return circumsphere({t[0].x, t[1].x, t[2].x
 }  // namespace
 
 FoundNodes<3> flat_elements(const Level<3>& level, std::vector<Point<3>>& places) {
-  const Nodes<3>& nodes = level.nodes;
   FoundNodes<3> found;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    if (!nodes.owned(i)) continue;
-    level.stars.for_simplices(i, [&](const Stars<3>::Corners& others) {
-      const Tetrahedron t =
-          ordered_by_id(tetrahedron_of(nodes, {i, others[0], others[1], others[2]}));
-      if (t[0].id != nodes.id(i) || !is_flat(t)) return;
-      found.add(1, nodes.id(i), nodes.position(i));
-      for (const VolumeNode& corner : t) places.push_back(corner.x);
-    });
-  }
+  for_own_elements(level, [&](const Tetrahedron& t, const std::array<std::int64_t, 4>&) {
+    if (!is_flat(t)) return;
+    found.add(1, t[0].id, t[0].x);
+    for (const VolumeNode& corner : t) places.push_back(corner.x);
+  });
   return over_ranks(*level.comm, found);
 }
 

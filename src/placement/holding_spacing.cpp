@@ -2,8 +2,6 @@
 #include "placement/holding_spacing.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <optional>
 
 #include "base/point_text.hpp"
 #include "comm/records.hpp"

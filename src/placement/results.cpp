@@ -182,7 +182,7 @@ const ElementQuality& Results<Dim>::element_quality() {
     quality_.simplex.min_angle_elsewhere = quality_.simplex.min_angle;
     if constexpr (Dim == 3) {
       if (!level_->ground.surfaces_alone()) {
-        const LeastAngles least = least_angles(*level_);
+        const LeastAngles least = least_angles(*level_, quality_.simplex.min_angle);
         quality_.simplex.min_angle_at_sharp_edges = least.at_sharp_edges;
         quality_.simplex.min_angle_elsewhere = least.elsewhere;
       }
