@@ -15,10 +15,14 @@ Speeds speeds_of(const Level<Dim>& level) {
     for (int k = 0; k < Dim; ++k) square += nodes.v[k](i) * nodes.v[k](i);
     return std::sqrt(square) / nodes.d(i);
   };
+  // No force moves a node farther than max_move in a step. Being held off the boundary may, to and
+  // fro between two sheets of it for ever.
+  const double by_force = level.settings.motion.max_move / level.settings.motion.dt;
   Speeds speeds;
   speeds.max =
-      comm.allreduce_max(max_of("pnpbs::largest_speed", nodes.count, 0.0,
-                                [&](std::int64_t i) { return nodes.owned(i) ? scaled(i) : 0.0; }));
+      comm.allreduce_max(max_of("pnpbs::largest_speed", nodes.count, 0.0, [&](std::int64_t i) {
+        return nodes.owned(i) ? std::min(scaled(i), by_force) : 0.0;
+      }));
   const std::uint64_t sum = sum_of("pnpbs::mean_speed", nodes.count, [&](std::int64_t i) {
     return nodes.owned(i) ? fixed_point(scaled(i)) : 0;
   });

@@ -215,7 +215,7 @@ template <int Dim>
 Outcome PlacementOf<Dim>::steps_and_finish() {
   state_.warnings.resize(state_.warnings_of_level);
   const ProgressPart part = part_of_steps(rounds_of_run_, state_.schedule.refined());
-  const Outcome outcome = simulation().advance(level_->settings.steps, part);
+  const Outcome outcome = simulation().advance(most_steps(*level_), part);
   state_.schedule.progress = Progress::ended;
   if (outcome == Outcome::stopped) return outcome;
   if (simulation().finish(part.end) == Outcome::stopped) return Outcome::stopped;

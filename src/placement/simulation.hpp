@@ -14,6 +14,13 @@
 
 namespace pnpbs {
 
+// Of a run on this level. Where d is held down it jumps in slope, and bubbles take longer to rest.
+template <int Dim>
+std::int64_t most_steps(const Level<Dim>& level) {
+  constexpr std::int64_t kWhereHeld = 2;
+  return level.held_rounds > 0 ? kWhereHeld * level.settings.steps : level.settings.steps;
+}
+
 // All functions are collective.
 template <int Dim>
 class Simulation {
