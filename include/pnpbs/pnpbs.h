@@ -732,9 +732,9 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  cut off, or triangles of surfaces alone do not join (a warning says which); PNPBS_STOPPED. The
  *  nodes are valid in all these cases. In space, before it would return PNPBS_NOT_CONFORMING, it
  *  reduces d around the places where elements are missing and continues from its nodes, up to
- *  `conforming_rounds` times; a warning reports the cost (statistic `unresolved_places`). With the
- *  option `min_angle` it does so also where dihedral angles are small. d stays reduced there until
- *  another spacing is set. There is also a warning where the boundary of the
+ *  `conforming_rounds` times; a warning reports the cost (statistic `unresolved_places`). It does
+ *  so also where dihedral angles are smaller than the option `min_angle`. d stays reduced there
+ *  until another spacing is set. There is also a warning where the boundary of the
  *  tetrahedra does not follow the surfaces (statistic `missing_faces`; see the option `resolve`),
  *  and where corners and sharp edges are left out (statistic `left_out`) because no tetrahedra
  *  connect to them: what lies between them is smaller than half of d, or the body ends there in a

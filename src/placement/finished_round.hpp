@@ -33,18 +33,18 @@ inline bool is_lack_of_room(const Error& error) {
   return error.kind() == ErrorKind::spacing || error.kind() == ErrorKind::memory;
 }
 
-// Which round counts: of those with elements that can be used, the one with the fewest small
-// angles.
+// Which round counts: the first with elements that can be used, or a later one that leaves at most
+// half of its small angles, and so on.
 template <int Dim>
 class BestRound {
  public:
   // Told of a round that has ended: is there anything to gain by another one?
   bool asks_for_another(Outcome outcome, std::int64_t small_angles) {
     const bool conforms = outcome != Outcome::not_conforming;
-    last_is_best_ = conforms && (!best_ || small_angles < best_->small_angles);
-    in_vain_ = last_is_best_ ? 0 : in_vain_ + 1;
+    last_is_best_ = conforms && (!best_ || small_angles <= best_->small_angles / 2);
     if (conforms && small_angles == 0) return false;
-    return !best_ || in_vain_ <= kMaxInVain;
+    if (best_ && !last_is_best_) ++in_vain_;
+    return in_vain_ < kMaxInVain;
   }
   // That round, once another one has begun; what is not the best is let go.
   void offer(FinishedRound<Dim> last) {
@@ -56,7 +56,7 @@ class BestRound {
   FinishedRound<Dim> take() { return std::move(*best_); }
 
  private:
-  static constexpr int kMaxInVain = 1;  // rounds in a row that leave no fewer small angles
+  static constexpr int kMaxInVain = 2;  // each takes as long as a run
 
   std::optional<FinishedRound<Dim>> best_;
   bool last_is_best_ = false;

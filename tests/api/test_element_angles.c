@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Small dihedral angles: those at sharp edges of the body are told apart, the others are told to
- * the user, and enlarged by a smaller d if the option min_angle asks for it.
+ * the user, and enlarged by a smaller d as the option min_angle asks for it.
  */
 #include "volume_support.h"
 
@@ -189,6 +189,7 @@ static int32_t stop_in_a_trial(double fraction, int64_t step, int64_t nodes, dou
 START_TEST(a_stop_in_a_round_leaves_the_best_one) {
   job first = rough_job(0.4, 6, 0.3), stopped = rough_job(0.4, 6, 0.3);
   trial it = {stopped.placement, 0, PNPBS_OK};
+  MUST(pnpbs_placement_set(first.placement, "min_angle", "0"));
   MUST_COMPUTE(pnpbs_placement_run(first.placement));
   MUST(pnpbs_placement_set(stopped.placement, "min_angle", "25"));
   MUST(pnpbs_placement_set_monitor(stopped.placement, stop_in_a_trial, &it));
@@ -207,12 +208,19 @@ START_TEST(a_stop_in_a_round_leaves_the_best_one) {
 }
 END_TEST
 
+/* Unless the user sets another angle, those below 5 degrees are. */
 START_TEST(a_user_is_told) {
-  job it = rough_job(0.3, 8, 0.3);
+  job it = rough_job(0.3, 8, 0.3), enlarged = rough_job(0.3, 8, 0.3);
+  MUST(pnpbs_placement_set(it.placement, "min_angle", "0"));
+  MUST_COMPUTE(pnpbs_placement_run(enlarged.placement));
+  ck_assert_int_gt(integer_of(enlarged.placement, "unresolved_places"), 0);
+  ck_assert_int_eq(warnings_with(enlarged.placement, "min_angle"), 0);
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
   ck_assert_int_gt(elements_below(&it, 5), 0);
   ck_assert_int_eq(warnings_with(it.placement, "dihedral angles below 5 degrees: "), 1);
   ck_assert_int_eq(warnings_with(it.placement, "min_angle"), 1);
+  ck_assert_int_lt(elements_below(&enlarged, 5), elements_below(&it, 5));
+  job_end(&enlarged);
   job_end(&it);
 }
 END_TEST
