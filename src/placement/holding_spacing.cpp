@@ -121,6 +121,7 @@ bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unres
   const std::vector<GrowthSource<Dim>> wanted =
       places_to_hold<Dim>(level, gathered<Dim>(comm, unresolved.places), held.rounds);
   const std::vector<double> d = spacing_at(level, wanted);
+  if (held.rounds == 1 && !d.empty()) held.least_before = *std::ranges::min_element(d);
   const double finest = resolution_of(level.ground.domain());
   const std::size_t before = held.places.size();
   for (std::size_t k = 0; k < wanted.size(); ++k)

@@ -16,7 +16,10 @@ namespace pnpbs {
 template <int Dim>
 struct Held {
   std::vector<GrowthSource<Dim>> places;
-  std::int64_t rounds = 0, nodes_before = 0;  // after the round before the first of these
+  std::int64_t rounds = 0;
+  // Of the round before the first of these: its nodes, and the least d at the places it left.
+  std::int64_t nodes_before = 0;
+  double least_before = 0;
 };
 
 // The spacing as it counts: what it would be without the places where it is held down, these, and

@@ -66,6 +66,7 @@ class Placement {
   std::int64_t unknown_uses() const { return state_.unknown_uses; }
   std::int64_t missing_faces() const { return state_.surface_fit.missing_faces; }
   virtual std::int64_t unresolved_places() const = 0;
+  virtual double unresolved_spacing() const = 0;  // the least there, before it was held down
   // Of a body in space; of others all are 0.
   virtual RepairDistances repair_distances() const = 0;
   StopReason stop_reason() const { return state_.stop_reason; }

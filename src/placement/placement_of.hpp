@@ -57,6 +57,7 @@ class PlacementOf : public Placement {
   const Results<Dim>& results() const override { return results_; }
   const Level<Dim>& level() const { return results_.level(); }
   std::int64_t unresolved_places() const override { return std::ssize(placed_.held.places); }
+  double unresolved_spacing() const override { return placed_.held.least_before; }
   RepairDistances repair_distances() const override {
     if constexpr (Dim == 3) return domain_->repair_distances();
     return {};

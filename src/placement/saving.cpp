@@ -167,7 +167,10 @@ Held<Dim> held_in(const SavedState& state) {
   constexpr std::size_t kRow = Dim + 1;
   if (state.held.size() % kRow != 0)
     damaged("a place where d is held down is cut off: it is damaged");
-  Held<Dim> held{{}, state.held_rounds, state.nodes_before_held};
+  if (!(state.least_before_held >= 0) || !is_usable(state.least_before_held))
+    damaged("the least d where it is held down is " + number_text(state.least_before_held) +
+            ": it is damaged");
+  Held<Dim> held{{}, state.held_rounds, state.nodes_before_held, state.least_before_held};
   for (std::size_t k = 0; k < state.held.size(); k += kRow) {
     GrowthSource<Dim> place;
     std::copy_n(state.held.begin() + static_cast<std::ptrdiff_t>(k), Dim, place.x.begin());
@@ -229,6 +232,7 @@ Saved<Dim> saved_of(const Level<Dim>& level, const Held<Dim>& held, const Spacin
   s.meeting_radius = meeting_radius(level.settings);
   s.held_rounds = held.rounds;
   s.nodes_before_held = held.nodes_before;
+  s.least_before_held = held.least_before;
   for (const GrowthSource<Dim>& place : held.places) {
     s.held.insert(s.held.end(), place.x.begin(), place.x.end());
     s.held.push_back(place.d);

@@ -98,6 +98,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "places around which d is reduced because elements were missing there, or had angles "
           "below min_angle (option conforming_rounds)"),
       real(
+          "unresolved_spacing", [](P p) { return p.unresolved_spacing(); },
+          "smallest d at the first of these places before it was reduced: a resolution for "
+          "pnpbs_domain_set_repair that removes what d does not resolve; 0 without such places"),
+      real(
           "repaired.resolution", [](P p) { return p.repair_distances().resolution; },
           "resolution of the surface of a repaired body (pnpbs_domain_set_repair); the other "
           "distances are evaluated at points no farther apart than this; all are 0 without a "

@@ -51,6 +51,10 @@ void require_arguments_that_fit(const Arguments& arguments) {
   const CheckpointInterval& interval = arguments.checkpoint_interval;
   if (arguments.checkpoint.empty() && (interval.steps > 0 || interval.time.count() > 0))
     refuse("--checkpoint-every needs --checkpoint");
+  if (arguments.repair_if_needed && !(arguments.checkpoint.empty() && arguments.restart.empty()))
+    refuse(
+        "--repair auto decides anew in every run, and a checkpoint is of one body: name the "
+        "resolution");
   if (!arguments.cut.empty()) cut_plane_in(arguments.cut);
 }
 
@@ -61,7 +65,8 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
     refuse("--feature-angle is for bodies and .msh files" + plane);
   if (dimension == 2 && !arguments.inner.empty())
     refuse("--inner is for surfaces in space" + plane);
-  if (dimension == 2 && arguments.repair) refuse("--repair is for surfaces in space" + plane);
+  if (dimension == 2 && (arguments.repair || arguments.repair_if_needed))
+    refuse("--repair is for surfaces in space" + plane);
   if (dimension == 2 && arguments.surfaces_only)
     refuse("--surfaces-only is for surfaces in space" + plane);
   if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);

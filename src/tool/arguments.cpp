@@ -192,20 +192,21 @@ void add_repair(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::vector<std::string>>(
          "--repair",
          [&arguments](const std::vector<std::string>& text) {
-           double resolution = 0;
-           if (!text.empty() && !text[0].empty()) {
-             const auto numbers = numbers_between_commas(text[0]);
-             if (!numbers || numbers->size() != 1 || !((*numbers)[0] > 0))
-               refuse("--repair: expected a positive resolution, found '" + text[0] + "'");
-             resolution = (*numbers)[0];
-           }
-           arguments.repair = resolution;
+           arguments.repair_if_needed = text == std::vector<std::string>{"auto"};
+           if (arguments.repair_if_needed) return;
+           arguments.repair = 0;
+           if (text.empty() || text[0].empty()) return;
+           const auto numbers = numbers_between_commas(text[0]);
+           if (!numbers || numbers->size() != 1 || !((*numbers)[0] > 0))
+             refuse("--repair: expected a positive resolution or auto, found '" + text[0] + "'");
+           arguments.repair = (*numbers)[0];
          },
          "in space: the body that the triangles enclose, even if they are\n"
          "open, crossing or inconsistently oriented, to this resolution;\n"
-         "default: 1/64 of the longest side")
+         "default: 1/64 of the longest side; auto: only if the body\n"
+         "is refused otherwise, or torn in the end: then to d")
       ->expected(0, 1)
-      ->type_name("[RESOLUTION]")
+      ->type_name("[RESOLUTION|auto]")
       ->group("What to fill");
 }
 

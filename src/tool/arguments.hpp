@@ -36,7 +36,8 @@ struct Arguments {
   std::optional<picture::ElementColour> colour;              // of elements in pictures
   std::string cut;               // where pictures cut a body open; empty: through its middle
   std::optional<double> repair;  // its resolution, 0 for the default
-  bool surfaces_only = false;    // nothing inside them
+  bool repair_if_needed = false;
+  bool surfaces_only = false;  // nothing inside them
   bool bubbles = false;
   bool check = false;  // the results
   bool nodes_only = false;

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 
 #include "base/extension.hpp"
 #include "tool/exit.hpp"
@@ -70,6 +71,8 @@ DomainSource::DomainSource(const Arguments& arguments)
       corner_angle_(arguments.corner_angle.value_or(0)),
       filled_(!arguments.surfaces_only),
       repair_(arguments.repair),
+      repair_if_needed_(arguments.repair_if_needed),
+      quiet_(arguments.quiet),
       inner_(arguments.inner),
       names_(arguments.names) {
   if (geo_) return;
@@ -89,12 +92,23 @@ void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks&
     }
     name_groups(domain, context);
     if (dimension_ == 2) check(pnpbs_domain_set_corner_angle(domain, corner_angle_), context);
-    check_domain(domain, context);
+    check_domain(domain, context, ranks.is_first() && !quiet_);
   });
 }
 
-void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context) const {
-  const pnpbs_status status = pnpbs_domain_check(domain);
+bool DomainSource::may_be_repaired() const {
+  return repair_if_needed_ && !geo_ && !level_set_ && !primitive_;
+}
+
+void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context, bool talk) const {
+  pnpbs_status status = pnpbs_domain_check(domain);
+  if (status == PNPBS_ERROR_DOMAIN && may_be_repaired()) {
+    if (talk)
+      std::cerr << "pnpbs: note: the body is repaired, as it is refused otherwise: "
+                << pnpbs_last_error(context) << "\n";
+    check(pnpbs_domain_set_repair(domain, 0), context);
+    status = pnpbs_domain_check(domain);
+  }
   if (geo_ && status < 0)
     throw Failure(exit_code_of(status), geo_->explained(pnpbs_last_error(context)));
   check(status, context);

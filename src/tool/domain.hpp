@@ -31,9 +31,12 @@ class DomainSource {
   // domain. Collective. Throws Failure.
   void read(pnpbs_domain domain, pnpbs_context context, const Ranks& ranks) const;
 
+  // Is it of triangles that are to be repaired where nothing else helps?
+  bool may_be_repaired() const;
+
  private:
   void add_to(pnpbs_domain domain, pnpbs_context context) const;
-  void check_domain(pnpbs_domain domain, pnpbs_context context) const;
+  void check_domain(pnpbs_domain domain, pnpbs_context context, bool talk) const;
   void read_plane(pnpbs_domain domain, pnpbs_context context) const;
   void read_msh(pnpbs_domain domain, pnpbs_context context) const;
   void name_groups(pnpbs_domain domain, pnpbs_context context) const;
@@ -47,7 +50,8 @@ class DomainSource {
   double feature_angle_;
   double corner_angle_;  // in the plane
   bool filled_;
-  std::optional<double> repair_;                             // its resolution
+  std::optional<double> repair_;  // its resolution
+  bool repair_if_needed_, quiet_;
   std::vector<std::string> inner_;                           // groups
   std::vector<std::pair<std::int32_t, std::string>> names_;  // of tags
 };

@@ -92,6 +92,12 @@ void give_up_if_any_is_interrupted(const Ranks& ranks) {
   if (ranks.any(interrupted())) throw Interrupted();
 }
 
+double real_statistic(pnpbs_placement placement, const char* key, pnpbs_context context) {
+  double value = 0;
+  check(pnpbs_placement_get_double(placement, key, &value), context);
+  return value;
+}
+
 std::int64_t statistic(pnpbs_placement placement, const char* key, pnpbs_context context) {
   std::int64_t value = 0;
   check(pnpbs_placement_get_int64(placement, key, &value), context);
@@ -183,61 +189,107 @@ void set_options(pnpbs_context context, const Arguments& arguments) {
     check(pnpbs_context_set(context, key.c_str(), value.c_str()), context);
 }
 
-ExitCode run(const Arguments& arguments, const Ranks& ranks) {
-  Wishes wishes(arguments, ranks);
-  std::optional<Outputs>& outputs = wishes.outputs;
-  const int dimension = wishes.source->dimension();
+// One run of the command.
+struct Work {
+  const Arguments& arguments;
+  const Ranks& ranks;
+  Wishes wishes;
   Context context;
-  ranks.create_context(context.out());
   Domain domain;
+  PictureLook look;
+  std::optional<BodyFigures> body;
+  bool talks() const { return ranks.is_first() && !arguments.quiet; }
+};
+
+void measure_body(Work& work) {
+  if (work.wishes.source->dimension() < 3) return;
+  work.ranks.agreed(
+      [&] { work.body = body_figures(work.domain, !work.arguments.surfaces_only, work.context); });
+}
+
+void read_domain(Work& work) {
+  auto& [arguments, ranks, wishes, context, domain, look, body] = work;
+  const int dimension = wishes.source->dimension();
+  ranks.create_context(context.out());
   ranks.agreed([&] {
     set_options(context, arguments);
     check(pnpbs_domain_create(context, dimension, domain.out()), context);
   });
   wishes.source->read(domain, context, ranks);
   const GeoFile* geo = wishes.source->geo();
-  if (geo && ranks.is_first() && !arguments.quiet) tell_projection(*geo);
+  if (geo && work.talks()) tell_projection(*geo);
   ranks.agreed([&] {
     wishes.spacing->read_grids(domain, context, geo);
     if (arguments.simplify)
       wishes.spacing->simplify(domain, context, *arguments.simplify, arguments.smallest);
   });
-  PictureLook look;
-  std::optional<BodyFigures> body;
-  ranks.agreed([&] {
-    look = look_of(arguments, dimension, domain, context);
-    if (dimension == 3) body = body_figures(domain, !arguments.surfaces_only, context);
+  ranks.agreed([&] { look = look_of(arguments, dimension, domain, context); });
+  measure_body(work);
+}
+
+void create(Work& work, Placement& placement) {
+  check(pnpbs_placement_create(work.context, work.domain, placement.out()), work.context);
+  work.wishes.spacing->give_to(placement, work.domain, work.context, work.ranks);
+}
+
+// Where the elements of a body do not conform in the end, the body is repaired to what d can
+// resolve, if the user wants that. Is there anything to place anew?
+bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) {
+  if (status != PNPBS_NOT_CONFORMING || !work.wishes.source->may_be_repaired() ||
+      real_statistic(placement, "repaired.resolution", work.context) > 0)
+    return false;
+  const double d = real_statistic(placement, "unresolved_spacing", work.context);
+  if (work.talks())
+    std::cerr << "pnpbs: note: the elements do not conform: the body is repaired to a resolution "
+                 "of the spacing, and nodes are placed anew\n";
+  work.ranks.agreed([&] {
+    check(pnpbs_domain_set_repair(work.domain, d), work.context);
+    check(pnpbs_domain_check(work.domain), work.context);
   });
+  measure_body(work);
+  return true;
+}
 
-  defer_interrupts(!arguments.checkpoint.empty());
-  Placement placement;
-  check(pnpbs_placement_create(context, domain, placement.out()), context);
-  wishes.spacing->give_to(placement, domain, context, ranks);
-  if (arguments.dry_run) {
-    tell_estimate(context, placement, body, arguments, ranks);
-    return ExitCode::done;
-  }
-  outputs->check_with_library(placement, context);
-  const pnpbs_status status = place(context, placement, arguments, ranks);
-
+ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status status) {
+  auto& [arguments, ranks, wishes, context, domain, look, body] = work;
+  Outputs& outputs = *wishes.outputs;
+  const GeoFile* geo = wishes.source->geo();
   Statistics statistics(placement);
-  if (outputs->has_pictures()) outputs->write_pictures({placement, domain, context, ranks, look});
+  if (outputs.has_pictures()) outputs.write_pictures({placement, domain, context, ranks, look});
   if (body) body->area = boundary_area(placement, context, ranks);
   const std::vector<std::string> of_grids =
       wishes.spacing->warnings(placement, domain, context, ranks);
-  if (ranks.is_first() && !arguments.quiet) warn(of_grids);
+  if (work.talks()) warn(of_grids);
   const std::vector<std::string> warnings = for_report(geo, context, placement, of_grids);
-  if (geo) outputs->write_projection(geo->projection().prj);
+  if (geo) outputs.write_projection(geo->projection().prj);
   const std::vector<GroupName> groups = group_names(domain, context);
-  outputs->write_report(report_text(arguments, geo, statistics, groups, warnings));
+  outputs.write_report(report_text(arguments, geo, statistics, groups, warnings));
   give_up_if_any_is_interrupted(ranks);
-  outputs->write_nodes(placement, context);
+  outputs.write_nodes(placement, context);
   statistics.renew_memory(placement);  // files take some, too
-  outputs->replace_report(report_text(arguments, geo, statistics, groups, warnings));
-  if (ranks.is_first() && !arguments.quiet && !outputs->use_standard_output()) {
-    std::cout << summary_text(statistics, body, outputs->files());
-  }
+  outputs.replace_report(report_text(arguments, geo, statistics, groups, warnings));
+  if (work.talks() && !outputs.use_standard_output())
+    std::cout << summary_text(statistics, body, outputs.files());
   return geo && leave_out_shapes(warnings) ? ExitCode::input_left_out : exit_code_of_run(status);
+}
+
+ExitCode run(const Arguments& arguments, const Ranks& ranks) {
+  Work work{arguments, ranks, {arguments, ranks}, {}, {}, {}, {}};
+  read_domain(work);
+  defer_interrupts(!arguments.checkpoint.empty());
+  Placement given, repaired;
+  create(work, given);
+  if (arguments.dry_run) {
+    tell_estimate(work.context, given, work.body, arguments, ranks);
+    return ExitCode::done;
+  }
+  work.wishes.outputs->check_with_library(given, work.context);
+  pnpbs_status status = place(work.context, given, arguments, ranks);
+  if (!repair_if_torn(work, status, given)) return write_results(work, given, status);
+  check(pnpbs_placement_destroy(given.out()), work.context);
+  create(work, repaired);
+  status = place(work.context, repaired, arguments, ranks);
+  return write_results(work, repaired, status);
 }
 
 // Whoever reads may stop before the end, as head does.

@@ -79,6 +79,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   if (geo) describe(*geo, arguments, report);
   if (arguments.feature_angle) report["feature_angle"] = *arguments.feature_angle;
   if (arguments.repair) report["repair"] = *arguments.repair;
+  if (arguments.repair_if_needed) report["repair"] = "auto";
   if (arguments.surfaces_only) report["surfaces_only"] = true;
   if (!arguments.inner.empty()) report["inner"] = arguments.inner;
   if (!groups.empty()) report["groups"] = groups_of(groups);

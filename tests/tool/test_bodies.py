@@ -10,7 +10,7 @@ import unittest
 import numpy
 from vtk.util.numpy_support import vtk_to_numpy
 
-from command import DATA, LAKE, CommandTest
+from command import DATA, LAKE, NOT_CONFORMING, CommandTest
 from readers import point_array, read_with_vtk
 
 BOX = "box(0,0,0, 1,1,1)"
@@ -170,6 +170,33 @@ class Files(CommandTest):
         self.assertIn("found '0'", self.refuse("--domain", "open.off", "--spacing", "0.1",
                                                "--repair=0", "--dry-run"))
 
+    def test_repair_if_needed(self):
+        self.save_cube_without_lid("open.off")
+        _, err = self.place_body("open.off", "0.2", "-o", "a.vtu", "--check", "--repair", "auto")
+        self.assertIn("the body is repaired, as it is refused otherwise: ", err)
+        # A cube with a fin, which d loses, and which such a repair therefore removes.
+        self.save_cube_with_fin("fin.off", half_width=0.01)
+        torn = ["--domain", "fin.off", "--spacing", "0.3", "--set", "conforming_rounds=1",
+                "-o", "a.vtu", "--report", "a.json"]
+        self.run_command(*torn, code=NOT_CONFORMING)
+        given = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual(given["unresolved_spacing"], 0.3)
+        self.assertEqual(given["repaired"]["resolution"], 0)
+        out, err = self.place_body("fin.off", "0.3", *torn[4:], "--check", "--repair", "auto")
+        self.assertIn("the elements do not conform: the body is repaired", err)
+        self.assertIn("volume 1, surface 6\n", out)
+        found = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual(found["repair"], "auto")
+        self.assertEqual(found["repaired"]["resolution"], 0.3)
+        # One that is whole stays as it is.
+        self.save_cube_with_fin("fin.off", half_width=0.1)
+        out, err = self.place_body("fin.off", "0.2", "-o", "a.vtu", "--repair", "auto")
+        self.assertIn("volume 1.15,", out)
+        self.assertNotIn("repaired", err)
+        self.assertIn("name the resolution", self.refuse(
+            "--domain", "fin.off", "--spacing", "0.2", "--repair", "auto", "--checkpoint", "c",
+            "-o", "a.vtu"))
+
     def test_picture_of_surfaces(self):
         # Its triangles, all of them, and no cut.
         self.save_cube_without_lid("open.off")
@@ -191,6 +218,18 @@ class Files(CommandTest):
         x *= (1 + 0.7 * numpy.prod(numpy.sin(6.5 * x + [0, 1, 2]), axis=1))[:, None]
         text = f"OFF\n{len(x)} {len(x) // 3} 0\n" + "".join("%.17g %.17g %.17g\n" % tuple(p) for p in x)
         text += "".join(f"3 {t} {t + 1} {t + 2}\n" for t in range(0, len(x), 3))
+        (self.folder / name).write_text(text)
+
+    def save_cube_with_fin(self, name, half_width):
+        low, high = 0.5 - half_width, 0.5 + half_width
+        outline = [(0, 0), (1, 0), (1, low), (2, (1 + 2 * low) / 4), (2, (1 + 2 * high) / 4),
+                   (1, high), (1, 1), (0, 1), (0, high), (0, low)]
+        ends = [(0, 1, 2, 9), (9, 2, 5, 8), (2, 3, 4, 5), (8, 5, 6, 7)]
+        faces = [end[::-1] for end in ends] + [[10 + v for v in end] for end in ends]
+        faces += [(i, (i + 1) % 10, 10 + (i + 1) % 10, 10 + i) for i in range(10)]
+        text = f"OFF\n20 {len(faces)} 0\n"
+        text += "".join(f"{x} {y} {z}\n" for z in (0, 1) for x, y in outline)
+        text += "".join("4 " + " ".join(map(str, face)) + "\n" for face in faces)
         (self.folder / name).write_text(text)
 
     def save_cube_without_lid(self, name):
