@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/execution.hpp"
+#include "base/node_array.hpp"
 #include "base/types.hpp"
 
 namespace pnpbs {
@@ -15,32 +16,25 @@ namespace pnpbs {
 // Where a node that takes no part in a pair is put: so far away that every force is exactly 0.
 inline constexpr double kFarAway = 1e100;
 
-template <int Dim>
-Point<Dim> point_at(const std::array<View<double>, Dim>& x, std::int64_t i) {
-  Point<Dim> p;
-  for (int k = 0; k < Dim; ++k) p[k] = x[k](i);
-  return p;
-}
-
 // What holds a node, and with that, how it may move: nothing, a place, a curve or a surface.
 enum class Carrier : std::int8_t { free, fixed, curve, surface };
 
 template <int Dim>
 struct Nodes {
   std::int64_t count = 0;
-  std::array<View<double>, Dim> x;          // position
-  std::array<View<double>, Dim> v;          // velocity, length per unit of time
-  std::array<View<double>, Dim> reference;  // position at the last event: what the boundary hides
-                                            // is judged from there until the next one
-  View<double> d;                           // spacing at the node, as last refreshed
-  View<std::int64_t> id;                    // global id
-  View<std::int32_t> tag;                   // 0 inside
-  View<Carrier> carrier;
-  View<std::int32_t> boundary_node;  // in the plane: index into Boundary::nodes, -1 for an inner
-                                     // node; in space: see Ground<3>
-  View<std::int32_t> reference_on;   // in space: boundary_node at the last event
-  View<char> owned;                  // 0: a ghost, another rank's node
-  Carrier moving = Carrier::free;    // those that move now; all others stay
+  Field<Dim> x;                 // position
+  Field<Dim> v;                 // velocity, length per unit of time
+  Field<Dim> reference;         // position at the last event: what the boundary hides is judged
+                                // from there until the next one
+  NodeArray<double> d;          // spacing at the node, as last refreshed
+  NodeArray<std::int64_t> id;   // global id
+  NodeArray<std::int32_t> tag;  // 0 inside
+  NodeArray<Carrier> carrier;
+  NodeArray<std::int32_t> boundary_node;  // in the plane: index into Boundary::nodes, -1 for an
+                                          // inner node; in space: see Ground<3>
+  NodeArray<std::int32_t> reference_on;   // in space: boundary_node at the last event
+  NodeArray<char> owned;                  // 0: a ghost, another rank's node
+  Carrier moving = Carrier::free;         // those that move now; all others stay
 
   std::int64_t capacity() const { return static_cast<std::int64_t>(d.extent(0)) - 1; }
 
@@ -101,7 +95,7 @@ struct Nodes {
   }
 
   // Room for one number per node, for an order to put them in.
-  const View<std::int32_t>& order_scratch() {
+  View<std::int32_t>& order_scratch() {
     make_room(order_, "pnpbs::Nodes::order");
     return order_;
   }
@@ -163,7 +157,7 @@ struct Nodes {
   // a thread for each array.
   void keep(const View<std::int32_t>& places, std::int64_t kept) {
     constexpr int kReal = 3 * Dim + 1;
-    std::array<View<double>, kReal> real;
+    std::array<NodeArray<double>, kReal> real;
     for (int k = 0; k < Dim; ++k) {
       real[k] = x[k];
       real[Dim + k] = v[k];
@@ -185,11 +179,11 @@ struct Nodes {
 
  private:
   template <class T>
-  void grow_labelled(View<T>& view, const char* label, std::int64_t n) {
-    if (view.extent(0) == 0) {
-      view = make_view<T>(label, n + 1);
+  void grow_labelled(NodeArray<T>& array, const char* label, std::int64_t n) {
+    if (array.extent(0) == 0) {
+      array = make_view<T>(label, n + 1);
     } else {
-      grow(view, n + 1, count);
+      grow(array.view(), n + 1, count);
     }
   }
 
@@ -200,17 +194,17 @@ struct Nodes {
   }
 
   template <class T>
-  void permute_array(View<T>& view, View<T>& spare, const View<std::int32_t>& from) {
+  void permute_array(NodeArray<T>& array, View<T>& spare, const View<std::int32_t>& from) {
     make_room(spare, "pnpbs::Nodes::spare");
-    const View<T> old = view, ordered = spare;
+    const View<T> old = array.view(), ordered = spare;
     for_each("pnpbs::Nodes::permute", count, [=](std::int64_t i) { ordered(i) = old(from(i)); });
-    std::swap(view, spare);
+    std::swap(array.view(), spare);
   }
 
   template <class T>
-  static void keep_in_array(const View<T>& view, const View<std::int32_t>& places,
+  static void keep_in_array(NodeArray<T>& array, const View<std::int32_t>& places,
                             std::int64_t kept) {
-    for (std::int64_t i = 0; i < kept; ++i) view(i) = view(places(i));
+    for (std::int64_t i = 0; i < kept; ++i) array(i) = array(places(i));
   }
 
   struct Spare {

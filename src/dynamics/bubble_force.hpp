@@ -18,7 +18,7 @@ template <int Dim>
 using Positions = std::array<const double*, Dim>;
 
 template <int Dim>
-Positions<Dim> positions_of(const std::array<View<double>, Dim>& x) {
+Positions<Dim> positions_of(const Field<Dim>& x) {
   Positions<Dim> p;
   for (int k = 0; k < Dim; ++k) p[k] = x[k].data();
   return p;

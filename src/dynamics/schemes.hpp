@@ -24,9 +24,6 @@ constexpr Motion default_motion() {
 }
 
 template <int Dim>
-using Field = std::array<View<double>, Dim>;
-
-template <int Dim>
 void reserve_field(Field<Dim>& field, const char* label, std::int64_t n) {
   for (int k = 0; k < Dim; ++k)
     if (static_cast<std::int64_t>(field[k].extent(0)) < n + 1)
@@ -85,7 +82,7 @@ inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std
 // velocity (symplectic Euler for c = 0). First order, stable for dt < 0.816 sqrt(m/k0) or so.
 template <int Dim, class Law>
 void damped_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
-                 const Motion& motion, const Field<Dim>& next) {
+                 const Motion& motion, Field<Dim>& next) {
   const Positions<Dim> x = positions_of<Dim>(nodes.x);
   const double* const d = nodes.d.data();
   std::array<double*, Dim> v, to;
@@ -108,10 +105,10 @@ void damped_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& 
 template <int Dim, class Law>
 void accelerations(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
                    const Motion& motion, const Field<Dim>& at_x, const Field<Dim>& at_v,
-                   const Field<Dim>& a) {
+                   Field<Dim>& a) {
   const Positions<Dim> x = positions_of<Dim>(at_x);
   const double* const d = nodes.d.data();
-  for_each("pnpbs::accelerations", lists.block_count(), [=, &nodes, &lists](std::int64_t b) {
+  for_each("pnpbs::accelerations", lists.block_count(), [=, &nodes, &lists, &a](std::int64_t b) {
     std::int64_t self[kLanes];
     block_nodes(b, nodes.count, self);
     BlockVector<Dim> force;
@@ -141,7 +138,7 @@ struct Stages {
 // clamped like the step itself, so that lists and ghosts cover it.
 template <int Dim>
 void stage_state(const Nodes<Dim>& nodes, double h, double max_move, const Field<Dim>& slope_x,
-                 const Field<Dim>& slope_v, const Field<Dim>& x, const Field<Dim>& v) {
+                 const Field<Dim>& slope_v, Field<Dim>& x, Field<Dim>& v) {
   for_each("pnpbs::stage_state", nodes.count, [&](std::int64_t i) {
     std::array<double, Dim> move;
     for (int k = 0; k < Dim; ++k) move[k] = h * slope_x[k](i);  // slope_x may be v itself
@@ -168,7 +165,7 @@ void add_slopes(const Nodes<Dim>& nodes, double weight, bool first, const Field<
 // Ends a step whose mean slopes are in the sums.
 template <int Dim>
 void take_slopes(Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim>& stages,
-                 const Field<Dim>& next) {
+                 Field<Dim>& next) {
   for_each("pnpbs::take_slopes", nodes.count, [&](std::int64_t i) {
     const double mobile = nodes.moves(i) ? 1.0 : 0.0;
     std::array<double, Dim> move;
@@ -184,7 +181,7 @@ void take_slopes(Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim>& sta
 // Euler predictor, trapezoidal corrector (section 2.2 of the paper): second order.
 template <int Dim, class Law>
 void predictor_corrector_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
-                              const Motion& motion, Stages<Dim>& stages, const Field<Dim>& next) {
+                              const Motion& motion, Stages<Dim>& stages, Field<Dim>& next) {
   stages.reserve(nodes.count);
   accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);
   add_slopes<Dim>(nodes, 0.5, true, nodes.v, stages.a, stages);
@@ -197,7 +194,7 @@ void predictor_corrector_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists
 // The classical fourth-order Runge-Kutta step, the paper's last iteration.
 template <int Dim, class Law>
 void runge_kutta_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& law,
-                      const Motion& motion, Stages<Dim>& stages, const Field<Dim>& next) {
+                      const Motion& motion, Stages<Dim>& stages, Field<Dim>& next) {
   stages.reserve(nodes.count);
   accelerations<Dim>(nodes, lists, law, motion, nodes.x, nodes.v, stages.a);
   add_slopes<Dim>(nodes, 1.0 / 6, true, nodes.v, stages.a, stages);

@@ -158,7 +158,7 @@ NodesById<Dim>::NodesById(Results<Dim>& results, bool elements,
   contents_.elements = counts[1];
   contents_.facets = counts[2];
   if (comm_.size() == 1) return;
-  const View<std::int64_t> id = results.level().nodes.id;
+  const NodeArray<std::int64_t>& id = results.level().nodes.id;
   blocks_.emplace(comm_, owned_, [&](std::int64_t place) { return id(results.node_at(place)); });
   std::vector<std::int64_t> numbers;
   for (std::int64_t number = 0; number < contents_.nodes; number += kWindow)
@@ -173,7 +173,7 @@ template <int Dim>
 std::int64_t NodesById<Dim>::first_place_in(std::size_t part) const {
   if (!blocks_) return std::min(static_cast<std::int64_t>(part) * kWindow, owned_);
   if (part >= bounds_.size()) return owned_;
-  const View<std::int64_t> id = results_.level().nodes.id;
+  const NodeArray<std::int64_t>& id = results_.level().nodes.id;
   return leading_count(
       owned_, [&](std::int64_t place) { return id(results_.node_at(place)) < bounds_[part]; });
 }
@@ -239,7 +239,7 @@ template <int Dim>
 void NodesById<Dim>::for_field(std::size_t field,
                                const std::function<void(const FieldRows&)>& visit) const {
   const OutputField& of = (*contents_.fields)[field];
-  const View<std::int64_t> id = results_.level().nodes.id;
+  const NodeArray<std::int64_t>& id = results_.level().nodes.id;
   for_windows([&](const Window& window) {
     std::vector<FieldValue> values;
     for (std::int64_t place = window.begin; place < window.end; ++place)

@@ -45,7 +45,7 @@ void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const
     const auto known_leaf = [&](std::int64_t i) {
       return buckets.knows(i) ? buckets.bucket_of(i) : -1;
     };
-    const View<std::int32_t> stay = nodes.order_scratch();
+    View<std::int32_t>& stay = nodes.order_scratch();
     neighbourhood.keep_nodes(nodes, stay, travel.pack_leaving(nodes, known_leaf, outgoing, stay));
   });
   if (failure)
@@ -66,7 +66,7 @@ template <int Dim>
 void Ghosts<Dim>::migrate(const Communicator& comm, const LevelTree<Dim>& tree, Nodes<Dim>& nodes,
                           Neighbourhood<Dim>& neighbourhood) {
   std::vector<PackedNode<Dim>> leaving;
-  const View<std::int32_t> stay = nodes.order_scratch();
+  View<std::int32_t>& stay = nodes.order_scratch();
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!nodes.owned(i)) continue;

@@ -6,11 +6,13 @@
 // - reset(ground): another boundary,
 // - build(nodes, at, buckets, map, ground): at every rebuild of the lists, what is within
 //   radius() * d_i of each node, the nodes being at `at`,
-// - visibility(nodes, map, ground): what AdjacencyList::build asks,
+// - visibility(nodes, map, ground): what AdjacencyList::build asks; in space it is kept of which
+//   nodes others are hidden,
 // - within(i, reach): does the boundary come nearer to node i than this, if that is no more than
 //   radius() * d_i?
 // - constrains(nodes, i, reach): may it be in the way of node i, if steps lead no farther?
-// - hold_off(i, nodes, map, ground, to): where node i may go that wants to go to `to`.
+// - hold_off(i, nodes, map, ground, to): where node i may go that wants to go to `to`; a node on a
+//   surface is on the facet there from then on.
 #pragma once
 
 #include "level/plane/near_boundary.hpp"

@@ -54,7 +54,7 @@ class Neighbourhood {
   // Nodes come and go: those named stay, in this order.
   void keep_nodes(Nodes<Dim>& nodes, const View<std::int32_t>& places, std::int64_t kept);
   // New nodes instead of all: the bucket of each is to be written.
-  const View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes) {
+  View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes) {
     return buckets_.buckets_of_new(nodes);
   }
 

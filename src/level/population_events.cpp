@@ -18,7 +18,7 @@ template <int Dim>
 void delete_nodes(Level<Dim>& level, const std::vector<std::int32_t>& deleted) {
   Nodes<Dim>& nodes = level.nodes;
   constexpr std::int64_t kChunk = 4096;
-  const View<std::int32_t> stay = nodes.order_scratch();
+  View<std::int32_t>& stay = nodes.order_scratch();
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
   for_each("pnpbs::delete_nodes", chunks, [&](std::int64_t chunk) {
     auto next = std::lower_bound(deleted.begin(), deleted.end(), chunk * kChunk);

@@ -12,7 +12,7 @@
 namespace pnpbs {
 
 template <int Dim>
-const Field<Dim>& TimeIntegration<Dim>::scratch(const Nodes<Dim>& nodes) {
+Field<Dim>& TimeIntegration<Dim>::scratch(const Nodes<Dim>& nodes) {
   reserve_field<Dim>(next_, "pnpbs::TimeIntegration::next", nodes.capacity());
   for (int k = 0; k < Dim; ++k) next_[k](nodes.count) = kFarAway;
   return next_;
@@ -88,10 +88,10 @@ void TimeIntegration<Dim>::accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbo
 }
 
 template <int Dim>
-void TimeIntegration<Dim>::hold_off_boundary(std::int64_t i, const Nodes<Dim>& nodes,
+void TimeIntegration<Dim>::hold_off_boundary(std::int64_t i, Nodes<Dim>& nodes,
                                              const NearBoundary<Dim>& near_boundary,
                                              const DomainMap<Dim>& map, const Ground<Dim>& ground,
-                                             const Settings& settings) const {
+                                             const Settings& settings) {
   const Point<Dim> from = nodes.position(i), to = point_at<Dim>(next_, i),
                    kept = near_boundary.hold_off(i, nodes, map, ground, to);
   for (int k = 0; k < Dim; ++k) {

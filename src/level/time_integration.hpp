@@ -22,7 +22,7 @@ class TimeIntegration {
                         const Settings& settings);
 
   // Room for other positions of the nodes, padded as theirs are.
-  const Field<Dim>& scratch(const Nodes<Dim>& nodes);
+  Field<Dim>& scratch(const Nodes<Dim>& nodes);
 
  private:
   enum class Scheme { damped, predictor_corrector, runge_kutta };
@@ -33,9 +33,9 @@ class TimeIntegration {
                const Settings& settings);
   void accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbourhood, const DomainMap<Dim>& map,
               const Ground<Dim>& ground, const Settings& settings);
-  void hold_off_boundary(std::int64_t i, const Nodes<Dim>& nodes,
-                         const NearBoundary<Dim>& near_boundary, const DomainMap<Dim>& map,
-                         const Ground<Dim>& ground, const Settings& settings) const;
+  void hold_off_boundary(std::int64_t i, Nodes<Dim>& nodes, const NearBoundary<Dim>& near_boundary,
+                         const DomainMap<Dim>& map, const Ground<Dim>& ground,
+                         const Settings& settings);
 
   Field<Dim> next_;  // positions after the step in progress
   Stages<Dim> stages_;

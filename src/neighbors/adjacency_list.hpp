@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "base/chunked_rows.hpp"
@@ -29,10 +30,10 @@ class AdjacencyList {
   // Lists the pairs within the radius that see each other; nodes must be sorted by bucket.
   // Visibility has may_occlude(i), does anything near i hide others from it, and visible(i, j),
   // which must be symmetric and is asked for pairs within the radius of whose nodes one
-  // may_occlude.
+  // may_occlude. Several threads ask at a time.
   template <class Visibility>
   void build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
-             const Visibility& visibility);
+             Visibility&& visibility);
 
   double radius() const { return radius_; }
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
@@ -60,7 +61,7 @@ class AdjacencyList {
     const Nodes<Dim>& nodes;
     const Buckets<Dim>& buckets;
     double radius;
-    const Visibility& visibility;
+    Visibility& visibility;
     Candidates<Dim> candidates{};
 
     void operator()(std::int64_t block, std::vector<std::int32_t>& out);
@@ -117,11 +118,11 @@ void AdjacencyList<Dim>::BlockWriter<Visibility>::operator()(std::int64_t block,
 template <int Dim>
 template <class Visibility>
 void AdjacencyList<Dim>::build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
-                               const Visibility& visibility) {
+                               Visibility&& visibility) {
   count_ = nodes.count;
   radius_ = radius;
   blocks_.build("pnpbs::AdjacencyList::build", block_count(), [&] {
-    return BlockWriter<Visibility>{nodes, buckets, radius, visibility};
+    return BlockWriter<std::remove_reference_t<Visibility>>{nodes, buckets, radius, visibility};
   });
 }
 

@@ -31,7 +31,7 @@ class Buckets {
   }
 
   // These have come in place of those that were sorted: room for the bucket of each, to be written.
-  const View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes);
+  View<std::int32_t>& buckets_of_new(const Nodes<Dim>& nodes);
   // The first `kept` nodes named have been kept, as by Nodes::keep.
   void keep(const View<std::int32_t>& places, std::int64_t kept);
   // Has node i a bucket, from when the nodes were stored or sorted? Those appended since then have

@@ -178,8 +178,8 @@ class NearEdges::Finder {
   bool nothing_near_ = false;  // to any node of it
 };
 
-void NearEdges::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
-                      const Buckets<2>& buckets, const DomainMap<2>& map) {
+void NearEdges::build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2>& buckets,
+                      const DomainMap<2>& map) {
   at_ = at;
   if (static_cast<std::int64_t>(any_.extent(0)) < nodes.capacity()) {
     any_ = make_view<char>("pnpbs::NearEdges::any", nodes.capacity());

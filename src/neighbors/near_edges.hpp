@@ -23,8 +23,8 @@ class NearEdges {
   // At every rebuild of the lists: the edges within radius * d_i of each node, the nodes being at
   // `at`. During the run that is where they were at the last event, so that it does not matter
   // when the lists are made. Those of boundary nodes, which do not move, are found once.
-  void build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
-             const Buckets<2>& buckets, const DomainMap<2>& map);
+  void build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2>& buckets,
+             const DomainMap<2>& map);
 
   // Is no edge near any place in this leaf?
   bool leaf_is_clear(std::int32_t leaf) const {
@@ -98,7 +98,7 @@ class NearEdges {
   void add_box(const Point<2>& a, const Point<2>& b, double reach);
 
   double radius_ = 0;
-  std::array<View<double>, 2> at_;
+  Field<2> at_;
   std::vector<double> leaf_reach_;         // how far from the leaf its edges were gathered
   std::vector<std::int32_t> leaf_offset_;  // edges near each leaf
   std::vector<std::int32_t> leaf_edges_;

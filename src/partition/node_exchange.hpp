@@ -30,7 +30,7 @@ struct NodeExchange {
   // never was. The plan counts the places as they are once the others are dropped.
   template <class KnownLeaf>
   std::int64_t pack_leaving(Nodes<Dim>& nodes, const KnownLeaf& known_leaf,
-                            std::vector<Bytes>& outgoing, const View<std::int32_t>& stay) const;
+                            std::vector<Bytes>& outgoing, View<std::int32_t>& stay) const;
 
   // Appends ghosts, and nodes that have drifted to us: those, others may have as ghosts.
   void append_arriving(Nodes<Dim>& nodes, const std::vector<Bytes>& incoming) const;
@@ -40,7 +40,7 @@ template <int Dim>
 template <class KnownLeaf>
 std::int64_t NodeExchange<Dim>::pack_leaving(Nodes<Dim>& nodes, const KnownLeaf& known_leaf,
                                              std::vector<Bytes>& outgoing,
-                                             const View<std::int32_t>& stay) const {
+                                             View<std::int32_t>& stay) const {
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!nodes.owned(i)) continue;

@@ -74,7 +74,7 @@ std::int64_t count_incident_elements(const Results<Dim>& results) {
 // have in the same order, with the same first corner.
 template <std::size_t Corners, int Dim>
 std::vector<std::array<std::int64_t, Corners>> incident_elements(const Results<Dim>& results) {
-  const auto ids = results.level().nodes.id;
+  const NodeArray<std::int64_t>& ids = results.level().nodes.id;
   const auto id = [&](std::int64_t place) { return ids(results.node_at(place)); };
   std::vector<std::array<std::int64_t, Corners>> elements;
   incident::for_each_element<Corners>(results, [&](std::array<std::int64_t, Corners> places) {

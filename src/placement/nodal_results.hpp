@@ -23,11 +23,11 @@ namespace pnpbs {
 // The nodes of a rank, as they lie in memory.
 struct NodeColumns {
   std::int64_t count = 0;
-  std::array<View<double>, 3> x;  // as many as there are dimensions
-  View<double> d;
-  View<std::int64_t> id;
-  View<std::int32_t> tag;
-  View<char> owned;
+  std::array<View<const double>, 3> x;  // as many as there are dimensions
+  View<const double> d;
+  View<const std::int64_t> id;
+  View<const std::int32_t> tag;
+  View<const char> owned;
 };
 
 // Of the level there is, on this rank.

@@ -121,8 +121,9 @@ template <int Dim>
 NodeColumns Results<Dim>::nodes() const {
   if (!level_) return {};
   const Nodes<Dim>& nodes = level_->nodes;
-  NodeColumns columns{nodes.count, {}, nodes.d, nodes.id, nodes.tag, nodes.owned};
-  for (std::size_t k = 0; k < Dim; ++k) columns.x[k] = nodes.x[k];
+  NodeColumns columns{nodes.count,       {}, nodes.d.view(), nodes.id.view(), nodes.tag.view(),
+                      nodes.owned.view()};
+  for (std::size_t k = 0; k < Dim; ++k) columns.x[k] = nodes.x[k].view();
   return columns;
 }
 

@@ -126,7 +126,7 @@ extern template class Results<3>;
 template <int Dim>
 template <class Visit>
 void Results<Dim>::for_elements(std::int64_t begin, std::int64_t end, const Visit& visit) const {
-  const View<std::int64_t> id = level_->nodes.id;
+  const NodeArray<std::int64_t>& id = level_->nodes.id;
   for (std::int64_t p = begin; p < end; ++p) {
     const std::int64_t i = node_at(p);
     level_->stars.for_simplices(i, [&](const typename Stars<Dim>::Corners& others) {
@@ -187,7 +187,7 @@ template <int Dim>
 template <class Visit>
 void Results<Dim>::for_open_facets(std::int64_t begin, std::int64_t end, const Visit& visit) const
     requires(Dim == 3) {
-  const View<std::int64_t> id = level_->nodes.id;
+  const NodeArray<std::int64_t>& id = level_->nodes.id;
   struct Face {
     std::int64_t low, high;               // ids of the other two nodes
     std::array<std::int64_t, 3> turning;  // places, as seen from outside

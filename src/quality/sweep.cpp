@@ -13,8 +13,7 @@ namespace {
 
 // Where the sweep would take the nodes of block b; their own places if they may not move.
 void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-             const DomainMap<2>& map, const SweepRule& rule,
-             const std::array<View<double>, 2>& proposed, std::int64_t b) {
+             const DomainMap<2>& map, const SweepRule& rule, Field<2>& proposed, std::int64_t b) {
   const DelaunayStars::Block block = stars.block(b);
   const Positions<2> x = positions_of<2>(nodes.x);
   std::array<double, kLanes> sum_x{}, sum_y{};
@@ -49,8 +48,8 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
 }  // namespace
 
 void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-           const DomainMap<2>& map, const SweepRule& rule,
-           const std::array<View<double>, 2>& proposed, const View<char>& allowed) {
+           const DomainMap<2>& map, const SweepRule& rule, Field<2>& proposed,
+           View<char>& allowed) {
   const QualityBound bound(rule.bad_below);
   for_each("pnpbs::sweep::propose", stars.block_count(),
            [&](std::int64_t b) { propose(nodes, stars, near_edges, map, rule, proposed, b); });

@@ -18,7 +18,6 @@ struct SweepRule {
 
 // Moves the nodes; `proposed` and `allowed` are scratch, one entry per node.
 void sweep(Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges& near_edges,
-           const DomainMap<2>& map, const SweepRule& rule,
-           const std::array<View<double>, 2>& proposed, const View<char>& allowed);
+           const DomainMap<2>& map, const SweepRule& rule, Field<2>& proposed, View<char>& allowed);
 
 }  // namespace pnpbs

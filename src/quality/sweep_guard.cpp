@@ -10,8 +10,8 @@ namespace pnpbs {
 namespace {
 
 // Worst quality of triangle (i, j, k) when i has moved and the others have or have not.
-double worst_if_moved(const Nodes<2>& nodes, const std::array<View<double>, 2>& proposed,
-                      std::int64_t i, std::int64_t j, std::int64_t k) {
+double worst_if_moved(const Nodes<2>& nodes, const Field<2>& proposed, std::int64_t i,
+                      std::int64_t j, std::int64_t k) {
   const Point<2> a = point_at<2>(proposed, i);
   const Point<2> b[2] = {nodes.position(j), point_at<2>(proposed, j)};
   const Point<2> c[2] = {nodes.position(k), point_at<2>(proposed, k)};
@@ -22,7 +22,7 @@ double worst_if_moved(const Nodes<2>& nodes, const std::array<View<double>, 2>& 
 // May node i go to its proposed place, whatever its neighbours do? Then no order, and no rounds,
 // come into the decision.
 bool may_move(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_below,
-              const std::array<View<double>, 2>& proposed, std::int64_t i) {
+              const Field<2>& proposed, std::int64_t i) {
   bool allowed = true;
   stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
     if (!allowed) return;
@@ -101,8 +101,8 @@ inline std::int32_t surely_met(const QualityBound& bound, const Corner& b, const
 
 // Which nodes of a block may move for certain, because no triangle could become bad?
 void find_surely_allowed(const Nodes<2>& nodes, const DelaunayStars::Block& block,
-                         const QualityBound& bound, const std::array<View<double>, 2>& proposed,
-                         std::int64_t b, std::int32_t (&sure)[kLanes]) {
+                         const QualityBound& bound, const Field<2>& proposed, std::int64_t b,
+                         std::int32_t (&sure)[kLanes]) {
   const Positions<2> old = positions_of<2>(nodes.x), next = positions_of<2>(proposed);
   std::int64_t self[kLanes];
   block_nodes(b, nodes.count, self);
@@ -127,8 +127,8 @@ void find_surely_allowed(const Nodes<2>& nodes, const DelaunayStars::Block& bloc
 }  // namespace
 
 void guard_block(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_below,
-                 const QualityBound& bound, const std::array<View<double>, 2>& proposed,
-                 const View<char>& allowed, std::int64_t b) {
+                 const QualityBound& bound, const Field<2>& proposed, View<char>& allowed,
+                 std::int64_t b) {
   const DelaunayStars::Block block = stars.block(b);
   std::int32_t sure[kLanes]{};
   if (block.length > 0) find_surely_allowed(nodes, block, bound, proposed, b, sure);

@@ -15,8 +15,8 @@ namespace pnpbs {
 // is or becomes bad, i.e. below the quality bad_below, for which `bound` is. 0 for nodes that do
 // not move at all.
 void guard_block(const Nodes<2>& nodes, const DelaunayStars& stars, double bad_below,
-                 const QualityBound& bound, const std::array<View<double>, 2>& proposed,
-                 const View<char>& allowed, std::int64_t b);
+                 const QualityBound& bound, const Field<2>& proposed, View<char>& allowed,
+                 std::int64_t b);
 
 // The nodes, in the order of memory, that may have a triangle below this quality.
 std::vector<std::int32_t> nodes_with_doubtful_triangles(const Nodes<2>& nodes,

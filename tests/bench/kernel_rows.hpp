@@ -49,7 +49,7 @@ class Rows {
 // Each pair is in the lists of both its nodes, and is evaluated for both.
 template <int Dim, class Law>
 void evaluate_forces(const pnpbs::Nodes<Dim>& nodes, const pnpbs::AdjacencyList<Dim>& lists,
-                     const Law& law, const pnpbs::Field<Dim>& forces) {
+                     const Law& law, pnpbs::Field<Dim>& forces) {
   const pnpbs::Positions<Dim> x = pnpbs::positions_of<Dim>(nodes.x);
   const double* const d = nodes.d.data();
   pnpbs::for_each(

@@ -65,7 +65,7 @@ struct Scratch {
   pnpbs::Stages<2> stages;
 };
 
-void measure_forces(const Level& level, const Scratch& scratch, Rows& rows) {
+void measure_forces(const Level& level, Scratch& scratch, Rows& rows) {
   const Nodes<2>& nodes = level.nodes;
   const LinearPush push{1, level.settings.rest_length};
   rows.measure("force, push",

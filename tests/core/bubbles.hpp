@@ -74,7 +74,7 @@ struct Bubbles {
   }
 
   // The far-away node behind the last one.
-  void pad(const pnpbs::Field<Dim>& x) const {
+  void pad(pnpbs::Field<Dim>& x) const {
     for (int k = 0; k < Dim; ++k) x[k](nodes.count) = pnpbs::kFarAway;
   }
 

@@ -416,7 +416,7 @@ START_TEST(buckets_of_kept_nodes) {
     for (std::int64_t i = 0; i < b.nodes.count; ++i)
       ck_assert_int_eq(b.tree.leaf_at(b.nodes.position(i)), b.buckets.bucket_of(i));
     ck_assert(b.buckets.knows(b.nodes.count - 1));
-    const pnpbs::View<std::int32_t> places = b.nodes.order_scratch();
+    pnpbs::View<std::int32_t>& places = b.nodes.order_scratch();
     std::vector<std::int32_t> buckets;
     for (std::int32_t i = 0; i < b.nodes.count; ++i) {
       if (random.below(5) == 0) continue;

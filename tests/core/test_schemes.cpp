@@ -3,6 +3,8 @@
 // With a linear push that reaches far enough the force on it is exactly linear.
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "bubbles.hpp"
@@ -15,6 +17,13 @@ using pnpbs::LinearPush;
 using pnpbs::Motion;
 
 namespace {
+
+// Of const nodes nothing can be written.
+using ConstNodes = const pnpbs::Nodes<3>;
+static_assert(std::is_assignable_v<decltype(std::declval<pnpbs::Nodes<3>>().x[0](0)), double>);
+static_assert(!std::is_assignable_v<decltype(std::declval<ConstNodes>().x[0](0)), double>);
+static_assert(!std::is_assignable_v<decltype(*std::declval<ConstNodes>().d.data()), double>);
+static_assert(!std::is_assignable_v<decltype(std::declval<ConstNodes>().d.view()(0)), double>);
 
 enum class Scheme { damped, predictor_corrector, runge_kutta };
 

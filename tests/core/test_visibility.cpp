@@ -206,7 +206,7 @@ START_TEST(nodes_stay_off_the_boundary) {
   const double d = 0.1, toward_wall = -1.5 * d;
   std::int64_t at_wall = 0;
   for (int step = 0; step < 60; ++step) {
-    const pnpbs::Nodes<2>& nodes = run.level->nodes;
+    pnpbs::Nodes<2>& nodes = run.level->nodes;
     for (std::int64_t i = 0; i < nodes.count; ++i)
       if (nodes.moves(i)) nodes.v[0](i) = toward_wall;
     run.steps(1, false, false);

@@ -62,7 +62,7 @@ class BoxNodes {
     const auto known_leaf = [this](std::int64_t i) {
       return buckets_.knows(i) ? buckets_.bucket_of(i) : -1;
     };
-    const pnpbs::View<std::int32_t> stay = nodes_.order_scratch();
+    pnpbs::View<std::int32_t>& stay = nodes_.order_scratch();
     const std::int64_t kept = travel.pack_leaving(nodes_, known_leaf, outgoing, stay);
     nodes_.keep(stay, kept);
     buckets_.keep(stay, kept);

@@ -261,7 +261,7 @@ bool VolumeStar::all_surely_below(const Plane& plane, const Corners& facet) cons
 // The facet with this edge, if there is one; if not, face (centre, from, to) is open. Seen along
 // the edge, its third corner is the steepest candidate on the right side of the face, and when all
 // others are surely below, the exact arithmetic has nothing to add.
-bool VolumeStar::find_facet(const Edge& edge, Facet& facet) const {
+bool VolumeStar::find_facet(const Edge& edge, Facet& facet) {
   const Point<3> a = inverse(edge.from), b = inverse(edge.to), along = difference(b, a);
   const Point<3> normal = cross(a, b), up = cross(along, normal);
   const double height = dot(up, a);

@@ -119,7 +119,7 @@ class VolumeStar {
   bool surely_below(const Plane& plane, std::int32_t k) const;
   bool beyond(const Facet& facet, std::int32_t k) const;
   bool all_surely_below(const Plane& plane, const Corners& facet) const;
-  bool find_facet(const Edge& edge, Facet& facet) const;
+  bool find_facet(const Edge& edge, Facet& facet);
   bool find_facet_exactly(const Edge& edge, Facet& facet) const;
   void add_open(const Face& face);
   void add_facet(const Facet& facet, double reach);
@@ -135,7 +135,7 @@ class VolumeStar {
   std::vector<VolumeNode> candidates_;
   std::vector<Point<3>> relative_;        // to the centre
   std::array<std::vector<double>, 3> y_;  // inverted, in whole groups filled up with the origin
-  mutable std::vector<double> slopes_;    // of as many
+  std::vector<double> slopes_;            // of as many
   double unit_ = 1;                       // distance of the nearest candidate: 1 after inversion
   std::vector<double> line_gaps_;         // after inversion: of lines to the nearest, squared
   std::vector<Edge> waiting_;             // edges of facets whose other facet is to be found

@@ -34,7 +34,8 @@ class Sweep {
   }
 
  private:
-  // An edge that the sweep line cuts. The chain of edges through a vertex keeps one entry.
+  // An edge that the sweep line cuts. The chain of edges through a vertex keeps one entry, whose
+  // place among the others stays the same: so the edge may change while it is in the set.
   struct Entry {
     mutable std::int32_t edge;
   };

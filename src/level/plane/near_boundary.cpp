@@ -11,9 +11,8 @@ NearEdges NearBoundary<2>::near_leaves(const LevelTree<2>& tree, double radius) 
   return edges;
 }
 
-void NearBoundary<2>::build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
-                            const Buckets<2>& buckets, const DomainMap<2>& map,
-                            const Ground<2>& ground) {
+void NearBoundary<2>::build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2>& buckets,
+                            const DomainMap<2>& map, const Ground<2>& ground) {
   edges_.build(nodes, at, buckets, map);
   visibility_.look(nodes, edges_, map, ground.sectors());
 }

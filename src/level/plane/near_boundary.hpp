@@ -22,8 +22,8 @@ class NearBoundary<2> {
   void adopt(NearLeaves edges) { edges_ = std::move(edges); }
   void reset(const Ground<2>& ground) { visibility_.reset(ground.boundary().nodes.size()); }
 
-  void build(const Nodes<2>& nodes, const std::array<View<double>, 2>& at,
-             const Buckets<2>& buckets, const DomainMap<2>& map, const Ground<2>& ground);
+  void build(const Nodes<2>& nodes, const Field<2>& at, const Buckets<2>& buckets,
+             const DomainMap<2>& map, const Ground<2>& ground);
   VisibilityPastEdges visibility(const Nodes<2>& nodes, const DomainMap<2>& map,
                                  const Ground<2>& ground) const {
     return {nodes, edges_, visibility_, map, ground.sectors()};

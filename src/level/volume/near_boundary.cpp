@@ -13,7 +13,7 @@ namespace pnpbs {
 // ------------------------------------------------------------------ who sees whom --------------
 
 // Lists are made by several threads.
-bool VisibilityInSpace::visible(std::int64_t i, std::int64_t j) const {
+bool VisibilityInSpace::visible(std::int64_t i, std::int64_t j) {
   if (in_sight(i, j)) return true;
   for (const std::int64_t node : {i, j})
     std::atomic_ref<char>(hidden_(node)).store(1, std::memory_order_relaxed);
@@ -73,9 +73,8 @@ NearBoundary<3>::NearLeaves NearBoundary<3>::near_leaves(const LevelTree<3>& lev
   return near;
 }
 
-void NearBoundary<3>::build(const Nodes<3>& nodes, const std::array<View<double>, 3>& at,
-                            const Buckets<3>& buckets, const DomainMap<3>& map,
-                            const Ground<3>& ground) {
+void NearBoundary<3>::build(const Nodes<3>& nodes, const Field<3>& at, const Buckets<3>& buckets,
+                            const DomainMap<3>& map, const Ground<3>& ground) {
   at_ = at;
   if (static_cast<std::int64_t>(gap_.extent(0)) < nodes.capacity()) {
     gap_ = make_view<double>("pnpbs::NearBoundary::gap", nodes.capacity());
@@ -107,7 +106,7 @@ double NearBoundary<3>::gap_of(std::int64_t i, const Nodes<3>& nodes, const Buck
 
 // ------------------------------------------------------------------ how nodes move -------------
 
-Point<3> NearBoundary<3>::hold_off(std::int64_t i, const Nodes<3>& nodes, const DomainMap<3>&,
+Point<3> NearBoundary<3>::hold_off(std::int64_t i, Nodes<3>& nodes, const DomainMap<3>&,
                                    const Ground<3>& ground, const Point<3>& to) const {
   if (nodes.carrier(i) == Carrier::surface) return walk_on_surface(i, nodes, ground, to);
   constexpr double kRounding = 1 + 1e-8;
@@ -155,8 +154,8 @@ bool NearBoundary<3>::stays_clear(std::int64_t i, const Nodes<3>& nodes, const G
 
 // Along the surface, up to the features that have nodes of their own; nearer to them only as long
 // as there is room.
-Point<3> NearBoundary<3>::walk_on_surface(std::int64_t i, const Nodes<3>& nodes,
-                                          const Ground<3>& ground, const Point<3>& to) const {
+Point<3> NearBoundary<3>::walk_on_surface(std::int64_t i, Nodes<3>& nodes, const Ground<3>& ground,
+                                          const Point<3>& to) const {
   const Surface& surface = ground.surface();
   const SurfacePoint from{nodes.boundary_node(i), nodes.position(i)};
   const SurfacePoint reached = walk(surface, from, difference(to, from.position));

@@ -23,12 +23,12 @@ class NearBoundary;
 class VisibilityInSpace {
  public:
   // What is asked about and not visible is set in `hidden`, for both nodes.
-  VisibilityInSpace(const Nodes<3>& nodes, const std::array<View<double>, 3>& at,
-                    const Ground<3>& ground, const View<char>& hidden)
+  VisibilityInSpace(const Nodes<3>& nodes, const Field<3>& at, const Ground<3>& ground,
+                    NodeArray<char>& hidden)
       : nodes_(nodes), at_(at), ground_(ground), hidden_(hidden) {}
 
   bool may_occlude(std::int64_t i) const { return nodes_.carrier(i) != Carrier::free; }
-  bool visible(std::int64_t i, std::int64_t j) const;
+  bool visible(std::int64_t i, std::int64_t j);
 
  private:
   bool bubbles_on_surfaces() const { return nodes_.moving == Carrier::surface; }
@@ -40,9 +40,9 @@ class VisibilityInSpace {
   bool see_through_inside(std::int64_t i, std::int64_t j) const;
 
   const Nodes<3>& nodes_;
-  std::array<View<double>, 3> at_;
+  Field<3> at_;
   const Ground<3>& ground_;
-  View<char> hidden_;
+  NodeArray<char>& hidden_;
 };
 
 template <>
@@ -57,10 +57,10 @@ class NearBoundary<3> {
   void adopt(NearLeaves near) { near_ = std::move(near); }
   void reset(const Ground<3>&) {}
 
-  void build(const Nodes<3>& nodes, const std::array<View<double>, 3>& at,
-             const Buckets<3>& buckets, const DomainMap<3>& map, const Ground<3>& ground);
+  void build(const Nodes<3>& nodes, const Field<3>& at, const Buckets<3>& buckets,
+             const DomainMap<3>& map, const Ground<3>& ground);
   VisibilityInSpace visibility(const Nodes<3>& nodes, const DomainMap<3>&,
-                               const Ground<3>& ground) const {
+                               const Ground<3>& ground) {
     return {nodes, at_, ground, hidden_};
   }
 
@@ -79,7 +79,7 @@ class NearBoundary<3> {
   bool constrains(const Nodes<3>& nodes, std::int64_t i, double reach) const {
     return nodes.carrier(i) == Carrier::surface || within(i, reach);
   }
-  Point<3> hold_off(std::int64_t i, const Nodes<3>& nodes, const DomainMap<3>& map,
+  Point<3> hold_off(std::int64_t i, Nodes<3>& nodes, const DomainMap<3>& map,
                     const Ground<3>& ground, const Point<3>& to) const;
 
   // May free node i go to `to`, with that much room or no less than now?
@@ -95,15 +95,15 @@ class NearBoundary<3> {
 
   double gap_of(std::int64_t i, const Nodes<3>& nodes, const Buckets<3>& buckets,
                 const DomainMap<3>& map, const Ground<3>& ground) const;
-  Point<3> walk_on_surface(std::int64_t i, const Nodes<3>& nodes, const Ground<3>& ground,
+  Point<3> walk_on_surface(std::int64_t i, Nodes<3>& nodes, const Ground<3>& ground,
                            const Point<3>& to) const;
 
   NearLeaves near_;
-  std::array<View<double>, 3> at_;
+  Field<3> at_;
   // Of a free node, to the nearest facet; of one on a surface, to the nearest feature edge;
   // kFarAway if that is more than the radius.
-  View<double> gap_;
-  View<char> hidden_;  // has the boundary kept a node from the list of this one?
+  NodeArray<double> gap_;
+  NodeArray<char> hidden_;  // has the boundary kept a node from the list of this one?
 };
 
 }  // namespace pnpbs

@@ -14,7 +14,7 @@ namespace pnpbs {
 // Moves the nodes with a closed star that allowed(i, x) lets go to x; `proposed` is scratch. The
 // neighbours come in an order that depends on ids only.
 template <class Stars, class Allowed>
-void sweep_to_means(Nodes<3>& nodes, const Stars& stars, double share, const Field<3>& proposed,
+void sweep_to_means(Nodes<3>& nodes, const Stars& stars, double share, Field<3>& proposed,
                     const Allowed& allowed) {
   for_each("pnpbs::sweep_to_means::propose", nodes.count, [&](std::int64_t i) {
     const Point<3> x = nodes.position(i);

@@ -127,7 +127,7 @@ class StarChanges {
   bool on_surfaces_too_;
   std::vector<std::int32_t> place_;  // of each node's star among those changed
   std::vector<Star> changed_;
-  mutable std::int64_t unknown_uses_ = 0;
+  mutable std::int64_t unknown_uses_ = 0;  // a tally of those who ask, which decides nothing
 };
 
 }  // namespace pnpbs
