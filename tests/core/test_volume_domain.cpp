@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <vector>
 
 #include "domain/volume/volume_domain.hpp"
@@ -22,6 +23,13 @@ using P = pnpbs::Point<3>;
 using Spacing = VolumeSpacing;
 
 namespace {
+
+// What points into itself stays where it is.
+using pnpbs::ResolvedVolume;
+static_assert(!std::is_copy_constructible_v<ResolvedVolume> &&
+              !std::is_move_constructible_v<ResolvedVolume> &&
+              !std::is_copy_assignable_v<ResolvedVolume> &&
+              !std::is_move_assignable_v<ResolvedVolume>);
 
 Surface fine_sphere() { return scaled(surfaces::sphere(4, 900), 0x1p-10); }
 // Its triangles in no order, so that of equally near ones any may be met first.

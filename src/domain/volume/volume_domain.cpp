@@ -247,10 +247,10 @@ void VolumeDomain::check() {
   RepairDistances distances;
   const std::vector<SurfaceSource> surfaces =
       repair_ ? repaired_surfaces(warnings, distances) : surfaces_;
-  std::shared_ptr<ResolvedVolume> resolved;
+  std::unique_ptr<ResolvedVolume> resolved;
   try {
-    resolved = std::make_shared<ResolvedVolume>(resolve_volume(
-        {surfaces, repair_ ? no_roles : roles_, polylines_, holes_, given_nodes_, filled_}));
+    resolved = resolve_volume(
+        {surfaces, repair_ ? no_roles : roles_, polylines_, holes_, given_nodes_, filled_});
   } catch (const BrokenSurface& error) {
     if (repair_ || !filled_) throw;
     reject_domain(std::string(error.what()) +

@@ -68,6 +68,10 @@ struct LevelSetTriangles {
 
 // What check() finds out.
 struct ResolvedVolume {
+  ResolvedVolume() = default;
+  ResolvedVolume(const ResolvedVolume&) = delete;  // the index points to the mesh
+  ResolvedVolume& operator=(const ResolvedVolume&) = delete;
+
   BoundaryMesh<3> mesh;
   SurfaceIndex index;  // of the mesh
   Features features;

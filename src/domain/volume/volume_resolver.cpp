@@ -28,14 +28,15 @@ namespace {
 
 class Resolver {
  public:
-  explicit Resolver(const GivenVolume& given)
+  Resolver(const GivenVolume& given, ResolvedVolume& result)
       : surfaces_(given.surfaces),
         polylines_(given.polylines),
         holes_(given.holes),
         fixed_nodes_(given.fixed_nodes),
-        filled_(given.filled) {}
+        filled_(given.filled),
+        result_(result) {}
 
-  ResolvedVolume run(const GivenVolume& given) {
+  void run(const GivenVolume& given) {
     require_surfaces();
     surface_ = join_surfaces(surfaces_);
     give_roles(surface_, given.roles);
@@ -64,7 +65,6 @@ class Resolver {
     filled_ ? remove_holes() : reject_holes();
     make_mesh();
     find_features_of(surfaces_, result_);
-    return std::move(result_);
   }
 
  private:
@@ -380,11 +380,15 @@ class Resolver {
   std::vector<char> on_surface_;            // of each vertex: is it one of a triangle?
   std::vector<std::int32_t> number_;        // of each vertex: its node of the mesh, or -1
   std::int64_t triangles_kept_ = 0;
-  ResolvedVolume result_;
+  ResolvedVolume& result_;
 };
 
 }  // namespace
 
-ResolvedVolume resolve_volume(const GivenVolume& given) { return Resolver(given).run(given); }
+std::unique_ptr<ResolvedVolume> resolve_volume(const GivenVolume& given) {
+  auto resolved = std::make_unique<ResolvedVolume>();
+  Resolver(given, *resolved).run(given);
+  return resolved;
+}
 
 }  // namespace pnpbs

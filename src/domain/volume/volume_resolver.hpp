@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "domain/volume/volume_domain.hpp"
@@ -21,6 +22,6 @@ struct GivenVolume {
 
 // Welds the surfaces, mends and checks them, finds the inside and the features. Throws
 // Error(ErrorKind::domain).
-ResolvedVolume resolve_volume(const GivenVolume& given);
+std::unique_ptr<ResolvedVolume> resolve_volume(const GivenVolume& given);
 
 }  // namespace pnpbs
