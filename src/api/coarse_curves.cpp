@@ -9,12 +9,9 @@ using namespace pnpbs::api;
 
 namespace {
 
-void simplify_by(PlaneDomain& plane, const Spacing<2>& spacing, const SimplifyRule& rule,
+void simplify_by(PlaneDomain& plane, const LocalSpacing<2>& spacing, const SimplifyRule& rule,
                  int64_t* vertices, int64_t* curves) {
-  const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
-    evaluate_spacing<2>(spacing, 0, n, x, d);
-  };
-  const LeftOut left_out = plane.simplify(checked, rule);
+  const LeftOut left_out = plane.simplify(local_evaluator(spacing, 0), rule);
   if (vertices) *vertices = left_out.vertices;
   if (curves) *curves = left_out.curves;
 }
@@ -40,7 +37,7 @@ pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char* path
     require_pointer(path, "path");
     GivenField<2> values = read_field<2>(path, field ? field : "");
     plane.check();
-    const std::shared_ptr<const Spacing<2>> spacing =
+    const std::shared_ptr<const LocalSpacing<2>> spacing =
         spacing_from_field(std::move(values), plane.bounds());
     simplify_by(plane, *spacing, {tolerance, smallest}, vertices, curves);
   });

@@ -16,7 +16,7 @@
 namespace pnpbs {
 
 template <int Dim>
-class CloudSpacing : public Spacing<Dim> {
+class CloudSpacing : public LocalSpacing<Dim> {
  public:
   // Of a checked field without elements. Throws Error(ErrorKind::spacing) where points in one place
   // have different values.

@@ -87,8 +87,8 @@ Box<Dim> box_of(const GivenField<Dim>& field) {
 }
 
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> spacing_from_field(GivenField<Dim> field,
-                                                       const Box<Dim>& domain) {
+std::shared_ptr<const LocalSpacing<Dim>> spacing_from_field(GivenField<Dim> field,
+                                                            const Box<Dim>& domain) {
   if (field.points.empty())
     throw Error(field.fault, field.points_name + ": there is no point, expected at least 1");
   check_points(field);
@@ -110,8 +110,8 @@ std::uint64_t hash_of(const GivenField<Dim>& field) {
   return hash;
 }
 
-template std::shared_ptr<const Spacing<2>> spacing_from_field(GivenField<2>, const Box<2>&);
-template std::shared_ptr<const Spacing<3>> spacing_from_field(GivenField<3>, const Box<3>&);
+template std::shared_ptr<const LocalSpacing<2>> spacing_from_field(GivenField<2>, const Box<2>&);
+template std::shared_ptr<const LocalSpacing<3>> spacing_from_field(GivenField<3>, const Box<3>&);
 template Box<2> box_of(const GivenField<2>&);
 template Box<3> box_of(const GivenField<3>&);
 template std::uint64_t hash_of(const GivenField<2>&);

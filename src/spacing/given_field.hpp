@@ -35,8 +35,8 @@ void require_spacing_value(const std::string& name, double value);
 // have one value, and what holds all of it meets the domain's box. Throws Error(field.fault) or
 // Error(ErrorKind::spacing), told by the first of what is wrong.
 template <int Dim>
-std::shared_ptr<const Spacing<Dim>> spacing_from_field(GivenField<Dim> field,
-                                                       const Box<Dim>& domain);
+std::shared_ptr<const LocalSpacing<Dim>> spacing_from_field(GivenField<Dim> field,
+                                                            const Box<Dim>& domain);
 
 // What of the points counts: all of a cloud, of a mesh those of its elements.
 template <int Dim>

@@ -9,7 +9,7 @@
 namespace pnpbs {
 
 template <int Dim>
-class MeshSpacing : public Spacing<Dim> {
+class MeshSpacing : public LocalSpacing<Dim> {
  public:
   // Of a checked field with elements.
   explicit MeshSpacing(const GivenField<Dim>& field);

@@ -20,7 +20,7 @@ struct ShapeLimits {
 };
 
 template <int Dim>
-class ShapeSpacing : public Spacing<Dim> {
+class ShapeSpacing : public LocalSpacing<Dim> {
  public:
   // The index is looked at here alone.
   ShapeSpacing(const ShapeIndex<Dim>& index, const ShapeDemands& demands,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "domain/spacing_evaluator.hpp"
 #include "spacing/growth_source.hpp"
 
 namespace pnpbs {
@@ -37,12 +38,15 @@ struct GivenExtent {
   Box<Dim> box;  // around it; infinite where it has no end
 };
 
+// As a placement asks for it. Values may be with other ranks: who asks on one rank alone takes a
+// LocalSpacing.
 template <int Dim>
 class Spacing {
  public:
   virtual ~Spacing() = default;
   // Fills d[n] at x[n]. Throws Error if the user's callback fails. Values are as the user has
-  // them: checked by evaluate_spacing.
+  // them: checked by evaluate_spacing. Collective: all ranks ask at the same time, as many points
+  // as each wants.
   virtual void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const = 0;
   virtual KnownValues<Dim> known_values() const { return {}; }
   // With the sizes that it is made of multiplied, but its growth as it is, if there is a growth of
@@ -55,8 +59,12 @@ class Spacing {
   virtual void distance_to_extent(std::int64_t n, const Point<Dim>* x, double* distances) const;
 };
 
+// One of which every rank has all values: evaluate() is local.
 template <int Dim>
-class ConstantSpacing : public Spacing<Dim> {
+class LocalSpacing : public Spacing<Dim> {};
+
+template <int Dim>
+class ConstantSpacing : public LocalSpacing<Dim> {
  public:
   explicit ConstantSpacing(double d) : d_(d) {}
   void evaluate(std::int64_t n, const Point<Dim>* x, double* d) const override;
@@ -67,7 +75,7 @@ class ConstantSpacing : public Spacing<Dim> {
 
 // A batch callback; 0 is success.
 template <int Dim>
-class CallbackSpacing : public Spacing<Dim> {
+class CallbackSpacing : public LocalSpacing<Dim> {
  public:
   using Function = std::function<std::int32_t(std::int64_t n, const double* x, double* d)>;
   explicit CallbackSpacing(Function function) : function_(std::move(function)) {}
@@ -81,7 +89,7 @@ class CallbackSpacing : public Spacing<Dim> {
 // constant beyond the border. Where values stand for cells, these reach half a step beyond their
 // middles; a direction with one grid point has the same value everywhere.
 template <int Dim>
-class GridSpacing : public Spacing<Dim> {
+class GridSpacing : public LocalSpacing<Dim> {
  public:
   GridSpacing(const std::array<std::int64_t, Dim>& size, const Point<Dim>& origin,
               const Point<Dim>& step, std::vector<double> values)
@@ -113,10 +121,19 @@ class BoundedSpacing : public Spacing<Dim> {
 };
 
 // Evaluates d and checks it: an Error(ErrorKind::spacing) names the point, the value and the
-// number of nodes that it would mean in a domain of this area (volume).
+// number of nodes that it would mean in a domain of this area (volume). Collective.
 template <int Dim>
 void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t n,
                       const Point<Dim>* x, double* d);
+
+// The same of a spacing that outlives it, for who asks on one rank alone.
+template <int Dim>
+LocalSpacingEvaluator<Dim> local_evaluator(const LocalSpacing<Dim>& spacing, double measure) {
+  return LocalSpacingEvaluator<Dim>(
+      [&spacing, measure](std::int64_t n, const Point<Dim>* x, double* d) {
+        evaluate_spacing<Dim>(spacing, measure, n, x, d);
+      });
+}
 
 extern template class Spacing<2>;
 extern template class Spacing<3>;

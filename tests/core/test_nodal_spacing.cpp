@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "nodal_parts.hpp"
@@ -18,6 +19,12 @@ using PatchAnswer = pnpbs::PatchAnswer<2>;
 using P = pnpbs::Point<2>;
 
 namespace {
+
+// It cannot be asked on one rank alone.
+using pnpbs::LocalSpacing;
+static_assert(std::is_convertible_v<const pnpbs::GridSpacing<2>*, const LocalSpacing<2>*>);
+static_assert(!std::is_convertible_v<const pnpbs::NodalSpacing<2>*, const LocalSpacing<2>*>);
+static_assert(!std::is_convertible_v<pnpbs::SpacingEvaluator<2>, pnpbs::LocalSpacingEvaluator<2>>);
 
 constexpr int kCells = 12;
 

@@ -25,8 +25,9 @@ using Points = std::vector<Point<2>>;
 
 namespace {
 
-pnpbs::SpacingEvaluator<2> constant(double value) {
-  return [value](std::int64_t n, const Point<2>*, double* d) { std::fill(d, d + n, value); };
+pnpbs::LocalSpacingEvaluator<2> constant(double value) {
+  return pnpbs::LocalSpacingEvaluator<2>(
+      [value](std::int64_t n, const Point<2>*, double* d) { std::fill(d, d + n, value); });
 }
 
 LeftOut simplify(PlaneDomain& domain, double d, double tolerance, double smallest = 0) {
@@ -235,9 +236,9 @@ START_TEST(bad_arguments) {
   expect_error(ErrorKind::argument, {"tolerance", "-1"}, [&] { simplify(domain, 1, -1); });
   expect_error(ErrorKind::argument, {"smallest"}, [&] { simplify(domain, 1, 0, -2); });
   expect_error(ErrorKind::argument, {"tolerance"}, [&] { simplify(domain, 1, NAN); });
-  const pnpbs::SpacingEvaluator<2> failing = [](std::int64_t, const Point<2>*, double*) {
+  const pnpbs::LocalSpacingEvaluator<2> failing([](std::int64_t, const Point<2>*, double*) {
     throw pnpbs::Error(ErrorKind::callback, "no d today");
-  };
+  });
   expect_error(ErrorKind::callback, {"no d today"}, [&] { domain.simplify(failing, {1, 1}); });
   domain.check();
   ck_assert_uint_eq(segments_of(domain), 100);

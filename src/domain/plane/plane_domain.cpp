@@ -179,7 +179,7 @@ void PlaneDomain::set_corner_angle(double corner_angle) {
   checked_ = false;
 }
 
-LeftOut PlaneDomain::simplify(const SpacingEvaluator<2>& spacing, const SimplifyRule& rule) {
+LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule) {
   require_not_negative("tolerance", rule.tolerance);
   require_not_negative("smallest", rule.smallest);
   std::vector<CurveSource> sources = sources_;

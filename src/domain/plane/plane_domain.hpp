@@ -90,7 +90,7 @@ class PlaneDomain {
   // Of all graphs, degrees.
   void set_corner_angle(double corner_angle);
   // Leaves out what is finer than d of what has been given so far; all or, if it throws, nothing.
-  LeftOut simplify(const SpacingEvaluator<2>& spacing, const SimplifyRule& rule);
+  LeftOut simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);
   void add_fixed_nodes(std::int64_t n, const double* xy, const std::int32_t* tags);
   // To be told with those that check() finds.
   void add_warning(std::string warning) {

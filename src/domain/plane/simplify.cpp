@@ -41,7 +41,7 @@ class Simplifier {
         rule_(rule),
         graph_(join_sources(sources, fixed_nodes, domain_size(sources))) {}
 
-  LeftOut run(const SpacingEvaluator<2>& spacing) {
+  LeftOut run(const LocalSpacingEvaluator<2>& spacing) {
     std::vector<Point<2>> positions;
     for (const GraphVertex& vertex : graph_.vertices) positions.push_back(vertex.position);
     d_.resize(positions.size());
@@ -317,7 +317,7 @@ class Simplifier {
 }  // namespace
 
 LeftOut simplify(std::vector<CurveSource>& sources, std::vector<Hole>& holes,
-                 const std::vector<FixedNode>& fixed_nodes, const SpacingEvaluator<2>& spacing,
+                 const std::vector<FixedNode>& fixed_nodes, const LocalSpacingEvaluator<2>& spacing,
                  const SimplifyRule& rule) {
   return Simplifier(sources, holes, fixed_nodes, rule).run(spacing);
 }

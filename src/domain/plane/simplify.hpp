@@ -16,7 +16,7 @@ namespace pnpbs {
 // nor is the one of the largest extent; hole points within those left out go with them. Throws
 // Error as the evaluator does, and for points that must not coincide.
 LeftOut simplify(std::vector<CurveSource>& sources, std::vector<Hole>& holes,
-                 const std::vector<FixedNode>& fixed_nodes, const SpacingEvaluator<2>& spacing,
+                 const std::vector<FixedNode>& fixed_nodes, const LocalSpacingEvaluator<2>& spacing,
                  const SimplifyRule& rule);
 
 }  // namespace pnpbs
