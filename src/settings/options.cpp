@@ -169,15 +169,6 @@ const std::vector<OptionRow>& option_table() {
 
 namespace {
 
-// Options of our tests alone, which no list of options names.
-const std::vector<OptionRow>& hidden_table() {
-  static const std::vector<OptionRow> table = {
-      {"halo_deficit", OptionType::integer, "0", nullptr, nullptr, 0, 64, nullptr,
-       "ghost layers are this many hops too thin, which changes the result"},
-  };
-  return table;
-}
-
 // Presets, whose values are those of other options, and what no node depends on.
 constexpr std::string_view kNotDeciding[] = {
     "method",     "effort",    "adjacency_radius", "exchange_interval", "rebalance_above",
@@ -200,8 +191,6 @@ const OptionRow& find_row(const std::string& key) {
     if (key == row.name) return row;
     names.emplace_back(row.name);
   }
-  for (const OptionRow& row : hidden_table())
-    if (key == row.name) return row;
   throw Error(ErrorKind::key, "unknown option \"" + key + "\"; the nearest known one is \"" +
                                   nearest_name(key, names) + "\"");
 }

@@ -33,8 +33,7 @@ Settings::Settings(const Options& o)
       max_memory(o.real("max_memory")),
       exchange_interval(o.integer("exchange_interval")),
       metis_seed(o.integer("metis_seed")),
-      rebalance_above(o.real("rebalance_above")),
-      halo_deficit(o.integer("halo_deficit")) {
+      rebalance_above(o.real("rebalance_above")) {
   if (dimension == 3) population = PopulationRule::of_lattice<3>();
   motion.dt = o.real("time_step");
   motion.damping = o.real("damping");

@@ -52,8 +52,7 @@ struct Settings {
   double max_bytes = std::numeric_limits<double>::infinity();  // the placement's business
   std::int64_t exchange_interval;                              // steps
   std::int64_t metis_seed;
-  double rebalance_above;     // largest over mean owned work
-  std::int64_t halo_deficit;  // hops, for tests
+  double rebalance_above;  // largest over mean owned work
 
   bool user_limits_growth() const { return growth_limit_set && growth_limit > 0; }
   NodeLimit node_limit() const {

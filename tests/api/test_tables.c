@@ -353,13 +353,6 @@ START_TEST(the_population_adds_up) {
 }
 END_TEST
 
-START_TEST(hooks_of_tests_are_not_listed) {
-  int32_t k;
-  MUST(pnpbs_context_set(context, "halo_deficit", "0"));
-  for (k = 0; k < options(); ++k) ck_assert_str_ne(option_at(k).name, "halo_deficit");
-}
-END_TEST
-
 int main(void) {
   Suite* suite = suite_create("tables");
   TCase* first = tcase_create("options of a context");
@@ -372,7 +365,6 @@ int main(void) {
   tcase_add_loop_test(first, ranges, 0, options());
   tcase_add_loop_test(first, misspelt_options, 0, options());
   tcase_add_test(first, numbers_in_another_locale);
-  tcase_add_test(first, hooks_of_tests_are_not_listed);
   suite_add_tcase(suite, first);
   tcase_add_loop_test(then, options_of_a_placement, 0, options());
   tcase_add_test(then, defaults_change_nothing);

@@ -3,9 +3,10 @@
 # The promise: one hash, and the same told of the elements, for any number of ranks and threads, any
 # exchange interval, any partition.
 # Small sizes, and every pair of values of two parameters at least once; invariance_grid.py beside
-# the benchmarks runs the whole grid at any size. usage: invariance.sh PROGRAM MPIEXEC DATA
+# the benchmarks runs the whole grid at any size. usage: invariance.sh PROGRAM MPIEXEC DATA THIN_HALO,
+# with the folder of the library whose ghost layers are too thin.
 set -euo pipefail
-program=$1 mpiexec=$2 data=$3
+program=$1 mpiexec=$2 data=$3 thin_halo=$4${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 failed=0
 
 place() { # ranks, threads, arguments of the program
@@ -125,7 +126,7 @@ if ! [ $((2 * held)) -lt "$nodes" ]; then
   echo "some rank holds half of the nodes: $line"
   failed=1
 fi
-thin=$(place 8 1 graded-square 2 exchange_interval=8 sweeps=0 halo_deficit=5)
+thin=$(LD_LIBRARY_PATH=$thin_halo place 8 1 graded-square 2 exchange_interval=8 sweeps=0)
 hash=$(field "$line" hash)
 thin_hash=$(field "$thin" hash)
 if [ "$hash" = "$thin_hash" ]; then

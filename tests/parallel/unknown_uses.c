@@ -2,7 +2,7 @@
  *
  * In builds that count it (PNPBS_COUNT_UNKNOWN_USES): a rank decides by nothing that it does not
  * know exactly, over steps, events and sweeps; and where ghosts reach less far than they must, that
- * is counted and reported. */
+ * is counted and reported. usage: unknown_uses [thin]: with the library that thin_halo.cpp is in */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,14 +44,16 @@ int main(int argc, char** argv) {
                                           {"exchange_interval", "1", NULL},
                                           {"exchange_interval", "8", NULL},
                                           {"method", "paper", NULL}};
-  static const char* const thin[] = {"exchange_interval", "8", "halo_deficit", "6", NULL};
+  static const char* const seldom[] = {"exchange_interval", "8", NULL};
   int32_t dim;
   size_t k;
   begin_ranks(&argc, &argv);
   for (dim = 2; dim <= 3; ++dim) {
-    for (k = 0; k < sizeof enough / sizeof enough[0]; ++k)
-      expect(uses_in(dim, enough[k]) == 0, "what decides is known");
-    if (size > 1) expect(uses_in(dim, thin) > 0, "thin layers of ghosts are found out");
+    if (argc > 1)
+      expect(uses_in(dim, seldom) > 0, "thin layers of ghosts are found out");
+    else
+      for (k = 0; k < sizeof enough / sizeof enough[0]; ++k)
+        expect(uses_in(dim, enough[k]) == 0, "what decides is known");
   }
   return end_ranks();
 }

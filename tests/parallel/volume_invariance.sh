@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The promise in space: one hash of the nodes, and one of what is told of the elements, for any
 # number of ranks and threads, any exchange interval, any partition. node_hashes.sh runs all cases
-# of the program at more ranks. usage: volume_invariance.sh PROGRAM MPIEXEC DATA
+# of the program at more ranks. usage: volume_invariance.sh PROGRAM MPIEXEC DATA THIN_HALO, with the
+# folder of the library whose ghost layers are too thin.
 set -euo pipefail
-program=$1 mpiexec=$2 data=$3
+program=$1 mpiexec=$2 data=$3 thin_halo=$4${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 failed=0
 
 place() { # ranks, threads, case, options
@@ -40,7 +41,7 @@ done
 subject=box-graded
 expected=$(place 1 1 "$subject")
 require_output
-thin=$(place 8 1 "$subject" exchange_interval=5 halo_deficit=4)
+thin=$(LD_LIBRARY_PATH=$thin_halo place 8 1 "$subject" exchange_interval=5)
 if [ "$thin" = "$expected" ]; then
   echo "a halo too thin changed nothing"
   failed=1

@@ -30,7 +30,6 @@ Settings surface_settings(const Settings& inside) {
   settings.exchange_interval = inside.exchange_interval;
   settings.metis_seed = inside.metis_seed;
   settings.rebalance_above = inside.rebalance_above;
-  settings.halo_deficit = inside.halo_deficit;
   settings.growth_limit = inside.growth_limit;  // a tree that is dealt out anew stays as it is
   return settings;
 }
