@@ -19,11 +19,6 @@ struct Motion {
 };
 
 template <int Dim>
-constexpr Motion default_motion() {
-  return Dim == 2 ? Motion{} : Motion{0.6, 0.2, 0.2};
-}
-
-template <int Dim>
 void reserve_field(Field<Dim>& field, const char* label, std::int64_t n) {
   for (int k = 0; k < Dim; ++k)
     if (static_cast<std::int64_t>(field[k].extent(0)) < n + 1)

@@ -36,4 +36,9 @@ enum class TetGenFormat { poly, smesh };
 SurfaceTriangles parse_tetgen(std::string_view text, const std::string& name, TetGenFormat format,
                               const std::function<NodeFile()>& node_file);
 
+// One of these. Throws Error(ErrorKind::file) where there are no triangles. `name` stands for the
+// file in messages.
+SurfaceTriangles parse_surface(std::string_view bytes, const std::string& name,
+                               SurfaceFormat format, const std::function<NodeFile()>& node_file);
+
 }  // namespace pnpbs

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "base/extension.hpp"
@@ -40,14 +41,14 @@ SurfaceTriangles parse_format(std::string_view bytes, const std::string& name, S
   throw Error(ErrorKind::internal, "there is no such format of surfaces");
 }
 
-SurfaceTriangles parse(std::string_view bytes, const std::string& name, SurfaceFormat format,
-                       const std::function<NodeFile()>& node_file) {
+}  // namespace
+
+SurfaceTriangles parse_surface(std::string_view bytes, const std::string& name,
+                               SurfaceFormat format, const std::function<NodeFile()>& node_file) {
   SurfaceTriangles surface = parse_format(bytes, name, format, node_file);
   if (surface.triangles.empty()) throw Error(ErrorKind::file, name + ": holds no triangles");
   return surface;
 }
-
-}  // namespace
 
 std::optional<SurfaceFormat> known_surface_format(const std::string& path) {
   const std::string extension = extension_of(path);
@@ -67,15 +68,10 @@ SurfaceFormat surface_format(const std::string& path) {
 
 SurfaceTriangles read_surface(const std::string& path) {
   const SurfaceFormat format = surface_format(path);
-  return parse(read_whole_file(path), path, format, [&path] {
+  return parse_surface(read_whole_file(path), path, format, [&path] {
     const std::string beside = path.substr(0, path.size() - extension_of(path).size()) + "node";
     return NodeFile{read_whole_file(beside), beside};
   });
-}
-
-SurfaceTriangles parse_surface(std::string_view bytes, const std::string& name,
-                               SurfaceFormat format) {
-  return parse(bytes, name, format, nullptr);
 }
 
 }  // namespace pnpbs

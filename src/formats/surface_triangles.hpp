@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,9 +32,5 @@ SurfaceFormat surface_format(const std::string& path);
 // Throws Error(ErrorKind::file, "path:line: ...") or, from binary files, "path: at byte 84: ...".
 // A .poly or .smesh that holds no vertices ("0 3 0 0") has them in the .node file beside it.
 SurfaceTriangles read_surface(const std::string& path);
-
-// The same from memory. `name` stands for the file in messages.
-SurfaceTriangles parse_surface(std::string_view bytes, const std::string& name,
-                               SurfaceFormat format);
 
 }  // namespace pnpbs

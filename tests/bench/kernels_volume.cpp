@@ -33,7 +33,7 @@ void measure_in_space(const KernelArguments& arguments, double list_radius) {
   const pnpbs::Nodes<3>& nodes = bubbles.nodes;
   const double count = static_cast<double>(nodes.count);
   const pnpbs::DefaultLaw<3> law;
-  const pnpbs::Motion motion = pnpbs::default_motion<3>();
+  const pnpbs::Motion motion = kMotionInSpace;
   const pnpbs::KnownRegion<3> everywhere;
   pnpbs::Field<3> there;
   pnpbs::VolumeStars stars;

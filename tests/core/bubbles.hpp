@@ -28,6 +28,9 @@ struct Bubble {
   bool moves = true;
 };
 
+// Of bubbles in space that a test moves: longer moves than those of a placement.
+inline constexpr pnpbs::Motion kMotionInSpace{0.6, 0.2, 0.2};
+
 template <int Dim>
 struct Bubbles {
   Box<Dim> box = unit_box<Dim>();

@@ -194,7 +194,7 @@ START_TEST(volume_steps_as_one_bubble_after_the_other) {
       v[i][k] = all[i].moves ? random.between(-0.1, 0.1) * all[i].d : 0;
       run.bubbles.nodes.v[k](static_cast<std::int64_t>(i)) = v[i][k];
     }
-  run.step(Scheme::damped, pnpbs::DefaultLaw<3>{}, pnpbs::default_motion<3>());
+  run.step(Scheme::damped, pnpbs::DefaultLaw<3>{}, kMotionInSpace);
   int at_most = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     Point<3> x;

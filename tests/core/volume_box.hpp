@@ -122,7 +122,7 @@ class Relaxation {
   Bubbles<3> bubbles_;
   pnpbs::Field<3> next_, listed_;
   pnpbs::DefaultLaw<3> law_;
-  pnpbs::Motion motion_ = pnpbs::default_motion<3>();
+  pnpbs::Motion motion_ = kMotionInSpace;
   bool valid_ = false;
   int rebuilds_ = 0;
 };

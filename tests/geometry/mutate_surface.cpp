@@ -21,6 +21,7 @@
 #include "damage.hpp"
 #include "domain/plane/msh_plane.hpp"
 #include "domain/volume/msh_body.hpp"
+#include "formats/surface_formats.hpp"
 #include "largest_request.hpp"
 #include "msh_files.hpp"
 #include "surface_files.hpp"
@@ -245,8 +246,9 @@ bool examine(const Sample& sample, const std::string& bytes, Tally& tally) {
   const char* fault = nullptr;
   std::string message;
   try {
-    fault = sample.format ? fault_of(pnpbs::parse_surface(bytes, "mutated", *sample.format))
-                          : fault_of(pnpbs::parse_msh(bytes, "mutated"));
+    fault = sample.format
+                ? fault_of(pnpbs::parse_surface(bytes, "mutated", *sample.format, nullptr))
+                : fault_of(pnpbs::parse_msh(bytes, "mutated"));
     ++tally.read;
   } catch (const pnpbs::Error& error) {
     message = error.what();

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "expect_error.hpp"
-#include "formats/surface_triangles.hpp"
+#include "formats/surface_formats.hpp"
 #include "surface_files.hpp"
 
 using pnpbs::SurfaceFormat;
@@ -17,7 +17,7 @@ using TagNames = std::vector<std::pair<std::int32_t, std::string>>;
 using Tags = std::vector<std::int32_t>;
 
 inline SurfaceTriangles read(SurfaceFormat format, const std::string& bytes) {
-  return pnpbs::parse_surface(bytes, "x", format);
+  return pnpbs::parse_surface(bytes, "x", format, nullptr);
 }
 
 inline void expect_file_error(SurfaceFormat format, std::initializer_list<const char*> parts,

@@ -24,11 +24,6 @@ inline double distance_to_segment(const Point<2>& a, const Point<2>& b, const Po
   return distance<2>(nearest_on_segment(a, b, x), x);
 }
 
-inline double squared_distance_to_segment(const Point<2>& a, const Point<2>& b, const Point<2>& x) {
-  const Point<2> q = nearest_on_segment(a, b, x);
-  return (x[0] - q[0]) * (x[0] - q[0]) + (x[1] - q[1]) * (x[1] - q[1]);
-}
-
 // May segment ab meet the closed box? Never says no where it does (rounding counts as meeting).
 inline bool segment_may_meet_box(const Point<2>& a, const Point<2>& b, const Box<2>& box) {
   for (int k = 0; k < 2; ++k)
