@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/fixed_point.hpp"
+
 namespace pnpbs {
 
 using Exec = Kokkos::DefaultHostExecutionSpace;
@@ -102,6 +104,13 @@ Sums sums_over(const char* label, std::int64_t n, const Sums& none, const Body& 
   return all;
 }
 
+// Sum of the doubles body(i), in fixed point.
+template <class Body>
+FixedPointSum fixed_point_sum_of(const char* label, std::int64_t n, const Body& body) {
+  return sums_over(label, n, FixedPointSum(),
+                   [&](std::int64_t i, FixedPointSum& sum) { sum.add(body(i)); });
+}
+
 template <class T>
 View<T> make_view(const std::string& label, std::int64_t n) {
   try {
@@ -120,17 +129,6 @@ void grow(View<T>& view, std::int64_t n, std::int64_t kept) {
   const View<T> old = view;
   for_each("pnpbs::grow", kept, [=](std::int64_t i) { larger(i) = old(i); });
   view = larger;
-}
-
-// Sums of doubles that come out the same in any order: each term is rounded to a multiple of
-// 2^-32 first. The sum of all terms, over all ranks, must stay below 2^31 in size: of 2^31 nodes
-// the mean may be 1; in space, with 12 touching pairs and 5.4 tetrahedra a node, sums over pairs
-// hold for 1.7e8 nodes, those of qualities for 4.6e8.
-inline std::int64_t fixed_point(double value) {
-  return static_cast<std::int64_t>(value * 4294967296.0);
-}
-inline double from_fixed_point(std::uint64_t sum) {
-  return static_cast<double>(static_cast<std::int64_t>(sum)) / 4294967296.0;
 }
 
 }  // namespace pnpbs

@@ -2,8 +2,10 @@
 // What all communicators have in common: agreement on failures.
 #include "comm/communicator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <iterator>
 #include <new>
 
 namespace pnpbs {
@@ -110,8 +112,16 @@ void agree_on_failure(const Communicator& comm, std::exception_ptr failure) {
 
 std::uint64_t Communicator::allreduce_sum(std::uint64_t value) const {
   Reduction mine;
-  mine.sum = value;
-  return reduce_or_fail(mine).sum;
+  mine.sum.low = value;
+  return reduce_or_fail(mine).sum.low;
+}
+
+FixedPointSum Communicator::allreduce_sum(const FixedPointSum& sum) const {
+  Reduction mine;
+  mine.sum = sum.units();
+  FixedPointSum all;
+  all.units() = reduce_or_fail(mine).sum;
+  return all;
 }
 
 double Communicator::allreduce_max(double value) const {
@@ -123,6 +133,25 @@ double Communicator::allreduce_max(double value) const {
 void Communicator::allreduce_sum(std::vector<std::int64_t>& values) const {
   reduce_or_fail({});
   sum_entries(values);
+}
+
+// A sum goes as three parts, of 32 bits but for the last, so that those of 2^31 ranks add up.
+void Communicator::allreduce_sum(std::vector<std::int64_t>& values,
+                                 std::vector<FixedPointSum>& sums) const {
+  constexpr std::uint64_t kPart = 0xffffffffu;
+  std::vector<std::int64_t> all = values;
+  for (const FixedPointSum& sum : sums)
+    for (const std::uint64_t part :
+         {sum.units().low & kPart, sum.units().low >> 32, sum.units().high})
+      all.push_back(static_cast<std::int64_t>(part));
+  allreduce_sum(all);
+  std::copy_n(all.begin(), values.size(), values.begin());
+  auto part = all.cbegin() + std::ssize(values);
+  for (FixedPointSum& sum : sums) {
+    Int128::Value units = 0;
+    for (const int shift : {0, 32, 64}) units += Int128::Value{*part++} << shift;
+    sum.units() = Int128::of(units);
+  }
 }
 
 std::int64_t Communicator::sum_before(std::int64_t value) const {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/fixed_point.hpp"
 #include "comm/rank_file.hpp"
 
 namespace pnpbs {
@@ -56,9 +57,13 @@ class Communicator {
 
   // Collective; integers and maxima only, so that no result depends on the order of ranks.
   std::uint64_t allreduce_sum(std::uint64_t value) const;  // modulo 2^64
+  FixedPointSum allreduce_sum(const FixedPointSum& sum) const;
   double allreduce_max(double value) const;
   void allreduce_sum(std::vector<std::int64_t>& values) const;  // entry by entry
-  std::int64_t sum_before(std::int64_t value) const;            // of the ranks before this one
+  // Both at once, entry by entry.
+  void allreduce_sum(std::vector<std::int64_t>& values, std::vector<FixedPointSum>& sums) const;
+  // Of the ranks before this one, modulo 2^64.
+  std::int64_t sum_before(std::int64_t value) const;
   bool same_on_all(std::uint64_t value) const;
   void broadcast(Bytes& bytes, int root) const;
   // What every rank gives, one after the other by rank.
@@ -92,7 +97,7 @@ class Communicator {
   // What all reductions of single values are made of.
   struct Reduction {
     std::int64_t failed = 0;  // size - rank of a rank that has failed; the largest counts
-    std::uint64_t sum = 0;
+    Int128 sum;
     double max = -std::numeric_limits<double>::infinity();
   };
   virtual Reduction reduce(const Reduction& mine) const = 0;

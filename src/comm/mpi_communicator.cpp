@@ -201,9 +201,11 @@ class MpiCommunicator : public Communicator {
           "MPI_Allreduce");
   }
   std::int64_t exclusive_scan(std::int64_t value) const override {
-    std::int64_t before = 0;
-    check(MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, comm_), "MPI_Exscan");
-    return rank_ == 0 ? 0 : before;  // MPI leaves that of the first rank open
+    const auto mine = static_cast<std::uint64_t>(value);
+    std::uint64_t before = 0;
+    check(MPI_Exscan(&mine, &before, 1, MPI_UINT64_T, MPI_SUM, comm_), "MPI_Exscan");
+    // MPI leaves that of the first rank open.
+    return rank_ == 0 ? 0 : static_cast<std::int64_t>(before);
   }
   void broadcast_bytes(char* bytes, std::size_t n, int root) const override {
     check(MPI_Bcast(bytes, count(n), MPI_BYTE, root, comm_), "MPI_Bcast");
@@ -303,7 +305,7 @@ class MpiCommunicator : public Communicator {
     auto* to = static_cast<Reduction*>(in_out);
     for (int i = 0; i < *length; ++i) {
       to[i].failed = std::max(to[i].failed, from[i].failed);
-      to[i].sum += from[i].sum;
+      to[i].sum.add(from[i].sum);
       to[i].max = std::max(to[i].max, from[i].max);
     }
   }

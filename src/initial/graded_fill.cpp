@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "initial/graded_fill.hpp"
 
-#include "base/execution.hpp"
+#include "base/fixed_point.hpp"
 #include "base/lattice.hpp"
 #include "initial/initial_fill.hpp"
 
@@ -77,10 +77,10 @@ std::vector<std::int64_t> GradedFill<Dim>::wanted_nodes(const std::vector<double
 template <int Dim>
 std::vector<Point<Dim>> GradedFill<Dim>::place(const std::vector<double>& d,
                                                const std::vector<std::int64_t>& before) const {
-  constexpr std::int64_t kOne = std::int64_t{1} << 32, kHalf = kOne / 2;
+  constexpr std::int64_t kOne = kFixedPointOne, kHalf = kOne / 2;
   std::vector<Point<Dim>> nodes;
   for (const Leaf& leaf : leaves_) {
-    std::int64_t sum = before[static_cast<std::size_t>(leaf.leaf)] + kHalf;
+    std::int64_t sum = fraction_of(before[static_cast<std::size_t>(leaf.leaf)]) + kHalf;
     for (std::size_t cell = leaf.first; cell < leaf.end; ++cell) {
       const std::int64_t whole = sum / kOne;
       sum += wanted_in_cell<Dim>(leaf.cell_side, d[cell]);

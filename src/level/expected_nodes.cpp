@@ -19,9 +19,9 @@ std::vector<double> wanted_on_surfaces(const Level<3>& level) {
     const double sides = tree.cell_side(tree.leaf_cell(leaf)) / tree.side();
     return sides * sides;
   };
-  std::int64_t sum = 0;
-  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) sum += fixed_point(face(leaf));
-  const double all = from_fixed_point(level.comm->allreduce_sum(static_cast<std::uint64_t>(sum)));
+  FixedPointSum sum;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) sum.add(face(leaf));
+  const double all = level.comm->allreduce_sum(sum).value();
   std::vector<double> wanted;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const double part = face(leaf), d = map.leaf_spacing(leaf);
@@ -66,9 +66,9 @@ std::vector<double> wanted_nodes(const Level<Dim>& level) {
 
 template <int Dim>
 double expected_nodes(const Level<Dim>& level) {
-  std::int64_t nodes = 0;
-  for (double wanted : wanted_nodes(level)) nodes += fixed_point(wanted);
-  return from_fixed_point(level.comm->allreduce_sum(static_cast<std::uint64_t>(nodes)));
+  FixedPointSum nodes;
+  for (double wanted : wanted_nodes(level)) nodes.add(wanted);
+  return level.comm->allreduce_sum(nodes).value();
 }
 
 template <int Dim>

@@ -23,15 +23,15 @@ Speeds speeds_of(const Level<Dim>& level) {
       comm.allreduce_max(max_of("pnpbs::largest_speed", nodes.count, 0.0, [&](std::int64_t i) {
         return nodes.owned(i) ? std::min(scaled(i), by_force) : 0.0;
       }));
-  const std::uint64_t sum = sum_of("pnpbs::mean_speed", nodes.count, [&](std::int64_t i) {
-    return nodes.owned(i) ? fixed_point(scaled(i)) : 0;
-  });
+  const FixedPointSum sum =
+      fixed_point_sum_of("pnpbs::mean_speed", nodes.count,
+                         [&](std::int64_t i) { return nodes.owned(i) ? scaled(i) : 0.0; });
   const std::uint64_t moving =
       comm.allreduce_sum(sum_of("pnpbs::moving_nodes", nodes.count, [&](std::int64_t i) {
         return nodes.owned(i) != 0 && nodes.moves(i);
       }));
-  speeds.mean = from_fixed_point(comm.allreduce_sum(sum)) /
-                static_cast<double>(std::max<std::uint64_t>(1, moving));
+  speeds.mean =
+      comm.allreduce_sum(sum).value() / static_cast<double>(std::max<std::uint64_t>(1, moving));
   return speeds;
 }
 

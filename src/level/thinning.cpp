@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/fixed_point.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/numbering.hpp"
 
@@ -21,7 +22,7 @@ double share_for(const GivenNode<Dim>& node, double d) {
 template <int Dim, class Share>
 void keep_shares(const Level<Dim>& level, GivenNodes<Dim>& given,
                  const std::vector<std::int32_t>& begin, const Share& share) {
-  constexpr std::int64_t kOne = std::int64_t{1} << 32;
+  constexpr std::int64_t kOne = kFixedPointOne;
   const std::int32_t leaves = level.map().tree().leaf_count();
   const auto share_of = [&](const GivenNode<Dim>& node) {
     return static_cast<std::int64_t>(share(node) * static_cast<double>(kOne));
@@ -42,7 +43,7 @@ void keep_shares(const Level<Dim>& level, GivenNodes<Dim>& given,
   std::vector<char> some_go(static_cast<std::size_t>(leaves), 0);
   for_each("pnpbs::thin", leaves, [&](std::int64_t leaf) {
     const auto at = static_cast<std::size_t>(leaf);
-    std::int64_t sum = sums[at];
+    std::int64_t sum = fraction_of(sums[at]);
     for_nodes_in(leaf, [&](GivenNode<Dim>& node) {
       const std::int64_t whole = sum / kOne;
       sum += share_of(node);

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/fixed_point.hpp"
 #include "comm/records.hpp"
 
 namespace pnpbs {
@@ -19,15 +20,18 @@ std::vector<std::int64_t> sums_before(const Communicator& comm, std::int64_t cel
     return before[static_cast<std::size_t>(entry.cell - first)];
   };
   for (const Message& theirs : asked)
-    for_records<CellSum>({theirs.bytes}, [&](const CellSum& entry) { at(entry) += entry.sum; });
+    for_records<CellSum>({theirs.bytes}, [&](const CellSum& entry) {
+      at(entry) = wrapping_sum(at(entry), entry.sum);
+    });
   std::int64_t in_block = 0;
-  for (std::int64_t& entry : before) entry = std::exchange(in_block, in_block + entry);
-  const std::int64_t before_block = start + comm.sum_before(in_block);
-  start += static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(in_block)));
+  for (std::int64_t& entry : before) entry = std::exchange(in_block, wrapping_sum(in_block, entry));
+  const std::int64_t before_block = wrapping_sum(start, comm.sum_before(in_block));
+  start = wrapping_sum(
+      start, static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(in_block))));
 
   for (const Message& theirs : asked)
     for_records<CellSum>({theirs.bytes}, [&](const CellSum& entry) {
-      pack(answers.to(theirs.rank), before_block + at(entry));
+      pack(answers.to(theirs.rank), wrapping_sum(before_block, at(entry)));
     });
   // By rank, so in the order of the cells.
   std::vector<std::int64_t> sums;

@@ -17,7 +17,7 @@ struct CellSum {
 
 // own: by increasing cell, 0 to cells - 1; several ranks may count in the same one. Returns for
 // each of these the sum over the cells before it, of all ranks, from `start` on; moves `start` on
-// by the sum over all. Collective.
+// by the sum over all. All of that modulo 2^64. Collective.
 std::vector<std::int64_t> sums_before(const Communicator& comm, std::int64_t cells,
                                       const std::vector<CellSum>& own, std::int64_t& start);
 

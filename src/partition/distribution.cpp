@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "base/fixed_point.hpp"
 #include "partition/cell_sums.hpp"
 #include "tree/box_tree.hpp"
 
@@ -226,7 +227,7 @@ std::vector<std::int64_t> Distribution<Dim>::prefix_sums(const Communicator& com
     const bool ours = owner_.empty() || owner_of_cell(cell(leaf)) == rank_;
     if (!ours && counts[leaf] == 0) continue;
     if (own.empty() || own.back().cell != cell(leaf)) own.push_back({cell(leaf), 0});
-    own.back().sum += counts[leaf];
+    own.back().sum = wrapping_sum(own.back().sum, counts[leaf]);
   }
   const std::vector<std::int64_t> before = sums_before(comm, cells_.count(), own, start);
   std::size_t leaf = 0;
@@ -234,7 +235,7 @@ std::vector<std::int64_t> Distribution<Dim>::prefix_sums(const Communicator& com
     while (cell(leaf) != own[k].cell) counts[leaf++] = 0;
     std::int64_t next = before[k];
     for (; leaf < counts.size() && cell(leaf) == own[k].cell; ++leaf)
-      counts[leaf] = std::exchange(next, next + counts[leaf]);
+      counts[leaf] = std::exchange(next, wrapping_sum(next, counts[leaf]));
   }
   std::fill(counts.begin() + static_cast<std::ptrdiff_t>(leaf), counts.end(), 0);
   return counts;

@@ -94,7 +94,7 @@ class Distribution {
   // For one count per leaf, on every rank those of its own nodes: the sum over all leaves before
   // each one in Morton order, of all ranks, from `start` on; moves `start` on by the sum over all.
   // 0 for leaves in cells that are another's and in which nothing is counted here. What is numbered
-  // so does not depend on who owns which leaf. Collective.
+  // so does not depend on who owns which leaf. Sums are modulo 2^64. Collective.
   std::vector<std::int64_t> prefix_sums(const Communicator& comm, std::vector<std::int64_t> counts,
                                         std::int64_t& start) const;
 

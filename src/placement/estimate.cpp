@@ -34,8 +34,8 @@ Estimate estimate_of(const SpacingToPlace<Dim>& to_place, const Settings& settin
   const double ranks = comm.size();
   const double nodes =
       estimated_nodes(to_place, to_place.spacing_to_place(settings), settings, Samples::many);
-  const double threads = from_fixed_point(comm.allreduce_sum(
-      static_cast<std::uint64_t>(fixed_point(static_cast<double>(thread_count())))));
+  const auto threads =
+      static_cast<double>(comm.allreduce_sum(static_cast<std::uint64_t>(thread_count())));
   return {static_cast<std::int64_t>(std::round(nodes)),
           static_cast<std::int64_t>(kBytesOfProcess + kBytesPerNode * nodes / ranks),
           nodes / (nodes_per_second<Dim>(to_place.options()) * std::max(1.0, threads))};

@@ -160,10 +160,10 @@ NearestNeighbourError Results<Dim>::spacing_error() {
   };
   const double n = static_cast<double>(global_count());
   const auto mean_of = [&](const auto& value) {
-    const std::uint64_t sum = sum_of("pnpbs::spacing_error", nodes.count, [&](std::int64_t i) {
-      return nodes.owned(i) ? fixed_point(value(i)) : 0;
-    });
-    return from_fixed_point(comm_->allreduce_sum(sum)) / n;
+    const FixedPointSum sum =
+        fixed_point_sum_of("pnpbs::spacing_error", nodes.count,
+                           [&](std::int64_t i) { return nodes.owned(i) ? value(i) : 0.0; });
+    return comm_->allreduce_sum(sum).value() / n;
   };
   NearestNeighbourError error;
   error.mean = mean_of(ratio);

@@ -12,26 +12,26 @@ namespace pnpbs {
 namespace {
 
 // What is counted in an octave of d, in this order: owned bubbles by their overlap ratios; the
-// pairs of touching bubbles, from either end; the sum of their distances, in fixed point.
+// pairs of touching bubbles, from either end.
 constexpr int kBinsPerUnit = 32;  // of the overlap ratio
 template <int Dim>
 constexpr int kBins{kBinsPerUnit * Lattice<Dim>::kOverlapEnd};
 template <int Dim>
 constexpr int kPairs = kBins<Dim>;
 template <int Dim>
-constexpr int kDistances = kBins<Dim> + 1;
-template <int Dim>
-constexpr int kCounts = kBins<Dim> + 2;
+constexpr int kCounts = kBins<Dim> + 1;
 // Bubbles nearer than this many desired distances touch: nearly all that are joined by an edge of
 // the Delaunay triangulation are, and hardly any others: the lattice's next shell is at 1.73 in the
 // plane, at 1.53 in a volume, where edges end at 1.08.
 constexpr double kTouch = 1.3;
 
 struct OctaveCounts {
-  std::vector<std::int64_t> values;  // kCounts per octave
+  std::vector<std::int64_t> values;      // kCounts per octave
+  std::vector<FixedPointSum> distances;  // of the pairs of each octave
 
   void add(const OctaveCounts& other) {
     for (std::size_t k = 0; k < values.size(); ++k) values[k] += other.values[k];
+    for (std::size_t k = 0; k < distances.size(); ++k) distances[k].add(other.distances[k]);
   }
 };
 
@@ -51,7 +51,7 @@ bool is_squeezed(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, doubl
 
 template <int Dim>
 void count_node(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double ratio,
-                std::int64_t i, std::int64_t* counts) {
+                std::int64_t i, std::int64_t* counts, FixedPointSum& distances) {
   const int bin = static_cast<int>(ratio * kBinsPerUnit);
   ++counts[std::clamp(bin, 0, kBins<Dim> - 1)];
   const Point<Dim> x = nodes.position(i);
@@ -60,7 +60,7 @@ void count_node(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double
     const double w = distance<Dim>(x, nodes.position(j)) / desired;
     if (w > kTouch || !nodes.moves(j)) return;
     ++counts[kPairs<Dim>];
-    counts[kDistances<Dim>] += fixed_point(w);
+    distances.add(w);
   });
 }
 
@@ -75,13 +75,13 @@ int bins_of(double bubbles, const Bin& bin) {
 
 template <int Dim>
 PopulationThresholds::Pair thresholds_of_octave(const std::int64_t* counts,
+                                                const FixedPointSum& distances,
                                                 const PopulationRule& rule, double tolerance) {
   PopulationThresholds::Pair pair{0, rule.delete_above};
   if (counts[kPairs<Dim>] == 0) return pair;
   double bubbles = 0;
   for (int k = 0; k < kBins<Dim>; ++k) bubbles += static_cast<double>(counts[k]);
-  const double mean = from_fixed_point(static_cast<std::uint64_t>(counts[kDistances<Dim>])) /
-                      static_cast<double>(counts[kPairs<Dim>]);
+  const double mean = distances.value() / static_cast<double>(counts[kPairs<Dim>]);
   if (std::fabs(mean - rule.mean_distance) <= tolerance) return pair;
   // A bubble's share of the domain goes with the square (cube) of the distance.
   const double t = mean / rule.mean_distance,
@@ -126,21 +126,25 @@ PopulationThresholds choose_thresholds(const Communicator& comm, const Nodes<Dim
   const int first = octave_of(d.min), last = octave_of(d.max);
   OctaveCounts counts;
   agreed(comm, [&] {
-    counts.values.assign(static_cast<std::size_t>(last - first + 1) * kCounts<Dim>, 0);
+    const auto octaves = static_cast<std::size_t>(last - first + 1);
+    counts.values.assign(octaves * kCounts<Dim>, 0);
+    counts.distances.resize(octaves);
     counts = sums_over(
         "pnpbs::choose_thresholds", nodes.count, counts, [&](std::int64_t i, OctaveCounts& sums) {
           if (!nodes.moves(i) || !nodes.owned(i)) return;
           if (is_squeezed<Dim>(nodes, lists, ratios(i), rule, i)) return;
-          count_node<Dim>(nodes, lists, ratios(i), i,
-                          sums.values.data() + (octave_of(nodes.d(i)) - first) * kCounts<Dim>);
+          const int octave = octave_of(nodes.d(i)) - first;
+          count_node<Dim>(nodes, lists, ratios(i), i, sums.values.data() + octave * kCounts<Dim>,
+                          sums.distances[static_cast<std::size_t>(octave)]);
         });
   });
-  comm.allreduce_sum(counts.values);
+  comm.allreduce_sum(counts.values, counts.distances);
   thresholds.first_octave = first;
   thresholds.octaves.clear();
   for (int octave = 0; octave <= last - first; ++octave)
-    thresholds.octaves.push_back(
-        thresholds_of_octave<Dim>(counts.values.data() + octave * kCounts<Dim>, rule, tolerance));
+    thresholds.octaves.push_back(thresholds_of_octave<Dim>(
+        counts.values.data() + octave * kCounts<Dim>,
+        counts.distances[static_cast<std::size_t>(octave)], rule, tolerance));
   return thresholds;
 }
 

@@ -44,19 +44,20 @@ void for_edges(const Nodes<3>& nodes, const VolumeStars& stars, std::int64_t i,
 }
 
 struct RatioSums {
-  std::int64_t edges = 0, excess = 0, squares = 0;  // of ratio - 1, in fixed point
+  std::int64_t edges = 0;
+  FixedPointSum excess, squares;  // of ratio - 1
 
   void add(double ratio) {
-    constexpr double kMax = 33;  // 2^21 squares of 32 fit into fixed point
+    constexpr double kMax = 33;  // what is longer counts as that, and hides no others
     const double excess_of_one = std::min(ratio, kMax) - 1;
     ++edges;
-    excess += fixed_point(excess_of_one);
-    squares += fixed_point(excess_of_one * excess_of_one);
+    excess.add(excess_of_one);
+    squares.add(excess_of_one * excess_of_one);
   }
   void add(const RatioSums& other) {
     edges += other.edges;
-    excess += other.excess;
-    squares += other.squares;
+    excess.add(other.excess);
+    squares.add(other.squares);
   }
 };
 
@@ -77,8 +78,7 @@ struct EdgeSums {
 EdgeRatio ratio_of(const RatioSums& sums) {
   if (sums.edges == 0) return {};
   const double n = static_cast<double>(sums.edges);
-  const double excess = from_fixed_point(static_cast<std::uint64_t>(sums.excess)) / n;
-  const double squares = from_fixed_point(static_cast<std::uint64_t>(sums.squares)) / n;
+  const double excess = sums.excess.value() / n, squares = sums.squares.value() / n;
   return {sums.edges, 1 + excess, std::sqrt(std::max(0.0, squares - excess * excess))};
 }
 
@@ -111,13 +111,15 @@ template <int Dim>
 EdgeSums edge_sums(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars,
                    const SpacingBands& bands, const View<char>& left_out = {}) {
   EdgeSums sums = local_edge_sums<Dim>(nodes, stars, bands, left_out);
-  std::vector<std::int64_t> values;
-  for (const RatioSums& part : sums.of)
-    values.insert(values.end(), {part.edges, part.excess, part.squares});
-  comm.allreduce_sum(values);
-  auto value = values.begin();
-  for (RatioSums& part : sums.of)
-    for (std::int64_t* sum : {&part.edges, &part.excess, &part.squares}) *sum = *value++;
+  std::vector<std::int64_t> edges;
+  std::vector<FixedPointSum> ratios;
+  for (const RatioSums& part : sums.of) {
+    edges.push_back(part.edges);
+    ratios.insert(ratios.end(), {part.excess, part.squares});
+  }
+  comm.allreduce_sum(edges, ratios);
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    sums.of[k] = {edges[k], ratios[2 * k], ratios[2 * k + 1]};
   return sums;
 }
 
@@ -176,11 +178,12 @@ double quality_of(const TetrahedronCorners& x) { return tetrahedron_quality(x); 
 double quality_of(const SpaceTriangle& x) { return triangle_quality(x[0], x[1], x[2]); }
 
 struct QualitySums {
-  std::int64_t elements = 0, quality = 0;  // in fixed point
+  std::int64_t elements = 0;
+  FixedPointSum quality;
 
   void add(const QualitySums& other) {
     elements += other.elements;
-    quality += other.quality;
+    quality.add(other.quality);
   }
 };
 
@@ -245,15 +248,14 @@ SimplexQuality measure_simplices(const Communicator& comm, const Nodes<Dim>& nod
       "pnpbs::quality_sums", nodes.count, QualitySums(), [&](std::int64_t i, QualitySums& sum) {
         for_elements_of<Element, Dim>(nodes, stars, i, [&](const Element& corners) {
           ++sum.elements;
-          sum.quality += fixed_point(quality_of(corners));
+          sum.quality.add(quality_of(corners));
         });
       });
   std::vector<std::int64_t> histogram = histogram_of<Element, Dim>(nodes, stars);
   SimplexQuality found;
   found.elements =
       static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(sums.elements)));
-  const double quality =
-      from_fixed_point(comm.allreduce_sum(static_cast<std::uint64_t>(sums.quality)));
+  const double quality = comm.allreduce_sum(sums.quality).value();
   comm.allreduce_sum(histogram);
   if (found.elements == 0) return found;
   found.mean = quality / static_cast<double>(found.elements);

@@ -30,7 +30,7 @@ std::vector<PatchSums> answers_to(const std::vector<Question>& questions) {
     const PiecesInCell& pieces = questions[k].pieces;
     PatchSums& patch = whole[pieces.patch];
     answers[k].nodes_before = patch.nodes;
-    patch.nodes += pieces.nodes;
+    patch.nodes.add(pieces.nodes);
     patch.min_d = std::min(patch.min_d, pieces.min_d);
     patch.max_d = std::max(patch.max_d, pieces.max_d);
   }

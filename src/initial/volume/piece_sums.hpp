@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/fixed_point.hpp"
 #include "comm/communicator.hpp"
 
 namespace pnpbs {
@@ -17,14 +18,14 @@ struct PiecesInCell {
   static constexpr std::int32_t kNoCell = -1;
 
   std::int32_t patch, cell = kNoCell;
-  std::int64_t nodes = 0;  // that they have room for, in units of 2^-32
+  FixedPointSum nodes{};  // that they have room for
   double min_d = std::numeric_limits<double>::infinity(), max_d = 0;
 };
 
 // What there is of the patch besides.
 struct PatchSums {
-  std::int64_t nodes_before = 0;  // in the cells before this one
-  std::int64_t nodes = 0;         // in all of them
+  FixedPointSum nodes_before;  // in the cells before this one
+  FixedPointSum nodes;         // in all of them
   double min_d = std::numeric_limits<double>::infinity(), max_d = 0;
 };
 

@@ -47,7 +47,7 @@ std::vector<PiecesInCell> what_to_sum(const std::vector<PatchPieces>& patches) {
       in_cell.patch = patch;
       in_cell.cell = pieces.front().cell;
       for (const SurfacePiece& piece : pieces) {
-        in_cell.nodes += wanted_nodes(piece);
+        in_cell.nodes.add_units(wanted_nodes(piece));
         in_cell.min_d = std::min(in_cell.min_d, piece.d);
         in_cell.max_d = std::max(in_cell.max_d, piece.d);
       }
@@ -58,16 +58,15 @@ std::vector<PiecesInCell> what_to_sum(const std::vector<PatchPieces>& patches) {
 
 // The spacing at which a whole patch has as many nodes as d asks for.
 double even_spacing(const PatchPieces& patch, const PatchSums& sums) {
-  if (sums.min_d == sums.max_d || sums.nodes == 0) return sums.min_d;
-  return std::sqrt(Lattice<2>::kDensity * patch.area /
-                   from_fixed_point(static_cast<std::uint64_t>(sums.nodes)));
+  if (sums.min_d == sums.max_d || sums.nodes.is_zero()) return sums.min_d;
+  return std::sqrt(Lattice<2>::kDensity * patch.area / sums.nodes.value());
 }
 
 // Of pieces of one cell.
-void add_running_sum(const Surface& surface, Pieces pieces, std::int64_t nodes_before,
+void add_running_sum(const Surface& surface, Pieces pieces, const FixedPointSum& nodes_before,
                      std::vector<SurfacePoint>& nodes) {
-  constexpr std::int64_t kOne = std::int64_t{1} << 32, kHalf = kOne / 2;
-  std::int64_t sum = nodes_before + kHalf;
+  constexpr std::int64_t kOne = kFixedPointOne, kHalf = kOne / 2;
+  std::int64_t sum = nodes_before.fraction() + kHalf;
   for (const SurfacePiece& piece : pieces) {
     const std::int64_t whole = sum / kOne;
     sum += wanted_nodes(piece);

@@ -27,9 +27,6 @@ constexpr double kMinClosed = 4;          // nodes of a closed patch
 constexpr double kNeedlePower = 1.585;    // log2 3: of two halves of a needle one is as long as it
 constexpr double kBytesPerPiece =
     2 * sizeof(SurfacePiece) + 4 * sizeof(FacetCorners<3>);  // while it is cut, and sorted
-// Nodes are counted in these: their sum may be a few times what there may be before it is found to
-// be too large, and must be a number then, too (see fixed_point).
-constexpr double kCounted = 16;
 
 struct Triangle {
   std::int32_t facet;
@@ -137,7 +134,7 @@ class Cutter {
     for (const Triangle& triangle : open) centres.push_back(triangle.centre());
     const std::vector<double> d = spacing_at(centres, batches);
     std::vector<Triangle> halves;
-    std::int64_t pending = 0;
+    FixedPointSum pending;
     double pieces = 0;  // of this rank's: at least
     for (std::size_t n = 0; n < open.size(); ++n) {
       least_.add({d[n], centres[n]});
@@ -147,7 +144,7 @@ class Cutter {
       const LongestEdge longest = longest_edge(open[n]);
       if (longest.length > kMaxEdge * local) {
         // Where d grows from here on, there may be few nodes after all, but some.
-        if (own) pending += counted(0.25 * std::min(1.0, nodes_in(open[n].area(), local)));
+        if (own) pending.add(0.25 * std::min(1.0, nodes_in(open[n].area(), local)));
         if (own) pieces += std::pow(longest.length / (kMaxEdge * local), kNeedlePower);
         halve(open[n], longest.k, halves);
       } else if (own) {
@@ -173,14 +170,12 @@ class Cutter {
 
   void add(const SurfacePiece& piece) {
     patches_[index(surface_.patch(piece.centre.facet))].pieces.push_back(piece);
-    nodes_ += counted(nodes_in(piece.area, piece.d));
+    nodes_.add(nodes_in(piece.area, piece.d));
   }
 
-  static std::int64_t counted(double nodes) { return fixed_point(nodes / kCounted); }
-
-  void require_few_enough(std::int64_t pending) const {
-    const auto mine_counted = static_cast<std::uint64_t>(nodes_ + pending);
-    const double nodes = kCounted * from_fixed_point(comm_.allreduce_sum(mine_counted));
+  void require_few_enough(FixedPointSum all) const {
+    all.add(nodes_);
+    const double nodes = comm_.allreduce_sum(all).value();
     if (nodes <= static_cast<double>(limit_.max_nodes)) return;
     Bytes mine;
     pack(mine, least_);
@@ -205,7 +200,7 @@ class Cutter {
   const RankCells& cells_;
   std::vector<PatchPieces> patches_;
   std::vector<double> max_d_;  // of each patch
-  std::int64_t nodes_ = 0;     // counted: those that the pieces of this rank have room for
+  FixedPointSum nodes_;        // that the pieces of this rank have room for
   LeastSpacing least_;
 };
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums of doubles that come out the same in any order: each term is rounded to a multiple of 2^-32
+// first, and the multiples are added as whole numbers.
+#pragma once
+
+#include <cstdint>
+
+#include "base/int128.hpp"
+
+namespace pnpbs {
+
+inline constexpr std::int64_t kFixedPointOne = std::int64_t{1} << 32;
+
+// In units of 2^-32. The value must be below 2^31 in size.
+inline std::int64_t fixed_point(double value) {
+  return static_cast<std::int64_t>(value * 4294967296.0);
+}
+
+// What a sum in these units has beyond the whole number below it. Right for sums modulo 2^64, too.
+inline std::int64_t fraction_of(std::int64_t units) { return units & (kFixedPointOne - 1); }
+
+// a + b modulo 2^64: to overflow is no error.
+inline std::int64_t wrapping_sum(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
+// Terms have up to 63 bits and a sign. Of 2^40 nodes, each with 2^6 pairs or elements, there are
+// 2^46 terms: their sum has at most 109 bits of the 127, whatever the terms are.
+class FixedPointSum {
+ public:
+  void add(double term) { add_units(fixed_point(term)); }
+  void add_units(std::int64_t units) { units_.add(Int128::of(units)); }
+  void add(const FixedPointSum& other) { units_.add(other.units_); }
+
+  double value() const { return static_cast<double>(units_.value()) / 4294967296.0; }
+  bool is_zero() const { return units_.low == 0 && units_.high == 0; }
+  std::int64_t fraction() const { return fraction_of(static_cast<std::int64_t>(units_.low)); }
+
+  Int128& units() { return units_; }
+  const Int128& units() const { return units_; }
+
+ private:
+  Int128 units_;
+};
+
+}  // namespace pnpbs
