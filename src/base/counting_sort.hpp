@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/execution.hpp"
+#include "base/rank_limit.hpp"
 
 namespace pnpbs {
 
@@ -48,6 +49,7 @@ CountingSort::CountingSort(std::int64_t n, std::int32_t keys, const Key& key)
                                       std::min<std::int64_t>(Exec().concurrency(), kMaxParts))),
       keys_(keys),
       counts_(make_view<std::int32_t>("pnpbs::CountingSort::counts", parts_ * keys)) {
+  require_fits_rank(n, "nodes to sort");
   std::vector<char> in_order(static_cast<std::size_t>(parts_));
   for_each("pnpbs::CountingSort::count", parts_, [&](std::int64_t part) {
     std::int32_t* const counts = counts_of(part);

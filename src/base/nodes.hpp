@@ -3,12 +3,14 @@
 // influence on any result; what decides is the id.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "base/execution.hpp"
 #include "base/node_array.hpp"
+#include "base/rank_limit.hpp"
 #include "base/types.hpp"
 
 namespace pnpbs {
@@ -79,6 +81,7 @@ struct Nodes {
   // Room for n nodes and, behind them, the one far-away node that pads blocks of lists.
   void reserve(std::int64_t n) {
     if (n <= capacity()) return;
+    require_fits_rank(n, "nodes");
     for (int k = 0; k < Dim; ++k) {
       grow_labelled(x[k], "pnpbs::Nodes::x", n);
       grow_labelled(v[k], "pnpbs::Nodes::v", n);
@@ -102,12 +105,12 @@ struct Nodes {
 
   // The same, and some for the next time.
   void reserve_with_room(std::int64_t n) {
-    if (n > capacity()) reserve(n + n / 16);
+    if (n > capacity()) reserve(with_room(n, n / 16));
   }
 
   void append(const Point<Dim>& position, double spacing, std::int64_t node_id,
               std::int32_t node_tag, Carrier node_carrier, std::int32_t on_boundary) {
-    if (count + 1 > capacity()) reserve(count + count / 8 + 64);
+    if (count + 1 > capacity()) reserve(with_room(count + 1, count / 8 + 63));
     put(count++, position, spacing, node_id, node_tag, node_carrier, on_boundary);
     ++arrangement_;
   }
@@ -178,6 +181,10 @@ struct Nodes {
   }
 
  private:
+  static std::int64_t with_room(std::int64_t n, std::int64_t room) {
+    return std::max(n, std::min(n + room, kMaxOnRank));
+  }
+
   template <class T>
   void grow_labelled(NodeArray<T>& array, const char* label, std::int64_t n) {
     if (array.extent(0) == 0) {

@@ -46,7 +46,7 @@ class Profiles {
  public:
   Profiles(const std::vector<Track>& tracks, const SpacingEvaluator<kDim>& spacing,
            std::int64_t max_nodes)
-      : tracks_(tracks), spacing_(spacing), max_nodes_(static_cast<double>(max_nodes)) {}
+      : tracks_(tracks), spacing_(spacing), max_nodes_(max_nodes) {}
 
   const std::vector<Profile>& run() {
     for (const Track& track : tracks_) profiles_.push_back(first_profile(track));
@@ -124,11 +124,14 @@ class Profiles {
             integral(profile.stations[i + 1] - profile.stations[i], profile.d[i], profile.d[i + 1]);
       }
     }
-    if (nodes <= max_nodes_) return;
-    throw Error(ErrorKind::spacing, "the boundary would need about " + rounded_text(nodes) +
-                                        " nodes, more than " + number_text(max_nodes_) +
-                                        ": the spacing is " + number_text(min_) + " at " +
-                                        point_text(min_point_));
+    const bool held = max_nodes_ > kMaxNodesOnCurves;
+    const std::int64_t max = std::min(max_nodes_, kMaxNodesOnCurves);
+    if (nodes <= static_cast<double>(max)) return;
+    throw Error(ErrorKind::spacing,
+                "the boundary would need about " + rounded_text(nodes) + " nodes, more than " +
+                    (held ? "the " : "") + std::to_string(max) +
+                    (held ? " that every rank can hold" : "") + ": the spacing is " +
+                    number_text(min_) + " at " + point_text(min_point_));
   }
 
   static int parts(double h, double a, double b) {
@@ -164,7 +167,7 @@ class Profiles {
 
   const std::vector<Track>& tracks_;
   const SpacingEvaluator<kDim>& spacing_;
-  double max_nodes_;
+  std::int64_t max_nodes_;
   std::vector<Profile> profiles_;
   std::vector<Point<kDim>> points_;  // asked in this round
   double min_ = HUGE_VAL;            // value of d so far

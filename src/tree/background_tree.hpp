@@ -11,6 +11,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/rank_limit.hpp"
 #include "base/types.hpp"
 
 namespace pnpbs {
@@ -184,6 +185,7 @@ class BackgroundTree {
   }
 
   void add_children(std::int32_t c) {
+    require_fits_rank(std::ssize(cells_) + kChildren, "cells of the background tree");
     cells_[static_cast<std::size_t>(c)].first_child = cell_count();
     const Cell parent = cell(c);
     for (int child = 0; child < kChildren; ++child) {

@@ -80,6 +80,9 @@ void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<do
       });
     };
   });
+  std::int64_t links = leaves;
+  for (std::int32_t a = 0; a < leaves; ++a) links += 2 * std::ssize(seen.row(a));
+  require_fits_rank(links, "links of leaves");
   offset_.assign(index(leaves) + 1, 0);
   for (std::int32_t a = 0; a < leaves; ++a) {
     offset_[index(a) + 1] += 1 + static_cast<std::int32_t>(seen.row(a).size());

@@ -7,6 +7,7 @@
 
 #include "base/counting_sort.hpp"
 #include "bubbles.hpp"
+#include "geometry/expect_error.hpp"
 #include "run_kernel_suite.hpp"
 
 namespace {
@@ -495,6 +496,17 @@ START_TEST(blocks_are_padded) {
 }
 END_TEST
 
+START_TEST(ranks_hold_what_32_bits_number) {
+  pnpbs::Nodes<2> nodes;
+  const std::initializer_list<const char*> parts = {"a rank would have 2147483600 nodes",
+                                                    "can have 2147483584: use more ranks"};
+  for (const bool with_room : {false, true})
+    expect_error(pnpbs::ErrorKind::memory, parts, [&] {
+      with_room ? nodes.reserve_with_room(2147483600) : nodes.reserve(2147483600);
+    });
+}
+END_TEST
+
 int main() {
   return run_kernel_suite(
       "neighbors",
@@ -502,5 +514,5 @@ int main() {
        leaves_in_a_box, nodes_are_sorted_by_bucket, counting_sort_is_stable,
        counting_sort_tells_order, buckets_of_kept_nodes, lists_of_random_sets, lists_of_graded_sets,
        lists_of_clusters, lists_of_any_number_of_nodes, lists_after_changes,
-       lists_of_pairs_that_see_each_other, blocks_are_padded});
+       lists_of_pairs_that_see_each_other, blocks_are_padded, ranks_hold_what_32_bits_number});
 }

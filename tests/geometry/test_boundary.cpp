@@ -400,6 +400,11 @@ START_TEST(bad_spacing) {
                [&] { pnpbs::discretize_boundary(domain, constant(1e-12)); });
   expect_error(pnpbs::ErrorKind::spacing, {"would need about 400 nodes, more than 300"},
                [&] { pnpbs::discretize_boundary(domain, constant(1e-2), 300); });
+  // Every rank holds the boundary, however many nodes there may be.
+  expect_error(
+      pnpbs::ErrorKind::spacing,
+      {"would need about 2.5e+09 nodes, more than the 2000000000 that every rank can hold"},
+      [&] { pnpbs::discretize_boundary(domain, constant(1.6e-9), std::int64_t{1} << 40); });
   expect_error(pnpbs::ErrorKind::spacing, {"would need about"}, [&] {
     pnpbs::discretize_boundary(domain, constant(std::numeric_limits<double>::denorm_min()));
   });

@@ -31,7 +31,7 @@ struct Boundary : BoundaryMesh<2> {
 // 0.4 d to an edge or to another fixed node.
 // Throws Error(ErrorKind::spacing) if there would be more than `max_nodes`.
 Boundary discretize_boundary(const PlaneDomain& domain, const SpacingEvaluator<2>& spacing,
-                             std::int64_t max_nodes = (std::int64_t{1} << 31) - 2);
+                             std::int64_t max_nodes = kMaxNodesOnCurves);
 
 // How large the bubble of each boundary node may be. Where a boundary is far finer than d, as a
 // circle of thousands of segments, bubbles of diameter d would hold thousands of each other: there
