@@ -12,6 +12,9 @@ namespace pnpbs {
 
 namespace {
 
+// On all ranks together: what sums and ids are laid out for (base/fixed_point.hpp).
+constexpr double kMaxNodesInAll = 0x1p40;
+
 // What volumes need instead (docs/volumes.md), whatever the paper's preset is.
 struct VolumeDefault {
   const char* name;
@@ -142,7 +145,7 @@ const std::vector<OptionRow>& option_table() {
        "only in space: d is reduced also where tetrahedra have a dihedral angle below this, in "
        "degrees, at the end of a run, as long as conforming_rounds allows, unless the body itself "
        "is sharper than 33 degrees there; 0: small angles do not count"},
-      {"wanted_nodes", T::real, "0", nullptr, nullptr, 0, 2e9, nullptr,
+      {"wanted_nodes", T::real, "0", nullptr, nullptr, 0, kMaxNodesInAll, nullptr,
        "requested number of nodes: d is multiplied by the factor with which a run is expected "
        "to reach it; 0: d is unchanged"},
       {"exchange_interval", T::integer, "5", nullptr, nullptr, 1, 64, nullptr,
@@ -152,7 +155,7 @@ const std::vector<OptionRow>& option_table() {
        "factor"},
       {"metis_seed", T::integer, "1", nullptr, nullptr, 0, 2e9, nullptr,
        "seed of the partition; the nodes do not depend on it"},
-      {"max_nodes", T::integer, "100000000", nullptr, nullptr, 1, 2e9, nullptr,
+      {"max_nodes", T::integer, "100000000", nullptr, nullptr, 1, kMaxNodesInAll, nullptr,
        "a larger number of nodes is rejected as an error in d"},
       {"max_memory", T::real, "1", nullptr, nullptr, 0, 1e6, nullptr,
        "a run is refused if it would need more than this share of the memory available on its "

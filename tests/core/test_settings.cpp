@@ -2,6 +2,7 @@
 // The defaults of the rules are those of the options that set them.
 #include <string>
 
+#include "geometry/expect_error.hpp"
 #include "quality/volume/sliver_repair.hpp"
 #include "run_kernel_suite.hpp"
 #include "settings/settings.hpp"
@@ -59,6 +60,21 @@ START_TEST(helps_name_both_defaults) {
 }
 END_TEST
 
+// Over all ranks there may be 2^40 nodes.
+START_TEST(numbers_of_nodes) {
+  pnpbs::Options options;
+  options.set("max_nodes", "1099511627776");
+  ck_assert_int_eq(pnpbs::Settings(options).max_nodes, std::int64_t{1} << 40);
+  options.set_integer("max_nodes", std::int64_t{1} << 40);
+  options.set_real("wanted_nodes", 0x1p40);
+  for (const char* name : {"max_nodes", "wanted_nodes"})
+    expect_error(pnpbs::ErrorKind::argument, {name, "1099511627777", " .. 1099511627776"},
+                 [&] { options.set(name, "1099511627777"); });
+  ck_assert_int_eq(options.integer("max_nodes"), std::int64_t{1} << 40);
+}
+END_TEST
+
 int main() {
-  return run_kernel_suite("settings", {rules_and_options_agree, helps_name_both_defaults});
+  return run_kernel_suite("settings",
+                          {rules_and_options_agree, helps_name_both_defaults, numbers_of_nodes});
 }
