@@ -15,16 +15,19 @@
 
 #include <type_traits>
 
+#include "method/constants.hpp"
+
 namespace pnpbs {
 
 // Equation (2) of the paper (after Shimada and Gossard): pushes below w = 1, pulls up to 1.5. To
 // the letter, the same force for pairs of all sizes.
 struct CubicLaw {
   double k0 = 1;
-  double range = 1.5;
+  double range = method::kCubicLawRange;
 
   double operator()(double w) const {
-    const double f = k0 * (w * w * (1.25 * w - 2.375) + 1.125);
+    const double f = k0 * (w * w * (method::kCubicLawCube * w - method::kCubicLawSquare) +
+                           method::kCubicLawConstant);
     return w <= range ? f : 0.0;
   }
   template <int Dim>

@@ -6,6 +6,7 @@
 
 #include "geometry/plane/edges.hpp"
 #include "geometry/volume/triangles.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -51,7 +52,7 @@ ClearPosition<Dim> clear_position(const FacetIndex<Dim>& index,
                                   std::span<const std::int32_t> facets,
                                   const std::type_identity_t<Point<Dim>>& from,
                                   const std::type_identity_t<Point<Dim>>& to, double d) {
-  const double wanted = kBoundaryClearance * d;
+  const double wanted = method::kBoundaryClearance * d;
   if (clear_of_all<Dim>(index, facets, from, to, wanted)) return {to, true};  // nearly always
   Point<Dim> x = may_touch_any<Dim>(index, facets, from, to) ? from : to;
   Point<Dim> wall{};
@@ -65,7 +66,7 @@ ClearPosition<Dim> clear_position(const FacetIndex<Dim>& index,
     x = away;
     gap = nearest_facet<Dim>(index, facets, x, wall);
   }
-  return {x, gap >= kMinClearance * d};
+  return {x, gap >= method::kMinClearance * d};
 }
 
 template ClearPosition<2> clear_position(const FacetIndex<2>&, std::span<const std::int32_t>,

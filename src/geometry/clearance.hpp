@@ -9,14 +9,6 @@
 
 namespace pnpbs {
 
-// In units of d. In the plane, and of nodes on surfaces from feature edges:
-inline constexpr double kBoundaryClearance = 0.4;
-// In space, where a layer of tetrahedra is 0.82 d thick; with 0.65 and 0.5 the worst are worse.
-inline constexpr double kVolumeClearance = 0.75;
-inline constexpr double kNewNodeClearance = 0.5;  // there, of new nodes
-// With less than this there is no room: a wedge or gap narrower than 0.7 d.
-inline constexpr double kMinClearance = 0.35;
-
 template <int Dim>
 struct ClearPosition {
   Point<Dim> position;

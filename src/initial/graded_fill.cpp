@@ -4,6 +4,7 @@
 #include "base/fixed_point.hpp"
 #include "base/lattice.hpp"
 #include "initial/initial_fill.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -24,7 +25,7 @@ int column_of(int place, int k) {
 template <int Dim>
 bool is_steep(const DomainMap<Dim>& map, std::int32_t leaf) {
   return !map.leaf_outside(leaf) &&
-         map.leaf_max_spacing(leaf) > kPatchVariation * map.leaf_min_spacing(leaf);
+         map.leaf_max_spacing(leaf) > method::kPatchVariation * map.leaf_min_spacing(leaf);
 }
 
 // In units of 2^-32.
@@ -85,7 +86,7 @@ std::vector<Point<Dim>> GradedFill<Dim>::place(const std::vector<double>& d,
       const std::int64_t whole = sum / kOne;
       sum += wanted_in_cell<Dim>(leaf.cell_side, d[cell]);
       const auto count = static_cast<int>(sum / kOne - whole);
-      const double clearance = kFillClearance * d[cell];
+      const double clearance = method::kFillClearance * d[cell];
       for (int n = 0; n < count; ++n) {
         const Point<Dim> x = on_diagonal<Dim>(leaf.cell_side, centres_[cell], n, count);
         if (map_.inside_in_leaf(leaf.leaf, x) && map_.clearance(x, clearance) >= clearance)

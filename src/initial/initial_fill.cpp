@@ -7,6 +7,7 @@
 
 #include "initial/plane/hexagonal_rows.hpp"
 #include "initial/volume/cubic_lattice.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -17,7 +18,7 @@ using FillLattice = std::conditional_t<Dim == 2, HexagonalRows, CubicLattice>;
 
 template <int Dim>
 bool nearly_constant(const SpacingSummary<Dim>& cell) {
-  return cell.max <= kPatchVariation * cell.min;
+  return cell.max <= method::kPatchVariation * cell.min;
 }
 
 template <int Dim>
@@ -78,7 +79,7 @@ class Fill {
   void fill_leaf(std::int32_t leaf, const FillLattice<Dim>& lattice) {
     const BackgroundTree<Dim>& tree = map_.tree();
     const Box<Dim> fine_box = tree.fine_box(leaf);
-    const double clearance = kFillClearance * map_.leaf_spacing(leaf);
+    const double clearance = method::kFillClearance * map_.leaf_spacing(leaf);
     const bool near_facets = facets_near(leaf, clearance);
     lattice.for_nodes(tree.cell_box(tree.leaf_cell(leaf)), [&](const Point<Dim>& x) {
       if (!tree.fine_box_holds(fine_box, x)) return;

@@ -15,11 +15,6 @@
 
 namespace pnpbs {
 
-// d may vary by this factor within a patch.
-inline constexpr double kPatchVariation = 1.08;
-// New nodes stay this many d away from the boundary.
-inline constexpr double kFillClearance = 0.5;
-
 // d in a cell of the tree, put together from its leaves.
 template <int Dim>
 struct SpacingSummary {

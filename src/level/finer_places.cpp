@@ -7,6 +7,7 @@
 
 #include "base/point_text.hpp"
 #include "comm/records.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -34,7 +35,7 @@ std::vector<Place> finer_places_of_own(const Level<3>& level) {
     if (!nodes.owned(i) || !nodes.moves(i)) continue;
     const std::int32_t leaf = level.neighbourhood.buckets().bucket_of(i);
     const double sampled = level.map().leaf_min_spacing(leaf);
-    if (nodes.d(i) >= kFarFiner * sampled) continue;
+    if (nodes.d(i) >= method::kFarFiner * sampled) continue;
     found.push_back(
         {leaf, {nodes.d(i), sampled, tree.cell_side(tree.leaf_cell(leaf)), nodes.position(i)}});
   }
@@ -51,7 +52,8 @@ std::string text_of(const std::vector<Place>& places) {
   const Place& finest = places.front();
   return "the spacing d = " + rounded_text(finest.d) + " near " + rounded_point_text<3>(finest.x) +
          " is for so small a place that samples around have " + rounded_text(finest.sampled) +
-         " at the least: let d grow gradually from it, by 0.3 times the distance or less";
+         " at the least: let d grow gradually from it, by " + number_text(method::kGrowthFollowed) +
+         " times the distance or less";
 }
 
 }  // namespace

@@ -11,9 +11,6 @@
 
 namespace pnpbs {
 
-// Times the samples around: within a leaf, d that nodes can follow is twice that at least.
-inline constexpr double kFarFiner = 0.25;
-
 // That nodes have come upon such places. The same on all ranks.
 class FinerPlaces : public AgreedError {
  public:

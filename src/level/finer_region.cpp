@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "method/constants.hpp"
+
 namespace pnpbs {
 
 namespace {
@@ -64,7 +66,7 @@ KnownValues<3> finer_region(const std::vector<FinerPlaces::Place>& places,
   std::vector<double> d = values_at(last);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double sampled = places[i].sampled / places[i].d * d[i];
-    last[i].far_finer = kFarFiner * sampled;
+    last[i].far_finer = method::kFarFiner * sampled;
     known.slopes.push_back(
         {(sampled - d[i]) / (kFarthest * places[i].leaf_side), d[i], last[i].x, true});
     known.in_domain.push_back({last[i].x, d[i]});

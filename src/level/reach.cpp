@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geometry/clearance.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -12,7 +13,7 @@ double widest_radius(const Settings& settings) {
 }
 
 double meeting_radius(const Settings& settings) {
-  return (settings.dimension == 3 ? kVolumeClearance : kBoundaryClearance) +
+  return (settings.dimension == 3 ? method::kVolumeClearance : method::kBoundaryClearance) +
          settings.motion.max_move * static_cast<double>(settings.event_interval);
 }
 

@@ -12,6 +12,7 @@
 #include "level/reach.hpp"
 #include "level/thinning.hpp"
 #include "level/volume/surface_level.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -21,7 +22,8 @@ namespace {
 // in space, where what is too much is thinned, by 1.25.
 template <int Dim>
 int pieces_of(double length, double d) {
-  constexpr double kMax = 1e9, kRoundUp = Dim == 2 ? 0.6 : 0.75;
+  constexpr double kMax = 1e9,
+                   kRoundUp = Dim == 2 ? method::kRoundUpInPlane : method::kRoundUpInSpace;
   return static_cast<int>(std::min(length / d + kRoundUp, kMax));
 }
 

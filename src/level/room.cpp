@@ -6,12 +6,11 @@
 #include "dynamics/bubble_force.hpp"
 #include "geometry/clearance.hpp"
 #include "level/finish.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-constexpr double kNearlyCoincide = 0.2;  // in units of d
 
 // Has any node of block b a listed neighbour within so many of its d?
 template <int Dim>
@@ -47,7 +46,7 @@ void for_coinciding(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, st
   const Point<Dim> x = nodes.position(i);
   lists.for_neighbours(i, [&](std::int64_t j) {
     if (nodes.moves(j) && nodes.id(j) < nodes.id(i) &&
-        distance<Dim>(x, nodes.position(j)) < kNearlyCoincide * nodes.d(i))
+        distance<Dim>(x, nodes.position(j)) < method::kNearlyCoincide * nodes.d(i))
       visit(j);
   });
 }
@@ -55,7 +54,7 @@ void for_coinciding(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, st
 // As the boundary was found where the nodes are.
 template <int Dim>
 bool pressed_to_boundary(const Level<Dim>& level, std::int64_t i) {
-  return level.neighbourhood.near_boundary().within(i, kMinClearance * level.nodes.d(i));
+  return level.neighbourhood.near_boundary().within(i, method::kMinClearance * level.nodes.d(i));
 }
 
 // What tells the inside and what is near.
@@ -70,7 +69,7 @@ bool has_clearance(const Level<Dim>& level, const std::type_identity_t<Point<Dim
   const Box<Dim>& box = level.ground.bounds();
   for (int k = 0; k < Dim; ++k)
     if (!(x[k] > box.low[k] && x[k] < box.high[k])) return false;
-  const double clearance = (Dim == 2 ? kBoundaryClearance : kNewNodeClearance) * d;
+  const double clearance = (Dim == 2 ? method::kBoundaryClearance : method::kNewNodeClearance) * d;
   const auto& facets = facets_of(level);
   return facets.inside(x) && facets.clearance(x, clearance) >= clearance;
 }
@@ -82,7 +81,7 @@ View<char> nodes_without_room(const Level<Dim>& level) {
   constexpr double kALittleMore = 1.001;  // so that rounding decides nothing here
   const View<char> no_room = make_view<char>("pnpbs::no_room", nodes.count);
   for_each("pnpbs::no_room", lists.block_count(), [&](std::int64_t b) {
-    const bool look = any_neighbour_within(nodes, lists, kALittleMore * kNearlyCoincide, b);
+    const bool look = any_neighbour_within(nodes, lists, kALittleMore * method::kNearlyCoincide, b);
     for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes.count); ++i) {
       no_room(i) = 0;
       if (!nodes.moves(i)) continue;

@@ -6,6 +6,7 @@
 #include "base/fixed_point.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/numbering.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -14,7 +15,7 @@ namespace {
 // Of a node placed for a smaller d, so many nodes are left in M dimensions.
 template <int M, int Dim>
 double share_for(const GivenNode<Dim>& node, double d) {
-  return node.d > 0 && d > 1.02 * node.d ? power<M>(node.d / d) : 1;
+  return node.d > 0 && d > method::kThinnedAbove * node.d ? power<M>(node.d / d) : 1;
 }
 
 // Each node counts for the share that should stay, and along the Morton order of the leaves a node
@@ -60,13 +61,13 @@ void keep_shares(const Level<Dim>& level, GivenNodes<Dim>& given,
 
 template <int Dim>
 void thin(const Level<Dim>& level, GivenNodes<Dim>& inner, const std::vector<std::int32_t>& begin) {
-  constexpr double kCrowded = 1.5;  // times the nodes that d asks for in a leaf, and a few
   const std::vector<double> wanted = wanted_nodes(level);
   keep_shares(level, inner, begin, [&](const GivenNode<Dim>& node) {
     const auto leaf = static_cast<std::size_t>(node.leaf);
     const double given = begin[leaf + 1] - begin[leaf],
                  share = share_for<Dim>(node, level.map().leaf_spacing(node.leaf));
-    if (given > kCrowded * wanted[leaf] + 4) return std::min(share, wanted[leaf] / given);
+    if (given > method::kCrowdedLeaf * wanted[leaf] + method::kCrowdedLeafMore)
+      return std::min(share, wanted[leaf] / given);
     return share;
   });
 }

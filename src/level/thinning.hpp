@@ -9,6 +9,7 @@
 #include "base/lattice.hpp"
 #include "initial/given_nodes.hpp"
 #include "level/level.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -17,9 +18,8 @@ namespace pnpbs {
 // If that is most of them all do: the spacing may have been another where the node was before.
 template <int M>
 double placed_for(double before, double d, double new_nodes) {
-  constexpr double kMost = 0.8;
   const double share = (power<M>(before / d) - 1) / new_nodes;
-  return share > kMost ? d : d * root<M>(share);
+  return share > method::kMostStay ? d : d * root<M>(share);
 }
 
 // Of nodes inside, sorted by place; `begin` is each leaf's first. Collective.

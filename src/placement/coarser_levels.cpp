@@ -5,6 +5,7 @@
 
 #include "initial/initial_fill.hpp"
 #include "level/expected_nodes.hpp"
+#include "method/constants.hpp"
 #include "spacing/multiplied_spacing.hpp"
 
 namespace pnpbs {
@@ -22,7 +23,6 @@ template <int Dim>
 bool boundary_leaves_room(const Level<Dim>& finest, const Domain<Dim>& domain,
                           const Spacing<Dim>& coarser, double factor, double nodes) {
   if constexpr (Dim == 2) {
-    constexpr double kMaxForced = 0.2;
     double laid = 0;
     agreed(*finest.comm, [&] {
       const SpacingEvaluator<2> checked = [&](std::int64_t n, const Point<2>* x, double* d) {
@@ -31,7 +31,7 @@ bool boundary_leaves_room(const Level<Dim>& finest, const Domain<Dim>& domain,
       laid = static_cast<double>(discretize_boundary(domain, checked).nodes.size());
     });
     return laid - static_cast<double>(finest.ground.boundary_nodes()) / factor <=
-           kMaxForced * (nodes / std::pow(factor, 2));
+           method::kMaxForced * (nodes / std::pow(factor, 2));
   }
   return true;
 }
@@ -46,29 +46,26 @@ std::shared_ptr<const Spacing<Dim>> spacing_of_level(
 }
 
 Settings settings_of_level(Settings settings, bool coarsest) {
-  constexpr double kPopulationShare = 0.75;
   // Of the finest level's tolerance: steps are cheap here.
-  const double more_rest = settings.dimension == 2 ? 0.3 : 0.08;
-  constexpr double kDenser = 0.997;  // in distance: refining leaves it a little too large
+  const double more_rest =
+      settings.dimension == 2 ? method::kCoarserRestInPlane : method::kCoarserRestInSpace;
   settings.steps = coarsest ? settings.coarsest_steps : settings.refined_steps;
-  settings.population_share = kPopulationShare;
+  settings.population_share = method::kCoarserPopulationShare;
   settings.defects.bad_below = 0;  // no triangle is handed on
   settings.tolerance_mean *= more_rest;
-  settings.population.mean_distance *= kDenser;
+  settings.population.mean_distance *= method::kCoarserDistance;
   return settings;
 }
 
 template <int Dim>
 int coarser_levels_that_pay(const Level<Dim>& finest, const Domain<Dim>& domain,
                             const std::shared_ptr<const Spacing<Dim>>& spacing) {
-  constexpr double kMinNodes = 500;   // of the coarsest
-  constexpr double kSteepest = 0.27;  // growth of d per unit of length
   const SpacingVariation d = spacing_variation(finest);
   const double nodes = expected_nodes(finest);
   int levels = 0;
-  while (levels < finest.settings.levels && d.max > kPatchVariation * d.min &&
-         nodes >= kMinNodes * std::pow(coarser_by(levels + 1), Dim) &&
-         d.steepest * coarser_by(levels + 1) <= kSteepest &&
+  while (levels < finest.settings.levels && d.max > method::kPatchVariation * d.min &&
+         nodes >= method::kMinNodesOfCoarsest * std::pow(coarser_by(levels + 1), Dim) &&
+         d.steepest * coarser_by(levels + 1) <= method::kSteepestOnCoarsest &&
          boundary_leaves_room(finest, domain, *spacing_of_level(spacing, levels + 1),
                               coarser_by(levels + 1), nodes))
     ++levels;

@@ -6,6 +6,7 @@
 #include "base/point_text.hpp"
 #include "comm/records.hpp"
 #include "level/node_spacing.hpp"
+#include "method/constants.hpp"
 #include "placement/narrow_places.hpp"
 #include "spacing/held_spacing.hpp"
 #include "spacing/spacing_with_places.hpp"
@@ -14,13 +15,6 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kHeld = 0.5;  // of d at such a place, in one round
-// That is enough for most bodies. In later rounds d goes by what is narrow there, too, which takes
-// more nodes. Of 32 bodies of about five parts that need rounds, at 400 nodes, 9 are torn in the
-// end without it, and 1 with it.
-constexpr std::int64_t kRoundsOfHalves = 1;
-constexpr double kMaxNodes = 4;                // times those of the first round, or ...
-constexpr double kFewNodes = 20000;            // ... so many more: beyond that, d is a mistake
 constexpr std::int64_t kFewElements = 100000;  // with small angles, whose corners one rank can have
 
 // Those of all ranks, each once, in one order on all of them. Collective.
@@ -57,8 +51,9 @@ std::vector<GrowthSource<Dim>> places_to_hold(const Level<Dim>& level,
   const std::vector<double> d = spacing_at(level, places);
   for (std::size_t k = 0; k < places.size(); ++k) places[k].d = d[k];
   std::vector<GrowthSource<Dim>> result;
-  if (places.empty() || round > kRoundsOfHalves) result = narrow_places(level, places);
-  for (const GrowthSource<Dim>& place : places) result.push_back({place.x, kHeld * place.d});
+  if (places.empty() || round > method::kRoundsOfHalves) result = narrow_places(level, places);
+  for (const GrowthSource<Dim>& place : places)
+    result.push_back({place.x, method::kHeldTo * place.d});
   return result;
 }
 
@@ -77,8 +72,9 @@ void hold_down(const Communicator& comm, PlacedSpacing<Dim>& placed, const Setti
   placed.d = placed.unheld;
   const std::vector<GrowthSource<Dim>>& places = placed.held.places;
   if (places.empty()) return;
-  const double growth = settings.growth_limit > 0 ? std::min(settings.growth_limit, kGrowthFollowed)
-                                                  : kGrowthFollowed;
+  const double growth = settings.growth_limit > 0
+                            ? std::min(settings.growth_limit, method::kGrowthFollowed)
+                            : method::kGrowthFollowed;
   agreed(comm, [&] {
     KnownValues<Dim> known;
     known.in_domain = places;
@@ -133,7 +129,8 @@ bool add_unresolved_places(const Level<Dim>& level, const Unresolved<Dim>& unres
 template <int Dim>
 bool takes_too_many(double expected_nodes, const Held<Dim>& held, bool conforms) {
   const auto nodes = static_cast<double>(held.nodes_before);
-  return expected_nodes > std::max(kMaxNodes * nodes, conforms ? 0 : nodes + kFewNodes);
+  return expected_nodes >
+         std::max(method::kMaxGrowthOfNodes * nodes, conforms ? 0 : nodes + method::kFewNodesMore);
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "level/finer_region.hpp"
+#include "method/constants.hpp"
 #include "placement/estimate.hpp"
 #include "spacing/growth_limit.hpp"
 #include "spacing/held_spacing.hpp"
@@ -22,7 +23,7 @@ namespace {
 constexpr double kMaxSizes = 1024;
 // A little more is let pass than nodes follow, so that d which grows by that stays as it is given,
 // whatever samples make of it.
-constexpr double kTooSteep = 1.05 * kGrowthFollowed;
+constexpr double kTooSteep = method::kTooSteep * method::kGrowthFollowed;
 
 }  // namespace
 
@@ -74,7 +75,8 @@ std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::bounded(
     spacing = std::make_shared<BoundedSpacing<Dim>>(std::move(spacing),
                                                     kMaxSizes * size_of(domain_->bounds()));
     if constexpr (Dim == 3) {
-      const double growth = settings.growth_limit > 0 ? settings.growth_limit : kGrowthFollowed;
+      const double growth =
+          settings.growth_limit > 0 ? settings.growth_limit : method::kGrowthFollowed;
       if (settings.resolve)
         spacing = std::make_shared<HeldSpacing<3>>(
             spacing, resolving_sources(*spacing, *domain_, settings.node_limit(), kResolved),
@@ -146,8 +148,8 @@ std::string warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth
                             " per unit of length near " + rounded_point_text<Dim>(steepest.at) +
                             ", faster than nodes can follow: ";
   if (growth_limit == 0)
-    return found + "limit its growth (option growth_limit, " + number_text(kGrowthFollowed) +
-           " or less)";
+    return found + "limit its growth (option growth_limit, " +
+           number_text(method::kGrowthFollowed) + " or less)";
   return found + "its growth is limited to " + number_text(growth_limit) +
          "; set the option growth_limit to choose another limit, or 0 to have it as given";
 }

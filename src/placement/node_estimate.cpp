@@ -10,6 +10,7 @@
 #include "domain/facets_for_tree.hpp"
 #include "initial/initial_fill.hpp"
 #include "initial/volume/cubic_lattice.hpp"
+#include "method/constants.hpp"
 #include "placement/boundary_room.hpp"
 #include "placement/surface_estimate.hpp"
 #include "spacing/domain_map.hpp"
@@ -155,14 +156,14 @@ Packing packing(const DomainMap<2>&, const PlaneDomain&, bool) {
 Packing packing(const DomainMap<3>& map, const VolumeDomain& domain, bool stretched) {
   constexpr double kEdgesOnSurfaces = 1.03, kOff = 0.02;
   const SpacingSummary<3> d = range_of_spacing(map);
-  const bool varied = d.max > kPatchVariation * d.min;
+  const bool varied = d.max > method::kPatchVariation * d.min;
   if (!domain.filled())
     return {Lattice<2>::kDensity / (varied ? power<3>(kEdgesOnSurfaces) : 1), 0};
   if (varied) return {1.61, 0.48};
   const CubicLattice lattice(d.min, domain.bounds(), true, stretched);
   const double density = lattice.density() * power<3>(d.min);
-  const bool off = std::fabs(std::cbrt(density / CubicLattice::kA15Density) - 1) > kOff;
-  return {off ? CubicLattice::kA15Density : density, stretched && !off ? 0.45 : kFillClearance};
+  const bool off = std::fabs(std::cbrt(density / method::kA15Density) - 1) > kOff;
+  return {off ? method::kA15Density : density, stretched && !off ? 0.45 : method::kFillClearance};
 }
 
 // The same of surfaces alone, by their area.

@@ -10,6 +10,7 @@
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/reach.hpp"
+#include "method/constants.hpp"
 #include "placement/domain_fingerprint.hpp"
 #include "placement/estimate.hpp"
 #include "placement/holding_spacing.hpp"
@@ -164,12 +165,11 @@ auto PlacementOf<Dim>::while_moving(const Work& work) {
 template <int Dim>
 template <class Work>
 Outcome PlacementOf<Dim>::knowing_finer_places(const Work& work) {
-  constexpr int kMaxTries = 4;  // what is found shows its surroundings: two do, mostly
   for (int tries = 1;; ++tries) {
     try {
       return work();
     } catch (const FinerPlaces& found) {
-      if (tries == kMaxTries) throw;
+      if (tries == method::kMaxTreeTries) throw;
       if constexpr (Dim == 3) {
         spacing_ = spacing_with(found, *comm_, *domain_, spacing_);
         spacing_replaced_ = true;

@@ -14,6 +14,7 @@
 #include "level/room.hpp"
 #include "level/volume/surface_level.hpp"
 #include "level/volume/vacancies.hpp"
+#include "method/constants.hpp"
 #include "placement/simulation.hpp"
 
 namespace pnpbs {
@@ -80,15 +81,15 @@ void settle_surfaces(Level<3>& level, GivenNodes<3>& given, Outcome& outcome, Le
 }
 
 int surface_levels_that_pay(const Level<3>& finest) {
-  constexpr double kMinNodes = 100;  // on the surfaces of the coarsest
   const Surface& surface = finest.ground.surface();
   bool flat = true;
   for (std::int32_t p = 0; p < surface.features().patches; ++p) flat = flat && surface.is_flat(p);
   const SpacingVariation d = spacing_variation(finest);
-  if (flat && d.max <= kPatchVariation * d.min) return 0;
+  if (flat && d.max <= method::kPatchVariation * d.min) return 0;
   const double nodes = 1.15 * finest.ground.domain().area() / (d.max * d.max);
   int levels = 0;
-  while (levels < finest.settings.levels && nodes >= kMinNodes * std::ldexp(1.0, 2 * levels + 2))
+  while (levels < finest.settings.levels &&
+         nodes >= method::kMinNodesOfCoarsestSurface * std::ldexp(1.0, 2 * levels + 2))
     ++levels;
   return levels;
 }
@@ -117,7 +118,7 @@ std::int64_t bring_to_surfaces(const Level<3>& level, GivenNodes<3>& given) {
   for (std::size_t k = 0; k < given.size(); ++k) {
     GivenNode<3> node = given[k];
     const SurfacePoint at{node.boundary_node, places[k]};
-    const double room = kBoundaryClearance * d[k];
+    const double room = method::kBoundaryClearance * d[k];
     if (ground.surface().patch(at.facet) < 0 || distance<3>(node.position, places[k]) > d[k] ||
         ground.surface().feature_clearance(at, room) < room)
       continue;

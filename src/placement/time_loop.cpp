@@ -17,6 +17,7 @@
 #include "level/speeds.hpp"
 #include "level/time_step.hpp"
 #include "level/volume/boundary_refinement.hpp"
+#include "method/constants.hpp"
 #include "placement/simulation.hpp"
 
 namespace pnpbs {
@@ -111,7 +112,7 @@ void Simulation<Dim>::rebalance() {
 template <int Dim>
 bool Simulation<Dim>::far_too_few() const {
   if (level_.settings.dimension < Dim) return false;  // of surfaces it is not known
-  return nodes() < 0.85 * expected_nodes(level_);
+  return nodes() < method::kFarTooFew * expected_nodes(level_);
 }
 
 // How far the mean distance may be off in this round of an event; else the population is aimed at
@@ -123,39 +124,40 @@ bool Simulation<Dim>::far_too_few() const {
 template <int Dim>
 double Simulation<Dim>::tolerance_of_mean(int round) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  constexpr double kOff = 0.01, kFarOff = 0.02;
   // What is off on a coarser level is off on all finer ones; on the finest each change costs steps.
-  const double tolerance = (schedule_.role == LevelRole::result ? 3 : 1) * kMeanTolerance;
+  const double tolerance =
+      (schedule_.role == LevelRole::result ? method::kMeanToleranceOnFinest : 1) *
+      method::kMeanTolerance;
   if (level_.settings.dimension == 2) return round == 0 ? tolerance : kNever;
-  if (schedule_.taken_over()) return round < 2 ? kOff : kFarOff;
+  if (schedule_.taken_over()) return round < 2 ? method::kMeanOff : method::kMeanFarOff;
   if (round >= 2) return kNever;
-  return schedule_.role != LevelRole::result || schedule_.refined() ? tolerance : kFarOff;
+  return schedule_.role != LevelRole::result || schedule_.refined() ? tolerance
+                                                                    : method::kMeanFarOff;
 }
 
 // Adjusts the population while it pays. A new spacing may ask for many times the nodes there are,
 // of which one contest lets few act: so there are more rounds at once while they change much.
 template <int Dim>
 void Simulation<Dim>::control_population() {
-  constexpr int kMaxRounds = 20;
-  constexpr double kMuch = 0.002;     // share of the nodes
-  constexpr double kRefinedPays = 5;  // times the option's share
   const double nodes = this->nodes();
   double changed = 0;
-  for (int round = 0; round < kMaxRounds; ++round) {
+  for (int round = 0; round < method::kMaxPopulationRounds; ++round) {
     const PopulationCounts change =
         counted(pnpbs::adjust_population(level_, tolerance_of_mean(round)));
     const double acted = static_cast<double>(change.inserted + change.deleted);
     changed += acted;
-    if (acted < kMuch * nodes) break;
+    if (acted < method::kMuchChange * nodes) break;
   }
   const Settings& settings = level_.settings;
   // Nodes that have just come may make room for more: so twice in a row. After a coarser level
   // there is little left to do.
-  const bool quiet =
-      changed <= (schedule_.refined() ? kRefinedPays : 1) * settings.population_tolerance * nodes;
+  const bool quiet = changed <= (schedule_.refined() ? method::kRefinedTolerance : 1) *
+                                    settings.population_tolerance * nodes;
   schedule_.quiet_events = quiet ? schedule_.quiet_events + 1 : 0;
   schedule_.population_settled =
-      schedule_.quiet_events >= (schedule_.refined() ? 1 : 2) && !far_too_few();
+      schedule_.quiet_events >=
+          (schedule_.refined() ? method::kQuietEventsRefined : method::kQuietEvents) &&
+      !far_too_few();
 }
 
 // While the population still changes, rest means nothing.
@@ -195,7 +197,6 @@ Outcome Simulation<Dim>::finish(double fraction) {
 // repaired, and they may leave it anew where nodes from inside come near a wide triangle.
 template <int Dim>
 Outcome Simulation<Dim>::smooth(double fraction) {
-  constexpr int kMostRepairs = 3;
   std::int64_t sweeps = level_.settings.sweeps;
   const auto refine = [this] {
     const PopulationCounts counts = refine_boundary(level_);
@@ -204,7 +205,7 @@ Outcome Simulation<Dim>::smooth(double fraction) {
     return counts.inserted + counts.deleted > 0;
   };
   refine();
-  for (int repairs = 0; repairs < kMostRepairs; ++repairs) {
+  for (int repairs = 0; repairs < method::kMaxFinishRounds; ++repairs) {
     if (stops_in_finish(fraction)) return Outcome::stopped;
     const FinishResults results = sweep_and_repair(level_, sweeps);
     counted(results.counts);

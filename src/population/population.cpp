@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "method/constants.hpp"
 #include "neighbors/rings.hpp"
 #include "population/overlap_ratio.hpp"
 
@@ -29,15 +30,12 @@ struct Bid {
   }
 };
 
-// How far a contest reaches, in steps from neighbour to neighbour: nodes across a hole from each
-// other are two spacings apart, which two of them may not bridge.
-constexpr int kHops = 3;
-
 // In a volume that are 600 nodes, of which one could act at a time while dozens are missing: in
 // space those are rivals whose places are so near that what one does changes the ratios about the
 // other.
 template <int Dim>
-constexpr double kReach{Dim == 2 ? std::numeric_limits<double>::infinity() : 1.5};  // spacings
+constexpr double kReach{Dim == 2 ? std::numeric_limits<double>::infinity()
+                                 : method::kContestReachInSpace};  // spacings
 
 // Is there room at `place` among the neighbours of i and theirs? Boundary nodes give no way, so
 // they always need the full gap.
@@ -76,7 +74,7 @@ template <int Dim>
 bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<Bid<Dim>>& bids,
           std::int64_t i) {
   const Bid<Dim>& own = bids(i);
-  return for_rings(lists, i, kHops, [&](std::int64_t j, int) {
+  return for_rings(lists, i, method::kContestHops, [&](std::int64_t j, int) {
     const Bid<Dim>& rival = bids(j);
     return !rival.beats(own) || distance<Dim>(own.place, rival.place) > kReach<Dim> * nodes.d(i);
   });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "method/constants.hpp"
 #include "population/overlap_ratio.hpp"
 #include "spacing/spacing_range.hpp"
 
@@ -20,10 +21,6 @@ template <int Dim>
 constexpr int kPairs = kBins<Dim>;
 template <int Dim>
 constexpr int kCounts = kBins<Dim> + 1;
-// Bubbles nearer than this many desired distances touch: nearly all that are joined by an edge of
-// the Delaunay triangulation are, and hardly any others: the lattice's next shell is at 1.73 in the
-// plane, at 1.53 in a volume, where edges end at 1.08.
-constexpr double kTouch = 1.3;
 
 struct OctaveCounts {
   std::vector<std::int64_t> values;      // kCounts per octave
@@ -42,8 +39,7 @@ int octave_of(double d) { return std::ilogb(d); }
 template <int Dim>
 bool is_squeezed(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double ratio,
                  const PopulationRule& rule, std::int64_t i) {
-  constexpr double kSqueezed = 7.0 / 6;  // of the ideal ratio
-  if (ratio <= kSqueezed * rule.ideal) return false;
+  if (ratio <= method::kSqueezed * rule.ideal) return false;
   bool at_boundary = false;
   lists.for_neighbours(i, [&](std::int64_t j) { at_boundary = at_boundary || !nodes.moves(j); });
   return at_boundary;
@@ -58,7 +54,7 @@ void count_node(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, double
   lists.for_neighbours(i, [&](std::int64_t j) {
     const double desired = 0.5 * (nodes.d(i) + nodes.d(j));
     const double w = distance<Dim>(x, nodes.position(j)) / desired;
-    if (w > kTouch || !nodes.moves(j)) return;
+    if (w > method::kTouch || !nodes.moves(j)) return;
     ++counts[kPairs<Dim>];
     distances.add(w);
   });

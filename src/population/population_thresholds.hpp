@@ -13,6 +13,7 @@
 #include "base/lattice.hpp"
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
+#include "method/constants.hpp"
 #include "neighbors/adjacency_list.hpp"
 
 namespace pnpbs {
@@ -23,10 +24,9 @@ struct PopulationRule {
   double insert_below = Lattice<2>::kInsertBelow;
   double ideal = Lattice<2>::kIdealOverlap;  // of a bubble among neighbours at its d
   double mean_distance = 1;  // of touching bubbles, in desired distances; 0: not aimed at
-  // A new bubble comes no nearer to others than this many spacings. Lattice nodes at their d leave
-  // 0.577 in the middle of three, 0.605 in that of four: a bubble more there brings the mean down.
-  double min_gap = 0.75;
-  double min_gap_to_aim = 0.55;
+  // A new bubble comes no nearer to others than this many spacings.
+  double min_gap = method::kMinGap;
+  double min_gap_to_aim = method::kMinGapToAim;
 
   template <int Dim>
   static PopulationRule of_lattice() {
@@ -55,8 +55,6 @@ struct PopulationThresholds {
 // Of the bubbles that move; 0 for others.
 template <int Dim>
 View<double> overlap_ratios(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists);
-
-inline constexpr double kMeanTolerance = 0.001;
 
 // An octave whose mean distance is off by no more than the tolerance is left alone. Collective.
 template <int Dim>

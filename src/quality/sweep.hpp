@@ -6,14 +6,15 @@
 
 #include "delaunay/delaunay_stars.hpp"
 #include "geometry/clearance.hpp"
+#include "method/constants.hpp"
 #include "neighbors/near_edges.hpp"
 
 namespace pnpbs {
 
 struct SweepRule {
-  double weight = 0.6;      // share of the way
-  double max_move = 0.1;    // no node moves more than this many d
-  double bad_below = 0.75;  // triangle quality, 2 r_in / R
+  double weight = 0.6;                           // share of the way
+  double max_move = method::kSweepMaxMove;       // no node moves more than this many d
+  double bad_below = method::kSweepGuardsBelow;  // triangle quality, 2 r_in / R
 };
 
 // Moves the nodes; `proposed` and `allowed` are scratch, one entry per node.

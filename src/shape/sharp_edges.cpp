@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "base/space_vectors.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-constexpr double kSharp = 33;  // degrees; slivers are repaired up to this (option sliver_angle)
 
 class SharpEdgeFinder {
  public:
@@ -46,7 +45,7 @@ class SharpEdgeFinder {
   // Is there that little of the body between two triangles at an edge?
   bool encloses_sharply(std::int32_t p, std::int32_t q, const BoundaryTriangle& f,
                         const BoundaryTriangle& g) const {
-    static const double kCosine = std::cos(kSharp * std::numbers::pi / 180);
+    static const double kCosine = std::cos(method::kSharpEdge * std::numbers::pi / 180);
     const Point<3> along = unit_vector(difference(at(q), at(p)));
     const Point<3> to_f = across(f, p, q, along), to_g = across(g, p, q, along);
     return dot(to_f, to_g) > kCosine && inside_towards(f, to_g) && inside_towards(g, to_f);

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/lattice.hpp"
 #include "base/point_text.hpp"
+#include "method/constants.hpp"
 #include "spacing/growth_sources.hpp"
 #include "tree/box_tree.hpp"
 #include "tree/cell_samples.hpp"
@@ -205,7 +206,7 @@ bool DomainMap<Dim>::Growth::wants_split(const BackgroundTree<Dim>& tree, std::i
   if (facets_->outside(c)) return false;
   const CellState& cell = state(c);
   const double side = tree.cell_side(c);
-  if (side > kLeafSpacings * cell.min) return true;
+  if (side > method::kLeafSpacings * cell.min) return true;
   return by_ == Refinement::spacing_and_boundary && tree.cell(c).depth < kMaxDepthByNodes &&
          holds_many_boundary_nodes(tree, c);
 }

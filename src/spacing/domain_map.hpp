@@ -27,8 +27,8 @@ constexpr Refinement kLevelRefinement{Dim == 2 ? Refinement::spacing_and_boundar
 template <int Dim>
 class DomainMap : public FacetIndex<Dim> {
  public:
-  // Refines the tree until leaves are at most kLeafSpacings times d wide (so at least half of that
-  // where d allows) and hold few boundary nodes. d is asked inside the domain only, at the
+  // Refines the tree until leaves are at most method::kLeafSpacings times d wide (so at least half
+  // of that where d allows) and hold few boundary nodes. d is asked inside the domain only, at the
   // cell_samples of each cell, and at the boundary nodes: dips of d between them are not seen,
   // unless they are among the values known.
   // Throws Error(ErrorKind::spacing or ::memory) when d would mean more nodes than the limit
@@ -49,8 +49,6 @@ class DomainMap : public FacetIndex<Dim> {
                   const NodeLimit& limit, const MaySplit& may_split,
                   Refinement by = Refinement::spacing_and_boundary,
                   const std::vector<GrowthSource<Dim>>& known = {});
-
-  static constexpr double kLeafSpacings = 4;
 
   // Its area (volume) in units of a cell of depth kSizeDepth: the smallest there can be in the
   // plane; in space, where these are too many, smaller ones count as nothing.

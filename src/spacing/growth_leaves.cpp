@@ -7,6 +7,7 @@
 
 #include "base/lattice.hpp"
 #include "base/point_text.hpp"
+#include "method/constants.hpp"
 #include "spacing/dips.hpp"
 #include "spacing/domain_map.hpp"
 #include "tree/cell_samples.hpp"
@@ -235,7 +236,7 @@ bool GrowthLeaves<Dim>::too_wide(const GrowthLeaf<Dim>& leaf, double steepest) c
   constexpr double kBeside = 1.6;  // sides from a sample to the middle of the leaf beyond, and more
   const double side = points_.side_of(leaf.cell);
   if (leaf.cell.depth == BackgroundTree<Dim>::kMaxDepth) return false;
-  if (side > DomainMap<Dim>::kLeafSpacings * leaf.min) return true;
+  if (side > method::kLeafSpacings * leaf.min) return true;
   if (steepest == 0 || side <= kFinest * leaf.min) return false;
   return leaf.max - leaf.min > steepest * side ||
          leaf.max_beside - leaf.min > kBeside * steepest * side;

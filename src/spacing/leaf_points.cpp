@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/lattice.hpp"
+#include "method/constants.hpp"
 #include "spacing/domain_map.hpp"
 #include "tree/cell_samples.hpp"
 
@@ -88,8 +89,7 @@ void LeafPoints<Dim>::add_probes(const GrowthLeaf<Dim>& leaf,
                                  std::vector<Point<Dim>>& points) const {
   constexpr std::array<double, 3> kSteps = {0.8191725133961645, 0.6710436067037893,
                                             0.5497004779019703};
-  const double in_row =
-      std::min(std::ceil(side_of(leaf.cell) / leaf.min), DomainMap<Dim>::kLeafSpacings);
+  const double in_row = std::min(std::ceil(side_of(leaf.cell) / leaf.min), method::kLeafSpacings);
   for (int k = 1; k <= static_cast<int>(power<Dim>(in_row)); ++k) {
     Point<Dim> fraction;
     for (std::size_t axis = 0; axis < Dim; ++axis)

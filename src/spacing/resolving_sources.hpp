@@ -7,6 +7,7 @@
 
 #include "domain/node_limit.hpp"
 #include "domain/volume/volume_domain.hpp"
+#include "method/constants.hpp"
 #include "spacing/growth_source.hpp"
 #include "spacing/spacing.hpp"
 
@@ -17,10 +18,7 @@ namespace pnpbs {
 struct Resolution {
   double in_wall, in_gap, least;
 };
-// A wall has room for a layer of nodes in its middle, and across a gap each surface keeps its nodes
-// out of the spheres around the triangles of the other (equilateral ones reach 0.58 d, and d
-// between two points is larger).
-inline constexpr Resolution kResolved{2, 4.0 / 3, 0};
+inline constexpr Resolution kResolved{method::kLayersInWall, method::kLayersInGap, 0};
 
 // The domain, checked, is looked at here alone. d is asked on the surfaces, at the same points on
 // all ranks. Throws Error(ErrorKind::spacing) if they needed more nodes than the limit allows.

@@ -11,10 +11,6 @@
 
 namespace pnpbs {
 
-// Growth of d, per unit of length, that nodes follow. On a spacing graded from a line
-// (docs/method.md) the worst triangle has a quality of 0.82 up to 0.3, 0.69 at 0.5 and 0.14 at 1.
-inline constexpr double kGrowthFollowed = 0.3;
-
 template <int Dim>
 struct SteepestGrowth {
   double growth = 0;  // of d, per unit of length

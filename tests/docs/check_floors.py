@@ -12,7 +12,7 @@ import re
 import sys
 import tempfile
 
-FLOORS = ("base comm predicates tree geometry formats surfaces implicit domain shape spacing "
+FLOORS = ("base method comm predicates tree geometry formats surfaces implicit domain shape spacing "
           "initial partition neighbors dynamics population delaunay quality settings level "
           "placement io picture api geo tool").split()
 PUBLIC_HEADER_FOR = "api", "geo", "tool"

@@ -11,6 +11,7 @@
 #include "geometry/plane/faces.hpp"
 #include "geometry/plane/plane_sweep.hpp"
 #include "geometry/plane/point_tree.hpp"
+#include "method/constants.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {
@@ -379,14 +380,14 @@ class Layer {
 }  // namespace
 
 std::vector<double> bubbles_on_boundary(const Boundary& boundary) {
-  constexpr double kEdges = 32;  // ordinary boundaries have no edges that short
   std::vector<double> longest(boundary.nodes.size(), 0);
   for (const BoundaryEdge& e : boundary.facets) {
     const auto a = static_cast<std::size_t>(e.begin), b = static_cast<std::size_t>(e.end);
     const double length = distance<2>(boundary.nodes[a].position, boundary.nodes[b].position);
     for (const std::size_t node : {a, b}) longest[node] = std::max(longest[node], length);
   }
-  for (double& bound : longest) bound = bound > 0 ? kEdges * bound : HUGE_VAL;  // fixed nodes
+  for (double& bound : longest)
+    bound = bound > 0 ? method::kBubbleOfEdges * bound : HUGE_VAL;  // fixed nodes
   return longest;
 }
 

@@ -11,22 +11,21 @@
 
 #include "base/lattice.hpp"
 #include "base/types.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
 class CubicLattice {
  public:
-  static constexpr double kA15Density = 1.52;  // nodes per d^3 that rest at a mean distance of d
-
   // One lattice for the whole domain may be stretched a little to end at all sides of its box
   // alike.
   CubicLattice(double d, const Box<3>& bounds, bool whole, bool stretched = true)
       : sites_(whole ? std::span<const Point<3>>(kA15) : kBodyCentred), low_(bounds.low) {
-    const double first = d * (whole ? kFirstA15Layer : kFirstBodyCentredLayer);
+    const double first = d * (whole ? method::kFirstA15Layer : method::kFirstBodyCentredLayer);
     for (std::size_t k = 0; k < 3; ++k) {
       low_[k] += first;
       const double between = bounds.high[k] - bounds.low[k] - 2 * first;
-      const double side = d * (whole ? std::cbrt(8 / kA15Density) : Lattice<3>::kCell);
+      const double side = d * (whole ? std::cbrt(8 / method::kA15Density) : Lattice<3>::kCell);
       cell_[k] = whole && stretched ? fitted(side, between) : side;
     }
   }
@@ -64,11 +63,6 @@ class CubicLattice {
                                                  {0.5, 0.75, 0},
                                                  {0, 0.5, 0.25},
                                                  {0, 0.5, 0.75}}};
-  // How far off the side of the box the first full layer is, in d. The nodes of a flat side, 2 /
-  // sqrt(3) per d^2, are half a layer and stand for the first 0.38 d. A lattice stands for all that
-  // is behind a depth of 0.33 d (A15) or 0.27 d (half the way between layers) less than the depth
-  // of its first full layer. So no node is too many, and none missing.
-  static constexpr double kFirstA15Layer = 0.7, kFirstBodyCentredLayer = 0.65;
   static constexpr double kRoom = 1e-3;  // for rounding, in cells
 
   static double fitted(double cell, double between) {

@@ -11,6 +11,7 @@
 #include "initial/volume/flat_lattice.hpp"
 #include "initial/volume/piece_sums.hpp"
 #include "initial/volume/surface_pieces.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -71,7 +72,7 @@ void add_running_sum(const Surface& surface, Pieces pieces, const FixedPointSum&
     const std::int64_t whole = sum / kOne;
     sum += wanted_nodes(piece);
     if (sum / kOne == whole) continue;
-    const double clearance = kFillClearance * piece.d;
+    const double clearance = method::kFillClearance * piece.d;
     if (surface.feature_clearance(piece.centre, clearance) >= clearance)
       nodes.push_back(piece.centre);
   }
@@ -100,10 +101,12 @@ std::vector<SurfacePoint> surface_fill(const Communicator& comm, const Surface& 
     if (!patches[p].met) continue;
     const auto patch = static_cast<std::int32_t>(p);
     const PatchSums& whole = *sum++;
-    const bool even = surface.is_flat(patch) && whole.max_d <= kPatchVariation * whole.min_d;
+    const bool even =
+        surface.is_flat(patch) && whole.max_d <= method::kPatchVariation * whole.min_d;
     if (even) {
-      const std::vector<SurfacePoint> lattice = flat_lattice(
-          surface, patch, facets[p], even_spacing(patches[p], whole), kFillClearance, cells);
+      const std::vector<SurfacePoint> lattice =
+          flat_lattice(surface, patch, facets[p], even_spacing(patches[p], whole),
+                       method::kFillClearance, cells);
       nodes.insert(nodes.end(), lattice.begin(), lattice.end());
     }
     for (const Pieces pieces : cell_by_cell(patches[p].pieces)) {

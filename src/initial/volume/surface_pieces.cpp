@@ -13,6 +13,7 @@
 #include "base/point_text.hpp"
 #include "base/space_vectors.hpp"
 #include "comm/records.hpp"
+#include "method/constants.hpp"
 #include "tree/box_tree.hpp"
 #include "tree/leaf_cells.hpp"
 
@@ -20,10 +21,8 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kMaxEdge = 1.25;  // of a piece, in units of d: an equilateral one has 0.8 nodes
 constexpr std::int64_t kBatch = 1 << 16;  // points asked in one call
 constexpr double kMaxThatAddUp = 9e18;    // on all ranks together, as 64 bits hold
-constexpr double kMinClosed = 4;          // nodes of a closed patch
 constexpr double kNeedlePower = 1.585;    // log2 3: of two halves of a needle one is as long as it
 constexpr double kBytesPerPiece =
     2 * sizeof(SurfacePiece) + 4 * sizeof(FacetCorners<3>);  // while it is cut, and sorted
@@ -102,9 +101,10 @@ class Cutter {
     }
     for (const Triangle& facet : facets) patches_[index(surface_.patch(facet.facet))].met = true;
     for (std::int32_t p = 0; p < surface_.features().patches; ++p)
-      max_d_.push_back(surface_.has_features(p) ? std::numeric_limits<double>::infinity()
-                                                : std::sqrt(Lattice<2>::kDensity *
-                                                            patches_[index(p)].area / kMinClosed));
+      max_d_.push_back(surface_.has_features(p)
+                           ? std::numeric_limits<double>::infinity()
+                           : std::sqrt(Lattice<2>::kDensity * patches_[index(p)].area /
+                                       method::kMinNodesOfClosedPatch));
     return facets;
   }
 
@@ -142,10 +142,11 @@ class Cutter {
       const bool own = cells_.owns(cell);
       const double local = std::min(d[n], max_d_[index(surface_.patch(open[n].facet))]);
       const LongestEdge longest = longest_edge(open[n]);
-      if (longest.length > kMaxEdge * local) {
+      if (longest.length > method::kSurfacePieceEdge * local) {
         // Where d grows from here on, there may be few nodes after all, but some.
         if (own) pending.add(0.25 * std::min(1.0, nodes_in(open[n].area(), local)));
-        if (own) pieces += std::pow(longest.length / (kMaxEdge * local), kNeedlePower);
+        if (own)
+          pieces += std::pow(longest.length / (method::kSurfacePieceEdge * local), kNeedlePower);
         halve(open[n], longest.k, halves);
       } else if (own) {
         add({{open[n].facet, centres[n]}, cell, open[n].area(), local});

@@ -7,6 +7,7 @@
 #include "level/exchange.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
+#include "method/constants.hpp"
 #include "quality/plane/bad_triangles.hpp"
 #include "quality/plane/surplus_nodes.hpp"
 #include "quality/sweep.hpp"
@@ -65,7 +66,7 @@ std::vector<EdgeBand> edge_bands(Level<2>& level) {
 // In blocks of a few sweeps, within which the stars stay as they are. Surplus nodes leave the stars
 // before the first sweep, so that the others can fill their places, and the level after the block.
 FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps) {
-  constexpr std::int64_t kBlock = 5;
+  constexpr std::int64_t kBlock = method::kSweepsOnStars;
   const bool repairs = level.settings.repair.rounds > 0;
   // The guard of a node asks where its neighbours want to go, which their stars tell. Without a
   // surplus node in between a node of the second ring may be a neighbour, too; its star changes

@@ -2,6 +2,7 @@
 #include "level/plane/near_boundary.hpp"
 
 #include "geometry/clearance.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -20,7 +21,7 @@ void NearBoundary<2>::build(const Nodes<2>& nodes, const Field<2>& at, const Buc
 Point<2> NearBoundary<2>::hold_off(std::int64_t i, const Nodes<2>& nodes, const DomainMap<2>& map,
                                    const Ground<2>&, const Point<2>& to) const {
   const Point<2> from = nodes.position(i);
-  if (edges_.stays_clear(i, from, to, kBoundaryClearance * nodes.d(i))) return to;
+  if (edges_.stays_clear(i, from, to, method::kBoundaryClearance * nodes.d(i))) return to;
   return clear_position(map, edges_.edges_of(i), from, to, nodes.d(i)).position;
 }
 

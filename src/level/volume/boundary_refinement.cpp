@@ -19,6 +19,7 @@
 #include "level/volume/open_faces.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "level/volume/surface_level.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -142,7 +143,6 @@ Strays strays_of_own(const Level<3>& level) {
 
 // Is a node of its sheet of the surface as near to the middle of the ball?
 bool is_taken(const Level<3>& level, const GivenNode<3>& middle, double radius) {
-  constexpr double kNear = 0.3;
   const Nodes<3>& nodes = level.nodes;
   const Ground<3>& ground = level.ground;
   const SurfacePlace at = ground.place(middle.carrier, middle.boundary_node);
@@ -151,7 +151,7 @@ bool is_taken(const Level<3>& level, const GivenNode<3>& middle, double radius) 
   buckets.for_neighbours(level.tree->tree().leaf_at(middle.position), [&](std::int32_t b) {
     for (std::int64_t i = buckets.begin(b); !taken && i < buckets.end(b); ++i)
       taken = nodes.carrier(i) != Carrier::free &&
-              distance<3>(nodes.position(i), middle.position) < kNear * radius &&
+              distance<3>(nodes.position(i), middle.position) < method::kBallTaken * radius &&
               ground.surface().sees(ground.place(nodes, i), at);
   });
   return taken;
@@ -160,12 +160,11 @@ bool is_taken(const Level<3>& level, const GivenNode<3>& middle, double radius) 
 // Of those of all ranks that are too near to each other the largest. Few are left to tell of.
 std::vector<SurfaceBall> largest_apart(const Communicator& comm,
                                        const std::vector<SurfaceBall>& own) {
-  constexpr double kApart = 0.7;
   std::vector<SurfaceBall> all = of_all_ranks(comm, own), kept;
   std::sort(all.begin(), all.end());
   for (const SurfaceBall& ball : all)
     if (std::ranges::none_of(kept, [&](const SurfaceBall& other) {
-          return distance<3>(other.x, ball.x) < kApart * other.radius;
+          return distance<3>(other.x, ball.x) < method::kBallsApart * other.radius;
         }))
       kept.push_back(ball);
   return kept;
@@ -188,17 +187,17 @@ GivenNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>& b
 
 // Nodes come, in rounds, as long as that makes the strays fewer. Returns how many, of all ranks.
 std::int64_t add_boundary_nodes(Level<3>& level) {
-  constexpr int kMaxRounds = 12, kAnyway = 2;
-  constexpr std::uint64_t kFew = 10;  // of which chance may make as many
+  constexpr std::uint64_t kFew = method::kFewStrays;
   std::int64_t added = 0;
   std::uint64_t before = 0;
-  for (int round = 0; round < kMaxRounds; ++round) {
+  for (int round = 0; round < method::kMaxBallRounds; ++round) {
     make_finish_stars(level, {});
     settle_elements(level, kQuickRounds);
     Strays own;
     agreed(*level.comm, [&] { own = strays_of_own(level); });
     const std::uint64_t strays = level.comm->allreduce_sum(own.count);
-    if (strays == 0 || (round >= kAnyway && strays >= std::max(before, kFew))) break;
+    if (strays == 0 || (round >= method::kBallRoundsAnyway && strays >= std::max(before, kFew)))
+      break;
     before = strays;
     const std::vector<SurfaceBall> balls = largest_apart(*level.comm, own.balls);
     GivenNodes<3> nodes;
@@ -215,11 +214,11 @@ std::int64_t add_boundary_nodes(Level<3>& level) {
 PopulationCounts refine_boundary(Level<3>& level) {
   PopulationCounts counts;
   if (level.ground.surfaces_alone()) return counts;
-  constexpr int kMaxRounds = 8;
   std::int64_t nodes_off = std::numeric_limits<std::int64_t>::max();
-  for (int round = 0; round <= kMaxRounds; ++round) {
+  for (int round = 0; round <= method::kMaxBoundaryRounds; ++round) {
     counts.inserted += add_boundary_nodes(level);
-    const std::int64_t removed = round < kMaxRounds ? remove_nodes_in_the_way(level, nodes_off) : 0;
+    const std::int64_t removed =
+        round < method::kMaxBoundaryRounds ? remove_nodes_in_the_way(level, nodes_off) : 0;
     counts.deleted += removed;
     if (removed == 0) break;
   }

@@ -9,6 +9,7 @@
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
 #include "level/volume/surface_level.hpp"
+#include "method/constants.hpp"
 #include "quality/volume/mean_sweep.hpp"
 #include "quality/volume/sliver_repair.hpp"
 
@@ -16,21 +17,14 @@ namespace pnpbs {
 
 namespace {
 
-// Sweeps and repairs leave that much room: no triangle of the surface is missing then.
-constexpr double kFinishClearance = 0.6;
-
-// At inner surfaces, with nodes on both sides, more: triangles in their corners have circumcircles
-// of 0.71 d.
-constexpr double kInnerClearance = 0.75;
-
 // What says whether a node may go to a place.
 auto may_go(const Level<3>& level) {
   return [&level, inner = level.ground.has_inner_surfaces()](std::int64_t i, const Point<3>& x) {
     const NearBoundary<3>& near = level.neighbourhood.near_boundary();
     const double d = level.nodes.d(i);
-    return near.stays_clear(i, level.nodes, level.ground, x, kFinishClearance * d) &&
-           (!inner ||
-            near.stays_clear_of_inner(i, level.nodes, level.ground, x, kInnerClearance * d));
+    return near.stays_clear(i, level.nodes, level.ground, x, method::kFinishClearance * d) &&
+           (!inner || near.stays_clear_of_inner(i, level.nodes, level.ground, x,
+                                                method::kInnerClearance * d));
   };
 }
 
@@ -50,11 +44,10 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
 // Those with an angle below so many degrees, until none is left, or too much is done in vain: in a
 // wall thinner than d, nearly all tetrahedra are thin, whatever is done. Ghosts follow.
 void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule, double below) {
-  constexpr double kMostInVain = 0.1;  // attempts for each node there is
   const auto sum = [&](std::int64_t own) {
     return level.comm->allreduce_sum(static_cast<std::uint64_t>(own));
   };
-  const double most_in_vain = kMostInVain * static_cast<double>(sum(level.owned_count()));
+  const double most_in_vain = method::kMaxInVain * static_cast<double>(sum(level.owned_count()));
   std::uint64_t in_vain = 0;
   for (std::int64_t round = 0; round < rule.rounds; ++round) {
     if (sum(repair.slivers(below)) == 0 || static_cast<double>(in_vain) > most_in_vain) break;
@@ -78,9 +71,9 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
 // The worst first: else they would rarely have their turn where nearly all have small angles. With
 // the stars of the owned nodes as they are then.
 void repair_slivers(Level<3>& level) {
-  make_finish_stars(level, {kSliverRings, kSliverReach + kSliverDrift + kSliverEdge});
+  make_finish_stars(level, {method::kSliverRings,
+                            method::kSliverReach + method::kSliverDrift + method::kSliverEdge});
   const PhaseTimer timer(level.timers, Phase::sweeps);
-  constexpr double kFlat = 10, kThin = 20;  // degrees
   const SliverRule rule{level.settings.sliver_angle};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
@@ -103,7 +96,7 @@ void repair_slivers(Level<3>& level) {
   std::optional<SliverRepair> repair;
   agreed(*level.comm,
          [&] { repair.emplace(level.nodes, level.stars, rule, may_go(level), along_surfaces); });
-  for (const double below : {kFlat, kThin, rule.repair_below})
+  for (const double below : {method::kFlatBelow, method::kThinBelow, rule.repair_below})
     if (below <= rule.repair_below) repair_rounds(level, *repair, rule, below);
   agreed(*level.comm, [&] { repair->write_stars(level.stars); });
   level.unknown_uses += repair->unknown_uses();
@@ -113,7 +106,6 @@ void repair_slivers(Level<3>& level) {
 }  // namespace
 
 FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps) {
-  constexpr std::int64_t kSweepsBetween = 2;
   if (level.ground.surfaces_alone()) {
     sweep_on_surfaces(level, sweeps);
     put_on_level_sets(level);
@@ -123,7 +115,7 @@ FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps) {
     if (level.settings.repair.rounds > 0) {
       repair_slivers(level);
       if (sweeps > 0) {
-        sweep_to_means(level, kSweepsBetween);
+        sweep_to_means(level, method::kSweepsBetweenRepairs);
         repair_slivers(level);
       }
     }

@@ -6,14 +6,11 @@
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
 #include "level/volume/added_nodes.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-// In units of d. In a lattice no place is farther than 0.58 (on a surface) or 0.61 (inside) from a
-// node.
-constexpr double kGap = 0.8;
 
 // Is a node there that a new one would be on top of, on its side of the surface?
 bool covers(const Level<3>& level, std::int64_t i, const GivenNode<3>& candidate, double gap) {
@@ -45,7 +42,8 @@ GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates) {
     rebuild_lists(level, level.settings.list_radius);
     for (const GivenNode<3>& candidate : candidates) {
       const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);
-      if (level.tree->owns(leaf) && !is_covered(level, candidate, kGap)) found.push_back(candidate);
+      if (level.tree->owns(leaf) && !is_covered(level, candidate, method::kGap))
+        found.push_back(candidate);
     }
   });
   return found;

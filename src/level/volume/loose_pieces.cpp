@@ -7,15 +7,11 @@
 #include "base/index.hpp"
 #include "comm/records.hpp"
 #include "level/volume/settled_elements.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-constexpr double kSmall = 0.5;  // of d
-// At a needle's tip one more halving of d leaves the same picture, only smaller.
-constexpr std::int64_t kRoundsBeforeTips = 2;
-constexpr double kBeside = 1.3;  // of d: neighbours are no further
 
 struct PieceNode {
   std::int64_t piece, id;
@@ -59,7 +55,8 @@ bool is_given(const Level<3>& level, const Point<3>& x) {
 template <class Iterator>
 bool is_loose(const Level<3>& level, Iterator begin, Iterator end) {
   return std::all_of(begin, end, [&](const PieceNode& node) {
-    return distance<3>(node.x, begin->x) < kSmall * begin->d && !is_given(level, node.x);
+    return distance<3>(node.x, begin->x) < method::kSmallPiece * begin->d &&
+           !is_given(level, node.x);
   });
 }
 
@@ -90,7 +87,7 @@ std::vector<std::int64_t> beside_elements(const Level<3>& level,
     level.lists().for_neighbours(i, [&](std::int64_t j) {
       const auto found = std::ranges::lower_bound(lone, nodes.id(j), {}, &LoneNode::id);
       if (found != lone.end() && found->id == nodes.id(j) &&
-          distance<3>(nodes.position(i), nodes.position(j)) < kBeside * nodes.d(j))
+          distance<3>(nodes.position(i), nodes.position(j)) < method::kBeside * nodes.d(j))
         beside[static_cast<std::size_t>(found - lone.begin())] = 1;
     });
   }
@@ -130,7 +127,7 @@ std::vector<std::int64_t> ids_of_loose_pieces(Level<3>& level) {
 
 std::vector<std::int64_t> ids_of_lone_nodes(Level<3>& level) {
   std::vector<std::int64_t> ids;
-  if (level.held_rounds < kRoundsBeforeTips) return ids;
+  if (level.held_rounds < method::kRoundsBeforeTips) return ids;
   const std::vector<LoneNode> lone = lone_nodes(level);
   if (lone.empty()) return ids;
   const std::vector<std::int64_t> beside = beside_elements(level, lone);

@@ -7,6 +7,7 @@
 #include "base/space_vectors.hpp"
 #include "domain/volume/surface_walk.hpp"
 #include "geometry/clearance.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
@@ -110,7 +111,7 @@ Point<3> NearBoundary<3>::hold_off(std::int64_t i, Nodes<3>& nodes, const Domain
                                    const Ground<3>& ground, const Point<3>& to) const {
   if (nodes.carrier(i) == Carrier::surface) return walk_on_surface(i, nodes, ground, to);
   constexpr double kRounding = 1 + 1e-8;
-  const double clearance = kVolumeClearance * nodes.d(i);
+  const double clearance = method::kVolumeClearance * nodes.d(i);
   const Point<3> from = nodes.position(i);
   const double way = std::max(clearance, distance<3>(from, to));
   if (gap_(i) > kRounding * (distance<3>(point_at<3>(at_, i), to) + way)) return to;
@@ -159,7 +160,7 @@ Point<3> NearBoundary<3>::walk_on_surface(std::int64_t i, Nodes<3>& nodes, const
   const Surface& surface = ground.surface();
   const SurfacePoint from{nodes.boundary_node(i), nodes.position(i)};
   const SurfacePoint reached = walk(surface, from, difference(to, from.position));
-  const double clearance = kBoundaryClearance * nodes.d(i);
+  const double clearance = method::kBoundaryClearance * nodes.d(i);
   const double gap = surface.feature_clearance(reached, clearance);
   if (gap < clearance && gap < surface.feature_clearance(from, clearance)) return from.position;
   nodes.boundary_node(i) = reached.facet;

@@ -19,6 +19,7 @@
 #include "level/volume/added_nodes.hpp"
 #include "level/volume/gaps.hpp"
 #include "level/volume/surface_stars.hpp"
+#include "method/constants.hpp"
 #include "population/free_place.hpp"
 
 namespace pnpbs {
@@ -206,7 +207,7 @@ namespace {
 // Stays where it is if the way led too near to a feature, and nearer than now.
 SurfacePoint walk_clear_of_features(const Level<3>& level, std::int64_t i, const Point<3>& move) {
   const SurfacePoint here = place_on_surface(level.nodes, i), to = walk_from(level, i, move);
-  const double clearance = kBoundaryClearance * level.nodes.d(i);
+  const double clearance = method::kBoundaryClearance * level.nodes.d(i);
   const Surface& surface = level.ground.surface();
   const double gap = surface.feature_clearance(to, clearance);
   return gap < clearance && gap < surface.feature_clearance(here, clearance) ? here : to;
@@ -273,11 +274,10 @@ GivenNode<3> middle(const Level<3>& level, std::int64_t i, std::int64_t j, doubl
 
 void append_surface_midpoints(const Level<3>& level, const View<double>& next_spacing,
                               GivenNodes<3>& refined) {
-  constexpr double kHalved = 1.25;  // an edge so much longer than d to come; then they are thinned
   const Nodes<3>& nodes = level.nodes;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!nodes.owned(i) || nodes.carrier(i) != Carrier::surface) continue;
-    if (nodes.d(i) < kHalved * next_spacing(i)) continue;
+    if (nodes.d(i) < method::kHalvedOnSurfaces * next_spacing(i)) continue;
     const double d = placed_for<2>(nodes.d(i), next_spacing(i), 3);
     const std::vector<SurfaceStarEntry> star = surface_star(level, i);
     for (std::size_t k = 0; k < star.size(); ++k) {

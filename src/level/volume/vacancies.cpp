@@ -19,14 +19,11 @@
 #include "level/volume/gaps.hpp"
 #include "level/volume/surface_level.hpp"
 #include "level/volume/surface_stars.hpp"
+#include "method/constants.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-// In units of d, from all nodes there: in a lattice no place is farther than 0.58, where the
-// bubbles rest hardly any farther than 0.75.
-constexpr double kVacant = 0.80;
 
 struct Vacancy {
   double radius;                    // in units of d
@@ -40,7 +37,6 @@ struct Vacancy {
 // wherever it is asked.
 void add_vacancy(const Level<3>& level, std::int64_t i, std::array<std::int64_t, 3> around,
                  std::vector<Vacancy>& found) {
-  constexpr double kBent = 0.3;  // of d, between the circle's middle and the surface
   const Nodes<3>& nodes = level.nodes;
   std::ranges::sort(around, {}, [&](std::int64_t j) { return nodes.id(j); });
   std::array<Point<3>, 3> x;
@@ -51,11 +47,12 @@ void add_vacancy(const Level<3>& level, std::int64_t i, std::array<std::int64_t,
   }
   const Point<3> centre = circle_centre(x);
   const double d = nodes.d(i), radius = distance<3>(centre, x[0]) / d;
-  if (!(radius > kVacant && radius < level.lists().radius())) return;
+  if (!(radius > method::kVacant && radius < level.lists().radius())) return;
   const Surface& surface = level.ground.surface();
   const SurfacePoint at = pull_back(surface, centre, nodes.boundary_node(i));
-  const double room = kBoundaryClearance * d;
-  if (distance<3>(at.position, centre) > kBent * d || surface.feature_clearance(at, room) < room)
+  const double room = method::kBoundaryClearance * d;
+  if (distance<3>(at.position, centre) > method::kVacancyBend * d ||
+      surface.feature_clearance(at, room) < room)
     return;
   found.push_back({radius, ids, at.position, d, at.facet});
 }
@@ -90,7 +87,7 @@ std::vector<Vacancy> widest(const Level<3>& level, const std::vector<Vacancy>& o
   });
   for (const Vacancy& vacancy : all)
     if (std::ranges::none_of(kept, [&](const Vacancy& other) {
-          return distance<3>(other.x, vacancy.x) < kVacant * other.d;
+          return distance<3>(other.x, vacancy.x) < method::kVacant * other.d;
         }))
       kept.push_back(vacancy);
   return kept;
@@ -105,7 +102,7 @@ std::int64_t fill_vacancies(Level<3>& level) {
     rebuild_lists(level, level.settings.list_radius);
     own = vacancies_of_own(level);
     std::erase_if(own, [&](const Vacancy& vacancy) {
-      return is_covered(level, node_in(level, vacancy), kVacant);
+      return is_covered(level, node_in(level, vacancy), method::kVacant);
     });
   });
   GivenNodes<3> nodes;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "method/constants.hpp"
 #include "neighbors/rings.hpp"
 #include "quality/sweep_guard.hpp"
 
@@ -12,18 +13,15 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kAngleWeight = 1.365;
-
 // A triangle of at least this quality has at least that shape: of all with the same smallest angle
 // the isosceles one has the largest quality.
 double quality_that_suffices(double shape) {
-  const double angle = std::asin(std::min(1.0, shape / kAngleWeight));
+  const double angle = std::asin(std::min(1.0, shape / method::kAngleWeight));
   const double sine = std::sin(0.25 * (M_PI - angle));
   return std::max(shape, 8 * std::sin(0.5 * angle) * sine * sine);
 }
 
-// Where to look, in units of d: in eight directions, ever nearer.
-constexpr double kFirstWay = 0.08, kLastWay = 0.01;
+// Where to look, ever nearer.
 constexpr double kDiagonal = 0.70710678118654752;
 constexpr std::array<Point<2>, 8> kDirections{{{1, 0},
                                                {kDiagonal, kDiagonal},
@@ -43,7 +41,7 @@ double triangle_shape(const Point<2>& a, const Point<2>& b, const Point<2>& c) {
   if (product == 0) return 0;
   const double sine = twice_area * std::min({ab, bc, ca}) / product;
   const double quality = 4 * twice_area * std::fabs(twice_area) / (product * (ab + bc + ca));
-  return std::min(quality, kAngleWeight * sine);
+  return std::min(quality, method::kAngleWeight * sine);
 }
 
 BadTriangleRepair::BadTriangleRepair(Nodes<2>& nodes, const DelaunayStars& stars,
@@ -88,7 +86,7 @@ void BadTriangleRepair::look_around(Candidate& candidate) const {
   candidate.wants = false;
   if (candidate.worst >= bad_below_) return;
   double best = candidate.worst;
-  for (double way = kFirstWay; way >= kLastWay; way *= 0.5)
+  for (double way = method::kRepairFirstWay; way >= method::kRepairLastWay; way *= 0.5)
     for (const Point<2>& direction : kDirections) {
       const double d = nodes_.d(i);
       const Point<2> place =

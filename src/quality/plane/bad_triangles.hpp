@@ -10,14 +10,15 @@
 
 #include "delaunay/delaunay_stars.hpp"
 #include "geometry/clearance.hpp"
+#include "method/constants.hpp"
 #include "neighbors/near_edges.hpp"
 
 namespace pnpbs {
 
 struct RepairRule {
   std::int64_t rounds = 10;
-  double bad_below = 0.82;    // shape of a triangle
-  double worst_below = 0.82;  // these first
+  double bad_below = 0.82;                   // shape of a triangle
+  double worst_below = method::kWorstBelow;  // these first
 };
 
 // The quality of a triangle, 2 r_in / R, or the sine of its smallest angle times a weight if that

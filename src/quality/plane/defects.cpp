@@ -7,14 +7,13 @@
 #include <numeric>
 #include <set>
 
+#include "method/constants.hpp"
 #include "neighbors/rings.hpp"
 #include "quality/triangle_quality.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-constexpr int kClusterRings = 2;
 
 // What the defects are found from.
 struct DefectInput {
@@ -196,9 +195,8 @@ class Trial {
 
   // Where the others are now; relaxed, they make room.
   bool has_room(const Point<2>& place) const {
-    constexpr double kMinGap = 0.4;  // spacings
     const double d = in_.nodes.d(defect_.node);
-    return patch_.mesh().gap_at(place) >= kMinGap * d && in_.fits(place, d);
+    return patch_.mesh().gap_at(place) >= method::kDefectMinGap * d && in_.fits(place, d);
   }
 
   void try_with_one_more(std::int32_t triangle) {
@@ -213,11 +211,10 @@ class Trial {
 
   // 0 if it does not pay, or if some triangle is worse than all are without the repair.
   double gain_of(LocalMesh& mesh) const {
-    constexpr double kPays = 0.01;
     mesh.relax();
     const MeshQuality repaired = mesh.quality();
     const double gain = unrepaired_.loss - repaired.loss;
-    return gain > kPays && repaired.min >= unrepaired_.min ? gain : 0;
+    return gain > method::kDefectPays && repaired.min >= unrepaired_.min ? gain : 0;
   }
 
   const DefectInput& in_;
@@ -239,12 +236,13 @@ PopulationChange<2> choose_defect_repairs(
   // nearly every node is a defect, that is all it may cost.
   for_each("pnpbs::defects::try", static_cast<std::int64_t>(defects.size()), [&](std::int64_t k) {
     Defect& defect = defects[static_cast<std::size_t>(k)];
-    if (leads(in, defects, defect, kClusterRings, &Defect::is_worse_than))
+    if (leads(in, defects, defect, method::kClusterRings, &Defect::is_worse_than))
       Trial(in, defect).find_best_repair();
   });
   PopulationChange<2> change;
   for (const Defect& defect : defects) {
-    if (defect.gain == 0 || !leads(in, defects, defect, kContestRings, &Defect::gains_more_than))
+    if (defect.gain == 0 ||
+        !leads(in, defects, defect, method::kDefectContestRings, &Defect::gains_more_than))
       continue;
     if (defect.goes >= 0) {
       change.deleted.push_back(defect.goes);

@@ -10,6 +10,7 @@
 
 #include "base/nodes.hpp"
 #include "delaunay/delaunay_stars.hpp"
+#include "method/constants.hpp"
 #include "population/population.hpp"
 #include "quality/plane/star_patch.hpp"
 
@@ -17,13 +18,13 @@ namespace pnpbs {
 
 struct DefectRule {
   std::int64_t rounds = 0;
-  double bad_below = 0.84;  // triangle quality, 2 r_in / R
+  double bad_below = method::kDefectBelow;  // triangle quality, 2 r_in / R
 };
 
 // What becomes of a node hangs on the stars so many rings around it: it may go for a defect two
 // rings away, which others bar within the contest, and those are judged by their patches.
-inline constexpr int kSurplusRings = 2, kContestRings = 5;
-inline constexpr int kDefectRings = kSurplusRings + kContestRings + StarPatch::kRings;
+inline constexpr int kDefectRings =
+    method::kSurplusRings + method::kDefectContestRings + method::kPatchRings;
 
 // Which nodes go and which come; triangles are bad below that quality. Who acts is a contest as for
 // the population: of the defects within five rings the one whose repair gains most. fits(x, d): is

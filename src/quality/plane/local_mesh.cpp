@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/nodes.hpp"
+#include "method/constants.hpp"
 #include "predicates/plane.hpp"
 #include "quality/triangle_quality.hpp"
 
@@ -187,9 +188,8 @@ bool LocalMesh::fill(std::vector<std::int32_t> ring) {
 // ------------------------------------------------------------------ relaxing -------------------
 
 void LocalMesh::relax() {
-  constexpr int kSteps = 20, kStepsBetweenFlips = 5;
-  for (int step = 0; step < kSteps; ++step) {
-    if (step % kStepsBetweenFlips == 0) {
+  for (int step = 0; step < method::kPatchSteps; ++step) {
+    if (step % method::kPatchStepsBetweenFlips == 0) {
       make_delaunay();
       collect_edges();
     }
@@ -213,7 +213,6 @@ void LocalMesh::collect_edges() {
 }
 
 void LocalMesh::step_to_means() {
-  constexpr double kShareOfWay = 0.8;
   sum_.assign(x_.size(), {0, 0});
   for (const auto& [a, b] : edges_)
     for (std::size_t k = 0; k < 2; ++k) {
@@ -223,7 +222,7 @@ void LocalMesh::step_to_means() {
   for (std::size_t i = 0; i < x_.size(); ++i) {
     if (!moves_[i]) continue;
     for (std::size_t k = 0; k < 2; ++k)
-      x_[i][k] += kShareOfWay * (sum_[i][k] / neighbours_[i] - x_[i][k]);
+      x_[i][k] += method::kPatchWay * (sum_[i][k] / neighbours_[i] - x_[i][k]);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "method/constants.hpp"
 #include "neighbors/rings.hpp"
 
 namespace pnpbs {
@@ -10,10 +11,10 @@ namespace pnpbs {
 bool StarPatch::cut_out(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t centre) {
   members_.clear();
   const auto add = [&](std::int64_t i, int ring) {
-    members_.push_back({nodes.id(i), i, ring < kRings});
-    return ring == kRings || stars.needs(i) == 0;
+    members_.push_back({nodes.id(i), i, ring < method::kPatchRings});
+    return ring == method::kPatchRings || stars.needs(i) == 0;
   };
-  if (!add(centre, 0) || !for_rings(stars, centre, kRings, add)) return false;
+  if (!add(centre, 0) || !for_rings(stars, centre, method::kPatchRings, add)) return false;
   std::sort(members_.begin(), members_.end(),
             [](const Member& a, const Member& b) { return a.id < b.id; });
   mesh_.clear();

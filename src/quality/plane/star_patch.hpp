@@ -14,8 +14,6 @@ namespace pnpbs {
 
 class StarPatch {
  public:
-  static constexpr int kRings = 4;  // those of the last one stay where they are
-
   // False if one of the stars is not there.
   bool cut_out(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t centre);
 

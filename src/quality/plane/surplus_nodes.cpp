@@ -5,18 +5,17 @@
 #include <array>
 #include <optional>
 
+#include "method/constants.hpp"
 #include "quality/triangle_quality.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-constexpr std::int32_t kFew = 4;  // neighbours
-
 // The nodes around a node, counter-clockwise from the one with the least id: so that every rank
 // computes the same bits.
 struct Ring {
-  std::array<std::int64_t, kFew> node{};
+  std::array<std::int64_t, method::kFewNeighbours> node{};
   std::int32_t size = 0;
 };
 
@@ -33,7 +32,7 @@ Ring ring_around(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t
 }
 
 bool has_few_neighbours(const Nodes<2>& nodes, const DelaunayStars& stars, std::int64_t i) {
-  return nodes.moves(i) && stars.closed(i) && stars.size(i) <= kFew;
+  return nodes.moves(i) && stars.closed(i) && stars.size(i) <= method::kFewNeighbours;
 }
 
 double quality_of(const Nodes<2>& nodes, std::int64_t i, std::int64_t j, std::int64_t k) {
@@ -65,12 +64,12 @@ Filling best_filling(const Nodes<2>& nodes, const Ring& ring) {
 // How the hole would be filled; none if the node should stay.
 std::optional<Filling> better_without(const Nodes<2>& nodes, const DelaunayStars& stars,
                                       std::int64_t i) {
-  constexpr double kPays = 0.02;
   const Ring ring = ring_around(nodes, stars, i);
   for (std::int32_t k = 0; k < ring.size; ++k)
     if (has_few_neighbours(nodes, stars, ring.node[k])) return std::nullopt;
   const Filling filling = best_filling(nodes, ring);
-  if (filling.min_quality < min_quality_around(nodes, i, ring) + kPays) return std::nullopt;
+  if (filling.min_quality < min_quality_around(nodes, i, ring) + method::kSurplusPays)
+    return std::nullopt;
   return filling;
 }
 
@@ -78,7 +77,7 @@ void take_out(const Nodes<2>& nodes, DelaunayStars& stars, std::int64_t i, const
   const Ring ring = ring_around(nodes, stars, i);
   for (std::int32_t k = 0; k < ring.size; ++k) {
     if (filling.edge >= 0 && k % 2 == filling.edge)
-      stars.replace(ring.node[k], i, ring.node[(k + 2) % kFew]);
+      stars.replace(ring.node[k], i, ring.node[(k + 2) % method::kFewNeighbours]);
     else
       stars.remove(ring.node[k], i);
   }

@@ -8,18 +8,12 @@
 
 #include "base/execution.hpp"
 #include "base/mixed_hash.hpp"
+#include "method/constants.hpp"
 #include "quality/volume/few_nodes.hpp"
 #include "quality/volume/lot_bits.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {
-
-namespace {
-
-constexpr int kTrials = 8;                                 // of a node whose turn it is
-constexpr double kShortestWay = 0.08, kLongestWay = 0.28;  // spacings
-
-}  // namespace
 
 SliverRepair::SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule,
                            Allowed allowed, AlongSurfaces along_surfaces)
@@ -128,7 +122,7 @@ std::int32_t SliverRepair::corner_to_move(const TetrahedronNodes& sliver, std::u
 
 // Now and then a neighbour of the corner, in case that none of the corners can help.
 std::int32_t SliverRepair::node_to_move(std::int32_t corner, std::uint64_t lot) const {
-  constexpr std::uint64_t kCornersOf = 5;  // so many turns, the others are neighbours'
+  constexpr std::uint64_t kCornersOf = method::kSliverTurnsOfCorners;
   if (mixed(lot + 1) % (kCornersOf + 1) < kCornersOf) return corner;
   std::vector<std::int32_t> choice{corner};
   stars_.for_neighbours(corner, [&](std::int64_t i) {
@@ -160,7 +154,7 @@ void SliverRepair::draw(std::int64_t number, double below) {
 // The contest: of two that are so near that they might change the same stars, the higher lot.
 std::vector<char> SliverRepair::winners() const {
   std::vector<Box<3>> boxes;
-  const auto reach = [&](std::int32_t i) { return kSliverReach * nodes_.d(i); };
+  const auto reach = [&](std::int32_t i) { return method::kSliverReach * nodes_.d(i); };
   for (const Attempt& attempt : attempts_)
     boxes.push_back(box_around<3>(nodes_.position(attempt.node), reach(attempt.node)));
   const BoxTree<3> tree(std::move(boxes));
@@ -191,7 +185,8 @@ std::vector<char> SliverRepair::winners() const {
 
 double SliverRepair::way_to_try(const Attempt& attempt, std::uint64_t bits) const {
   return nodes_.d(attempt.node) *
-         (kShortestWay + (kLongestWay - kShortestWay) * unit_interval(bits));
+         (method::kSliverShortestWay +
+          (method::kSliverLongestWay - method::kSliverShortestWay) * unit_interval(bits));
 }
 
 // Along the normal of the face opposite to the node, to and fro, then others.
@@ -251,7 +246,7 @@ double SliverRepair::penalty_around(std::int32_t i) const {
 
 bool SliverRepair::within_reach(std::int32_t i, const TetrahedronNodes& tetrahedron) const {
   const Point<3> x = nodes_.position(i);
-  const double reach = kSliverReach * nodes_.d(i);
+  const double reach = method::kSliverReach * nodes_.d(i);
   return std::all_of(tetrahedron.begin(), tetrahedron.end(),
                      [&](std::int32_t j) { return distance<3>(nodes_.position(j), x) <= reach; });
 }
@@ -291,7 +286,7 @@ void SliverRepair::try_moves(Attempt& attempt) const {
   const std::int32_t i = attempt.node;
   const double around = penalty_around(i);
   NodeMove move(nodes_, stars_, i);
-  for (int trial = 0; trial < kTrials; ++trial) {
+  for (int trial = 0; trial < method::kSliverTrials; ++trial) {
     const std::uint64_t bits = bits_of_trial(attempt.lot, trial);
     const double way = way_to_try(attempt, bits);
     const Point<3> direction = direction_to_try(attempt, trial, bits);
@@ -307,17 +302,17 @@ void SliverRepair::try_moves(Attempt& attempt) const {
 }
 
 bool SliverRepair::too_far(std::int32_t i, const Point<3>& x) const {
-  return distance<3>(before_[static_cast<std::size_t>(i)], x) > kSliverDrift * nodes_.d(i);
+  return distance<3>(before_[static_cast<std::size_t>(i)], x) > method::kSliverDrift * nodes_.d(i);
 }
 
 // Would it come nearer to another node on the boundary than suits the surface's triangles?
 bool SliverRepair::crowded(std::int32_t i, const Point<3>& x) const {
-  constexpr double kRoom = 0.7;  // spacings
   bool crowded = false;
   stars_.for_neighbours(i, [&](std::int64_t j) {
     const double gap = distance<3>(nodes_.position(j), x);
-    crowded = crowded || (nodes_.carrier(j) != Carrier::free && gap < kRoom * nodes_.d(i) &&
-                          gap < distance<3>(nodes_.position(j), nodes_.position(i)));
+    crowded =
+        crowded || (nodes_.carrier(j) != Carrier::free && gap < method::kSliverRoom * nodes_.d(i) &&
+                    gap < distance<3>(nodes_.position(j), nodes_.position(i)));
   });
   return crowded;
 }
@@ -326,7 +321,7 @@ void SliverRepair::try_moves_along_surface(Attempt& attempt) const {
   const std::int32_t i = attempt.node;
   if (!star_within_reach(i)) return;
   SurfaceNodeMove move(nodes_, stars_, i, along_surfaces_.in_domain);
-  for (int trial = 0; trial < kTrials; ++trial) {
+  for (int trial = 0; trial < method::kSliverTrials; ++trial) {
     const std::uint64_t bits = bits_of_trial(attempt.lot, trial);
     const AlongSurfaces::Place to =
         along_surfaces_.walk(i, direction_to_try(attempt, trial, bits), way_to_try(attempt, bits));

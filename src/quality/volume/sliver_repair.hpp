@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/nodes.hpp"
+#include "method/constants.hpp"
 #include "quality/volume/node_move.hpp"
 #include "quality/volume/small_angles.hpp"
 #include "quality/volume/star_changes.hpp"
@@ -21,23 +22,11 @@ namespace pnpbs {
 
 struct SliverRule {
   double repair_below = 33;  // degrees
-  std::int64_t rounds = 100;
+  std::int64_t rounds = method::kSliverRounds;
 
   // The angles that must not become worse on the way.
-  double penalty_below() const { return repair_below + 5; }
+  double penalty_below() const { return repair_below + method::kPenaltyAbove; }
 };
-
-// What a move changes lies within this many d of the node; nodes nearer to each other than the sum
-// of these do not go at once.
-inline constexpr double kSliverReach = 1.8;
-// So many d from where it was before the repair a node may come: so which nodes may ever be that
-// near to each other is known from the beginning.
-inline constexpr double kSliverDrift = 0.6;
-// So many d an edge is long at most where nodes have come to rest, half of it either node's share.
-inline constexpr double kSliverEdge = 0.9;
-// So many neighbours away from it a move looks at stars, and one more since nodes come to be
-// neighbours.
-inline constexpr int kSliverRings = 4;
 
 // A tetrahedron that a node's move has made, or done away with, as other ranks are told of it.
 struct ChangedTetrahedron {
@@ -72,8 +61,8 @@ class SliverRepair {
   using Allowed = std::function<bool(std::int64_t i, const Point<3>& x)>;
 
   // The stars are those of the nodes' positions, and remain while this lives: of the owned nodes,
-  // and of ghosts within kSliverRings of them. Nodes on surfaces move where it is said how: where
-  // no other node of a sliver can, and late.
+  // and of ghosts within method::kSliverRings of them. Nodes on surfaces move where it is said how:
+  // where no other node of a sliver can, and late.
   SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed,
                AlongSurfaces along_surfaces = {});
 
