@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes docs/reference: every function of the C header with its comment, and beside it what the
-Fortran module, the Julia package and the Python package have for it, read from their sources; and the
-tables that the built library tells.
+Fortran module, the Julia package and the Python package have for it, read from their sources; the
+tables that the built library tells; and the constants of the method.
 
 usage: make_reference.py <libpnpbs.so> [--check]
 
@@ -17,6 +17,7 @@ import sys
 import fortran_procedures
 import header_comments
 import julia_functions
+import method_constants
 import python_functions
 from language_parts import fortran_interface, fortran_part, julia_part, python_part
 from library_tables import Library
@@ -283,6 +284,21 @@ def beyond_c(sources, links):
     return "\n".join(lines)
 
 
+def constants_page(root):
+    text = NOTE + """# Constants of the method
+
+What the method is made of besides its [options](options.md): [src/method/constants.hpp](../../src/method/constants.hpp)
+as a table. *Chosen* says that there is no measurement on these pages.
+"""
+    found = method_constants.constants(root)
+    for section in dict.fromkeys(one.section for one in found):
+        text += f"\n## {section}\n\n"
+        text += table(["constant", "value", "unit", "meaning", "source"],
+                      [[f"`{one.name}`", one.text, one.unit, one.meaning, one.source]
+                       for one in found if one.section == section])
+    return text
+
+
 def index_page(sources, links):
     text = NOTE + """# Reference
 
@@ -298,7 +314,8 @@ How to use them for a task: [the guides](../README.md#guides).
         names = [name for entry in section.entries for name in entry.functions]
         text += f"| [{section.title}]({page_name(section)}) | functions: {len(names)} |\n"
     text += ("| [options](options.md) | name, type, default and range of each |\n"
-             "| [statistics](statistics.md) | the keys of the report |\n")
+             "| [statistics](statistics.md) | the keys of the report |\n"
+             "| [constants](constants.md) | the constants of the method that are no options |\n")
     for title, rows in sources.opening.items():
         text += f"\n## {title}\n\n"
         text += table(["", ""], [[word, links.linked(what)] for word, what in rows])
@@ -324,6 +341,7 @@ def pages(root, library):
     made = {page_name(section): section_page(section, sources, links, shown, library)
             for section in sources.sections}
     made.update({"options.md": options_page(library), "statistics.md": statistics_page(library),
+                 "constants.md": constants_page(root),
                  "README.md": index_page(sources, links)})
     return {name: text.rstrip("\n") + "\n" for name, text in made.items()}
 

@@ -34,7 +34,7 @@ class Changes(unittest.TestCase):
     def setUp(self):
         self.root = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.root)
-        for folder in ("include", "bindings", "docs/reference"):
+        for folder in ("include", "bindings", "docs/reference", "src/method"):
             shutil.copytree(ROOT / folder, self.root / folder)
 
     def change(self, file, old, new):
@@ -67,6 +67,15 @@ class Changes(unittest.TestCase):
     def test_argument_of_python(self):
         self.change(PYTHON + "domain.py", "closed: bool = True", "closed: bool = False")
         self.assertIn("closed=False", self.found())
+
+    def test_constant_of_the_method(self):
+        self.change("src/method/constants.hpp", "kTouch = 1.3;", "kTouch = 1.31;")
+        self.assertIn("+| `kTouch` | 1.31 | d | Bubbles nearer than this touch", self.found())
+
+    def test_constant_without_a_unit(self):
+        self.change("src/method/constants.hpp", "[d] Chosen between these shells", "Chosen")
+        with self.assertRaisesRegex(ValueError, "kTouch = 1.3"):
+            self.found()
 
     def test_page_too_many(self):
         (self.root / "docs/reference/old.md").write_text("what was\n")
