@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "level/level.hpp"
+#include "method/constants.hpp"
 #include "placement/monitoring.hpp"
 #include "placement/outcome.hpp"
 #include "placement/placed_spacing.hpp"
@@ -34,17 +35,17 @@ inline bool is_lack_of_room(const Error& error) {
 }
 
 // Which round counts: the first with elements that can be used, or a later one that leaves at most
-// half of its small angles, and so on.
+// half of its small angles, and so on from there.
 template <int Dim>
 class BestRound {
  public:
   // Told of a round that has ended: is there anything to gain by another one?
   bool asks_for_another(Outcome outcome, std::int64_t small_angles) {
     const bool conforms = outcome != Outcome::not_conforming;
-    last_is_best_ = conforms && (!best_ || small_angles <= best_->small_angles / 2);
+    last_is_best_ = conforms && (!best_ || leaves_few(small_angles));
     if (conforms && small_angles == 0) return false;
     if (best_ && !last_is_best_) ++in_vain_;
-    return in_vain_ < kMaxInVain;
+    return in_vain_ < method::kMaxRoundsInVain;
   }
   // That round, once another one has begun; what is not the best is let go.
   void offer(FinishedRound<Dim> last) {
@@ -56,7 +57,10 @@ class BestRound {
   FinishedRound<Dim> take() { return std::move(*best_); }
 
  private:
-  static constexpr int kMaxInVain = 2;  // each takes as long as a run
+  bool leaves_few(std::int64_t small_angles) const {
+    return static_cast<double>(small_angles) <=
+           method::kSmallAnglesLeft * static_cast<double>(best_->small_angles);
+  }
 
   std::optional<FinishedRound<Dim>> best_;
   bool last_is_best_ = false;

@@ -7,6 +7,7 @@
 
 #include "level/level.hpp"
 #include "level/population_events.hpp"
+#include "method/constants.hpp"
 #include "placement/monitoring.hpp"
 #include "placement/outcome.hpp"
 #include "placement/run_state.hpp"
@@ -17,8 +18,7 @@ namespace pnpbs {
 // Of a run on this level. Where d is held down it jumps in slope, and bubbles take longer to rest.
 template <int Dim>
 std::int64_t most_steps(const Level<Dim>& level) {
-  constexpr std::int64_t kWhereHeld = 2;
-  return level.held_rounds > 0 ? kWhereHeld * level.settings.steps : level.settings.steps;
+  return (level.held_rounds > 0 ? method::kStepsWhereHeld : 1) * level.settings.steps;
 }
 
 // All functions are collective.
