@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.hpp"
 #include "level/level.hpp"
 #include "method/constants.hpp"
 #include "placement/monitoring.hpp"
@@ -28,11 +27,6 @@ struct FinishedRound {
   Outcome outcome;
   std::int64_t small_angles;  // elements with one
 };
-
-// For the nodes that d asks for: then a round before counts.
-inline bool is_lack_of_room(const Error& error) {
-  return error.kind() == ErrorKind::spacing || error.kind() == ErrorKind::memory;
-}
 
 // Which round counts: the first with elements that can be used, or a later one that leaves at most
 // half of its small angles, and so on from there.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lack_of_room.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "level/finer_region.hpp"
@@ -94,9 +95,6 @@ std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::growth_limited(
     return std::string(error.what()) + " (where d grows by at most " +
            number_text(settings.growth_limit) + ": option growth_limit, 0 is no limit)";
   };
-  const auto by_spacing = [](const Error& error) {
-    return error.kind() == ErrorKind::spacing || error.kind() == ErrorKind::memory;
-  };
   agreed(*comm_, [&] {
     try {
       const SpacingEvaluator<Dim> unlimited = [&](std::int64_t n, const Point<Dim>* x, double* d) {
@@ -110,10 +108,10 @@ std::shared_ptr<const Spacing<Dim>> SpacingToPlace<Dim>::growth_limited(
           comm_, std::move(ways), std::move(spacing), settings.growth_limit, settings.node_limit(),
           beat);
     } catch (const AgreedError& error) {
-      if (!by_spacing(error)) throw;
+      if (!is_lack_of_room(error)) throw;
       throw AgreedError(error.kind(), explained(error));
     } catch (const Error& error) {
-      if (!by_spacing(error)) throw;
+      if (!is_lack_of_room(error)) throw;
       throw Error(error.kind(), explained(error));
     }
   });

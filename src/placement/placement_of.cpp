@@ -5,7 +5,7 @@
 #include <new>
 #include <utility>
 
-#include "base/error.hpp"
+#include "base/lack_of_room.hpp"
 #include "base/kokkos_runtime.hpp"
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
