@@ -279,6 +279,9 @@ inline constexpr int kRoundsOfHalves = 1;
 // How many steps such a round may take: d jumps in slope where it is held. [steps of the option]
 // Measured: elephant.off of CGAL, at 3 000 nodes and min_angle 20, rests after 50 to 80 steps.
 inline constexpr int kStepsWhereHeld = 2;
+// Dihedral angles that a user is told of who does not want d reduced for them. [degrees] As the
+// option min_angle.
+inline constexpr double kSmallAngle = 2;
 // What share of the small angles a round may leave to count. [share] Chosen.
 inline constexpr double kSmallAnglesLeft = 0.5;
 // Rounds that do not count, at most: each takes as long as a run. [rounds] Measured: of 12 random

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/point_text.hpp"
+#include "method/constants.hpp"
 #include "placement/conformity.hpp"
 #include "placement/element_angles.hpp"
 #include "placement/holding_spacing.hpp"
@@ -37,9 +38,9 @@ namespace {
 
 // Elements that can be used, but hardly: d is held down there next, if the user wants that.
 void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unresolved) {
-  constexpr double kBad = 5;  // degrees, of which a user is told who does not ask
   if (level.ground.surfaces_alone()) return;
-  const double min_angle = level.settings.min_angle, below = min_angle > 0 ? min_angle : kBad;
+  const double min_angle = level.settings.min_angle,
+               below = min_angle > 0 ? min_angle : method::kSmallAngle;
   SmallAngleElements found = small_angle_elements(level, below);
   if (found.all.count == 0) return;
   run.warn("dihedral angles below " + number_text(below) +

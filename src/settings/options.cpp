@@ -141,7 +141,7 @@ const std::vector<OptionRow>& option_table() {
        "only in space: maximum number of times that d is halved where elements are missing at "
        "the end of a run, their boundary is torn or their angles are below min_angle, and the "
        "run continues from its nodes; 0: d is unchanged"},
-      {"min_angle", T::real, "5", nullptr, nullptr, 0, 25, nullptr,
+      {"min_angle", T::real, "2", nullptr, nullptr, 0, 25, nullptr,
        "only in space: d is reduced also where tetrahedra have a dihedral angle below this, in "
        "degrees, at the end of a run, as long as conforming_rounds allows, unless the body itself "
        "is sharper than 33 degrees there; 0: small angles do not count"},

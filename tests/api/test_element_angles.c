@@ -208,7 +208,7 @@ START_TEST(a_stop_in_a_round_leaves_the_best_one) {
 }
 END_TEST
 
-/* Unless the user sets another angle, those below 5 degrees are. */
+/* Unless the user sets another angle, those below 2 degrees are. */
 START_TEST(a_user_is_told) {
   job it = rough_job(0.3, 8, 0.3), enlarged = rough_job(0.3, 8, 0.3);
   MUST(pnpbs_placement_set(it.placement, "min_angle", "0"));
@@ -216,10 +216,10 @@ START_TEST(a_user_is_told) {
   ck_assert_int_gt(integer_of(enlarged.placement, "unresolved_places"), 0);
   ck_assert_int_eq(warnings_with(enlarged.placement, "min_angle"), 0);
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
-  ck_assert_int_gt(elements_below(&it, 5), 0);
-  ck_assert_int_eq(warnings_with(it.placement, "dihedral angles below 5 degrees: "), 1);
+  ck_assert_int_gt(elements_below(&it, 2), 0);
+  ck_assert_int_eq(warnings_with(it.placement, "dihedral angles below 2 degrees: "), 1);
   ck_assert_int_eq(warnings_with(it.placement, "min_angle"), 1);
-  ck_assert_int_lt(elements_below(&enlarged, 5), elements_below(&it, 5));
+  ck_assert_int_lt(elements_below(&enlarged, 2), elements_below(&it, 2));
   job_end(&enlarged);
   job_end(&it);
 }
