@@ -86,11 +86,10 @@ pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement, const c
     if (!object.context->computing)
       computing.emplace(*object.context);
     else if (!object.placement->monitoring().between_steps())
-      throw Error(
-          ErrorKind::state,
-          "from inside a callback, a checkpoint can be written by the monitor alone, in its "
-          "turns between two steps of this placement: not before its first nodes are laid, "
-          "on coarser levels, or in the finish");
+      throw Error(ErrorKind::state,
+                  "from inside a callback, only the monitor can write a checkpoint, when it is "
+                  "called between two steps of this placement: not before the first nodes are "
+                  "placed, on coarser levels, or in the finish");
     agreed(object.placement->communicator(), [&] { require_pointer(path, "path"); });
     io::write_checkpoint(*object.placement, path);
     return PNPBS_OK;

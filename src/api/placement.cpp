@@ -203,9 +203,9 @@ void require_same_key(const Communicator& comm, const std::string& key) {
   std::uint64_t fingerprint = 0;
   for (const char c : key) fingerprint = mixed(fingerprint ^ static_cast<unsigned char>(c));
   if (!comm.same_on_all(fingerprint))
-    throw Error(ErrorKind::argument, "argument key = \"" + key +
-                                         "\" differs between ranks: ask for the same statistic "
-                                         "on all of them");
+    throw Error(ErrorKind::argument,
+                "argument key = \"" + key +
+                    "\" differs between ranks: request the same statistic on all of them");
 }
 
 // Agreed on by all ranks, but from inside a callback: they are busy then, and only what needs no

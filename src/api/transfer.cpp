@@ -56,7 +56,7 @@ pnpbs_status create(pnpbs_placement placement, TransferOrder order, std::int64_t
         throw Error(ErrorKind::argument, "argument components = " + std::to_string(components) +
                                              " here; all ranks must give the same");
       if (!results.communicator().same_on_all(static_cast<std::uint64_t>(order)))
-        throw Error(ErrorKind::argument, "all ranks must ask for a transfer of the same order");
+        throw Error(ErrorKind::argument, "all ranks must request a transfer of the same order");
       auto made = std::make_shared<TransferObject>();
       made->context = object.context;
       made->transfer = make_field_transfer(results, order, components, values);

@@ -46,16 +46,16 @@ void check_environment() {
     if (name == "KOKKOS_MAP_DEVICE_ID_BY" &&
         std::find(std::begin(known_choices), std::end(known_choices), value) ==
             std::end(known_choices))
-      throw Error(ErrorKind::kokkos, "the environment variable " + name + " is \"" + value +
-                                         "\"; Kokkos takes random or mpi_rank there: unset or "
-                                         "mend it");
+      throw Error(ErrorKind::kokkos,
+                  "the environment variable " + name + " is \"" + value +
+                      "\"; Kokkos accepts random or mpi_rank: unset or correct it");
     for (const char* number : known_numbers) {
       int parsed = 0;
       if (name == number && !positive_integer(value, parsed) &&
           !(name != known_numbers[0] && value == "0"))
-        throw Error(ErrorKind::kokkos, "the environment variable " + name + " is \"" + value +
-                                           "\"; Kokkos takes a positive integer there: unset or "
-                                           "mend it");
+        throw Error(ErrorKind::kokkos,
+                    "the environment variable " + name + " is \"" + value +
+                        "\"; Kokkos accepts a positive integer: unset or correct it");
     }
     for (const char* flag : known_flags) {
       const std::string allowed[] = {"0", "1", "true", "false", "yes", "no", "on", "off"};
@@ -63,8 +63,7 @@ void check_environment() {
       if (name == flag &&
           std::find(std::begin(allowed), std::end(allowed), small) == std::end(allowed))
         throw Error(ErrorKind::kokkos, "the environment variable " + name + " is \"" + value +
-                                           "\"; Kokkos takes true or false there: unset or mend "
-                                           "it");
+                                           "\"; Kokkos accepts true or false: unset or correct it");
     }
   }
 }

@@ -35,7 +35,7 @@ void require_mpi_runs() {
   MPI_Finalized(&finalized);
   if (finalized)
     throw Error(ErrorKind::mpi,
-                "MPI is already finalised: what is computed over its ranks must come before");
+                "MPI is already finalised: nothing can be computed over its ranks any more");
 }
 
 void wait_for(std::vector<MPI_Request>& requests) {

@@ -22,8 +22,8 @@ std::string bytes_text(double bytes) {
 
 std::string about_resolve(const NodeLimit& limit) {
   if (!limit.resolves) return "";
-  return "; the option resolve holds d down at thin walls, narrow gaps and sharp edges: mend the "
-         "shape there, or leave the option at 0";
+  return "; the option resolve holds d down at thin walls, narrow gaps and sharp edges: repair the "
+         "geometry there, or leave the option at 0";
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ void NodeLimit::require_memory_for(double nodes, double bytes_per_node, const ch
   throw Error(ErrorKind::memory,
               "about " + number_text(std::round(nodes)) + " " + name + " or more would need " +
                   bytes_text(bytes) + " of memory, and " + bytes_text(max_bytes) +
-                  " are there for them: use a larger spacing or more machines; the option "
+                  " are available: use a larger spacing or more machines; the option "
                   "max_memory = 0 switches this check off" +
                   about_resolve(*this));
 }

@@ -354,9 +354,9 @@ class MshParser {
 
   void warn() {
     if (curved_ > 0)
-      mesh_.warnings.push_back(name_ + ": " + std::to_string(curved_) +
-                               " elements of higher order are taken for straight ones between "
-                               "their corners");
+      mesh_.warnings.push_back(
+          name_ + ": " + std::to_string(curved_) +
+          " elements of higher order are treated as straight ones between their corners");
     if (!in_several_.empty())
       mesh_.warnings.push_back(name_ + ": in several physical groups, of which the first counts: " +
                                list_text(in_several_));

@@ -93,7 +93,7 @@ class Body {
         read_rows(element, [this](const PlyProperty& property, std::size_t) { skip(property); });
       }
     }
-    if (!source_.at_end()) source_.fail("found more than the header tells of");
+    if (!source_.at_end()) source_.fail("found more than the header declares");
     return std::move(surface_);
   }
 

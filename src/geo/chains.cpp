@@ -157,7 +157,7 @@ class LineSettler {
         throw Error(ErrorKind::domain, std::to_string(degree_[p]) +
                                            " lines that are closed meet at " +
                                            where(static_cast<Index>(p)) +
-                                           ": they do not tell what is inside; polygons would");
+                                           ": they do not define an interior; polygons do");
     std::size_t line = 0;
     for (Edge& edge : edges_) {
       if (!edge.of_line) continue;

@@ -40,8 +40,8 @@ void register_drivers() {
 std::string with_advice(const std::string& message, const std::string& path) {
   if (message.find("SHAPE_RESTORE_SHX") == std::string::npos) return message;
   return message +
-         "\nA shapefile is several files of one name: bring its .shx along, or make it "
-         "anew with\nogrinfo --config SHAPE_RESTORE_SHX YES '" +
+         "\nA shapefile is several files of one name: provide its .shx, or recreate it "
+         "with\nogrinfo --config SHAPE_RESTORE_SHX YES '" +
          path + "'";
 }
 

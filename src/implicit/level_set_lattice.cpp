@@ -40,10 +40,10 @@ LevelSetLattice::LevelSetLattice(const LevelSet& set) : set_(set) {
     break;
   }
   if (crossed_.empty())
-    throw Error(ErrorKind::domain, set_.name() + ": f is negative at none of the " +
-                                       std::to_string(asked_) +
-                                       " points at which it was asked: the body must lie in the "
-                                       "box, and be thicker than the resolution");
+    throw Error(ErrorKind::domain,
+                set_.name() + ": f is negative at none of the " + std::to_string(asked_) +
+                    " points at which it was evaluated: the body must lie in the "
+                    "box, and be thicker than the resolution");
 }
 
 LatticePlace LevelSetLattice::place(std::uint64_t key) {

@@ -282,9 +282,9 @@ void OldFile::get(const std::string& object, const std::string& attribute,
 std::int64_t OldFile::place_of(const Array& array) const {
   const Use use;
   const std::string failure = damaged(name_, "it has no array \"" + array.path + "\"");
-  const std::string other = damaged(name_, "its array \"" + array.path +
-                                               "\" has another type or size, or was stored "
-                                               "anew by another program");
+  const std::string other =
+      damaged(name_, "its array \"" + array.path +
+                         "\" has another type or size, or was rewritten by another program");
   const Owned found(use->H5Dopen2(file_, array.path.c_str(), H5P_DEFAULT), use->H5Dclose, failure);
   const Owned stored(use->H5Dget_type(found), use->H5Tclose, failure);
   const Owned space(use->H5Dget_space(found), use->H5Sclose, failure);

@@ -22,7 +22,7 @@ const Format& format_of(const std::string& path, const std::string& name) {
   const Format* format = name.empty() ? format_by_extension(path) : format_by_name(name);
   if (format) return *format;
   if (name.empty())
-    refuse("the name of '" + path + "' tells no format; it should end in one of " +
+    refuse("'" + path + "' has no extension of a known format; it should end in one of " +
            list_of_formats());
   refuse("unknown format \"" + name + "\"; known are " + list_of_formats());
 }
@@ -55,7 +55,7 @@ void add_heavy_data(const FileWish& of, std::vector<FileWish>& wishes) {
   const std::string& path = of.path;
   const std::string heavy = heavy_data_path(path);
   if (std::filesystem::path(heavy).filename().string().find(':') != std::string::npos)
-    refuse("XDMF cannot tell of a file with ':' in its name, as '" + heavy +
+    refuse("XDMF cannot refer to a file with ':' in its name, as '" + heavy +
            "' would have beside '" + path + "': choose another name");
   wishes.push_back({heavy, &heavy_data_format(), of.elements, of.facets});
 }

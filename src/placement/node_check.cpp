@@ -81,7 +81,7 @@ template <int Dim>
 void NodeCheck<Dim>::check_laid(std::int64_t i, const Point<Dim>& laid) const {
   if (position(i) != laid)
     fail_check("node " + name(i) +
-               " is on the boundary, but not where that was laid: " + point_text(laid));
+               " is on the boundary, but not where it was placed: " + point_text(laid));
 }
 
 // ------------------------------------------------------------------ lists ----------------------

@@ -159,7 +159,7 @@ void require_possible(const SavedState& s) {
                       (s.dimension == 3 && s.moving == static_cast<int>(Carrier::surface))) &&
                      s.stop_reason >= 0 && s.stop_reason <= static_cast<int>(StopReason::monitor);
   if (!flags || !counts || !kinds || s.coarser)
-    damaged("what it tells of the run is impossible: it is damaged");
+    damaged("its record of the run is impossible: it is damaged");
 }
 
 template <int Dim>

@@ -106,7 +106,7 @@ void MeshSpacing<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) 
 
 template <int Dim>
 std::optional<GivenExtent<Dim>> MeshSpacing<Dim>::extent() const {
-  return GivenExtent<Dim>{"background mesh", "d is what it is at the mesh's nearest point", box_};
+  return GivenExtent<Dim>{"background mesh", "d is that of the mesh's nearest point", box_};
 }
 
 template <int Dim>

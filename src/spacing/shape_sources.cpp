@@ -95,7 +95,7 @@ class Widths {
             ErrorKind::spacing,
             "the domain is so narrow in places that its width would be taken at more than " +
                 std::to_string(kMaxParts) +
-                " places: set the spacing otherwise there, or mend the shape");
+                " places: set the spacing in another way, or repair the geometry there");
       parts = std::move(halves);
     }
     return sources;

@@ -78,7 +78,7 @@ std::optional<GivenExtent<Dim>> GridSpacing<Dim>::extent() const {
     box.low[k] = size_[k] > 1 ? origin_[k] - 0.5 * step_[k] : -endless;
     box.high[k] = size_[k] > 1 ? last + 0.5 * step_[k] : endless;
   }
-  return GivenExtent<Dim>{"grid", "d is what it is at the grid's nearest point", box};
+  return GivenExtent<Dim>{"grid", "d is that of the grid's nearest point", box};
 }
 
 template <int Dim>

@@ -17,7 +17,7 @@ void require_arguments_that_fit(const Arguments& arguments) {
   const std::size_t grids = arguments.spacing_grids.size();
   if (arguments.spacing.empty() && grids == 0) refuse("--spacing or --spacing-grid is missing");
   if (arguments.spacing.empty() && grids > 1)
-    refuse("several of --spacing-grid need a formula that says what d is of them: --spacing");
+    refuse("several --spacing-grid need a formula that combines them: --spacing");
   if (grids > 0 && (arguments.spacing == "auto" || spacing_file(arguments.spacing)))
     refuse("--spacing-grid and a --spacing that is no formula exclude each other");
   if (arguments.spacing != "auto" && (arguments.min_spacing || arguments.max_spacing)) {
@@ -53,8 +53,8 @@ void require_arguments_that_fit(const Arguments& arguments) {
     refuse("--checkpoint-every needs --checkpoint");
   if (arguments.repair_if_needed && !(arguments.checkpoint.empty() && arguments.restart.empty()))
     refuse(
-        "--repair auto decides anew in every run, and a checkpoint is of one body: name the "
-        "resolution");
+        "--repair auto may choose another body in every run, and a checkpoint belongs to one: name "
+        "the resolution");
   if (!arguments.cut.empty()) cut_plane_in(arguments.cut);
 }
 

@@ -73,7 +73,7 @@ void Checkpoints::write() {
 
 std::string Checkpoints::words_at_stop() const {
   if (written_step_ < 0) return "interrupted, nothing was written";
-  return "interrupted; --restart '" + path_ + "' goes on from step " +
+  return "interrupted; --restart '" + path_ + "' continues from step " +
          std::to_string(written_step_);
 }
 

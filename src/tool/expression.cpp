@@ -278,7 +278,7 @@ Expression::Expression(const std::string& given, int dimension, const std::strin
   }
   if (parser.GetNumResults() != 1) {
     fail_at(source, text.find(','),
-            "one value is wanted, not several (decimals come after a point)");
+            "one value is expected, not several (decimals come after a point)");
   }
 }
 

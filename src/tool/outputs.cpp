@@ -30,7 +30,7 @@ const FileFormat* format_of(const std::string& path, const FileFormat* otherwise
   if (!format) format = otherwise;
   if (format) return format;
   const std::string what = path == "-" ? "standard output" : "'" + path + "'";
-  throw BadInput("--output: the name of " + what + " tells no format; give one of " +
+  throw BadInput("--output: " + what + " has no recognised extension; give one of " +
                  list_of_formats() + " by extension or --format");
 }
 
@@ -130,7 +130,7 @@ void Outputs::check_writable() const {
         output.file.is_standard_output() && !ranks_.launched() && ::isatty(STDOUT_FILENO);
     if (to_terminal && output.format && output.format->binary) {
       throw BadInput("a ." + output.format->name +
-                     " file would upset the terminal; lead standard output elsewhere");
+                     " file would garble the terminal; redirect standard output");
     }
   }
 }

@@ -118,7 +118,7 @@ START_TEST(finds_boundary_nodes_moved_or_missing) {
   });
   expect_complaint([&](Placement3& p) -> std::vector<std::string> {
     nodes_of(p).set_position(corner(p), {0, 0, 0.001});
-    return {"(0, 0, 0.001) is on the boundary, but not where that was laid: (0, 0, 0)"};
+    return {"(0, 0, 0.001) is on the boundary, but not where it was placed: (0, 0, 0)"};
   });
   expect_complaint([&](Placement3& p) -> std::vector<std::string> {
     const std::int64_t i = corner(p);

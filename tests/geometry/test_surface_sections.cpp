@@ -85,7 +85,7 @@ START_TEST(ply_errors) {
   expect({"x:19: the length of vertex_indices is negative"}, replaced(text, "3 0 1 2", "-3 0 1 2"));
   expect({"x:19: a polygon of 1 corners is none"}, replaced(text, "3 0 1 2", "1 0"));
   expect({"the file ends after 12 of 13 face"}, replaced(text, "face 12", "face 13"));
-  expect({"x:30: found more than the header tells of"}, replaced(text, "face 12", "face 11"));
+  expect({"x:30: found more than the header declares"}, replaced(text, "face 12", "face 11"));
   expect({"x: holds zero bytes"}, text + std::string("\0", 1));
   expect({"x: holds no triangles"}, text.substr(0, text.find("element face")) + "end_header\n" +
                                         surface_files::vertex_lines(box, ""));
@@ -99,7 +99,7 @@ START_TEST(ply_errors) {
   expect({"the file ends, expected y"}, bytes.substr(0, body + 6));
   expect({"the file ends after 1 of 8 vertex"}, bytes.substr(0, body + 12));
   expect({"the file ends, expected a vertex number"}, bytes.substr(0, bytes.size() - 1));
-  expect({"found more than the header tells of"}, bytes + "\n");
+  expect({"found more than the header declares"}, bytes + "\n");
   expect({"the file ends after 8 of 2147483647 vertex"},
          replaced(bytes, "vertex 8", "vertex 2147483647").substr(0, body + 9 + 96));
   // A polygon of 2^32 corners, backed by a hundred.

@@ -54,7 +54,7 @@ class Checkpoints(CommandTest):
             _, err = process.communicate(timeout=300)
             if number != signal.SIGKILL:
                 self.assertEqual(process.returncode, INTERRUPTED, err)
-                self.assertIn(b"--restart 'a.vtkhdf' goes on from step", err)
+                self.assertIn(b"--restart 'a.vtkhdf' continues from step", err)
                 self.assertEqual(self.files(), ["a.vtkhdf", "square.poly"])
             restart = ("--restart", "a.vtkhdf")
         self.assertEqual(self.report(*square, *restart)["hash"], expected)

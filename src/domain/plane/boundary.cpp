@@ -203,8 +203,8 @@ class Layer {
       if (names.size() == kNamed) break;
     }
     throw Error(ErrorKind::domain,
-                "curves come too close to lay nodes on them: " + list_text(names) + " about " +
-                    (edges.empty() ? "" : point_text(positions_[ends_[edges[0]][0]])));
+                "curves are too close together to place nodes on them: " + list_text(names) +
+                    " about " + (edges.empty() ? "" : point_text(positions_[ends_[edges[0]][0]])));
   }
 
   // ------------------------------------------------------------ warnings
@@ -250,12 +250,12 @@ class Layer {
       ++fine;
     }
     if (work <= kMax) return;
-    throw Error(
-        ErrorKind::spacing,
-        "the boundary is far finer than the spacing: " + std::to_string(fine) +
-            " of its edges are " + rounded_text(sum / static_cast<double>(fine)) +
-            " times shorter than d; use a smaller d, leave out vertices (simplify), or tell "
-            "corners by their angle (corner_angle), between which nodes are laid as d says");
+    throw Error(ErrorKind::spacing,
+                "the boundary is far finer than the spacing: " + std::to_string(fine) +
+                    " of its edges are " + rounded_text(sum / static_cast<double>(fine)) +
+                    " times shorter than d; use a smaller d, leave out vertices (simplify), or set "
+                    "the angle that makes a corner (corner_angle): between corners, nodes are "
+                    "placed at distances of d");
   }
 
   struct Worst {

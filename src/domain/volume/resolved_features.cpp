@@ -17,7 +17,7 @@ void warn_of_short_creases(ResolvedVolume& resolved) {
   const Point<3>& first =
       resolved.mesh.nodes[static_cast<std::size_t>(creases.front()[0])].position;
   resolved.warnings.push_back(
-      "taken for roughness, not for features: " + std::to_string(creases.size()) +
+      "treated as roughness, not as features: " + std::to_string(creases.size()) +
       " sharp edges in short creases, the first at " + point_text(first));
 }
 

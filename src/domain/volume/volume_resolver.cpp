@@ -137,7 +137,7 @@ class Resolver {
     result_.warnings.push_back(
         std::to_string(count) + (count == 1 ? " vertex lies" : " vertices lie") + " within " +
         rounded_text(kSameVertex * size_) + " of another and " + (count == 1 ? "is" : "are") +
-        " taken for it; the first are " + first);
+        " merged with it; the first are " + first);
   }
 
   void require_distinct_fixed_nodes() const {
@@ -160,7 +160,7 @@ class Resolver {
       if (!has_any[s])
         reject_domain("all triangles of " + surfaces_[s].name + " are smaller than " +
                       rounded_text(kSameVertex * size_) +
-                      ", which is nothing in a domain of size " + number_text(size_));
+                      ", which is negligible in a domain of size " + number_text(size_));
   }
 
   // ------------------------------------------------------------ the inside

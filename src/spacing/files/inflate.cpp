@@ -19,10 +19,9 @@ Uncompress opened_uncompress() {
   void* library = open_library({"libz.so.1", "libz.1.dylib", "libz.so", "libz.dylib"});
   void* found = library ? dlsym(library, "uncompress") : nullptr;
   if (!found)
-    throw Error(
-        ErrorKind::unsupported,
-        "what zlib packed cannot be unpacked, as no zlib (libz.so.1) can be opened: install "
-        "it, or write the file unpacked");
+    throw Error(ErrorKind::unsupported,
+                "compressed data cannot be read, as no zlib (libz.so.1) can be opened: install it, "
+                "or write the file uncompressed");
   return reinterpret_cast<Uncompress>(found);
 }
 

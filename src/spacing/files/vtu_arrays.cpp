@@ -164,7 +164,7 @@ std::string VtuFile::read_packed(const VtuArray& array, ByteSource& source,
     if (!source.take(packed[b], block)) fail(called(array) + " ends before its blocks do");
     const auto part = inflated(block, unpacked);
     if (!part)
-      fail(called(array) + ": what zlib packed is damaged, in block " + std::to_string(b + 1) +
+      fail(called(array) + ": its compressed data are damaged, in block " + std::to_string(b + 1) +
            " of " + std::to_string(blocks));
     result += *part;
   }

@@ -120,7 +120,7 @@ class FieldReader {
     const std::vector<double> corners =
         file_.read(array(piece, "Cells", "connectivity"), static_cast<std::int64_t>(begin));
     if (static_cast<double>(corners.size()) != begin)
-      file_.fail("the cells have not as many corners as their offsets tell");
+      file_.fail("the cells do not have as many corners as their offsets say");
     for (std::size_t c = 0; c < ends.size(); ++c) {
       const auto at = static_cast<std::size_t>(c > 0 ? ends[c - 1] : 0);
       const VtkCell cell = cell_of(types[c]);
