@@ -208,22 +208,22 @@ void measure_body(Work& work) {
 }
 
 void read_domain(Work& work) {
-  auto& [arguments, ranks, wishes, context, domain, look, body] = work;
-  const int dimension = wishes.source->dimension();
-  ranks.create_context(context.out());
-  ranks.agreed([&] {
-    set_options(context, arguments);
-    check(pnpbs_domain_create(context, dimension, domain.out()), context);
+  const Arguments& arguments = work.arguments;
+  const DomainSource& source = *work.wishes.source;
+  Spacing& spacing = *work.wishes.spacing;
+  work.ranks.create_context(work.context.out());
+  work.ranks.agreed([&] {
+    set_options(work.context, arguments);
+    check(pnpbs_domain_create(work.context, source.dimension(), work.domain.out()), work.context);
   });
-  wishes.source->read(domain, context, ranks);
-  const GeoFile* geo = wishes.source->geo();
-  if (geo && work.talks()) tell_projection(*geo);
-  ranks.agreed([&] {
-    wishes.spacing->read_grids(domain, context, geo);
+  source.read(work.domain, work.context, work.ranks);
+  if (source.geo() && work.talks()) tell_projection(*source.geo());
+  work.ranks.agreed([&] {
+    spacing.read_grids(work.domain, work.context, source.geo());
     if (arguments.simplify)
-      wishes.spacing->simplify(domain, context, *arguments.simplify, arguments.smallest);
+      spacing.simplify(work.domain, work.context, *arguments.simplify, arguments.smallest);
+    work.look = look_of(arguments, source.dimension(), work.domain, work.context);
   });
-  ranks.agreed([&] { look = look_of(arguments, dimension, domain, context); });
   measure_body(work);
 }
 
