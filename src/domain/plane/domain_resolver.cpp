@@ -2,12 +2,11 @@
 #include "domain/plane/domain_resolver.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/domain_error.hpp"
-#include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "domain/domain_size.hpp"
 #include "domain/plane/conflicts.hpp"
 #include "domain/plane/domain_extent.hpp"
 #include "domain/plane/domain_graph.hpp"
@@ -63,11 +62,9 @@ class Resolver {
     for (const CurveSource& source : sources_) segments += source.segment_count();
     if (segments == 0) reject_domain("the domain has no curves");
     const double size = domain_size(sources_);
-    if (size < kSmallestDomain) {
-      reject_domain("the domain's size is " + number_text(size) + ", less than " +
-                    number_text(kSmallestDomain));
-    }
-    reject_far_away(size);
+    require_domain_size(size);
+    for (const CurveSource& source : sources_)
+      for (const Point<2>& point : source.points) require_near_origin<2>(size, point);
     attach_to_smooth_curves(sources_, fixed_nodes_, size);
     for (int round = 0;; ++round) {
       graph_ = join_sources(sources_, fixed_nodes_, size);
@@ -78,18 +75,6 @@ class Resolver {
       if (round == kRefinements) break;
       if (!refine_conflicting_chords(sources_, graph_, sweep_.conflicts)) break;
     }
-  }
-
-  // Of a small domain far from the origin the coordinates have too few digits left.
-  void reject_far_away(double size) const {
-    for (const CurveSource& source : sources_)
-      for (const Point<2>& point : source.points)
-        for (const double coordinate : point)
-          if (size < kSmallestRelativeSize * std::fabs(coordinate))
-            reject_domain("the domain's size is " + number_text(size) + ", less than " +
-                          number_text(kSmallestRelativeSize) +
-                          " of its distance from the origin, as at " + point_text(point) +
-                          ": move it nearer");
   }
 
   std::string edge_name(std::int32_t edge) const {

@@ -2,7 +2,6 @@
 #include "domain/volume/volume_resolver.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "base/domain_error.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
+#include "domain/domain_size.hpp"
 #include "domain/volume/mesh_creases.hpp"
 #include "domain/volume/resolved_features.hpp"
 #include "geometry/volume/surface_extent.hpp"
@@ -92,16 +92,9 @@ class Resolver {
     for (const SurfaceTriangle& triangle : surface_.triangles)
       for (const std::int32_t v : triangle.vertices) include(box, surface_.vertices[v]);
     size_ = size_of(box);
-    if (size_ < kSmallestDomain)
-      reject_domain("the domain's size is " + number_text(size_) + ", less than " +
-                    number_text(kSmallestDomain));
-    for (const Point<3>& x : {box.low, box.high})
-      for (const double coordinate : x)
-        if (size_ < kSmallestRelativeSize * std::fabs(coordinate))
-          reject_domain("the domain's size is " + number_text(size_) + ", less than " +
-                        number_text(kSmallestRelativeSize) +
-                        " of its distance from the origin, as at " + point_text(x) +
-                        ": move it nearer");
+    require_domain_size(size_);
+    require_near_origin<3>(size_, box.low);
+    require_near_origin<3>(size_, box.high);
   }
 
   // ------------------------------------------------------------ what is at the same place
