@@ -17,6 +17,7 @@ struct Lattice<2> {
   static constexpr int kNeighbours = 6;                   // by edges of the Delaunay triangulation
   static constexpr double kIdealOverlap = 6;              // overlap ratio of a node
   // Overlap ratios of bubbles that are one too many and one too few; the paper (2.4) has 9 and 5.
+  // A run takes the options delete_above and insert_below.
   static constexpr double kDeleteAbove = 8.5, kInsertBelow = 4.4;
   static constexpr int kOverlapEnd = 16;  // larger overlap ratios are not told apart
 };

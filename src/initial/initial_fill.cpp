@@ -74,8 +74,8 @@ class Fill {
     if constexpr (Dim == 3) return lattice.emplace(d, bounds_, whole, stretched_);
   }
 
-  // Whose a node on the border of two leaves is, leaf_holds alone decides: by the arithmetic of
-  // leaf_at, which numbers the nodes and gives them their ranks. The box differs in last digits.
+  // Whose a node on the border of two leaves is, fine_box_holds alone decides: by the arithmetic
+  // of leaf_at, which numbers the nodes and gives them their ranks. The box differs in last digits.
   void fill_leaf(std::int32_t leaf, const FillLattice<Dim>& lattice) {
     const BackgroundTree<Dim>& tree = map_.tree();
     const Box<Dim> fine_box = tree.fine_box(leaf);

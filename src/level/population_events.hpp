@@ -19,7 +19,8 @@ struct PopulationCounts {
 // By the thresholds of the settings and, where the mean distance is off by more than the tolerance,
 // by those that it asks for. Counts are of this rank. Collective.
 template <int Dim>
-PopulationCounts adjust_population(Level<Dim>& level, double tolerance = method::kMeanTolerance);
+PopulationCounts adjust_population(Level<Dim>& level,
+                                   double tolerance = method::kDistanceTolerance);
 // Deletes and inserts where defects of the Delaunay stars are repaired by it. Collective.
 PopulationCounts repair_defects(Level<2>& level);
 PopulationCounts repair_defects(Level<3>& level);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The constants of the method in one table. Those that users may change are options
-// (settings/options.cpp); bounds of rounding, sizes of buffers and the like stand where they are
-// used. docs/reference/constants.md is written from this file (target pnpbs-reference), so each
-// constant has one comment: its meaning, then [unit], then its source. Pages name a constant behind
-// its number, and the test docs_constants compares the two.
+// The constants of the method in one table. Those that users may change are options, such as the
+// overlap ratios at which bubbles come and go (insert_below, delete_above in settings/options.cpp);
+// bounds of rounding, sizes of buffers and the like stand where they are used.
+// docs/reference/constants.md is written from this file (target pnpbs-reference), so each constant
+// has one comment: its meaning, then [unit], then its source. Pages name a constant behind its
+// number, and the test docs_constants compares the two.
 #pragma once
 
 namespace pnpbs::method {
@@ -107,15 +108,15 @@ inline constexpr double kTouch = 1.3;
 inline constexpr double kSqueezed = 7.0 / 6;
 // By how much the mean distance may be off on coarser levels before bubbles act. [d] Chosen:
 // docs/method.md, how many nodes.
-inline constexpr double kMeanTolerance = 0.001;
-// The same on the finest level, where each change costs steps. [kMeanTolerance] Chosen:
+inline constexpr double kDistanceTolerance = 0.001;
+// The same on the finest level, where each change costs steps. [kDistanceTolerance] Chosen:
 // docs/method.md, how many nodes.
-inline constexpr int kMeanToleranceOnFinest = 3;
+inline constexpr int kDistanceToleranceOnFinest = 3;
 // The same in a volume for nodes that were taken over, in the first two rounds of an event. [d]
 // Chosen.
-inline constexpr double kMeanOff = 0.01;
+inline constexpr double kDistanceOff = 0.01;
 // The same in later rounds, and where a lattice fills the finest level. [d] Chosen.
-inline constexpr double kMeanFarOff = 0.02;
+inline constexpr double kDistanceFarOff = 0.02;
 // New bubbles for too small a ratio come no nearer to others. A place in the middle of lattice
 // nodes has 0.577 between three, 0.605 between four. [d] Chosen above these.
 inline constexpr double kMinGap = 0.75;

@@ -51,7 +51,7 @@ class Simulation {
   void keep_balance();
   bool bubbles_rest() const;
   bool far_too_few() const;
-  double tolerance_of_mean(int round) const;
+  double distance_tolerance(int round) const;
   bool stops_after_step(bool is_event, double fraction);
   bool stops_in_finish(double fraction);
   Outcome smooth(double fraction);

@@ -122,17 +122,17 @@ bool Simulation<Dim>::far_too_few() const {
 // stay where d has stayed. And a lattice that fills the finest level is left alone, as what comes
 // to it damages it.
 template <int Dim>
-double Simulation<Dim>::tolerance_of_mean(int round) const {
+double Simulation<Dim>::distance_tolerance(int round) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   // What is off on a coarser level is off on all finer ones; on the finest each change costs steps.
   const double tolerance =
-      (schedule_.role == LevelRole::result ? method::kMeanToleranceOnFinest : 1) *
-      method::kMeanTolerance;
+      (schedule_.role == LevelRole::result ? method::kDistanceToleranceOnFinest : 1) *
+      method::kDistanceTolerance;
   if (level_.settings.dimension == 2) return round == 0 ? tolerance : kNever;
-  if (schedule_.taken_over()) return round < 2 ? method::kMeanOff : method::kMeanFarOff;
+  if (schedule_.taken_over()) return round < 2 ? method::kDistanceOff : method::kDistanceFarOff;
   if (round >= 2) return kNever;
   return schedule_.role != LevelRole::result || schedule_.refined() ? tolerance
-                                                                    : method::kMeanFarOff;
+                                                                    : method::kDistanceFarOff;
 }
 
 // Adjusts the population while it pays. A new spacing may ask for many times the nodes there are,
@@ -143,7 +143,7 @@ void Simulation<Dim>::control_population() {
   double changed = 0;
   for (int round = 0; round < method::kMaxPopulationRounds; ++round) {
     const PopulationCounts change =
-        counted(pnpbs::adjust_population(level_, tolerance_of_mean(round)));
+        counted(pnpbs::adjust_population(level_, distance_tolerance(round)));
     const double acted = static_cast<double>(change.inserted + change.deleted);
     changed += acted;
     if (acted < method::kMuchChange * nodes) break;

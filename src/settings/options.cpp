@@ -67,7 +67,8 @@ const std::vector<OptionRow>& option_table() {
       {"effort", T::choice, "default", nullptr, nullptr, 0, 0, "default | best",
        "second preset: fast and good, or about three times slower for the best spacing possible"},
       {"law", T::choice, "push", "cubic", nullptr, 0, 0, "push | cubic",
-       "force between bubbles: linear push, or equation (2) of the paper"},
+       "force between bubbles: a push, linear in the plane and smooth in space, or equation (2) of "
+       "the paper"},
       {"scheme", T::choice, "damped", "predictor_corrector", nullptr, 0, 0,
        "damped | predictor_corrector",
        "time step of equation (1): one force per step, or the paper's Euler predictor-corrector"},

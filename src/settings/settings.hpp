@@ -22,7 +22,7 @@ struct Settings {
   explicit Settings(const Options& options);
 
   int dimension = 2;         // of what the bubbles fill: 3 inside a volume, 2 on a surface
-  bool cubic_law;            // equation (2) of the paper; otherwise the linear push
+  bool cubic_law;            // equation (2) of the paper; otherwise DefaultLaw
   bool predictor_corrector;  // otherwise one force evaluation per step
   bool runge_kutta_finish;
   double rest_length;

@@ -61,7 +61,7 @@ Change<Dim> choose(const Set<Dim>& set, const PopulationRule& rule, const Freedo
   const PopulationChange<Dim> change = pnpbs::choose_population_change<Dim>(
       b.nodes, b.lists, ratios, rule,
       pnpbs::choose_thresholds<Dim>(*pnpbs::serial_communicator(), b.nodes, b.lists, ratios, rule,
-                                    pnpbs::method::kMeanTolerance),
+                                    pnpbs::method::kDistanceTolerance),
       [&](std::int64_t i) { return freedom.must_go.count(b.nodes.id(i)) > 0; },
       [&](std::int64_t i) { return pnpbs::free_place<Dim>(b.nodes, b.lists, i); },
       [&](const Point<Dim>& x, double) { return freedom.fits(x[0], x[1]); });
