@@ -287,8 +287,8 @@ def beyond_c(sources, links):
 def constants_page(root):
     text = NOTE + """# Constants of the method
 
-What the method is made of besides its [options](options.md): [src/method/constants.hpp](../../src/method/constants.hpp)
-as a table. *Chosen* says that there is no measurement on these pages.
+What the method is made of besides its [options](options.md): `src/method/constants.hpp` as a table.
+*Chosen* says that there is no measurement on these pages.
 """
     found = method_constants.constants(root)
     for section in dict.fromkeys(one.section for one in found):

@@ -240,7 +240,7 @@ class Domain(Handle):
 
     # ------------------------------------------------------------ files and tags ---------------
 
-    def read_msh(self, path: Path, feature_angle: float = 0.0) -> Domain:
+    def read_msh(self, path: Path, feature_angle: float = 40.0) -> Domain:
         """Reads a mesh in Gmsh's MSH format and adds its boundary: in the plane lines and edges, in
         space triangles, with their physical groups as tags. Sheets and lines inside are inner
         surfaces and curves, points are fixed nodes. `feature_angle` in degrees is as in
