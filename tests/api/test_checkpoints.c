@@ -172,6 +172,9 @@ START_TEST(held_spacing_is_saved) {
   ck_assert_str_eq(hash_of(other.placement).text, hash_of(whole.placement).text);
   ck_assert_int_eq(integer_of(other.placement, "unresolved_places"),
                    integer_of(whole.placement, "unresolved_places"));
+  ck_assert_double_gt(real_of(other.placement, "unresolved_spacing"), 0);
+  ck_assert_double_eq(real_of(other.placement, "unresolved_spacing"),
+                      real_of(whole.placement, "unresolved_spacing"));
   job_end(&whole);
   job_end(&stopped);
 
