@@ -5,8 +5,8 @@
 #include <new>
 #include <utility>
 
-#include "base/lack_of_room.hpp"
 #include "base/kokkos_runtime.hpp"
+#include "base/lack_of_room.hpp"
 #include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/reach.hpp"
