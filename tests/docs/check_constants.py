@@ -5,13 +5,13 @@ constant, or a product or difference of some, in a comment that readers do not s
     nearer than 1.3 <!-- kTouch --> desired distances
 usage: check_constants.py <folder> [--self-test]"""
 
-import contextlib
-import io
 import math
 import pathlib
 import re
 import sys
 import tempfile
+
+import checks
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts" / "reference"))
 import method_constants
@@ -75,6 +75,8 @@ def self_test():
             page.write_text(text)
             if list(faults(root)) != expected:
                 sys.exit(f"the check is wrong: it finds {list(faults(root))} in {text}")
+            if main([name]) != bool(expected):
+                sys.exit(f"the check ends with {main([name])} where it finds {expected}")
         table.write_text(table.read_text().replace("[d] ", ""))
         try:
             method_constants.constants(root)
@@ -84,13 +86,7 @@ def self_test():
 
 
 def main(arguments):
-    if "--self-test" in arguments:
-        with contextlib.redirect_stdout(io.StringIO()):
-            self_test()
-    found = list(faults(pathlib.Path(arguments[0])))
-    for line in found:
-        print(line)
-    return 1 if found else 0
+    return checks.main(arguments, faults, self_test)
 
 
 if __name__ == "__main__":

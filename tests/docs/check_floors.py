@@ -5,12 +5,12 @@ FLOORS; the public header is for the topmost folders alone. And no file and no f
 to be read; the table of options or statistics may be.
 usage: check_floors.py <folder> [--self-test]"""
 
-import contextlib
-import io
 import pathlib
 import re
 import sys
 import tempfile
+
+import checks
 
 FLOORS = ("base method comm predicates tree geometry formats surfaces implicit domain shape spacing "
           "initial partition neighbors dynamics population delaunay quality settings level "
@@ -119,13 +119,7 @@ def self_test():
 
 
 def main(arguments):
-    if "--self-test" in arguments:
-        with contextlib.redirect_stdout(io.StringIO()):
-            self_test()
-    found = list(faults(pathlib.Path(arguments[0])))
-    for line in found:
-        print(line)
-    return 1 if found else 0
+    return checks.main(arguments, faults, self_test)
 
 
 if __name__ == "__main__":
