@@ -100,14 +100,18 @@ bool DomainSource::may_be_repaired() const {
   return repair_if_needed_ && !geo_ && !level_set_ && !primitive_;
 }
 
+void DomainSource::repair(pnpbs_domain domain, double resolution, pnpbs_context context) const {
+  check(pnpbs_domain_set_repair(domain, resolution), context);
+  check(pnpbs_domain_check(domain), context);
+}
+
 void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context, bool talk) const {
-  pnpbs_status status = pnpbs_domain_check(domain);
+  const pnpbs_status status = pnpbs_domain_check(domain);
   if (status == PNPBS_ERROR_DOMAIN && may_be_repaired()) {
     if (talk)
       std::cerr << "pnpbs: note: the body is repaired, as it is refused otherwise: "
                 << pnpbs_last_error(context) << "\n";
-    check(pnpbs_domain_set_repair(domain, 0), context);
-    status = pnpbs_domain_check(domain);
+    return repair(domain, 0, context);
   }
   if (geo_ && status < 0)
     throw Failure(exit_code_of(status), geo_->explained(pnpbs_last_error(context)));

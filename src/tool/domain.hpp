@@ -33,6 +33,8 @@ class DomainSource {
 
   // Is it of triangles that are to be repaired where nothing else helps?
   bool may_be_repaired() const;
+  // To this resolution, 0 for the default. Local. Throws Failure.
+  void repair(pnpbs_domain domain, double resolution, pnpbs_context context) const;
 
  private:
   void add_to(pnpbs_domain domain, pnpbs_context context) const;

@@ -240,12 +240,10 @@ bool repair_if_torn(Work& work, pnpbs_status status, pnpbs_placement placement) 
     return false;
   const double d = real_statistic(placement, "unresolved_spacing", work.context);
   if (work.talks())
-    std::cerr << "pnpbs: note: the elements do not conform: the body is repaired to a resolution "
-                 "of the spacing, and nodes are placed again\n";
-  work.ranks.agreed([&] {
-    check(pnpbs_domain_set_repair(work.domain, d), work.context);
-    check(pnpbs_domain_check(work.domain), work.context);
-  });
+    std::cerr
+        << "pnpbs: note: the elements do not conform: the body is repaired, and nodes are placed "
+           "again\n";
+  work.ranks.agreed([&] { work.wishes.source->repair(work.domain, d, work.context); });
   measure_body(work);
   return true;
 }
