@@ -285,8 +285,7 @@ inline constexpr int kStepsWhereHeld = 2;
 inline constexpr double kSmallAngle = 2;
 // What share of the small angles a round may leave to count. [share] Chosen.
 inline constexpr double kSmallAnglesLeft = 0.5;
-// Rounds that do not count, at most: each takes as long as a run. [rounds] Measured: of 12 random
-// bodies with small angles, 4 gain more by later ones, at 1.5 to 6.6 times the time.
+// Rounds that do not count, at most. [rounds] Chosen: each takes as long as a run.
 inline constexpr int kMaxRoundsInVain = 2;
 // With more nodes than in the first round d is a mistake. [nodes of that round] Chosen.
 inline constexpr double kMaxGrowthOfNodes = 4;
