@@ -17,6 +17,7 @@ namespace pnpbs {
 namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr std::int64_t kEnoughEdges = 50;  // for a mean
 
 // ------------------------------------------------------------------ edges ----------------------
 
@@ -88,15 +89,15 @@ SpacingBands bands_of_nodes(const Communicator& comm, const Nodes<Dim>& nodes) {
   return {d.min, d.max};
 }
 
-template <int Dim>
+// Of the edges for which counts(i, j).
+template <int Dim, class Counts>
 EdgeSums local_edge_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
-                         const SpacingBands& bands, const View<char>& left_out) {
-  const bool all = left_out.extent(0) == 0;
+                         const SpacingBands& bands, const Counts& counts) {
   return sums_over(
       "pnpbs::edge_sums", nodes.count, EdgeSums(), [&](std::int64_t i, EdgeSums& sums) {
         if (!nodes.owned(i)) return;
         for_edges(nodes, stars, i, [&](std::int64_t j) {
-          if (!all && (left_out(i) || left_out(j))) return;
+          if (!counts(i, j)) return;
           const double d = 0.5 * (nodes.d(i) + nodes.d(j));
           const double ratio = distance<Dim>(nodes.position(i), nodes.position(j)) / d;
           const bool moves = nodes.moves(i) || nodes.moves(j);
@@ -107,10 +108,10 @@ EdgeSums local_edge_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
 }
 
 // Over all ranks.
-template <int Dim>
+template <int Dim, class Counts>
 EdgeSums edge_sums(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars,
-                   const SpacingBands& bands, const View<char>& left_out = {}) {
-  EdgeSums sums = local_edge_sums<Dim>(nodes, stars, bands, left_out);
+                   const SpacingBands& bands, const Counts& counts) {
+  EdgeSums sums = local_edge_sums<Dim>(nodes, stars, bands, counts);
   std::vector<std::int64_t> edges;
   std::vector<FixedPointSum> ratios;
   for (const RatioSums& part : sums.of) {
@@ -289,10 +290,20 @@ double irregular_share(const Communicator& comm, const Nodes<Dim>& nodes, const 
 }  // namespace
 
 template <int Dim>
-std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<Dim>& nodes,
-                                         const Stars<Dim>& stars, const View<char>& left_out) {
+std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm, const Nodes<Dim>& nodes,
+                                          const Stars<Dim>& stars, const View<char>& left_out) {
+  const auto counts = [&](std::int64_t i, std::int64_t j) {
+    return left_out.extent(0) == 0 || !(left_out(i) || left_out(j));
+  };
+  const auto counts_inside = [&](std::int64_t i, std::int64_t j) {
+    return nodes.moves(i) && nodes.moves(j) && counts(i, j);
+  };
   const SpacingBands bands = bands_of_nodes<Dim>(comm, nodes);
-  return bands_with_edges(bands, edge_sums<Dim>(comm, nodes, stars, bands, left_out));
+  EdgeSums judged = edge_sums<Dim>(comm, nodes, stars, bands, counts);
+  const EdgeSums inside = edge_sums<Dim>(comm, nodes, stars, bands, counts_inside);
+  for (std::size_t k = 0; k < judged.of.size(); ++k)
+    if (inside.of[k].edges >= kEnoughEdges) judged.of[k] = inside.of[k];
+  return bands_with_edges(bands, judged);
 }
 
 namespace {
@@ -318,7 +329,8 @@ template <int Dim>
 ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& nodes,
                                 const Stars<Dim>& stars) {
   const SpacingBands bands = bands_of_nodes<Dim>(comm, nodes);
-  const EdgeSums edges = edge_sums<Dim>(comm, nodes, stars, bands);
+  const EdgeSums edges =
+      edge_sums<Dim>(comm, nodes, stars, bands, [](std::int64_t, std::int64_t) { return true; });
   ElementQuality found;
   found.simplex = measure_simplices(comm, nodes, stars);
   found.edge = ratio_of(edges.all());
@@ -329,7 +341,6 @@ ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& node
 
 const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands) {
   constexpr double kMissed = 0.1;
-  constexpr std::int64_t kEnoughEdges = 50;
   const EdgeBand* worst = nullptr;
   const auto off = [](const EdgeBand& band) { return std::fabs(band.ratio.mean - 1); };
   for (const EdgeBand& band : bands)
@@ -338,10 +349,10 @@ const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands) {
   return worst;
 }
 
-template std::vector<EdgeBand> measure_edge_bands<2>(const Communicator&, const Nodes<2>&,
-                                                     const Stars<2>&, const View<char>&);
-template std::vector<EdgeBand> measure_edge_bands<3>(const Communicator&, const Nodes<3>&,
-                                                     const Stars<3>&, const View<char>&);
+template std::vector<EdgeBand> edge_bands_to_judge<2>(const Communicator&, const Nodes<2>&,
+                                                      const Stars<2>&, const View<char>&);
+template std::vector<EdgeBand> edge_bands_to_judge<3>(const Communicator&, const Nodes<3>&,
+                                                      const Stars<3>&, const View<char>&);
 template ElementQuality measure_elements<2>(const Communicator&, const Nodes<2>&, const Stars<2>&);
 template ElementQuality measure_elements<3>(const Communicator&, const Nodes<3>&, const Stars<3>&);
 

@@ -48,11 +48,13 @@ template <int Dim>
 ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& nodes,
                                 const Stars<Dim>& stars);
 
-// The bands alone, without those that have no edge. Edges of nodes that are left out, if it is told
-// which are, do not count. Collective.
+// The bands in which d may be missed, without those that have no edge: of each the edges between
+// two nodes inside, or, where these are too few for a mean, with one of them inside. (A wall of 1.5
+// d has edges through it that are as long as it is thick.) Edges of nodes that are left out, if it
+// is told which are, do not count. Collective.
 template <int Dim>
-std::vector<EdgeBand> measure_edge_bands(const Communicator& comm, const Nodes<Dim>& nodes,
-                                         const Stars<Dim>& stars, const View<char>& left_out = {});
+std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm, const Nodes<Dim>& nodes,
+                                          const Stars<Dim>& stars, const View<char>& left_out = {});
 
 // The band in which edges are most off d, by more than 10 % in the mean, of those with enough edges
 // for a mean; nullptr if there is none.

@@ -373,6 +373,41 @@ START_TEST(walls_as_thick_as_d) {
 }
 END_TEST
 
+static pnpbs_status thicker_wall(pnpbs_domain domain, const char* folder) {
+  const double low[] = {0, 0, 0}, high[] = {20, 20, 2};
+  (void)folder;
+  return pnpbs_domain_add_box(domain, low, high, 1);
+}
+
+/* Edges through it are longer than d, as no second layer of nodes has room. Nodes that follow d
+ * along it do not miss d; those that are too few do. */
+START_TEST(walls_of_two_d) {
+  const double d[] = {1, 1.05};
+  int k;
+  for (k = 0; k < COUNT_OF(d); ++k) {
+    job it = body_job(thicker_wall);
+    MUST(pnpbs_placement_set_spacing_constant(it.placement, d[k]));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement)); /* not PNPBS_SPACING_MISSED */
+    check_body(&it, 1e-12);
+    job_end(&it);
+  }
+}
+END_TEST
+
+START_TEST(too_few_nodes_in_a_wall) {
+  job it = body_job(thicker_wall);
+  double xyz[3 * 100];
+  int k;
+  for (k = 0; k < 100; ++k)
+    xyz[3 * k] = 1 + 2 * (k % 10), xyz[3 * k + 1] = 1 + 2 * (k / 10), xyz[3 * k + 2] = 1;
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 1));
+  MUST(pnpbs_placement_set_nodes(it.placement, 100, xyz, NULL));
+  MUST(pnpbs_placement_set_int64(it.placement, "steps", 0));
+  MUST_BE(PNPBS_SPACING_MISSED, pnpbs_placement_run(it.placement));
+  job_end(&it);
+}
+END_TEST
+
 static pnpbs_status crossing_boxes(pnpbs_domain domain, const char* folder) {
   const double low[] = {0, 0, 0}, high[] = {1, 1, 1}, other_low[] = {0.5, 0.5, 0.5},
                other_high[] = {1.5, 1.5, 1.5};
@@ -764,6 +799,8 @@ int main(void) {
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, flat_sides_follow_the_surface);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, fine_at_a_line_in_a_low_box);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, walls_as_thick_as_d);
+  tcase_add_test(tests, walls_of_two_d);
+  tcase_add_test(tests, too_few_nodes_in_a_wall);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, distances_of_repairs_are_statistics);
   tcase_add_loop_test(tests, no_vacancies_beside_a_wall, 0, WHEN_SANITIZED(1, 2));
   tcase_add_loop_test(tests, stopped_by_the_monitor, 0, WHEN_SANITIZED(3, 5));
