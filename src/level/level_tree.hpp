@@ -55,7 +55,7 @@ class LevelTree {
   void take_rough_cells(const Settings& settings);
   std::vector<PartitionCell<Dim>> rough_cells(const Settings& settings);
   void refine(const Settings& settings, const std::vector<char>& refined);
-  std::vector<GrowthSource<Dim>> known_values(const Settings& settings) const;
+  std::vector<GrowthSource<Dim>> known_values() const;
   void link_leaves(const Settings& settings);
   void grow_own_part(const Settings& settings);
   void require_same_ground() const;

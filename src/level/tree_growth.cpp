@@ -41,15 +41,14 @@ std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
 template <int Dim>
 void LevelTree<Dim>::grow_whole(const Settings& settings) {
   map_.build(ground_.bounds(), ground_.boundary(), ground_.evaluator(), settings.node_limit(),
-             kLevelRefinement<Dim>, known_values(settings));
+             kLevelRefinement<Dim>, known_values());
   link_leaves(settings);
 }
 
-// What samples may miss of a spacing whose growth is not limited. (Else they meet the slopes around
-// it.)
+// What samples may miss of the spacing: places where it is held down, and those that nodes have
+// come upon. (A cone of d that is as narrow as a leaf is seen by one of its samples, or by none.)
 template <int Dim>
-std::vector<GrowthSource<Dim>> LevelTree<Dim>::known_values(const Settings& settings) const {
-  if (settings.growth_limit > 0) return {};
+std::vector<GrowthSource<Dim>> LevelTree<Dim>::known_values() const {
   return ground_.spacing().known_values().in_domain;
 }
 
@@ -117,7 +116,7 @@ void LevelTree<Dim>::refine(const Settings& settings, const std::vector<char>& r
             cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
         return in.first_child >= 0 || refined[static_cast<std::size_t>(in.leaf)];
       },
-      kLevelRefinement<Dim>, known_values(settings));
+      kLevelRefinement<Dim>, known_values());
   distribution_.take_leaves(&map_.tree(), refined);
 }
 

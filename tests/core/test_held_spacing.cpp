@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where d is held down at places, the background tree of a level knows these, however few of its
+// samples see them.
+#include <memory>
+
+#include "level/level.hpp"
+#include "placement/holding_spacing.hpp"
+#include "random.hpp"
+#include "run_kernel_suite.hpp"
+
+using Point3 = pnpbs::Point<3>;
+
+namespace {
+
+constexpr double kSpacing = 0.05, kHeld = 0.002;
+
+// A block has samples enough, and a plate beside it is so thin that hardly any lie in it.
+constexpr pnpbs::Box<3> kBlock{{0, 0, 0}, {1, 1, 0.3}}, kPlate{{0, 0, 0.306}, {1, 1, 0.31}};
+
+// The least d that the tree of a level expects around the place.
+double expected_at(const Point3& place) {
+  auto domain = std::make_shared<pnpbs::VolumeDomain>();
+  domain->add_box(kBlock.low, kBlock.high, 1);
+  domain->add_box(kPlate.low, kPlate.high, 1);
+  domain->check();
+  const pnpbs::Settings settings{pnpbs::Options(), 3};
+  pnpbs::PlacedSpacing<3> placed;
+  placed.unheld = std::make_shared<pnpbs::ConstantSpacing<3>>(kSpacing);
+  placed.held.places.push_back({place, kHeld});
+  const auto comm = pnpbs::serial_communicator();
+  pnpbs::hold_down(*comm, placed, settings);
+  pnpbs::Timers timers;
+  pnpbs::Level<3> level(comm, domain, placed.d, settings, timers);
+  level.grow_tree();
+  return level.map().leaf_min_spacing(level.map().tree().leaf_at(place));
+}
+
+}  // namespace
+
+START_TEST(a_place_is_known_between_samples) {
+  Random random(27);
+  for (int k = 0; k < 40; ++k) {
+    const Point3 place = random.point(kPlate);
+    // 1.4 times it at most; nodes that meet d below kFarFiner of it would begin the run anew.
+    ck_assert_double_le(expected_at(place), 2 * kHeld);
+  }
+}
+END_TEST
+
+int main() { return run_kernel_suite("held_spacing", {a_place_is_known_between_samples}); }
