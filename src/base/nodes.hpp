@@ -226,4 +226,10 @@ struct Nodes {
   std::int64_t arrangement_ = 0, positions_ = 0, references_ = 0, referenced_at_ = -1;
 };
 
+template <int Dim>
+std::int64_t owned_count(const Nodes<Dim>& nodes) {
+  return static_cast<std::int64_t>(
+      sum_of("pnpbs::owned_count", nodes.count, [&](std::int64_t i) { return nodes.owned(i); }));
+}
+
 }  // namespace pnpbs

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall-clock seconds by phase, for the report.
+// Wall-clock seconds by phase, and the nodes a phase worked for, for the report.
 #pragma once
 
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 
 namespace pnpbs {
 
@@ -24,14 +25,25 @@ enum class Phase {
 };
 inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::total) + 1;
 
+// Ghosts are worked for so that a rank finds itself what others decide.
+struct NodesWorkedFor {
+  std::int64_t all = 0, owned = 0;  // with ghosts; each as often as it was worked for
+};
+
 class Timers {
  public:
   double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
   void add(Phase phase, double seconds) { seconds_[static_cast<std::size_t>(phase)] += seconds; }
-  void reset() { seconds_.fill(0); }
+  const NodesWorkedFor& nodes(Phase phase) const { return nodes_[static_cast<std::size_t>(phase)]; }
+  void add(Phase phase, const NodesWorkedFor& more) {
+    NodesWorkedFor& nodes = nodes_[static_cast<std::size_t>(phase)];
+    nodes.all += more.all;
+    nodes.owned += more.owned;
+  }
 
  private:
   std::array<double, kPhases> seconds_{};
+  std::array<NodesWorkedFor, kPhases> nodes_{};
 };
 
 // Counts the time from here to the end of the scope.

@@ -79,9 +79,19 @@ std::vector<char> owned_nodes(const Nodes<Dim>& nodes) {
   return {nodes.owned.data(), nodes.owned.data() + nodes.count};
 }
 
+void count_stars(Level<3>& level, const std::vector<char>& wanted) {
+  NodesWorkedFor nodes;
+  for (std::int64_t i = 0; i < level.nodes.count; ++i) {
+    nodes.all += wanted[static_cast<std::size_t>(i)];
+    nodes.owned += wanted[static_cast<std::size_t>(i)] && level.nodes.owned(i);
+  }
+  level.timers.add(Phase::stars, nodes);
+}
+
 template <int Dim>
 void build_stars(Level<Dim>& level, const KnownRegion<Dim>& known) {
   const PhaseTimer timer(level.timers, Phase::stars);
+  level.timers.add(Phase::stars, {level.nodes.count, level.owned_count()});
   if constexpr (Dim == 3) {
     if (level.ground.surfaces_alone()) return level.stars.build(surface_star_input(level, known));
     if (level.stars_before.any() && known.is_everywhere()) {
@@ -164,6 +174,7 @@ std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& 
 void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<char>& wanted) {
   const PhaseTimer timer(level.timers, Phase::stars);
   level.stars.add(star_input(level, known), wanted);
+  count_stars(level, wanted);
 }
 
 // How far around node i others must be known that are nearer than the sum of both reaches, in units
@@ -230,6 +241,7 @@ std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& know
   if (level.stars_before.any()) {
     const PhaseTimer timer(level.timers, Phase::stars);
     level.stars_before.find_stars(star_input(level, known), wanted, level.stars);
+    count_stars(level, wanted);
   } else {
     add_stars(level, known, wanted);
   }

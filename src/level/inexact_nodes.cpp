@@ -89,6 +89,9 @@ void track_inexact_nodes(Level<Dim>& level, int evaluations) {
   const double drift =
       settings.motion.max_move * static_cast<double>(level.ghosts.steps_since_choice());
   spread(level, level.inexact, {settings.force_range(), drift, false}, evaluations);
+  if (level.neighbourhood.listed() == ListsOf::all_nodes) return;
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)  // no force moves these
+    if (!level.nodes.owned(i)) level.inexact.insert(level.nodes.id(i));
 }
 
 template <int Dim>

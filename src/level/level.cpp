@@ -65,8 +65,7 @@ void Level<Dim>::change_settings(const Settings& next) {
 
 template <int Dim>
 std::int64_t Level<Dim>::owned_count() const {
-  return static_cast<std::int64_t>(sum_of("pnpbs::Level::owned_count", nodes.count,
-                                          [this](std::int64_t i) { return nodes.owned(i); }));
+  return pnpbs::owned_count(nodes);
 }
 
 std::int64_t boundary_nodes(const Level<2>& level) { return level.ground.boundary_nodes(); }

@@ -76,10 +76,12 @@ void sort_nodes(Level<Dim>& level) {
 }  // namespace
 
 template <int Dim>
-void rebuild_lists_for_steps(Level<Dim>& level) {
+void rebuild_lists_for_steps(Level<Dim>& level, ListsOf listed) {
   const PhaseTimer timer(level.timers, Phase::lists);
   sort_nodes(level);
-  level.neighbourhood.rebuild_for_steps(level.nodes, level.ground, *level.tree, level.settings);
+  level.neighbourhood.rebuild_for_steps(level.nodes, level.ground, *level.tree, level.settings,
+                                        listed);
+  level.timers.add(Phase::lists, level.neighbourhood.nodes_listed());
 }
 
 template <int Dim>
@@ -87,6 +89,7 @@ void rebuild_lists(Level<Dim>& level, double radius) {
   const PhaseTimer timer(level.timers, Phase::lists);
   sort_nodes(level);
   level.neighbourhood.rebuild_here(level.nodes, level.ground, *level.tree, radius);
+  level.timers.add(Phase::lists, level.neighbourhood.nodes_listed());
 }
 
 template <int Dim>
@@ -120,8 +123,8 @@ void prepare_lists(Level<Dim>& level) {
     rebuild_lists(level, level.settings.adjacency_radius);
 }
 
-template void rebuild_lists_for_steps(Level<2>&);
-template void rebuild_lists_for_steps(Level<3>&);
+template void rebuild_lists_for_steps(Level<2>&, ListsOf);
+template void rebuild_lists_for_steps(Level<3>&, ListsOf);
 template void rebuild_lists(Level<2>&, double);
 template void rebuild_lists(Level<3>&, double);
 template void make_lists_and_stars(Level<2>&, int, double, StarZone);

@@ -11,7 +11,7 @@
 namespace pnpbs {
 
 template <int Dim>
-void rebuild_lists_for_steps(Level<Dim>& level);
+void rebuild_lists_for_steps(Level<Dim>& level, ListsOf listed = ListsOf::all_nodes);
 // At the present positions.
 template <int Dim>
 void rebuild_lists(Level<Dim>& level, double radius);

@@ -35,8 +35,9 @@ bool Neighbourhood<Dim>::sort_nodes(Nodes<Dim>& nodes, const LevelTree<Dim>& tre
 
 template <int Dim>
 void Neighbourhood<Dim>::rebuild_for_steps(Nodes<Dim>& nodes, const Ground<Dim>& ground,
-                                           const LevelTree<Dim>& tree, const Settings& settings) {
-  rebuild(nodes, ground, tree, settings.list_radius, nodes.reference);
+                                           const LevelTree<Dim>& tree, const Settings& settings,
+                                           ListsOf listed) {
+  rebuild(nodes, ground, tree, settings.list_radius, nodes.reference, listed);
   reserve_field<Dim>(listed_, "pnpbs::Neighbourhood::listed", nodes.capacity());
   for_each("pnpbs::Neighbourhood::listed", nodes.count, [&](std::int64_t i) {
     for (int k = 0; k < Dim; ++k) listed_[k](i) = nodes.x[k](i);
@@ -50,20 +51,24 @@ void Neighbourhood<Dim>::rebuild_here(Nodes<Dim>& nodes, const Ground<Dim>& grou
                                       const LevelTree<Dim>& tree, double radius) {
   listed_ = {};
   // What is near was measured from there, also when nodes have moved on.
-  rebuild(nodes, ground, tree, radius, nodes.referenced_here() ? nodes.reference : nodes.x);
+  rebuild(nodes, ground, tree, radius, nodes.referenced_here() ? nodes.reference : nodes.x,
+          ListsOf::all_nodes);
 }
 
 template <int Dim>
 void Neighbourhood<Dim>::rebuild(Nodes<Dim>& nodes, const Ground<Dim>& ground,
                                  const LevelTree<Dim>& tree, double radius,
-                                 const Field<Dim>& seen_from) {
+                                 const Field<Dim>& seen_from, ListsOf listed) {
   for_steps_ = false;
   arrangement_ = -1;
   const DomainMap<Dim>& map = tree.map();
   near_boundary_.build(nodes, seen_from, buckets_, map, ground);
-  lists_.build(nodes, buckets_, radius, near_boundary_.visibility(nodes, map, ground));
+  lists_.build(nodes, buckets_, radius, near_boundary_.visibility(nodes, map, ground), listed);
+  listed_nodes_ = listed;
   nodes.set_padding();
   ++rebuilds_;
+  const std::int64_t owned = owned_count(nodes);
+  nodes_listed_ = {listed == ListsOf::all_nodes ? nodes.count : owned, owned};
   arrangement_ = nodes.arrangement();
   positions_ = nodes.positions();
   references_ = nodes.references();
@@ -75,7 +80,8 @@ void Neighbourhood<Dim>::rebuild(Nodes<Dim>& nodes, const Ground<Dim>& ground,
 // with stages looks one move ahead. d does not change between rebuilds.
 template <int Dim>
 bool Neighbourhood<Dim>::needs_rebuild(const Nodes<Dim>& nodes, const Settings& settings) const {
-  if (!for_steps_ || arrangement_ != nodes.arrangement() || references_ != nodes.references())
+  if (!for_steps_ || arrangement_ != nodes.arrangement() || references_ != nodes.references() ||
+      (ghosts_move(settings) && listed_nodes_ == ListsOf::owned_nodes))
     return true;
   const double ahead = settings.predictor_corrector ? settings.motion.max_move : 0;
   return max_displacement_ + ahead > 0.5 * (lists_.radius() - settings.force_range());

@@ -28,7 +28,7 @@ class Neighbourhood {
   // Lists for the time loop: visibility is judged from the reference positions, so that it does not
   // matter when they are made.
   void rebuild_for_steps(Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
-                         const Settings& settings);
+                         const Settings& settings, ListsOf listed);
   // Lists of that radius for where the nodes are. The next step makes its own again; until then
   // there are stars, and no need to know where nodes were: the two take their memory in turn.
   void rebuild_here(Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
@@ -62,6 +62,8 @@ class Neighbourhood {
   const NearBoundary<Dim>& near_boundary() const { return near_boundary_; }
   const AdjacencyList<Dim>& lists() const { return lists_; }
   std::int64_t rebuilds() const { return rebuilds_; }
+  ListsOf listed() const { return listed_nodes_; }
+  NodesWorkedFor nodes_listed() const { return nodes_listed_; }
 
   // Of owned nodes: listed pairs, and as much again for each node as it costs besides. Counted when
   // lists are made for the first time after an event, or after this.
@@ -72,7 +74,7 @@ class Neighbourhood {
 
  private:
   void rebuild(Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
-               double radius, const Field<Dim>& seen_from);
+               double radius, const Field<Dim>& seen_from, ListsOf listed);
   void count_work(const Nodes<Dim>& nodes);
 
   const LevelTree<Dim>* prepared_for_ = nullptr;
@@ -80,10 +82,12 @@ class Neighbourhood {
   NearBoundary<Dim> near_boundary_;
   AdjacencyList<Dim> lists_;
   std::int64_t rebuilds_ = 0;
+  NodesWorkedFor nodes_listed_;  // when they were made last
 
   // What the lists were made of: stamps of the nodes; -1: they must be made anew.
   std::int64_t arrangement_ = -1, positions_ = -1, references_ = -1;
   bool for_steps_ = false;
+  ListsOf listed_nodes_ = ListsOf::all_nodes;
   Field<Dim> listed_;  // if they are for steps: positions at which they were made
   double max_displacement_ = 0;
 

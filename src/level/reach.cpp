@@ -21,6 +21,10 @@ double edge_radius(const Settings& settings) {
   return std::max(widest_radius(settings), meeting_radius(settings));
 }
 
+bool ghosts_move(const Settings& settings) {
+  return settings.exchange_interval * settings.evaluations_per_step() > 1;
+}
+
 std::int64_t ghost_life(const Settings& settings) {
   constexpr std::int64_t kGhostLife = 20;
   return std::max(kGhostLife, settings.exchange_interval);

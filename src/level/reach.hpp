@@ -31,6 +31,9 @@ double meeting_radius(const Settings& settings);
 // Edges this near to a node are known.
 double edge_radius(const Settings& settings);
 
+// Do ghosts move between exchanges? Where those follow each evaluation of the force, only owned
+// nodes need it, and lists.
+bool ghosts_move(const Settings& settings);
 // Steps after which ghosts are chosen anew, because nodes drift.
 std::int64_t ghost_life(const Settings& settings);
 // How many hops ghosts must reach for owned nodes to stay exact:

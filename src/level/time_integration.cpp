@@ -71,13 +71,15 @@ void TimeIntegration<Dim>::accept(Nodes<Dim>& nodes, Neighbourhood<Dim>& neighbo
   constexpr std::int64_t kChunk = 64;
   const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
   const double meeting = meeting_radius(settings);
+  const bool all = neighbourhood.listed() == ListsOf::all_nodes;
   const NearBoundary<Dim>& near_boundary = neighbourhood.near_boundary();
   if (static_cast<std::int64_t>(squares_.extent(0)) < chunks)
     squares_ = make_view<double>("pnpbs::TimeIntegration::squares", chunks);
   for_each("pnpbs::TimeIntegration::accept", chunks, [&](std::int64_t c) {
     const std::int64_t first = c * kChunk, last = std::min(first + kChunk, nodes.count);
     for (std::int64_t i = first; i < last; ++i)
-      if (nodes.moves(i) && near_boundary.constrains(nodes, i, meeting * nodes.d(i)))
+      if ((all || nodes.owned(i)) && nodes.moves(i) &&
+          near_boundary.constrains(nodes, i, meeting * nodes.d(i)))
         hold_off_boundary(i, nodes, near_boundary, map, ground, settings);
     squares_(c) = neighbourhood.squared_displacement(nodes, next_, first, last);
   });

@@ -21,11 +21,13 @@ template <int Dim>
 void step(Level<Dim>& level, std::exception_ptr& failure) {
   attempt(failure, [&] {
     if (level.neighbourhood.needs_rebuild(level.nodes, level.settings))
-      rebuild_lists_for_steps(level);
+      rebuild_lists_for_steps(
+          level, ghosts_move(level.settings) ? ListsOf::all_nodes : ListsOf::owned_nodes);
     track_inexact_nodes(level, level.settings.evaluations_per_step());
     const PhaseTimer timer(level.timers, Phase::motion);
     level.time_integration.step(level.nodes, level.neighbourhood, level.map(), level.ground,
                                 level.settings);
+    level.timers.add(Phase::motion, level.neighbourhood.nodes_listed());
   });
   count_step(level);
 }
@@ -39,6 +41,7 @@ void finish_by_runge_kutta(Level<Dim>& level) {
     const PhaseTimer timer(level.timers, Phase::motion);
     level.time_integration.runge_kutta_step(level.nodes, level.neighbourhood, level.map(),
                                             level.ground, level.settings);
+    level.timers.add(Phase::motion, level.neighbourhood.nodes_listed());
   });
   count_step(level);
 }

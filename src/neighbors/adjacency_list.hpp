@@ -24,6 +24,9 @@ struct ListBlock {
   std::int32_t length;
 };
 
+// Nodes that are not owned may have empty lists.
+enum class ListsOf { all_nodes, owned_nodes };
+
 template <int Dim>
 class AdjacencyList {
  public:
@@ -33,7 +36,7 @@ class AdjacencyList {
   // may_occlude. Several threads ask at a time.
   template <class Visibility>
   void build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
-             Visibility&& visibility);
+             Visibility&& visibility, ListsOf listed = ListsOf::all_nodes);
 
   double radius() const { return radius_; }
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
@@ -62,6 +65,7 @@ class AdjacencyList {
     const Buckets<Dim>& buckets;
     double radius;
     Visibility& visibility;
+    ListsOf listed;
     Candidates<Dim> candidates{};
 
     void operator()(std::int64_t block, std::vector<std::int32_t>& out);
@@ -100,6 +104,7 @@ void AdjacencyList<Dim>::BlockWriter<Visibility>::operator()(std::int64_t block,
   };
   std::int32_t length = 0;
   for (std::int64_t i = block * kLanes; i < std::min((block + 1) * kLanes, nodes.count); ++i) {
+    if (listed == ListsOf::owned_nodes && !nodes.owned(i)) continue;
     const std::int32_t found = find_neighbours(i);
     if (found == 0) continue;
     if (found > length) {
@@ -118,11 +123,12 @@ void AdjacencyList<Dim>::BlockWriter<Visibility>::operator()(std::int64_t block,
 template <int Dim>
 template <class Visibility>
 void AdjacencyList<Dim>::build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
-                               Visibility&& visibility) {
+                               Visibility&& visibility, ListsOf listed) {
   count_ = nodes.count;
   radius_ = radius;
   blocks_.build("pnpbs::AdjacencyList::build", block_count(), [&] {
-    return BlockWriter<std::remove_reference_t<Visibility>>{nodes, buckets, radius, visibility};
+    return BlockWriter<std::remove_reference_t<Visibility>>{nodes, buckets, radius, visibility,
+                                                            listed};
   });
 }
 

@@ -34,6 +34,15 @@ double seconds(P p) {
   return p.timers().seconds(phase);
 }
 
+// Over all ranks. Collective.
+template <Phase phase>
+double redundancy(P p) {
+  const NodesWorkedFor& nodes = p.timers().nodes(phase);
+  std::vector<std::int64_t> sums{nodes.all, nodes.owned};
+  p.communicator().allreduce_sum(sums);
+  return sums[1] > 0 ? static_cast<double>(sums[0]) / static_cast<double>(sums[1]) : 1;
+}
+
 std::string stop_reason(P p) {
   switch (p.stop_reason()) {
     case StopReason::rest:
@@ -156,6 +165,14 @@ const std::vector<StatisticRow>& statistic_table() {
       real(
           "imbalance", [](P p) { return p.results().imbalance(); },
           "largest over mean of work.owned over the ranks"),
+      real("redundancy.lists", redundancy<Phase::lists>,
+           "nodes for which adjacency lists were built, ghosts included, over those that the "
+           "building rank owned; summed over builds and ranks, as are the next three; 1 on one "
+           "rank"),
+      real("redundancy.motion", redundancy<Phase::motion>,
+           "the same of forces and motion, over steps"),
+      real("redundancy.stars", redundancy<Phase::stars>, "the same of Delaunay stars"),
+      real("redundancy.sweeps", redundancy<Phase::sweeps>, "the same of finishing sweeps"),
       integer(
           "rebalances", [](P p) { return p.rebalances(); },
           "number of times the work was repartitioned"),

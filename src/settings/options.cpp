@@ -33,7 +33,7 @@ constexpr VolumeDefault kVolumeDefaults[] = {
     {"sweeps", "3"},
     {"sweep_weight", "1"},
     {"list_radius", "1.5"},
-    {"exchange_interval", "2"},
+    {"exchange_interval", "1"},
     {"event_interval", "10"},
     {"tolerance_mean", "0.025", "0.008"},
 };

@@ -26,6 +26,7 @@ void sweep_over_stars(Level<2>& level, std::int64_t times) {
     update_ghosts(level);
     sweep(level.nodes, level.stars, level.neighbourhood.near_boundary().edges(), level.map(),
           level.settings.sweep, level.time_integration.scratch(level.nodes), allowed);
+    level.timers.add(Phase::sweeps, level.neighbourhood.nodes_listed());
   }
 }
 

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Work that ranks do for nodes of others: none on one rank, and little in steps where ghosts follow
+ * each of them. The nodes are the same. */
+#include <string.h>
+
+#include "rank_program.h"
+
+static double real(pnpbs_placement placement, const char* name) {
+  double value = 0;
+  expect(pnpbs_placement_get_double(placement, name, &value) == PNPBS_OK, name);
+  return value;
+}
+
+static pnpbs_placement placed(int32_t dim, const char* interval) {
+  double finest = dim == 2 ? 0.02 : 0.08;
+  pnpbs_domain domain = unit_domain(dim);
+  pnpbs_placement placement;
+  expect(pnpbs_placement_create(context, domain, &placement) == PNPBS_OK, "placement");
+  expect(pnpbs_placement_set(placement, "exchange_interval", interval) == PNPBS_OK, "interval");
+  pnpbs_placement_set_spacing_callback(placement, growing_spacing, &finest);
+  expect(pnpbs_placement_run(placement) >= 0, "run");
+  pnpbs_domain_destroy(&domain);
+  return placement;
+}
+
+static void hash_of_nodes(pnpbs_placement placement, char hash[32]) {
+  const char* text = "";
+  expect(pnpbs_placement_get_string(placement, "hash", &text) == PNPBS_OK, "hash");
+  strncpy(hash, text, 31)[31] = 0;
+}
+
+static void check_on_ranks(int32_t dim) {
+  pnpbs_placement often = placed(dim, "1"), seldom = placed(dim, "4");
+  const char* names[] = {"redundancy.lists", "redundancy.motion", "redundancy.stars",
+                         "redundancy.sweeps"};
+  char hash[32], other[32];
+  int k, ranks;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  for (k = 0; k < 4; ++k) {
+    expect(real(seldom, names[k]) > 1.001, "ghosts are worked for");
+    expect(real(seldom, names[k]) <= ranks, "a rank holds no node twice");
+  }
+  for (k = 0; k < 2; ++k)
+    expect(real(often, names[k]) - 1 < 0.75 * (real(seldom, names[k]) - 1),
+           "ghosts that follow each step take part in none");
+  hash_of_nodes(often, hash);
+  hash_of_nodes(seldom, other);
+  expect(strcmp(hash, other) == 0, "the nodes do not depend on the interval");
+  pnpbs_placement_destroy(&often);
+  pnpbs_placement_destroy(&seldom);
+}
+
+/* Lists that an interval of 1 left to owned nodes do not serve a longer one. */
+static void check_change_of_interval(void) {
+  pnpbs_placement changed = placed(3, "1"), same = placed(3, "1");
+  char hash[32], other[32];
+  pnpbs_placement_step(changed, 3);
+  expect(pnpbs_placement_set(changed, "exchange_interval", "5") == PNPBS_OK, "interval");
+  pnpbs_placement_step(changed, 27);
+  pnpbs_placement_step(same, 30);
+  hash_of_nodes(changed, hash);
+  hash_of_nodes(same, other);
+  expect(strcmp(hash, other) == 0, "the nodes do not depend on a change of the interval");
+  pnpbs_placement_destroy(&changed);
+  pnpbs_placement_destroy(&same);
+}
+
+static void check_on_one_rank(int32_t dim) {
+  pnpbs_placement alone = placed(dim, "4");
+  expect(real(alone, "redundancy.lists") == 1, "lists");
+  expect(real(alone, "redundancy.motion") == 1, "motion");
+  expect(real(alone, "redundancy.stars") == 1, "stars");
+  expect(real(alone, "redundancy.sweeps") == 1, "sweeps");
+  pnpbs_placement_destroy(&alone);
+}
+
+int main(int argc, char** argv) {
+  pnpbs_context all;
+  begin_ranks(&argc, &argv);
+  check_on_ranks(2);
+  check_on_ranks(3);
+  check_change_of_interval();
+  all = context;
+  expect(pnpbs_context_create_serial(&context) == PNPBS_OK, "serial context");
+  if (rank == 0) check_on_one_rank(2), check_on_one_rank(3);
+  pnpbs_context_destroy(&context);
+  context = all;
+  return end_ranks();
+}
