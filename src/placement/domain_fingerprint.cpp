@@ -32,7 +32,7 @@ std::uint64_t fingerprint_of(const PlaneDomain& domain) {
     for (const Point<2>& x : curve.points) print.add(x);
   }
   for (const Corner& corner : domain.corners()) print.add(corner.tag);
-  for (const FixedNode& node : domain.fixed_nodes()) {
+  for (const FixedNode<2>& node : domain.fixed_nodes()) {
     print.add(node.tag);
     print.add(node.position);
   }

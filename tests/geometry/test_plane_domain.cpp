@@ -530,7 +530,7 @@ START_TEST(fixed_nodes) {
   ck_assert_uint_eq(domain.fixed_nodes().size(), 2);
   ck_assert_int_eq(domain.fixed_nodes()[0].tag, 11);
   ck_assert_int_eq(domain.fixed_nodes()[1].tag, 14);
-  ck_assert_int_eq(domain.fixed_nodes()[0].face, domain.curves()[0].left_face);
+  ck_assert_int_eq(domain.fixed_node_faces()[0], domain.curves()[0].left_face);
   ck_assert_int_eq(corners(domain), 5);  // one more, on the lower side
   ck_assert_int_eq(curves(domain), 5);
   ck_assert_int_eq(domain.corners()[2].tag, 12);

@@ -313,9 +313,12 @@ START_TEST(fixed_nodes_are_inside_or_at_vertices) {
   domain.check();
   ck_assert_uint_eq(domain.fixed_nodes().size(), 3);
   ck_assert_uint_eq(domain.mesh().nodes.size(), 8 + 2 + 1);
-  for (const pnpbs::FixedNode3& node : domain.fixed_nodes()) {
-    const auto& there = domain.mesh().nodes[static_cast<std::size_t>(node.mesh_node)];
-    ck_assert(there.position == node.position && there.tag == node.tag);
+  const auto& facets = domain.mesh().facets;
+  for (std::size_t i = 0; i < 3; ++i) {  // theirs are the last
+    const pnpbs::FixedNode<3>& node = domain.fixed_nodes()[i];
+    const auto& [a, b, c] = facets[facets.size() - 3 + i].nodes;
+    const auto& there = domain.mesh().nodes[static_cast<std::size_t>(a)];
+    ck_assert(a == b && b == c && there.position == node.position && there.tag == node.tag);
   }
   const auto expect = [&](const P& x, std::initializer_list<const char*> parts) {
     VolumeDomain other = domain;

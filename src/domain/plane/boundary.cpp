@@ -69,7 +69,7 @@ class Layer {
     }
     for (std::size_t c = 0; c < tracks_.size(); ++c) assemble_curve(static_cast<std::int32_t>(c));
     boundary_.first_fixed = static_cast<std::int64_t>(boundary_.nodes.size());
-    for (const FixedNode& node : domain_.fixed_nodes()) {
+    for (const FixedNode<2>& node : domain_.fixed_nodes()) {
       boundary_.nodes.push_back({node.position, node.tag});
     }
     positions_.clear();
@@ -137,7 +137,7 @@ class Layer {
     for (std::size_t f = 0; f < domain_.fixed_nodes().size(); ++f) {
       const auto node = static_cast<std::int32_t>(boundary_.first_fixed + static_cast<Side>(f));
       const Side side = side_left_of(node, positions_, ends_, sweep);
-      if (face(side) != domain_.fixed_nodes()[f].face) misplaced.push_back(node);
+      if (face(side) != domain_.fixed_node_faces()[f]) misplaced.push_back(node);
     }
     return misplaced;
   }
@@ -335,10 +335,10 @@ class Layer {
   }
 
   void warn_of_close_fixed_nodes() {
-    const std::vector<FixedNode>& fixed = domain_.fixed_nodes();
+    const std::vector<FixedNode<2>>& fixed = domain_.fixed_nodes();
     if (fixed.empty()) return;
     std::vector<Point<2>> points;
-    for (const FixedNode& node : fixed) points.push_back(node.position);
+    for (const FixedNode<2>& node : fixed) points.push_back(node.position);
     const PointTree tree(std::move(points));
     std::vector<Worst> nearest(fixed.size(), {HUGE_VAL, 0, 0, 0});
     const auto look = [&](const Point<2>& a, const Point<2>& b, double d, std::int32_t self) {

@@ -52,7 +52,8 @@ class Conflicts {
     return static_cast<std::size_t>(point) >= swept_.graph.vertices.size();
   }
   std::string text_of_hole_on(std::int32_t point, const std::string& name) const {
-    const Hole& hole = swept_.holes[static_cast<std::size_t>(point) - swept_.graph.vertices.size()];
+    const Hole<2>& hole =
+        swept_.holes[static_cast<std::size_t>(point) - swept_.graph.vertices.size()];
     return hole.name + " at " + point_text(hole.point) + " lies on " + name +
            ": move it into the region it stands for";
   }

@@ -43,7 +43,7 @@ bool is_corner(const CurveSource& source, std::int64_t point) {
 
 class Joiner {
  public:
-  Joiner(const std::vector<CurveSource>& sources, const std::vector<FixedNode>& fixed_nodes,
+  Joiner(const std::vector<CurveSource>& sources, const std::vector<FixedNode<2>>& fixed_nodes,
          double size)
       : sources_(sources), fixed_nodes_(fixed_nodes) {
     graph_.size = size;
@@ -252,7 +252,7 @@ class Joiner {
   }
 
   const std::vector<CurveSource>& sources_;
-  const std::vector<FixedNode>& fixed_nodes_;
+  const std::vector<FixedNode<2>>& fixed_nodes_;
   DomainGraph graph_;
   std::vector<GivenPoint> given_;
   std::vector<Point<2>> positions_;
@@ -273,12 +273,12 @@ double domain_size(const std::vector<CurveSource>& sources) {
 }
 
 DomainGraph join_sources(const std::vector<CurveSource>& sources,
-                         const std::vector<FixedNode>& fixed_nodes, double size) {
+                         const std::vector<FixedNode<2>>& fixed_nodes, double size) {
   return Joiner(sources, fixed_nodes, size).run();
 }
 
 std::string vertex_name(const GraphVertex& vertex, const std::vector<CurveSource>& sources,
-                        const std::vector<FixedNode>& fixed_nodes) {
+                        const std::vector<FixedNode<2>>& fixed_nodes) {
   if (vertex.source < 0) return fixed_nodes[vertex.fixed].name;
   return sources[vertex.source].point_name(vertex.index);
 }

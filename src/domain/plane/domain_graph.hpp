@@ -41,9 +41,9 @@ double domain_size(const std::vector<CurveSource>& sources);
 
 // Throws Error(ErrorKind::domain) for points that must not coincide.
 DomainGraph join_sources(const std::vector<CurveSource>& sources,
-                         const std::vector<FixedNode>& fixed_nodes, double size);
+                         const std::vector<FixedNode<2>>& fixed_nodes, double size);
 
 std::string vertex_name(const GraphVertex& vertex, const std::vector<CurveSource>& sources,
-                        const std::vector<FixedNode>& fixed_nodes);
+                        const std::vector<FixedNode<2>>& fixed_nodes);
 
 }  // namespace pnpbs

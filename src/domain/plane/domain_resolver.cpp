@@ -26,8 +26,8 @@ constexpr int kRefinements = 8;
 
 class Resolver {
  public:
-  Resolver(std::vector<CurveSource>& sources, const std::vector<Hole>& holes,
-           const std::vector<FixedNode>& fixed_nodes)
+  Resolver(std::vector<CurveSource>& sources, const std::vector<Hole<2>>& holes,
+           const std::vector<FixedNode<2>>& fixed_nodes)
       : sources_(sources), holes_(holes), fixed_nodes_(fixed_nodes) {}
 
   ResolvedDomain run() {
@@ -70,7 +70,7 @@ class Resolver {
       graph_ = join_sources(sources_, fixed_nodes_, size);
       points_.clear();
       for (const GraphVertex& vertex : graph_.vertices) points_.push_back(vertex.position);
-      for (const Hole& hole : holes_) points_.push_back(hole.point);
+      for (const Hole<2>& hole : holes_) points_.push_back(hole.point);
       sweep_ = sweep_plane(points_, graph_.ends);
       if (round == kRefinements) break;
       if (!refine_conflicting_chords(sources_, graph_, sweep_.conflicts)) break;
@@ -219,7 +219,8 @@ class Resolver {
       if (vertex.fixed < 0) (in_face ? unused : outside).push_back(name);
       if (!in_face) continue;
       const std::int32_t tag = vertex.tag != 0 ? vertex.tag : 1;
-      result_.fixed_nodes.push_back({vertex.position, tag, name, inner_face_[face_around(v)]});
+      result_.fixed_nodes.push_back({vertex.position, tag, name});
+      result_.fixed_node_faces.push_back(inner_face_[face_around(v)]);
     }
     if (!unused.empty()) {
       result_.warnings.push_back("in no segment, taken as fixed nodes: " + list_text(unused, 5));
@@ -311,8 +312,8 @@ class Resolver {
   }
 
   std::vector<CurveSource>& sources_;
-  const std::vector<Hole>& holes_;
-  const std::vector<FixedNode>& fixed_nodes_;
+  const std::vector<Hole<2>>& holes_;
+  const std::vector<FixedNode<2>>& fixed_nodes_;
   DomainGraph graph_;
   std::vector<Point<2>> points_;  // vertices of the graph, then holes
   SweepResult sweep_;
@@ -326,8 +327,8 @@ class Resolver {
 
 }  // namespace
 
-ResolvedDomain resolve_domain(std::vector<CurveSource>& sources, const std::vector<Hole>& holes,
-                              const std::vector<FixedNode>& fixed_nodes) {
+ResolvedDomain resolve_domain(std::vector<CurveSource>& sources, const std::vector<Hole<2>>& holes,
+                              const std::vector<FixedNode<2>>& fixed_nodes) {
   return Resolver(sources, holes, fixed_nodes).run();
 }
 

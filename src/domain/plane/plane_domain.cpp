@@ -183,7 +183,7 @@ LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const Sim
   require_not_negative("tolerance", rule.tolerance);
   require_not_negative("smallest", rule.smallest);
   std::vector<CurveSource> sources = sources_;
-  std::vector<Hole> holes = holes_;
+  std::vector<Hole<2>> holes = holes_;
   const LeftOut left_out = pnpbs::simplify(sources, holes, given_nodes_, spacing, rule);
   sources_ = std::move(sources);
   holes_ = std::move(holes);

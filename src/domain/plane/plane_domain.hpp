@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "domain/given_points.hpp"
 #include "domain/plane/curve_source.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "formats/group_names.hpp"
@@ -49,24 +50,12 @@ struct LeftOut {
   std::int64_t curves = 0;
 };
 
-struct FixedNode {
-  Point<2> position;
-  std::int32_t tag;
-  std::string name = {};  // for messages: "fixed node 3"
-  std::int32_t face = 0;  // that it lies in; see BoundaryCurve
-};
-
-// A point whose surroundings are taken out.
-struct Hole {
-  Point<2> point;
-  std::string name;
-};
-
 // What check() finds out.
 struct ResolvedDomain {
   std::vector<Corner> corners;
   std::vector<BoundaryCurve> curves;
-  std::vector<FixedNode> fixed_nodes;
+  std::vector<FixedNode<2>> fixed_nodes;
+  std::vector<std::int32_t> fixed_node_faces;  // that they lie in; see BoundaryCurve
   std::vector<std::string> warnings;
   Box<2> bounds{};
   double area = 0;
@@ -109,7 +98,9 @@ class PlaneDomain {
   const std::vector<Corner>& corners() const { return resolved_.corners; }
   const std::vector<BoundaryCurve>& curves() const { return resolved_.curves; }
   // Fixed nodes that are not corners.
-  const std::vector<FixedNode>& fixed_nodes() const { return resolved_.fixed_nodes; }
+  const std::vector<FixedNode<2>>& fixed_nodes() const { return resolved_.fixed_nodes; }
+  // Of each the face that it lies in; see BoundaryCurve.
+  const std::vector<std::int32_t>& fixed_node_faces() const { return resolved_.fixed_node_faces; }
   const std::vector<std::string>& warnings() const { return resolved_.warnings; }
   // Holds all curves, true ones too.
   const Box<2>& bounds() const { return resolved_.bounds; }
@@ -119,8 +110,8 @@ class PlaneDomain {
   void add_source(CurveSource source);
 
   std::vector<CurveSource> sources_;
-  std::vector<Hole> holes_;
-  std::vector<FixedNode> given_nodes_;
+  std::vector<Hole<2>> holes_;
+  std::vector<FixedNode<2>> given_nodes_;
   std::vector<std::string> given_warnings_;
   GroupNames names_;
   double corner_angle_ = 0;  // of graphs

@@ -15,8 +15,8 @@ namespace pnpbs {
 // curve with one of these, or with another curve around which it goes that stays, is not left out,
 // nor is the one of the largest extent; hole points within those left out go with them. Throws
 // Error as the evaluator does, and for points that must not coincide.
-LeftOut simplify(std::vector<CurveSource>& sources, std::vector<Hole>& holes,
-                 const std::vector<FixedNode>& fixed_nodes, const LocalSpacingEvaluator<2>& spacing,
-                 const SimplifyRule& rule);
+LeftOut simplify(std::vector<CurveSource>& sources, std::vector<Hole<2>>& holes,
+                 const std::vector<FixedNode<2>>& fixed_nodes,
+                 const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);
 
 }  // namespace pnpbs

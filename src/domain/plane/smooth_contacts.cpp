@@ -51,7 +51,7 @@ struct Attachable {
 };
 
 std::vector<Attachable> attachables(const std::vector<CurveSource>& sources,
-                                    const std::vector<FixedNode>& fixed_nodes, double size) {
+                                    const std::vector<FixedNode<2>>& fixed_nodes, double size) {
   std::vector<Attachable> result;
   for (const CurveSource& source : sources) {
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(source.points.size()); ++i) {
@@ -60,7 +60,7 @@ std::vector<Attachable> attachables(const std::vector<CurveSource>& sources,
       result.push_back({source.points[i], (end ? kSameCurveEnd : kSamePlace) * size});
     }
   }
-  for (const FixedNode& node : fixed_nodes) result.push_back({node.position, kSamePlace * size});
+  for (const FixedNode<2>& node : fixed_nodes) result.push_back({node.position, kSamePlace * size});
   return result;
 }
 
@@ -88,7 +88,7 @@ void attach(CurveSource& curve, const std::vector<Attachable>& all, const PointT
 }  // namespace
 
 void attach_to_smooth_curves(std::vector<CurveSource>& sources,
-                             const std::vector<FixedNode>& fixed_nodes, double size) {
+                             const std::vector<FixedNode<2>>& fixed_nodes, double size) {
   const bool any = std::any_of(sources.begin(), sources.end(), [](const CurveSource& source) {
     return source.kind == Kind::smooth;
   });

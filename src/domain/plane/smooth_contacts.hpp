@@ -8,7 +8,7 @@ namespace pnpbs {
 
 // A vertex, curve end or fixed node that lies on a smooth curve becomes a sample of it.
 void attach_to_smooth_curves(std::vector<CurveSource>& sources,
-                             const std::vector<FixedNode>& fixed_nodes, double size);
+                             const std::vector<FixedNode<2>>& fixed_nodes, double size);
 
 // Halves the chords of smooth curves that are in conflict, which the curves themselves may not
 // be. False if there are none.

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "domain/given_points.hpp"
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
 #include "formats/group_names.hpp"
@@ -21,19 +22,6 @@
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
-
-struct FixedNode3 {
-  Point<3> position;
-  std::int32_t tag;
-  std::string name;             // for messages: "fixed node 3"
-  std::int32_t mesh_node = -1;  // after check(): the node of the mesh that it is
-};
-
-// A point whose surroundings are taken out.
-struct VolumeHole {
-  Point<3> point;
-  std::string name;
-};
 
 // What a domain comes to, in numbers.
 struct VolumeSummary {
@@ -77,7 +65,7 @@ struct ResolvedVolume {
   Features features;
   LevelSetTriangles level_sets;
   std::vector<char> approximate;  // of each triangle: see SurfaceSource
-  std::vector<FixedNode3> fixed_nodes;
+  std::vector<FixedNode<3>> fixed_nodes;
   std::vector<std::string> warnings;
   RepairDistances repair;
   VolumeSummary summary;
@@ -145,7 +133,7 @@ class VolumeDomain {
   bool approximates(std::size_t facet) const {
     return facet < resolved_->approximate.size() && resolved_->approximate[facet] != 0;
   }
-  const std::vector<FixedNode3>& fixed_nodes() const { return resolved_->fixed_nodes; }
+  const std::vector<FixedNode<3>>& fixed_nodes() const { return resolved_->fixed_nodes; }
   const std::vector<std::string>& warnings() const { return resolved_->warnings; }
   const RepairDistances& repair_distances() const { return resolved_->repair; }
   const VolumeSummary& summary() const { return resolved_->summary; }
@@ -161,8 +149,8 @@ class VolumeDomain {
 
   std::vector<SurfaceSource> surfaces_;
   std::vector<InnerPolyline> polylines_;
-  std::vector<VolumeHole> holes_;
-  std::vector<FixedNode3> given_nodes_;
+  std::vector<Hole<3>> holes_;
+  std::vector<FixedNode<3>> given_nodes_;
   std::vector<std::string> given_warnings_;
   std::map<std::int32_t, SurfaceRole> roles_;  // of triangles by their tags
   GroupNames names_;

@@ -105,7 +105,7 @@ class Resolver {
     for (const InnerPolyline& curve : polylines_)
       points.insert(points.end(), curve.points.begin(), curve.points.end());
     const std::size_t curve_points = points.size() - vertices;
-    for (const FixedNode3& node : fixed_nodes_) points.push_back(node.position);
+    for (const FixedNode<3>& node : fixed_nodes_) points.push_back(node.position);
     const std::vector<std::int32_t> joined = weld_points(points, kSameVertex * size_);
     for (SurfaceTriangle& triangle : surface_.triangles)
       for (std::int32_t& v : triangle.vertices) v = joined[v];
@@ -138,7 +138,8 @@ class Resolver {
     for (std::size_t i = 0; i < fixed_nodes_.size(); ++i) {
       const auto [entry, is_new] = node_at.try_emplace(fixed_vertices_[i], i);
       if (is_new) continue;
-      const FixedNode3 &a = fixed_nodes_[entry->second], &b = fixed_nodes_[i];
+      const FixedNode<3>& a = fixed_nodes_[entry->second];
+      const FixedNode<3>& b = fixed_nodes_[i];
       reject_domain(a.name + " and " + b.name +
                     (a.position == b.position ? " are both at " + point_text(a.position)
                                               : " are too close, at " + point_text(a.position) +
@@ -320,7 +321,7 @@ class Resolver {
   void add_fixed_nodes() {
     const BoxTree<3> segments = tree_of(segments_, surface_.vertices);
     for (std::size_t i = 0; i < fixed_nodes_.size(); ++i) {
-      FixedNode3 node = fixed_nodes_[i];
+      const FixedNode<3>& node = fixed_nodes_[i];
       const std::int32_t vertex = fixed_vertices_[i];
       if (number_[vertex] < 0) {
         if (!on_surface_[vertex]) reject_on_triangle(node.position, node.name);
@@ -329,15 +330,14 @@ class Resolver {
                         (filled_ ? " lies outside the domain" : " is no vertex of the surfaces"));
         reject_on_segment(node, segments);
       }
-      node.mesh_node = node_at(vertex, node.tag);
-      result_.mesh.nodes[node.mesh_node].tag = node.tag;
-      const std::int32_t n = node.mesh_node;
+      const std::int32_t n = node_at(vertex, node.tag);
+      result_.mesh.nodes[n].tag = node.tag;
       result_.mesh.facets.push_back({{n, n, n}, node.tag, filled_, filled_});
-      result_.fixed_nodes.push_back(std::move(node));
+      result_.fixed_nodes.push_back(node);
     }
   }
 
-  void reject_on_segment(const FixedNode3& node, const BoxTree<3>& segments) const {
+  void reject_on_segment(const FixedNode<3>& node, const BoxTree<3>& segments) const {
     const double reach = kSamePlace * size_;
     segments.for_near(
         node.position, [&] { return reach * reach; },
@@ -357,8 +357,8 @@ class Resolver {
 
   const std::vector<SurfaceSource>& surfaces_;
   const std::vector<InnerPolyline>& polylines_;
-  const std::vector<VolumeHole>& holes_;
-  const std::vector<FixedNode3>& fixed_nodes_;
+  const std::vector<Hole<3>>& holes_;
+  const std::vector<FixedNode<3>>& fixed_nodes_;
   bool filled_;
   Triangulation surface_;
   double size_ = 0;

@@ -15,8 +15,8 @@ struct GivenVolume {
   const std::vector<SurfaceSource>& surfaces;
   const std::map<std::int32_t, SurfaceRole>& roles;  // see VolumeDomain::set_role
   const std::vector<InnerPolyline>& polylines;
-  const std::vector<VolumeHole>& holes;
-  const std::vector<FixedNode3>& fixed_nodes;
+  const std::vector<Hole<3>>& holes;
+  const std::vector<FixedNode<3>>& fixed_nodes;
   bool filled;  // see VolumeDomain::set_filled
 };
 

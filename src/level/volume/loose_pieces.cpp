@@ -48,7 +48,7 @@ std::vector<PieceNode> nodes_of_pieces_too_many(const Level<3>& level) {
 
 bool is_given(const Level<3>& level, const Point<3>& x) {
   return std::ranges::any_of(level.ground.domain().fixed_nodes(),
-                             [&](const FixedNode3& node) { return node.position == x; });
+                             [&](const FixedNode<3>& node) { return node.position == x; });
 }
 
 // Of the nodes of one piece.

@@ -144,7 +144,7 @@ class PlaneShape {
       const auto number = static_cast<std::int32_t>(c);
       add({{}, {}, corner.tag, true, true}, corner.position, corner.position, number, number);
     }
-    for (const FixedNode& node : domain_.fixed_nodes()) {
+    for (const FixedNode<2>& node : domain_.fixed_nodes()) {
       const auto number = static_cast<std::int32_t>(vertices_.size());
       vertices_.push_back({node.position});
       add({{}, {}, node.tag, true, true}, node.position, node.position, number, number);
