@@ -156,23 +156,6 @@ void PlaneDomain::add_pslg(std::int64_t vertices, const double* xy, const std::i
   }
 }
 
-void PlaneDomain::add_hole(const Point<2>& point) {
-  given_values::require_point<2>("point", point);
-  holes_.push_back({point, "hole " + std::to_string(holes_given_++)});
-  checked_ = false;
-}
-
-void PlaneDomain::add_fixed_nodes(std::int64_t n, const double* xy, const std::int32_t* tags) {
-  require_count("n", n, 0);
-  const std::vector<Point<2>> points = read_points<2>("coordinates", n, xy);
-  const std::vector<std::int32_t> values = read_tags("tags", n, tags);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::string name = "fixed node " + std::to_string(given_nodes_.size());
-    given_nodes_.push_back({points[i], values[i], name});
-  }
-  checked_ = false;
-}
-
 void PlaneDomain::set_corner_angle(double corner_angle) {
   given_values::require_angle("corner_angle", corner_angle);
   corner_angle_ = corner_angle;

@@ -4,14 +4,12 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
-#include "domain/given_points.hpp"
+#include "domain/domain_base.hpp"
 #include "domain/plane/curve_source.hpp"
 #include "domain/spacing_evaluator.hpp"
-#include "formats/group_names.hpp"
 
 namespace pnpbs {
 
@@ -61,7 +59,7 @@ struct ResolvedDomain {
   double area = 0;
 };
 
-class PlaneDomain {
+class PlaneDomain : public DomainBase<2> {
  public:
   // Building; see pnpbs.h for what each means. They throw Error(ErrorKind::argument) naming
   // the argument and its value, and leave the domain as it was.
@@ -75,24 +73,14 @@ class PlaneDomain {
                 std::int64_t segments, const std::int64_t* segment_ends,
                 const std::int32_t* segment_tags, std::int64_t holes, const double* hole_points,
                 std::int64_t first_number = 0);
-  void add_hole(const Point<2>& point);
   // Of all graphs, degrees.
   void set_corner_angle(double corner_angle);
   // Leaves out what is finer than d of what has been given so far; all or, if it throws, nothing.
   LeftOut simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);
-  void add_fixed_nodes(std::int64_t n, const double* xy, const std::int32_t* tags);
-  // To be told with those that check() finds.
-  void add_warning(std::string warning) {
-    given_warnings_.push_back(std::move(warning));
-    checked_ = false;
-  }
-  GroupNames& names() { return names_; }
-  const GroupNames& names() const { return names_; }
 
   // Checks everything and resolves corners, curves and sides; does nothing if nothing changed
   // since the last time. Throws Error(ErrorKind::domain).
   void check();
-  bool is_checked() const { return checked_; }
 
   // Valid after check(). Corners come in the order in which they were given, curves likewise.
   const std::vector<Corner>& corners() const { return resolved_.corners; }
@@ -110,13 +98,8 @@ class PlaneDomain {
   void add_source(CurveSource source);
 
   std::vector<CurveSource> sources_;
-  std::vector<Hole<2>> holes_;
-  std::vector<FixedNode<2>> given_nodes_;
-  std::vector<std::string> given_warnings_;
-  GroupNames names_;
   double corner_angle_ = 0;  // of graphs
-  std::int64_t curves_given_ = 0, graphs_given_ = 0, holes_given_ = 0;
-  bool checked_ = false;
+  std::int64_t curves_given_ = 0, graphs_given_ = 0;
   ResolvedDomain resolved_;
 };
 

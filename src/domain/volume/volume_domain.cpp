@@ -104,7 +104,7 @@ void VolumeDomain::add_surface(SurfaceRole role, const SurfaceTriangles& surface
   add_surface(role, std::ssize(surface.vertices), surface.vertices.data()->data(),
               std::ssize(surface.triangles), corners.data(), surface.tags.data(), feature_angle);
   for (const Point<3>& hole : surface.holes) add_hole(hole);
-  for (const auto& [tag, name] : surface.tag_names) names_.add({2, tag}, name);
+  for (const auto& [tag, name] : surface.tag_names) names().add({2, tag}, name);
 }
 
 void VolumeDomain::set_role(std::int32_t tag, SurfaceRole role) {
@@ -219,25 +219,9 @@ void VolumeDomain::add_polyline(bool closed, std::int64_t n, const double* xyz,
   checked_ = false;
 }
 
-void VolumeDomain::add_fixed_nodes(std::int64_t n, const double* xyz, const std::int32_t* tags) {
-  require_count("n", n, 0);
-  const std::vector<Point<3>> points = read_points<3>("coordinates", n, xyz);
-  const std::vector<std::int32_t> values = read_tags("tags", n, tags);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    given_nodes_.push_back(
-        {points[i], values[i], "fixed node " + std::to_string(given_nodes_.size())});
-  checked_ = false;
-}
-
 void VolumeDomain::set_filled(bool filled) {
   checked_ = checked_ && filled == filled_;
   filled_ = filled;
-}
-
-void VolumeDomain::add_hole(const Point<3>& point) {
-  require_point<3>("point", point);
-  holes_.push_back({point, "hole " + std::to_string(holes_.size())});
-  checked_ = false;
 }
 
 void VolumeDomain::check() {

@@ -11,10 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "domain/given_points.hpp"
+#include "domain/domain_base.hpp"
 #include "domain/volume/features.hpp"
 #include "domain/volume/inner_curves.hpp"
-#include "formats/group_names.hpp"
 #include "formats/surface_triangles.hpp"
 #include "geometry/volume/surface_index.hpp"
 #include "implicit/level_set.hpp"
@@ -71,7 +70,7 @@ struct ResolvedVolume {
   VolumeSummary summary;
 };
 
-class VolumeDomain {
+class VolumeDomain : public DomainBase<3> {
  public:
   // They throw Error(ErrorKind::argument) naming the argument and its value, and leave the domain
   // as it was. Without tags (null), all are 1. Of several feature angles the smallest holds.
@@ -96,24 +95,13 @@ class VolumeDomain {
   void set_repair(double resolution);
   // A curve inside, with a tag for each segment.
   void add_polyline(bool closed, std::int64_t n, const double* xyz, const std::int32_t* tags);
-  void add_fixed_nodes(std::int64_t n, const double* xyz, const std::int32_t* tags);
   // Not filled, the domain is its surfaces alone, closed or open, of either role.
   void set_filled(bool filled);
   bool filled() const { return filled_; }
-  // Takes out what lies around the point, up to the next surfaces.
-  void add_hole(const Point<3>& point);
-  // To be told with those that check() finds.
-  void add_warning(std::string warning) {
-    given_warnings_.push_back(std::move(warning));
-    checked_ = false;
-  }
-  GroupNames& names() { return names_; }
-  const GroupNames& names() const { return names_; }
 
   // Checks everything and finds inside, orientation and features; does nothing if nothing changed
   // since the last time. Throws Error(ErrorKind::domain).
   void check();
-  bool is_checked() const { return checked_; }
 
   // Valid after check(), as all below.
   const ResolvedVolume& resolved() const { return *resolved_; }
@@ -149,16 +137,11 @@ class VolumeDomain {
 
   std::vector<SurfaceSource> surfaces_;
   std::vector<InnerPolyline> polylines_;
-  std::vector<Hole<3>> holes_;
-  std::vector<FixedNode<3>> given_nodes_;
-  std::vector<std::string> given_warnings_;
   std::map<std::int32_t, SurfaceRole> roles_;  // of triangles by their tags
-  GroupNames names_;
   std::int64_t surfaces_given_ = 0, boxes_given_ = 0, balls_given_ = 0, cylinders_given_ = 0,
                level_sets_given_ = 0;
   bool filled_ = true;
   std::optional<double> repair_;  // its resolution
-  bool checked_ = false;
   // Shared by copies, and by all that points into it.
   std::shared_ptr<const ResolvedVolume> resolved_ = std::make_shared<ResolvedVolume>();
 };

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/domain_base.hpp"
+
+#include "domain/given_values.hpp"
+
+namespace pnpbs {
+
+using namespace given_values;
+
+template <int Dim>
+void DomainBase<Dim>::add_fixed_nodes(std::int64_t n, const double* coordinates,
+                                      const std::int32_t* tags) {
+  require_count("n", n, 0);
+  const std::vector<Point<Dim>> points = read_points<Dim>("coordinates", n, coordinates);
+  const std::vector<std::int32_t> values = read_tags("tags", n, tags);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    given_nodes_.push_back(
+        {points[i], values[i], "fixed node " + std::to_string(given_nodes_.size())});
+  checked_ = false;
+}
+
+template <int Dim>
+void DomainBase<Dim>::add_hole(const Point<Dim>& point) {
+  require_point<Dim>("point", point);
+  holes_.push_back({point, "hole " + std::to_string(holes_given_++)});
+  checked_ = false;
+}
+
+template class DomainBase<2>;
+template class DomainBase<3>;
+
+}  // namespace pnpbs

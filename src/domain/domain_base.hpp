@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What users give of a domain in the plane and in space alike, and whether it has been checked
+// since.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/types.hpp"
+#include "domain/given_points.hpp"
+#include "formats/group_names.hpp"
+
+namespace pnpbs {
+
+template <int Dim>
+class DomainBase {
+ public:
+  // They throw Error(ErrorKind::argument) naming the argument and its value, and leave the domain
+  // as it was. Without tags (null), all are 1.
+  void add_fixed_nodes(std::int64_t n, const double* coordinates, const std::int32_t* tags);
+  // Takes out what lies around the point, up to the next curves or surfaces.
+  void add_hole(const Point<Dim>& point);
+  // To be told with those that check() finds.
+  void add_warning(std::string warning) {
+    given_warnings_.push_back(std::move(warning));
+    checked_ = false;
+  }
+  GroupNames& names() { return names_; }
+  const GroupNames& names() const { return names_; }
+
+  bool is_checked() const { return checked_; }
+
+ protected:
+  std::vector<FixedNode<Dim>> given_nodes_;
+  std::vector<Hole<Dim>> holes_;
+  std::vector<std::string> given_warnings_;
+  bool checked_ = false;
+
+ private:
+  GroupNames names_;
+  std::int64_t holes_given_ = 0;  // one by one
+};
+
+}  // namespace pnpbs
