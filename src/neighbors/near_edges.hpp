@@ -9,6 +9,7 @@
 
 #include "base/chunked_rows.hpp"
 #include "base/nodes.hpp"
+#include "geometry/boxes_apart.hpp"
 #include "geometry/plane/incident_sectors.hpp"
 #include "neighbors/buckets.hpp"
 #include "spacing/domain_map.hpp"
@@ -109,16 +110,6 @@ class NearEdges {
   View<double> gap_;  // to the nearest edge, radius * d if none is nearer
 };
 
-// Have the boxes of segments xy and ab no point in common?
-inline bool boxes_are_apart(const Point<2>& x, const Point<2>& y, const Point<2>& a,
-                            const Point<2>& b) {
-  bool apart = false;
-  for (int k = 0; k < 2; ++k)
-    apart = apart | (std::max(x[k], y[k]) < std::min(a[k], b[k])) |
-            (std::max(a[k], b[k]) < std::min(x[k], y[k]));
-  return apart;
-}
-
 // Does the straight way between two nodes stay inside the domain, as far as `edges` (all that can
 // lie between them) tell? Boundary nodes are given by their index, inner ones by -1.
 template <class Edges>
@@ -152,8 +143,8 @@ bool visible_between(const DomainMap<2>& map, const IncidentSectors& sectors, co
       continue;
     }
     const std::int32_t e = row[k];
+    if (boxes_are_apart(x, y, map.corners(e))) continue;  // most are
     const auto& [a, b] = map.corners(e);
-    if (boxes_are_apart(x, y, a, b)) continue;  // most are
     const std::int32_t begin = map.facet(e).begin, end = map.facet(e).end;
     // Of ends that are x or y themselves this much is known, and exact arithmetic is slow.
     const int side_a = begin == boundary_x || begin == boundary_y ? 0 : orientation(x, y, a);

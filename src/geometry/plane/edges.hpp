@@ -5,20 +5,11 @@
 #include <algorithm>
 
 #include "geometry/boundary_mesh.hpp"
+#include "geometry/boxes_apart.hpp"
 #include "geometry/plane/segments.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {
-
-// Have the boxes of segment pq and the edge no point in common?
-inline bool boxes_are_apart(const Point<2>& p, const Point<2>& q, const FacetCorners<2>& edge) {
-  const auto& [a, b] = edge;
-  bool apart = false;
-  for (int k = 0; k < 2; ++k)
-    apart = apart | (std::max(p[k], q[k]) < std::min(a[k], b[k])) |
-            (std::max(a[k], b[k]) < std::min(p[k], q[k]));
-  return apart;
-}
 
 // Does the way from p to q cross the edge? A vertex exactly on the line pq counts as lying to its
 // left, so a way through a vertex crosses none or both or one of its edges as it should. Not where

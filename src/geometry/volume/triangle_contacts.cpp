@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/space_vectors.hpp"
+#include "geometry/plane/edges.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "predicates/plane.hpp"
 
@@ -43,11 +44,8 @@ bool holds(const FlatTriangle& triangle, const Point<2>& x) {
 
 bool flat_segments_meet(const Point<2>& p, const Point<2>& q, const Point<2>& a,
                         const Point<2>& b) {
-  for (int k = 0; k < 2; ++k)
-    if (std::max(p[k], q[k]) < std::min(a[k], b[k]) || std::max(a[k], b[k]) < std::min(p[k], q[k]))
-      return false;
-  return orientation(p, q, a) * orientation(p, q, b) <= 0 &&
-         orientation(a, b, p) * orientation(a, b, q) <= 0;
+  const FacetCorners<2> edge{a, b};
+  return !boxes_are_apart(p, q, edge) && may_touch(p, q, edge);
 }
 
 bool flat_segment_meets(const Point<2>& p, const Point<2>& q, const FlatTriangle& triangle) {

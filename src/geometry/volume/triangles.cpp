@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/volume/triangles.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/space_vectors.hpp"

@@ -3,11 +3,12 @@
 // a point; these bound nothing, but are near, touched and met as triangles are.
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "base/space_vectors.hpp"
 #include "geometry/boundary_mesh.hpp"
+#include "geometry/boxes_apart.hpp"
 #include "predicates/space.hpp"
 
 namespace pnpbs {
@@ -23,16 +24,6 @@ inline Point<3> centroid(const FacetCorners<3>& triangle) {
 inline Point<3> area_normal(const FacetCorners<3>& triangle) {
   const auto& [a, b, c] = triangle;
   return shifted({}, 0.5, cross(difference(b, a), difference(c, a)));
-}
-
-// Have the boxes of segment pq and the triangle no point in common?
-inline bool boxes_are_apart(const Point<3>& p, const Point<3>& q, const FacetCorners<3>& triangle) {
-  const auto& [a, b, c] = triangle;
-  bool apart = false;
-  for (int k = 0; k < 3; ++k)
-    apart = apart | (std::max(p[k], q[k]) < std::min({a[k], b[k], c[k]})) |
-            (std::max({a[k], b[k], c[k]}) < std::min(p[k], q[k]));
-  return apart;
 }
 
 // On which side of the line pq is that through a and b, as p sees it? With the sign of
