@@ -4,9 +4,8 @@
 #include <map>
 
 #include "api/domain_calls.hpp"
+#include "domain/from_files.hpp"
 #include "domain/given_values.hpp"
-#include "domain/plane/msh_plane.hpp"
-#include "domain/volume/msh_body.hpp"
 #include "formats/file_dimension.hpp"
 
 using namespace pnpbs;

@@ -113,6 +113,13 @@ std::vector<MshSides> sides_of_regions(const MshMesh& mesh, int dimension) {
   return sides;
 }
 
+const char* what_is_missing(int dimension) {
+  return dimension == 2 ? "holds no lines, triangles or quadrangles, expected a domain or its "
+                          "boundary"
+                        : "holds no triangles, quadrangles or elements of volumes, expected a body "
+                          "or its surface";
+}
+
 }  // namespace
 
 std::vector<MshFacet> facets_of(const MshMesh& mesh, int dimension) {
@@ -144,67 +151,8 @@ std::vector<MshFacet> facets_of(const MshMesh& mesh, int dimension) {
     if (!face.given && (face.elements == 1 || face.divides))
       facets.push_back({face.corners, count_of(face.corners), other,
                         face.divides ? MshSides::both_inside : MshSides::one_inside});
+  if (facets.empty()) throw Error(ErrorKind::file, mesh.name + ": " + what_is_missing(dimension));
   return facets;
-}
-
-namespace {
-
-class CurveFinder {
- public:
-  CurveFinder(const std::vector<MshLine>& lines, const std::vector<std::int32_t>& stops)
-      : lines_(lines), used_(lines.size(), 0), stops_(stops.begin(), stops.end()) {
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      for (const std::int32_t end : lines[i].ends) at_[end].push_back(i);
-  }
-
-  std::vector<MshCurve> find() {
-    for (std::size_t i = 0; i < lines_.size(); ++i)
-      for (const int k : {0, 1})
-        if (!used_[i] && ends_at(lines_[i].ends[static_cast<std::size_t>(k)]))
-          walk(i, lines_[i].ends[static_cast<std::size_t>(k)]);
-    for (std::size_t i = 0; i < lines_.size(); ++i)
-      if (!used_[i]) walk(i, lines_[i].ends[0]);
-    return std::move(curves_);
-  }
-
- private:
-  bool ends_at(std::int32_t node) const {
-    const std::vector<std::size_t>& lines = at_.at(node);
-    if (lines.size() != 2 || stops_.contains(node)) return true;
-    const MshLine &a = lines_[lines[0]], &b = lines_[lines[1]];
-    return a.tag != b.tag || a.inner != b.inner;
-  }
-
-  void walk(std::size_t line, std::int32_t begin) {
-    MshCurve curve{{begin}, false, lines_[line].tag, lines_[line].inner};
-    for (std::int32_t node = begin;;) {
-      used_[line] = 1;
-      const auto& ends = lines_[line].ends;
-      node = ends[0] == node ? ends[1] : ends[0];
-      if (node == begin) {
-        curve.closed = true;
-        break;
-      }
-      curve.nodes.push_back(node);
-      if (ends_at(node)) break;
-      const std::vector<std::size_t>& here = at_.at(node);
-      line = here[0] == line ? here[1] : here[0];
-    }
-    curves_.push_back(std::move(curve));
-  }
-
-  const std::vector<MshLine>& lines_;
-  std::vector<char> used_;
-  std::set<std::int32_t> stops_;
-  std::map<std::int32_t, std::vector<std::size_t>> at_;  // the lines that each node ends
-  std::vector<MshCurve> curves_;
-};
-
-}  // namespace
-
-std::vector<MshCurve> curves_of(const std::vector<MshLine>& lines,
-                                const std::vector<std::int32_t>& stops) {
-  return CurveFinder(lines, stops).find();
 }
 
 void warn_of_joined_regions(const MshMesh& mesh, int dimension,

@@ -4,8 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "domain/plane/msh_plane.hpp"
-#include "domain/volume/msh_body.hpp"
+#include "domain/from_files.hpp"
 #include "expect_error.hpp"
 #include "msh_files.hpp"
 #include "run_suite.hpp"
