@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "api/domain_calls.hpp"
-#include "domain/plane/poly_reader.hpp"
+#include "domain/from_files.hpp"
 #include "formats/surface_triangles.hpp"
 
 using namespace pnpbs;
@@ -233,7 +233,7 @@ pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n, const 
 pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char* path) {
   return change_plane(domain, [&](PlaneDomain& plane) {
     require_pointer(path, "path");
-    read_poly_file(plane, path);
+    add_poly(plane, read_poly(path));
   });
 }
 
@@ -242,8 +242,8 @@ pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char* text, int6
   return change_plane(domain, [&](PlaneDomain& plane) {
     require_pointer(text, "text");
     require_count(length, "length");
-    parse_poly(plane, std::string_view(text, static_cast<std::size_t>(length)),
-               name ? name : "text");
+    const std::string_view bytes(text, static_cast<std::size_t>(length));
+    add_poly(plane, parse_poly(bytes, name ? name : "text"));
   });
 }
 

@@ -81,6 +81,15 @@ void add_names_and_warnings(DomainBase<Dim>& domain, const MshMesh& mesh) {
 
 }  // namespace
 
+void add_poly(PlaneDomain& domain, const PolyGraph& graph) {
+  as_of_file(graph.name, [&] {
+    domain.add_pslg(graph.vertices.count(), graph.vertices.coordinates.data(),
+                    graph.vertices.tags.data(), std::ssize(graph.segment_tags),
+                    graph.segment_ends.data(), graph.segment_tags.data(),
+                    std::ssize(graph.holes) / 2, graph.holes.data(), graph.vertices.first_number);
+  });
+}
+
 void add_msh(PlaneDomain& domain, const MshMesh& mesh, double corner_angle) {
   PlaneDomain changed = domain;
   as_of_file(mesh.name, [&] {

@@ -6,8 +6,11 @@
 #include "domain/plane/plane_domain.hpp"
 #include "domain/volume/volume_domain.hpp"
 #include "formats/msh_mesh.hpp"
+#include "formats/poly_graph.hpp"
 
 namespace pnpbs {
+
+void add_poly(PlaneDomain& domain, const PolyGraph& graph);
 
 // A mesh in a plane of constant z: its lines, and what bounds its triangles and quadrangles, as
 // curves on the boundary or inside; points in physical groups as fixed nodes; the names of groups.

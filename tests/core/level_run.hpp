@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "domain/plane/poly_reader.hpp"
+#include "domain/from_files.hpp"
 #include "geometry/shapes.hpp"
 #include "level/exchange.hpp"
 #include "level/finding_stars.hpp"
@@ -46,7 +46,8 @@ inline pnpbs::SpacingEvaluator<2> evaluator_of(const Plane& d) {
 }
 
 inline void add_lake(pnpbs::PlaneDomain& domain, const char* name) {
-  pnpbs::read_poly_file(domain, std::string(PNPBS_SOURCE_DIR "/examples/data/") + name + ".poly");
+  pnpbs::add_poly(
+      domain, pnpbs::read_poly(std::string(PNPBS_SOURCE_DIR "/examples/data/") + name + ".poly"));
 }
 
 using Build = std::function<void(pnpbs::PlaneDomain&)>;

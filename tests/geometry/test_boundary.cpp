@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "domain/from_files.hpp"
 #include "domain/plane/boundary.hpp"
-#include "domain/plane/poly_reader.hpp"
 #include "expect_error.hpp"
 #include "geometry/plane/faces.hpp"
 #include "run_suite.hpp"
@@ -46,7 +46,8 @@ Boundary lay(PlaneDomain& domain, const SpacingEvaluator<2>& d) {
 
 PlaneDomain lake(const char* name) {
   PlaneDomain domain;
-  pnpbs::read_poly_file(domain, std::string(PNPBS_SOURCE_DIR "/examples/data/") + name + ".poly");
+  pnpbs::add_poly(
+      domain, pnpbs::read_poly(std::string(PNPBS_SOURCE_DIR "/examples/data/") + name + ".poly"));
   return domain;
 }
 

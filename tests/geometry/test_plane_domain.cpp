@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "domain/from_files.hpp"
 #include "domain/plane/plane_domain.hpp"
-#include "domain/plane/poly_reader.hpp"
 #include "expect_error.hpp"
 #include "run_suite.hpp"
 #include "shapes.hpp"
@@ -252,8 +252,8 @@ START_TEST(shorelines) {
                {"lake_victoria", 69331.85348015526, 138}};
   for (const auto& lake : lakes) {
     PlaneDomain domain;
-    pnpbs::read_poly_file(domain,
-                          std::string(PNPBS_SOURCE_DIR "/examples/data/") + lake.file + ".poly");
+    pnpbs::add_poly(domain, pnpbs::read_poly(std::string(PNPBS_SOURCE_DIR "/examples/data/") +
+                                             lake.file + ".poly"));
     expect_area(domain, lake.area);
     ck_assert_int_eq(corners(domain), lake.corners);
     ck_assert_int_eq(curves(domain), lake.corners);

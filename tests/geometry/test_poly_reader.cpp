@@ -6,17 +6,24 @@
 #include <random>
 #include <string>
 
-#include "domain/plane/poly_reader.hpp"
+#include "domain/from_files.hpp"
 #include "expect_error.hpp"
 #include "run_suite.hpp"
 
-using pnpbs::parse_poly;
 using pnpbs::PlaneDomain;
 
 namespace {
 
 const char* const square =
     "4 2 0 0\n1 0 0\n2 2 0\n3 2 2\n4 0 2\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
+
+void parse_poly(PlaneDomain& domain, std::string_view text, const std::string& name) {
+  add_poly(domain, pnpbs::parse_poly(text, name));
+}
+
+void read_poly(PlaneDomain& domain, const std::string& path) {
+  add_poly(domain, pnpbs::read_poly(path));
+}
 
 PlaneDomain read(const std::string& text) {
   PlaneDomain domain;
@@ -96,16 +103,16 @@ START_TEST(vertices_in_a_node_file) {
   write(path, "0 2 0 0\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
   write(work_path("split.node"), "4 2 0 0\n1 0 0\n2 2 0\n3 2 2\n4 0 2\n# end\n");
   PlaneDomain domain;
-  pnpbs::read_poly_file(domain, path);
+  read_poly(domain, path);
   domain.check();
   ck_assert_double_eq(domain.area(), 4);
   write(work_path("split.node"), "4 2 0 0\n1 0 0\n2 2 zero\n3 2 2\n4 0 2\n");
   PlaneDomain bad;
   expect_error(pnpbs::ErrorKind::file, {"split.node:3: found 'zero', expected y"},
-               [&] { pnpbs::read_poly_file(bad, path); });
+               [&] { read_poly(bad, path); });
   std::remove(work_path("split.node").c_str());
   expect_error(pnpbs::ErrorKind::file, {"split.node: cannot be read"},
-               [&] { pnpbs::read_poly_file(bad, path); });
+               [&] { read_poly(bad, path); });
   std::remove(path.c_str());
   expect_file_error({"x.poly:1: 0 vertices mean a separate .node file"}, "0 2 0 0\n4 0\n");
 }
@@ -114,11 +121,11 @@ END_TEST
 START_TEST(unreadable_files) {
   PlaneDomain domain;
   expect_error(pnpbs::ErrorKind::file, {"none.poly: cannot be read: No such file"},
-               [&] { pnpbs::read_poly_file(domain, work_path("none.poly")); });
+               [&] { read_poly(domain, work_path("none.poly")); });
   expect_error(pnpbs::ErrorKind::file, {": cannot be read: Is a directory"},
-               [&] { pnpbs::read_poly_file(domain, work_path("")); });
+               [&] { read_poly(domain, work_path("")); });
   expect_error(pnpbs::ErrorKind::file, {"/dev/zero: holds zero bytes"},
-               [&] { pnpbs::read_poly_file(domain, "/dev/zero"); });
+               [&] { read_poly(domain, "/dev/zero"); });
 }
 END_TEST
 
