@@ -33,6 +33,14 @@ class NodeCheck {
   // Node i is in the list of node j where j is in that of i.
   void check_lists() const;
 
+  const Level<Dim>& level() const { return level_; }
+  std::string name(std::int64_t i) const {
+    return std::to_string(nodes_.id(i)) + " " + point_text(position(i));
+  }
+  // The owned node with this id, or -1.
+  std::int64_t owned_node(std::int64_t id) const;
+  int owner_of(std::int64_t i) const { return level_.tree->owner_at(position(i)); }
+
  protected:
   struct PlacedId {
     std::int64_t id;
@@ -45,16 +53,10 @@ class NodeCheck {
   };
 
   Point<Dim> position(std::int64_t i) const { return nodes_.position(i); }
-  std::string name(std::int64_t i) const {
-    return std::to_string(nodes_.id(i)) + " " + point_text(position(i));
-  }
   template <class Visit>
   void for_owned(const Visit& visit) const {
     for (std::int64_t place = 0; place < owned_; ++place) visit(p_.node_at(place));
   }
-  // The owned node with this id, or -1.
-  std::int64_t owned_node(std::int64_t id) const;
-  int owner_of(std::int64_t i) const { return level_.tree->owner_at(position(i)); }
 
   void check_inside(std::int64_t i, const FacetIndex<Dim>& boundary) const;
   // Node i, which was laid on the boundary, is still there.

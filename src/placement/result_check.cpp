@@ -5,19 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "comm/records.hpp"
 #include "placement/conformity.hpp"
+#include "placement/corner_check.hpp"
 #include "placement/node_check.hpp"
 #include "predicates/plane.hpp"
 
 namespace pnpbs {
 
 namespace {
-
-struct StarTriangle {
-  std::int64_t of, next, last;  // ids: the star of `of` must have `next` and then `last`
-  std::int32_t owner;           // of `of`
-};
 
 class ResultCheck : public NodeCheck<2> {
  public:
@@ -42,11 +37,8 @@ class ResultCheck : public NodeCheck<2> {
   void check_sides() const;
   void check_boundary_nodes() const;
 
-  bool star_has(std::int64_t i, std::int64_t next, std::int64_t last) const;
   void check_stars() const;
-  void check_star(std::int64_t i, std::vector<StarTriangle>& elsewhere) const;
-  void check_corner(std::int64_t corner, std::int64_t next, std::int64_t last,
-                    std::vector<StarTriangle>& elsewhere) const;
+  void check_star(std::int64_t i, CornerCheck<2, 2>& corners) const;
   void check_sides_of(std::int64_t i, std::int64_t j, bool left, bool right) const;
   void check_boundary_edges_of(std::int64_t i) const;
 
@@ -79,33 +71,16 @@ void ResultCheck::check_boundary_nodes() const {
 
 // ------------------------------------------------------------------ stars ----------------------
 
-// Does the star of node i have the triangle with these two, in this order?
-bool ResultCheck::star_has(std::int64_t i, std::int64_t next, std::int64_t last) const {
-  bool found = false;
-  level_.stars.for_simplices(i, [&](const DelaunayStars::Corners& others) {
-    found = found || (nodes_.id(others[0]) == next && nodes_.id(others[1]) == last);
-  });
-  return found;
-}
-
 void ResultCheck::check_stars() const {
-  std::vector<StarTriangle> elsewhere;
+  CornerCheck<2, 2> corners(*this);
   for_owned([&](std::int64_t i) {
-    check_star(i, elsewhere);
+    check_star(i, corners);
     check_boundary_edges_of(i);
   });
-  if (comm_.size() == 1) return;
-  for (const StarTriangle& t :
-       redistribute(comm_, elsewhere, [](const StarTriangle& t) { return t.owner; })) {
-    const std::int64_t i = owned_node(t.of);
-    if (i < 0 || !star_has(i, t.next, t.last))
-      fail_check("the star of node " + (i < 0 ? std::to_string(t.of) : name(i)) +
-                 " lacks the triangle with nodes " + std::to_string(t.next) + " and " +
-                 std::to_string(t.last));
-  }
+  corners.look_elsewhere();
 }
 
-void ResultCheck::check_star(std::int64_t i, std::vector<StarTriangle>& elsewhere) const {
+void ResultCheck::check_star(std::int64_t i, CornerCheck<2, 2>& corners) const {
   std::vector<std::pair<std::int64_t, bool>> star;
   level_.stars.for_neighbours_in_order(
       i, [&](std::int64_t j, bool triangle) { star.emplace_back(j, triangle); });
@@ -122,19 +97,9 @@ void ResultCheck::check_star(std::int64_t i, std::vector<StarTriangle>& elsewher
     if (orientation(position(i), position(j), position(next)) <= 0)
       fail_check("the triangle of nodes " + name(i) + ", " + name(j) + " and " + name(next) +
                  " is not counter-clockwise");
-    check_corner(j, next, i, elsewhere);
-    check_corner(next, i, j, elsewhere);
+    corners.look_at(j, {next, i});
+    corners.look_at(next, {i, j});
   }
-}
-
-// A triangle must be in the star of this corner of it, too.
-void ResultCheck::check_corner(std::int64_t corner, std::int64_t next, std::int64_t last,
-                               std::vector<StarTriangle>& elsewhere) const {
-  if (!nodes_.owned(corner))
-    elsewhere.push_back({nodes_.id(corner), nodes_.id(next), nodes_.id(last), owner_of(corner)});
-  else if (!star_has(corner, nodes_.id(next), nodes_.id(last)))
-    fail_check("the star of node " + name(corner) + " lacks the triangle with nodes " + name(next) +
-               " and " + name(last));
 }
 
 // On which sides of the edge from node i to node j there are triangles.

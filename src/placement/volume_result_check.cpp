@@ -10,6 +10,7 @@
 #include "base/space_vectors.hpp"
 #include "comm/records.hpp"
 #include "placement/conformity.hpp"
+#include "placement/corner_check.hpp"
 #include "placement/element_measure.hpp"
 #include "placement/result_check.hpp"
 #include "placement/volume_node_check.hpp"
@@ -20,12 +21,6 @@ namespace pnpbs {
 namespace {
 
 using Three = std::array<std::int64_t, 3>;
-
-struct StarTetrahedron {
-  std::int64_t of;     // ids: the star of `of` must have
-  Three others;        // these, increasing
-  std::int64_t owner;  // of `of`
-};
 
 // An edge of a triangle of the boundary, as that turns.
 struct TurningEdge {
@@ -49,13 +44,8 @@ class VolumeResultCheck : public VolumeNodeCheck {
  private:
   using Corners = Stars<3>::Corners;
 
-  Three sorted_ids(const Corners& corners) const;
-
-  bool star_has(std::int64_t i, const Three& others) const;
   void check_stars() const;
-  void check_star(std::int64_t i, std::vector<StarTetrahedron>& elsewhere) const;
-  void check_corner(std::int64_t corner, const Corners& others,
-                    std::vector<StarTetrahedron>& elsewhere) const;
+  void check_star(std::int64_t i, CornerCheck<3, 3>& corners) const;
   void check_faces(std::int64_t i) const;
 
   void check_boundary() const;
@@ -65,59 +55,25 @@ class VolumeResultCheck : public VolumeNodeCheck {
   const Conformity<3>& conformity_;
 };
 
-Three VolumeResultCheck::sorted_ids(const Corners& corners) const {
-  Three ids{nodes_.id(corners[0]), nodes_.id(corners[1]), nodes_.id(corners[2])};
-  std::ranges::sort(ids);
-  return ids;
-}
-
 // ------------------------------------------------------------------ stars ----------------------
 
-// Does the star of node i have the tetrahedron with these?
-bool VolumeResultCheck::star_has(std::int64_t i, const Three& others) const {
-  bool found = false;
-  level_.stars.for_simplices(
-      i, [&](const Corners& corners) { found = found || sorted_ids(corners) == others; });
-  return found;
-}
-
 void VolumeResultCheck::check_stars() const {
-  std::vector<StarTetrahedron> elsewhere;
-  for_owned([&](std::int64_t i) { check_star(i, elsewhere); });
+  CornerCheck<3, 3> corners(*this);
+  for_owned([&](std::int64_t i) { check_star(i, corners); });
   for_owned([&](std::int64_t i) { check_faces(i); });
-  if (comm_.size() == 1) return;
-  for (const StarTetrahedron& t : redistribute(comm_, elsewhere, [](const StarTetrahedron& sent) {
-         return static_cast<int>(sent.owner);
-       })) {
-    const std::int64_t i = owned_node(t.of);
-    if (i < 0 || !star_has(i, t.others))
-      fail_check("the star of node " + (i < 0 ? std::to_string(t.of) : name(i)) +
-                 " lacks the tetrahedron with nodes " + std::to_string(t.others[0]) + ", " +
-                 std::to_string(t.others[1]) + " and " + std::to_string(t.others[2]));
-  }
+  corners.look_elsewhere();
 }
 
-void VolumeResultCheck::check_star(std::int64_t i, std::vector<StarTetrahedron>& elsewhere) const {
-  level_.stars.for_simplices(i, [&](const Corners& corners) {
-    const auto [a, b, c] = corners;
+void VolumeResultCheck::check_star(std::int64_t i, CornerCheck<3, 3>& corners) const {
+  level_.stars.for_simplices(i, [&](const Corners& others) {
+    const auto [a, b, c] = others;
     if (orientation(position(i), position(a), position(b), position(c)) <= 0)
       fail_check("the tetrahedron of nodes " + name(i) + ", " + name(a) + ", " + name(b) + " and " +
                  name(c) + " has no positive volume");
-    const auto self = static_cast<std::int32_t>(i);
-    check_corner(a, {self, b, c}, elsewhere);
-    check_corner(b, {self, a, c}, elsewhere);
-    check_corner(c, {self, a, b}, elsewhere);
+    corners.look_at(a, {i, b, c});
+    corners.look_at(b, {i, a, c});
+    corners.look_at(c, {i, a, b});
   });
-}
-
-// A tetrahedron must be in the star of this corner of it, too.
-void VolumeResultCheck::check_corner(std::int64_t corner, const Corners& others,
-                                     std::vector<StarTetrahedron>& elsewhere) const {
-  if (!nodes_.owned(corner))
-    elsewhere.push_back({nodes_.id(corner), sorted_ids(others), owner_of(corner)});
-  else if (!star_has(corner, sorted_ids(others)))
-    fail_check("the star of node " + name(corner) + " lacks the tetrahedron with nodes " +
-               name(others[0]) + ", " + name(others[1]) + " and " + name(others[2]));
 }
 
 // On either side of a face there is one tetrahedron at most; inside there are two. (Where nodes of
