@@ -16,10 +16,7 @@ struct Lattice<2> {
   static constexpr double kDensity = 1.1547005383792515;  // nodes per d^2: 2 / sqrt(3)
   static constexpr int kNeighbours = 6;                   // by edges of the Delaunay triangulation
   static constexpr double kIdealOverlap = 6;              // overlap ratio of a node
-  // Overlap ratios of bubbles that are one too many and one too few; the paper (2.4) has 9 and 5.
-  // A run takes the options delete_above and insert_below.
-  static constexpr double kDeleteAbove = 8.5, kInsertBelow = 4.4;
-  static constexpr int kOverlapEnd = 16;  // larger overlap ratios are not told apart
+  static constexpr int kOverlapEnd = 16;                  // larger ratios are not told apart
 };
 
 // The volume's: body-centred cubic. All its tetrahedra are alike, nothing is cospherical, and the
@@ -31,8 +28,6 @@ struct Lattice<3> {
   static constexpr double kDensity = 1.5749268979030462;  // nodes per d^3: 2 / kCell^3
   static constexpr int kNeighbours = 14;
   static constexpr double kIdealOverlap = 14;  // each edge adds 3 - 2 l / d
-  // A vacancy leaves its neighbours near 13: only the aim of a mean distance fills it.
-  static constexpr double kDeleteAbove = 19, kInsertBelow = 9;
   static constexpr int kOverlapEnd = 32;
 };
 

@@ -13,9 +13,9 @@
 namespace pnpbs {
 
 struct Motion {
-  double dt = 0.8;         // in units of sqrt(m / k0)
-  double damping = 0.2;    // c
-  double max_move = 0.03;  // no step moves a node by more than this many d
+  double dt;        // in units of sqrt(m / k0)
+  double damping;   // c
+  double max_move;  // no step moves a node by more than this many d
 };
 
 template <int Dim>

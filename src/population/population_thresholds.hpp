@@ -19,24 +19,14 @@
 namespace pnpbs {
 
 struct PopulationRule {
-  int dimension = 2;                               // of what the bubbles fill: area or volume
-  double delete_above = Lattice<2>::kDeleteAbove;  // overlap ratios: whatever the mean
-  double insert_below = Lattice<2>::kInsertBelow;
-  double ideal = Lattice<2>::kIdealOverlap;  // of a bubble among neighbours at its d
-  double mean_distance = 1;  // of touching bubbles, in desired distances; 0: not aimed at
+  int dimension;        // of what the bubbles fill: area or volume
+  double ideal;         // overlap ratio of a bubble among neighbours at its d
+  double delete_above;  // overlap ratios: whatever the mean
+  double insert_below;
+  double mean_distance;  // of touching bubbles, in desired distances; 0: not aimed at
   // A new bubble comes no nearer to others than this many spacings.
   double min_gap = method::kMinGap;
   double min_gap_to_aim = method::kMinGapToAim;
-
-  template <int Dim>
-  static PopulationRule of_lattice() {
-    PopulationRule rule;
-    rule.dimension = Dim;
-    rule.delete_above = Lattice<Dim>::kDeleteAbove;
-    rule.insert_below = Lattice<Dim>::kInsertBelow;
-    rule.ideal = Lattice<Dim>::kIdealOverlap;
-    return rule;
-  }
 };
 
 // Above which overlap ratio a bubble of this d goes, and below which it gets company to bring the

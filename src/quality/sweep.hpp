@@ -12,7 +12,7 @@
 namespace pnpbs {
 
 struct SweepRule {
-  double weight = 0.6;                           // share of the way
+  double weight;                                 // share of the way
   double max_move = method::kSweepMaxMove;       // no node moves more than this many d
   double bad_below = method::kSweepGuardsBelow;  // triangle quality, 2 r_in / R
 };

@@ -34,10 +34,11 @@ Settings::Settings(const Options& o)
       exchange_interval(o.integer("exchange_interval")),
       metis_seed(o.integer("metis_seed")),
       rebalance_above(o.real("rebalance_above")) {
-  if (dimension == 3) population = PopulationRule::of_lattice<3>();
   motion.dt = o.real("time_step");
   motion.damping = o.real("damping");
   motion.max_move = o.real("max_move");
+  population.dimension = dimension;
+  population.ideal = dimension == 3 ? Lattice<3>::kIdealOverlap : Lattice<2>::kIdealOverlap;
   population.delete_above = o.real("delete_above");
   population.insert_below = o.real("insert_below");
   population.mean_distance = o.real("mean_distance");

@@ -12,6 +12,7 @@
 #include "population/free_place.hpp"
 #include "population/population.hpp"
 #include "quick_assert.hpp"
+#include "settings/settings.hpp"
 
 using pnpbs::PopulationChange;
 using pnpbs::PopulationRule;
@@ -19,10 +20,16 @@ using pnpbs::PopulationRule;
 template <int Dim>
 using Set = std::vector<Bubble<Dim>>;
 
+// What a run takes if no option is set.
+template <int Dim>
+PopulationRule default_rule() {
+  return pnpbs::Settings(pnpbs::Options(), Dim).population;
+}
+
 // By thresholds alone, nothing is aimed at; in the plane those of the paper (2.4).
 template <int Dim>
 PopulationRule by_thresholds() {
-  PopulationRule rule = PopulationRule::of_lattice<Dim>();
+  PopulationRule rule = default_rule<Dim>();
   rule.mean_distance = 0;
   if (Dim == 2) {
     rule.delete_above = 9;

@@ -6,6 +6,8 @@
 
 #include "quality/volume/sliver_repair.hpp"
 
+inline constexpr pnpbs::SliverRule kSlivers{33};
+
 inline std::int64_t one_round(pnpbs::SliverRepair& repair, std::int64_t round) {
   repair.draw(round);
   return repair.move();

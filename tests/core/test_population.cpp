@@ -155,7 +155,7 @@ END_TEST
 // in each, so many are below or above its threshold as are missing or too many.
 START_TEST(thresholds_follow_the_mean_distance) {
   Random random(64);
-  PopulationRule rule;
+  PopulationRule rule = default_rule<2>();
   const double stretch[] = {1.04, 0.96};
   Set<2> set;
   for (int half = 0; half < 2; ++half) {

@@ -164,7 +164,7 @@ START_TEST(bad_triangles_get_better) {
     LevelRun run = distorted(shape.build, shape.d, ++seed, {});
     pnpbs::sweep_and_repair(*run.level, 3);  // so that few are bad
     run.renew_stars();
-    const double bad = pnpbs::RepairRule{}.bad_below;
+    const double bad = run.level->settings.repair.bad_below;
     const std::vector<Triangle> triangles = triangles_by_id(*run.level);
     const Places before = places_by_id(*run.level);
     pnpbs::BadTriangleRepair repair(run.level->nodes, run.level->stars,
@@ -191,7 +191,7 @@ START_TEST(repair_leaves_the_rest_alone) {
   std::uint64_t seed = 170;
   for (const Shape& shape : shapes_to_finish()) {
     LevelRun run = distorted(shape.build, shape.d, ++seed, {});
-    const double bad = pnpbs::RepairRule{}.bad_below;
+    const double bad = run.level->settings.repair.bad_below;
     const Places before = places_by_id(*run.level);
     std::set<std::int64_t> of_bad;
     for (const Triangle& t : triangles_by_id(*run.level))

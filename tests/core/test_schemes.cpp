@@ -92,10 +92,7 @@ double oscillator_error(Scheme scheme, int n) {
                 {along<Dim>(kStart), kSpacing, 1, true},
                 {along<Dim>(kHalf), kSpacing, 2, false}},
                kRange + 0.5);
-  Motion motion;
-  motion.dt = 3.0 / n;
-  motion.damping = kDamping;
-  motion.max_move = 100;
+  const Motion motion{3.0 / n, kDamping, 100};
   for (int step = 0; step < n; ++step) run.step(scheme, LinearPush{1, kRange}, motion);
 
   const double rate = std::sqrt(2 / kRange - kDamping * kDamping / 4), decay = kDamping / 2, t = 3;
@@ -129,9 +126,7 @@ void expect_order(Scheme scheme, double order, double error_at_16) {
 void expect_clamp(Scheme scheme) {
   const double d = 0.1;
   Run<2> run({{{0.5, 0.5}, d, 0}, {{0.503, 0.504}, d, 1}, {{0.503, 0.504}, 1e-9, 2, false}}, 1.7);
-  Motion motion;
-  motion.dt = 2;
-  motion.max_move = 0.17;
+  const Motion motion{2, 0.2, 0.17};
   const pnpbs::CubicLaw law;
   std::vector<Point<2>> before;
   for (std::int64_t id = 0; id < 3; ++id)

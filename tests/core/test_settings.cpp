@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The defaults of the rules are those of the options that set them.
+// The options of a placement, and the settings that follow from them.
 #include <string>
 
 #include "geometry/expect_error.hpp"
-#include "quality/volume/sliver_repair.hpp"
 #include "run_kernel_suite.hpp"
 #include "settings/settings.hpp"
 
-START_TEST(rules_and_options_agree) {
+START_TEST(laws_and_options_agree) {
   const pnpbs::Settings settings{pnpbs::Options()};
-  const pnpbs::Motion motion;
-  ck_assert_double_eq(settings.motion.dt, motion.dt);
-  ck_assert_double_eq(settings.motion.damping, motion.damping);
-  ck_assert_double_eq(settings.motion.max_move, motion.max_move);
-  const pnpbs::PopulationRule population;
-  ck_assert_double_eq(settings.population.delete_above, population.delete_above);
-  ck_assert_double_eq(settings.population.insert_below, population.insert_below);
-  ck_assert_double_eq(settings.population.mean_distance, population.mean_distance);
   ck_assert_double_eq(settings.rest_length, pnpbs::LinearPush{}.range);
-  ck_assert_double_eq(settings.sweep.weight, pnpbs::SweepRule{}.weight);
-  ck_assert_int_eq(settings.repair.rounds, pnpbs::RepairRule{}.rounds);
-  ck_assert_double_eq(settings.repair.bad_below, pnpbs::RepairRule{}.bad_below);
-  ck_assert_double_eq(settings.sliver_angle, pnpbs::SliverRule{}.repair_below);
-  ck_assert_int_eq(settings.defects.rounds, pnpbs::DefectRule{}.rounds);
+  const pnpbs::Settings in_space(pnpbs::Options(), 3);
+  ck_assert_double_eq(in_space.rest_length, pnpbs::SmoothPush{}.range);
 }
 END_TEST
 
@@ -76,5 +64,5 @@ END_TEST
 
 int main() {
   return run_kernel_suite("settings",
-                          {rules_and_options_agree, helps_name_both_defaults, numbers_of_nodes});
+                          {laws_and_options_agree, helps_name_both_defaults, numbers_of_nodes});
 }

@@ -240,13 +240,13 @@ START_TEST(no_sliver_is_left) {
   Shaken s(9, 0.25);
   const Places before = places_by_id(s.b.nodes);
   ck_assert_double_lt(s.least_angle(), 10);
-  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
+  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, kSlivers, anywhere);
   ck_assert_int_gt(slivers.slivers(), 50);
   const std::int64_t moved = repair(slivers);
   ck_assert_int_eq(slivers.slivers(), 0);
   ck_assert_int_gt(moved, 50);
   s.make_stars();
-  ck_assert_double_ge(s.least_angle(), pnpbs::SliverRule().repair_below - 1e-9);
+  ck_assert_double_ge(s.least_angle(), kSlivers.repair_below - 1e-9);
   double farthest = 0;
   for (std::int64_t i = 0; i < s.b.nodes.count; ++i) {
     const double way = pnpbs::distance<3>(s.b.nodes.position(i), before.at(s.b.nodes.id(i)));
@@ -268,7 +268,7 @@ START_TEST(stars_that_are_left) {
     return stars;
   };
   const std::map<std::int64_t, Star> before = all();
-  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
+  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, kSlivers, anywhere);
   ck_assert_int_gt(repair(slivers), 50);
   slivers.write_stars(s.stars);
   const std::map<std::int64_t, Star> left = all();
@@ -281,7 +281,7 @@ END_TEST
 // Every round makes the sum of what small angles lack less, whatever goes at once.
 START_TEST(rounds_only_help) {
   Shaken s(9, 0.3);
-  const pnpbs::SmallAngles small(pnpbs::SliverRule().penalty_below());
+  const pnpbs::SmallAngles small(kSlivers.penalty_below());
   std::set<std::int64_t> moving;
   for (std::int64_t i = 0; i < s.b.nodes.count; ++i)
     if (s.b.nodes.moves(i)) moving.insert(s.b.nodes.id(i));
@@ -298,7 +298,7 @@ START_TEST(rounds_only_help) {
   double last = penalty();
   int several = 0;  // rounds in which more than one went
   for (std::int64_t round = 0; round < 8; ++round) {
-    pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
+    pnpbs::SliverRepair slivers(s.b.nodes, s.stars, kSlivers, anywhere);
     const std::int64_t moved = one_round(slivers, round);
     ck_assert_int_gt(moved, 0);
     several += moved > 1;
@@ -316,7 +316,7 @@ START_TEST(nodes_keep_off_where_they_must) {
   const auto allowed = [&](std::int64_t i, const Point<3>& x) {
     return s.b.nodes.position(i)[0] > 4 && x[0] > 4;
   };
-  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, allowed);
+  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, kSlivers, allowed);
   ck_assert_int_gt(repair(slivers), 20);
   for (const auto& [id, x] : places_by_id(s.b.nodes)) {
     quick_assert(before.at(id)[0] > 4 || x == before.at(id));
@@ -330,8 +330,8 @@ END_TEST
 START_TEST(the_same_in_another_order) {
   Shaken s(8, 0.25), other(8, 0.25, 6);
   quick_assert(s.b.nodes.id(0) != other.b.nodes.id(0) || s.b.nodes.id(9) != other.b.nodes.id(9));
-  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, {}, anywhere);
-  pnpbs::SliverRepair other_slivers(other.b.nodes, other.stars, {}, anywhere);
+  pnpbs::SliverRepair slivers(s.b.nodes, s.stars, kSlivers, anywhere);
+  pnpbs::SliverRepair other_slivers(other.b.nodes, other.stars, kSlivers, anywhere);
   ck_assert_int_gt(repair(slivers), 20);
   repair(other_slivers);
   quick_assert(places_by_id(s.b.nodes) == places_by_id(other.b.nodes));
@@ -356,8 +356,9 @@ START_TEST(the_same_from_two_halves) {
     low.b.nodes.owned(i) = is_low(low.b.nodes.position(i));
     high.b.nodes.owned(i) = !is_low(high.b.nodes.position(i));
   }
-  pnpbs::SliverRepair all(whole.b.nodes, whole.stars, {}, anywhere),
-      of_low(low.b.nodes, low.stars, {}, anywhere), of_high(high.b.nodes, high.stars, {}, anywhere);
+  pnpbs::SliverRepair all(whole.b.nodes, whole.stars, kSlivers, anywhere),
+      of_low(low.b.nodes, low.stars, kSlivers, anywhere),
+      of_high(high.b.nodes, high.stars, kSlivers, anywhere);
   std::int64_t moved_low = 0, moved_high = 0;
   for (std::int64_t round = 0; round < 30; ++round) {
     const std::int64_t moved = one_round(all, round);

@@ -210,7 +210,7 @@ START_TEST(slivers_at_surfaces_are_mended) {
   const Places before = places_by_id(p.b.nodes);
   const std::int64_t slivers_before = p.slivers_at_sides();
   ck_assert_int_gt(slivers_before, 20);
-  pnpbs::SliverRepair repair(p.b.nodes, p.stars, {}, nowhere, p.along_surfaces());
+  pnpbs::SliverRepair repair(p.b.nodes, p.stars, kSlivers, nowhere, p.along_surfaces());
   std::int64_t moved = 0;
   for (std::int64_t round = 50; round < 150; ++round) moved += one_round(repair, round);
   ck_assert_int_gt(moved, 10);
@@ -233,8 +233,8 @@ END_TEST
 START_TEST(free_nodes_come_first) {
   Pierced p(0.25, 0), alone(0.25, 0);
   const auto anywhere = [](std::int64_t, const P&) { return true; };
-  pnpbs::SliverRepair repair(p.b.nodes, p.stars, {}, anywhere, p.along_surfaces());
-  pnpbs::SliverRepair without(alone.b.nodes, alone.stars, {}, anywhere);
+  pnpbs::SliverRepair repair(p.b.nodes, p.stars, kSlivers, anywhere, p.along_surfaces());
+  pnpbs::SliverRepair without(alone.b.nodes, alone.stars, kSlivers, anywhere);
   const Places before = places_by_id(p.b.nodes);
   std::int64_t moved = 0;
   for (std::int64_t round = 0; round < 20; ++round) moved += one_round(repair, round);
@@ -261,9 +261,10 @@ START_TEST(the_same_from_two_halves) {
       return p.b.nodes.moves(i);
     };
   };
-  pnpbs::SliverRepair all(whole.b.nodes, whole.stars, {}, keeps_off(whole), whole.along_surfaces()),
-      of_low(low.b.nodes, low.stars, {}, keeps_off(low), low.along_surfaces()),
-      of_high(high.b.nodes, high.stars, {}, keeps_off(high), high.along_surfaces());
+  pnpbs::SliverRepair all(whole.b.nodes, whole.stars, kSlivers, keeps_off(whole),
+                          whole.along_surfaces()),
+      of_low(low.b.nodes, low.stars, kSlivers, keeps_off(low), low.along_surfaces()),
+      of_high(high.b.nodes, high.stars, kSlivers, keeps_off(high), high.along_surfaces());
   const auto news_of = [](const pnpbs::SliverRepair& repair) {
     std::vector<pnpbs::ChangedTetrahedron> news;
     for (const std::int32_t i : repair.moved_nodes()) {

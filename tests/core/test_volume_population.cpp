@@ -183,7 +183,7 @@ END_TEST
 // as are missing or too many by the cube of that.
 START_TEST(thresholds_follow_the_mean_distance) {
   Random random(98);
-  PopulationRule rule = PopulationRule::of_lattice<3>();
+  PopulationRule rule = default_rule<3>();
   for (const double stretch : {1.04, 0.96}) {
     Set<3> set = lattice(stretch);
     jitter(random, set, 0.02);

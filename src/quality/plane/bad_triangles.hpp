@@ -16,8 +16,8 @@
 namespace pnpbs {
 
 struct RepairRule {
-  std::int64_t rounds = 10;
-  double bad_below = 0.82;                   // shape of a triangle
+  std::int64_t rounds;
+  double bad_below;                          // shape of a triangle
   double worst_below = method::kWorstBelow;  // these first
 };
 

@@ -17,7 +17,7 @@
 namespace pnpbs {
 
 struct DefectRule {
-  std::int64_t rounds = 0;
+  std::int64_t rounds;
   double bad_below = method::kDefectBelow;  // triangle quality, 2 r_in / R
 };
 

@@ -21,7 +21,7 @@
 namespace pnpbs {
 
 struct SliverRule {
-  double repair_below = 33;  // degrees
+  double repair_below;  // degrees
   std::int64_t rounds = method::kSliverRounds;
 
   // The angles that must not become worse on the way.
