@@ -124,11 +124,12 @@ pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement, pnpbs_monito
 namespace {
 
 template <int Dim>
-GivenNodes<Dim> checked_nodes(std::int64_t n, const double* coordinates, const std::int64_t* ids) {
+IncomingNodes<Dim> checked_nodes(std::int64_t n, const double* coordinates,
+                                 const std::int64_t* ids) {
   require_count(n, "n");
   if (n > 0) require_pointer(coordinates, "coordinates");
   constexpr std::int64_t kMaxId = std::int64_t{1} << 62;  // leaves numbers for new nodes
-  GivenNodes<Dim> nodes;
+  IncomingNodes<Dim> nodes;
   for (std::int64_t i = 0; i < n; ++i) {
     Point<Dim> x;
     std::copy_n(coordinates + Dim * i, Dim, x.begin());
@@ -138,7 +139,7 @@ GivenNodes<Dim> checked_nodes(std::int64_t n, const double* coordinates, const s
     if (ids && (ids[i] < 0 || ids[i] > kMaxId))
       throw Error(ErrorKind::argument, "argument ids[" + std::to_string(i) + "] = " +
                                            std::to_string(ids[i]) + " must be in 0 .. 2^62");
-    GivenNode<Dim> node{x, ids ? ids[i] : -1};
+    IncomingNode<Dim> node{x, ids ? ids[i] : -1};
     nodes.push_back(node);
   }
   if (ids) {
@@ -158,7 +159,7 @@ pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
                                        const double* coordinates, const int64_t* ids) {
   return local_change(placement, [&](Placement& p) {
     return in_its_dimension(p, [&]<int Dim>(PlacementOf<Dim>& placement_of) {
-      GivenNodes<Dim> nodes;
+      IncomingNodes<Dim> nodes;
       agreed(p.communicator(), [&] { nodes = checked_nodes<Dim>(n, coordinates, ids); });
       placement_of.set_nodes(std::move(nodes));  // on all ranks or none
       return PNPBS_OK;

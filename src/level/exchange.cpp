@@ -40,27 +40,27 @@ void update_ghosts(Level<Dim>& level) {
 }
 
 template <int Dim>
-void scatter_to_owners(const Level<Dim>& level, GivenNodes<Dim>& given) {
+void scatter_to_owners(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
   if (!level.distributed()) return;
-  const auto owner_of = [&](const GivenNode<Dim>& node) {
+  const auto owner_of = [&](const IncomingNode<Dim>& node) {
     return level.tree->owner_at(node.position);
   };
   const View<std::int32_t> owner =
-      make_view<std::int32_t>("pnpbs::owner", static_cast<std::int64_t>(given.size()));
-  for_each("pnpbs::find_owners", static_cast<std::int64_t>(given.size()),
-           [&](std::int64_t k) { owner(k) = owner_of(given[static_cast<std::size_t>(k)]); });
-  std::vector<GivenNode<Dim>> leaving;
+      make_view<std::int32_t>("pnpbs::owner", static_cast<std::int64_t>(incoming.size()));
+  for_each("pnpbs::find_owners", static_cast<std::int64_t>(incoming.size()),
+           [&](std::int64_t k) { owner(k) = owner_of(incoming[static_cast<std::size_t>(k)]); });
+  std::vector<IncomingNode<Dim>> leaving;
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < given.size(); ++k) {
+  for (std::size_t k = 0; k < incoming.size(); ++k) {
     if (owner(k) == level.comm->rank())
-      given[kept++] = given[k];
+      incoming[kept++] = incoming[k];
     else
-      leaving.push_back(given[k]);
+      leaving.push_back(incoming[k]);
   }
-  given.resize(kept);
-  const std::vector<GivenNode<Dim>> arrived =
-      redistribute<GivenNode<Dim>>(*level.comm, leaving, owner_of);
-  given.insert(given.end(), arrived.begin(), arrived.end());
+  incoming.resize(kept);
+  const std::vector<IncomingNode<Dim>> arrived =
+      redistribute<IncomingNode<Dim>>(*level.comm, leaving, owner_of);
+  incoming.insert(incoming.end(), arrived.begin(), arrived.end());
 }
 
 template void exchange(Level<2>&, int);
@@ -69,7 +69,7 @@ template void exchange_for_steps(Level<2>&, std::exception_ptr&);
 template void exchange_for_steps(Level<3>&, std::exception_ptr&);
 template void update_ghosts(Level<2>&);
 template void update_ghosts(Level<3>&);
-template void scatter_to_owners(const Level<2>&, GivenNodes<2>&);
-template void scatter_to_owners(const Level<3>&, GivenNodes<3>&);
+template void scatter_to_owners(const Level<2>&, IncomingNodes<2>&);
+template void scatter_to_owners(const Level<3>&, IncomingNodes<3>&);
 
 }  // namespace pnpbs

@@ -4,7 +4,7 @@
 
 #include <exception>
 
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
@@ -25,6 +25,6 @@ void update_ghosts(Level<Dim>& level);
 
 // Every node to the rank that owns its place, from wherever it is; most are there already.
 template <int Dim>
-void scatter_to_owners(const Level<Dim>& level, GivenNodes<Dim>& given);
+void scatter_to_owners(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
 
 }  // namespace pnpbs

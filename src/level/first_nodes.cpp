@@ -65,9 +65,9 @@ std::vector<Point<Dim>> graded_fill(const Level<Dim>& level,
 }  // namespace
 
 template <int Dim>
-GivenNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::function<void()>& beat,
-                                  bool stretched) {
-  GivenNodes<Dim> inner;
+IncomingNodes<Dim> first_inner_nodes(const Level<Dim>& level, const std::function<void()>& beat,
+                                     bool stretched) {
+  IncomingNodes<Dim> inner;
   const std::vector<LeafSummary<Dim>> unrefined = summaries_of_unrefined_leaves(level);
   const auto owned = [&](std::int32_t leaf) {
     beat();
@@ -86,7 +86,7 @@ template <int Dim>
 void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& beat,
           bool stretched) {
   const PhaseTimer timer(level.timers, Phase::fill);
-  GivenNodes<Dim> inner = first_inner_nodes(level, beat, stretched);
+  IncomingNodes<Dim> inner = first_inner_nodes(level, beat, stretched);
   agreed(*level.comm, [&] {
     beat();
     find_leaves(level, inner);
@@ -99,7 +99,7 @@ void fill(Level<Dim>& level, LaidNodes<Dim> laid, const std::function<void()>& b
 template void fill(Level<2>&, LaidNodes<2>, const std::function<void()>&, bool);
 template void fill(Level<3>&, LaidNodes<3>, const std::function<void()>&, bool);
 
-template GivenNodes<2> first_inner_nodes(const Level<2>&, const std::function<void()>&, bool);
-template GivenNodes<3> first_inner_nodes(const Level<3>&, const std::function<void()>&, bool);
+template IncomingNodes<2> first_inner_nodes(const Level<2>&, const std::function<void()>&, bool);
+template IncomingNodes<3> first_inner_nodes(const Level<3>&, const std::function<void()>&, bool);
 
 }  // namespace pnpbs

@@ -11,7 +11,7 @@ namespace pnpbs {
 
 // Those of this rank, yet to be numbered. Calls beat() again and again. Collective.
 template <int Dim>
-GivenNodes<Dim> first_inner_nodes(
+IncomingNodes<Dim> first_inner_nodes(
     const Level<Dim>& level, const std::function<void()>& beat = [] {}, bool stretched = true);
 
 // They become those of the level, beside those of the boundary. Calls beat() again and again: if it

@@ -5,15 +5,15 @@
 #include <cstdint>
 
 #include "base/nodes.hpp"
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 
 namespace pnpbs {
 
-inline GivenNode<2> kept_node(const Nodes<2>& nodes, std::int64_t i) {
+inline IncomingNode<2> kept_node(const Nodes<2>& nodes, std::int64_t i) {
   return {nodes.position(i), nodes.id(i), nodes.moves(i), -1, nodes.d(i)};
 }
 
-inline GivenNode<3> kept_node(const Nodes<3>& nodes, std::int64_t i) {
+inline IncomingNode<3> kept_node(const Nodes<3>& nodes, std::int64_t i) {
   return {nodes.position(i), nodes.id(i), nodes.carrier(i), nodes.boundary_node(i),
           nodes.tag(i),      -1,          nodes.d(i)};
 }

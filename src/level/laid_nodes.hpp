@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/ground.hpp"
 
 namespace pnpbs {
@@ -42,7 +42,7 @@ class LaidNodes<2> {
 
 // Of nodes in one place, those with the least freedom come first, and those with an id before those
 // without.
-inline auto by_place(const GivenNode<3>& node) {
+inline auto by_place(const IncomingNode<3>& node) {
   return std::tuple(node.position, node.carrier, node.boundary_node,
                     static_cast<std::uint64_t>(node.id), node.d, node.tag);
 }
@@ -53,12 +53,12 @@ inline auto by_place(const GivenNode<3>& node) {
 template <>
 class LaidNodes<3> {
  public:
-  explicit LaidNodes(GivenNodes<3> nodes) : nodes_(std::move(nodes)) {
-    std::sort(nodes_.begin(), nodes_.end(), [](const GivenNode<3>& a, const GivenNode<3>& b) {
+  explicit LaidNodes(IncomingNodes<3> nodes) : nodes_(std::move(nodes)) {
+    std::sort(nodes_.begin(), nodes_.end(), [](const IncomingNode<3>& a, const IncomingNode<3>& b) {
       return by_place(a) < by_place(b);
     });
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end(),
-                             [](const GivenNode<3>& a, const GivenNode<3>& b) {
+                             [](const IncomingNode<3>& a, const IncomingNode<3>& b) {
                                return a.position == b.position;
                              }),
                  nodes_.end());
@@ -69,12 +69,12 @@ class LaidNodes<3> {
   const Point<3>& position(std::size_t b) const { return nodes_[b].position; }
   Carrier carrier(std::size_t b) const { return nodes_[b].carrier; }
   void put(Nodes<3>& nodes, std::int64_t i, std::size_t b, std::int64_t id) const {
-    const GivenNode<3>& at = nodes_[b];
+    const IncomingNode<3>& at = nodes_[b];
     nodes.put(i, at.position, 1, id, at.tag, at.carrier, at.boundary_node);
   }
 
  private:
-  GivenNodes<3> nodes_;
+  IncomingNodes<3> nodes_;
 };
 
 }  // namespace pnpbs

@@ -21,36 +21,36 @@ Point<Dim> reversed(Point<Dim> x) {
 }
 
 // What tells nodes in one place apart: so that their order is none of memory.
-auto kind_of(const GivenNode<2>& node) { return node.inner; }
-auto kind_of(const GivenNode<3>& node) {
+auto kind_of(const IncomingNode<2>& node) { return node.inner; }
+auto kind_of(const IncomingNode<3>& node) {
   return std::tuple(node.carrier, node.boundary_node, node.tag);
 }
 
 }  // namespace
 
 template <int Dim>
-void find_leaves(const Level<Dim>& level, GivenNodes<Dim>& given) {
-  for_each("pnpbs::find_leaves", static_cast<std::int64_t>(given.size()), [&](std::int64_t k) {
-    GivenNode<Dim>& node = given[static_cast<std::size_t>(k)];
+void find_leaves(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
+  for_each("pnpbs::find_leaves", static_cast<std::int64_t>(incoming.size()), [&](std::int64_t k) {
+    IncomingNode<Dim>& node = incoming[static_cast<std::size_t>(k)];
     node.leaf = node.is_inner() ? level.tree->tree().leaf_at(node.position) : -1;
   });
 }
 
 template <int Dim>
-std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, GivenNodes<Dim>& given) {
+std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
   const std::int32_t leaves = level.tree->tree().leaf_count();
-  const auto leaf_of = [&](std::int64_t k) { return given[static_cast<std::size_t>(k)].leaf; };
-  CountingSort by_leaf(static_cast<std::int64_t>(given.size()), leaves, leaf_of);
+  const auto leaf_of = [&](std::int64_t k) { return incoming[static_cast<std::size_t>(k)].leaf; };
+  CountingSort by_leaf(static_cast<std::int64_t>(incoming.size()), leaves, leaf_of);
   std::vector<std::int32_t> begin = by_leaf.start();
-  GivenNodes<Dim> sorted(static_cast<std::size_t>(begin.back()));
+  IncomingNodes<Dim> sorted(static_cast<std::size_t>(begin.back()));
   by_leaf.for_places(leaf_of, [&](std::int64_t k, std::int32_t place) {
-    sorted[static_cast<std::size_t>(place)] = given[static_cast<std::size_t>(k)];
+    sorted[static_cast<std::size_t>(place)] = incoming[static_cast<std::size_t>(k)];
   });
-  given = std::move(sorted);
+  incoming = std::move(sorted);
   for_each("pnpbs::sort_by_place", leaves, [&](std::int64_t leaf) {
     const auto at = static_cast<std::size_t>(leaf);
-    std::sort(given.begin() + begin[at], given.begin() + begin[at + 1],
-              [](const GivenNode<Dim>& a, const GivenNode<Dim>& b) {
+    std::sort(incoming.begin() + begin[at], incoming.begin() + begin[at + 1],
+              [](const IncomingNode<Dim>& a, const IncomingNode<Dim>& b) {
                 return std::tuple(reversed<Dim>(a.position), a.id, a.d, kind_of(a)) <
                        std::tuple(reversed<Dim>(b.position), b.id, b.d, kind_of(b));
               });
@@ -70,7 +70,7 @@ template <int Dim>
 class LeafBlocks {
  public:
   LeafBlocks(std::int32_t leaves, const std::vector<LeafNode>& boundary,
-             const GivenNodes<Dim>& inner)
+             const IncomingNodes<Dim>& inner)
       : leaves_(leaves), boundary_(boundary), inner_(inner) {}
 
   // Calls of_boundary(place, node) or of_inner(place, node) for every node.
@@ -96,13 +96,13 @@ class LeafBlocks {
  private:
   std::int32_t leaves_;
   const std::vector<LeafNode>& boundary_;
-  const GivenNodes<Dim>& inner_;
+  const IncomingNodes<Dim>& inner_;
 };
 
 // Nodes in one place would never part: the first of them counts. They are sorted by place.
 template <int Dim>
-void leave_out_coinciding(GivenNodes<Dim>& inner) {
-  const auto same_place = [](const GivenNode<Dim>& a, const GivenNode<Dim>& b) {
+void leave_out_coinciding(IncomingNodes<Dim>& inner) {
+  const auto same_place = [](const IncomingNode<Dim>& a, const IncomingNode<Dim>& b) {
     return a.position == b.position;
   };
   const std::int64_t pairs = std::max<std::int64_t>(1, static_cast<std::int64_t>(inner.size())) - 1;
@@ -138,9 +138,9 @@ std::int64_t largest_of_ranks(const Communicator& comm, std::int64_t id) {
 
 // An id larger than all there are.
 template <int Dim>
-std::int64_t next_id_after(const Level<Dim>& level, const GivenNodes<Dim>& given) {
+std::int64_t next_id_after(const Level<Dim>& level, const IncomingNodes<Dim>& incoming) {
   std::int64_t next = level.next_id;
-  for (const GivenNode<Dim>& node : given) next = std::max(next, node.id + 1);
+  for (const IncomingNode<Dim>& node : incoming) next = std::max(next, node.id + 1);
   return next;
 }
 
@@ -153,7 +153,7 @@ std::vector<std::int64_t> new_ids(Level<Dim>& level, const LeafBlocks<Dim>& bloc
       [&](std::size_t, const LeafNode& node) {
         next[static_cast<std::size_t>(node.leaf)] += boundary_id(node) < 0;
       },
-      [&](std::size_t, const GivenNode<Dim>& node) {
+      [&](std::size_t, const IncomingNode<Dim>& node) {
         next[static_cast<std::size_t>(node.leaf)] += node.id < 0;
       });
   return level.tree->distribution().prefix_sums(*level.comm, std::move(next), level.next_id);
@@ -162,14 +162,14 @@ std::vector<std::int64_t> new_ids(Level<Dim>& level, const LeafBlocks<Dim>& bloc
 }  // namespace
 
 template <int Dim>
-void reserve_ids(Level<Dim>& level, const GivenNodes<Dim>& given) {
-  level.next_id = largest_of_ranks(*level.comm, next_id_after(level, given));
+void reserve_ids(Level<Dim>& level, const IncomingNodes<Dim>& incoming) {
+  level.next_id = largest_of_ranks(*level.comm, next_id_after(level, incoming));
 }
 
 // New ids go by bucket in Morton order, boundary nodes first, then by place, so that the order of
 // ids is nearly the order in memory.
 template <int Dim>
-void number_and_store(Level<Dim>& level, GivenNodes<Dim> inner, LaidNodes<Dim> laid) {
+void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, LaidNodes<Dim> laid) {
   leave_out_coinciding<Dim>(inner);
   level.next_id = next_id_after(level, inner);
   for (std::size_t b = 0; b < laid.size(); ++b)
@@ -196,7 +196,7 @@ void number_and_store(Level<Dim>& level, GivenNodes<Dim> inner, LaidNodes<Dim> l
                  number(boundary_id(node), node.leaf));
         bucket(i) = node.leaf;
       },
-      [&](std::size_t place, const GivenNode<Dim>& node) {
+      [&](std::size_t place, const IncomingNode<Dim>& node) {
         const auto i = static_cast<std::int64_t>(place);
         nodes.put(i, node.position, 1, number(node.id, node.leaf), 0, Carrier::free, -1);
         bucket(i) = node.leaf;
@@ -205,12 +205,12 @@ void number_and_store(Level<Dim>& level, GivenNodes<Dim> inner, LaidNodes<Dim> l
   exchange(level, step_hops(level.settings));
 }
 
-template void find_leaves(const Level<2>&, GivenNodes<2>&);
-template void find_leaves(const Level<3>&, GivenNodes<3>&);
-template std::vector<std::int32_t> sort_by_place(const Level<2>&, GivenNodes<2>&);
-template std::vector<std::int32_t> sort_by_place(const Level<3>&, GivenNodes<3>&);
-template void reserve_ids(Level<3>&, const GivenNodes<3>&);
-template void number_and_store(Level<2>&, GivenNodes<2>, LaidNodes<2>);
-template void number_and_store(Level<3>&, GivenNodes<3>, LaidNodes<3>);
+template void find_leaves(const Level<2>&, IncomingNodes<2>&);
+template void find_leaves(const Level<3>&, IncomingNodes<3>&);
+template std::vector<std::int32_t> sort_by_place(const Level<2>&, IncomingNodes<2>&);
+template std::vector<std::int32_t> sort_by_place(const Level<3>&, IncomingNodes<3>&);
+template void reserve_ids(Level<3>&, const IncomingNodes<3>&);
+template void number_and_store(Level<2>&, IncomingNodes<2>, LaidNodes<2>);
+template void number_and_store(Level<3>&, IncomingNodes<3>, LaidNodes<3>);
 
 }  // namespace pnpbs

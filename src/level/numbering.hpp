@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/laid_nodes.hpp"
 #include "level/level.hpp"
 
@@ -13,17 +13,17 @@ namespace pnpbs {
 
 // Of inner nodes; a boundary node has none, it is laid afresh.
 template <int Dim>
-void find_leaves(const Level<Dim>& level, GivenNodes<Dim>& given);
+void find_leaves(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
 // By leaf, in Morton order, and by place within it, so that nothing depends on where nodes came
 // from; those that have no leaf are left out. Returns the first place of each leaf.
 template <int Dim>
-std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, GivenNodes<Dim>& given);
+std::vector<std::int32_t> sort_by_place(const Level<Dim>& level, IncomingNodes<Dim>& incoming);
 // Nodes that are numbered from now on get ids larger than these have. Collective.
 template <int Dim>
-void reserve_ids(Level<Dim>& level, const GivenNodes<Dim>& given);
+void reserve_ids(Level<Dim>& level, const IncomingNodes<Dim>& incoming);
 // The boundary nodes of this rank and these inner ones, sorted by place, become the nodes of the
 // level. Those without an id get new ones. Collective.
 template <int Dim>
-void number_and_store(Level<Dim>& level, GivenNodes<Dim> inner, LaidNodes<Dim> laid);
+void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, LaidNodes<Dim> laid);
 
 }  // namespace pnpbs

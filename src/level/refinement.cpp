@@ -89,13 +89,13 @@ void for_new_nodes(const Level<Dim>& level, std::int64_t i, double d, const Visi
     if (pieces >= 3) for_new_nodes_in_triangles(level, i, d, pieces, visit);
 }
 
-void append_surface_midpoints(const Level<2>&, const View<double>&, GivenNodes<2>&) {}
+void append_surface_midpoints(const Level<2>&, const View<double>&, IncomingNodes<2>&) {}
 
 // With one where the spacing was `before` and will be d. Cutting edges in space may bring more than
 // d asks for.
-GivenNode<2> new_node(const Point<2>& x, double, double d) { return {x, -1, true, -1, d}; }
-GivenNode<3> new_node(const Point<3>& x, double before, double d) {
-  GivenNode<3> node{x, -1};
+IncomingNode<2> new_node(const Point<2>& x, double, double d) { return {x, -1, true, -1, d}; }
+IncomingNode<3> new_node(const Point<3>& x, double before, double d) {
+  IncomingNode<3> node{x, -1};
   const double cuts = pieces_of<3>(before, d) - 1;
   node.d = placed_for<3>(before, d, 0.5 * Lattice<3>::kNeighbours * cuts);
   return node;
@@ -106,7 +106,7 @@ GivenNode<3> new_node(const Point<3>& x, double before, double d) {
 // Counted first, then written, in chunks of nodes: so that all threads can do it, and nothing has
 // to grow.
 template <int Dim>
-GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
+IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   constexpr std::int64_t kChunk = 512;
   level.nodes.set_reference_positions();
   exchange(level, kStarHops<Dim>);
@@ -116,7 +116,7 @@ GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
     make_lists_and_stars(level, kStarHops<Dim>, level.settings.list_radius, {});
   const View<double> spacing = spacing_at_owned_nodes(level, next);
   const Nodes<Dim>& nodes = level.nodes;
-  GivenNodes<Dim> refined;
+  IncomingNodes<Dim> refined;
   agreed(*level.comm, [&] {
     const std::int64_t chunks = (nodes.count + kChunk - 1) / kChunk;
     std::vector<std::size_t> begin(static_cast<std::size_t>(chunks) + 1, 0);
@@ -150,7 +150,7 @@ GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   return refined;
 }
 
-template GivenNodes<2> refined(Level<2>&, const Spacing<2>&);
-template GivenNodes<3> refined(Level<3>&, const Spacing<3>&);
+template IncomingNodes<2> refined(Level<2>&, const Spacing<2>&);
+template IncomingNodes<3> refined(Level<3>&, const Spacing<3>&);
 
 }  // namespace pnpbs

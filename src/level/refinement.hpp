@@ -2,7 +2,7 @@
 // The nodes that a level hands on to a finer one: its own, and new ones between them.
 #pragma once
 
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
@@ -11,6 +11,6 @@ namespace pnpbs {
 // ones on the edges of their stars and in their triangles: where it is half of the present one, in
 // the middle of every edge. Collective.
 template <int Dim>
-GivenNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next);
+IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next);
 
 }  // namespace pnpbs

@@ -11,11 +11,11 @@
 namespace pnpbs {
 
 // Boundary nodes keep their ids where they stay in place.
-LaidNodes<2> laid_nodes(const Ground<2>& ground, const GivenNodes<2>& given) {
+LaidNodes<2> laid_nodes(const Ground<2>& ground, const IncomingNodes<2>& incoming) {
   const Boundary& boundary = ground.boundary();
   std::vector<std::int64_t> ids(boundary.nodes.size(), -1);
   std::map<Point<2>, std::int64_t> id_at;
-  for (const GivenNode<2>& node : given)
+  for (const IncomingNode<2>& node : incoming)
     if (!node.inner && node.id >= 0) id_at[node.position] = node.id;
   for (std::size_t b = 0; b < boundary.nodes.size() && !id_at.empty(); ++b) {
     const auto found = id_at.find(boundary.nodes[b].position);
@@ -25,9 +25,9 @@ LaidNodes<2> laid_nodes(const Ground<2>& ground, const GivenNodes<2>& given) {
 }
 
 // In space they come with the others.
-LaidNodes<3> laid_nodes(const Ground<3>&, const GivenNodes<3>& given) {
-  GivenNodes<3> laid;
-  for (const GivenNode<3>& node : given)
+LaidNodes<3> laid_nodes(const Ground<3>&, const IncomingNodes<3>& incoming) {
+  IncomingNodes<3> laid;
+  for (const IncomingNode<3>& node : incoming)
     if (!node.is_inner()) laid.push_back(node);
   return LaidNodes<3>(std::move(laid));
 }
@@ -36,16 +36,16 @@ namespace {
 
 // In the domain, and not too close to its boundary.
 template <int Dim>
-bool has_room(const Level<Dim>& level, const GivenNode<Dim>& node) {
+bool has_room(const Level<Dim>& level, const IncomingNode<Dim>& node) {
   if (level.neighbourhood.near_boundary().leaf_is_clear(node.leaf))
     return !level.map().leaf_outside(node.leaf);
   return has_clearance(level, node.position, level.map().leaf_spacing(node.leaf));
 }
 
 template <int Dim>
-void leave_out_those_without_room(const Level<Dim>& level, GivenNodes<Dim>& given) {
-  for_each("pnpbs::has_room", static_cast<std::int64_t>(given.size()), [&](std::int64_t k) {
-    GivenNode<Dim>& node = given[static_cast<std::size_t>(k)];
+void leave_out_those_without_room(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
+  for_each("pnpbs::has_room", static_cast<std::int64_t>(incoming.size()), [&](std::int64_t k) {
+    IncomingNode<Dim>& node = incoming[static_cast<std::size_t>(k)];
     if (node.leaf >= 0 && !has_room(level, node)) node.leaf = -1;
   });
 }
@@ -53,30 +53,30 @@ void leave_out_those_without_room(const Level<Dim>& level, GivenNodes<Dim>& give
 }  // namespace
 
 template <int Dim>
-TakenNodes take(Level<Dim>& level, GivenNodes<Dim> given, std::int64_t next_id) {
+TakenNodes take(Level<Dim>& level, IncomingNodes<Dim> incoming, std::int64_t next_id) {
   const PhaseTimer timer(level.timers, Phase::fill);
   const auto count_if = [&](const auto& counts) {
-    return sum_of("pnpbs::take", static_cast<std::int64_t>(given.size()),
-                  [&](std::int64_t k) { return counts(given[static_cast<std::size_t>(k)]); });
+    return sum_of("pnpbs::take", static_cast<std::int64_t>(incoming.size()),
+                  [&](std::int64_t k) { return counts(incoming[static_cast<std::size_t>(k)]); });
   };
   level.next_id = next_id;
-  scatter_to_owners(level, given);
-  LaidNodes<Dim> laid = laid_nodes(level.ground, given);
-  const std::uint64_t all = count_if([](const GivenNode<Dim>& node) { return node.is_inner(); });
-  find_leaves(level, given);
-  leave_out_those_without_room(level, given);
-  const std::vector<std::int32_t> begin = sort_by_place(level, given);
-  const std::uint64_t fitting = given.size();
-  thin(level, given, begin);
-  const std::uint64_t taken = given.size(),
-                      numbered = count_if([](const GivenNode<Dim>&node) { return node.id < 0; });
-  number_and_store(level, std::move(given), std::move(laid));
+  scatter_to_owners(level, incoming);
+  LaidNodes<Dim> laid = laid_nodes(level.ground, incoming);
+  const std::uint64_t all = count_if([](const IncomingNode<Dim>& node) { return node.is_inner(); });
+  find_leaves(level, incoming);
+  leave_out_those_without_room(level, incoming);
+  const std::vector<std::int32_t> begin = sort_by_place(level, incoming);
+  const std::uint64_t fitting = incoming.size();
+  thin(level, incoming, begin);
+  const std::uint64_t taken = incoming.size(),
+                      numbered = count_if([](const IncomingNode<Dim>&node) { return node.id < 0; });
+  number_and_store(level, std::move(incoming), std::move(laid));
   return {static_cast<std::int64_t>(level.comm->allreduce_sum(all - fitting)),
           static_cast<std::int64_t>(level.comm->allreduce_sum(fitting - taken)),
           static_cast<std::int64_t>(level.comm->allreduce_sum(numbered))};
 }
 
-template TakenNodes take(Level<2>&, GivenNodes<2>, std::int64_t);
-template TakenNodes take(Level<3>&, GivenNodes<3>, std::int64_t);
+template TakenNodes take(Level<2>&, IncomingNodes<2>, std::int64_t);
+template TakenNodes take(Level<3>&, IncomingNodes<3>, std::int64_t);
 
 }  // namespace pnpbs

@@ -5,25 +5,25 @@
 
 #include <cstdint>
 
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/laid_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
 
-// What became of given nodes, on all ranks.
+// What became of incoming nodes, on all ranks.
 struct TakenNodes {
   std::int64_t left_out = 0;  // outside, or too close to the boundary
   std::int64_t thinned = 0;   // too dense for d
   std::int64_t numbered = 0;  // those that came without an id
 };
 
-// Of the nodes given, those that are on the boundary of a level.
-LaidNodes<2> laid_nodes(const Ground<2>& ground, const GivenNodes<2>& given);
-LaidNodes<3> laid_nodes(const Ground<3>& ground, const GivenNodes<3>& given);
+// Of incoming nodes, those that are on the boundary of a level.
+LaidNodes<2> laid_nodes(const Ground<2>& ground, const IncomingNodes<2>& incoming);
+LaidNodes<3> laid_nodes(const Ground<3>& ground, const IncomingNodes<3>& incoming);
 
 // Ids from next_id on are free. Collective.
 template <int Dim>
-TakenNodes take(Level<Dim>& level, GivenNodes<Dim> given, std::int64_t next_id);
+TakenNodes take(Level<Dim>& level, IncomingNodes<Dim> incoming, std::int64_t next_id);
 
 }  // namespace pnpbs

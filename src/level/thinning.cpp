@@ -14,28 +14,28 @@ namespace {
 
 // Of a node placed for a smaller d, so many nodes are left in M dimensions.
 template <int M, int Dim>
-double share_for(const GivenNode<Dim>& node, double d) {
+double share_for(const IncomingNode<Dim>& node, double d) {
   return node.d > 0 && d > method::kThinnedAbove * node.d ? power<M>(node.d / d) : 1;
 }
 
 // Each node counts for the share that should stay, and along the Morton order of the leaves a node
 // stays whenever the sum of the shares passes a whole number.
 template <int Dim, class Share>
-void keep_shares(const Level<Dim>& level, GivenNodes<Dim>& given,
+void keep_shares(const Level<Dim>& level, IncomingNodes<Dim>& incoming,
                  const std::vector<std::int32_t>& begin, const Share& share) {
   constexpr std::int64_t kOne = kFixedPointOne;
   const std::int32_t leaves = level.map().tree().leaf_count();
-  const auto share_of = [&](const GivenNode<Dim>& node) {
+  const auto share_of = [&](const IncomingNode<Dim>& node) {
     return static_cast<std::int64_t>(share(node) * static_cast<double>(kOne));
   };
   const auto for_nodes_in = [&](std::int64_t leaf, const auto& visit) {
     const auto at = static_cast<std::size_t>(leaf);
     for (std::int32_t k = begin[at]; k < begin[at + 1]; ++k)
-      visit(given[static_cast<std::size_t>(k)]);
+      visit(incoming[static_cast<std::size_t>(k)]);
   };
   std::vector<std::int64_t> sums(static_cast<std::size_t>(leaves), 0);
   for_each("pnpbs::sum_shares", leaves, [&](std::int64_t leaf) {
-    for_nodes_in(leaf, [&](const GivenNode<Dim>& node) {
+    for_nodes_in(leaf, [&](const IncomingNode<Dim>& node) {
       sums[static_cast<std::size_t>(leaf)] += share_of(node);
     });
   });
@@ -45,7 +45,7 @@ void keep_shares(const Level<Dim>& level, GivenNodes<Dim>& given,
   for_each("pnpbs::thin", leaves, [&](std::int64_t leaf) {
     const auto at = static_cast<std::size_t>(leaf);
     std::int64_t sum = fraction_of(sums[at]);
-    for_nodes_in(leaf, [&](GivenNode<Dim>& node) {
+    for_nodes_in(leaf, [&](IncomingNode<Dim>& node) {
       const std::int64_t whole = sum / kOne;
       sum += share_of(node);
       if (sum / kOne != whole) return;
@@ -54,15 +54,16 @@ void keep_shares(const Level<Dim>& level, GivenNodes<Dim>& given,
     });
   });
   if (std::find(some_go.begin(), some_go.end(), 1) != some_go.end())
-    std::erase_if(given, [](const GivenNode<Dim>& node) { return node.leaf < 0; });
+    std::erase_if(incoming, [](const IncomingNode<Dim>& node) { return node.leaf < 0; });
 }
 
 }  // namespace
 
 template <int Dim>
-void thin(const Level<Dim>& level, GivenNodes<Dim>& inner, const std::vector<std::int32_t>& begin) {
+void thin(const Level<Dim>& level, IncomingNodes<Dim>& inner,
+          const std::vector<std::int32_t>& begin) {
   const std::vector<double> wanted = wanted_nodes(level);
-  keep_shares(level, inner, begin, [&](const GivenNode<Dim>& node) {
+  keep_shares(level, inner, begin, [&](const IncomingNode<Dim>& node) {
     const auto leaf = static_cast<std::size_t>(node.leaf);
     const double given = begin[leaf + 1] - begin[leaf],
                  share = share_for<Dim>(node, level.map().leaf_spacing(node.leaf));
@@ -72,15 +73,15 @@ void thin(const Level<Dim>& level, GivenNodes<Dim>& inner, const std::vector<std
   });
 }
 
-void thin_on_surfaces(const Level<3>& level, GivenNodes<3>& on_surfaces) {
-  for (GivenNode<3>& node : on_surfaces) node.leaf = level.tree->tree().leaf_at(node.position);
+void thin_on_surfaces(const Level<3>& level, IncomingNodes<3>& on_surfaces) {
+  for (IncomingNode<3>& node : on_surfaces) node.leaf = level.tree->tree().leaf_at(node.position);
   const std::vector<std::int32_t> begin = sort_by_place(level, on_surfaces);
-  keep_shares(level, on_surfaces, begin, [&](const GivenNode<3>& node) {
+  keep_shares(level, on_surfaces, begin, [&](const IncomingNode<3>& node) {
     return share_for<2>(node, level.map().leaf_spacing(node.leaf));
   });
 }
 
-template void thin(const Level<2>&, GivenNodes<2>&, const std::vector<std::int32_t>&);
-template void thin(const Level<3>&, GivenNodes<3>&, const std::vector<std::int32_t>&);
+template void thin(const Level<2>&, IncomingNodes<2>&, const std::vector<std::int32_t>&);
+template void thin(const Level<3>&, IncomingNodes<3>&, const std::vector<std::int32_t>&);
 
 }  // namespace pnpbs

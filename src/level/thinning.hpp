@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/lattice.hpp"
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/level.hpp"
 #include "method/constants.hpp"
 
@@ -24,9 +24,10 @@ double placed_for(double before, double d, double new_nodes) {
 
 // Of nodes inside, sorted by place; `begin` is each leaf's first. Collective.
 template <int Dim>
-void thin(const Level<Dim>& level, GivenNodes<Dim>& inner, const std::vector<std::int32_t>& begin);
+void thin(const Level<Dim>& level, IncomingNodes<Dim>& inner,
+          const std::vector<std::int32_t>& begin);
 
 // Of this rank's nodes on surfaces, which it owns. Sorts them by place. Collective.
-void thin_on_surfaces(const Level<3>& level, GivenNodes<3>& on_surfaces);
+void thin_on_surfaces(const Level<3>& level, IncomingNodes<3>& on_surfaces);
 
 }  // namespace pnpbs

@@ -19,7 +19,7 @@ namespace {
 
 // All nodes of a level are numbered anew.
 template <int Dim>
-GivenNodes<Dim> new_nodes(GivenNodes<Dim> nodes) {
+IncomingNodes<Dim> new_nodes(IncomingNodes<Dim> nodes) {
   for_each("pnpbs::new_nodes", static_cast<std::int64_t>(nodes.size()),
            [&](std::int64_t k) { nodes[static_cast<std::size_t>(k)].id = -1; });
   return nodes;
@@ -112,7 +112,7 @@ MadeLevel<Dim> LevelBuilder<Dim>::with_first_nodes(std::unique_ptr<Level<Dim>> l
 template <int Dim>
 void LevelBuilder<Dim>::take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before) {
   Level<Dim>& level = *made.level;
-  GivenNodes<Dim> kept = refined(before, *made.placed.d);
+  IncomingNodes<Dim> kept = refined(before, *made.placed.d);
   level.next_id = before.next_id;
   if constexpr (Dim == 3) settle_surfaces(level, kept, made.outcome, LevelRole::surfaces, context_);
   made.taken = take(level, std::move(kept), level.next_id);
@@ -123,7 +123,7 @@ void LevelBuilder<Dim>::take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before
 }
 
 template <int Dim>
-void LevelBuilder<Dim>::take_given_nodes(MadeLevel<Dim>& made, GivenNodes<Dim> given) {
+void LevelBuilder<Dim>::take_given_nodes(MadeLevel<Dim>& made, IncomingNodes<Dim> given) {
   Level<Dim>& level = *made.level;
   if constexpr (Dim == 3)
     settle_surfaces(level, given, made.outcome, LevelRole::surfaces, context_);
@@ -136,7 +136,7 @@ void LevelBuilder<Dim>::begin_anew(MadeLevel<Dim>& made, const Settings& setting
   filled_levels_ = coarser_levels = coarser_levels_that_pay(*made.level, *domain_, made.placed.d);
   if constexpr (Dim == 3)
     coarser_levels = std::max(coarser_levels, surface_levels_that_pay(*made.level));
-  GivenNodes<Dim> nodes;
+  IncomingNodes<Dim> nodes;
   if (coarser_levels > 0) nodes = nodes_from_coarser_levels(made, settings, made.outcome);
   put_first_nodes(*made.level, nodes, 0, made.outcome);
 }
@@ -147,12 +147,12 @@ template <int Dim>
 void LevelBuilder<Dim>::begin_on_surfaces(MadeLevel<Dim>& made, const Settings& settings,
                                           const NodesBefore<Dim>& before) {
   if constexpr (Dim == 3) {
-    GivenNodes<3> nodes;
+    IncomingNodes<3> nodes;
     TakenNodes& taken = made.taken;
     if (before.level) {
       nodes = refined(*before.level, *made.placed.d);
       made.level->next_id = before.level->next_id;
-      taken.numbered = over_ranks(std::ranges::count(nodes, -1, &GivenNode<3>::id));
+      taken.numbered = over_ranks(std::ranges::count(nodes, -1, &IncomingNode<3>::id));
     } else if (before.given) {
       nodes = *before.given;
       agreed(*comm_, [&] { taken.left_out = bring_to_surfaces(*made.level, nodes); });
@@ -170,13 +170,13 @@ void LevelBuilder<Dim>::begin_on_surfaces(MadeLevel<Dim>& made, const Settings& 
 // From the coarsest level down to twice the spacing, each with a simulation of its own. If the
 // monitor stops them, refined nodes are returned nevertheless, as they are.
 template <int Dim>
-GivenNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const MadeLevel<Dim>& finest,
-                                                             const Settings& settings,
-                                                             Outcome& outcome) {
+IncomingNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const MadeLevel<Dim>& finest,
+                                                                const Settings& settings,
+                                                                Outcome& outcome) {
   const auto spacing_of = [&](int level) { return spacing_of_level(finest.placed.d, level); };
   RunState& run = context_.run;
   const int levels = run.coarser_levels;
-  GivenNodes<Dim> nodes;
+  IncomingNodes<Dim> nodes;
   std::unique_ptr<Level<Dim>> coarser;
   const Showing<Dim> showing(context_.results, nullptr);
   for (int l = levels; l > 0; --l) {
@@ -205,8 +205,8 @@ GivenNodes<Dim> LevelBuilder<Dim>::nodes_from_coarser_levels(const MadeLevel<Dim
 // The nodes that one of several levels begins with: those of the level before, refined, or on the
 // first one a fill.
 template <int Dim>
-void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, GivenNodes<Dim>& from_coarser, int which,
-                                        Outcome& outcome) {
+void LevelBuilder<Dim>::put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& from_coarser,
+                                        int which, Outcome& outcome) {
   if constexpr (Dim == 3) {
     if (context_.results.surfaces_alone()) {
       put_on_surfaces(level, std::move(from_coarser));

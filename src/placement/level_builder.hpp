@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/laid_nodes.hpp"
 #include "level/level.hpp"
 #include "level/taken_nodes.hpp"
@@ -25,7 +25,7 @@ namespace pnpbs {
 template <int Dim>
 struct NodesBefore {
   Level<Dim>* level = nullptr;
-  const GivenNodes<Dim>* given = nullptr;
+  const IncomingNodes<Dim>* given = nullptr;
 };
 
 template <int Dim>
@@ -69,13 +69,13 @@ class LevelBuilder {
                                                      std::shared_ptr<const Spacing<Dim>> spacing,
                                                      const Settings& settings);
   void take_kept_nodes(MadeLevel<Dim>& made, Level<Dim>& before);
-  void take_given_nodes(MadeLevel<Dim>& made, GivenNodes<Dim> given);
+  void take_given_nodes(MadeLevel<Dim>& made, IncomingNodes<Dim> given);
   void begin_anew(MadeLevel<Dim>& made, const Settings& settings);
   void begin_on_surfaces(MadeLevel<Dim>& made, const Settings& settings,
                          const NodesBefore<Dim>& before);  // in space
-  GivenNodes<Dim> nodes_from_coarser_levels(const MadeLevel<Dim>& finest, const Settings& settings,
-                                            Outcome& outcome);
-  void put_first_nodes(Level<Dim>& level, GivenNodes<Dim>& from_coarser, int which,
+  IncomingNodes<Dim> nodes_from_coarser_levels(const MadeLevel<Dim>& finest,
+                                               const Settings& settings, Outcome& outcome);
+  void put_first_nodes(Level<Dim>& level, IncomingNodes<Dim>& from_coarser, int which,
                        Outcome& outcome);
   void fill(Level<Dim>& level, LaidNodes<Dim> laid);
   std::int64_t over_ranks(std::int64_t mine) const;

@@ -39,7 +39,7 @@ class PlacementOf : public Placement {
     spacing_replaced_ = true;
     placed_.held = {};
   }
-  void set_nodes(GivenNodes<Dim> nodes) {
+  void set_nodes(IncomingNodes<Dim> nodes) {
     given_ = std::move(nodes);
     start_from_given_ = true;
     keep(nullptr);
@@ -113,7 +113,7 @@ class PlacementOf : public Placement {
   std::shared_ptr<const Spacing<Dim>> spacing_;
   std::unique_ptr<Level<Dim>> level_;
   Results<Dim> results_;
-  GivenNodes<Dim> given_;  // nodes to start from instead of a fill
+  IncomingNodes<Dim> given_;  // nodes to start from instead of a fill
   bool start_from_given_ = false;
   bool spacing_replaced_ = false;  // since the level was made
   PlacedSpacing<Dim> placed_;      // with which it was

@@ -22,10 +22,10 @@ namespace pnpbs {
 namespace {
 
 struct NodesByCarrier {
-  GivenNodes<3> inner, on_surfaces, on_features;
+  IncomingNodes<3> inner, on_surfaces, on_features;
 
-  explicit NodesByCarrier(const GivenNodes<3>& given) {
-    for (const GivenNode<3>& node : given)
+  explicit NodesByCarrier(const IncomingNodes<3>& incoming) {
+    for (const IncomingNode<3>& node : incoming)
       (node.is_inner()                    ? inner
        : node.carrier == Carrier::surface ? on_surfaces
                                           : on_features)
@@ -38,8 +38,9 @@ std::int64_t sum_over_ranks(const Communicator& comm, std::int64_t mine) {
 }
 
 // These nodes become those of the level, and rest on its surfaces.
-void rest_on_surfaces(Level<3>& level, GivenNodes<3> on_surfaces, const GivenNodes<3>& on_features,
-                      Outcome& outcome, LevelRole role, const LevelContext<3>& context) {
+void rest_on_surfaces(Level<3>& level, IncomingNodes<3> on_surfaces,
+                      const IncomingNodes<3>& on_features, Outcome& outcome, LevelRole role,
+                      const LevelContext<3>& context) {
   const bool anew = level.comm->allreduce_sum(on_surfaces.size()) == 0;
   context.run.deleted += sum_over_ranks(
       *level.comm, put_surface_nodes(level, std::move(on_surfaces), on_features, anew));
@@ -60,11 +61,11 @@ void rest_on_surfaces(Level<3>& level, GivenNodes<3> on_surfaces, const GivenNod
 
 }  // namespace
 
-void settle_surfaces(Level<3>& level, GivenNodes<3>& given, Outcome& outcome, LevelRole role,
+void settle_surfaces(Level<3>& level, IncomingNodes<3>& incoming, Outcome& outcome, LevelRole role,
                      const LevelContext<3>& context) {
-  scatter_to_owners(level, given);
-  reserve_ids(level, given);
-  NodesByCarrier nodes(given);
+  scatter_to_owners(level, incoming);
+  reserve_ids(level, incoming);
+  NodesByCarrier nodes(incoming);
   const Settings inside = level.settings;
   {
     const Showing<3> showing(context.results, &level);
@@ -74,10 +75,10 @@ void settle_surfaces(Level<3>& level, GivenNodes<3>& given, Outcome& outcome, Le
     fix_surface_nodes(level);
     level.change_settings(inside);
   }
-  given = surface_nodes(level);
-  agreed(*level.comm, [&] { put_on_level_sets(level.ground, given); });
-  scatter_to_owners(level, given);  // some have moved on since the last exchange
-  given.insert(given.end(), nodes.inner.begin(), nodes.inner.end());
+  incoming = surface_nodes(level);
+  agreed(*level.comm, [&] { put_on_level_sets(level.ground, incoming); });
+  scatter_to_owners(level, incoming);  // some have moved on since the last exchange
+  incoming.insert(incoming.end(), nodes.inner.begin(), nodes.inner.end());
 }
 
 int surface_levels_that_pay(const Level<3>& finest) {
@@ -94,18 +95,18 @@ int surface_levels_that_pay(const Level<3>& finest) {
   return levels;
 }
 
-std::int64_t put_on_surfaces(Level<3>& level, GivenNodes<3> given) {
-  scatter_to_owners(level, given);
-  reserve_ids(level, given);
-  NodesByCarrier nodes(given);
+std::int64_t put_on_surfaces(Level<3>& level, IncomingNodes<3> incoming) {
+  scatter_to_owners(level, incoming);
+  reserve_ids(level, incoming);
+  NodesByCarrier nodes(incoming);
   const bool anew = level.comm->allreduce_sum(nodes.on_surfaces.size()) == 0;
   return put_surface_nodes(level, std::move(nodes.on_surfaces), nodes.on_features, anew);
 }
 
-std::int64_t bring_to_surfaces(const Level<3>& level, GivenNodes<3>& given) {
+std::int64_t bring_to_surfaces(const Level<3>& level, IncomingNodes<3>& incoming) {
   const Ground<3>& ground = level.ground;
   std::vector<Point<3>> places;
-  for (GivenNode<3>& node : given) {
+  for (IncomingNode<3>& node : incoming) {
     const NearestPoint<3> nearest = ground.domain().index().nearest(node.position, kFarAway);
     node.carrier = Carrier::surface;
     node.boundary_node = nearest.facet;
@@ -114,9 +115,9 @@ std::int64_t bring_to_surfaces(const Level<3>& level, GivenNodes<3>& given) {
   }
   std::vector<double> d(places.size());
   ground.evaluator()(std::ssize(places), places.data(), d.data());
-  GivenNodes<3> brought;
-  for (std::size_t k = 0; k < given.size(); ++k) {
-    GivenNode<3> node = given[k];
+  IncomingNodes<3> brought;
+  for (std::size_t k = 0; k < incoming.size(); ++k) {
+    IncomingNode<3> node = incoming[k];
     const SurfacePoint at{node.boundary_node, places[k]};
     const double room = method::kBoundaryClearance * d[k];
     if (ground.surface().patch(at.facet) < 0 || distance<3>(node.position, places[k]) > d[k] ||
@@ -126,8 +127,8 @@ std::int64_t bring_to_surfaces(const Level<3>& level, GivenNodes<3>& given) {
     node.d = d[k];
     brought.push_back(node);
   }
-  const auto left_out = static_cast<std::int64_t>(given.size() - brought.size());
-  given = std::move(brought);
+  const auto left_out = static_cast<std::int64_t>(incoming.size() - brought.size());
+  incoming = std::move(brought);
   return left_out;
 }
 

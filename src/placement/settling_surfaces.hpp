@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/level.hpp"
 #include "placement/level_context.hpp"
 #include "placement/outcome.hpp"
@@ -14,11 +14,11 @@
 
 namespace pnpbs {
 
-// The nodes of the boundary among those given, which may be from a coarser level, come to rest on
-// the level's surfaces, and are given instead; if there are none, the surfaces are filled.
+// The nodes of the boundary among the incoming ones, which may be from a coarser level, come to
+// rest on the level's surfaces, and are handed back so; if there are none, the surfaces are filled.
 // If the monitor has stopped the call, or does so here, they stay as they are: the outcome is that
 // it is stopped. Collective.
-void settle_surfaces(Level<3>& level, GivenNodes<3>& given, Outcome& outcome, LevelRole role,
+void settle_surfaces(Level<3>& level, IncomingNodes<3>& incoming, Outcome& outcome, LevelRole role,
                      const LevelContext<3>& context);
 
 // Coarser levels from which the nodes on surfaces come: where these are flat and d is even there,
@@ -28,10 +28,10 @@ int surface_levels_that_pay(const Level<3>& finest);
 // These of the surfaces, or a fill of them if there are none, become the nodes of a level of
 // surfaces alone, which the time loop moves. Returns how many of this rank's are too dense for d.
 // Collective.
-std::int64_t put_on_surfaces(Level<3>& level, GivenNodes<3> given);
+std::int64_t put_on_surfaces(Level<3>& level, IncomingNodes<3> incoming);
 
 // Nodes given anywhere go to the nearest point of the surfaces, unless that is farther than d or
 // on top of a feature edge. Returns how many go nowhere.
-std::int64_t bring_to_surfaces(const Level<3>& level, GivenNodes<3>& given);
+std::int64_t bring_to_surfaces(const Level<3>& level, IncomingNodes<3>& incoming);
 
 }  // namespace pnpbs

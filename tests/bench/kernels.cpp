@@ -50,12 +50,12 @@ void fill_square(pnpbs::PlaneDomain& domain) {
   shapes::add_loop(domain, shapes::rectangle(0, 0, 1, 1));
 }
 
-pnpbs::GivenNodes<2> moved_lattice(double d, double max) {
+pnpbs::IncomingNodes<2> moved_lattice(double d, double max) {
   LevelRun lattice(fill_square, constant(d));
   fill_level(*lattice.level);
-  pnpbs::GivenNodes<2> nodes = inner_nodes_of(*lattice.level);
+  pnpbs::IncomingNodes<2> nodes = inner_nodes_of(*lattice.level);
   Random random(1);
-  for (pnpbs::GivenNode<2>& node : nodes)
+  for (pnpbs::IncomingNode<2>& node : nodes)
     for (double& x : node.position) x += random.between(-max * d, max * d);
   return nodes;
 }
@@ -105,7 +105,7 @@ void measure_phase(const std::string& name, const pnpbs::Timers& timers, Phase p
 void run(const KernelArguments& arguments, const char* list_radius) {
   constexpr int kSweeps = 5;  // a block, within which the stars stay
   const double d = std::sqrt(2 / std::sqrt(3.0) / arguments.nodes);
-  const pnpbs::GivenNodes<2> lattice = moved_lattice(d, arguments.moved);
+  const pnpbs::IncomingNodes<2> lattice = moved_lattice(d, arguments.moved);
   LevelRun run(fill_square, constant(d), {{"list_radius", list_radius}, {"smoothing_rounds", "0"}});
   Level& level = *run.level;
   Scratch scratch;

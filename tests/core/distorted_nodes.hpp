@@ -53,9 +53,9 @@ inline LevelRun distorted(const Build& build, const Plane& d, std::uint64_t seed
                           const std::function<void(pnpbs::Settings&)>& adapt) {
   LevelRun fill(build, d);
   fill_level(*fill.level);
-  pnpbs::GivenNodes<2> nodes = inner_nodes_of(*fill.level);
+  pnpbs::IncomingNodes<2> nodes = inner_nodes_of(*fill.level);
   Random random(seed);
-  for (pnpbs::GivenNode<2>& node : nodes)
+  for (pnpbs::IncomingNode<2>& node : nodes)
     for (double& x : node.position)
       x += random.between(-0.4, 0.4) * d(node.position[0], node.position[1]);
   LevelRun run(build, d, {}, adapt);

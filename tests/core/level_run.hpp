@@ -58,8 +58,8 @@ inline void fill_level(pnpbs::Level<2>& level) {
 }
 
 // The inner nodes, as nodes to start from (placed for a spacing that take() does not know).
-inline pnpbs::GivenNodes<2> inner_nodes_of(const pnpbs::Level<2>& level) {
-  pnpbs::GivenNodes<2> inner;
+inline pnpbs::IncomingNodes<2> inner_nodes_of(const pnpbs::Level<2>& level) {
+  pnpbs::IncomingNodes<2> inner;
   const pnpbs::Nodes<2>& nodes = level.nodes;
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (nodes.moves(i)) inner.push_back({nodes.position(i), nodes.id(i)});

@@ -8,8 +8,8 @@
 #include "quality/plane/defects.hpp"
 #include "run_kernel_suite.hpp"
 
-using GivenNode = pnpbs::GivenNode<2>;
-using GivenNodes = pnpbs::GivenNodes<2>;
+using IncomingNode = pnpbs::IncomingNode<2>;
+using IncomingNodes = pnpbs::IncomingNodes<2>;
 using Level = pnpbs::Level<2>;
 using pnpbs::PopulationCounts;
 using P = pnpbs::Point<2>;
@@ -21,14 +21,14 @@ const Build kSquare = [](pnpbs::PlaneDomain& p) {
 };
 constexpr double kD = 0.03;
 
-GivenNodes lattice() {
+IncomingNodes lattice() {
   LevelRun fill(kSquare, constant(kD));
   fill_level(*fill.level);
   return inner_nodes_of(*fill.level);
 }
 
-std::size_t nearest(const GivenNodes& nodes, const P& x) {
-  const auto nearer = [&](const GivenNode& a, const GivenNode& b) {
+std::size_t nearest(const IncomingNodes& nodes, const P& x) {
+  const auto nearer = [&](const IncomingNode& a, const IncomingNode& b) {
     return pnpbs::distance<2>(a.position, x) < pnpbs::distance<2>(b.position, x);
   };
   return static_cast<std::size_t>(std::min_element(nodes.begin(), nodes.end(), nearer) -
@@ -36,7 +36,7 @@ std::size_t nearest(const GivenNodes& nodes, const P& x) {
 }
 
 // Takes the node of the lattice next to a point away; returns its place.
-P take_away(GivenNodes& nodes, const P& near) {
+P take_away(IncomingNodes& nodes, const P& near) {
   const std::size_t k = nearest(nodes, near);
   const P place = nodes[k].position;
   nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(k));
@@ -44,8 +44,8 @@ P take_away(GivenNodes& nodes, const P& near) {
 }
 
 // Puts two nodes in the place of the one next to a point, so far apart.
-P split(GivenNodes& nodes, const P& near, double apart) {
-  GivenNode& node = nodes[nearest(nodes, near)];
+P split(IncomingNodes& nodes, const P& near, double apart) {
+  IncomingNode& node = nodes[nearest(nodes, near)];
   const P place = node.position;
   node.position[0] -= 0.5 * apart;
   nodes.push_back({{place[0] + 0.5 * apart, place[1]}, 1 << 20});
@@ -53,7 +53,7 @@ P split(GivenNodes& nodes, const P& near, double apart) {
 }
 
 // Next to the walls the lattice has bad triangles: they do not count here.
-LevelRun run_with(const GivenNodes& nodes) {
+LevelRun run_with(const IncomingNodes& nodes) {
   LevelRun run(kSquare, constant(kD), {}, [](pnpbs::Settings& settings) {
     settings.defects.bad_below = 0;
     settings.repair.rounds = 0;
@@ -95,7 +95,7 @@ END_TEST
 
 // The triangles that fill a hole in the lattice have a node with eight neighbours.
 START_TEST(missing_node_comes) {
-  GivenNodes nodes = lattice();
+  IncomingNodes nodes = lattice();
   const P hole = take_away(nodes, {0.4, 0.6});
   LevelRun run = run_with(nodes);
   const std::int64_t before = run.level->nodes.count;
@@ -114,7 +114,7 @@ END_TEST
 START_TEST(surplus_node_goes) {
   for (const double apart : {0.4 * kD, 0.7 * kD})
     for (const std::int64_t sweeps : {0, 10}) {
-      GivenNodes nodes = lattice();
+      IncomingNodes nodes = lattice();
       const P place = split(nodes, {0.6, 0.4}, apart);
       LevelRun run = run_with(nodes);
       pnpbs::sweep_and_repair(*run.level, sweeps);
@@ -128,7 +128,7 @@ END_TEST
 
 // Of two defects within five rings one waits for the next round; others do not.
 START_TEST(near_defects_take_turns) {
-  GivenNodes nodes = lattice();
+  IncomingNodes nodes = lattice();
   take_away(nodes, {0.3, 0.5});
   take_away(nodes, {0.3 + 4 * kD, 0.5});
   take_away(nodes, {0.7, 0.5});

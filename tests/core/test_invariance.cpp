@@ -78,12 +78,12 @@ std::vector<Case> cases() {
 }
 
 // A fill, shaken so that there is something to do.
-pnpbs::GivenNodes<2> shaken(const Case& c, std::uint64_t seed) {
+pnpbs::IncomingNodes<2> shaken(const Case& c, std::uint64_t seed) {
   LevelRun fill(c.build, c.d);
   fill_level(*fill.level);
-  pnpbs::GivenNodes<2> nodes = inner_nodes_of(*fill.level);
+  pnpbs::IncomingNodes<2> nodes = inner_nodes_of(*fill.level);
   Random random(seed);
-  for (pnpbs::GivenNode<2>& node : nodes)
+  for (pnpbs::IncomingNode<2>& node : nodes)
     for (double& x : node.position)
       x += random.between(-0.3, 0.3) * c.d(node.position[0], node.position[1]);
   return nodes;
@@ -95,7 +95,7 @@ void finish(Level& level) {
 }
 
 void expect_rebuilds_do_not_matter(const Case& c) {
-  const pnpbs::GivenNodes<2> start = shaken(c, 140);
+  const pnpbs::IncomingNodes<2> start = shaken(c, 140);
   LevelRun seldom(c.build, c.d, c.options), always(c.build, c.d, c.options);
   pnpbs::take(*seldom.level, start, 0);
   pnpbs::take(*always.level, start, 0);
@@ -131,7 +131,7 @@ END_TEST
 
 START_TEST(order_in_memory_does_not_matter) {
   for (const Case& c : cases()) {
-    pnpbs::GivenNodes<2> start = shaken(c, 150);
+    pnpbs::IncomingNodes<2> start = shaken(c, 150);
     LevelRun straight(c.build, c.d, c.options), mixed(c.build, c.d, c.options);
     pnpbs::take(*straight.level, start, 0);
     Random(151).shuffle(start);

@@ -10,11 +10,11 @@
 namespace {
 
 using pnpbs::Carrier;
-using pnpbs::GivenNode;
+using pnpbs::IncomingNode;
 
 // A bubble on a surface has come to rest in a corner, another one on a curve; one node was there
 // before, and one is elsewhere.
-pnpbs::GivenNodes<3> nodes_in_one_place() {
+pnpbs::IncomingNodes<3> nodes_in_one_place() {
   return {{{1, 2, 3}, -1, Carrier::surface, 17, 1},
           {{1, 2, 3}, -1, Carrier::fixed, 4, 0},
           {{1, 2, 3}, 9, Carrier::fixed, 4, 0},
@@ -25,10 +25,10 @@ pnpbs::GivenNodes<3> nodes_in_one_place() {
 }  // namespace
 
 START_TEST(least_freedom_counts_in_any_order) {
-  pnpbs::GivenNodes<3> given = nodes_in_one_place();
+  pnpbs::IncomingNodes<3> given = nodes_in_one_place();
   std::vector<int> order{0, 1, 2, 3, 4};
   do {
-    pnpbs::GivenNodes<3> named;
+    pnpbs::IncomingNodes<3> named;
     for (const int k : order) named.push_back(given[static_cast<std::size_t>(k)]);
     const pnpbs::LaidNodes<3> laid(std::move(named));
     ck_assert_uint_eq(laid.size(), 2);

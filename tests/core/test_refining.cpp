@@ -11,8 +11,8 @@
 #include "level_run.hpp"
 #include "run_kernel_suite.hpp"
 
-using GivenNode = pnpbs::GivenNode<2>;
-using GivenNodes = pnpbs::GivenNodes<2>;
+using IncomingNode = pnpbs::IncomingNode<2>;
+using IncomingNodes = pnpbs::IncomingNodes<2>;
 using pnpbs::PlaneDomain;
 using shapes::add_loop;
 using shapes::rectangle;
@@ -35,19 +35,19 @@ struct Rested {
   }
 };
 
-GivenNodes new_ones(const GivenNodes& nodes) {
-  GivenNodes found;
-  for (const GivenNode& node : nodes)
+IncomingNodes new_ones(const IncomingNodes& nodes) {
+  IncomingNodes found;
+  for (const IncomingNode& node : nodes)
     if (node.id < 0) found.push_back(node);
   return found;
 }
 
 // Is x in the middle between two of the nodes? By all pairs.
-bool halves_a_pair(const GivenNodes& nodes, const P& x, double longest) {
-  for (const GivenNode& a : nodes) {
+bool halves_a_pair(const IncomingNodes& nodes, const P& x, double longest) {
+  for (const IncomingNode& a : nodes) {
     if (a.id < 0 || pnpbs::distance<2>(a.position, x) > longest) continue;
     const P other{2 * x[0] - a.position[0], 2 * x[1] - a.position[1]};
-    for (const GivenNode& c : nodes)
+    for (const IncomingNode& c : nodes)
       if (c.id >= 0 && pnpbs::distance<2>(c.position, other) < 1e-12) return true;
   }
   return false;
@@ -55,11 +55,11 @@ bool halves_a_pair(const GivenNodes& nodes, const P& x, double longest) {
 
 START_TEST(half_the_spacing_halves_every_edge) {
   Rested level(constant(0.05));
-  const GivenNodes nodes = pnpbs::refined(*level.run.level, *spacing_of(constant(0.025)));
-  const GivenNodes born = new_ones(nodes);
+  const IncomingNodes nodes = pnpbs::refined(*level.run.level, *spacing_of(constant(0.025)));
+  const IncomingNodes born = new_ones(nodes);
   ck_assert_int_eq(born.size(), 3 * level.n - 3 - 2 * level.b);
   ck_assert_int_eq(nodes.size() - born.size(), level.n);
-  for (const GivenNode& node : born) {
+  for (const IncomingNode& node : born) {
     quick_assert(halves_a_pair(nodes, node.position, 0.05));
     quick_assert(node.inner && node.d == 0.025);
   }
@@ -68,7 +68,7 @@ END_TEST
 
 START_TEST(a_third_fills_triangles_too) {
   Rested level(constant(0.05));
-  const GivenNodes born =
+  const IncomingNodes born =
       new_ones(pnpbs::refined(*level.run.level, *spacing_of(constant(0.05 / 3))));
   // An edge that is short by a sixth is only halved: few.
   const double edges = static_cast<double>(3 * level.n - 3 - 2 * level.b),
@@ -76,7 +76,7 @@ START_TEST(a_third_fills_triangles_too) {
   ck_assert_double_le(static_cast<double>(born.size()), 2 * edges + triangles);
   ck_assert_double_ge(static_cast<double>(born.size()), 0.98 * (2 * edges + triangles));
   std::set<P> places;
-  for (const GivenNode& node : born) places.insert(node.position);
+  for (const IncomingNode& node : born) places.insert(node.position);
   ck_assert_uint_eq(places.size(), born.size());
 }
 END_TEST
@@ -84,16 +84,16 @@ END_TEST
 START_TEST(only_where_it_is_finer) {
   Rested level(constant(0.05));
   for (const double d : {0.2, 0.05, 0.04}) {
-    const GivenNodes nodes = pnpbs::refined(*level.run.level, *spacing_of(constant(d)));
+    const IncomingNodes nodes = pnpbs::refined(*level.run.level, *spacing_of(constant(d)));
     ck_assert_int_eq(nodes.size(), level.n);
     ck_assert_uint_eq(new_ones(nodes).size(), 0);
   }
   // Edges are their end's with the lesser id: so much is not sure beside the line.
-  const GivenNodes born = new_ones(pnpbs::refined(
+  const IncomingNodes born = new_ones(pnpbs::refined(
       *level.run.level, *spacing_of([](double x, double) { return x < 0.5 ? 0.025 : 0.05; })));
   ck_assert_double_ge(static_cast<double>(born.size()),
                       0.9 * static_cast<double>(3 * level.n - 3 - 2 * level.b) / 2);
-  for (const GivenNode& node : born) quick_assert(node.position[0] < 0.5 + 0.03);
+  for (const IncomingNode& node : born) quick_assert(node.position[0] < 0.5 + 0.03);
 }
 END_TEST
 
@@ -101,7 +101,7 @@ END_TEST
 START_TEST(a_refined_level_is_nearly_right) {
   Rested coarse(constant(0.05));
   LevelRun fine(square, constant(0.025));
-  const GivenNodes nodes = pnpbs::refined(*coarse.run.level, *spacing_of(constant(0.025)));
+  const IncomingNodes nodes = pnpbs::refined(*coarse.run.level, *spacing_of(constant(0.025)));
   const pnpbs::TakenNodes taken = pnpbs::take(*fine.level, nodes, coarse.run.level->next_id);
   ck_assert_int_eq(taken.thinned, 0);
   // The boundary is laid anew, at half of the spacing.

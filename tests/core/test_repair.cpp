@@ -11,8 +11,8 @@
 #include "run_kernel_suite.hpp"
 
 using pnpbs::DelaunayStars;
-using GivenNode = pnpbs::GivenNode<2>;
-using GivenNodes = pnpbs::GivenNodes<2>;
+using IncomingNode = pnpbs::IncomingNode<2>;
+using IncomingNodes = pnpbs::IncomingNodes<2>;
 using Level = pnpbs::Level<2>;
 using shapes::add_loop;
 using shapes::rectangle;
@@ -28,7 +28,7 @@ constexpr std::int64_t kMore = 100000, kBoundary = 200000;
 LevelRun lattice_with(const std::vector<P>& more) {
   LevelRun fill(kSquare, constant(kD));
   fill_level(*fill.level);
-  GivenNodes nodes = inner_nodes_of(*fill.level);
+  IncomingNodes nodes = inner_nodes_of(*fill.level);
   std::int64_t id = kMore;
   for (const P& x : more) nodes.push_back({x, id++});
   LevelRun run(kSquare, constant(kD));
@@ -123,7 +123,7 @@ END_TEST
 
 // In the middle of four nodes on a square a node has four good triangles: it stays.
 START_TEST(good_node_with_four_neighbours_stays) {
-  GivenNodes nodes;
+  IncomingNodes nodes;
   const double d = 0.25;
   for (int i = 1; i < 4; ++i)
     for (int j = 1; j < 4; ++j) nodes.push_back({{d * i, d * j}, 3 * i + j});

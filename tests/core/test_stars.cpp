@@ -99,14 +99,14 @@ void expect_stars(const std::string& what, const Build& build, const Plane& d,
   expect_reference(*run.level, what + " after sweeps");
 }
 
-pnpbs::GivenNodes<2> scattered(const LevelRun& run, std::uint64_t seed, std::int64_t n) {
+pnpbs::IncomingNodes<2> scattered(const LevelRun& run, std::uint64_t seed, std::int64_t n) {
   Random random(seed);
-  pnpbs::GivenNodes<2> nodes;
+  pnpbs::IncomingNodes<2> nodes;
   for (std::int64_t i = 0; i < n; ++i) nodes.push_back({random.point<2>(run.domain->bounds()), -1});
   return nodes;
 }
 
-void take_all(const LevelRun& run, const pnpbs::GivenNodes<2>& nodes) {
+void take_all(const LevelRun& run, const pnpbs::IncomingNodes<2>& nodes) {
   const pnpbs::TakenNodes taken = pnpbs::take(*run.level, nodes, 0);
   quick_assert_msg(taken.left_out == 0 && taken.thinned == 0, "%lld nodes left out, %lld thinned",
                    static_cast<long long>(taken.left_out), static_cast<long long>(taken.thinned));
@@ -198,7 +198,7 @@ END_TEST
 // small for the list of the coarse one opposite, but within the circle of its triangle.
 START_TEST(fine_node_beyond_empty_buckets) {
   LevelRun run(add_square, [](double x, double) { return x < 0.5 ? 0.06 : 0.004; });
-  pnpbs::GivenNodes<2> nodes;
+  pnpbs::IncomingNodes<2> nodes;
   const P coarse[] = {{0.49875, 0.4}, {0.49995, 0.41025}, {0.49995, 0.38975},
                       {0.48, 0.43},   {0.46, 0.4},        {0.48, 0.37}};
   for (const P& x : coarse) nodes.push_back({x, -1});
@@ -223,7 +223,7 @@ START_TEST(exact_grids) {
     }
     for (const double spacing : spacings) {
       LevelRun run(add_square, constant(spacing), {{"list_radius", "1.5"}});
-      pnpbs::GivenNodes<2> grid;
+      pnpbs::IncomingNodes<2> grid;
       for (int i = 2; i < 14; ++i)
         for (int j = 2; j < 14; ++j) grid.push_back({{(i + 0.5) * h, (j + 0.5) * h}, -1});
       Random(71).shuffle(grid);
@@ -241,7 +241,7 @@ START_TEST(many_nodes_on_one_circle) {
   Random random(72);
   for (int trial = 0; trial < 20; ++trial) {
     LevelRun run(add_square, constant(0.04));
-    pnpbs::GivenNodes<2> nodes;
+    pnpbs::IncomingNodes<2> nodes;
     for (int x = -65; x <= 65; ++x)
       for (int y = -65; y <= 65; ++y)
         if (x * x + y * y == 65 * 65) nodes.push_back({{0.5 + x / 256.0, 0.5 + y / 256.0}, -1});
@@ -262,7 +262,7 @@ START_TEST(nodes_an_ulp_apart) {
   Random random(73);
   for (const double factor : {1.0, 25.0}) {
     LevelRun run(add_square, [&](double x, double) { return x < 0.52 ? factor * 0.012 : 0.012; });
-    pnpbs::GivenNodes<2> nodes;
+    pnpbs::IncomingNodes<2> nodes;
     for (int pair = 0; pair < 60; ++pair) {
       // With 25, close to the clearance of the coarse nodes, 0.12.
       const P x{0.12 + (pair % 2) * random.between(0, 0.3), 0.12 + 0.01 * pair};

@@ -65,9 +65,9 @@ START_TEST(nodes_go_towards_the_mean) {
   const Build square = [](PlaneDomain& p) { add_loop(p, rectangle(0, 0, 1, 1)); };
   LevelRun fill(square, d);
   fill_level(*fill.level);
-  pnpbs::GivenNodes<2> nodes = inner_nodes_of(*fill.level);
+  pnpbs::IncomingNodes<2> nodes = inner_nodes_of(*fill.level);
   Random random(110);
-  for (pnpbs::GivenNode<2>& node : nodes)
+  for (pnpbs::IncomingNode<2>& node : nodes)
     for (double& x : node.position) x += random.between(-0.04, 0.04) * 0.05;
   LevelRun run(square, d, {{"smoothing_rounds", "0"}});
   pnpbs::take(*run.level, nodes, 0);

@@ -4,13 +4,13 @@
 
 #include <cstdint>
 
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
 
 // Inner ones or on surfaces; each rank gives those that lie in its part. Returns how many, of all
 // ranks. Collective.
-std::int64_t add_nodes(Level<3>& level, GivenNodes<3> more);
+std::int64_t add_nodes(Level<3>& level, IncomingNodes<3> more);
 
 }  // namespace pnpbs

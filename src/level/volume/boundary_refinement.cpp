@@ -142,7 +142,7 @@ Strays strays_of_own(const Level<3>& level) {
 }
 
 // Is a node of its sheet of the surface as near to the middle of the ball?
-bool is_taken(const Level<3>& level, const GivenNode<3>& middle, double radius) {
+bool is_taken(const Level<3>& level, const IncomingNode<3>& middle, double radius) {
   const Nodes<3>& nodes = level.nodes;
   const Ground<3>& ground = level.ground;
   const SurfacePlace at = ground.place(middle.carrier, middle.boundary_node);
@@ -171,13 +171,13 @@ std::vector<SurfaceBall> largest_apart(const Communicator& comm,
 }
 
 // Those of this rank, which may own the place on a level set and not that on its triangle.
-GivenNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>& balls) {
-  GivenNodes<3> nodes;
+IncomingNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>& balls) {
+  IncomingNodes<3> nodes;
   for (const SurfaceBall& ball : balls)
     nodes.push_back(
         new_surface_node(level.ground, {static_cast<std::int32_t>(ball.facet), ball.x}));
   put_on_level_sets(level.ground, nodes);
-  GivenNodes<3> own;
+  IncomingNodes<3> own;
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (level.tree->owns(level.tree->tree().leaf_at(nodes[k].position)) &&
         !is_taken(level, nodes[k], balls[k].radius))
@@ -200,7 +200,7 @@ std::int64_t add_boundary_nodes(Level<3>& level) {
       break;
     before = strays;
     const std::vector<SurfaceBall> balls = largest_apart(*level.comm, own.balls);
-    GivenNodes<3> nodes;
+    IncomingNodes<3> nodes;
     agreed(*level.comm, [&] { nodes = new_nodes(level, balls); });
     const std::int64_t more = add_nodes(level, std::move(nodes));
     if (more == 0) break;

@@ -13,7 +13,7 @@ namespace pnpbs {
 namespace {
 
 // Is a node there that a new one would be on top of, on its side of the surface?
-bool covers(const Level<3>& level, std::int64_t i, const GivenNode<3>& candidate, double gap) {
+bool covers(const Level<3>& level, std::int64_t i, const IncomingNode<3>& candidate, double gap) {
   const Nodes<3>& nodes = level.nodes;
   if (distance<3>(nodes.position(i), candidate.position) >= gap * nodes.d(i)) return false;
   if (candidate.is_inner() || nodes.carrier(i) == Carrier::free) return candidate.is_inner();
@@ -24,7 +24,7 @@ bool covers(const Level<3>& level, std::int64_t i, const GivenNode<3>& candidate
 
 }  // namespace
 
-bool is_covered(const Level<3>& level, const GivenNode<3>& candidate, double gap) {
+bool is_covered(const Level<3>& level, const IncomingNode<3>& candidate, double gap) {
   const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);
   const Buckets<3>& buckets = level.neighbourhood.buckets();
   bool covered = false;
@@ -35,12 +35,12 @@ bool is_covered(const Level<3>& level, const GivenNode<3>& candidate, double gap
   return covered;
 }
 
-GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates) {
+IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates) {
   exchange(level, kStarHops<3>);
-  GivenNodes<3> found;
+  IncomingNodes<3> found;
   agreed(*level.comm, [&] {
     rebuild_lists(level, level.settings.list_radius);
-    for (const GivenNode<3>& candidate : candidates) {
+    for (const IncomingNode<3>& candidate : candidates) {
       const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);
       if (level.tree->owns(leaf) && !is_covered(level, candidate, method::kGap))
         found.push_back(candidate);

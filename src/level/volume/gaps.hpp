@@ -6,18 +6,18 @@
 
 #include <cstdint>
 
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
 
 // Is a node nearer to this new one than so many of its d, on its side of the surface? By the lists'
 // buckets.
-bool is_covered(const Level<3>& level, const GivenNode<3>& candidate, double gap);
+bool is_covered(const Level<3>& level, const IncomingNode<3>& candidate, double gap);
 
 // Of these new nodes, those that this rank owns and that are far from all that the level has.
 // Collective.
-GivenNodes<3> in_gaps(Level<3>& level, const GivenNodes<3>& candidates);
+IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates);
 
 // Puts a fill of the inside into the gaps there. Returns how many nodes that is, of all ranks.
 // Collective.

@@ -35,17 +35,17 @@ SurfacePlace Ground<3>::place(Carrier carrier, std::int32_t on) const {
   return {SurfacePlace::On::edge, node.edge};
 }
 
-GivenNodes<3> Ground<3>::feature_nodes() const {
-  GivenNodes<3> given;
+IncomingNodes<3> Ground<3>::feature_nodes() const {
+  IncomingNodes<3> nodes;
   for (std::size_t n = 0; n < features_.nodes.size(); ++n) {
     const FeatureNode& node = features_.nodes[n];
-    GivenNode<3> at{node.position, -1};
+    IncomingNode<3> at{node.position, -1};
     at.carrier = node.corner >= 0 ? Carrier::fixed : Carrier::curve;
     at.boundary_node = static_cast<std::int32_t>(n);
     at.tag = node.tag;
-    given.push_back(at);
+    nodes.push_back(at);
   }
-  return given;
+  return nodes;
 }
 
 }  // namespace pnpbs

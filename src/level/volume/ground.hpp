@@ -15,7 +15,7 @@
 #include "domain/volume/feature_nodes.hpp"
 #include "domain/volume/surface.hpp"
 #include "domain/volume/volume_domain.hpp"
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "spacing/spacing.hpp"
 
 namespace pnpbs {
@@ -67,7 +67,7 @@ class Ground<3> {
   }
 
   // The nodes on feature edges and in corners, the same on all ranks.
-  GivenNodes<3> feature_nodes() const;
+  IncomingNodes<3> feature_nodes() const;
 
  private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }

@@ -39,16 +39,16 @@ Settings surface_settings(const Settings& inside) {
 
 namespace {
 
-GivenNodes<3> own_feature_nodes(const Level<3>& level) {
-  GivenNodes<3> nodes = level.ground.feature_nodes();
-  std::erase_if(nodes, [&](const GivenNode<3>& node) {
+IncomingNodes<3> own_feature_nodes(const Level<3>& level) {
+  IncomingNodes<3> nodes = level.ground.feature_nodes();
+  std::erase_if(nodes, [&](const IncomingNode<3>& node) {
     return !level.tree->owns(level.tree->tree().leaf_at(node.position));
   });
   return nodes;
 }
 
 // This rank's part of a fill of all surfaces. Collective.
-GivenNodes<3> filled_surfaces(const Level<3>& level) {
+IncomingNodes<3> filled_surfaces(const Level<3>& level) {
   const Ground<3>& ground = level.ground;
   const Distribution<3>& distribution = level.tree->distribution();
   const PartitionCells<3> one_cell(ground.bounds(), {});
@@ -56,21 +56,21 @@ GivenNodes<3> filled_surfaces(const Level<3>& level) {
       level.distributed() ? distribution.cells().tree() : one_cell.tree(), [&](std::int32_t cell) {
         return !level.distributed() || distribution.owner_of_cell(cell) == level.comm->rank();
       }};
-  GivenNodes<3> filled;
+  IncomingNodes<3> filled;
   for (const SurfacePoint& at : surface_fill(*level.comm, ground.surface(), ground.evaluator(),
                                              level.settings.node_limit(), cells))
     filled.push_back(new_surface_node(ground, at));
   return filled;
 }
 
-void append(GivenNodes<3>& to, const GivenNodes<3>& more) {
+void append(IncomingNodes<3>& to, const IncomingNodes<3>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-void keep_ids_in_place(GivenNodes<3>& laid, const GivenNodes<3>& before) {
+void keep_ids_in_place(IncomingNodes<3>& laid, const IncomingNodes<3>& before) {
   std::map<Point<3>, std::int64_t> id_at;
-  for (const GivenNode<3>& node : before) id_at[node.position] = node.id;
-  for (GivenNode<3>& node : laid) {
+  for (const IncomingNode<3>& node : before) id_at[node.position] = node.id;
+  for (IncomingNode<3>& node : laid) {
     const auto found = id_at.find(node.position);
     if (found != id_at.end()) node.id = found->second;
   }
@@ -78,9 +78,9 @@ void keep_ids_in_place(GivenNodes<3>& laid, const GivenNodes<3>& before) {
 
 }  // namespace
 
-std::int64_t put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces,
-                               const GivenNodes<3>& on_features, bool begin_anew) {
-  GivenNodes<3> laid, filled;
+std::int64_t put_surface_nodes(Level<3>& level, IncomingNodes<3> on_surfaces,
+                               const IncomingNodes<3>& on_features, bool begin_anew) {
+  IncomingNodes<3> laid, filled;
   const auto given = std::ssize(on_surfaces);
   if (!begin_anew) thin_on_surfaces(level, on_surfaces);
   const std::int64_t thinned = given - std::ssize(on_surfaces);
@@ -97,7 +97,7 @@ std::int64_t put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces,
   return thinned;
 }
 
-GivenNode<3> new_surface_node(const Ground<3>& ground, const SurfacePoint& at, double d) {
+IncomingNode<3> new_surface_node(const Ground<3>& ground, const SurfacePoint& at, double d) {
   return {at.position,
           -1,
           Carrier::surface,
@@ -114,15 +114,15 @@ void fix_surface_nodes(Level<3>& level) {
   });
 }
 
-GivenNodes<3> surface_nodes(const Level<3>& level) {
+IncomingNodes<3> surface_nodes(const Level<3>& level) {
   const Nodes<3>& nodes = level.nodes;
-  GivenNodes<3> given;
+  IncomingNodes<3> found;
   for (std::int64_t i = 0; i < nodes.count; ++i)
-    if (nodes.owned(i) && nodes.carrier(i) != Carrier::free) given.push_back(kept_node(nodes, i));
-  return given;
+    if (nodes.owned(i) && nodes.carrier(i) != Carrier::free) found.push_back(kept_node(nodes, i));
+  return found;
 }
 
-void put_on_level_sets(const Ground<3>& ground, GivenNodes<3>& nodes) {
+void put_on_level_sets(const Ground<3>& ground, IncomingNodes<3>& nodes) {
   const LevelSetTriangles& triangles = ground.domain().level_sets();
   for (const std::shared_ptr<const LevelSet>& set : triangles.sets) {
     if (!set) continue;
@@ -143,7 +143,7 @@ void put_on_level_sets(Level<3>& level) {
   if (level.ground.domain().level_sets().sets.empty()) return;
   Nodes<3>& nodes = level.nodes;
   agreed(*level.comm, [&] {
-    GivenNodes<3> put = surface_nodes(level);
+    IncomingNodes<3> put = surface_nodes(level);
     put_on_level_sets(level.ground, put);
     std::size_t next = 0;
     for (std::int64_t i = 0; i < nodes.count; ++i)
@@ -264,7 +264,7 @@ void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps) {
 namespace {
 
 // In the middle between node i on a surface and another node of it.
-GivenNode<3> middle(const Level<3>& level, std::int64_t i, std::int64_t j, double d) {
+IncomingNode<3> middle(const Level<3>& level, std::int64_t i, std::int64_t j, double d) {
   const Point<3> way = difference(level.nodes.position(j), level.nodes.position(i));
   const SurfacePoint at = walk_from(level, i, {0.5 * way[0], 0.5 * way[1], 0.5 * way[2]});
   return new_surface_node(level.ground, at, d);
@@ -273,7 +273,7 @@ GivenNode<3> middle(const Level<3>& level, std::int64_t i, std::int64_t j, doubl
 }  // namespace
 
 void append_surface_midpoints(const Level<3>& level, const View<double>& next_spacing,
-                              GivenNodes<3>& refined) {
+                              IncomingNodes<3>& refined) {
   const Nodes<3>& nodes = level.nodes;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!nodes.owned(i) || nodes.carrier(i) != Carrier::surface) continue;

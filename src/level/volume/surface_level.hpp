@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "domain/volume/surface.hpp"
-#include "initial/given_nodes.hpp"
+#include "initial/incoming_nodes.hpp"
 #include "level/level.hpp"
 
 namespace pnpbs {
@@ -19,17 +19,17 @@ Settings surface_settings(const Settings& inside);
 // level; if `begin_anew`, a fill on the surfaces. Those on surfaces move from now on. A node of a
 // feature edge keeps the id of the one in its place among `on_features`. Returns how many of this
 // rank's were too dense for d. Collective.
-std::int64_t put_surface_nodes(Level<3>& level, GivenNodes<3> on_surfaces,
-                               const GivenNodes<3>& on_features, bool begin_anew);
+std::int64_t put_surface_nodes(Level<3>& level, IncomingNodes<3> on_surfaces,
+                               const IncomingNodes<3>& on_features, bool begin_anew);
 // A new one there, placed for d.
-GivenNode<3> new_surface_node(const Ground<3>& ground, const SurfacePoint& at, double d = 0);
+IncomingNode<3> new_surface_node(const Ground<3>& ground, const SurfacePoint& at, double d = 0);
 // They rest: from now on those inside move.
 void fix_surface_nodes(Level<3>& level);
 // The owned nodes of the boundary.
-GivenNodes<3> surface_nodes(const Level<3>& level);
+IncomingNodes<3> surface_nodes(const Level<3>& level);
 // Those on triangles of a level set move to where it is 0, if that is as near as the triangle's
 // error.
-void put_on_level_sets(const Ground<3>& ground, GivenNodes<3>& nodes);
+void put_on_level_sets(const Ground<3>& ground, IncomingNodes<3>& nodes);
 // The same of the level's own. Collective.
 void put_on_level_sets(Level<3>& level);
 
@@ -50,6 +50,6 @@ void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps);
 // New nodes in the middle of the edges within the surfaces, of those owned nodes i where
 // is_refined(i). After make_lists_and_stars or the same for surfaces.
 void append_surface_midpoints(const Level<3>& level, const View<double>& next_spacing,
-                              GivenNodes<3>& refined);
+                              IncomingNodes<3>& refined);
 
 }  // namespace pnpbs

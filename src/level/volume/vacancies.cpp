@@ -75,7 +75,7 @@ std::vector<Vacancy> vacancies_of_own(const Level<3>& level) {
   return found;
 }
 
-GivenNode<3> node_in(const Level<3>& level, const Vacancy& vacancy) {
+IncomingNode<3> node_in(const Level<3>& level, const Vacancy& vacancy) {
   return new_surface_node(level.ground, {static_cast<std::int32_t>(vacancy.facet), vacancy.x});
 }
 
@@ -105,7 +105,7 @@ std::int64_t fill_vacancies(Level<3>& level) {
       return is_covered(level, node_in(level, vacancy), method::kVacant);
     });
   });
-  GivenNodes<3> nodes;
+  IncomingNodes<3> nodes;
   for (const Vacancy& vacancy : widest(level, own))
     if (level.tree->owns(level.tree->tree().leaf_at(vacancy.x)))
       nodes.push_back(node_in(level, vacancy));

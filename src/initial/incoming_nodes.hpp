@@ -11,23 +11,23 @@
 
 namespace pnpbs {
 
-// A node as it comes from outside or from an earlier level.
+// A node as the user gives it, as a fill lays it, or as it comes from an earlier level.
 template <int Dim>
-struct GivenNode;
+struct IncomingNode;
 
 template <>
-struct GivenNode<2> {
+struct IncomingNode<2> {
   Point<2> position;
   std::int64_t id;         // -1: give it one
   bool inner = true;       // a boundary node is laid afresh; one that was there keeps its id
-  std::int32_t leaf = -1;  // of the level it is given to, once found
+  std::int32_t leaf = -1;  // of the level, once found
   double d = 0;            // spacing it was placed for; 0 if not known
 
   bool is_inner() const { return inner; }
 };
 
 template <>
-struct GivenNode<3> {
+struct IncomingNode<3> {
   Point<3> position;
   std::int64_t id;
   Carrier carrier = Carrier::free;
@@ -59,6 +59,6 @@ struct UnsetAllocator : std::allocator<T> {
 };
 
 template <int Dim>
-using GivenNodes = std::vector<GivenNode<Dim>, UnsetAllocator<GivenNode<Dim>>>;
+using IncomingNodes = std::vector<IncomingNode<Dim>, UnsetAllocator<IncomingNode<Dim>>>;
 
 }  // namespace pnpbs
