@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/space_vectors.hpp"
 #include "base/union_find.hpp"
+#include "geometry/even_odd.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "predicates/expansion.hpp"
 
@@ -200,32 +202,13 @@ std::int32_t SurfaceRegions::region_around(const Point<3>& x,
 }
 
 std::vector<char> inside_by_parity(const Triangulation& surface, const SurfaceRegions& regions) {
-  struct Way {
-    std::int32_t to;
-    char crosses;
-  };
-  std::vector<std::vector<Way>> ways(regions.count());
+  std::vector<RegionContact> contacts;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     const auto t = static_cast<std::int32_t>(i);
     const std::int32_t front = regions.front(t), back = regions.back(t);
-    if (front == back) continue;
-    const char crosses = surface.triangles[t].inner ? 0 : 1;
-    ways[front].push_back({back, crosses});
-    ways[back].push_back({front, crosses});
+    if (front != back) contacts.push_back({front, back, !surface.triangles[t].inner});
   }
-  std::vector<char> inside(regions.count(), 2);  // not known yet
-  inside[0] = 0;
-  std::vector<std::int32_t> reached{0};
-  while (!reached.empty()) {
-    const std::int32_t region = reached.back();
-    reached.pop_back();
-    for (const Way& way : ways[region]) {
-      if (inside[way.to] != 2) continue;
-      inside[way.to] = static_cast<char>(inside[region] ^ way.crosses);
-      reached.push_back(way.to);
-    }
-  }
-  return inside;
+  return inside_by_parity(index(regions.count()), contacts);
 }
 
 }  // namespace pnpbs

@@ -12,6 +12,7 @@
 #include "domain/plane/domain_graph.hpp"
 #include "domain/plane/sampling.hpp"
 #include "domain/plane/smooth_contacts.hpp"
+#include "geometry/even_odd.hpp"
 #include "geometry/plane/faces.hpp"
 #include "geometry/plane/plane_sweep.hpp"
 
@@ -127,30 +128,11 @@ class Resolver {
     reject_domain("the segments enclose nothing");
   }
 
-  // Even-odd: each boundary curve leads from outside in or from inside out.
   void find_inside_of_boundary() {
-    struct Neighbour {
-      std::int32_t face;
-      char crosses;
-    };
-    std::vector<std::vector<Neighbour>> neighbours(faces_.count);
-    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
-      const char crosses = is_boundary(e) ? 1 : 0;
-      neighbours[face_on_left(e)].push_back({face_on_right(e), crosses});
-      neighbours[face_on_right(e)].push_back({face_on_left(e), crosses});
-    }
-    inside_.assign(faces_.count, 2);  // not known yet
-    inside_[0] = 0;
-    std::vector<std::int32_t> reached{0};
-    while (!reached.empty()) {
-      const std::int32_t face = reached.back();
-      reached.pop_back();
-      for (const Neighbour& next : neighbours[face]) {
-        if (inside_[next.face] != 2) continue;
-        inside_[next.face] = inside_[face] ^ next.crosses;
-        reached.push_back(next.face);
-      }
-    }
+    std::vector<RegionContact> contacts;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e)
+      contacts.push_back({face_on_left(e), face_on_right(e), is_boundary(e)});
+    inside_ = inside_by_parity(faces_.count, contacts);
   }
 
   void remove_holes() {
