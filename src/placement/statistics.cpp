@@ -5,8 +5,8 @@
 
 #include "base/available_memory.hpp"
 #include "base/build_config.hpp"
-#include "base/error.hpp"
 #include "base/kokkos_runtime.hpp"
+#include "settings/named_rows.hpp"
 
 namespace pnpbs {
 
@@ -262,13 +262,7 @@ const std::vector<StatisticRow>& statistic_table() {
 }
 
 const StatisticRow& find_statistic(const std::string& key) {
-  std::vector<std::string> names;
-  for (const StatisticRow& row : statistic_table()) {
-    if (key == row.name) return row;
-    names.emplace_back(row.name);
-  }
-  throw Error(ErrorKind::key, "unknown statistic \"" + key + "\"; the nearest known one is \"" +
-                                  nearest_name(key, names) + "\"");
+  return row_named(key, statistic_table(), "statistic");
 }
 
 }  // namespace pnpbs

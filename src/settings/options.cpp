@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 #include "base/error.hpp"
+#include "settings/named_rows.hpp"
 
 namespace pnpbs {
 
@@ -191,13 +191,7 @@ std::vector<std::string> choices_of(const OptionRow& row) {
 }
 
 const OptionRow& find_row(const std::string& key) {
-  std::vector<std::string> names;
-  for (const OptionRow& row : option_table()) {
-    if (key == row.name) return row;
-    names.emplace_back(row.name);
-  }
-  throw Error(ErrorKind::key, "unknown option \"" + key + "\"; the nearest known one is \"" +
-                                  nearest_name(key, names) + "\"");
+  return row_named(key, option_table(), "option");
 }
 
 [[noreturn]] void reject(const OptionRow& row, const std::string& value) {
@@ -224,29 +218,6 @@ bool parse_number(const std::string& text, Number& value) {
 std::string OptionRow::range() const {
   if (type == OptionType::choice) return choices;
   return number_text(min) + " .. " + number_text(max);
-}
-
-std::string nearest_name(std::string_view key, const std::vector<std::string>& names) {
-  std::string nearest;
-  std::size_t fewest = static_cast<std::size_t>(-1);
-  for (const std::string& name : names) {
-    // Levenshtein distance, one row at a time.
-    std::vector<std::size_t> row(name.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < key.size(); ++i) {
-      std::size_t diagonal = row[0]++;
-      for (std::size_t j = 0; j < name.size(); ++j) {
-        const std::size_t change = diagonal + (key[i] != name[j]);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
-      }
-    }
-    if (row.back() < fewest) {
-      fewest = row.back();
-      nearest = name;
-    }
-  }
-  return nearest;
 }
 
 void Options::set(const std::string& key, const std::string& value) {

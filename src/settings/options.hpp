@@ -27,9 +27,6 @@ struct OptionRow {
 
 const std::vector<OptionRow>& option_table();
 
-// The name in `names` that is nearest to `key` (fewest letters changed), for messages.
-std::string nearest_name(std::string_view key, const std::vector<std::string>& names);
-
 class Options {
  public:
   // Throws Error(ErrorKind::key or ::argument).
