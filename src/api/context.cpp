@@ -178,15 +178,7 @@ pnpbs_status pnpbs_context_create_checked_f(int32_t comm, const char* library,
   });
 }
 
-pnpbs_status pnpbs_context_destroy(pnpbs_context* context) {
-  if (!context || !*context) return PNPBS_OK;
-  return guarded(*context, [&](Context& object) {
-    require_not_in_callback(object);
-    contexts().remove(*context);
-    *context = nullptr;
-    return PNPBS_OK;
-  });
-}
+pnpbs_status pnpbs_context_destroy(pnpbs_context* context) { return destroy(context, contexts); }
 
 pnpbs_status pnpbs_finalize(void) {
   return guarded([] {

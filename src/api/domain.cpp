@@ -53,15 +53,7 @@ pnpbs_status pnpbs_domain_create(pnpbs_context context, int32_t dim, pnpbs_domai
   });
 }
 
-pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) {
-  if (!domain || !*domain) return PNPBS_OK;
-  return guarded(*domain, [&](DomainObject& object) {
-    require_not_in_callback(*object.context);
-    domains().remove(*domain);
-    *domain = nullptr;
-    return PNPBS_OK;
-  });
-}
+pnpbs_status pnpbs_domain_destroy(pnpbs_domain* domain) { return destroy(domain, domains); }
 
 pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t* dim) {
   return guarded(domain, [&](DomainObject& object) {

@@ -93,4 +93,16 @@ pnpbs_status guarded(Handle handle, const Body& body) noexcept {
   }
 }
 
+// Removes what the handle stands for from its registry, and makes it NULL; nothing if it is NULL.
+template <class Object, class Handle>
+pnpbs_status destroy(Handle* handle, Registry<Object, Handle>& (*registry)()) noexcept {
+  if (!handle || !*handle) return PNPBS_OK;
+  return guarded(*handle, [&](Object& object) {
+    require_not_in_callback(context_of(object));
+    registry().remove(*handle);
+    *handle = nullptr;
+    return PNPBS_OK;
+  });
+}
+
 }  // namespace pnpbs::api

@@ -75,13 +75,7 @@ pnpbs_status pnpbs_placement_create(pnpbs_context context, pnpbs_domain domain,
 }
 
 pnpbs_status pnpbs_placement_destroy(pnpbs_placement* placement) {
-  if (!placement || !*placement) return PNPBS_OK;
-  return guarded(*placement, [&](PlacementObject& object) {
-    require_not_in_callback(*object.context);
-    placements().remove(*placement);
-    *placement = nullptr;
-    return PNPBS_OK;
-  });
+  return destroy(placement, placements);
 }
 
 pnpbs_status pnpbs_placement_set(pnpbs_placement placement, const char* key, const char* value) {

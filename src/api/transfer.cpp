@@ -89,13 +89,7 @@ pnpbs_status pnpbs_transfer_order(pnpbs_transfer transfer, int32_t* order, int64
 }
 
 pnpbs_status pnpbs_transfer_destroy(pnpbs_transfer* transfer) {
-  if (!transfer || !*transfer) return PNPBS_OK;
-  return guarded(*transfer, [&](TransferObject& object) {
-    require_not_in_callback(*object.context);
-    transfers().remove(*transfer);
-    *transfer = nullptr;
-    return PNPBS_OK;
-  });
+  return destroy(transfer, transfers);
 }
 
 pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t* dim, int32_t* components) {
