@@ -42,6 +42,22 @@ void wait_for(std::vector<MPI_Request>& requests) {
   check(MPI_Waitall(count(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
 }
 
+// One message to and from each neighbour.
+void post(MPI_Comm comm, int tag, const std::vector<int>& neighbours,
+          const std::vector<Bytes>& outgoing, std::vector<Bytes>& incoming,
+          std::vector<MPI_Request>& requests) {
+  for (std::size_t k = 0; k < neighbours.size(); ++k)
+    for_pieces(incoming[k].size(), [&](std::uint64_t at, int length) {
+      MPI_Irecv(incoming[k].data() + at, length, MPI_BYTE, neighbours[k], tag, comm,
+                &requests.emplace_back());
+    });
+  for (std::size_t k = 0; k < neighbours.size(); ++k)
+    for_pieces(outgoing[k].size(), [&](std::uint64_t at, int length) {
+      MPI_Isend(outgoing[k].data() + at, length, MPI_BYTE, neighbours[k], tag, comm,
+                &requests.emplace_back());
+    });
+}
+
 class MpiKnownExchange : public KnownExchange {
  public:
   MpiKnownExchange(MPI_Comm comm, int tag, const std::vector<int>& neighbours,
@@ -61,18 +77,7 @@ class MpiKnownExchange : public KnownExchange {
       MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   }
 
-  void start() override {
-    for (std::size_t k = 0; k < neighbours_.size(); ++k)
-      for_pieces(incoming_[k].size(), [&](std::uint64_t at, int length) {
-        MPI_Irecv(incoming_[k].data() + at, length, MPI_BYTE, neighbours_[k], tag_, comm_,
-                  &requests_.emplace_back());
-      });
-    for (std::size_t k = 0; k < neighbours_.size(); ++k)
-      for_pieces(outgoing_[k].size(), [&](std::uint64_t at, int length) {
-        MPI_Isend(outgoing_[k].data() + at, length, MPI_BYTE, neighbours_[k], tag_, comm_,
-                  &requests_.emplace_back());
-      });
-  }
+  void start() override { post(comm_, tag_, neighbours_, outgoing_, incoming_, requests_); }
   void wait() override {
     require_mpi_runs();
     wait_for(requests_);
@@ -250,16 +255,7 @@ class MpiCommunicator : public Communicator {
   void exchange_at_once(const std::vector<int>& neighbours, const std::vector<Bytes>& outgoing,
                         std::vector<Bytes>& incoming) const {
     requests_.clear();
-    for (std::size_t k = 0; k < neighbours.size(); ++k)
-      for_pieces(incoming[k].size(), [&](std::uint64_t at, int length) {
-        MPI_Irecv(incoming[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
-                  &requests_.emplace_back());
-      });
-    for (std::size_t k = 0; k < neighbours.size(); ++k)
-      for_pieces(outgoing[k].size(), [&](std::uint64_t at, int length) {
-        MPI_Isend(outgoing[k].data() + at, length, MPI_BYTE, neighbours[k], kDataTag, comm_,
-                  &requests_.emplace_back());
-      });
+    post(comm_, kDataTag, neighbours, outgoing, incoming, requests_);
     wait_for(requests_);
   }
 
