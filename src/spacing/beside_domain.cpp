@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "spacing/beside_domain.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 namespace {
-
-template <int Dim>
-double gap_between(const Box<Dim>& a, const Box<Dim>& b) {
-  double square = 0;
-  for (int k = 0; k < Dim; ++k) {
-    const double gap = std::max({0.0, b.low[k] - a.high[k], a.low[k] - b.high[k]});
-    square += gap * gap;
-  }
-  return std::sqrt(square);
-}
 
 // As longitude and latitude would lie.
 template <int Dim>
@@ -51,7 +41,7 @@ std::string extent_text(const Box<Dim>& box, const Box<Dim>& within) {
 
 template <int Dim>
 void require_meeting_boxes(const std::string& what, const Box<Dim>& given, const Box<Dim>& domain) {
-  const double gap = gap_between<Dim>(given, domain);
+  const double gap = std::sqrt(squared_gap<Dim>(given, domain));
   if (gap == 0) return;
   throw Error(ErrorKind::spacing,
               what + ": they lie outside of the domain, " + extent_text<Dim>(given, domain) +

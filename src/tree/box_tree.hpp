@@ -25,6 +25,17 @@ double squared_gap_to(const Box<Dim>& box, const std::type_identity_t<Point<Dim>
   return sum;
 }
 
+// 0 where they meet.
+template <int Dim>
+double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
+  double sum = 0;
+  for (int k = 0; k < Dim; ++k) {
+    const double gap = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
+    sum += gap * gap;
+  }
+  return sum;
+}
+
 template <int Dim>
 bool in_closed_box(const Box<Dim>& box, const std::type_identity_t<Point<Dim>>& x) {
   for (int k = 0; k < Dim; ++k)

@@ -10,6 +10,7 @@
 
 #include "base/chunked_rows.hpp"
 #include "tree/background_tree.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
@@ -49,16 +50,6 @@ struct LeafLinks {
   std::vector<double> reach;
   LeafGraph<Dim> graph;
 };
-
-template <int Dim>
-double squared_gap(const Box<Dim>& a, const Box<Dim>& b) {
-  double sum = 0;
-  for (int k = 0; k < Dim; ++k) {
-    const double gap = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
-    sum += gap * gap;
-  }
-  return sum;
-}
 
 // Every leaf looks as far as it reaches itself; a pair is linked if either sees the other. (Pairs
 // of bubbles reach half as far each, but the stars must know of every bubble that near.)
