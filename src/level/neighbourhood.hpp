@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "base/timers.hpp"
 #include "level/ground.hpp"
 #include "level/level_tree.hpp"
 #include "level/near_boundary.hpp"
