@@ -83,6 +83,9 @@ EdgeRatio ratio_of(const RatioSums& sums) {
   return {sums.edges, 1 + excess, std::sqrt(std::max(0.0, squares - excess * excess))};
 }
 
+double off(const EdgeRatio& ratio) { return std::fabs(ratio.mean - 1); }
+double off(const RatioSums& sums) { return off(ratio_of(sums)); }
+
 template <int Dim>
 SpacingBands bands_of_nodes(const Communicator& comm, const Nodes<Dim>& nodes) {
   const SpacingRange d = spacing_range<Dim>(comm, nodes);
@@ -302,7 +305,8 @@ std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm, const Nodes<
   EdgeSums judged = edge_sums<Dim>(comm, nodes, stars, bands, counts);
   const EdgeSums inside = edge_sums<Dim>(comm, nodes, stars, bands, counts_inside);
   for (std::size_t k = 0; k < judged.of.size(); ++k)
-    if (inside.of[k].edges >= kEnoughEdges) judged.of[k] = inside.of[k];
+    if (inside.of[k].edges >= kEnoughEdges && off(inside.of[k]) < off(judged.of[k]))
+      judged.of[k] = inside.of[k];
   return bands_with_edges(bands, judged);
 }
 
@@ -342,9 +346,8 @@ ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& node
 const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands) {
   constexpr double kMissed = 0.1;
   const EdgeBand* worst = nullptr;
-  const auto off = [](const EdgeBand& band) { return std::fabs(band.ratio.mean - 1); };
   for (const EdgeBand& band : bands)
-    if (band.ratio.edges >= kEnoughEdges && off(band) > (worst ? off(*worst) : kMissed))
+    if (band.ratio.edges >= kEnoughEdges && off(band.ratio) > (worst ? off(worst->ratio) : kMissed))
       worst = &band;
   return worst;
 }
