@@ -55,12 +55,6 @@ static uint64_t hash_of_lists(pnpbs_placement placement, int over_ranks, int64_t
   return hash;
 }
 
-static void hash_of_nodes(pnpbs_placement placement, char hash[32]) {
-  const char* text = "";
-  expect(pnpbs_placement_get_string(placement, "hash", &text) == PNPBS_OK, "hash");
-  strncpy(hash, text, 31)[31] = 0;
-}
-
 static void check(int32_t dim) {
   pnpbs_placement longs = placed(dim, "4"), shorts = placed(dim, "1.7");
   pnpbs_context all = context;

@@ -8,6 +8,7 @@
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
+#include <string.h>
 
 static pnpbs_context context;
 static int rank, size, failures;
@@ -43,6 +44,12 @@ static inline int32_t growing_spacing(int64_t n, int32_t dim, const double* x, d
   int64_t i;
   for (i = 0; i < n; ++i) d[i] = *(const double*)finest * (1 + 2 * x[dim * i]);
   return 0;
+}
+
+static inline void hash_of_nodes(pnpbs_placement placement, char hash[32]) {
+  const char* text = "";
+  expect(pnpbs_placement_get_string(placement, "hash", &text) == PNPBS_OK, "hash");
+  strncpy(hash, text, 31)[31] = 0;
 }
 
 /* The exit status of the program. */

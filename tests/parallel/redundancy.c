@@ -24,12 +24,6 @@ static pnpbs_placement placed(int32_t dim, const char* interval) {
   return placement;
 }
 
-static void hash_of_nodes(pnpbs_placement placement, char hash[32]) {
-  const char* text = "";
-  expect(pnpbs_placement_get_string(placement, "hash", &text) == PNPBS_OK, "hash");
-  strncpy(hash, text, 31)[31] = 0;
-}
-
 static void check_on_ranks(int32_t dim) {
   pnpbs_placement often = placed(dim, "1"), seldom = placed(dim, "4");
   const char* names[] = {"redundancy.lists", "redundancy.motion", "redundancy.stars",
