@@ -303,6 +303,7 @@ std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm, const Nodes<
   };
   const SpacingBands bands = bands_of_nodes<Dim>(comm, nodes);
   EdgeSums judged = edge_sums<Dim>(comm, nodes, stars, bands, counts);
+  if (!worst_missed_band(bands_with_edges(bands, judged))) return bands_with_edges(bands, judged);
   const EdgeSums inside = edge_sums<Dim>(comm, nodes, stars, bands, counts_inside);
   for (std::size_t k = 0; k < judged.of.size(); ++k)
     if (inside.of[k].edges >= kEnoughEdges && off(inside.of[k]) < off(judged.of[k]))

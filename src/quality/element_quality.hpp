@@ -49,10 +49,10 @@ ElementQuality measure_elements(const Communicator& comm, const Nodes<Dim>& node
                                 const Stars<Dim>& stars);
 
 // The bands in which d may be missed, without those that have no edge: of each the edges with an
-// end inside, or those with both, if these are nearer to d and enough for a mean. (A wall of 1.5 d
-// has edges through it that are as long as it is thick; beside a shore of short edges those inside
-// may be too short.) Edges of nodes that are left out, if it is told which are, do not count.
-// Collective.
+// end inside; if d is missed by these, those with both, where they are nearer to d and enough. (A
+// wall of 1.5 d has edges through it that are as long as it is thick; beside a shore of short edges
+// those inside may be too short.) Edges of nodes that are left out, if it is told which are, do not
+// count. Collective.
 template <int Dim>
 std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm, const Nodes<Dim>& nodes,
                                           const Stars<Dim>& stars, const View<char>& left_out = {});
