@@ -28,6 +28,11 @@ inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::total) + 
 // Ghosts are worked for so that a rank finds itself what others decide.
 struct NodesWorkedFor {
   std::int64_t all = 0, owned = 0;  // with ghosts; each as often as it was worked for
+
+  void add(const NodesWorkedFor& more) {
+    all += more.all;
+    owned += more.owned;
+  }
 };
 
 class Timers {
@@ -36,9 +41,7 @@ class Timers {
   void add(Phase phase, double seconds) { seconds_[static_cast<std::size_t>(phase)] += seconds; }
   const NodesWorkedFor& nodes(Phase phase) const { return nodes_[static_cast<std::size_t>(phase)]; }
   void add(Phase phase, const NodesWorkedFor& more) {
-    NodesWorkedFor& nodes = nodes_[static_cast<std::size_t>(phase)];
-    nodes.all += more.all;
-    nodes.owned += more.owned;
+    nodes_[static_cast<std::size_t>(phase)].add(more);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "level/nodes_worked_for.hpp"
 #include "level/volume/surface_stars.hpp"
 
 namespace pnpbs {
@@ -80,12 +81,9 @@ std::vector<char> owned_nodes(const Nodes<Dim>& nodes) {
 }
 
 void count_stars(Level<3>& level, const std::vector<char>& wanted) {
-  NodesWorkedFor nodes;
-  for (std::int64_t i = 0; i < level.nodes.count; ++i) {
-    nodes.all += wanted[static_cast<std::size_t>(i)];
-    nodes.owned += wanted[static_cast<std::size_t>(i)] && level.nodes.owned(i);
-  }
-  level.timers.add(Phase::stars, nodes);
+  level.timers.add(Phase::stars, nodes_worked_for(level.nodes, [&](std::int64_t i) {
+                     return wanted[static_cast<std::size_t>(i)] != 0;
+                   }));
 }
 
 template <int Dim>

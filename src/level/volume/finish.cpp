@@ -7,6 +7,7 @@
 #include "level/exchange.hpp"
 #include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
+#include "level/nodes_worked_for.hpp"
 #include "level/reach.hpp"
 #include "level/volume/surface_level.hpp"
 #include "method/constants.hpp"
@@ -28,27 +29,19 @@ auto may_go(const Level<3>& level) {
   };
 }
 
-NodesWorkedFor nodes_with_stars(const Level<3>& level) {
-  NodesWorkedFor nodes;
-  for (std::int64_t i = 0; i < level.nodes.count; ++i) {
-    const bool has_star = level.stars.size(i) > 0;
-    nodes.all += has_star;
-    nodes.owned += has_star && level.nodes.owned(i);
-  }
-  return nodes;
-}
-
 // By the stars there are. The few edges that have other nodes after the first sweep do not matter
 // to the next. (Those after a repair do.)
 void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   const PhaseTimer timer(level.timers, Phase::sweeps);
+  const NodesWorkedFor swept =
+      nodes_worked_for(level.nodes, [&](std::int64_t i) { return level.stars.size(i) > 0; });
   for (std::int64_t s = 0; s < sweeps; ++s) {
     update_ghosts(level);
     agreed(*level.comm, [&] {
       pnpbs::sweep_to_means(level.nodes, level.stars, level.settings.sweep.weight,
                             level.time_integration.scratch(level.nodes), may_go(level));
     });
-    level.timers.add(Phase::sweeps, nodes_with_stars(level));
+    level.timers.add(Phase::sweeps, swept);
   }
 }
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "base/nodes.hpp"
+#include "base/timers.hpp"
+
+namespace pnpbs {
+
+// Those of a rank's nodes and ghosts for which worked_for(i), counted once.
+template <int Dim, class WorkedFor>
+NodesWorkedFor nodes_worked_for(const Nodes<Dim>& nodes, const WorkedFor& worked_for) {
+  return sums_over("pnpbs::nodes_worked_for", nodes.count, NodesWorkedFor(),
+                   [&](std::int64_t i, NodesWorkedFor& sum) {
+                     if (worked_for(i)) sum.add({1, nodes.owned(i) ? 1 : 0});
+                   });
+}
+
+}  // namespace pnpbs
