@@ -80,6 +80,22 @@ void number_births(Level<Dim>& level, std::vector<Birth<Dim>> born) {
                        tag_of_birth(level, birth), level.nodes.moving, birth.boundary_node);
 }
 
+// From their owners, who alone know all that a bid depends on. Collective.
+template <int Dim>
+void learn_bids_of_ghosts(const Level<Dim>& level, const std::vector<std::int32_t>& bidders,
+                          const View<Bid<Dim>>& bids) {
+  if (!level.distributed()) return;
+  const Nodes<Dim>& nodes = level.nodes;
+  std::vector<Bid<Dim>> told = level.ghosts.template tell<Bid<Dim>>(
+      *level.comm, nodes, bidders, [&](std::int32_t i) { return std::vector<Bid<Dim>>{bids(i)}; });
+  std::ranges::sort(told, {}, &Bid<Dim>::id);
+  for_each("pnpbs::learn_bids_of_ghosts", nodes.count, [&](std::int64_t i) {
+    if (nodes.owned(i)) return;
+    const auto bid = std::ranges::lower_bound(told, nodes.id(i), {}, &Bid<Dim>::id);
+    if (bid != told.end() && bid->id == nodes.id(i)) bids(i) = *bid;
+  });
+}
+
 template <int Dim>
 PopulationCounts carry_out(Level<Dim>& level, PopulationChange<Dim> change) {
   Nodes<Dim>& nodes = level.nodes;
@@ -110,7 +126,8 @@ template <int Dim>
 PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
   const Nodes<Dim>& nodes = level.nodes;
   level.nodes.set_reference_positions();
-  exchange(level, kPopulationHops);
+  // As deep as the steps need that follow if nothing changes.
+  exchange(level, std::max(kPopulationHops, step_hops(level.settings)));
   PopulationChange<Dim> change;
   const PopulationRule& rule = level.settings.population;
   View<double> ratios;
@@ -122,23 +139,31 @@ PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
   });
   const PopulationThresholds thresholds =
       choose_thresholds<Dim>(*level.comm, nodes, level.lists(), ratios, rule, tolerance);
+  View<Bid<Dim>> bids;
+  std::vector<std::int32_t> bidders;
   agreed(*level.comm, [&] {
     const PhaseTimer timer(level.timers, Phase::population);
     const View<char> no_room = nodes_without_room(level);
-    change = choose_population_change<Dim>(
+    bids = bids_of_owned<Dim>(
         nodes, level.lists(), ratios, rule, thresholds,
         [&](std::int64_t i) { return no_room(i) != 0; },
         [&](std::int64_t i) { return place_beside(level, i); },
         [&](const Point<Dim>& x, double d) { return has_clearance(level, x, d); });
+    bidders = own_bidders<Dim>(nodes, bids);
+  });
+  learn_bids_of_ghosts(level, bidders, bids);
+  agreed(*level.comm, [&] {
+    const PhaseTimer timer(level.timers, Phase::population);
+    change = outcome_of_contest<Dim>(nodes, level.lists(), bids, bidders);
   });
   return carry_out(level, std::move(change));
 }
 
 PopulationCounts repair_defects(Level<2>& level) {
   level.nodes.set_reference_positions();
-  exchange(level, kPopulationHops);
-  make_lists_and_stars(level, kPopulationHops, level.settings.list_radius, {kDefectRings});
-  count_uses_by_event(level, kPopulationHops);
+  exchange(level, kDefectHops);
+  make_lists_and_stars(level, kDefectHops, level.settings.list_radius, {kDefectRings});
+  count_uses_by_event(level, kDefectHops);
   PopulationChange<2> change;
   agreed(*level.comm, [&] {
     const PhaseTimer timer(level.timers, Phase::population);

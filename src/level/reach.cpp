@@ -33,7 +33,8 @@ std::int64_t ghost_life(const Settings& settings) {
 int deepest_hops(const Settings& settings) {
   const int repair_hops = settings.dimension == 3 ? kRepairHops<3> : kRepairHops<2>;
   // One more because nodes drift out of their leaves, and one to see who is beyond.
-  return std::max({step_hops(settings), runge_kutta_hops(settings), kPopulationHops, repair_hops}) +
+  return std::max({step_hops(settings), runge_kutta_hops(settings), kPopulationHops, kDefectHops,
+                   repair_hops}) +
          2;
 }
 

@@ -9,9 +9,11 @@
 
 namespace pnpbs {
 
-// In hops of the lists: a candidate is judged by its list, looks two hops far for room, and may
-// not act if a stronger one is within three. A hop of the leaf graph is the longer one.
-inline constexpr int kPopulationHops = 6;
+// In hops of the lists: a candidate looks two hops far for room, and may not act if a stronger one
+// is within three; what those bid their owners tell. A hop of the leaf graph is the longer one.
+inline constexpr int kPopulationHops = 3;
+// The same where each rank finds itself what its ghosts do, three hops farther.
+inline constexpr int kDefectHops = 6;
 // For the stars of our nodes and their neighbours, and for lists of any radius, where d is even;
 // what they need farther away is asked for, and then all stars are found again. In space spheres
 // are larger over d than circles in the plane.

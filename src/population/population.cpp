@@ -15,21 +15,6 @@ namespace pnpbs {
 
 namespace {
 
-enum class Action : char { none, remove, insert };
-
-// What a node brings to the contest; defect 0 is no candidate.
-template <int Dim>
-struct Bid {
-  double defect = 0;
-  std::int64_t id = -1;
-  Point<Dim> place{};  // where something goes or comes
-  Action action = Action::none;
-
-  bool beats(const Bid& other) const {
-    return defect > other.defect || (defect == other.defect && id > other.id);
-  }
-};
-
 // In a volume that are 600 nodes, of which one could act at a time while dozens are missing: in
 // space those are rivals whose places are so near that what one does changes the ratios about the
 // other.
@@ -83,16 +68,16 @@ bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<B
 }  // namespace
 
 template <int Dim>
-PopulationChange<Dim> choose_population_change(
-    const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<double>& ratios,
-    const PopulationRule& rule, const PopulationThresholds& thresholds,
-    const std::function<bool(std::int64_t)>& must_go,
-    const std::function<Point<Dim>(std::int64_t)>& free_place,
-    const std::function<bool(const Point<Dim>&, double)>& fits) {
+View<Bid<Dim>> bids_of_owned(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
+                             const View<double>& ratios, const PopulationRule& rule,
+                             const PopulationThresholds& thresholds,
+                             const std::function<bool(std::int64_t)>& must_go,
+                             const std::function<Point<Dim>(std::int64_t)>& free_place,
+                             const std::function<bool(const Point<Dim>&, double)>& fits) {
   const View<Bid<Dim>> bids = make_view<Bid<Dim>>("pnpbs::population::bids", nodes.count);
   for_each("pnpbs::population::bid", nodes.count, [&](std::int64_t i) {
     Bid<Dim> bid{0, nodes.id(i), nodes.position(i), Action::none};
-    if (nodes.moves(i)) {
+    if (nodes.moves(i) && nodes.owned(i)) {
       const double ratio = ratios(i);
       const PopulationThresholds::Pair& threshold = thresholds.at(nodes.d(i));
       if (must_go(i)) {
@@ -113,9 +98,21 @@ PopulationChange<Dim> choose_population_change(
     }
     bids(i) = bid;
   });
+  return bids;
+}
+
+template <int Dim>
+std::vector<std::int32_t> own_bidders(const Nodes<Dim>& nodes, const View<Bid<Dim>>& bids) {
   std::vector<std::int32_t> bidders;  // mostly few
   for (std::int32_t i = 0; i < nodes.count; ++i)
-    if (bids(i).action != Action::none) bidders.push_back(i);
+    if (nodes.owned(i) && bids(i).action != Action::none) bidders.push_back(i);
+  return bidders;
+}
+
+template <int Dim>
+PopulationChange<Dim> outcome_of_contest(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
+                                         const View<Bid<Dim>>& bids,
+                                         const std::vector<std::int32_t>& bidders) {
   std::vector<char> winner(bidders.size());
   for_each("pnpbs::population::contest", static_cast<std::int64_t>(bidders.size()),
            [&](std::int64_t b) {
@@ -136,15 +133,25 @@ PopulationChange<Dim> choose_population_change(
   return change;
 }
 
-template PopulationChange<2> choose_population_change<2>(
-    const Nodes<2>&, const AdjacencyList<2>&, const View<double>&, const PopulationRule&,
-    const PopulationThresholds&, const std::function<bool(std::int64_t)>&,
-    const std::function<Point<2>(std::int64_t)>&,
-    const std::function<bool(const Point<2>&, double)>&);
-template PopulationChange<3> choose_population_change<3>(
-    const Nodes<3>&, const AdjacencyList<3>&, const View<double>&, const PopulationRule&,
-    const PopulationThresholds&, const std::function<bool(std::int64_t)>&,
-    const std::function<Point<3>(std::int64_t)>&,
-    const std::function<bool(const Point<3>&, double)>&);
+template View<Bid<2>> bids_of_owned<2>(const Nodes<2>&, const AdjacencyList<2>&,
+                                       const View<double>&, const PopulationRule&,
+                                       const PopulationThresholds&,
+                                       const std::function<bool(std::int64_t)>&,
+                                       const std::function<Point<2>(std::int64_t)>&,
+                                       const std::function<bool(const Point<2>&, double)>&);
+template View<Bid<3>> bids_of_owned<3>(const Nodes<3>&, const AdjacencyList<3>&,
+                                       const View<double>&, const PopulationRule&,
+                                       const PopulationThresholds&,
+                                       const std::function<bool(std::int64_t)>&,
+                                       const std::function<Point<3>(std::int64_t)>&,
+                                       const std::function<bool(const Point<3>&, double)>&);
+template std::vector<std::int32_t> own_bidders<2>(const Nodes<2>&, const View<Bid<2>>&);
+template std::vector<std::int32_t> own_bidders<3>(const Nodes<3>&, const View<Bid<3>>&);
+template PopulationChange<2> outcome_of_contest<2>(const Nodes<2>&, const AdjacencyList<2>&,
+                                                   const View<Bid<2>>&,
+                                                   const std::vector<std::int32_t>&);
+template PopulationChange<3> outcome_of_contest<3>(const Nodes<3>&, const AdjacencyList<3>&,
+                                                   const View<Bid<3>>&,
+                                                   const std::vector<std::int32_t>&);
 
 }  // namespace pnpbs

@@ -3,6 +3,7 @@
 // large go, and in the largest holes beside those whose ratio is too small new ones appear. Who
 // acts is a contest: a candidate does so if its (defect, id) is the strict maximum within three
 // hops of the adjacency lists. All read the state before the event, so the outcome has no order.
+// Ranks bid for the nodes they own, and know the bids of ghosts from their owners.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,22 @@ struct Birth {
   std::int32_t boundary_node = -1;
 };
 
+enum class Action : char { none, remove, insert };
+
+// What a node brings to the contest.
+template <int Dim>
+struct Bid {
+  double defect = 0;
+  std::int64_t id = -1;
+  Point<Dim> place{};  // where something goes or comes
+  Action action = Action::none;
+
+  bool beats(const Bid& other) const {
+    return defect > other.defect || (defect == other.defect && id > other.id);
+  }
+};
+
+// Of owned nodes.
 template <int Dim>
 struct PopulationChange {
   std::vector<std::int32_t> deleted;  // nodes
@@ -30,15 +47,27 @@ struct PopulationChange {
   std::vector<std::int32_t> parents;  // of those born: nodes
 };
 
+// The bids of owned nodes, by node; Action::none of those that are content, and of ghosts.
 // must_go(i): node i has no room and goes whatever its ratio. free_place(i): where a new bubble
-// would come beside node i. fits(x, d): is a new bubble allowed
-// at x by the domain? Lists must be fresh, with a radius of at least 1.5.
+// would come beside node i. fits(x, d): is a new bubble allowed at x by the domain? Lists must be
+// fresh, with a radius of at least 1.5, as far as one hop around owned nodes.
 template <int Dim>
-PopulationChange<Dim> choose_population_change(
-    const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<double>& ratios,
-    const PopulationRule& rule, const PopulationThresholds& thresholds,
-    const std::function<bool(std::int64_t)>& must_go,
-    const std::function<Point<Dim>(std::int64_t)>& free_place,
-    const std::function<bool(const Point<Dim>&, double)>& fits);
+View<Bid<Dim>> bids_of_owned(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
+                             const View<double>& ratios, const PopulationRule& rule,
+                             const PopulationThresholds& thresholds,
+                             const std::function<bool(std::int64_t)>& must_go,
+                             const std::function<Point<Dim>(std::int64_t)>& free_place,
+                             const std::function<bool(const Point<Dim>&, double)>& fits);
+
+// The owned nodes that bid.
+template <int Dim>
+std::vector<std::int32_t> own_bidders(const Nodes<Dim>& nodes, const View<Bid<Dim>>& bids);
+
+// What the winners among these do, where the bids of ghosts are known, and lists as far as two hops
+// around owned nodes.
+template <int Dim>
+PopulationChange<Dim> outcome_of_contest(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
+                                         const View<Bid<Dim>>& bids,
+                                         const std::vector<std::int32_t>& bidders);
 
 }  // namespace pnpbs

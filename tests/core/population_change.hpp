@@ -65,13 +65,15 @@ Change<Dim> choose(const Set<Dim>& set, const PopulationRule& rule, const Freedo
   b.set(set);
   b.list(radius);
   const pnpbs::View<double> ratios = pnpbs::overlap_ratios<Dim>(b.nodes, b.lists);
-  const PopulationChange<Dim> change = pnpbs::choose_population_change<Dim>(
+  const pnpbs::View<pnpbs::Bid<Dim>> bids = pnpbs::bids_of_owned<Dim>(
       b.nodes, b.lists, ratios, rule,
       pnpbs::choose_thresholds<Dim>(*pnpbs::serial_communicator(), b.nodes, b.lists, ratios, rule,
                                     pnpbs::method::kDistanceTolerance),
       [&](std::int64_t i) { return freedom.must_go.count(b.nodes.id(i)) > 0; },
       [&](std::int64_t i) { return pnpbs::free_place<Dim>(b.nodes, b.lists, i); },
       [&](const Point<Dim>& x, double) { return freedom.fits(x[0], x[1]); });
+  const PopulationChange<Dim> change = pnpbs::outcome_of_contest<Dim>(
+      b.nodes, b.lists, bids, pnpbs::own_bidders<Dim>(b.nodes, bids));
   Change<Dim> by_id;
   for (std::int32_t i : change.deleted) quick_assert(by_id.deleted.insert(b.nodes.id(i)).second);
   quick_assert(std::is_sorted(change.deleted.begin(), change.deleted.end()));
