@@ -175,18 +175,53 @@ void add_stars(Level<3>& level, const KnownRegion<3>& known, const std::vector<c
   count_stars(level, wanted);
 }
 
-// How far around node i others must be known that are nearer than the sum of both reaches, in units
-// of d; 0 if they are. By the largest d there.
-double unknown_reach(const Level<3>& level, const KnownRegion<3>& known, double reach,
-                     std::int64_t i) {
-  const BackgroundTree<3>& tree = level.tree->tree();
-  const Point<3> x = level.nodes.position(i);
-  const double own = reach * level.nodes.d(i);
+struct OwnedNodesBox {
+  Box<3> box;
+  double max_d = 0;  // 0: there are none
+};
+
+// Around the owned ones of nodes begin up to end.
+OwnedNodesBox owned_nodes_box(const Nodes<3>& nodes, std::int64_t begin, std::int64_t end) {
+  OwnedNodesBox owned;
+  for (std::int64_t i = begin; i < end; ++i) {
+    if (!nodes.owned(i)) continue;
+    const Box<3> here{nodes.position(i), nodes.position(i)};
+    if (owned.max_d == 0) owned.box = here;
+    widen(owned.box, here);
+    owned.max_d = std::max(owned.max_d, nodes.d(i));
+  }
+  return owned;
+}
+
+// How far around a box, for nodes there with a d up to this, others must be known that are nearer
+// to one of them than the sum of both reaches, in units of d. By the largest d of the leaves there.
+double reach_of_pairs(const Level<3>& level, double reach, const Box<3>& box, double max_d) {
+  const double own = reach * max_d;
   double sum = 2 * own;
-  tree.for_leaves_in(box_around<3>(x, 2 * own), [&](std::int32_t leaf) {
+  level.tree->tree().for_leaves_in(widened(box, 2 * own), [&](std::int32_t leaf) {
     sum = std::max(sum, own + reach * level.map().leaf_max_spacing(leaf));
   });
-  return known.covers(tree, box_around<3>(x, sum)) ? 0 : sum;
+  return sum;
+}
+
+// All that is that near to an owned node is to be known.
+void ask_for_pairs(const Level<3>& level, const KnownRegion<3>& known, double reach,
+                   UnknownBoxes<3>& unknown) {
+  const BackgroundTree<3>& tree = level.tree->tree();
+  const Buckets<3>& buckets = level.neighbourhood.buckets();
+  const Nodes<3>& nodes = level.nodes;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    const OwnedNodesBox owned = owned_nodes_box(nodes, buckets.begin(leaf), buckets.end(leaf));
+    const auto reach_around = [&](const Box<3>& box, double d) {
+      const double sum = reach_of_pairs(level, reach, box, d);
+      return known.covers(tree, widened(box, sum)) ? 0 : sum;
+    };
+    // Deep inside, once for all of them.
+    if (owned.max_d == 0 || reach_around(owned.box, owned.max_d) == 0) continue;
+    for (std::int64_t i = buckets.begin(leaf); i < buckets.end(leaf); ++i)
+      if (nodes.owned(i))
+        unknown.ask_around(i, reach_around({nodes.position(i), nodes.position(i)}, nodes.d(i)));
+  }
 }
 
 // Those of these nodes that are not there yet.
@@ -218,14 +253,11 @@ void find_ghost_stars(Level<3>& level, const KnownRegion<3>& known, std::vector<
 std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
                                       const std::vector<std::int64_t>& at_border,
                                       const StarZone& zone) {
-  const Nodes<3>& nodes = level.nodes;
   level.stars.build_none(star_input(level, known));
   UnknownBoxes<3> unknown(level);
   find_stars_of(level, known, at_border, unknown);
   find_ghost_stars(level, known, at_border, zone.rings, unknown);
-  if (zone.reach > 0)
-    for (std::int64_t i = 0; i < nodes.count; ++i)
-      if (nodes.owned(i)) unknown.ask_around(i, unknown_reach(level, known, zone.reach, i));
+  if (zone.reach > 0) ask_for_pairs(level, known, zone.reach, unknown);
   return unknown.boxes();
 }
 

@@ -62,6 +62,36 @@ class Needs {
   std::vector<std::pair<std::int32_t, std::int32_t>> front_;  // leaf and rank that came last
 };
 
+// Leaves of a tree that are not found yet, by the cells that have some.
+template <int Dim>
+class LeavesLeft {
+ public:
+  explicit LeavesLeft(const BackgroundTree<Dim>& tree)
+      : tree_(tree),
+        parent_(static_cast<std::size_t>(tree.cell_count()), -1),
+        left_(static_cast<std::size_t>(tree.cell_count()), 0) {
+    for (std::int32_t c = 0; c < tree.cell_count(); ++c)
+      for (int k = 0; tree.cell(c).first_child >= 0 && k < BackgroundTree<Dim>::kChildren; ++k)
+        parent_[static_cast<std::size_t>(tree.cell(c).first_child + k)] = c;
+    for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) add_from(leaf, 1);
+  }
+
+  bool any_in(std::int32_t cell) const { return left_[static_cast<std::size_t>(cell)] > 0; }
+  bool found(std::int32_t leaf) const { return !any_in(tree_.leaf_cell(leaf)); }
+  void find(std::int32_t leaf) {
+    if (!found(leaf)) add_from(leaf, -1);
+  }
+
+ private:
+  void add_from(std::int32_t leaf, std::int32_t more) {
+    for (std::int32_t c = tree_.leaf_cell(leaf); c >= 0; c = parent_[static_cast<std::size_t>(c)])
+      left_[static_cast<std::size_t>(c)] += more;
+  }
+
+  const BackgroundTree<Dim>& tree_;
+  std::vector<std::int32_t> parent_, left_;
+};
+
 // The leaves within so many hops of these, and they themselves; marks them.
 template <int Dim>
 std::vector<std::int32_t> reached_from(const LeafGraph<Dim>& graph,
@@ -92,26 +122,28 @@ std::vector<char> Distribution<Dim>::cells_near_own(int hops, double reach) cons
   const auto box = [&](std::int32_t c) { return tree.cell_box(tree.leaf_cell(c)); };
   // A hop goes as far as a bubble reaches and to the far side of the leaf it finds there.
   const auto way = [&](std::int32_t c) { return hops * (reach + 2) * cells_.max_spacing(c); };
-  std::vector<char> found(static_cast<std::size_t>(cells_.count()), 0);
+  LeavesLeft<Dim> left(tree);
+  for (std::int32_t c = 0; c < cells_.count(); ++c)
+    if (owner_of_cell(c) == rank_) left.find(c);
   constexpr double kNone = std::numeric_limits<double>::infinity();
   Box<Dim> around_own;
   around_own.low.fill(kNone);
   around_own.high.fill(-kNone);
   for (std::int32_t c = 0; c < cells_.count(); ++c) {
-    if (owner_of_cell(c) != rank_) continue;
+    if (owner_of_cell(c) != rank_ || empty(c)) continue;
     const Box<Dim> own = box(c);
-    found[static_cast<std::size_t>(c)] = 1;
-    if (empty(c)) continue;
     around_own = joined(around_own, own);
-    tree.for_leaves_in(widened(own, way(c)), [&](std::int32_t n) {
-      if (squared_gap<Dim>(own, box(n)) <= way(c) * way(c)) found[static_cast<std::size_t>(n)] = 1;
-    });
+    tree.for_leaves_in(
+        widened(own, way(c)), [&](std::int32_t cell) { return left.any_in(cell); },
+        [&](std::int32_t n) {
+          if (squared_gap<Dim>(own, box(n)) <= way(c) * way(c)) left.find(n);
+        });
   }
   // Those with bubbles so much larger than ours that only they reach as far.
+  std::vector<char> found;
   for (std::int32_t c = 0; c < cells_.count(); ++c)
-    if (!found[static_cast<std::size_t>(c)] &&
-        squared_gap<Dim>(box(c), around_own) <= way(c) * way(c))
-      found[static_cast<std::size_t>(c)] = near(box(c), rank_, way(c));
+    found.push_back(left.found(c) || (squared_gap<Dim>(box(c), around_own) <= way(c) * way(c) &&
+                                      near(box(c), rank_, way(c))));
   return found;
 }
 
@@ -149,10 +181,12 @@ template <int Dim>
 bool Distribution<Dim>::near(const Box<Dim>& box, int rank, double way) const {
   bool found = false;
   const BackgroundTree<Dim>& tree = cells_.tree();
-  tree.for_leaves_in(widened(box, way), [&](std::int32_t cell) {
-    found = found || (owner_of_cell(cell) == rank && !empty(cell) &&
-                      squared_gap<Dim>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way);
-  });
+  tree.for_leaves_in(
+      widened(box, way), [&](std::int32_t) { return !found; },
+      [&](std::int32_t cell) {
+        found = found || (owner_of_cell(cell) == rank && !empty(cell) &&
+                          squared_gap<Dim>(box, tree.cell_box(tree.leaf_cell(cell))) <= way * way);
+      });
   return found;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The graph of leaves and the tree of boxes, in plane and volume, against all pairs.
+// The graph of leaves, the tree of boxes and the cells around a rank, in plane and volume, against
+// all pairs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "bubbles.hpp"
+#include "partition/distribution.hpp"
 #include "run_kernel_suite.hpp"
 #include "tree/box_tree.hpp"
 
@@ -167,6 +169,57 @@ void expect_cover() {
   }
 }
 
+// ------------------------------------------------------------------ cells near a rank's --------
+
+// Cells with the largest d in them, as wide as they are over four; some with none of the domain.
+template <int Dim>
+pnpbs::PartitionCells<Dim> cells_of(const pnpbs::BackgroundTree<Dim>& tree, Random& random) {
+  std::vector<pnpbs::PartitionCell<Dim>> cells;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+    const auto& cell = tree.cell(tree.leaf_cell(leaf));
+    const double d = tree.cell_side(tree.leaf_cell(leaf)) / 4;
+    cells.push_back({cell.index, cell.depth, 1, random.below(6) == 0 ? 0 : d});
+  }
+  return {tree.cell_box(0), cells};
+}
+
+// Own cells, and those that have a bubble of ours within their way or are within the way of one.
+template <int Dim>
+void expect_cells_near_own(const pnpbs::PartitionCells<Dim>& cells, int rank,
+                           const std::vector<std::int32_t>& owner, int hops, double reach) {
+  const auto box = [&](std::int32_t c) { return cells.tree().cell_box(cells.tree().leaf_cell(c)); };
+  const auto way = [&](std::int32_t c) { return hops * (reach + 2) * cells.max_spacing(c); };
+  const auto is_own = [&](std::int32_t c) { return owner[static_cast<std::size_t>(c)] == rank; };
+  std::vector<char> expected;
+  for (std::int32_t c = 0; c < cells.count(); ++c) {
+    bool near = is_own(c);
+    for (std::int32_t own = 0; own < cells.count() && !near; ++own)
+      near = is_own(own) && cells.max_spacing(own) > 0 &&
+             gap_between<Dim>(box(own), box(c)) <= std::max(way(own), way(c));
+    expected.push_back(near);
+  }
+  quick_assert(pnpbs::Distribution<Dim>(cells, owner, rank).cells_near_own(hops, reach) ==
+               expected);
+}
+
+template <int Dim>
+void expect_cells_near_ranks() {
+  const pnpbs::BackgroundTree<Dim> tree = graded_tree<Dim>();
+  Random random(82);
+  const pnpbs::PartitionCells<Dim> cells = cells_of(tree, random);
+  ck_assert_int_eq(cells.count(), tree.leaf_count());
+  constexpr int kRanks = 7;
+  std::vector<std::int32_t> in_rows, anywhere;  // as a partition would cut; and torn apart
+  for (std::int32_t c = 0; c < cells.count(); ++c) {
+    in_rows.push_back(kRanks * c / cells.count());
+    anywhere.push_back(static_cast<std::int32_t>(random.below(kRanks)));
+  }
+  for (int rank = 0; rank <= kRanks; ++rank)  // the last has nothing
+    for (const int hops : {1, 3})
+      for (const std::vector<std::int32_t>& owner : {in_rows, anywhere})
+        expect_cells_near_own<Dim>(cells, rank, owner, hops, 0.07);
+}
+
 }  // namespace
 
 START_TEST(leaves_are_linked_as_by_search) {
@@ -187,7 +240,14 @@ START_TEST(covers_hold_all_boxes) {
 }
 END_TEST
 
+START_TEST(cells_are_found_around_a_rank_as_by_search) {
+  expect_cells_near_ranks<2>();
+  expect_cells_near_ranks<3>();
+}
+END_TEST
+
 int main() {
-  return run_kernel_suite("trees", {leaves_are_linked_as_by_search, boxes_are_found_as_by_search,
-                                    covers_hold_all_boxes});
+  return run_kernel_suite(
+      "trees", {leaves_are_linked_as_by_search, boxes_are_found_as_by_search, covers_hold_all_boxes,
+                cells_are_found_around_a_rank_as_by_search});
 }
