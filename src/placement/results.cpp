@@ -151,13 +151,16 @@ NearestNeighbourError Results<Dim>::spacing_error() {
   const Nodes<Dim>& nodes = level_->nodes;
   const AdjacencyList<Dim>& lists = level_->lists();
   // Nodes with no listed neighbour count as far as the lists reach.
-  const auto ratio = [&](std::int64_t i) {
+  View<double> ratio;
+  agreed(*comm_, [&] { ratio = make_view<double>("pnpbs::spacing_error::ratio", nodes.count); });
+  for_each("pnpbs::spacing_error::ratio", nodes.count, [&](std::int64_t i) {
+    if (!nodes.owned(i)) return;
     double nearest = lists.radius() * nodes.d(i);
     lists.for_neighbours(i, [&](std::int64_t j) {
       nearest = std::min(nearest, distance<Dim>(nodes.position(i), nodes.position(j)));
     });
-    return nearest / nodes.d(i);
-  };
+    ratio(i) = nearest / nodes.d(i);
+  });
   const double n = static_cast<double>(global_count());
   const auto mean_of = [&](const auto& value) {
     const FixedPointSum sum =

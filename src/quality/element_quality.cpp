@@ -181,16 +181,6 @@ double quality_of(const PlaneTriangle& x) { return triangle_quality(x[0], x[1], 
 double quality_of(const TetrahedronCorners& x) { return tetrahedron_quality(x); }
 double quality_of(const SpaceTriangle& x) { return triangle_quality(x[0], x[1], x[2]); }
 
-struct QualitySums {
-  std::int64_t elements = 0;
-  FixedPointSum quality;
-
-  void add(const QualitySums& other) {
-    elements += other.elements;
-    quality.add(other.quality);
-  }
-};
-
 // Of the angle at a.
 template <std::size_t Dim>
 double cosine(const std::array<double, Dim>& a, const std::array<double, Dim>& b,
@@ -209,18 +199,21 @@ double max_cosine(const TetrahedronCorners& x) {
   return std::cos(min_dihedral_angle(x) / kDegrees);
 }
 
-// The largest of value(corners) of the elements, over all ranks; at least `floor`.
-template <class Element, int Dim, class Value>
-double max_of_elements(const Communicator& comm, const Nodes<Dim>& nodes, const Stars<Dim>& stars,
-                       double floor, const Value& value) {
-  return comm.allreduce_max(
-      max_of("pnpbs::largest_of_elements", nodes.count, floor, [&](std::int64_t i) {
-        double max = floor;
-        for_elements_of<Element, Dim>(
-            nodes, stars, i, [&](const Element& corners) { max = std::max(max, value(corners)); });
-        return max;
-      }));
-}
+struct QualitySums {
+  explicit QualitySums(double cosine) : max_cosine(cosine) {}
+
+  std::int64_t elements = 0;
+  FixedPointSum quality;
+  double min = 1;
+  double max_cosine;  // at the smallest angle
+
+  void add(const QualitySums& other) {
+    elements += other.elements;
+    quality.add(other.quality);
+    min = std::min(min, other.min);
+    max_cosine = std::max(max_cosine, other.max_cosine);
+  }
+};
 
 // The step below which less than 1 % of the elements are.
 double one_percent_of(const std::vector<std::int64_t>& histogram, std::int64_t elements) {
@@ -231,46 +224,46 @@ double one_percent_of(const std::vector<std::int64_t>& histogram, std::int64_t e
   return static_cast<double>(step) / static_cast<double>(kQualitySteps);
 }
 
-// How many elements there are of each step of quality, on this rank.
+// Of the elements of this rank; and how many there are of each step of quality.
 template <class Element, int Dim>
-std::vector<std::int64_t> histogram_of(const Nodes<Dim>& nodes, const Stars<Dim>& stars) {
+QualitySums local_quality_sums(const Nodes<Dim>& nodes, const Stars<Dim>& stars,
+                               std::vector<std::int64_t>& histogram) {
+  constexpr bool kTriangles = std::tuple_size_v<Element> == 3;
+  constexpr double kOfLargestMin = kTriangles ? 0.5 : 1.0 / 3;  // 60 degrees, 70.5 degrees
   const View<std::int64_t> steps = make_view<std::int64_t>("pnpbs::quality", kQualitySteps);
   Kokkos::deep_copy(steps, 0);
-  for_each("pnpbs::quality_histogram", nodes.count, [&](std::int64_t i) {
-    for_elements_of<Element, Dim>(nodes, stars, i, [&](const Element& corners) {
-      const auto step = static_cast<std::int64_t>(kQualitySteps * quality_of(corners));
-      Kokkos::atomic_inc(&steps(std::clamp<std::int64_t>(step, 0, kQualitySteps - 1)));
-    });
-  });
-  return {steps.data(), steps.data() + kQualitySteps};
+  const QualitySums sums = sums_over(
+      "pnpbs::quality_sums", nodes.count, QualitySums(kOfLargestMin),
+      [&](std::int64_t i, QualitySums& sum) {
+        for_elements_of<Element, Dim>(nodes, stars, i, [&](const Element& corners) {
+          const double quality = quality_of(corners);
+          const auto step = static_cast<std::int64_t>(kQualitySteps * quality);
+          Kokkos::atomic_inc(&steps(std::clamp<std::int64_t>(step, 0, kQualitySteps - 1)));
+          ++sum.elements;
+          sum.quality.add(quality);
+          sum.min = std::min(sum.min, quality);
+          sum.max_cosine = std::max(sum.max_cosine, max_cosine(corners));
+        });
+      });
+  histogram.assign(steps.data(), steps.data() + kQualitySteps);
+  return sums;
 }
 
 template <class Element, int Dim>
 SimplexQuality measure_simplices(const Communicator& comm, const Nodes<Dim>& nodes,
                                  const Stars<Dim>& stars) {
-  const QualitySums sums = sums_over(
-      "pnpbs::quality_sums", nodes.count, QualitySums(), [&](std::int64_t i, QualitySums& sum) {
-        for_elements_of<Element, Dim>(nodes, stars, i, [&](const Element& corners) {
-          ++sum.elements;
-          sum.quality.add(quality_of(corners));
-        });
-      });
-  std::vector<std::int64_t> histogram = histogram_of<Element, Dim>(nodes, stars);
+  std::vector<std::int64_t> histogram;
+  const QualitySums own = local_quality_sums<Element, Dim>(nodes, stars, histogram);
   SimplexQuality found;
   found.elements =
-      static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(sums.elements)));
-  const double quality = comm.allreduce_sum(sums.quality).value();
+      static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(own.elements)));
+  const double quality = comm.allreduce_sum(own.quality).value();
   comm.allreduce_sum(histogram);
   if (found.elements == 0) return found;
   found.mean = quality / static_cast<double>(found.elements);
   found.one_percent = one_percent_of(histogram, found.elements);
-  found.min = -max_of_elements<Element, Dim>(comm, nodes, stars, -1,
-                                             [](const Element& x) { return -quality_of(x); });
-  constexpr bool kTriangles = std::tuple_size_v<Element> == 3;
-  constexpr double kOfLargestMin = kTriangles ? 0.5 : 1.0 / 3;  // 60 degrees, 70.5 degrees
-  const double cosine_of_min = max_of_elements<Element, Dim>(
-      comm, nodes, stars, kOfLargestMin, [](const Element& x) { return max_cosine(x); });
-  found.min_angle = kDegrees * std::acos(std::min(1.0, cosine_of_min));
+  found.min = -comm.allreduce_max(-own.min);
+  found.min_angle = kDegrees * std::acos(std::min(1.0, comm.allreduce_max(own.max_cosine)));
   return found;
 }
 
