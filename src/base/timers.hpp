@@ -21,6 +21,7 @@ enum class Phase {
   population,
   stars,
   sweeps,
+  conformity,
   total
 };
 inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::total) + 1;

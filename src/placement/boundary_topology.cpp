@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/found_indices.hpp"
 #include "level/volume/boundary_euler.hpp"
 #include "level/volume/boundary_pieces.hpp"
 #include "level/volume/open_faces.hpp"
@@ -10,16 +11,28 @@
 
 namespace pnpbs {
 
+namespace {
+
+bool is_torn(const Level<3>& level, std::int64_t i) {
+  if (!level.nodes.owned(i)) return false;
+  const FaceFan fan = open_faces(level, i);
+  return level.nodes.carrier(i) == Carrier::free ? !fan.empty() : lacks_disks(level, i, fan);
+}
+
+bool is_bridging(const Level<3>& level, std::int64_t i) {
+  return level.nodes.owned(i) &&
+         std::ranges::any_of(open_faces(level, i), [&](const FaceSide& side) {
+           return !lies_along_surface(level, {i, side.first, side.second});
+         });
+}
+
+}  // namespace
+
 std::vector<Point<3>> bridging_nodes(const Level<3>& level) {
   std::vector<Point<3>> bridging;
-  for (std::int64_t i = 0; i < level.nodes.count; ++i) {
-    if (!level.nodes.owned(i)) continue;
-    const auto bridges = [&](const FaceSide& side) {
-      return !lies_along_surface(level, {i, side.first, side.second});
-    };
-    if (std::ranges::any_of(open_faces(level, i), bridges))
-      bridging.push_back(level.nodes.position(i));
-  }
+  for (const std::int64_t i : indices_where("pnpbs::bridging_nodes", level.nodes.count,
+                                            [&](std::int64_t k) { return is_bridging(level, k); }))
+    bridging.push_back(level.nodes.position(i));
   return bridging;
 }
 
@@ -28,17 +41,12 @@ BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<
   const Nodes<3>& nodes = level.nodes;
   BoundaryTopology result;
   std::uint64_t on_surfaces = 0;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    if (!nodes.owned(i)) continue;
-    const FaceFan fan = open_faces(level, i);
-    const bool is_free = nodes.carrier(i) == Carrier::free;
-    const bool torn_here = is_free ? !fan.empty() : lacks_disks(level, i, fan);
-    result.torn.add(torn_here, nodes.id(i), nodes.position(i));
-    if (torn_here) {
-      on_surfaces += !is_free;
-      torn.push_back(nodes.position(i));
-      level.stars.for_neighbours(i, [&](std::int64_t j) { torn.push_back(nodes.position(j)); });
-    }
+  for (const std::int64_t i : indices_where("pnpbs::boundary_topology", nodes.count,
+                                            [&](std::int64_t k) { return is_torn(level, k); })) {
+    on_surfaces += nodes.carrier(i) != Carrier::free;
+    result.torn.add(1, nodes.id(i), nodes.position(i));
+    torn.push_back(nodes.position(i));
+    level.stars.for_neighbours(i, [&](std::int64_t j) { torn.push_back(nodes.position(j)); });
   }
   result.torn = over_ranks(results.communicator(), result.torn);
   result.torn_on_surfaces = results.communicator().allreduce_sum(on_surfaces) > 0;

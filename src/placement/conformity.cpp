@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "placement/conformity.hpp"
 
+#include "base/found_indices.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "placement/flat_elements.hpp"
@@ -66,15 +67,16 @@ Conformity<Dim> conformity_of(const Results<Dim>& results) {
   const Nodes<Dim>& nodes = level.nodes;
   Conformity<Dim> result;
   FoundNodes<Dim> isolated;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    if (!nodes.owned(i)) continue;
-    ++result.nodes;
-    if (!in_no_element(level, i)) continue;
-    isolated.add(1, nodes.id(i), nodes.position(i));
-    result.torn.push_back(nodes.position(i));
-  }
-  result.nodes =
-      static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(result.nodes)));
+  agreed(comm, [&] {
+    const auto is_isolated = [&](std::int64_t i) {
+      return nodes.owned(i) && in_no_element(level, i);
+    };
+    for (const std::int64_t i : indices_where("pnpbs::conformity", nodes.count, is_isolated)) {
+      isolated.add(1, nodes.id(i), nodes.position(i));
+      result.torn.push_back(nodes.position(i));
+    }
+  });
+  result.nodes = results.global_count();
   result.isolated = over_ranks(comm, isolated);
   agreed(comm, [&] {
     result.unmatched = unmatched_edges(results, result.torn);

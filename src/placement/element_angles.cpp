@@ -43,10 +43,14 @@ LeastAngles least_angles(const Level<3>& level, double of_all) {
   LeastAngles least;
   agreed(*level.comm, [&] {
     const std::vector<char> at_edge = nodes_at_sharp_edges(level, edges);
-    for_own_elements(level, [&](const Tetrahedron& t, const std::array<std::int64_t, 4>& corners) {
-      double& of_kind = any_of(at_edge, corners) ? least.at_sharp_edges : least.elsewhere;
-      of_kind = std::min(of_kind, min_dihedral_angle(positions(t)));
-    });
+    least = sums_over(
+        "pnpbs::least_angles", level.nodes.count, LeastAngles(),
+        [&](std::int64_t i, LeastAngles& angles) {
+          for_own_elements_at(
+              level, i, [&](const Tetrahedron& t, const std::array<std::int64_t, 4>& corners) {
+                angles.add(min_dihedral_angle(positions(t)), any_of(at_edge, corners));
+              });
+        });
   });
   return {-level.comm->allreduce_max(-least.at_sharp_edges),
           -level.comm->allreduce_max(-least.elsewhere)};
@@ -57,11 +61,15 @@ SmallAngleElements small_angle_elements(const Level<3>& level, double below) {
   SmallAngleElements found;
   agreed(*level.comm, [&] {
     const std::vector<char> at_edge = nodes_at_sharp_edges(level, sharp_edges(level));
-    for_own_elements(level, [&](const Tetrahedron& t, const std::array<std::int64_t, 4>& corners) {
-      if (!small.any(positions(t)) || any_of(at_edge, corners)) return;
-      found.all.add(1, t[0].id, t[0].x);
-      for (const VolumeNode& corner : t) found.places.push_back(corner.x);
-    });
+    for_own_elements_where(
+        "pnpbs::small_angle_elements", level,
+        [&](const Tetrahedron& t, const std::array<std::int64_t, 4>& corners) {
+          return small.any(positions(t)) && !any_of(at_edge, corners);
+        },
+        [&](const Tetrahedron& t, const std::array<std::int64_t, 4>&) {
+          found.all.add(1, t[0].id, t[0].x);
+          for (const VolumeNode& corner : t) found.places.push_back(corner.x);
+        });
     std::ranges::sort(found.places);
     found.places.erase(std::unique(found.places.begin(), found.places.end()), found.places.end());
   });

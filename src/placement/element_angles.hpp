@@ -3,6 +3,7 @@
 // which no nodes can avoid, apart from the others.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,15 @@ namespace pnpbs {
 // edge (shape/sharp_edges.hpp), a corner is less than d from it.
 struct LeastAngles {
   double at_sharp_edges = 180, elsewhere = 180;
+
+  void add(double angle, bool at_edge) {
+    double& of_kind = at_edge ? at_sharp_edges : elsewhere;
+    of_kind = std::min(of_kind, angle);
+  }
+  void add(const LeastAngles& other) {
+    add(other.at_sharp_edges, true);
+    add(other.elsewhere, false);
+  }
 };
 
 // From the stars there are, with the least angle of all elements. Collective.

@@ -27,6 +27,7 @@ void measure_finish(Results<2>&, const PlacedSpacing<2>&, RunState&) {}
 void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunState& run) {
   results.prepare_stars();
   const Level<3>& level = results.level();
+  const PhaseTimer timer(level.timers, Phase::conformity);
   const View<char> held = held_nodes(level, placed);  // there d is not the user's
   agreed(*level.comm, [&] {
     run.edge_bands = edge_bands_to_judge<3>(*level.comm, level.nodes, level.stars, held);
@@ -61,6 +62,7 @@ bool elements_conform(Results<2>&, RunState&, Unresolved<2>&) { return true; }
 
 bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresolved) {
   const Communicator& comm = results.communicator();
+  const PhaseTimer timer(results.level().timers, Phase::conformity);
   const Conformity<3> conformity = conformity_of(results);
   run.warn(text_of(conformity, results));
   unresolved = {};

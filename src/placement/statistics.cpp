@@ -187,6 +187,8 @@ const std::vector<StatisticRow>& statistic_table() {
       real("seconds.population", seconds<Phase::population>, "population control"),
       real("seconds.stars", seconds<Phase::stars>, "Delaunay stars"),
       real("seconds.sweeps", seconds<Phase::sweeps>, "finishing sweeps"),
+      real("seconds.conformity", seconds<Phase::conformity>,
+           "making the boundary of the elements that of the domain, and judging the elements"),
       real("seconds.total", seconds<Phase::total>,
            "from domain and spacing given to nodes available, without files"),
       integer(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/execution.hpp"
+#include "base/found_indices.hpp"
 #include "run_kernel_suite.hpp"
 
 namespace {
@@ -50,9 +51,23 @@ START_TEST(bodies_run_though_one_has_thrown) {
 }
 END_TEST
 
+START_TEST(indices_are_found_in_order) {
+  const auto holds = [](std::int64_t i) { return i % 7 == 3 || i == 0 || i == kBodies - 1; };
+  std::vector<std::int64_t> expected;
+  for (std::int64_t i = 0; i < kBodies; ++i)
+    if (holds(i)) expected.push_back(i);
+  ck_assert(pnpbs::indices_where("indices_where", kBodies, holds) == expected);
+  ck_assert(pnpbs::indices_where("indices_where", 0, holds).empty());
+  ck_assert(throws([] {
+    pnpbs::indices_where("indices_where", kBodies, [](std::int64_t i) { return throwing(i) > 0; });
+  }));
+}
+END_TEST
+
 }  // namespace
 
 int main() {
   return run_kernel_suite("execution",
-                          {exceptions_come_to_the_caller, bodies_run_though_one_has_thrown});
+                          {exceptions_come_to_the_caller, bodies_run_though_one_has_thrown,
+                           indices_are_found_in_order});
 }

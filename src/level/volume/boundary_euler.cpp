@@ -11,14 +11,31 @@ namespace pnpbs {
 
 namespace {
 
-using Counts = std::array<std::int64_t, 3>;  // of vertices, edges and triangles
+struct Counts {
+  std::int64_t vertices = 0, edges = 0, triangles = 0;
 
-std::int64_t euler_of(const Counts& counts) { return counts[0] - counts[1] + counts[2]; }
+  void add(const Counts& more) {
+    vertices += more.vertices;
+    edges += more.edges;
+    triangles += more.triangles;
+  }
+  std::int64_t euler() const { return vertices - edges + triangles; }
+};
 
 template <class T>
 std::int64_t distinct(std::vector<T>& values) {
   std::ranges::sort(values);
   return std::unique(values.begin(), values.end()) - values.begin();
+}
+
+void add_faces_at(const Level<3>& level, std::int64_t i, Counts& counts) {
+  const FaceFan fan = open_faces(level, i);
+  if (fan.empty()) return;
+  std::vector<std::int32_t> others;
+  for (const auto& [a, b] : fan) others.insert(others.end(), {a, b});
+  ++counts.vertices;
+  counts.edges += distinct(others);
+  counts.triangles += std::ssize(fan);
 }
 
 }  // namespace
@@ -39,29 +56,22 @@ std::int64_t euler_of_surfaces(const Level<3>& level) {
       edges.push_back({std::min(a, b), std::max(a, b)});
     }
   }
-  return euler_of({distinct(vertices), distinct(edges), triangles});
+  return Counts{distinct(vertices), distinct(edges), triangles}.euler();
 }
 
 // Each node's share is its owner's: an edge is seen from both of its ends, a triangle from its
 // corners.
 std::int64_t euler_of_boundary(const Level<3>& level) {
-  Counts own{};
+  std::vector<std::int64_t> all;
   agreed(*level.comm, [&] {
-    for (std::int64_t i = 0; i < level.nodes.count; ++i) {
-      if (!level.nodes.owned(i)) continue;
-      const FaceFan fan = open_faces(level, i);
-      std::vector<std::int32_t> others;
-      for (const auto& [a, b] : fan) others.insert(others.end(), {a, b});
-      own[0] += !fan.empty();
-      own[1] += distinct(others);
-      own[2] += std::ssize(fan);
-    }
+    const Counts own = sums_over("pnpbs::euler_of_boundary", level.nodes.count, Counts(),
+                                 [&](std::int64_t i, Counts& counts) {
+                                   if (level.nodes.owned(i)) add_faces_at(level, i, counts);
+                                 });
+    all = {own.vertices, own.edges, own.triangles};
   });
-  Counts all;
-  for (std::size_t k = 0; k < 3; ++k)
-    all[k] =
-        static_cast<std::int64_t>(level.comm->allreduce_sum(static_cast<std::uint64_t>(own[k])));
-  return euler_of({all[0], all[1] / 2, all[2] / 3});
+  level.comm->allreduce_sum(all);
+  return Counts{all[0], all[1] / 2, all[2] / 3}.euler();
 }
 
 }  // namespace pnpbs

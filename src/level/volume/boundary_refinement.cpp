@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/found_indices.hpp"
 #include "base/space_vectors.hpp"
 #include "comm/records.hpp"
 #include "delaunay/volume/circumsphere.hpp"
@@ -132,12 +133,10 @@ bool has_strays(const Level<3>& level, std::int64_t i) {
 }
 
 Strays strays_of_own(const Level<3>& level) {
-  std::vector<char> any(static_cast<std::size_t>(level.nodes.count), 0);
-  for_each("pnpbs::strays_of_own", level.nodes.count,
-           [&](std::int64_t i) { any[static_cast<std::size_t>(i)] = has_strays(level, i); });
   Strays strays;
-  for (std::int64_t i = 0; i < level.nodes.count; ++i)
-    if (any[static_cast<std::size_t>(i)]) add_strays_at(level, i, strays);
+  for (const std::int64_t i : indices_where("pnpbs::strays_of_own", level.nodes.count,
+                                            [&](std::int64_t k) { return has_strays(level, k); }))
+    add_strays_at(level, i, strays);
   return strays;
 }
 
@@ -185,6 +184,23 @@ IncomingNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>
   return own;
 }
 
+// Collective.
+Strays find_strays(Level<3>& level) {
+  const PhaseTimer timer(level.timers, Phase::conformity);
+  Strays own;
+  agreed(*level.comm, [&] { own = strays_of_own(level); });
+  return own;
+}
+
+// Of all ranks, those that this rank owns. Collective.
+IncomingNodes<3> nodes_in_balls(Level<3>& level, const std::vector<SurfaceBall>& own_balls) {
+  const PhaseTimer timer(level.timers, Phase::conformity);
+  const std::vector<SurfaceBall> balls = largest_apart(*level.comm, own_balls);
+  IncomingNodes<3> nodes;
+  agreed(*level.comm, [&] { nodes = new_nodes(level, balls); });
+  return nodes;
+}
+
 // Nodes come, in rounds, as long as that makes the strays fewer. Returns how many, of all ranks.
 std::int64_t add_boundary_nodes(Level<3>& level) {
   constexpr std::uint64_t kFew = method::kFewStrays;
@@ -193,16 +209,12 @@ std::int64_t add_boundary_nodes(Level<3>& level) {
   for (int round = 0; round < method::kMaxBallRounds; ++round) {
     make_finish_stars(level, {});
     settle_elements(level, kQuickRounds);
-    Strays own;
-    agreed(*level.comm, [&] { own = strays_of_own(level); });
+    const Strays own = find_strays(level);
     const std::uint64_t strays = level.comm->allreduce_sum(own.count);
     if (strays == 0 || (round >= method::kBallRoundsAnyway && strays >= std::max(before, kFew)))
       break;
     before = strays;
-    const std::vector<SurfaceBall> balls = largest_apart(*level.comm, own.balls);
-    IncomingNodes<3> nodes;
-    agreed(*level.comm, [&] { nodes = new_nodes(level, balls); });
-    const std::int64_t more = add_nodes(level, std::move(nodes));
+    const std::int64_t more = add_nodes(level, nodes_in_balls(level, own.balls));
     if (more == 0) break;
     added += more;
   }

@@ -33,11 +33,11 @@ std::vector<char> nodes_off(const Level<3>& level) {
   const std::set<std::int64_t> extra = pieces_too_many(level, pieces);
   std::vector<char> off(static_cast<std::size_t>(level.nodes.count), 0);
   agreed(*level.comm, [&] {
-    for (std::size_t i = 0; i < off.size(); ++i) {
-      const auto node = static_cast<std::int64_t>(i);
-      off[i] = is_torn_around(level, node) ||
-               (level.nodes.owned(node) != 0 && extra.contains(pieces.of[i]));
-    }
+    for_each("pnpbs::nodes_off", level.nodes.count, [&](std::int64_t i) {
+      const auto node = static_cast<std::size_t>(i);
+      off[node] = is_torn_around(level, i) ||
+                  (level.nodes.owned(i) != 0 && extra.contains(pieces.of[node]));
+    });
   });
   return off;
 }
@@ -72,18 +72,25 @@ std::vector<std::int64_t> ids_in_the_way(const Level<3>& level, const std::vecto
   return all;
 }
 
-}  // namespace
-
-std::int64_t remove_nodes_in_the_way(Level<3>& level, std::int64_t& nodes_off_before) {
+// The ids of those that have to go, of all ranks. Collective.
+std::vector<std::int64_t> ids_to_remove(Level<3>& level, std::int64_t& nodes_off_before) {
+  const PhaseTimer timer(level.timers, Phase::conformity);
   const std::vector<char> off = nodes_off(level);
   const auto count = static_cast<std::int64_t>(level.comm->allreduce_sum(
       static_cast<std::uint64_t>(std::ranges::count_if(off, [](char is) { return is != 0; }))));
-  if (count == 0) return 0;
   std::vector<std::int64_t> ids;
+  if (count == 0) return ids;
   if (count < nodes_off_before) ids = ids_in_the_way(level, off);
   if (ids.empty()) ids = ids_of_loose_pieces(level);
   if (ids.empty()) ids = ids_of_lone_nodes(level);
   nodes_off_before = std::min(nodes_off_before, count);
+  return ids;
+}
+
+}  // namespace
+
+std::int64_t remove_nodes_in_the_way(Level<3>& level, std::int64_t& nodes_off_before) {
+  const std::vector<std::int64_t> ids = ids_to_remove(level, nodes_off_before);
   if (ids.empty()) return 0;
   std::vector<std::int32_t> leaving;  // ghosts among them
   for (std::int32_t i = 0; i < level.nodes.count; ++i)

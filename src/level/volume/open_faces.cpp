@@ -2,6 +2,7 @@
 #include "level/volume/open_faces.hpp"
 
 #include <algorithm>
+#include <compare>
 
 namespace pnpbs {
 
@@ -9,16 +10,56 @@ bool has_side(const FaceFan& fan, std::int32_t from, std::int32_t to) {
   return std::ranges::binary_search(fan, FaceSide{from, to});
 }
 
-FaceFan open_faces(const Level<3>& level, std::int64_t i) {
-  FaceFan all, open;
-  if (level.stars.closed(i)) return open;
-  // (i, a, b, c) turns right-handed: from outside, its faces with i turn as i, b, a.
+namespace {
+
+// A side as one number, next to that of the same side the other way.
+class PackedSide {
+ public:
+  PackedSide(std::int32_t from, std::int32_t to)
+      : bits_(from < to ? packed(from, to) : packed(to, from) | 1) {}
+
+  bool same_nodes(const PackedSide& other) const { return bits_ >> 1 == other.bits_ >> 1; }
+  FaceSide side() const {
+    const auto low = static_cast<std::int32_t>(bits_ >> 32),
+               high = static_cast<std::int32_t>(bits_ >> 1 & 0x7fffffff);
+    return (bits_ & 1) != 0 ? FaceSide{high, low} : FaceSide{low, high};
+  }
+  auto operator<=>(const PackedSide&) const = default;
+
+ private:
+  static std::uint64_t packed(std::int32_t low, std::int32_t high) {
+    return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high) << 1;
+  }
+
+  std::uint64_t bits_;
+};
+
+// (i, a, b, c) turns right-handed: from outside, its faces with i turn as i, b, a.
+std::vector<PackedSide> sides_around(const Level<3>& level, std::int64_t i) {
+  constexpr std::size_t kMostly = 72;  // of 24 tetrahedra
+  std::vector<PackedSide> sides;
+  sides.reserve(kMostly);
   level.stars.for_simplices(i, [&](const Stars<3>::Corners& others) {
-    for (std::size_t k = 0; k < 3; ++k) all.emplace_back(others[(k + 1) % 3], others[k]);
+    for (std::size_t k = 0; k < 3; ++k) sides.emplace_back(others[(k + 1) % 3], others[k]);
   });
-  std::ranges::sort(all);
-  for (const auto& [a, b] : all)
-    if (!has_side(all, b, a)) open.emplace_back(a, b);
+  std::ranges::sort(sides);
+  return sides;
+}
+
+}  // namespace
+
+FaceFan open_faces(const Level<3>& level, std::int64_t i) {
+  FaceFan open;
+  if (level.stars.closed(i)) return open;
+  const std::vector<PackedSide> sides = sides_around(level, i);
+  for (auto begin = sides.begin(); begin != sides.end();) {
+    const auto end = std::find_if_not(
+        begin, sides.end(), [&](const PackedSide& side) { return side.same_nodes(*begin); });
+    const bool one_way = *begin == *(end - 1);
+    for (; begin != end; ++begin)
+      if (one_way) open.push_back(begin->side());
+  }
+  std::ranges::sort(open);
   return open;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/found_indices.hpp"
 #include "level/found_nodes.hpp"
 #include "level/level.hpp"
 #include "level/volume/open_faces.hpp"
@@ -99,11 +100,12 @@ SurfaceFit measure_surface_fit(const Level<3>& level) {
   std::vector<Point<3>> places;
   agreed(*level.comm, [&] {
     const Fitting fitting(level);
-    for (std::int64_t i = 0; i < nodes.count; ++i) {
-      if (!nodes.owned(i) || nodes.carrier(i) == Carrier::free) continue;
-      const std::int64_t here = fitting.missing_at(i);
-      missing.add(here, nodes.id(i), nodes.position(i));
-      if (here > 0) places.push_back(nodes.position(i));
+    const auto misses_any = [&](std::int64_t i) {
+      return nodes.owned(i) && nodes.carrier(i) != Carrier::free && fitting.missing_at(i) > 0;
+    };
+    for (const std::int64_t i : indices_where("pnpbs::surface_fit", nodes.count, misses_any)) {
+      missing.add(fitting.missing_at(i), nodes.id(i), nodes.position(i));
+      places.push_back(nodes.position(i));
     }
   });
   missing = over_ranks(*level.comm, missing);
