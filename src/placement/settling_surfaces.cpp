@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,15 @@ struct NodesByCarrier {
           .push_back(node);
   }
 };
+
+// While only the surfaces have nodes. The partition of a body stays as it is: it is cut for all the
+// nodes that are to come, and parts of even work on the surfaces would have jagged borders inside.
+Settings settings_on_surfaces(const Level<3>& level) {
+  Settings settings = surface_settings(level.settings);
+  if (!level.ground.surfaces_alone())
+    settings.rebalance_above = std::numeric_limits<double>::infinity();
+  return settings;
+}
 
 std::int64_t sum_over_ranks(const Communicator& comm, std::int64_t mine) {
   return static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(mine)));
@@ -69,7 +79,7 @@ void settle_surfaces(Level<3>& level, IncomingNodes<3>& incoming, Outcome& outco
   const Settings inside = level.settings;
   {
     const Showing<3> showing(context.results, &level);
-    level.change_settings(surface_settings(inside));
+    level.change_settings(settings_on_surfaces(level));
     rest_on_surfaces(level, std::move(nodes.on_surfaces), nodes.on_features, outcome, role,
                      context);
     fix_surface_nodes(level);
