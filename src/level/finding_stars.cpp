@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <map>
 
+#include "level/ghost_lists.hpp"
 #include "level/nodes_worked_for.hpp"
 #include "level/volume/surface_stars.hpp"
+#include "neighbors/rings.hpp"
 
 namespace pnpbs {
 
@@ -27,7 +29,7 @@ StarInput star_input(const Level<2>& level, const KnownRegion<2>& known) {
 VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
   const Neighbourhood<3>& neighbourhood = level.neighbourhood;
   const auto complete = [&level](std::int64_t i) {
-    return level.neighbourhood.near_boundary().sees_all(i);
+    return level.lists().has(i) && level.neighbourhood.near_boundary().sees_all(i);
   };
   const auto room = [&level](std::int64_t i) {
     const bool measured = level.nodes.moving == Carrier::free;
@@ -124,20 +126,6 @@ class UnknownBoxes {
   std::map<std::int32_t, Box<Dim>> box_of_;
 };
 
-// Those not reached yet.
-template <class Graph>
-std::vector<std::int64_t> neighbours_of(const Graph& stars, const std::vector<std::int64_t>& front,
-                                        std::vector<char>& reached) {
-  std::vector<std::int64_t> next;
-  for (const std::int64_t i : front)
-    stars.for_neighbours(i, [&](std::int64_t j) {
-      char& known = reached[static_cast<std::size_t>(j)];
-      if (!known) next.push_back(j);
-      known = 1;
-    });
-  return next;
-}
-
 // Owned nodes beside a ghost, by the lists or the stars.
 template <int Dim, class Graph>
 std::vector<std::int64_t> nodes_at_border(const Nodes<Dim>& nodes, const Graph& graph) {
@@ -163,7 +151,7 @@ std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& 
   std::vector<char> reached = owned_nodes(nodes);
   std::vector<std::int64_t> front = nodes_at_border(nodes, level.stars);
   for (int ring = 0; ring < rings; ++ring) {
-    front = neighbours_of(level.stars, front, reached);
+    front = next_ring(level.stars, front, reached);
     for (const std::int64_t i : front) unknown.ask_around(i);
   }
   return unknown.boxes();
@@ -228,13 +216,14 @@ void ask_for_pairs(const Level<3>& level, const KnownRegion<3>& known, double re
 void find_stars_of(Level<3>& level, const KnownRegion<3>& known,
                    const std::vector<std::int64_t>& front, UnknownBoxes<3>& unknown) {
   std::vector<char> wanted(static_cast<std::size_t>(level.nodes.count), 0);
-  bool any = false;
+  std::vector<std::int32_t> more;
   for (const std::int64_t i : front) {
     if (level.stars.found(i)) continue;
     wanted[static_cast<std::size_t>(i)] = 1;
-    any = true;
+    more.push_back(static_cast<std::int32_t>(i));
   }
-  if (any) add_stars(level, known, wanted);
+  add_lists_of(level, more);
+  if (!more.empty()) add_stars(level, known, wanted);
   for (const std::int64_t i : front) unknown.ask_around(i);
 }
 
@@ -243,7 +232,7 @@ void find_ghost_stars(Level<3>& level, const KnownRegion<3>& known, std::vector<
                       int rings, UnknownBoxes<3>& unknown) {
   std::vector<char> reached = owned_nodes(level.nodes);
   for (int ring = 1; ring <= rings; ++ring) {
-    front = neighbours_of(level.stars, front, reached);
+    front = next_ring(level.stars, front, reached);
     find_stars_of(level, known, front, unknown);
   }
 }

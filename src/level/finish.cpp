@@ -2,6 +2,7 @@
 #include "level/finish.hpp"
 
 #include "level/exchange.hpp"
+#include "level/ghost_lists.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
 
@@ -13,7 +14,8 @@ void prepare_finish(Level<Dim>& level) {
   agreed(*level.comm, [&] { level.stars_before.take(level.nodes, level.stars); });
   level.nodes.set_reference_positions();
   exchange(level, kRepairHops<Dim>);
-  agreed(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });
+  agreed(*level.comm,
+         [&] { rebuild_lists(level, level.settings.list_radius, lists_of_stars(level)); });
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include "delaunay/volume/agreed_triangles.hpp"
 #include "level/exchange.hpp"
 #include "level/finding_stars.hpp"
+#include "level/ghost_lists.hpp"
 #include "level/known_after_exchange.hpp"
 #include "level/reach.hpp"
 
@@ -64,7 +65,7 @@ void make_known(Level<Dim>& level, const std::vector<Box<Dim>>& boxes, double ra
     level.ghosts.fetch(*level.comm, *level.tree, boxes, level.nodes, level.neighbourhood.buckets());
   }
   for (const Box<Dim>& box : boxes) known.add(box);
-  agreed(*level.comm, [&] { rebuild_lists(level, radius); });
+  agreed(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
 }
 
 template <int Dim>
@@ -85,16 +86,16 @@ void rebuild_lists_for_steps(Level<Dim>& level, ListsOf listed) {
 }
 
 template <int Dim>
-void rebuild_lists(Level<Dim>& level, double radius) {
+void rebuild_lists(Level<Dim>& level, double radius, ListsOf listed) {
   const PhaseTimer timer(level.timers, Phase::lists);
   sort_nodes(level);
-  level.neighbourhood.rebuild_here(level.nodes, level.ground, *level.tree, radius);
+  level.neighbourhood.rebuild_here(level.nodes, level.ground, *level.tree, radius, listed);
   level.timers.add(Phase::lists, level.neighbourhood.nodes_listed());
 }
 
 template <int Dim>
 void make_lists_and_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
-  agreed(*level.comm, [&] { rebuild_lists(level, radius); });
+  agreed(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
   make_stars(level, hops, radius, zone);
 }
 
@@ -125,8 +126,8 @@ void prepare_lists(Level<Dim>& level) {
 
 template void rebuild_lists_for_steps(Level<2>&, ListsOf);
 template void rebuild_lists_for_steps(Level<3>&, ListsOf);
-template void rebuild_lists(Level<2>&, double);
-template void rebuild_lists(Level<3>&, double);
+template void rebuild_lists(Level<2>&, double, ListsOf);
+template void rebuild_lists(Level<3>&, double, ListsOf);
 template void make_lists_and_stars(Level<2>&, int, double, StarZone);
 template void make_lists_and_stars(Level<3>&, int, double, StarZone);
 template void make_stars(Level<2>&, int, double, StarZone);

@@ -14,7 +14,7 @@ template <int Dim>
 void rebuild_lists_for_steps(Level<Dim>& level, ListsOf listed = ListsOf::all_nodes);
 // At the present positions.
 template <int Dim>
-void rebuild_lists(Level<Dim>& level, double radius);
+void rebuild_lists(Level<Dim>& level, double radius, ListsOf listed = ListsOf::all_nodes);
 
 // Right after an exchange that deep: lists, and the stars of the owned nodes and of the ghosts
 // in that zone around them. Collective.

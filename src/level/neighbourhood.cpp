@@ -47,12 +47,18 @@ void Neighbourhood<Dim>::rebuild_for_steps(Nodes<Dim>& nodes, const Ground<Dim>&
 }
 
 template <int Dim>
+void Neighbourhood<Dim>::add_lists(const Nodes<Dim>& nodes, const Ground<Dim>& ground,
+                                   const LevelTree<Dim>& tree,
+                                   const std::vector<std::int32_t>& more) {
+  lists_.add(nodes, buckets_, near_boundary_.visibility(nodes, tree.map(), ground), more);
+}
+
+template <int Dim>
 void Neighbourhood<Dim>::rebuild_here(Nodes<Dim>& nodes, const Ground<Dim>& ground,
-                                      const LevelTree<Dim>& tree, double radius) {
+                                      const LevelTree<Dim>& tree, double radius, ListsOf listed) {
   listed_ = {};
   // What is near was measured from there, also when nodes have moved on.
-  rebuild(nodes, ground, tree, radius, nodes.referenced_here() ? nodes.reference : nodes.x,
-          ListsOf::all_nodes);
+  rebuild(nodes, ground, tree, radius, nodes.referenced_here() ? nodes.reference : nodes.x, listed);
 }
 
 template <int Dim>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "base/timers.hpp"
 #include "level/ground.hpp"
@@ -30,10 +31,13 @@ class Neighbourhood {
   // matter when they are made.
   void rebuild_for_steps(Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
                          const Settings& settings, ListsOf listed);
+  // The lists of these nodes, too, where only those of owned nodes were made.
+  void add_lists(const Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
+                 const std::vector<std::int32_t>& more);
   // Lists of that radius for where the nodes are. The next step makes its own again; until then
   // there are stars, and no need to know where nodes were: the two take their memory in turn.
   void rebuild_here(Nodes<Dim>& nodes, const Ground<Dim>& ground, const LevelTree<Dim>& tree,
-                    double radius);
+                    double radius, ListsOf listed);
   // Might the lists for steps lack a pair within the range of the force?
   bool needs_rebuild(const Nodes<Dim>& nodes, const Settings& settings) const;
 

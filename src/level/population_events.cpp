@@ -5,10 +5,12 @@
 
 #include "comm/records.hpp"
 #include "level/exchange.hpp"
+#include "level/ghost_lists.hpp"
 #include "level/lists_and_stars.hpp"
 #include "level/reach.hpp"
 #include "level/room.hpp"
 #include "level/volume/surface_level.hpp"
+#include "method/constants.hpp"
 #include "population/free_place.hpp"
 #include "quality/plane/defects.hpp"
 
@@ -122,26 +124,18 @@ PopulationCounts carry_out(Level<Dim>& level, PopulationChange<Dim> change) {
 
 }  // namespace
 
+namespace {
+
+// Those of owned nodes, and of ghosts as their owners tell them. Collective.
 template <int Dim>
-PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
+View<Bid<Dim>> gather_bids(Level<Dim>& level, const View<double>& ratios,
+                           const PopulationThresholds& thresholds,
+                           std::vector<std::int32_t>& bidders) {
   const Nodes<Dim>& nodes = level.nodes;
-  level.nodes.set_reference_positions();
-  // As deep as the steps need that follow if nothing changes.
-  exchange(level, std::max(kPopulationHops, step_hops(level.settings)));
-  PopulationChange<Dim> change;
   const PopulationRule& rule = level.settings.population;
-  View<double> ratios;
-  agreed(*level.comm, [&] {
-    rebuild_lists_for_steps(level);
-    count_uses_by_event(level, kPopulationHops);
-    const PhaseTimer timer(level.timers, Phase::population);
-    ratios = overlap_ratios<Dim>(nodes, level.lists());
-  });
-  const PopulationThresholds thresholds =
-      choose_thresholds<Dim>(*level.comm, nodes, level.lists(), ratios, rule, tolerance);
   View<Bid<Dim>> bids;
-  std::vector<std::int32_t> bidders;
   agreed(*level.comm, [&] {
+    add_lists_around(level, owned_beside_gaps<Dim>(nodes, ratios, rule, thresholds), kRoomHops - 1);
     const PhaseTimer timer(level.timers, Phase::population);
     const View<char> no_room = nodes_without_room(level);
     bids = bids_of_owned<Dim>(
@@ -152,9 +146,33 @@ PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
     bidders = own_bidders<Dim>(nodes, bids);
   });
   learn_bids_of_ghosts(level, bidders, bids);
+  return bids;
+}
+
+}  // namespace
+
+template <int Dim>
+PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
+  const Nodes<Dim>& nodes = level.nodes;
+  level.nodes.set_reference_positions();
+  // As deep as the steps need that follow if nothing changes.
+  exchange(level, std::max(kPopulationHops, step_hops(level.settings)));
+  View<double> ratios;
   agreed(*level.comm, [&] {
+    rebuild_lists_for_steps(level, lists_of_steps(level.settings));
+    const PhaseTimer timer(level.timers, Phase::population);
+    ratios = overlap_ratios<Dim>(nodes, level.lists());
+  });
+  const PopulationThresholds thresholds = choose_thresholds<Dim>(
+      *level.comm, nodes, level.lists(), ratios, level.settings.population, tolerance);
+  std::vector<std::int32_t> bidders;
+  const View<Bid<Dim>> bids = gather_bids(level, ratios, thresholds, bidders);
+  PopulationChange<Dim> change;
+  agreed(*level.comm, [&] {
+    add_lists_around(level, bidders, method::kContestHops - 1);
     const PhaseTimer timer(level.timers, Phase::population);
     change = outcome_of_contest<Dim>(nodes, level.lists(), bids, bidders);
+    count_uses_by_event(level, kPopulationHops);
   });
   return carry_out(level, std::move(change));
 }

@@ -25,6 +25,10 @@ bool ghosts_move(const Settings& settings) {
   return settings.exchange_interval * settings.evaluations_per_step() > 1;
 }
 
+ListsOf lists_of_steps(const Settings& settings) {
+  return ghosts_move(settings) ? ListsOf::all_nodes : ListsOf::owned_nodes;
+}
+
 std::int64_t ghost_life(const Settings& settings) {
   constexpr std::int64_t kGhostLife = 20;
   return std::max(kGhostLife, settings.exchange_interval);

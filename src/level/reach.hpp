@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "neighbors/adjacency_list.hpp"
 #include "settings/settings.hpp"
 
 namespace pnpbs {
@@ -36,6 +37,8 @@ double edge_radius(const Settings& settings);
 // Do ghosts move between exchanges? Where those follow each evaluation of the force, only owned
 // nodes need it, and lists.
 bool ghosts_move(const Settings& settings);
+// So the lists that steps need:
+ListsOf lists_of_steps(const Settings& settings);
 // Steps after which ghosts are chosen anew, because nodes drift.
 std::int64_t ghost_life(const Settings& settings);
 // How many hops ghosts must reach for owned nodes to stay exact:

@@ -6,6 +6,7 @@
 #include "dynamics/bubble_force.hpp"
 #include "geometry/clearance.hpp"
 #include "level/finish.hpp"
+#include "level/ghost_lists.hpp"
 #include "method/constants.hpp"
 
 namespace pnpbs {
@@ -94,25 +95,36 @@ View<char> nodes_without_room(const Level<Dim>& level) {
 
 namespace {
 
+// A node waits if one that it coincides with does so with another.
+constexpr int kCoincidingHops = 2;
+
 template <int Dim>
-std::vector<std::int32_t> crowded_nodes(const Level<Dim>& level) {
+std::vector<std::int32_t> owned_without_room(const Nodes<Dim>& nodes, const View<char>& no_room) {
+  std::vector<std::int32_t> found;
+  for (std::int32_t i = 0; i < nodes.count; ++i)
+    if (nodes.owned(i) && no_room(i)) found.push_back(i);
+  return found;
+}
+
+template <int Dim>
+std::vector<std::int32_t> crowded_nodes(Level<Dim>& level) {
   const Nodes<Dim>& nodes = level.nodes;
+  const std::vector<std::int32_t> waiting =
+      owned_without_room(nodes, nodes_without_room<Dim>(level));
+  if (waiting.empty()) return {};
+  add_lists_around(level, waiting, kCoincidingHops - 1);
   const PhaseTimer timer(level.timers, Phase::population);
-  const View<char> no_room = nodes_without_room(level);
+  const View<char> no_room = nodes_without_room<Dim>(level);
   std::vector<std::int32_t> crowded;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    if (!no_room(i)) continue;
+  for (const std::int32_t i : waiting) {
     bool goes = pressed_to_boundary(level, i);
     for_coinciding(nodes, level.lists(), i, [&](std::int64_t j) { goes = goes || !no_room(j); });
-    if (goes) crowded.push_back(static_cast<std::int32_t>(i));
+    if (goes) crowded.push_back(i);
   }
   return crowded;
 }
 
 }  // namespace
-
-// A node waits if one that it coincides with does so with another.
-constexpr int kCoincidingHops = 2;
 
 // After the last population event nodes may still be pressed into a corner until they coincide.
 // Here nothing is born, so there is no contest: of many in one place all go at once but the first.
@@ -122,13 +134,13 @@ PopulationCounts remove_crowded(Level<Dim>& level) {
   PopulationCounts counts;
   while (true) {
     prepare_finish(level);
-    count_uses_by_event(level, kCoincidingHops);
     std::vector<std::int32_t> crowded;
-    agreed(*level.comm, [&] { crowded = crowded_nodes(level); });
-    const auto own = std::count_if(crowded.begin(), crowded.end(),
-                                   [&](std::int32_t i) { return level.nodes.owned(i) != 0; });
-    if (level.comm->allreduce_sum(static_cast<std::uint64_t>(own)) == 0) return counts;
-    counts.deleted += own;
+    agreed(*level.comm, [&] {
+      crowded = crowded_nodes(level);
+      count_uses_by_event(level, kCoincidingHops);
+    });
+    if (level.comm->allreduce_sum(crowded.size()) == 0) return counts;
+    counts.deleted += std::ssize(crowded);
     delete_nodes(level, crowded);
   }
 }

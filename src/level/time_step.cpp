@@ -21,8 +21,7 @@ template <int Dim>
 void step(Level<Dim>& level, std::exception_ptr& failure) {
   attempt(failure, [&] {
     if (level.neighbourhood.needs_rebuild(level.nodes, level.settings))
-      rebuild_lists_for_steps(
-          level, ghosts_move(level.settings) ? ListsOf::all_nodes : ListsOf::owned_nodes);
+      rebuild_lists_for_steps(level, lists_of_steps(level.settings));
     track_inexact_nodes(level, level.settings.evaluations_per_step());
     const PhaseTimer timer(level.timers, Phase::motion);
     level.time_integration.step(level.nodes, level.neighbourhood, level.map(), level.ground,

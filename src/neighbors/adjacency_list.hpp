@@ -38,7 +38,14 @@ class AdjacencyList {
   void build(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, double radius,
              Visibility&& visibility, ListsOf listed = ListsOf::all_nodes);
 
+  // The lists of these nodes, too. All is as it was when lists were built.
+  template <class Visibility>
+  void add(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets, Visibility&& visibility,
+           const std::vector<std::int32_t>& more);
+
   double radius() const { return radius_; }
+  // Was the list of node i made? Else it is empty.
+  bool has(std::int64_t i) const { return has_.empty() || has_[static_cast<std::size_t>(i)] != 0; }
   std::int64_t block_count() const { return (count_ + kLanes - 1) / kLanes; }
 
   ListBlock block(std::int64_t b) const {
@@ -65,7 +72,7 @@ class AdjacencyList {
     const Buckets<Dim>& buckets;
     double radius;
     Visibility& visibility;
-    ListsOf listed;
+    const AdjacencyList& lists;
     Candidates<Dim> candidates{};
 
     void operator()(std::int64_t block, std::vector<std::int32_t>& out);
@@ -73,8 +80,18 @@ class AdjacencyList {
     std::int32_t find_neighbours(std::int64_t i);
   };
 
+  template <class Visibility>
+  auto writer_maker(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets,
+                    Visibility& visibility) const {
+    return [&] {
+      return BlockWriter<std::remove_reference_t<Visibility>>{nodes, buckets, radius_, visibility,
+                                                              *this};
+    };
+  }
+
   std::int64_t count_ = 0;
   double radius_ = 0;
+  std::vector<char> has_;  // by node; empty: each has its list
   ChunkedRows<std::int32_t, 64> blocks_;
 };
 
@@ -104,7 +121,7 @@ void AdjacencyList<Dim>::BlockWriter<Visibility>::operator()(std::int64_t block,
   };
   std::int32_t length = 0;
   for (std::int64_t i = block * kLanes; i < std::min((block + 1) * kLanes, nodes.count); ++i) {
-    if (listed == ListsOf::owned_nodes && !nodes.owned(i)) continue;
+    if (!lists.has(i)) continue;
     const std::int32_t found = find_neighbours(i);
     if (found == 0) continue;
     if (found > length) {
@@ -126,10 +143,27 @@ void AdjacencyList<Dim>::build(const Nodes<Dim>& nodes, const Buckets<Dim>& buck
                                Visibility&& visibility, ListsOf listed) {
   count_ = nodes.count;
   radius_ = radius;
-  blocks_.build("pnpbs::AdjacencyList::build", block_count(), [&] {
-    return BlockWriter<std::remove_reference_t<Visibility>>{nodes, buckets, radius, visibility,
-                                                            listed};
-  });
+  has_.clear();
+  if (listed == ListsOf::owned_nodes)
+    has_.assign(nodes.owned.data(), nodes.owned.data() + nodes.count);
+  blocks_.build("pnpbs::AdjacencyList::build", block_count(),
+                writer_maker(nodes, buckets, visibility));
+}
+
+template <int Dim>
+template <class Visibility>
+void AdjacencyList<Dim>::add(const Nodes<Dim>& nodes, const Buckets<Dim>& buckets,
+                             Visibility&& visibility, const std::vector<std::int32_t>& more) {
+  std::vector<char> again(static_cast<std::size_t>(block_count()), 0);
+  for (const std::int32_t i : more) {
+    if (has(i)) continue;
+    has_[static_cast<std::size_t>(i)] = 1;
+    again[static_cast<std::size_t>(i / kLanes)] = 1;
+  }
+  blocks_.rewrite(
+      "pnpbs::AdjacencyList::add", block_count(),
+      [&](std::int64_t b) { return again[static_cast<std::size_t>(b)] != 0; },
+      writer_maker(nodes, buckets, visibility));
 }
 
 }  // namespace pnpbs

@@ -29,4 +29,18 @@ bool for_rings(const Graph& graph, std::int64_t i, int rings, const Visit& visit
   return all;
 }
 
+// The neighbours of these nodes that are not reached yet, which they are then.
+template <class Graph, class Index>
+std::vector<Index> next_ring(const Graph& graph, const std::vector<Index>& front,
+                             std::vector<char>& reached) {
+  std::vector<Index> next;
+  for (const Index i : front)
+    graph.for_neighbours(i, [&](std::int64_t j) {
+      char& known = reached[static_cast<std::size_t>(j)];
+      if (!known) next.push_back(static_cast<Index>(j));
+      known = 1;
+    });
+  return next;
+}
+
 }  // namespace pnpbs

@@ -32,7 +32,7 @@ bool has_room(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, std::int
     const double needed = nodes.moves(j) ? gap : rule.min_gap;
     return distance<Dim>(nodes.position(j), place) >= needed * desired;
   };
-  return leaves_room(i, 0) && for_rings(lists, i, 2, leaves_room);
+  return leaves_room(i, 0) && for_rings(lists, i, kRoomHops, leaves_room);
 }
 
 // The overlap ratio that a bubble like i would have at `place`, as far as i, its neighbours and
@@ -47,7 +47,7 @@ double overlap_ratio_at(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists
     return true;
   };
   add(i, 0);
-  for_rings(lists, i, 2, add);
+  for_rings(lists, i, kRoomHops, add);
   std::sort(overlaps.begin(), overlaps.end());
   double sum = 0;
   for (const auto& [id, term] : overlaps) sum += std::max(0.0, term);
@@ -65,7 +65,24 @@ bool wins(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const View<B
   });
 }
 
+// Below this a new bubble may come beside the node.
+double least_ratio(const PopulationRule& rule, const PopulationThresholds::Pair& threshold) {
+  return std::max(rule.insert_below, threshold.insert_below);
+}
+
 }  // namespace
+
+template <int Dim>
+std::vector<std::int32_t> owned_beside_gaps(const Nodes<Dim>& nodes, const View<double>& ratios,
+                                            const PopulationRule& rule,
+                                            const PopulationThresholds& thresholds) {
+  std::vector<std::int32_t> found;
+  for (std::int32_t i = 0; i < nodes.count; ++i)
+    if (nodes.moves(i) && nodes.owned(i) &&
+        ratios(i) < least_ratio(rule, thresholds.at(nodes.d(i))))
+      found.push_back(i);
+  return found;
+}
 
 template <int Dim>
 View<Bid<Dim>> bids_of_owned(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
@@ -86,7 +103,7 @@ View<Bid<Dim>> bids_of_owned(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& 
       } else if (ratio > threshold.delete_above) {
         bid.defect = ratio - rule.ideal;
         bid.action = Action::remove;
-      } else if (ratio < std::max(rule.insert_below, threshold.insert_below)) {
+      } else if (ratio < least_ratio(rule, threshold)) {
         const double gap = ratio < threshold.insert_below ? rule.min_gap_to_aim : rule.min_gap;
         const Point<Dim> place = free_place(i);
         // Between boundary nodes that are dense for d a new bubble may be one too many: it would
@@ -133,6 +150,12 @@ PopulationChange<Dim> outcome_of_contest(const Nodes<Dim>& nodes, const Adjacenc
   return change;
 }
 
+template std::vector<std::int32_t> owned_beside_gaps<2>(const Nodes<2>&, const View<double>&,
+                                                        const PopulationRule&,
+                                                        const PopulationThresholds&);
+template std::vector<std::int32_t> owned_beside_gaps<3>(const Nodes<3>&, const View<double>&,
+                                                        const PopulationRule&,
+                                                        const PopulationThresholds&);
 template View<Bid<2>> bids_of_owned<2>(const Nodes<2>&, const AdjacencyList<2>&,
                                        const View<double>&, const PopulationRule&,
                                        const PopulationThresholds&,

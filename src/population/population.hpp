@@ -47,10 +47,20 @@ struct PopulationChange {
   std::vector<std::int32_t> parents;  // of those born: nodes
 };
 
+// A new bubble is looked at with all that lie within so many hops of the lists.
+inline constexpr int kRoomHops = 2;
+
+// Owned nodes with so small a ratio that a new bubble may come beside them.
+template <int Dim>
+std::vector<std::int32_t> owned_beside_gaps(const Nodes<Dim>& nodes, const View<double>& ratios,
+                                            const PopulationRule& rule,
+                                            const PopulationThresholds& thresholds);
+
 // The bids of owned nodes, by node; Action::none of those that are content, and of ghosts.
 // must_go(i): node i has no room and goes whatever its ratio. free_place(i): where a new bubble
 // would come beside node i. fits(x, d): is a new bubble allowed at x by the domain? Lists must be
-// fresh, with a radius of at least 1.5, as far as one hop around owned nodes.
+// fresh, with a radius of at least 1.5: those of owned nodes, and of neighbours of such beside
+// gaps.
 template <int Dim>
 View<Bid<Dim>> bids_of_owned(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
                              const View<double>& ratios, const PopulationRule& rule,
@@ -63,8 +73,8 @@ View<Bid<Dim>> bids_of_owned(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& 
 template <int Dim>
 std::vector<std::int32_t> own_bidders(const Nodes<Dim>& nodes, const View<Bid<Dim>>& bids);
 
-// What the winners among these do, where the bids of ghosts are known, and lists as far as two hops
-// around owned nodes.
+// What the winners among these do, where the bids of ghosts are known, and lists within two rings
+// around the bidders.
 template <int Dim>
 PopulationChange<Dim> outcome_of_contest(const Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists,
                                          const View<Bid<Dim>>& bids,

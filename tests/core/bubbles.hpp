@@ -66,9 +66,10 @@ struct Bubbles {
   };
 
   template <class Visible>
-  void list(double radius, const Visible& visible) {
+  void list(double radius, const Visible& visible,
+            pnpbs::ListsOf listed = pnpbs::ListsOf::all_nodes) {
     buckets.sort(tree, nodes, radius);
-    lists.build(nodes, buckets, radius, Visibility<Visible>{visible});
+    lists.build(nodes, buckets, radius, Visibility<Visible>{visible}, listed);
     pad(nodes.x);
     nodes.d(nodes.count) = 1;
   }

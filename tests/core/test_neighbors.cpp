@@ -437,6 +437,48 @@ START_TEST(buckets_of_kept_nodes) {
 }
 END_TEST
 
+std::vector<std::int64_t> listed_by(const pnpbs::AdjacencyList<3>& lists, std::int64_t i) {
+  std::vector<std::int64_t> listed;
+  lists.for_neighbours(i, [&](std::int64_t j) { listed.push_back(j); });
+  return listed;
+}
+
+// Of owned nodes, then of some ghosts, one of them twice and one that is owned, then of all.
+START_TEST(lists_of_ghosts_come_later) {
+  Random random(51);
+  const SpacingFunction<3> d = [](const Point<3>& x) { return 0.06 + 0.05 * x[0]; };
+  const auto visible = [](std::int64_t i, std::int64_t j) { return (i + j) % 5 != 0; };
+  Bubbles<3> b;
+  b.grow_tree(d);
+  b.set(random_bubbles<3>(random, 3000, d));
+  b.list(1.6, visible);
+  const pnpbs::AdjacencyList<3> whole = b.lists;
+  for (std::int64_t i = 0; i < b.nodes.count; ++i) b.nodes.owned(i) = b.nodes.position(i)[1] < 0.5;
+  b.list(1.6, visible, pnpbs::ListsOf::owned_nodes);
+  std::vector<char> has(b.nodes.owned.data(), b.nodes.owned.data() + b.nodes.count);
+  const auto expect_lists = [&] {
+    for (std::int64_t i = 0; i < b.nodes.count; ++i) {
+      const bool is_listed = has[static_cast<std::size_t>(i)] != 0;
+      quick_assert(b.lists.has(i) == is_listed);
+      quick_assert(listed_by(b.lists, i) ==
+                   (is_listed ? listed_by(whole, i) : std::vector<std::int64_t>()));
+    }
+  };
+  expect_lists();
+  std::vector<std::int32_t> some, all;
+  for (std::int32_t i = 0; i < b.nodes.count; ++i) {
+    all.push_back(i);
+    if (random.below(20) == 0) some.push_back(i);
+  }
+  some.push_back(some.front());
+  for (const std::vector<std::int32_t>& more : {some, all}) {
+    b.lists.add(b.nodes, b.buckets, Bubbles<3>::Visibility<decltype(visible)>{visible}, more);
+    for (const std::int32_t i : more) has[static_cast<std::size_t>(i)] = 1;
+    expect_lists();
+  }
+}
+END_TEST
+
 START_TEST(lists_of_random_sets) {
   expect_random_sets<2>();
   expect_random_sets<3>();
@@ -514,5 +556,6 @@ int main() {
        leaves_in_a_box, nodes_are_sorted_by_bucket, counting_sort_is_stable,
        counting_sort_tells_order, buckets_of_kept_nodes, lists_of_random_sets, lists_of_graded_sets,
        lists_of_clusters, lists_of_any_number_of_nodes, lists_after_changes,
-       lists_of_pairs_that_see_each_other, blocks_are_padded, ranks_hold_what_32_bits_number});
+       lists_of_ghosts_come_later, lists_of_pairs_that_see_each_other, blocks_are_padded,
+       ranks_hold_what_32_bits_number});
 }
