@@ -13,12 +13,6 @@ namespace pnpbs {
 
 namespace {
 
-bool is_torn(const Level<3>& level, std::int64_t i) {
-  if (!level.nodes.owned(i)) return false;
-  const FaceFan fan = open_faces(level, i);
-  return level.nodes.carrier(i) == Carrier::free ? !fan.empty() : lacks_disks(level, i, fan);
-}
-
 bool is_bridging(const Level<3>& level, std::int64_t i) {
   return level.nodes.owned(i) &&
          std::ranges::any_of(open_faces(level, i), [&](const FaceSide& side) {
@@ -41,8 +35,9 @@ BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<
   const Nodes<3>& nodes = level.nodes;
   BoundaryTopology result;
   std::uint64_t on_surfaces = 0;
-  for (const std::int64_t i : indices_where("pnpbs::boundary_topology", nodes.count,
-                                            [&](std::int64_t k) { return is_torn(level, k); })) {
+  for (const std::int64_t i :
+       indices_where("pnpbs::boundary_topology", nodes.count,
+                     [&](std::int64_t k) { return is_torn_around(level, k); })) {
     on_surfaces += nodes.carrier(i) != Carrier::free;
     result.torn.add(1, nodes.id(i), nodes.position(i));
     torn.push_back(nodes.position(i));

@@ -21,12 +21,6 @@ bool is_free(const Level<3>& level, std::int64_t i) {
   return level.nodes.carrier(i) == Carrier::free;
 }
 
-bool is_torn_around(const Level<3>& level, std::int64_t i) {
-  if (level.nodes.owned(i) == 0) return false;
-  const FaceFan fan = open_faces(level, i);
-  return is_free(level, i) ? !fan.empty() : lacks_disks(level, i, fan);
-}
-
 // Owned nodes with the boundary around them not as it should be.
 std::vector<char> nodes_off(const Level<3>& level) {
   const BoundaryPieces pieces = boundary_pieces(level);

@@ -45,6 +45,12 @@ bool lacks_disks(const Level<3>& level, std::int64_t i, const FaceFan& fan) {
   return disks > 0 && disks_of(fan) != disks;
 }
 
+bool is_torn_around(const Level<3>& level, std::int64_t i) {
+  if (!level.nodes.owned(i)) return false;
+  const FaceFan fan = open_faces(level, i);
+  return level.nodes.carrier(i) == Carrier::free ? !fan.empty() : lacks_disks(level, i, fan);
+}
+
 bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>& corners) {
   constexpr double kFold = -0.5;  // cosine: across rough creases, too, but not from sheet to sheet
   std::array<SurfacePlace, 3> places;

@@ -15,6 +15,9 @@ namespace pnpbs {
 std::int64_t disks_of_surfaces(const Level<3>& level, std::int64_t i);
 // Are the open faces around such a node not that many disks?
 bool lacks_disks(const Level<3>& level, std::int64_t i, const FaceFan& fan);
+// Is the boundary torn at this owned node: open faces at a free node, or no disk where there is a
+// surface? Ghosts are not judged.
+bool is_torn_around(const Level<3>& level, std::int64_t i);
 
 // Do the corners of a face lie side by side on one surface?
 bool lies_along_surface(const Level<3>& level, const std::array<std::int64_t, 3>& corners);
