@@ -34,11 +34,15 @@ def first_words(text):
     return " ".join(said) or "no message"
 
 
+def on_ranks(mpiexec, ranks, program, *arguments):
+    """The command that runs a program on so many ranks, which may be more than cores."""
+    return [mpiexec, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
+            "-np", ranks, program, *arguments]
+
+
 def line_of_ranks(mpiexec, ranks, threads, time_limit, program, *arguments):
-    """The pairs of words that a program prints on so many ranks, which may be more than cores."""
-    command = [mpiexec, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
-               "-np", ranks, program, *arguments]
-    text = text_of(command, threads, time_limit)
+    """The pairs of words that a program prints on so many ranks."""
+    text = text_of(on_ranks(mpiexec, ranks, program, *arguments), threads, time_limit)
     words = text.split()
     if len(words) < 2:
         raise Failed("it printed nothing")

@@ -14,7 +14,7 @@ import json
 import os
 import tempfile
 
-from programs import Failed, text_of
+from programs import Failed, on_ranks, text_of
 from progress import Progress
 from tables import grouped, table_head, table_row
 
@@ -33,9 +33,10 @@ def law(ranks, nodes):
 
 def report_of(arguments, case, ranks, folder):
     file = os.path.join(folder, f"{case}-{ranks}.json")
-    text_of([arguments.mpiexec, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
-             "-np", ranks, arguments.program, "--domain", "box(0,0,0,1,1,1)", "--spacing", CASES[case],
-             "--nodes", arguments.nodes_per_rank * ranks, "--report", file, "--quiet"], 1, arguments.time_limit)
+    command = on_ranks(arguments.mpiexec, ranks, arguments.program, "--domain", "box(0,0,0,1,1,1)",
+                       "--spacing", CASES[case], "--nodes", arguments.nodes_per_rank * ranks,
+                       "--report", file, "--quiet")
+    text_of(command, 1, arguments.time_limit)
     with open(file, encoding="utf-8") as opened:
         return json.load(opened)
 
