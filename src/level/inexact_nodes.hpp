@@ -29,8 +29,8 @@ void track_inexact_nodes(Level<Dim>& level, int evaluations);
 template <int Dim>
 void count_inexact_nodes(Level<Dim>& level);
 
-// Of an event that decides by the lists, so many hops far, right after an exchange. Makes lists of
-// all nodes.
+// For an event that decides by the lists, so many hops far, with the ghosts of an exchange right
+// before it. Makes the lists of all nodes.
 template <int Dim>
 void count_uses_by_event(Level<Dim>& level, int hops);
 

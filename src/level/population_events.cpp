@@ -122,10 +122,6 @@ PopulationCounts carry_out(Level<Dim>& level, PopulationChange<Dim> change) {
   return counts;
 }
 
-}  // namespace
-
-namespace {
-
 // Those of owned nodes, and of ghosts as their owners tell them. Collective.
 template <int Dim>
 View<Bid<Dim>> gather_bids(Level<Dim>& level, const View<double>& ratios,

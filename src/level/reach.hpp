@@ -37,7 +37,7 @@ double edge_radius(const Settings& settings);
 // Do ghosts move between exchanges? Where those follow each evaluation of the force, only owned
 // nodes need it, and lists.
 bool ghosts_move(const Settings& settings);
-// So the lists that steps need:
+// The lists that steps need.
 ListsOf lists_of_steps(const Settings& settings);
 // Steps after which ghosts are chosen anew, because nodes drift.
 std::int64_t ghost_life(const Settings& settings);

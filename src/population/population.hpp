@@ -39,7 +39,6 @@ struct Bid {
   }
 };
 
-// Of owned nodes.
 template <int Dim>
 struct PopulationChange {
   std::vector<std::int32_t> deleted;  // nodes

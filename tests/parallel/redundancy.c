@@ -61,8 +61,7 @@ static void check_change_of_interval(void) {
   pnpbs_placement_destroy(&same);
 }
 
-/* Finer towards a corner, so that a partition of even work is not one of even work on the surface.
- */
+/* Finer towards a corner: parts of even work do not have even work on the surface. */
 static int32_t spacing_from_corner(int64_t n, int32_t dim, const double* x, double* d, void* none) {
   int64_t i;
   (void)none;
@@ -98,13 +97,11 @@ static void check_on_one_rank(int32_t dim) {
 
 int main(int argc, char** argv) {
   pnpbs_context all;
-  int ranks;
   begin_ranks(&argc, &argv);
   check_on_ranks(2);
   check_on_ranks(3);
   check_change_of_interval();
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (ranks == 2) check_borders_of_two_parts();
+  if (size == 2) check_borders_of_two_parts();
   all = context;
   expect(pnpbs_context_create_serial(&context) == PNPBS_OK, "serial context");
   if (rank == 0) check_on_one_rank(2), check_on_one_rank(3);
