@@ -117,9 +117,9 @@ void make_stars(Level<Dim>& level, int hops, double radius, StarZone zone) {
 template <int Dim>
 void prepare_lists(Level<Dim>& level) {
   agreed(*level.comm, [&] { level.stars_before.take(level.nodes, level.stars); });
-  if (!level.ghosts.are_exact(level.nodes, kStarHops<Dim>)) exchange(level, kStarHops<Dim>);
+  if (!level.ghosts.are_exact(level.nodes, kStarHops)) exchange(level, kStarHops);
   if (level.distributed())
-    make_lists_and_stars(level, kStarHops<Dim>, level.settings.adjacency_radius, {});
+    make_lists_and_stars(level, kStarHops, level.settings.adjacency_radius, {});
   else
     rebuild_lists(level, level.settings.adjacency_radius);
 }

@@ -16,13 +16,12 @@ inline constexpr int kPopulationHops = 3;
 // The same where each rank finds itself what its ghosts do, three hops farther.
 inline constexpr int kDefectHops = 6;
 // For the stars of our nodes and their neighbours, and for lists of any radius, where d is even;
-// what they need farther away is asked for, and then all stars are found again. In space spheres
-// are larger over d than circles in the plane.
+// what they need farther away is asked for, and then all stars are found again.
+inline constexpr int kStarHops = 3;
+// The same for the stars that sweeps and repairs look at, some neighbours farther away. In space
+// spheres are larger over d than circles in the plane: with 5, a graded cube asks in each repair.
 template <int Dim>
-inline constexpr int kStarHops = Dim == 2 ? 3 : 5;
-// The same for the stars that sweeps and repairs look at, some neighbours farther away.
-template <int Dim>
-inline constexpr int kRepairHops = Dim == 2 ? 4 : 7;
+inline constexpr int kRepairHops = Dim == 2 ? 4 : 6;
 
 // Evaluations of the force in a step of the classical fourth order.
 inline constexpr int kRungeKuttaStages = 4;

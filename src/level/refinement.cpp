@@ -109,11 +109,11 @@ template <int Dim>
 IncomingNodes<Dim> refined(Level<Dim>& level, const Spacing<Dim>& next) {
   constexpr std::int64_t kChunk = 512;
   level.nodes.set_reference_positions();
-  exchange(level, kStarHops<Dim>);
+  exchange(level, kStarHops);
   if (level.ground.surfaces_alone())
     agreed(*level.comm, [&] { rebuild_lists(level, level.settings.list_radius); });
   else
-    make_lists_and_stars(level, kStarHops<Dim>, level.settings.list_radius, {});
+    make_lists_and_stars(level, kStarHops, level.settings.list_radius, {});
   const View<double> spacing = spacing_at_owned_nodes(level, next);
   const Nodes<Dim>& nodes = level.nodes;
   IncomingNodes<Dim> refined;

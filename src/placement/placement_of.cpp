@@ -148,7 +148,7 @@ template <class Work>
 auto PlacementOf<Dim>::while_moving(const Work& work) {
   try {
     const auto result = work();
-    if (!level_->ghosts.are_exact(level_->nodes, kStarHops<Dim>)) exchange(*level_, kStarHops<Dim>);
+    if (!level_->ghosts.are_exact(level_->nodes, kStarHops)) exchange(*level_, kStarHops);
     return result;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::memory) keep(nullptr);

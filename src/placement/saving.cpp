@@ -280,7 +280,7 @@ std::unique_ptr<Level<Dim>> saved_level(const SavedState& saved, std::vector<Sav
   require_same_boundary(*level, nodes);
   // As it would have been at the next step after the options were changed.
   if (saved.meeting_radius != meeting_radius(settings)) level->nodes.set_reference_positions();
-  exchange(*level, kStarHops<Dim>);
+  exchange(*level, kStarHops);
   return level;
 }
 

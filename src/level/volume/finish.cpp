@@ -7,7 +7,6 @@
 #include "level/exchange.hpp"
 #include "level/finding_stars.hpp"
 #include "level/lists_and_stars.hpp"
-#include "level/nodes_worked_for.hpp"
 #include "level/reach.hpp"
 #include "level/volume/surface_level.hpp"
 #include "method/constants.hpp"
@@ -30,11 +29,10 @@ auto may_go(const Level<3>& level) {
 }
 
 // By the stars there are. The few edges that have other nodes after the first sweep do not matter
-// to the next. (Those after a repair do.)
+// to the next. (Those after a repair do.) Ghosts follow their owners.
 void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   const PhaseTimer timer(level.timers, Phase::sweeps);
-  const NodesWorkedFor swept =
-      nodes_worked_for(level.nodes, [&](std::int64_t i) { return level.stars.size(i) > 0; });
+  const NodesWorkedFor swept{level.owned_count(), level.owned_count()};
   for (std::int64_t s = 0; s < sweeps; ++s) {
     update_ghosts(level);
     agreed(*level.comm, [&] {

@@ -36,7 +36,7 @@ bool is_covered(const Level<3>& level, const IncomingNode<3>& candidate, double 
 }
 
 IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates) {
-  exchange(level, kStarHops<3>);
+  exchange(level, kStarHops);
   IncomingNodes<3> found;
   agreed(*level.comm, [&] {
     rebuild_lists(level, level.settings.list_radius);

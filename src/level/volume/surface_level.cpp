@@ -238,7 +238,7 @@ void sweep_on_surfaces(Level<3>& level, std::int64_t sweeps) {
   Nodes<3>& nodes = level.nodes;
   for (std::int64_t s = 0; s < sweeps; ++s) {
     nodes.set_reference_positions();
-    exchange(level, kStarHops<3>);
+    exchange(level, kStarHops);
     agreed(*level.comm, [&] {
       rebuild_lists(level, level.settings.list_radius);
       std::vector<SurfacePoint> to(static_cast<std::size_t>(nodes.count));

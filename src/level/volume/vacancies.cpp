@@ -96,7 +96,7 @@ std::vector<Vacancy> widest(const Level<3>& level, const std::vector<Vacancy>& o
 }  // namespace
 
 std::int64_t fill_vacancies(Level<3>& level) {
-  exchange(level, kStarHops<3>);
+  exchange(level, kStarHops);
   std::vector<Vacancy> own;
   agreed(*level.comm, [&] {
     rebuild_lists(level, level.settings.list_radius);

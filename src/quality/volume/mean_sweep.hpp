@@ -11,15 +11,15 @@
 
 namespace pnpbs {
 
-// Moves the nodes with a closed star that allowed(i, x) lets go to x; `proposed` is scratch. The
-// neighbours come in an order that depends on ids only.
+// Moves the owned nodes with a closed star that allowed(i, x) lets go to x; `proposed` is scratch.
+// The neighbours come in an order that depends on ids only.
 template <class Stars, class Allowed>
 void sweep_to_means(Nodes<3>& nodes, const Stars& stars, double share, Field<3>& proposed,
                     const Allowed& allowed) {
   for_each("pnpbs::sweep_to_means::propose", nodes.count, [&](std::int64_t i) {
     const Point<3> x = nodes.position(i);
     Point<3> goal = x;
-    if (nodes.moves(i) && stars.closed(i)) {
+    if (nodes.owned(i) && nodes.moves(i) && stars.closed(i)) {
       Point<3> sum{};
       double neighbours = 0;
       stars.for_neighbours(i, [&](std::int64_t j) {

@@ -46,13 +46,15 @@ bool SliverRepair::is_sliver(const TetrahedronNodes& tetrahedron) const {
   return small_.any(corners_of(tetrahedron));
 }
 
-// Those around node i that have it for the first by id of all corners that count.
+// Those around node i that have it for the first by id of all corners that count, and an owned node
+// for a corner: only such a corner's owner draws for a sliver.
 template <class Counts>
 void SliverRepair::add_slivers_at(std::int64_t i, const Counts& counts,
                                   std::vector<TetrahedronNodes>& found) const {
   stars_.for_simplices_first_at(i, counts, [&](const TetrahedronNodes& t) {
     if (!stars_.any_movable(t)) return;
     if (small_.surely_none(corners_of(t))) return;  // most have none
+    if (std::none_of(t.begin(), t.end(), [&](std::int32_t j) { return owned(j); })) return;
     const TetrahedronNodes ordered = stars_.by_id(t);
     if (is_sliver(ordered)) found.push_back(ordered);
   });
@@ -64,8 +66,9 @@ void SliverRepair::find_slivers() {
       static_cast<std::size_t>((nodes_.count + kChunk - 1) / kChunk));
   for_each("pnpbs::SliverRepair::find", std::ssize(found), [&](std::int64_t chunk) {
     for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes_.count); ++i)
-      add_slivers_at(
-          i, [](std::int32_t) { return true; }, found[static_cast<std::size_t>(chunk)]);
+      if (owned(i))
+        add_slivers_at(
+            i, [&](std::int32_t j) { return owned(j); }, found[static_cast<std::size_t>(chunk)]);
   });
   for (const auto& some : found) slivers_.insert(slivers_.end(), some.begin(), some.end());
 }

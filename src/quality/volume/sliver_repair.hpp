@@ -105,6 +105,7 @@ class SliverRepair {
 
   std::array<Point<3>, 4> corners_of(const TetrahedronNodes& tetrahedron) const;
   bool is_sliver(const TetrahedronNodes& tetrahedron) const;
+  bool owned(std::int64_t i) const { return nodes_.owned(i) != 0; }
   template <class Counts>
   void add_slivers_at(std::int64_t i, const Counts& counts,
                       std::vector<TetrahedronNodes>& found) const;
