@@ -106,7 +106,7 @@ class Measuring : public VolumeNodeCheck {
       missed += missed_beside(x);
       for (std::size_t k = 0; k < 3; ++k) {
         missed += kFoundTo * resolution_ * distance<3>(x[k], x[(k + 1) % 3]);
-        if (sheets_at(p_, p_.node_at(places[k]), p_.node_at(places[(k + 1) % 3])) == 1)
+        if (sheets_at(p_, p_.node_at(places[k]), p_.node_at(places[(k + 1) % 3])) > 0)
           missed += missed_at_feature(x[k], x[(k + 1) % 3]);
       }
     });
@@ -124,8 +124,10 @@ class Measuring : public VolumeNodeCheck {
     return 0.5 * area * std::min(kSafe * rise * rise, 1.0);
   }
 
-  // What lies between a border and an edge that follows it: on the surface as far as the border is,
-  // or beyond the border, as far as the surface is.
+  // What lies between a feature edge and an element's edge that follows it, of one of the sheets
+  // that meet there: on the surface as far as the feature edge is, or beyond it, as far as the
+  // surface is. The sheet of a triangle ends at the one and the triangle at the other, so this is
+  // of first order in how far they are apart, even where the triangle lies in a flat sheet.
   double missed_at_feature(const Point<3>& a, const Point<3>& b) const {
     const Point<3> middle = middle_of<3>(a, b);
     const double length = distance<3>(a, b);

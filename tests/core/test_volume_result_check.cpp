@@ -10,6 +10,7 @@
 #include "base/point_text.hpp"
 #include "complaints.hpp"
 #include "placement/conformity.hpp"
+#include "placement/element_measure.hpp"
 #include "run_kernel_suite.hpp"
 
 using Point3 = pnpbs::Point<3>;
@@ -207,11 +208,31 @@ START_TEST(finds_tetrahedra_outside) {
 }
 END_TEST
 
+// A coin alone. Around it chords take the place of circles, and cut off so much of its flat sides
+// as its rim, which is low, does not lose.
+START_TEST(allows_for_chords_of_edges_of_flat_sides) {
+  constexpr double kHeight = 0.05;
+  auto domain = std::make_shared<pnpbs::VolumeDomain>();
+  domain->add_cylinder({0, 0, 0}, {0, 0, kHeight}, 1, 1);
+  domain->set_filled(false);
+  Placement3 placement(pnpbs::serial_communicator(), std::move(domain), pnpbs::Options());
+  placement.set_spacing(std::make_shared<pnpbs::ConstantSpacing<3>>(2 * kHeight));
+  ck_assert(placement.run() != pnpbs::Outcome::stopped);
+  placement.results().prepare_stars();
+  const pnpbs::ElementMeasure measure = pnpbs::measure_of_elements(placement.results());
+  ck_assert_double_gt(measure.domain - measure.elements, 1e-4 * measure.domain);
+  ck_assert(measure.agrees());
+  // The chords are that far from the circles in their middle, and no triangle more is missed.
+  ck_assert_double_lt(measure.between, 8 * measure.difference());
+}
+END_TEST
+
 int main() {
   return run_kernel_suite(
       "volume_result_check",
       {finds_an_id_that_comes_twice, finds_two_nodes_in_one_place, finds_nodes_that_are_not_inside,
        finds_boundary_nodes_moved_or_missing, finds_a_list_that_lacks_a_neighbour,
        finds_a_tetrahedron_turned_over, finds_stars_that_do_not_agree, finds_gaps_inside,
-       finds_tetrahedra_outside, tells_of_tetrahedra_without_a_volume});
+       finds_tetrahedra_outside, tells_of_tetrahedra_without_a_volume,
+       allows_for_chords_of_edges_of_flat_sides});
 }
