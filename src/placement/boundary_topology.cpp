@@ -2,10 +2,12 @@
 #include "placement/boundary_topology.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "base/found_indices.hpp"
 #include "level/volume/boundary_euler.hpp"
 #include "level/volume/boundary_pieces.hpp"
+#include "level/volume/loose_pieces.hpp"
 #include "level/volume/open_faces.hpp"
 #include "level/volume/settled_elements.hpp"
 
@@ -22,12 +24,26 @@ bool is_bridging(const Level<3>& level, std::int64_t i) {
 
 }  // namespace
 
-std::vector<Point<3>> bridging_nodes(const Level<3>& level) {
-  std::vector<Point<3>> bridging;
-  for (const std::int64_t i : indices_where("pnpbs::bridging_nodes", level.nodes.count,
-                                            [&](std::int64_t k) { return is_bridging(level, k); }))
-    bridging.push_back(level.nodes.position(i));
-  return bridging;
+std::vector<Point<3>> places_of_other_topology(const Level<3>& level) {
+  const BoundaryPieces pieces = boundary_pieces(level);
+  std::vector<Point<3>> bridging, extra;
+  agreed(*level.comm, [&] {
+    const std::set<std::int64_t> too_many = pieces_too_many(level, pieces);
+    const auto at = [&](const auto& is_one) {
+      std::vector<Point<3>> places;
+      for (const std::int64_t i :
+           indices_where("pnpbs::places_of_other_topology", level.nodes.count, is_one))
+        places.push_back(level.nodes.position(i));
+      return places;
+    };
+    bridging = at([&](std::int64_t i) { return is_bridging(level, i); });
+    extra = at([&](std::int64_t i) {
+      return level.nodes.owned(i) && too_many.contains(pieces.of[static_cast<std::size_t>(i)]);
+    });
+  });
+  const std::uint64_t all_bridging = level.comm->allreduce_sum(bridging.size()),
+                      all_extra = level.comm->allreduce_sum(extra.size());
+  return all_extra > 0 && (all_bridging == 0 || all_extra < all_bridging) ? extra : bridging;
 }
 
 BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<3>>& torn) {

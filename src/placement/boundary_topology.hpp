@@ -29,8 +29,11 @@ struct BoundaryTopology {
 // their neighbours. Collective.
 BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<3>>& torn);
 
-// This rank's nodes with open faces that do not lie along the surfaces but go from one sheet of
-// them to another, which may be right where they are rough. Of a body, after prepare_stars. Local.
-std::vector<Point<3>> bridging_nodes(const Level<3>& level);
+// Where a boundary that is torn nowhere may differ from the surfaces, of this rank: the nodes of
+// its pieces that are too many (a bubble, say), or those with open faces that do not lie along the
+// surfaces but go from one sheet of them to another, which may be right where they are rough.
+// Whichever are fewer: what is too many where a neck is cut is a half of the body. Of a body, after
+// prepare_stars. Collective.
+std::vector<Point<3>> places_of_other_topology(const Level<3>& level);
 
 }  // namespace pnpbs

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a boundary that does not have the topology of the surfaces differs from them: elements are
+// taken out of a cube by hand.
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "placement/boundary_topology.hpp"
+#include "placement/placement_of.hpp"
+#include "quick_assert.hpp"
+#include "run_kernel_suite.hpp"
+
+using Point3 = pnpbs::Point<3>;
+using Placement3 = pnpbs::PlacementOf<3>;
+
+namespace {
+
+constexpr double kSpacing = 0.125;
+
+// Without the elements around these nodes: their circumspheres are wider than d there allows.
+std::unique_ptr<Placement3> cube_without(const std::function<bool(const Point3&)>& is_gone) {
+  auto domain = std::make_shared<pnpbs::VolumeDomain>();
+  domain->add_box({0, 0, 0}, {1, 1, 1}, 1);
+  auto placement = std::make_unique<Placement3>(pnpbs::serial_communicator(), std::move(domain),
+                                                pnpbs::Options());
+  placement->set_spacing(std::make_shared<pnpbs::ConstantSpacing<3>>(kSpacing));
+  ck_assert(placement->run() != pnpbs::Outcome::stopped);
+  placement->results().prepare_stars();
+  auto& level = const_cast<pnpbs::Level<3>&>(placement->level());
+  for (std::int64_t i = 0; i < level.nodes.count; ++i)
+    if (is_gone(level.nodes.position(i))) level.nodes.d(i) = 1e-3;
+  level.stars.build({level.nodes,
+                     level.tree->tree(),
+                     level.neighbourhood.buckets(),
+                     level.lists(),
+                     {},
+                     &level.ground.domain().index().sides(),
+                     [](std::int64_t) { return false; }});
+  return placement;
+}
+
+bool is_near(const Point3& x, const Point3& place, double reach) {
+  return pnpbs::distance<3>(x, place) < reach;
+}
+
+}  // namespace
+
+// There are more nodes around a dent in a side.
+START_TEST(a_bubble_is_where_it_differs) {
+  const Point3 bubble{0.5, 0.5, 0.75}, dent{0.5, 0.5, 0};
+  const auto placement = cube_without([&](const Point3& x) {
+    return is_near(x, bubble, 0.6 * kSpacing) || is_near(x, dent, 2.5 * kSpacing);
+  });
+  const std::vector<Point3> places = pnpbs::places_of_other_topology(placement->level());
+  ck_assert_uint_gt(places.size(), 0);
+  for (const Point3& x : places) quick_assert(is_near(x, bubble, 2.5 * kSpacing));
+}
+END_TEST
+
+// Not in one of the halves.
+START_TEST(a_cut_is_where_it_differs) {
+  const auto placement =
+      cube_without([](const Point3& x) { return std::fabs(x[2] - 0.5) < 0.6 * kSpacing; });
+  const std::vector<Point3> places = pnpbs::places_of_other_topology(placement->level());
+  ck_assert_uint_gt(places.size(), 0);
+  for (const Point3& x : places) quick_assert(std::fabs(x[2] - 0.5) < 2 * kSpacing);
+}
+END_TEST
+
+int main() {
+  return run_kernel_suite("boundary_topology",
+                          {a_bubble_is_where_it_differs, a_cut_is_where_it_differs});
+}
