@@ -15,15 +15,22 @@ endif()
 install(DIRECTORY include/pnpbs DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
         FILES_MATCHING PATTERN "*.h" ${headers_without_library})
 # A shared Kokkos or an MPI outside the system's folders is found again where it was linked.
-set_target_properties(pnpbs PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
-if(PNPBS_KOKKOS_IS_SHARED)
-  # By name, because CMake leaves out what lies inside the source tree (.deps).
-  set_target_properties(pnpbs PROPERTIES INSTALL_RPATH "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
-endif()
+foreach(library pnpbs ${PNPBS_LEVEL_LIBRARIES})
+  set_target_properties(${library} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+  if(PNPBS_KOKKOS_IS_SHARED)
+    # By name, because CMake leaves out what lies inside the source tree (.deps).
+    set_target_properties(${library} PROPERTIES INSTALL_RPATH
+                                                "$<TARGET_FILE_DIR:Kokkos::kokkoscore>")
+  endif()
+endforeach()
 install(
   TARGETS pnpbs
   EXPORT pnpbsTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+foreach(level IN LISTS PNPBS_LEVELS)
+  install(TARGETS pnpbs_${level} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${PNPBS_LEVELS_FOLDER}/${level}"
+                                         NAMELINK_SKIP)
+endforeach()
 if(PNPBS_INSTALL_STATIC)
   install(TARGETS pnpbs_core ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 endif()

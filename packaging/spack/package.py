@@ -64,6 +64,7 @@ class Pnpbs(CMakePackage):
     def cmake_args(self):
         # Spack's compiler wrappers choose the processor, so PNPBS_ARCH stays empty.
         return [
+            self.define("PNPBS_PROCESSOR_LEVELS", False),
             self.define("Kokkos_ROOT", self.spec["kokkos"].prefix),
             self.define("PNPBS_BUILD_TESTS", False),
             self.define_from_variant("PNPBS_ENABLE_MPI", "mpi"),

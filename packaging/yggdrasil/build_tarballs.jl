@@ -40,6 +40,7 @@ cmake -S pnpbs-* -B build-pnpbs \
     -DCMAKE_TOOLCHAIN_FILE=${CMAKE_TARGET_TOOLCHAIN} \
     -DCMAKE_INSTALL_PREFIX=${prefix} \
     -DCMAKE_BUILD_TYPE=Release \
+    -DPNPBS_PROCESSOR_LEVELS=OFF \
     -DKokkos_DIR=$(dirname ${kokkos}/lib*/cmake/Kokkos/KokkosConfig.cmake) \
     -DMETIS_ROOT=${prefix} \
     -DPNPBS_ENABLE_MPI=ON \

@@ -23,6 +23,10 @@ expected_files() {
   echo "$libdir/libpnpbs.so"
   echo "$libdir/libpnpbs.so.$soversion"
   echo "$libdir/libpnpbs.so.$version"
+  for level in $levels; do
+    echo "$libdir/glibc-hwcaps/$level/libpnpbs.so.$soversion"
+    echo "$libdir/glibc-hwcaps/$level/libpnpbs.so.$version"
+  done
   for file in Config ConfigVersion Targets "Targets-$configuration"; do
     echo "$libdir/cmake/pnpbs/pnpbs$file.cmake"
   done

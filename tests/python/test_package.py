@@ -13,7 +13,7 @@ import unittest
 
 import numpy as np
 import pnpbs
-from pnpbs import PNPBSError, Status
+from pnpbs import PNPBSError, Status, _levels
 
 DATA = pathlib.Path(os.environ["PNPBS_SOURCE_DIR"]) / "examples" / "data"
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -524,6 +524,31 @@ class Fields(Case):
         domain = pnpbs.Domain(self.context).add_polyline(SQUARE, tags=7)
         domain.set_tag_name(1, 7, "wall")
         self.assertEqual(domain.tag_names(), {(1, 7): "wall"})
+
+
+class TheLibraryForThisProcessor(unittest.TestCase):
+    def test_best_level(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            common = folder / "libpnpbs.so"
+            level = {v: folder / "glibc-hwcaps" / f"x86-64-{v}" / "libpnpbs.so.0" for v in ("v3", "v4")}
+            self.assertEqual(_levels.best_level(common, _levels._V4), common)
+            for library in level.values():
+                library.parent.mkdir(parents=True)
+                library.touch()
+                self.assertEqual(_levels.common_folder(library), folder)
+            self.assertEqual(_levels.common_folder(common), folder)
+            self.assertEqual(_levels.best_level(common, _levels._V4), level["v4"])
+            self.assertEqual(_levels.best_level(common, _levels._V3), level["v3"])
+            self.assertEqual(_levels.best_level(common, _levels._V4 - {"avx2"}), common)
+            self.assertEqual(_levels.best_level(common, set()), common)
+
+    def test_processor_flags(self):
+        with tempfile.TemporaryDirectory() as name:
+            cpuinfo = pathlib.Path(name) / "cpuinfo"
+            self.assertEqual(_levels.processor_flags(cpuinfo), set())
+            cpuinfo.write_text("processor\t: 0\nflags\t\t: fpu avx2\n\nflags\t\t: other\n")
+            self.assertEqual(_levels.processor_flags(cpuinfo), {"fpu", "avx2"})
 
 
 if __name__ == "__main__":

@@ -21,11 +21,17 @@ site=$("$work/fresh/bin/python" -c 'import sysconfig; print(sysconfig.get_path("
   --target "$site" "$work"/pnpbs-*.whl
 "$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))' > "$site/others.pth"
 
+# The library for each level of processors as well.
+for level in "$(dirname "$library")"/glibc-hwcaps/*/; do
+  [ ! -d "$level" ] ||
+    cmp "$level/libpnpbs.so.0" "$site/pnpbs/lib/glibc-hwcaps/$(basename "$level")/libpnpbs.so.0"
+done
+
 cd "$work"
 fresh=$work/fresh/bin/python
 "$fresh" -c "
 import pathlib, pnpbs
-assert pathlib.Path(pnpbs.library_path()).parent == pathlib.Path('$site/pnpbs/lib'), pnpbs.library_path()
+assert pathlib.Path(pnpbs.library_path()).is_relative_to('$site/pnpbs/lib'), pnpbs.library_path()
 assert pnpbs.Context.__doc__ and pathlib.Path(pnpbs.__file__).with_name('py.typed').exists()
 print(pnpbs.library_version())"
 

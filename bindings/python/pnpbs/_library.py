@@ -10,6 +10,8 @@ import pathlib
 import sys
 from typing import Iterator
 
+from ._levels import best_level, processor_flags
+
 # The interface this package is written for. While the major version is 0, a new minor one may change
 # it.
 INTERFACE = (0, 2)
@@ -29,15 +31,15 @@ def _candidates() -> Iterator[str]:
     for folder in folders:
         for path in sorted(folder.glob(f"libpnpbs*.{suffix}*")):
             if not path.name.startswith("libpnpbs_"):
-                yield str(path)
+                yield str(best_level(path, processor_flags()))
     # By the name its users are linked with: the one without a number comes with development only.
     yield "libpnpbs.so.0" if suffix == "so" else "libpnpbs.dylib"
 
 
 def library_path() -> str:
     """Returns the path or name of the library that is or would be opened: the environment variable
-    `PNPBS_LIBRARY`, or the library that this package was installed with, or the one that the system
-    finds as `libpnpbs`."""
+    `PNPBS_LIBRARY`, or the library that this package was installed with (the one for this processor, if
+    there are several), or the one that the system finds as `libpnpbs`."""
     return next(_candidates())
 
 

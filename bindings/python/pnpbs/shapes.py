@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from ._arrays import as_points
 from ._interface import declared, library
+from ._levels import common_folder
 from ._library import library_path
 from ._types import Doubles, Path
 from .context import Handle
@@ -56,7 +57,7 @@ def _library() -> ctypes.CDLL:
     global _opened
     if _opened is None:
         library()  # the one that it calls, first
-        beside = pathlib.Path(library_path()).parent / _SONAME
+        beside = common_folder(pathlib.Path(library_path())) / _SONAME
         try:
             opened = ctypes.CDLL(str(beside) if beside.exists() else _SONAME)
         except OSError as error:

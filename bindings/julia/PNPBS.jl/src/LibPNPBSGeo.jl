@@ -17,7 +17,7 @@ const opened = Ref{Ptr{Cvoid}}(C_NULL)
 function open_library()
     LibPNPBS.symbol(:pnpbs_version)  # opens the one that it calls, first
     name = Sys.islinux() ? "libpnpbs_geo.so.0" : "libpnpbs_geo.$(Libdl.dlext)"
-    beside = joinpath(dirname(LibPNPBS.library_path()), name)
+    beside = joinpath(LibPNPBS.common_folder(LibPNPBS.library_path()), name)
     opened[] = try
         dlopen(isfile(beside) ? beside : name, RTLD_LAZY | RTLD_LOCAL)
     catch e

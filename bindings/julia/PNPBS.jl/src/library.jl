@@ -23,15 +23,47 @@ function installed_beside()
                joinpath(prefix, "lib", "$(Sys.ARCH)-linux-gnu")]
     names = joinpath.(folders, "libpnpbs.$(Libdl.dlext)")
     found = findfirst(isfile, names)
-    return found === nothing ? nothing : names[found]
+    return found === nothing ? nothing : best_level(names[found], processor_flags())
+end
+
+# Where it searches for a library, glibc's loader takes the best in folders for the levels of x86-64
+# processors. It does not where it is given a path. Features by the x86-64 psABI, in the names that
+# Linux has for them; the best level first.
+const V2_FLAGS = ["cx16", "lahf_lm", "popcnt", "pni", "sse4_1", "sse4_2", "ssse3"]
+const V3_FLAGS = [V2_FLAGS; ["abm", "avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "xsave"]]
+const V4_FLAGS = [V3_FLAGS; ["avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl"]]
+const LEVELS = ["x86-64-v4" => V4_FLAGS, "x86-64-v3" => V3_FLAGS, "x86-64-v2" => V2_FLAGS]
+
+# Of the first processor, none if the system does not tell.
+function processor_flags(cpuinfo = "/proc/cpuinfo")
+    isfile(cpuinfo) || return String[]
+    for line in eachline(cpuinfo)
+        startswith(line, "flags") && return String.(split(split(line, ':')[2]))
+    end
+    return String[]
+end
+
+# Of the library for all processors: others of ours lie beside it.
+function common_folder(path)
+    folder = dirname(path)
+    return basename(dirname(folder)) == "glibc-hwcaps" ? dirname(dirname(folder)) : folder
+end
+
+# The best library beside this one that a processor with these features can run, or this one.
+function best_level(path, flags)
+    for (level, needed) in LEVELS
+        other = joinpath(dirname(path), "glibc-hwcaps", level, "libpnpbs.so.0")
+        issubset(needed, flags) && isfile(other) && return other
+    end
+    return path
 end
 
 """
     LibPNPBS.library_path() -> String
 
 Returns the path or name of the library that is or would be opened: the environment variable
-`PNPBS_LIBRARY`, or the preference `library`, or the library that this package was installed with,
-or the one that the system finds as `libpnpbs`.
+`PNPBS_LIBRARY`, or the preference `library`, or the library that this package was installed with
+(the one for this processor, if there are several), or the one that the system finds as `libpnpbs`.
 """
 function library_path()
     isempty(opened_path[]) || return opened_path[]

@@ -85,6 +85,29 @@ end
                    "use the package of the same version"
 end
 
+@testset "the library for this processor" begin
+    lib = PNPBS.LibPNPBS
+    mktempdir() do folder
+        common = joinpath(folder, "libpnpbs.so")
+        level(name) = joinpath(folder, "glibc-hwcaps", name, "libpnpbs.so.0")
+        @test lib.best_level(common, lib.V4_FLAGS) == common
+        for name in ("x86-64-v3", "x86-64-v4")
+            mkpath(dirname(level(name)))
+            write(level(name), "")
+            @test lib.common_folder(level(name)) == folder
+        end
+        @test lib.common_folder(common) == folder
+        @test lib.best_level(common, lib.V4_FLAGS) == level("x86-64-v4")
+        @test lib.best_level(common, lib.V3_FLAGS) == level("x86-64-v3")
+        @test lib.best_level(common, filter(!=("avx2"), lib.V4_FLAGS)) == common
+        @test lib.best_level(common, String[]) == common
+        cpuinfo = joinpath(folder, "cpuinfo")
+        write(cpuinfo, "processor\t: 0\nflags\t\t: fpu avx2\n\nflags\t\t: other\n")
+        @test lib.processor_flags(cpuinfo) == ["fpu", "avx2"]
+        @test lib.processor_flags(joinpath(folder, "none")) == String[]
+    end
+end
+
 @testset "threads soon sleep while they wait" begin
     # What is told GCC's OpenMP, and what is left of it in the environment.
     spins(variables...) = withenv("OMP_WAIT_POLICY" => nothing, "GOMP_SPINCOUNT" => nothing,

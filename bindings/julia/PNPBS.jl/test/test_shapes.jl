@@ -5,7 +5,7 @@ const COAST = """{"type": "Feature", "properties": {"name": "shore"}, "geometry"
 const COAST_CORNERS = [18.0 20 20 18; 54 54 55 55]
 
 function has_shapes()
-    folder = dirname(PNPBS.LibPNPBS.library_path())
+    folder = PNPBS.LibPNPBS.common_folder(PNPBS.LibPNPBS.library_path())
     return any(startswith("libpnpbs_geo."), readdir(isempty(folder) ? "." : folder))
 end
 
