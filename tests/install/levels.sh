@@ -25,7 +25,7 @@ for library in "$common" "$best"; do
 done
 cmp "$work/$(basename "$libdir")" "$work/x86-64-v3" || fail "the libraries export different names"
 
-# A processor of two vectors' width less, as far as the loader can tell.
+# On a processor without AVX2, as far as the loader can tell.
 older() { GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 "$@"; }
 
 say "the one that the loader takes"
