@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "base/nodes_worked_for.hpp"
 #include "level/ghost_lists.hpp"
-#include "level/nodes_worked_for.hpp"
 #include "level/volume/surface_stars.hpp"
 #include "neighbors/rings.hpp"
 

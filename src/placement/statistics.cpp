@@ -172,7 +172,8 @@ const std::vector<StatisticRow>& statistic_table() {
       real("redundancy.motion", redundancy<Phase::motion>,
            "the same of forces and motion, over steps"),
       real("redundancy.stars", redundancy<Phase::stars>, "the same of Delaunay stars"),
-      real("redundancy.sweeps", redundancy<Phase::sweeps>, "the same of finishing sweeps"),
+      real("redundancy.sweeps", redundancy<Phase::sweeps>,
+           "the same of finishing sweeps, with the stars in which their repairs look for slivers"),
       integer(
           "rebalances", [](P p) { return p.rebalances(); },
           "number of times the work was repartitioned"),

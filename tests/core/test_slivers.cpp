@@ -412,10 +412,35 @@ START_TEST(sweeps_go_to_the_mean) {
 }
 END_TEST
 
+// Ranks find no means for ghosts, which their owners move.
+START_TEST(sweeps_move_owned_nodes_alone) {
+  Shaken s(6, 0.2);
+  pnpbs::Nodes<3>& nodes = s.b.nodes;
+  std::int64_t own = 0;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    nodes.owned(i) = nodes.position(i)[0] < 2.5;
+    own += nodes.owned(i) && nodes.moves(i);
+  }
+  const Places before = places_by_id(nodes);
+  pnpbs::Field<3> proposed;
+  pnpbs::reserve_field<3>(proposed, "proposed", nodes.count);
+  const pnpbs::NodesWorkedFor swept = pnpbs::sweep_to_means(
+      nodes, s.stars, 0.6, proposed, [](std::int64_t, const Point<3>&) { return true; });
+  ck_assert_int_gt(own, 20);
+  ck_assert_int_lt(own, nodes.count);
+  ck_assert_int_eq(swept.all, own);
+  ck_assert_int_eq(swept.owned, own);
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    ck_assert_int_eq(nodes.position(i) == before.at(nodes.id(i)),
+                     !nodes.owned(i) || !nodes.moves(i));
+}
+END_TEST
+
 int main() {
   return run_kernel_suite(
-      "slivers", {known_angles, angles_of_any_tetrahedron, few_nodes_are_found,
-                  surely_no_small_angles, stars_follow_nodes, no_sliver_is_left,
-                  stars_that_are_left, rounds_only_help, nodes_keep_off_where_they_must,
-                  the_same_in_another_order, the_same_from_two_halves, sweeps_go_to_the_mean});
+      "slivers",
+      {known_angles, angles_of_any_tetrahedron, few_nodes_are_found, surely_no_small_angles,
+       stars_follow_nodes, no_sliver_is_left, stars_that_are_left, rounds_only_help,
+       nodes_keep_off_where_they_must, the_same_in_another_order, the_same_from_two_halves,
+       sweeps_go_to_the_mean, sweeps_move_owned_nodes_alone});
 }

@@ -32,14 +32,14 @@ auto may_go(const Level<3>& level) {
 // to the next. (Those after a repair do.) Ghosts follow their owners.
 void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
   const PhaseTimer timer(level.timers, Phase::sweeps);
-  const NodesWorkedFor swept{level.owned_count(), level.owned_count()};
   for (std::int64_t s = 0; s < sweeps; ++s) {
     update_ghosts(level);
     agreed(*level.comm, [&] {
-      pnpbs::sweep_to_means(level.nodes, level.stars, level.settings.sweep.weight,
-                            level.time_integration.scratch(level.nodes), may_go(level));
+      level.timers.add(
+          Phase::sweeps,
+          pnpbs::sweep_to_means(level.nodes, level.stars, level.settings.sweep.weight,
+                                level.time_integration.scratch(level.nodes), may_go(level)));
     });
-    level.timers.add(Phase::sweeps, swept);
   }
 }
 
@@ -101,6 +101,7 @@ void repair_slivers(Level<3>& level) {
   for (const double below : {method::kFlatBelow, method::kThinBelow, rule.repair_below})
     if (below <= rule.repair_below) repair_rounds(level, *repair, rule, below);
   agreed(*level.comm, [&] { repair->write_stars(level.stars); });
+  level.timers.add(Phase::sweeps, repair->stars_looked_at());
   level.unknown_uses += repair->unknown_uses();
   level.nodes.moved();
 }

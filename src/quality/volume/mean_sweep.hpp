@@ -7,19 +7,24 @@
 #include <cstdint>
 
 #include "base/nodes.hpp"
+#include "base/nodes_worked_for.hpp"
 #include "dynamics/schemes.hpp"
 
 namespace pnpbs {
 
 // Moves the owned nodes with a closed star that allowed(i, x) lets go to x; `proposed` is scratch.
-// The neighbours come in an order that depends on ids only.
+// The neighbours come in an order that depends on ids only. Returns those for which a mean was
+// found.
 template <class Stars, class Allowed>
-void sweep_to_means(Nodes<3>& nodes, const Stars& stars, double share, Field<3>& proposed,
-                    const Allowed& allowed) {
+NodesWorkedFor sweep_to_means(Nodes<3>& nodes, const Stars& stars, double share, Field<3>& proposed,
+                              const Allowed& allowed) {
+  const auto has_goal = [&](std::int64_t i) {
+    return nodes.owned(i) && nodes.moves(i) && stars.closed(i);
+  };
   for_each("pnpbs::sweep_to_means::propose", nodes.count, [&](std::int64_t i) {
     const Point<3> x = nodes.position(i);
     Point<3> goal = x;
-    if (nodes.owned(i) && nodes.moves(i) && stars.closed(i)) {
+    if (has_goal(i)) {
       Point<3> sum{};
       double neighbours = 0;
       stars.for_neighbours(i, [&](std::int64_t j) {
@@ -34,6 +39,7 @@ void sweep_to_means(Nodes<3>& nodes, const Stars& stars, double share, Field<3>&
   for_each("pnpbs::sweep_to_means::go", nodes.count,
            [&](std::int64_t i) { nodes.set_position(i, point_at<3>(proposed, i)); });
   nodes.moved();
+  return nodes_worked_for(nodes, has_goal);
 }
 
 }  // namespace pnpbs

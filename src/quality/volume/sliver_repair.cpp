@@ -8,6 +8,7 @@
 
 #include "base/execution.hpp"
 #include "base/mixed_hash.hpp"
+#include "base/nodes_worked_for.hpp"
 #include "method/constants.hpp"
 #include "quality/volume/few_nodes.hpp"
 #include "quality/volume/lot_bits.hpp"
@@ -64,12 +65,12 @@ void SliverRepair::find_slivers() {
   constexpr std::int64_t kChunk = 1024;
   std::vector<std::vector<TetrahedronNodes>> found(
       static_cast<std::size_t>((nodes_.count + kChunk - 1) / kChunk));
+  const auto is_owned = [&](std::int64_t i) { return owned(i); };
   for_each("pnpbs::SliverRepair::find", std::ssize(found), [&](std::int64_t chunk) {
     for (std::int64_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, nodes_.count); ++i)
-      if (owned(i))
-        add_slivers_at(
-            i, [&](std::int32_t j) { return owned(j); }, found[static_cast<std::size_t>(chunk)]);
+      if (is_owned(i)) add_slivers_at(i, is_owned, found[static_cast<std::size_t>(chunk)]);
   });
+  stars_looked_at_.add(nodes_worked_for(nodes_, is_owned));
   for (const auto& some : found) slivers_.insert(slivers_.end(), some.begin(), some.end());
 }
 
@@ -98,6 +99,8 @@ void SliverRepair::accept(const std::vector<StarChange>& changes) {
     for (const std::int32_t i : affected[k]) add_slivers_at(i, is_affected, found[k]);
   });
   for (const auto& some : found) slivers_.insert(slivers_.end(), some.begin(), some.end());
+  for (const auto& some : affected)
+    for (const std::int32_t i : some) stars_looked_at_.add({1, owned(i) ? 1 : 0});
   mark(0);
 }
 

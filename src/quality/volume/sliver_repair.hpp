@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/nodes.hpp"
+#include "base/timers.hpp"
 #include "method/constants.hpp"
 #include "quality/volume/node_move.hpp"
 #include "quality/volume/small_angles.hpp"
@@ -88,6 +89,8 @@ class SliverRepair {
   std::int64_t slivers(double below = 90) const;
   // Of this rank's attempts in the last round: those that found no better place.
   std::int64_t in_vain() const { return in_vain_; }
+  // So far: stars in which slivers were looked for, at first and after each change.
+  NodesWorkedFor stars_looked_at() const { return stars_looked_at_; }
   // Of this rank's attempts so far: uses of stars that are not known here. Where there are any, the
   // result may depend on ranks.
   std::int64_t unknown_uses() const { return stars_.unknown_uses() + unknown_draws_; }
@@ -136,6 +139,7 @@ class SliverRepair {
   SmallAngles small_, penalised_;
   std::int64_t rounds_;
   std::int64_t in_vain_ = 0;
+  NodesWorkedFor stars_looked_at_;
   Allowed allowed_;
   AlongSurfaces along_surfaces_;
   StarChanges stars_;
