@@ -148,3 +148,16 @@ job repaired_job(double depth, double waves, double d, double resolution) {
 }
 
 job unresolved_job(void) { return rough_job(0.7, 6.5, 0.4); }
+
+static pnpbs_status small_sphere(pnpbs_domain domain, const char* data) {
+  const double centre[] = {0, 0, 0};
+  const pnpbs_status status = pnpbs_domain_add_ball(domain, centre, 0.3, 1);
+  (void)data;
+  return status < 0 ? status : pnpbs_domain_set_filled(domain, 0);
+}
+
+job unresolved_surface_job(void) {
+  job it = body_job(small_sphere);
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.5));
+  return it;
+}

@@ -19,6 +19,8 @@ job repaired_job(double depth, double waves, double d, double resolution); /* 0:
 
 /* d does not resolve it: whatever is done with the elements, its boundary is torn. */
 job unresolved_job(void);
+/* A small sphere, filled with nothing, on which triangles do not join. */
+job unresolved_surface_job(void);
 
 int warnings_with(pnpbs_placement placement, const char* words);
 
